@@ -1,0 +1,32 @@
+// Errors as values: what can fail returns Result<T>, which holds a T or an Error.
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+
+namespace gridshell {
+
+/// Why something failed; the program maps it to its exit code.
+enum class Fault {
+  bad_input,       ///< the user's text, key, value, path or scene (exit 2)
+  no_equilibrium,  ///< no certified state was found (exit 1)
+  io,              ///< a file could not be read or written (exit 1)
+  cancelled,       ///< the user stopped it (exit 130)
+};
+
+/// One failure, in a sentence that names the object and what would be right.
+struct Error {
+  Fault fault = Fault::bad_input;
+  std::string message;
+};
+
+template <class T>
+using Result = tl::expected<T, Error>;
+
+/// Shorthand for `return fail(Fault::io, "...")`.
+inline tl::unexpected<Error> fail(Fault fault, std::string message) {
+  return tl::unexpected<Error>(Error{fault, std::move(message)});
+}
+
+}  // namespace gridshell

@@ -1,0 +1,29 @@
+// Whoever starts long work watches it through one object: progress comes out, a wish to stop goes
+// in.
+#pragma once
+
+#include <atomic>
+
+namespace gridshell {
+
+/// Shared by long work (one writer) and whoever watches it (any thread, also a signal handler).
+/// Progress only grows; a cancel is sticky: once asked for, the work ends with Fault::cancelled.
+class Watch {
+ public:
+  void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
+  bool cancelled() const noexcept { return cancelled_.load(std::memory_order_relaxed); }
+
+  /// fraction of the work done, in [0, 1]; smaller values than before are ignored
+  void report(double fraction) noexcept {
+    if (fraction > progress_.load(std::memory_order_relaxed))
+      progress_.store(fraction, std::memory_order_relaxed);
+  }
+  double progress() const noexcept { return progress_.load(std::memory_order_relaxed); }
+
+ private:
+  static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
+  std::atomic<bool> cancelled_{false};
+  std::atomic<double> progress_{0.0};
+};
+
+}  // namespace gridshell

@@ -1,0 +1,16 @@
+# The engine: no OpenGL, no window, prints nothing.
+find_package(tomlplusplus REQUIRED)
+find_path(EIGEN_INCLUDE_DIR Eigen/Core PATH_SUFFIXES eigen3 REQUIRED)
+find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
+find_library(HDF5_HL_LIBRARY NAMES hdf5_serial_hl hdf5_hl REQUIRED)
+
+file(GLOB_RECURSE ENGINE_SOURCES CONFIGURE_DEPENDS engine/*.cpp engine/*.h)
+add_library(gridshell_engine STATIC ${ENGINE_SOURCES})
+target_include_directories(gridshell_engine PUBLIC ${PROJECT_SOURCE_DIR})
+target_include_directories(gridshell_engine SYSTEM PUBLIC ${EIGEN_INCLUDE_DIR})
+target_include_directories(gridshell_engine SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
+target_compile_definitions(gridshell_engine PUBLIC EIGEN_DONT_PARALLELIZE)
+target_link_libraries(gridshell_engine PUBLIC fmt::fmt
+  PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY} ${HDF5_HL_LIBRARY} PkgConfig::HDF5)

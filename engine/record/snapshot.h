@@ -1,0 +1,71 @@
+// What a run leaves behind for whoever shows, stores or compares it: the net's layout, which does
+// not change, and one frame per sampled state. Millimetres, newtons, millijoules, z up.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace gridshell::record {
+
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// A crossing of a u-rod and a v-rod at grid position (u, v) of the flat footprint.
+struct Joint {
+  int i = 0, j = 0;
+  double u_mm = 0, v_mm = 0;
+  int node = 0;  ///< column of Frame::nodes
+};
+
+/// A complete cell: the joints (i,j), (i+1,j), (i+1,j+1), (i,j+1) as indices into Layout::joints.
+struct Cell {
+  int i = 0, j = 0;
+  double u_mm = 0, v_mm = 0;  ///< middle of the cell in the footprint
+  std::array<int, 4> joints{};
+};
+
+/// The net, fixed over a run.
+struct Layout {
+  double spacing_mm = 0;
+  double rod_diameter_mm = 0;
+  double length_scale_mm = 0;  ///< R_o for a circle, rho for a net: what errors are relative to
+  std::vector<std::vector<int>> rods;  ///< nodes of each rod from edge point to edge point
+  std::vector<Joint> joints;
+  std::vector<Cell> cells;
+  std::vector<int> edge_points;        ///< nodes pinned on the boundary
+  Eigen::Matrix3Xd original_boundary;  ///< closed polyline (last point joins the first)
+  Eigen::Matrix3Xd actuated_boundary;  ///< same number of points; in correspondence
+};
+
+/// One sampled state. A quantity that does not apply or is not known is NaN (`unknown`).
+struct Frame {
+  int index = 0;
+  double progress = 0;  ///< 0 at the original boundary, 1 at the end of the experiment
+  double boundary_radius_mm = unknown;
+  double depth_mm = unknown;
+  double force_N = unknown;
+  double energy_bend_mJ = 0, energy_stretch_mJ = 0, energy_twist_mJ = 0;
+  double height_mm = 0;  ///< highest joint above the boundary's plane
+  double total_K = 0;    ///< rad
+  double residual_N = 0;
+  int negative_pivots = 0;
+  double error_estimate_mm = unknown;
+  int newton_iterations = 0;
+  std::string event;       ///< a snap, a limit, a recovery; empty when nothing happened
+  Eigen::Matrix3Xd nodes;  ///< positions, mm
+  Eigen::VectorXd cell_K;  ///< integrated Gauss curvature of each cell, rad
+
+  /// The boundary at this frame: every point moves straight and evenly, so it is linear in how far
+  /// the actuation (not an indentation) has come.
+  double actuation = 0;  ///< in [0, 1]
+};
+
+/// All frames of a run over one layout.
+struct Trajectory {
+  Layout layout;
+  std::vector<Frame> frames;
+};
+
+}  // namespace gridshell::record

@@ -1,0 +1,38 @@
+// The figures of a whole run, written to summary.json.
+#pragma once
+
+#include <string>
+
+#include "engine/record/snapshot.h"
+
+namespace gridshell::record {
+
+/// How a run ended.
+enum class Limit { none, locking, snap, branch_lost, no_equilibrium };
+
+/// "none", "locking", "snap", "branch_lost", "no_equilibrium"
+const char* name_of(Limit limit);
+
+/// What a run came to, in its last frame unless said otherwise.
+struct Summary {
+  std::string preset;
+  std::string model;         ///< "net", "bend" or "twist"
+  std::string model_reason;  ///< one sentence: why this rung is enough
+  int edges_per_segment = 0;
+  int rods = 0, joints = 0, cells = 0, dof = 0;
+  bool stable = false;
+  int negative_pivots = 0;
+  Limit limit = Limit::none;
+  std::string limit_reason;  ///< a sentence when limit is not none
+  double residual_N = 0;
+  double error_estimate_mm = unknown;
+  double energy_bend_mJ = 0, energy_stretch_mJ = 0, energy_twist_mJ = 0;
+  double height_mm = 0;
+  double total_K = 0;
+  double max_deviation = unknown,
+         mean_deviation = unknown;                ///< from the net, over rho, joints only
+  int newton_iterations = 0, factorizations = 0;  ///< of the whole run
+  double seconds_setup = 0, seconds_simulation = 0, seconds_render = 0;
+};
+
+}  // namespace gridshell::record
