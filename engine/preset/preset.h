@@ -74,13 +74,6 @@ struct Figure {
   double scale_bar_mm = 20;
 };
 
-struct Preset;
-
-/// One of several runs of a preset: a name and what overrides the rest.
-struct Case {
-  std::string name;
-};
-
 struct Preset {
   std::string name;  ///< of the file, without ".toml"
   std::string title, description, source;
