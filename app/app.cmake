@@ -1,0 +1,21 @@
+# The program: gridshell_app holds the commands (testable), gridshell is main.cpp over it.
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(Threads REQUIRED)
+
+file(GLOB preset_files CONFIGURE_DEPENDS presets/*.toml)
+set(embedded_presets ${PROJECT_BINARY_DIR}/generated/embedded_presets.cpp)
+add_custom_command(OUTPUT ${embedded_presets}
+  COMMAND ${CMAKE_COMMAND} "-DPRESETS=${preset_files}" -DOUTPUT=${embedded_presets}
+          -P ${PROJECT_SOURCE_DIR}/app/embed_presets.cmake
+  DEPENDS ${preset_files} ${PROJECT_SOURCE_DIR}/app/embed_presets.cmake VERBATIM)
+
+file(GLOB_RECURSE APP_SOURCES CONFIGURE_DEPENDS app/*.cpp app/*.h)
+list(FILTER APP_SOURCES EXCLUDE REGEX "/app/main\\.cpp$")
+add_library(gridshell_app STATIC ${APP_SOURCES} ${embedded_presets})
+target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
+  PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json Threads::Threads)
+target_compile_definitions(gridshell_app PRIVATE GRIDSHELL_VERSION="${PROJECT_VERSION}")
+
+add_executable(gridshell app/main.cpp)
+target_link_libraries(gridshell PRIVATE gridshell_app)

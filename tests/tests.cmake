@@ -1,0 +1,52 @@
+# Tests mirror the source: tests/engine -> test_engine, tests/render -> test_render, tests/app -> test_app.
+# A test tagged [full] carries the CTest label `full`, every other one `quick`.
+find_package(Catch2 2.13 REQUIRED)
+include(Catch)
+find_package(nlohmann_json REQUIRED)
+
+# gridshell_tests(NAME LIBRARIES...): one test program of tests/NAME/**/test_*.cpp, if there are any
+function(gridshell_tests folder)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${folder}/test_*.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  file(GLOB_RECURSE helpers CONFIGURE_DEPENDS tests/${folder}/*.h)
+  set(target test_${folder})
+  add_executable(${target} ${sources} ${helpers})
+  target_link_libraries(${target} PRIVATE ${ARGN} PkgConfig::HDF5 nlohmann_json::nlohmann_json
+    Catch2::Catch2WithMain)
+  target_include_directories(${target} SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
+  target_compile_definitions(${target} PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_precompile_headers(${target} PRIVATE <catch2/catch.hpp> <Eigen/Core>)
+  catch_discover_tests(${target} TEST_SPEC "~[full]" TEST_LIST ${target}_quick
+    PROPERTIES LABELS quick TIMEOUT 60)
+  catch_discover_tests(${target} TEST_SPEC "[full]" TEST_LIST ${target}_full
+    PROPERTIES LABELS full TIMEOUT 600)
+endfunction()
+
+gridshell_tests(engine gridshell_engine)
+if(GRIDSHELL_PICTURES)
+  gridshell_tests(render gridshell_render gridshell_engine)
+  gridshell_tests(app gridshell_app gridshell_render gridshell_engine)
+  if(TARGET test_app)
+    add_dependencies(test_app gridshell)
+    target_compile_definitions(test_app PRIVATE GRIDSHELL_PROGRAM="$<TARGET_FILE:gridshell>")
+  endif()
+endif()
+
+# Benches are programs of their own, built on demand: `cmake --build build --target benches`.
+add_custom_target(benches)
+file(GLOB bench_sources CONFIGURE_DEPENDS tests/bench/bench_*.cpp)
+foreach(source IN LISTS bench_sources)
+  get_filename_component(bench ${source} NAME_WE)
+  if(bench MATCHES "^bench_(engine|solver)")
+    set(libraries gridshell_engine)
+  elseif(GRIDSHELL_PICTURES)
+    set(libraries gridshell_render gridshell_engine)
+  else()
+    continue()
+  endif()
+  add_executable(${bench} EXCLUDE_FROM_ALL ${source})
+  target_link_libraries(${bench} PRIVATE ${libraries})
+  add_dependencies(benches ${bench})
+endforeach()
