@@ -4,14 +4,20 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
+#include <memory>
 #include <system_error>
 
 namespace gridshell {
 namespace {
 
-tl::unexpected<Error> cannot_write(const std::filesystem::path& path, const char* reason) {
-  return fail(Fault::io, fmt::format("cannot write {}: {}", path.string(), reason));
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Close>;
+
+tl::unexpected<Error> cannot(const char* what, const std::filesystem::path& path, int code) {
+  return fail(Fault::io, fmt::format("cannot {} {}: {}", what, path.string(),
+                                     std::generic_category().message(code)));
 }
 
 }  // namespace
@@ -29,22 +35,40 @@ Result<void> write_whole_file(
   std::filesystem::rename(temporary, path, error);
   if (error) {
     std::filesystem::remove(temporary, ignored);
-    return cannot_write(path, error.message().c_str());
+    return cannot("write", path, error.value());
   }
   return {};
 }
 
 Result<void> write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
   return write_whole_file(path, [&](const std::filesystem::path& temporary) -> Result<void> {
-    std::FILE* file = std::fopen(temporary.c_str(), "wb");
-    if (!file) return cannot_write(path, std::strerror(errno));
-    const bool all = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-    const int write_error = errno;
+    File file(std::fopen(temporary.c_str(), "wb"));
+    if (!file) return cannot("write", path, errno);
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
+      return cannot("write", path, errno);
     // a full disk may show only when the buffer is flushed
-    const bool closed = std::fclose(file) == 0;
-    if (!all || !closed) return cannot_write(path, std::strerror(all ? errno : write_error));
+    if (std::fclose(file.release()) != 0) return cannot("write", path, errno);
     return {};
   });
+}
+
+Result<std::string> read_whole_file(const std::filesystem::path& path) {
+  File file(std::fopen(path.c_str(), "rb"));
+  if (!file) return cannot("read", path, errno);
+  std::string bytes;
+  char block[1 << 16];
+  while (const std::size_t got = std::fread(block, 1, sizeof block, file.get()))
+    bytes.append(block, got);
+  // a folder opens, but does not read
+  if (std::ferror(file.get())) return cannot("read", path, errno);
+  return bytes;
+}
+
+Result<void> make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return cannot("make folder", folder, error.value());
+  return {};
 }
 
 }  // namespace gridshell
