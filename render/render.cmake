@@ -1,0 +1,24 @@
+# The renderer: OpenGL is found at run time, so only headers are needed here. Sees record/ alone of
+# the engine.
+find_package(PNG REQUIRED)
+pkg_check_modules(PANGOCAIRO REQUIRED IMPORTED_TARGET pangocairo)
+find_path(GL_CORE_INCLUDE_DIR GL/glcorearb.h REQUIRED)
+find_path(OSMESA_INCLUDE_DIR GL/osmesa.h REQUIRED)
+find_path(EGL_INCLUDE_DIR EGL/egl.h REQUIRED)
+
+# the shaders become strings of the program
+file(GLOB SHADER_FILES CONFIGURE_DEPENDS shaders/*.vert shaders/*.frag shaders/*.glsl)
+set(SHADER_TEXT ${PROJECT_BINARY_DIR}/generated/shader_text.cpp)
+add_custom_command(
+  OUTPUT ${SHADER_TEXT}
+  COMMAND ${CMAKE_COMMAND} -D FOLDER=${PROJECT_SOURCE_DIR}/shaders -D OUTPUT=${SHADER_TEXT}
+          -P ${PROJECT_SOURCE_DIR}/render/gl/embed_shaders.cmake
+  DEPENDS ${SHADER_FILES} render/gl/embed_shaders.cmake
+  COMMENT "Embedding the shaders" VERBATIM)
+
+file(GLOB_RECURSE RENDER_SOURCES CONFIGURE_DEPENDS render/*.cpp render/*.h)
+add_library(gridshell_render STATIC ${RENDER_SOURCES} ${SHADER_TEXT})
+target_include_directories(gridshell_render SYSTEM PRIVATE
+  ${GL_CORE_INCLUDE_DIR} ${OSMESA_INCLUDE_DIR} ${EGL_INCLUDE_DIR})
+target_link_libraries(gridshell_render PUBLIC gridshell_engine
+  PRIVATE PNG::PNG PkgConfig::PANGOCAIRO ${CMAKE_DL_LIBS})

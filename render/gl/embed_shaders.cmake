@@ -1,0 +1,20 @@
+# Writes OUTPUT, a C++ file that holds every shader of FOLDER by name (render/gl/shader_text.h).
+file(GLOB FILES ${FOLDER}/*.vert ${FOLDER}/*.frag ${FOLDER}/*.glsl)
+list(SORT FILES)
+set(ENTRIES "")
+foreach(FILE IN LISTS FILES)
+  get_filename_component(NAME ${FILE} NAME)
+  file(READ ${FILE} TEXT)
+  string(APPEND ENTRIES "  if (name == \"${NAME}\") return R\"glsl(${TEXT})glsl\";\n")
+endforeach()
+file(WRITE ${OUTPUT} "// Generated from shaders/ at build time.
+#include \"render/gl/shader_text.h\"
+
+namespace gridshell::render {
+
+std::string_view shader_text(std::string_view name) {
+${ENTRIES}  return {};
+}
+
+}  // namespace gridshell::render
+")
