@@ -5,21 +5,15 @@
 #include <string>
 
 #include <png.h>
-#include <unistd.h>
 
 #include "render/image/png.h"
+#include "tests/temporary_folder.h"
 
 using namespace gridshell;
 using namespace gridshell::render;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / fs::path("gridshell_png_" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
 
 Image colourful(int width, int height, bool transparent) {
   Image image(width, height);
@@ -53,10 +47,10 @@ void write_raw(const fs::path& path, int colour_type, int depth, const std::stri
 }  // namespace
 
 TEST_CASE("a picture survives being a PNG, with and without transparency") {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (bool transparent : {false, true}) {
     const Image image = colourful(37, 21, transparent);
-    const fs::path path = folder.path / "a.png";
+    const fs::path path = folder.path() / "a.png";
     REQUIRE(write_png(image, path));
     const auto back = read_png(path);
     REQUIRE(back);
@@ -65,12 +59,12 @@ TEST_CASE("a picture survives being a PNG, with and without transparency") {
     CHECK(back->rgba == image.rgba);
   }
   // nothing but the final name is left
-  CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
+  CHECK(folder.entries() == std::vector<std::string>{"a.png"});
 }
 
 TEST_CASE("any colour type and bit depth is read as 8-bit RGBA") {
-  const Folder folder;
-  const fs::path path = folder.path / "b.png";
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "b.png";
   const auto pixel = [&](int x) {
     const auto image = read_png(path);
     REQUIRE(image);
@@ -91,8 +85,8 @@ TEST_CASE("any colour type and bit depth is read as 8-bit RGBA") {
 }
 
 TEST_CASE("what cannot be written or read says so, with its path and the reason") {
-  const Folder folder;
-  const fs::path absent = folder.path / "absent" / "a.png";
+  const TemporaryFolder folder;
+  const fs::path absent = folder.path() / "absent" / "a.png";
   const auto written = write_png(colourful(4, 4, false), absent);
   REQUIRE_FALSE(written);
   CHECK(written.error().fault == Fault::io);
@@ -104,13 +98,13 @@ TEST_CASE("what cannot be written or read says so, with its path and the reason"
   CHECK(read.error().fault == Fault::io);
   CHECK(read.error().message == "cannot read '" + absent.string() + "': No such file or directory");
 
-  CHECK_FALSE(write_png(Image(), folder.path / "empty.png"));
-  CHECK(fs::is_empty(folder.path));
+  CHECK_FALSE(write_png(Image(), folder.path() / "empty.png"));
+  CHECK(folder.entries().empty());
 }
 
 TEST_CASE("a damaged file is bad input, not a crash") {
-  const Folder folder;
-  const fs::path path = folder.path / "c.png";
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "c.png";
   const auto bytes = encode_png(colourful(64, 64, false));
   REQUIRE(bytes);
   std::ofstream(path, std::ios::binary) << bytes->substr(0, bytes->size() / 2);
