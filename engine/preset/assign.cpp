@@ -1,0 +1,122 @@
+#include "engine/preset/assign.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+#include "engine/preset/suggest.h"
+
+namespace gridshell::preset {
+namespace {
+
+// a finite number, written as an integer or a float
+std::optional<double> real_of(const toml::node& value) {
+  if (const auto* real = value.as_floating_point(); real && std::isfinite(real->get()))
+    return real->get();
+  if (const auto* integer = value.as_integer()) return double(integer->get());
+  return std::nullopt;
+}
+
+bool is_finite_number(const toml::node& value) { return real_of(value).has_value(); }
+
+std::string type_text(const toml::node& value) {
+  if (value.is_floating_point()) return is_finite_number(value) ? "a number" : "not finite";
+  if (value.is_integer()) return "an integer";
+  if (value.is_string()) return "a string";
+  if (value.is_boolean()) return "a boolean";
+  if (value.is_array()) return "a list";
+  if (value.is_table()) return "a table";
+  return "a date or time";
+}
+
+std::string put(const Real& kind, const toml::node& value, Preset& preset) {
+  const auto real = real_of(value);
+  if (!real) return "is " + type_text(value);
+  if (!kind.range.holds(*real)) return "out of range";
+  kind.in(preset) = *real;
+  return "";
+}
+
+std::string put(const Integer& kind, const toml::node& value, Preset& preset) {
+  const auto* integer = value.as_integer();
+  if (!integer) return "is " + type_text(value);
+  if (!kind.range.holds(double(integer->get()))) return "out of range";
+  kind.in(preset) = int(integer->get());
+  return "";
+}
+
+std::string put(const Flag& kind, const toml::node& value, Preset& preset) {
+  const auto* flag = value.as_boolean();
+  if (!flag) return "is " + type_text(value);
+  kind.in(preset) = flag->get();
+  return "";
+}
+
+std::string put(const Text& kind, const toml::node& value, Preset& preset) {
+  const auto* text = value.as_string();
+  if (!text) return "is " + type_text(value);
+  kind.in(preset) = text->get();
+  return "";
+}
+
+std::string put(const Word& kind, const toml::node& value, Preset& preset) {
+  const auto* text = value.as_string();
+  if (!text) return "is " + type_text(value);
+  const auto found = std::find(kind.words.begin(), kind.words.end(), text->get());
+  if (found == kind.words.end()) return "unknown word";
+  kind.set(preset, int(found - kind.words.begin()));
+  return "";
+}
+
+std::string put(const IntegerPair& kind, const toml::node& value, Preset& preset) {
+  const auto* list = value.as_array();
+  if (!list) return "is " + type_text(value);
+  if (list->size() != 2) return "is a list of " + std::to_string(list->size());
+  std::array<int, 2> pair{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto* integer = (*list)[k].as_integer();
+    if (!integer) return "is a list with " + type_text((*list)[k]);
+    if (!kind.range.holds(double(integer->get()))) return "out of range";
+    pair[k] = int(integer->get());
+  }
+  kind.in(preset) = pair;
+  return "";
+}
+
+std::string put(const RealList& kind, const toml::node& value, Preset& preset) {
+  const auto* list = value.as_array();
+  if (!list) return "is " + type_text(value);
+  std::vector<double> numbers;
+  for (const auto& item : *list) {
+    const auto real = real_of(item);
+    if (!real) return "is a list with " + type_text(item);
+    if (!kind.range.holds(*real)) return "out of range";
+    numbers.push_back(*real);
+  }
+  kind.in(preset) = std::move(numbers);
+  return "";
+}
+
+}  // namespace
+
+std::string assign(const Field& field, const toml::node& value, Preset& preset) {
+  const auto wrong =
+      std::visit([&](const auto& kind) { return put(kind, value, preset); }, field.kind);
+  if (wrong.empty()) return "";
+  std::string text = wrong + ", must be " + allowed(field);
+  if (const auto* word = std::get_if<Word>(&field.kind); word && value.is_string())
+    text += did_you_mean(value.as_string()->get(), word->words);
+  return text;
+}
+
+std::string shown(const toml::node& value) {
+  std::ostringstream out;
+  out << toml::toml_formatter{value, toml::format_flags::none};
+  auto text = out.str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  constexpr std::size_t longest = 60;
+  return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
+}
+
+}  // namespace gridshell::preset

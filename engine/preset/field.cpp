@@ -1,0 +1,89 @@
+#include "engine/preset/field.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <toml++/toml.h>
+#include <cmath>
+#include <sstream>
+
+namespace gridshell::preset {
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+
+std::string quoted(const std::string& text) {
+  std::ostringstream out;
+  const toml::value<std::string> value(text);
+  out << toml::toml_formatter{value, toml::format_flags::none};
+  return out.str();
+}
+
+// shortest text that reads back as the same double, always a TOML float
+std::string real_text(double value) {
+  auto text = fmt::format("{}", value);
+  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
+std::string bounds_text(const Range& range) {
+  const bool below = std::isfinite(range.low), above = std::isfinite(range.high);
+  if (below && above && !range.low_open)
+    return fmt::format(" from {} to {}", range.low, range.high);
+  std::string text;
+  if (below) text += fmt::format(" {} {}", range.low_open ? ">" : ">=", range.low);
+  if (above) text += fmt::format("{} <= {}", below ? " and" : "", range.high);
+  return text;
+}
+
+std::string words_text(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    text += (k == 0 ? "" : k + 1 == words.size() ? " or " : ", ") + fmt::format("\"{}\"", words[k]);
+  return text;
+}
+
+}  // namespace
+
+std::string name_of(const Field& field) {
+  return field.table.empty() ? field.key : fmt::format("[{}] {}", field.table, field.key);
+}
+
+std::string allowed(const Field& field) {
+  return std::visit(
+      Overloaded{
+          [](const Real& k) { return "a number" + bounds_text(k.range); },
+          [](const Integer& k) { return "an integer" + bounds_text(k.range); },
+          [](const Flag&) { return std::string("true or false"); },
+          [](const Text&) { return std::string("a string"); },
+          [](const Word& k) { return words_text(k.words); },
+          [](const IntegerPair& k) { return "two integers, each" + bounds_text(k.range); },
+          [](const RealList& k) { return "a list of numbers, each" + bounds_text(k.range); },
+      },
+      field.kind);
+}
+
+std::string value_text(const Field& field, const Preset& preset) {
+  // the accessors reach for writing; nothing is written here
+  auto& from = const_cast<Preset&>(preset);
+  return std::visit(Overloaded{
+                        [&](const Real& k) { return real_text(k.in(from)); },
+                        [&](const Integer& k) { return std::to_string(k.in(from)); },
+                        [&](const Flag& k) { return std::string(k.in(from) ? "true" : "false"); },
+                        [&](const Text& k) { return quoted(k.in(from)); },
+                        [&](const Word& k) { return quoted(k.words.at(k.get(preset))); },
+                        [&](const IntegerPair& k) {
+                          return fmt::format("[{}, {}]", k.in(from)[0], k.in(from)[1]);
+                        },
+                        [&](const RealList& k) {
+                          std::vector<std::string> items;
+                          for (const double value : k.in(from)) items.push_back(real_text(value));
+                          return fmt::format("[{}]", fmt::join(items, ", "));
+                        },
+                    },
+                    field.kind);
+}
+
+}  // namespace gridshell::preset

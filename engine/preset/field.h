@@ -1,0 +1,78 @@
+// One key of a preset as data: where it stands, what it may hold, what it means, and which member
+// of Preset it fills. Everything that speaks of keys (reader, writer, reference) works from these.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/preset/preset.h"
+
+namespace gridshell::preset {
+
+/// The numbers a key may hold; infinite bounds are no bounds.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;  ///< low itself is not allowed
+
+  bool holds(double value) const {
+    return (low_open ? value > low : value >= low) && value <= high;
+  }
+};
+
+inline Range above(double low) { return {.low = low, .low_open = true}; }
+inline Range at_least(double low) { return {.low = low}; }
+inline Range between(double low, double high) { return {.low = low, .high = high}; }
+
+// The kinds of value a key can have; each reaches its member through `in`.
+struct Real {
+  double& (*in)(Preset&);
+  Range range;
+};
+struct Integer {
+  int& (*in)(Preset&);
+  Range range;
+};
+struct Flag {
+  bool& (*in)(Preset&);
+};
+struct Text {
+  std::string& (*in)(Preset&);
+};
+/// One word of a few; the index of the word is the value of the enum.
+struct Word {
+  int (*get)(const Preset&);
+  void (*set)(Preset&, int);
+  std::vector<std::string> words;
+};
+struct IntegerPair {
+  std::array<int, 2>& (*in)(Preset&);
+  Range range;
+};
+struct RealList {
+  std::vector<double>& (*in)(Preset&);
+  Range range;
+};
+
+/// One key.
+struct Field {
+  std::string table;  ///< empty at the top of the file
+  std::string key;
+  std::string unit;  ///< empty: a pure number or not a number
+  std::variant<Real, Integer, Flag, Text, Word, IntegerPair, RealList> kind;
+  std::string meaning;  ///< one sentence without a full stop
+};
+
+/// "[footprint] radius_mm", or "title" at the top.
+std::string name_of(const Field& field);
+
+/// What it may hold: "a number > 0", "an integer from 2 to 100000", "\"up\" or \"down\"".
+std::string allowed(const Field& field);
+
+/// Its value in `preset` as TOML.
+std::string value_text(const Field& field, const Preset& preset);
+
+}  // namespace gridshell::preset

@@ -1,0 +1,166 @@
+#include "engine/preset/field_table.h"
+
+#include <type_traits>
+#include <utility>
+
+namespace gridshell::preset {
+namespace {
+
+// the member at the end of a path of member pointers: reach<&Preset::rod, &Rod::diameter_mm>
+template <auto... path>
+auto& reach(Preset& preset) {
+  return (preset.*....*path);
+}
+
+template <auto... path>
+Real real(Range range) {
+  return {reach<path...>, range};
+}
+template <auto... path>
+Integer integer(Range range) {
+  return {reach<path...>, range};
+}
+template <auto... path>
+Flag flag() {
+  return {reach<path...>};
+}
+template <auto... path>
+Text text() {
+  return {reach<path...>};
+}
+template <auto... path>
+Word word(std::vector<std::string> words) {
+  using Enum = std::remove_reference_t<decltype(reach<path...>(std::declval<Preset&>()))>;
+  return {[](const Preset& preset) {
+            return static_cast<int>(reach<path...>(const_cast<Preset&>(preset)));
+          },
+          [](Preset& preset, int index) { reach<path...>(preset) = static_cast<Enum>(index); },
+          std::move(words)};
+}
+template <auto... path>
+IntegerPair pair(Range range) {
+  return {reach<path...>, range};
+}
+template <auto... path>
+RealList list(Range range) {
+  return {reach<path...>, range};
+}
+
+using P = Preset;
+
+std::vector<Field> shell_fields() {
+  return {
+      {"", "title", "", text<&P::title>(), "one line that names the experiment"},
+      {"", "description", "", text<&P::description>(), "what it shows and what was chosen"},
+      {"", "source", "", text<&P::source>(), "figure or movie of the paper it follows"},
+      {"", "allow_unstable", "", flag<&P::allow_unstable>(),
+       "whether a run may end in an unstable state without failing"},
+      {"rod", "diameter_mm", "mm", real<&P::rod, &Rod::diameter_mm>(above(0)),
+       "diameter of the round rods"},
+      {"rod", "young_GPa", "GPa", real<&P::rod, &Rod::young_GPa>(above(0)), "Young's modulus E"},
+      {"joints", "kind", "", word<&P::joints, &Joints::kind>({"shared"}),
+       "\"shared\": crossing rods share the joint's node, shear freely and pass no twist"},
+      {"ends", "kind", "", word<&P::ends, &Ends::kind>({"pinned"}),
+       "\"pinned\": position held, direction and spin free"},
+      {"footprint", "kind", "", word<&P::footprint, &Footprint::kind>({"circle"}),
+       "boundary that cuts the flat square grid"},
+      {"footprint", "rods", "", integer<&P::footprint, &Footprint::rods>(between(1, 500)),
+       "rods a direction, n"},
+      {"footprint", "radius_mm", "mm", real<&P::footprint, &Footprint::radius_mm>(above(0)),
+       "radius of the original boundary, R_o"},
+      {"footprint", "spacing_mm", "mm", real<&P::footprint, &Footprint::spacing_mm>(above(0)),
+       "distance between neighbouring rods, d"},
+      {"footprint", "placement", "",
+       word<&P::footprint, &Footprint::placement>({"half", "on_axis"}),
+       "rods at u = (i + 1/2) d, or at u = i d with one on each axis"},
+      {"actuation", "radius_mm", "mm", real<&P::actuation, &Actuation::radius_mm>(above(0)),
+       "radius of the actuated boundary, R_a, at most R_o"},
+      {"actuation", "seed", "", word<&P::actuation, &Actuation::seed>({"up", "down"}),
+       "side to which the flat shell buckles"},
+      {"actuation", "seed_diagonal", "",
+       word<&P::actuation, &Actuation::seed_diagonal>({"y=x", "y=-x"}),
+       "of the corner pairs on the two diagonals, the one whose joints lie lower"},
+  };
+}
+
+std::vector<Field> numerics_fields() {
+  return {
+      {"limits", "max_strain", "", real<&P::limits, &Limits::max_strain>(above(0)),
+       "axial strain of an edge at which the run stops with limit \"locking\""},
+      {"accuracy", "tolerance", "", real<&P::accuracy, &Accuracy::tolerance>({0, 1, true}),
+       "largest joint error allowed, over R_o"},
+      {"accuracy", "edges_per_segment", "",
+       integer<&P::accuracy, &Accuracy::edges_per_segment>(between(0, 64)),
+       "edges between two joints of a rod; 0 chooses them from the tolerance"},
+      {"accuracy", "model", "", word<&P::accuracy, &Accuracy::model>({"auto", "bend"}),
+       "\"bend\": stretching and bending, 3 unknowns a node; \"auto\" takes the least that is "
+       "exact"},
+  };
+}
+
+std::vector<Field> picture_fields() {
+  return {
+      {"movie", "frames", "", integer<&P::movie, &Movie::frames>(between(2, 100000)),
+       "frames from the original to the final state; they only sample the path"},
+      {"movie", "size", "px", pair<&P::movie, &Movie::size>(between(16, 16384)),
+       "width and height of a frame"},
+      {"movie", "fps", "1/s", integer<&P::movie, &Movie::fps>(between(1, 240)),
+       "frames a second of movie.mp4"},
+      {"movie", "quality", "", word<&P::movie, &Movie::quality>({"draft", "movie", "figure"}),
+       "draft: plain; movie: 2x2 supersampling and shadow; figure: many jittered passes"},
+      {"movie", "colour_by", "", word<&P::movie, &Movie::colour_by>({"none", "K"}),
+       "tint of the cells: none, or integrated Gauss curvature K"},
+      {"movie", "azimuth_deg", "deg", real<&P::movie, &Movie::azimuth_deg>(between(-360, 360)),
+       "direction of the camera from +x towards +y in the middle of the movie"},
+      {"movie", "elevation_deg", "deg", real<&P::movie, &Movie::elevation_deg>(between(-90, 90)),
+       "height of the camera above the boundary's plane"},
+      {"movie", "turn_deg", "deg", real<&P::movie, &Movie::turn_deg>(between(-3600, 3600)),
+       "turn of the camera over the whole movie"},
+      {"movie", "zoom", "", real<&P::movie, &Movie::zoom>({0, 100, true}),
+       "1 fits the whole run into the picture"},
+      {"movie", "inset", "", flag<&P::movie, &Movie::inset>(),
+       "whether to draw the small top view"},
+      {"movie", "captions", "", flag<&P::movie, &Movie::captions>(),
+       "whether to write radius, height and frame"},
+      {"figure", "radii_mm", "mm", list<&P::figure, &Figure::radii_mm>(above(0)),
+       "boundary radii of the stills, falling from R_o to R_a; empty: the final state alone"},
+      {"figure", "scale_bar_mm", "mm", real<&P::figure, &Figure::scale_bar_mm>(at_least(0)),
+       "length of the scale bar; 0: none"},
+  };
+}
+
+}  // namespace
+
+const std::vector<Table>& tables() {
+  static const std::vector<Table> all = {
+      {"", "What the preset is."},
+      {"rod", "The rods' material and section."},
+      {"joints", "What holds crossing rods together."},
+      {"ends", "What holds the rods' ends on the boundary."},
+      {"footprint", "The flat, unloaded grid."},
+      {"actuation", "How the boundary moves: every edge point straight and evenly."},
+      {"limits", "Where the model stops being valid."},
+      {"accuracy", "How exact the answer is to be."},
+      {"movie", "The frames of `gridshell movie` and their camera."},
+      {"figure", "The stills of `gridshell figure`."},
+  };
+  return all;
+}
+
+const std::vector<Field>& field_table() {
+  static const std::vector<Field> all = [] {
+    auto fields = shell_fields();
+    for (auto& more : {numerics_fields(), picture_fields()})
+      fields.insert(fields.end(), more.begin(), more.end());
+    return fields;
+  }();
+  return all;
+}
+
+const Field* find_field(const std::string& table, const std::string& key) {
+  for (const auto& field : field_table())
+    if (field.table == table && field.key == key) return &field;
+  return nullptr;
+}
+
+}  // namespace gridshell::preset

@@ -1,0 +1,320 @@
+#include "engine/preset/reader.h"
+
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <system_error>
+#include <tuple>
+
+#include "engine/preset/assign.h"
+#include "engine/preset/consistency.h"
+#include "engine/preset/field_table.h"
+#include "engine/preset/suggest.h"
+
+namespace gridshell::preset {
+namespace {
+
+// where a value came from: a place in a file, or an option of the command line
+struct Place {
+  std::string source;
+  unsigned line = 0, column = 0;
+
+  std::string text() const {
+    return line == 0 ? source : fmt::format("{}:{}:{}", source, line, column);
+  }
+};
+
+struct PlacedFault {
+  Place place;
+  std::string text;
+};
+
+// a preset on its way, and where each of its keys was set
+struct Draft {
+  Preset preset;
+  std::map<std::string, Place> set_at;  // by bracketed name
+  std::set<std::string> faulty;         // keys whose value was refused
+};
+
+std::vector<std::string> keys_of(const std::string& table) {
+  std::vector<std::string> keys;
+  for (const auto& field : field_table())
+    if (field.table == table) keys.push_back(field.key);
+  return keys;
+}
+
+std::vector<std::string> table_names() {
+  std::vector<std::string> names{"case"};
+  for (const auto& table : tables())
+    if (!table.name.empty()) names.push_back(table.name);
+  return names;
+}
+
+bool is_table_name(const std::string& name) {
+  const auto names = table_names();
+  return name != "case" && std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string bracketed(const std::string& table, const std::string& key) {
+  return table.empty() ? key : fmt::format("[{}] {}", table, key);
+}
+
+// Lays TOML over presets and gathers what is wrong on the way.
+class Reading {
+ public:
+  explicit Reading(std::string source) : source_(std::move(source)) {}
+
+  Place place_of(const toml::source_region& region) const {
+    // values of an override have no place in the file
+    if (!override_.empty()) return {override_};
+    return {source_, unsigned(region.begin.line), unsigned(region.begin.column)};
+  }
+
+  void fault(const Place& place, std::string text) { faults_.push_back({place, std::move(text)}); }
+
+  // the keys of a file, or of one of its cases, over a draft; `apart` is read by someone else
+  void lay(const toml::table& root, const std::string& apart, Draft& draft) {
+    for (const auto& [key, value] : root) {
+      const std::string name(key.str());
+      if (name == apart) continue;
+      if (!is_table_name(name) && !value.is_table())
+        assign_key("", key, value, draft);
+      else
+        lay_table(key, value, draft);
+    }
+  }
+
+  // one value of the command line over a draft
+  void lay_override(const Override& change, Draft& draft) {
+    override_ = change.source;
+    const auto dot = change.key.find('.');
+    const bool top = dot == std::string::npos;
+    const auto table = top ? "" : change.key.substr(0, dot);
+    const auto name = top ? change.key : change.key.substr(dot + 1);
+    const auto value = override_value(change.value);
+    if (!top && !is_table_name(table))
+      fault({override_}, fmt::format("[{}] {} = {}: unknown table{}", table, name,
+                                     shown(*value.get("x")), did_you_mean(table, table_names())));
+    else
+      assign_key(table, toml::key(name), *value.get("x"), draft);
+    override_.clear();
+  }
+
+  void check(const Draft& draft) {
+    for (const auto& conflict : conflicts(draft.preset)) {
+      const auto name = bracketed(conflict.table, conflict.key);
+      // a refused value left its default behind, which conflicts with nothing the user wrote
+      const auto refused = [&](const std::string& key) { return draft.faulty.contains(key); };
+      if (refused(name) || std::ranges::any_of(conflict.others, refused)) continue;
+      const auto* field = find_field(conflict.table, conflict.key);
+      auto keys = conflict.others;
+      keys.insert(keys.begin(), name);
+      const auto set = std::ranges::find_if(
+          keys, [&](const std::string& key) { return draft.set_at.contains(key); });
+      fault(set == keys.end() ? Place{source_} : draft.set_at.at(*set),
+            fmt::format("{} = {}: {}", name, value_text(*field, draft.preset), conflict.what));
+    }
+  }
+
+  // all faults, in the order of the file and each once; those of the command line come last
+  std::string report() {
+    std::stable_sort(faults_.begin(), faults_.end(),
+                     [](const PlacedFault& a, const PlacedFault& b) {
+                       const auto rank = [](const Place& p) {
+                         return std::tuple(p.line == 0, p.line, p.column);
+                       };
+                       return rank(a.place) < rank(b.place);
+                     });
+    std::string text;
+    std::set<std::string> seen;
+    for (const auto& one : faults_) {
+      const auto line = one.place.text() + ": " + one.text;
+      if (seen.insert(line).second) text += (text.empty() ? "" : "\n") + line;
+    }
+    return text;
+  }
+
+  bool clean() const { return faults_.empty(); }
+
+ private:
+  static toml::table override_value(const std::string& value) {
+    try {
+      auto parsed = toml::parse("x = " + value);
+      if (parsed.size() == 1) return parsed;
+    } catch (const toml::parse_error&) {
+    }
+    return toml::table{{"x", value}};
+  }
+
+  void lay_table(const toml::key& key, const toml::node& value, Draft& draft) {
+    const std::string name(key.str());
+    const auto place = place_of(key.source());
+    if (!is_table_name(name)) {
+      fault(place, fmt::format("[{}]: unknown table{}", name, did_you_mean(name, table_names())));
+    } else if (const auto* table = value.as_table()) {
+      for (const auto& [inner, item] : *table) assign_key(name, inner, item, draft);
+    } else {
+      fault(place, fmt::format("{} = {}: is a table, must hold keys: {}", name, shown(value),
+                               fmt::join(keys_of(name), ", ")));
+    }
+  }
+
+  void assign_key(const std::string& table, const toml::key& key, const toml::node& value,
+                  Draft& draft) {
+    const std::string name(key.str());
+    const auto* field = find_field(table, name);
+    const auto full = bracketed(table, name);
+    if (!field) {
+      fault(place_of(key.source()),
+            fmt::format("{} = {}: unknown key{}", full, shown(value), hint(table, name)));
+      return;
+    }
+    const auto place = place_of(value.source());
+    const auto wrong = assign(*field, value, draft.preset);
+    draft.set_at[full] = place;
+    if (wrong.empty()) {
+      draft.faulty.erase(full);
+    } else {
+      draft.faulty.insert(full);
+      fault(place, fmt::format("{} = {}: {}", full, shown(value), wrong));
+    }
+  }
+
+  // what a mistyped key may have been: a near one of its table, the same one of another table, or
+  // else the list of what there is
+  static std::string hint(const std::string& table, const std::string& name) {
+    const auto here = keys_of(table);
+    if (const auto near = did_you_mean(name, here); !near.empty()) return near;
+    for (const auto& field : field_table())
+      if (field.key == name)
+        return fmt::format("; did you mean '{}{}{}'?", field.table, field.table.empty() ? "" : ".",
+                           name);
+    return fmt::format(", must be one of {}", fmt::join(here, ", "));
+  }
+
+  std::string source_;
+  std::string override_;  // while an override is laid: its option
+  std::vector<PlacedFault> faults_;
+};
+
+// a name that can be a folder beside summary.json
+bool is_safe_name(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("._-", c); };
+  return !name.empty() && name != "summary.json" && std::isalnum((unsigned char)name.front()) &&
+         std::all_of(name.begin(), name.end(), plain);
+}
+
+// the name of a case, or empty with a fault
+std::string case_name(const toml::table& table, const std::set<std::string>& taken,
+                      Reading& reading) {
+  const auto* node = table.get("name");
+  const auto place = reading.place_of(node ? node->source() : table.source());
+  if (!node) {
+    reading.fault(place, "[[case]]: has no name, must have one: name = \"...\"");
+    return "";
+  }
+  const auto name = node->value<std::string>();
+  if (!name || !is_safe_name(*name)) {
+    reading.fault(place, fmt::format("[[case]] name = {}: names a folder, must be letters, digits, "
+                                     "'.', '_' or '-' and begin with a letter or digit",
+                                     shown(*node)));
+    return "";
+  }
+  if (taken.contains(*name)) {
+    reading.fault(place,
+                  fmt::format("[[case]] name = {}: used twice, must be unique", shown(*node)));
+    return "";
+  }
+  return *name;
+}
+
+// the base preset and the cases over it
+Presets read_presets(const toml::table& root, const std::string& name,
+                     const std::vector<Override>& overrides, Reading& reading) {
+  Draft base;
+  base.preset.name = name;
+  reading.lay(root, "case", base);
+  const auto finish = [&](Draft draft) {
+    for (const auto& change : overrides) reading.lay_override(change, draft);
+    return draft;
+  };
+  const auto whole = finish(base);
+  Presets presets{whole.preset, {}};
+  const auto* node = root.get("case");
+  if (node && !node->is_array_of_tables()) {
+    reading.fault(reading.place_of(node->source()), "case: must be tables, each [[case]]");
+    return presets;
+  }
+  std::set<std::string> taken;
+  const toml::array none;  // a copy of the list would not know its places
+  for (const auto& item : node ? *node->as_array() : none) {
+    const auto& table = *item.as_table();
+    Draft draft = base;
+    reading.lay(table, "name", draft);
+    draft = finish(std::move(draft));
+    const auto own = case_name(table, taken, reading);
+    taken.insert(own);
+    draft.preset.name = name + "/" + own;
+    reading.check(draft);
+    presets.cases.push_back({own, std::move(draft.preset)});
+  }
+  if (presets.cases.empty()) reading.check(whole);
+  return presets;
+}
+
+}  // namespace
+
+Result<Override> parse_override(const std::string& argument) {
+  const auto equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0)
+    return fail(Fault::bad_input, fmt::format("--set {}: must be table.key=value, for example "
+                                              "--set footprint.radius_mm=126",
+                                              argument));
+  const auto trimmed = [](std::string text) {
+    const auto first = text.find_first_not_of(' ');
+    return first == std::string::npos ? ""
+                                      : text.substr(first, text.find_last_not_of(' ') + 1 - first);
+  };
+  return Override{"--set", trimmed(argument.substr(0, equals)), argument.substr(equals + 1)};
+}
+
+Result<Presets> read_preset_text(const std::string& text, const std::string& source,
+                                 const std::string& name, const std::vector<Override>& overrides) {
+  toml::table root;
+  try {
+    root = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    const auto& at = error.source().begin;
+    return fail(Fault::bad_input, fmt::format("{}:{}:{}: not TOML: {}", source, at.line, at.column,
+                                              error.description()));
+  }
+  Reading reading(source);
+  auto presets = read_presets(root, name, overrides, reading);
+  if (!reading.clean()) return fail(Fault::bad_input, reading.report());
+  return presets;
+}
+
+Result<Presets> read_preset_file(const std::filesystem::path& file,
+                                 const std::vector<Override>& overrides) {
+  const auto unreadable = [&](const std::string& reason) {
+    return fail(Fault::bad_input,
+                fmt::format("{}: cannot read the preset: {}", file.string(), reason));
+  };
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) return unreadable("it is a folder");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return unreadable(std::generic_category().message(errno));
+  std::ostringstream text;
+  text << in.rdbuf();
+  return read_preset_text(text.str(), file.string(), file.stem().string(), overrides);
+}
+
+}  // namespace gridshell::preset
