@@ -1,0 +1,153 @@
+#include "engine/footprint/footprint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gridshell {
+namespace {
+
+// a joint closer to the boundary than this (times d) is on it: its rods end there, apart
+constexpr double on_boundary = 1e-6;
+constexpr double most_joints = 1e6;
+
+/// Fills joints, legs and cells of rods that know their line and span; drops nothing.
+Result<Footprint> cross(Footprint net) {
+  // the v-rods of each line index; a line that a concave boundary cuts twice carries several rods
+  std::map<int, std::vector<int>> v_rods;
+  for (int r = 0; r < int(net.rods.size()); ++r)
+    if (net.rods[r].family == Family::v) v_rods[net.rods[r].index].push_back(r);
+
+  const double gap = on_boundary * net.spacing;
+  const auto holds = [gap](const Interval& span, double at) {
+    return at > span.begin + gap && at < span.end - gap;
+  };
+  std::map<std::pair<int, int>, int> joint_at;
+  for (FootprintRod& row : net.rods) {
+    if (row.family != Family::u) continue;
+    for (const auto& [i, candidates] : v_rods) {
+      for (int r : candidates) {
+        FootprintRod& column = net.rods[r];
+        if (!holds(row.span, column.line) || !holds(column.span, row.line)) continue;
+        const int joint = int(net.joints.size());
+        net.joints.push_back({i, row.index, column.line, row.line});
+        row.joints.push_back(joint);
+        column.joints.push_back(joint);
+        joint_at[{i, row.index}] = joint;
+      }
+    }
+  }
+  for (FootprintRod& rod : net.rods) {
+    if (rod.joints.empty())
+      return fail(Fault::bad_input,
+                  fmt::format("the {}-rod at {} = {:g} mm crosses no other rod: it would hang on "
+                              "its two ends alone; move the boundary or the spacing",
+                              rod.family == Family::u ? "u" : "v",
+                              rod.family == Family::u ? "v" : "u", rod.line));
+    std::sort(rod.joints.begin(), rod.joints.end(), [&](int a, int b) {
+      return rod.family == Family::u ? net.joints[a].u < net.joints[b].u
+                                     : net.joints[a].v < net.joints[b].v;
+    });
+  }
+
+  // a cell is complete when its four joints exist and neighbours share a rod
+  std::map<std::pair<int, int>, bool> linked;
+  for (const FootprintRod& rod : net.rods)
+    for (std::size_t k = 1; k < rod.joints.size(); ++k)
+      linked[{rod.joints[k - 1], rod.joints[k]}] = true;
+  for (int a = 0; a < int(net.joints.size()); ++a) {
+    const int i = net.joints[a].i, j = net.joints[a].j;
+    const auto b = joint_at.find({i + 1, j}), c = joint_at.find({i + 1, j + 1}),
+               d = joint_at.find({i, j + 1}), none = joint_at.end();
+    if (b == none || c == none || d == none) continue;
+    if (linked.contains({a, b->second}) && linked.contains({d->second, c->second}) &&
+        linked.contains({a, d->second}) && linked.contains({b->second, c->second}))
+      net.cells.push_back({i, j, {a, b->second, c->second, d->second}});
+  }
+  return net;
+}
+
+void add_rods(Footprint& net, const Domain& domain, Family family, int index) {
+  const double line = line_of(net.placement, index, net.spacing);
+  for (const Interval& span : domain.intervals(family, line))
+    if (span.end - span.begin > 2 * on_boundary * net.spacing)
+      net.rods.push_back({family, index, line, span, {}});
+}
+
+template <class Pick>
+double leg(const Footprint& net, double start, Pick pick) {
+  double found = start;
+  for (const FootprintRod& rod : net.rods) {
+    const auto along = [&](int joint) {
+      return rod.family == Family::u ? net.joints[joint].u : net.joints[joint].v;
+    };
+    found = pick(found, along(rod.joints.front()) - rod.span.begin);
+    found = pick(found, rod.span.end - along(rod.joints.back()));
+  }
+  return found;
+}
+
+}  // namespace
+
+double Footprint::shortest_leg() const {
+  return leg(*this, std::numeric_limits<double>::infinity(),
+             [](double a, double b) { return std::min(a, b); });
+}
+
+double Footprint::longest_leg() const {
+  return leg(*this, 0.0, [](double a, double b) { return std::max(a, b); });
+}
+
+double line_of(Placement placement, int index, double spacing) {
+  return placement == Placement::half ? (index + 0.5) * spacing : index * spacing;
+}
+
+Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement placement) {
+  const double lines = domain.reach() / spacing;
+  if (!(spacing > 0) || !(lines * lines * 4 < most_joints))
+    return fail(Fault::bad_input,
+                fmt::format("a spacing of {:g} mm in a boundary that reaches {:g} mm gives more "
+                            "than {:g} joints or none",
+                            spacing, domain.reach(), most_joints));
+  Footprint net{spacing, placement, {}, {}, {}};
+  const int last = int(std::ceil(lines)) + 1;
+  for (Family family : {Family::u, Family::v})
+    for (int index = -last; index <= last; ++index) add_rods(net, domain, family, index);
+  if (net.rods.empty())
+    return fail(Fault::bad_input,
+                fmt::format("no grid line of spacing {:g} mm meets the boundary", spacing));
+  return cross(std::move(net));
+}
+
+Result<Footprint> circular_footprint(double radius, int rods, double spacing, Placement placement) {
+  if (rods < 2)
+    return fail(Fault::bad_input,
+                fmt::format("{} rod a direction makes no cell: take at least 2", rods));
+  if (rods > 1000)
+    return fail(Fault::bad_input, fmt::format("{} rods a direction: at most 1000", rods));
+  const bool even = rods % 2 == 0;
+  if (even != (placement == Placement::half))
+    return fail(Fault::bad_input,
+                fmt::format("{} rods a direction do not fit placement \"{}\": rods at (i + 1/2) d "
+                            "(\"half\") are an even number, rods at i d (\"on_axis\") an odd one",
+                            rods, placement == Placement::half ? "half" : "on_axis"));
+  const double longest = radius / spacing - (rods - 1) / 2.0;
+  if (!(longest > on_boundary))
+    return fail(
+        Fault::bad_input,
+        fmt::format("{} rods a direction at d = {:g} mm reach {:g} mm, beyond the boundary: the "
+                    "longest leg R_o/d - (n-1)/2 = {:.4g} must be above 0; take R_o > {:g} mm or "
+                    "n <= {}",
+                    rods, spacing, (rods - 1) / 2.0 * spacing, longest, (rods - 1) / 2.0 * spacing,
+                    rods - 2 * int(std::ceil(-longest + 1e-9))));
+  Footprint net{spacing, placement, {}, {}, {}};
+  const int first = even ? -rods / 2 : -(rods - 1) / 2;
+  const Disk disk(radius);
+  for (Family family : {Family::u, Family::v})
+    for (int k = 0; k < rods; ++k) add_rods(net, disk, family, first + k);
+  return cross(std::move(net));
+}
+
+}  // namespace gridshell

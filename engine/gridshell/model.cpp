@@ -1,0 +1,39 @@
+#include "engine/gridshell/model.h"
+
+namespace gridshell {
+
+Model build_model(const RodMesh& mesh, const RodSection& section) {
+  Model model;
+  model.nodes = mesh.nodes();
+  model.flat = mesh.flat;
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
+    const std::vector<int>& node = mesh.rods[r];
+    const std::vector<double>& at = mesh.position[r];
+    for (std::size_t k = 1; k < node.size(); ++k) {
+      const int edge = int(model.edges.size());
+      model.edges.push_back({node[k - 1], node[k], at[k] - at[k - 1], section.EA});
+      if (k + 1 < node.size())
+        model.bends.push_back({edge, 2 * section.EI / (0.5 * (at[k + 1] - at[k - 1]))});
+    }
+  }
+  model.pinned.assign(model.nodes, 0);
+  for (int k = 0; k < mesh.edge_points; ++k) model.pinned[mesh.joints + k] = 1;
+  model.free_index.assign(model.nodes, -1);
+  for (int node = 0; node < model.nodes; ++node) {
+    if (model.pinned[node]) continue;
+    model.free_index[node] = int(model.free_nodes.size());
+    model.free_nodes.push_back(node);
+  }
+  return model;
+}
+
+double residual_of(const Model& model, const Eigen::Matrix3Xd& gradient) {
+  double largest = 0;
+  for (int node : model.free_nodes) {
+    const double force = gradient.col(node).norm();
+    if (!(force <= largest)) largest = force;  // a nan is kept, not hidden
+  }
+  return largest;
+}
+
+}  // namespace gridshell

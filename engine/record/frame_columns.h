@@ -1,0 +1,41 @@
+// The scalar quantities of a frame, once: the columns of frames.csv and of /frames in
+// trajectory.h5, in order.
+#pragma once
+
+#include <array>
+#include <string>
+#include <variant>
+
+#include "engine/record/snapshot.h"
+
+namespace gridshell::record {
+
+/// A quantity by name, unit ("1" without one, "" for text) and where it stands in a Frame.
+struct FrameColumn {
+  const char* name;
+  const char* unit;
+  std::variant<int Frame::*, double Frame::*, std::string Frame::*> field;
+};
+
+inline const std::array<FrameColumn, 15> frame_columns{{
+    {"frame", "1", &Frame::index},
+    {"progress", "1", &Frame::progress},
+    {"boundary_radius_mm", "mm", &Frame::boundary_radius_mm},
+    {"depth_mm", "mm", &Frame::depth_mm},
+    {"force_N", "N", &Frame::force_N},
+    {"energy_bend_mJ", "mJ", &Frame::energy_bend_mJ},
+    {"energy_stretch_mJ", "mJ", &Frame::energy_stretch_mJ},
+    {"energy_twist_mJ", "mJ", &Frame::energy_twist_mJ},
+    {"height_mm", "mm", &Frame::height_mm},
+    {"total_K", "rad", &Frame::total_K},
+    {"residual_N", "N", &Frame::residual_N},
+    {"negative_pivots", "1", &Frame::negative_pivots},
+    {"error_estimate_mm", "mm", &Frame::error_estimate_mm},
+    {"newton_iterations", "1", &Frame::newton_iterations},
+    {"event", "", &Frame::event},
+}};
+
+/// Stored in trajectory.h5 beside the columns above, to draw the boundary of a frame.
+inline const FrameColumn actuation_column{"actuation", "1", &Frame::actuation};
+
+}  // namespace gridshell::record

@@ -1,0 +1,110 @@
+#include "engine/record/run_folder.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/consistency.h"
+#include "engine/record/frame_columns.h"
+#include "engine/record/summary_file.h"
+#include "engine/record/trajectory_file.h"
+
+namespace gridshell::record {
+namespace {
+
+/// One CSV file as it grows (RFC 4180, "\n" at the end of a line).
+class Csv {
+ public:
+  void cell(const char* text) { cell(std::string(text)); }
+  void cell(int value) { start() += fmt::format("{}", value); }
+  void cell(double value) {
+    std::string& text = start();
+    if (!std::isnan(value)) text += fmt::format("{}", value);
+  }
+  void cell(const std::string& value) {
+    std::string& text = start();
+    if (value.find_first_of(",\"\r\n") == std::string::npos) {
+      text += value;
+      return;
+    }
+    text += '"';
+    for (const char c : value) text.append(c == '"' ? 2 : 1, c);
+    text += '"';
+  }
+  void end_line() {
+    text_ += '\n';
+    first_ = true;
+  }
+  template <class... Cells>
+  void line(const Cells&... cells) {
+    (cell(cells), ...);
+    end_line();
+  }
+  std::string text() && { return std::move(text_); }
+
+ private:
+  std::string& start() {
+    if (!first_) text_ += ',';
+    first_ = false;
+    return text_;
+  }
+  std::string text_;
+  bool first_ = true;
+};
+
+}  // namespace
+
+std::string joints_csv(const Trajectory& trajectory) {
+  Csv csv;
+  csv.line("i", "j", "u_mm", "v_mm", "x_mm", "y_mm", "z_mm");
+  if (trajectory.frames.empty()) return std::move(csv).text();
+  const Frame& last = trajectory.frames.back();
+  for (const Joint& joint : trajectory.layout.joints) {
+    const auto at = last.nodes.col(joint.node);
+    csv.line(joint.i, joint.j, joint.u_mm, joint.v_mm, at.x(), at.y(), at.z());
+  }
+  return std::move(csv).text();
+}
+
+std::string cells_csv(const Trajectory& trajectory) {
+  Csv csv;
+  csv.line("i", "j", "u_mm", "v_mm", "cx_mm", "cy_mm", "cz_mm", "K");
+  if (trajectory.frames.empty()) return std::move(csv).text();
+  const Layout& layout = trajectory.layout;
+  const Frame& last = trajectory.frames.back();
+  for (std::size_t k = 0; k < layout.cells.size(); ++k) {
+    const Cell& cell = layout.cells[k];
+    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+    for (const int joint : cell.joints) centroid += last.nodes.col(layout.joints[joint].node) / 4;
+    csv.line(cell.i, cell.j, cell.u_mm, cell.v_mm, centroid.x(), centroid.y(), centroid.z(),
+             last.cell_K[static_cast<Eigen::Index>(k)]);
+  }
+  return std::move(csv).text();
+}
+
+std::string frames_csv(const Trajectory& trajectory) {
+  Csv csv;
+  for (const FrameColumn& column : frame_columns) csv.cell(column.name);
+  csv.end_line();
+  for (const Frame& frame : trajectory.frames) {
+    for (const FrameColumn& column : frame_columns)
+      std::visit([&](auto field) { csv.cell(frame.*field); }, column.field);
+    csv.end_line();
+  }
+  return std::move(csv).text();
+}
+
+Result<void> write_run(const std::filesystem::path& folder, const Trajectory& trajectory,
+                       const Summary& summary) {
+  return check_consistency(trajectory)
+      .and_then([&] { return make_folder(folder); })
+      .and_then([&] { return write_atomically(folder / "joints.csv", joints_csv(trajectory)); })
+      .and_then([&] { return write_atomically(folder / "cells.csv", cells_csv(trajectory)); })
+      .and_then([&] { return write_atomically(folder / "frames.csv", frames_csv(trajectory)); })
+      .and_then([&] { return write_trajectory(folder / "trajectory.h5", trajectory); })
+      .and_then([&] { return write_summary(folder / "summary.json", summary); });
+}
+
+}  // namespace gridshell::record

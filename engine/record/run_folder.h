@@ -1,0 +1,30 @@
+// A run's folder: summary.json, joints.csv, cells.csv, frames.csv and trajectory.h5.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/record/snapshot.h"
+#include "engine/record/summary.h"
+
+namespace gridshell::record {
+
+/// The text of joints.csv: position of every joint in the last frame.
+/// Numbers are the shortest that read back bit for bit; what is unknown is empty (all CSV files).
+std::string joints_csv(const Trajectory& trajectory);
+
+/// The text of cells.csv: K of every complete cell in the last frame, at its middle (u, v) of the
+/// footprint and the centroid of its four joints.
+std::string cells_csv(const Trajectory& trajectory);
+
+/// The text of frames.csv: a line a frame.
+std::string frames_csv(const Trajectory& trajectory);
+
+/// Writes the five files into `folder`, which is made if missing; each is whole or absent, and
+/// summary.json, written last, says that the others are there. Errors: Fault::io with path and
+/// reason; Fault::bad_input when the trajectory's parts do not fit each other.
+Result<void> write_run(const std::filesystem::path& folder, const Trajectory& trajectory,
+                       const Summary& summary);
+
+}  // namespace gridshell::record

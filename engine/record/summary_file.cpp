@@ -1,0 +1,125 @@
+#include "engine/record/summary_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/atomic_file.h"
+
+namespace gridshell::record {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, 5> limit_names{"none", "locking", "snap", "branch_lost",
+                                                 "no_equilibrium"};
+
+/// visit(key, field) for every key of summary.json, in order
+template <class SummaryType, class Visit>
+void each_field(SummaryType& summary, Visit visit) {
+  visit("preset", summary.preset);
+  visit("model", summary.model);
+  visit("model_reason", summary.model_reason);
+  visit("edges_per_segment", summary.edges_per_segment);
+  visit("rods", summary.rods);
+  visit("joints", summary.joints);
+  visit("cells", summary.cells);
+  visit("dof", summary.dof);
+  visit("stable", summary.stable);
+  visit("negative_pivots", summary.negative_pivots);
+  visit("limit", summary.limit);
+  visit("limit_reason", summary.limit_reason);
+  visit("residual_N", summary.residual_N);
+  visit("error_estimate_mm", summary.error_estimate_mm);
+  visit("energy_bend_mJ", summary.energy_bend_mJ);
+  visit("energy_stretch_mJ", summary.energy_stretch_mJ);
+  visit("energy_twist_mJ", summary.energy_twist_mJ);
+  visit("height_mm", summary.height_mm);
+  visit("total_K", summary.total_K);
+  visit("max_deviation", summary.max_deviation);
+  visit("mean_deviation", summary.mean_deviation);
+  visit("newton_iterations", summary.newton_iterations);
+  visit("factorizations", summary.factorizations);
+  visit("seconds_setup", summary.seconds_setup);
+  visit("seconds_simulation", summary.seconds_simulation);
+  visit("seconds_render", summary.seconds_render);
+}
+
+template <class T>
+Json json_of(const T& value) {
+  return value;
+}
+Json json_of(const Limit& limit) { return name_of(limit); }
+
+/// takes the value if it is of the right kind; `expected` then says which kind is
+bool take(const Json& json, std::string& value, const char*& expected) {
+  expected = "a string";
+  if (json.is_string()) value = json.get<std::string>();
+  return json.is_string();
+}
+bool take(const Json& json, int& value, const char*& expected) {
+  expected = "a whole number";
+  if (json.is_number_integer()) value = json.get<int>();
+  return json.is_number_integer();
+}
+bool take(const Json& json, bool& value, const char*& expected) {
+  expected = "true or false";
+  if (json.is_boolean()) value = json.get<bool>();
+  return json.is_boolean();
+}
+bool take(const Json& json, double& value, const char*& expected) {
+  expected = "a number or null";
+  value = json.is_number() ? json.get<double>() : unknown;
+  return json.is_number() || json.is_null();
+}
+bool take(const Json& json, Limit& value, const char*& expected) {
+  expected = "one of \"none\", \"locking\", \"snap\", \"branch_lost\", \"no_equilibrium\"";
+  for (std::size_t k = 0; k < limit_names.size(); ++k)
+    if (json == limit_names[k]) {
+      value = static_cast<Limit>(k);
+      return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+const char* name_of(Limit limit) { return limit_names[static_cast<std::size_t>(limit)]; }
+
+std::string to_json(const Summary& summary) {
+  Json json;
+  each_field(summary, [&](const char* key, const auto& value) { json[key] = json_of(value); });
+  // NaN becomes null; a broken UTF-8 sequence in a user's text must not stop a run
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<void> write_summary(const std::filesystem::path& path, const Summary& summary) {
+  return write_atomically(path, to_json(summary));
+}
+
+Result<Summary> read_summary(const std::filesystem::path& path) {
+  const auto text = read_whole(path);
+  if (!text) return tl::unexpected(text.error());
+  const Json json = Json::parse(*text, nullptr, false);
+  if (!json.is_object())
+    return fail(Fault::bad_input,
+                fmt::format("'{}' is no summary of a run: not a JSON object", path.string()));
+  Summary summary;
+  std::string fault;
+  each_field(summary, [&](const char* key, auto& value) {
+    if (!fault.empty()) return;
+    const char* expected = nullptr;
+    if (!json.contains(key))
+      fault = fmt::format("has no \"{}\"", key);
+    else if (!take(json[key], value, expected))
+      fault = fmt::format("\"{}\" is {}, expected {}", key, json[key].dump(), expected);
+  });
+  if (!fault.empty())
+    return fail(Fault::bad_input,
+                fmt::format("'{}' is no summary of a run: {}", path.string(), fault));
+  return summary;
+}
+
+}  // namespace gridshell::record

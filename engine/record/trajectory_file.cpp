@@ -1,0 +1,196 @@
+#include "engine/record/trajectory_file.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <new>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/consistency.h"
+#include "engine/record/frame_columns.h"
+#include "engine/record/hdf5_file.h"
+
+namespace gridshell::record {
+namespace {
+
+using hdf5::Dims;
+using hdf5::Handle;
+
+const std::string format_name = "gridshell trajectory 1";
+
+Handle joint_type() {
+  Handle type(H5Tcreate(H5T_COMPOUND, sizeof(Joint)), H5Tclose);
+  H5Tinsert(type, "i", HOFFSET(Joint, i), H5T_NATIVE_INT);
+  H5Tinsert(type, "j", HOFFSET(Joint, j), H5T_NATIVE_INT);
+  H5Tinsert(type, "u_mm", HOFFSET(Joint, u_mm), H5T_NATIVE_DOUBLE);
+  H5Tinsert(type, "v_mm", HOFFSET(Joint, v_mm), H5T_NATIVE_DOUBLE);
+  H5Tinsert(type, "node", HOFFSET(Joint, node), H5T_NATIVE_INT);
+  return type;
+}
+
+Handle cell_type() {
+  const hsize_t four = 4;
+  const Handle joints(H5Tarray_create2(H5T_NATIVE_INT, 1, &four), H5Tclose);
+  Handle type(H5Tcreate(H5T_COMPOUND, sizeof(Cell)), H5Tclose);
+  H5Tinsert(type, "i", HOFFSET(Cell, i), H5T_NATIVE_INT);
+  H5Tinsert(type, "j", HOFFSET(Cell, j), H5T_NATIVE_INT);
+  H5Tinsert(type, "u_mm", HOFFSET(Cell, u_mm), H5T_NATIVE_DOUBLE);
+  H5Tinsert(type, "v_mm", HOFFSET(Cell, v_mm), H5T_NATIVE_DOUBLE);
+  H5Tinsert(type, "joints", HOFFSET(Cell, joints), joints);
+  return type;
+}
+
+hid_t memory_type(int) { return H5T_NATIVE_INT; }
+hid_t memory_type(double) { return H5T_NATIVE_DOUBLE; }
+
+void write_layout(hdf5::Writer& file, const Layout& layout) {
+  file.group("/layout");
+  file.attribute("/layout", "spacing_mm", layout.spacing_mm);
+  file.attribute("/layout", "rod_diameter_mm", layout.rod_diameter_mm);
+  file.attribute("/layout", "length_scale_mm", layout.length_scale_mm);
+  file.lists("/rods", layout.rods);
+  file.dataset("/joints", joint_type(), {layout.joints.size()}, layout.joints.data(), "mm");
+  file.dataset("/cells", cell_type(), {layout.cells.size()}, layout.cells.data(), "mm");
+  file.dataset("/layout/edge_points", H5T_NATIVE_INT, {layout.edge_points.size()},
+               layout.edge_points.data(), "1");
+  // a 3 x n matrix by columns lies in memory as n x 3 by rows
+  const auto boundary = [&](const char* name, const Eigen::Matrix3Xd& points) {
+    file.dataset(name, H5T_NATIVE_DOUBLE, {static_cast<hsize_t>(points.cols()), 3}, points.data(),
+                 "mm");
+  };
+  boundary("/layout/original_boundary", layout.original_boundary);
+  boundary("/layout/actuated_boundary", layout.actuated_boundary);
+}
+
+void write_column(hdf5::Writer& file, const std::string& name, const char* unit,
+                  const std::vector<std::string>& values) {
+  (void)unit;
+  file.strings(name, values);
+}
+template <class T>
+void write_column(hdf5::Writer& file, const std::string& name, const char* unit,
+                  const std::vector<T>& values) {
+  file.dataset(name, memory_type(T{}), {values.size()}, values.data(), unit);
+}
+
+void write_column(hdf5::Writer& file, const FrameColumn& column, const std::vector<Frame>& frames) {
+  std::visit(
+      [&]<class T>(T Frame::*field) {
+        std::vector<T> values;
+        for (const Frame& frame : frames) values.push_back(frame.*field);
+        write_column(file, std::string("/frames/") + column.name, column.unit, values);
+      },
+      column.field);
+}
+
+void write_frames(hdf5::Writer& file, const std::vector<Frame>& frames, hsize_t cells) {
+  const hsize_t count = frames.size();
+  const hsize_t nodes = frames.empty() ? 0 : frames.front().nodes.cols();
+  file.dataset("/nodes", H5T_NATIVE_DOUBLE, {count, nodes, 3}, nullptr, "mm");
+  file.dataset("/cell_K", H5T_NATIVE_DOUBLE, {count, cells}, nullptr, "rad");
+  for (hsize_t k = 0; k < count; ++k) {
+    file.write_slice("/nodes", H5T_NATIVE_DOUBLE, k, frames[k].nodes.data());
+    file.write_slice("/cell_K", H5T_NATIVE_DOUBLE, k, frames[k].cell_K.data());
+  }
+  file.group("/frames");
+  for (const FrameColumn& column : frame_columns) write_column(file, column, frames);
+  write_column(file, actuation_column, frames);
+}
+
+Eigen::Matrix3Xd read_points(hdf5::Reader& file, const std::string& name) {
+  const Dims dims = file.dims(name, 2);
+  if (!file.good()) return {};
+  if (dims[1] != 3) file.fail_because(fmt::format("{} has {} coordinates a point", name, dims[1]));
+  Eigen::Matrix3Xd points(3, file.good() ? dims[0] : 0);
+  file.read(name, H5T_NATIVE_DOUBLE, points.data());
+  return points;
+}
+
+Layout read_layout(hdf5::Reader& file) {
+  Layout layout;
+  layout.spacing_mm = file.attribute("/layout", "spacing_mm");
+  layout.rod_diameter_mm = file.attribute("/layout", "rod_diameter_mm");
+  layout.length_scale_mm = file.attribute("/layout", "length_scale_mm");
+  layout.rods = file.lists("/rods");
+  layout.joints = file.vector<Joint>("/joints", joint_type());
+  layout.cells = file.vector<Cell>("/cells", cell_type());
+  layout.edge_points = file.vector<int>("/layout/edge_points", H5T_NATIVE_INT);
+  layout.original_boundary = read_points(file, "/layout/original_boundary");
+  layout.actuated_boundary = read_points(file, "/layout/actuated_boundary");
+  return layout;
+}
+
+void read_column(hdf5::Reader& file, const FrameColumn& column, std::vector<Frame>& frames) {
+  const std::string name = std::string("/frames/") + column.name;
+  std::visit(
+      [&]<class T>(T Frame::*field) {
+        std::vector<T> values;
+        if constexpr (std::is_same_v<T, std::string>)
+          values = file.strings(name);
+        else
+          values = file.vector<T>(name, memory_type(T{}));
+        if (values.size() != frames.size())
+          file.fail_because(fmt::format("{} has {} values for {} frames", name, values.size(),
+                                        frames.size()));
+        if (!file.good()) return;
+        for (std::size_t k = 0; k < frames.size(); ++k) frames[k].*field = std::move(values[k]);
+      },
+      column.field);
+}
+
+std::vector<Frame> read_frames(hdf5::Reader& file) {
+  const Dims nodes = file.dims("/nodes", 3), cells = file.dims("/cell_K", 2);
+  if (!file.good()) return {};
+  if (nodes[2] != 3 || cells[0] != nodes[0])
+    file.fail_because(fmt::format("/nodes is {} x {} x {} and /cell_K {} x {}", nodes[0], nodes[1],
+                                  nodes[2], cells[0], cells[1]));
+  if (!file.good()) return {};
+  std::vector<Frame> frames(nodes[0]);
+  for (hsize_t k = 0; k < nodes[0] && file.good(); ++k) {
+    frames[k].nodes.resize(3, nodes[1]);
+    frames[k].cell_K.resize(cells[1]);
+    file.read_slice("/nodes", H5T_NATIVE_DOUBLE, k, frames[k].nodes.data());
+    file.read_slice("/cell_K", H5T_NATIVE_DOUBLE, k, frames[k].cell_K.data());
+  }
+  for (const FrameColumn& column : frame_columns) read_column(file, column, frames);
+  read_column(file, actuation_column, frames);
+  return frames;
+}
+
+}  // namespace
+
+Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
+  if (auto fits = check_consistency(trajectory); !fits) return fits;
+  AtomicFile target(path);
+  hdf5::Writer file(target.temporary().string());
+  if (file.good()) file.attribute("/", "format", format_name);
+  write_layout(file, trajectory.layout);
+  write_frames(file, trajectory.frames, trajectory.layout.cells.size());
+  if (!file.close())
+    return fail(Fault::io, fmt::format("cannot write '{}': {}", path.string(), file.reason()));
+  return target.commit();
+}
+
+Result<Trajectory> read_trajectory(const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& reason) {
+    return fail(Fault::bad_input,
+                fmt::format("'{}' is no trajectory of a run: {}", path.string(), reason));
+  };
+  // an ordinary open tells a file that is missing from one that is foreign
+  if (const auto opens = check_readable(path); !opens) return tl::unexpected(opens.error());
+  try {
+    hdf5::Reader file(path.string());
+    if (file.good() && file.text_attribute("/", "format") != format_name)
+      return refuse(fmt::format("it does not say \"{}\"", format_name));
+    Trajectory trajectory;
+    trajectory.layout = read_layout(file);
+    trajectory.frames = read_frames(file);
+    if (!file.good()) return refuse(file.reason());
+    if (auto fits = check_consistency(trajectory); !fits) return refuse(fits.error().message);
+    return trajectory;
+  } catch (const std::bad_alloc&) {
+    return refuse("it claims to hold more than fits into memory");
+  }
+}
+
+}  // namespace gridshell::record

@@ -1,0 +1,31 @@
+// trajectory.h5: a whole trajectory in HDF5, read back bit for bit.
+//
+//   /nodes          frames x nodes x 3  positions, mm
+//   /rods           a list of nodes a rod, from edge point to edge point
+//   /joints         {i, j, u_mm, v_mm, node}
+//   /cells          {i, j, u_mm, v_mm, joints[4]}
+//   /cell_K         frames x cells      integrated Gauss curvature, rad
+//   /frames/<name>  frames              the columns of frames.csv, and `actuation`
+//   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),
+//                   original_boundary, actuated_boundary (points x 3, mm)
+//
+// Datasets bear their unit in the attribute `unit`. Equal trajectories give equal bytes.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/core/result.h"
+#include "engine/record/snapshot.h"
+
+namespace gridshell::record {
+
+/// Writes `path` whole or not at all. Errors: Fault::io with path and reason (a full disk too);
+/// Fault::bad_input when the trajectory's parts do not fit each other.
+Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory);
+
+/// Reads a file of write_trajectory. Errors: Fault::io when it cannot be opened; Fault::bad_input,
+/// in a sentence naming the path, when it is no HDF5 file, is cut short, is not a trajectory, or
+/// when its parts do not fit each other.
+Result<Trajectory> read_trajectory(const std::filesystem::path& path);
+
+}  // namespace gridshell::record

@@ -1,0 +1,74 @@
+// Bending of a naturally straight isotropic rod at a node between two edges [Bergou 2008].
+#pragma once
+
+#include <Eigen/Core>
+
+namespace gridshell {
+
+/// An edge vector with what every energy needs of it.
+struct EdgeGeometry {
+  Eigen::Vector3d tangent;  ///< unit
+  double length = 0;        ///< current length, mm
+};
+
+/// E = EI/(2l) |kb|^2 = (2EI/l) (1 - c)/(1 + c), c = t_e . t_f, with the curvature binormal
+/// kb = 2 t_e x t_f / (1 + c) and l the mean rest length of the two edges. E grows without bound
+/// as the edges fold onto one another (c -> -1).
+/// `stiffness` is 2EI/l (mJ).
+struct BendEnergy {
+  double value = 0;
+  Eigen::Vector3d gradient_e, gradient_f;  ///< with respect to the edge vectors e, f (N)
+  Eigen::Matrix3d hessian_ee, hessian_ef, hessian_ff;  ///< N/mm
+};
+
+inline double bend_value(double stiffness, const EdgeGeometry& e, const EdgeGeometry& f) {
+  const double c = e.tangent.dot(f.tangent);
+  return stiffness * (1 - c) / (1 + c);
+}
+
+/// Value and gradient only.
+inline void bend_gradient(double stiffness, const EdgeGeometry& e, const EdgeGeometry& f,
+                          BendEnergy& out) {
+  const double c = e.tangent.dot(f.tangent), w = 1 / (1 + c);
+  const double by_c = -2 * stiffness * w * w;
+  out.value = stiffness * (1 - c) * w;
+  out.gradient_e = (by_c / e.length) * (f.tangent - c * e.tangent);
+  out.gradient_f = (by_c / f.length) * (e.tangent - c * f.tangent);
+}
+
+/// Value, gradient and Hessian. With p = dc/de = (t_f - c t_e)/|e|, q = dc/df:
+/// H_ee = E'' p p^T - E'/|e| (p t_e^T + t_e p^T) - E' c/|e|^2 (I - t_e t_e^T),
+/// H_ef = E'' p q^T + E'/(|e||f|) (I - t_e t_e^T)(I - t_f t_f^T).
+inline void bend_hessian(double stiffness, const EdgeGeometry& e, const EdgeGeometry& f,
+                         BendEnergy& out) {
+  const Eigen::Vector3d& te = e.tangent;
+  const Eigen::Vector3d& tf = f.tangent;
+  const double c = te.dot(tf), w = 1 / (1 + c);
+  const double by_c = -2 * stiffness * w * w, by_cc = 4 * stiffness * w * w * w;
+  const double ie = 1 / e.length, jf = 1 / f.length;
+  const Eigen::Vector3d p = (tf - c * te) * ie, q = (te - c * tf) * jf;
+  out.value = stiffness * (1 - c) * w;
+  out.gradient_e = by_c * p;
+  out.gradient_f = by_c * q;
+
+  // one outer product each: fold the rank-one terms that share a factor
+  const double ce = by_c * c * ie * ie, cf = by_c * c * jf * jf;
+  const Eigen::Vector3d pe = by_cc * p - (by_c * ie) * te, se = ce * te - (by_c * ie) * p;
+  const Eigen::Vector3d qf = by_cc * q - (by_c * jf) * tf, sf = cf * tf - (by_c * jf) * q;
+  out.hessian_ee.noalias() = p * pe.transpose();
+  out.hessian_ee.noalias() += te * se.transpose();
+  out.hessian_ee.diagonal().array() -= ce;
+  out.hessian_ff.noalias() = q * qf.transpose();
+  out.hessian_ff.noalias() += tf * sf.transpose();
+  out.hessian_ff.diagonal().array() -= cf;
+
+  const double cross = by_c * ie * jf;
+  const Eigen::Vector3d on_q = by_cc * p;
+  const Eigen::Vector3d on_tf = cross * (c * te - tf), on_te = -cross * te;
+  out.hessian_ef.noalias() = on_q * q.transpose();
+  out.hessian_ef.noalias() += on_tf * tf.transpose();
+  out.hessian_ef.noalias() += on_te * te.transpose();
+  out.hessian_ef.diagonal().array() += cross;
+}
+
+}  // namespace gridshell

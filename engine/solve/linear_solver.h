@@ -1,0 +1,53 @@
+// Direct factorisation of the Hessian of the free nodes, with its inertia.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "engine/gridshell/model.h"
+
+namespace gridshell {
+
+/// What a factorisation found out about H + shift I.
+struct Inertia {
+  int negative_pivots = 0;  ///< eigenvalues below zero, by Sylvester's law
+  bool usable = false;      ///< false: a zero or non-finite pivot; nothing can be solved with it
+  double smallest_pivot = 0, largest_pivot = 0;  ///< in absolute value
+
+  bool positive_definite() const { return usable && negative_pivots == 0; }
+};
+
+/// Symbolic analysis once (constructor), numbers as often as needed. Not thread-safe; one a thread.
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+
+  /// Factorises the rows and columns of the free nodes of `hessian` + `shift` I.
+  virtual Inertia factor(const ChainHessian& hessian, double shift) = 0;
+
+  /// Solves for the right-hand sides at the free nodes, in place; columns of pinned nodes come back
+  /// as zero. Needs a factor() that was usable.
+  virtual void solve(Eigen::Matrix3Xd& right_hand_side) const = 0;
+
+  /// 3x3 blocks in the factor.
+  virtual long long blocks() const = 0;
+};
+
+/// The faster of the two below for the size of `model`: block Cholesky up to the crossover measured
+/// by tests/bench/bench_solver (about 40 000 degrees of freedom), supernodal CHOLMOD above.
+std::unique_ptr<LinearSolver> make_linear_solver(const Model& model);
+
+/// 3x3-block signed Cholesky L S L^T on a fixed schedule, geometric nested dissection.
+std::unique_ptr<LinearSolver> make_block_cholesky(const Model& model);
+
+/// How CHOLMOD factorises, and in which order.
+struct CholmodOptions {
+  bool supernodal =
+      true;  ///< L L^T; where that fails, simplicial L D L^T counts the negative pivots
+  bool own_ordering = true;  ///< ordering.h; false: CHOLMOD's own nested dissection (METIS)
+};
+
+/// CHOLMOD [Chen, Davis, Hager, Rajamanickam 2008].
+std::unique_ptr<LinearSolver> make_cholmod(const Model& model, const CholmodOptions& options = {});
+
+}  // namespace gridshell
