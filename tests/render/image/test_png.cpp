@@ -1,10 +1,11 @@
+#include <fmt/format.h>
+#include <png.h>
+
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
-
-#include <png.h>
 
 #include "render/image/png.h"
 #include "tests/temporary_folder.h"
@@ -111,7 +112,8 @@ TEST_CASE("a damaged file is bad input, not a crash") {
   const auto half = read_png(path);
   REQUIRE_FALSE(half);
   CHECK(half.error().fault == Fault::bad_input);
-  CHECK(half.error().message.rfind("'" + path.string() + "' is not a readable PNG: ", 0) == 0);
+  CHECK(half.error().message.rfind(fmt::format("'{}' is not a readable PNG: ", path.string()), 0) ==
+        0);
   std::ofstream(path, std::ios::binary) << "GIF89a and so on";
   CHECK_FALSE(read_png(path));
   std::ofstream(path, std::ios::binary | std::ios::trunc);

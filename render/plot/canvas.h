@@ -1,0 +1,124 @@
+// One surface to draw lines, areas and text on, whatever it ends as: a finished frame, a PNG or an
+// SVG. Lengths are in units of the canvas, x to the right, y down: pixels over a frame, points
+// (1/72 inch) on a figure. Made with Cairo and Pango; text is DejaVu Sans.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "render/image/image.h"
+
+typedef struct _cairo cairo_t;
+
+namespace gridshell::render {
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+/// An axis-aligned rectangle.
+struct Box {
+  double x = 0, y = 0, width = 0, height = 0;
+
+  double right() const { return x + width; }
+  double bottom() const { return y + height; }
+  Point middle() const { return {x + width / 2, y + height / 2}; }
+  bool empty() const { return width <= 0 || height <= 0; }
+  bool contains(const Box& inner) const;  ///< to within 1e-6
+  bool overlaps(const Box& other) const;  ///< by more than 1e-6; an empty box overlaps nothing
+  Box inset(double margin) const;
+};
+
+/// A line as drawn; width 0 draws nothing. `dash` alternates lengths of line and gap.
+struct Stroke {
+  Colour colour{0, 0, 0, 1};
+  double width = 1;
+  std::vector<double> dash;
+};
+
+enum class AlignX { left, centre, right };
+enum class AlignY { top, middle, baseline, bottom };  ///< of the line's height, not its ink
+
+struct TextStyle {
+  double size = 9;  ///< of the font (one em), in units of the canvas
+  Colour colour{0.1f, 0.1f, 0.12f, 1};
+  bool bold = false;
+  AlignX align_x = AlignX::left;
+  AlignY align_y = AlignY::baseline;
+  double angle_deg = 0;     ///< counter-clockwise about the anchor
+  Colour halo{1, 1, 1, 0};  ///< a rim around the letters, for text over a picture
+};
+
+/// Text marks: `_{a}` lowers, `^{−3}` raises, `*R*` slants. `plain` protects text that is to be
+/// shown as it is (a file's name, a user's title).
+std::string plain(const std::string& text);
+
+enum class Marker { none, circle, square, diamond, triangle, cross };
+
+/// The surface; made by draw_over, draw_picture and draw_svg below.
+class Canvas {
+ public:
+  Canvas(cairo_t* cairo, double width, double height);
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  double width() const { return width_; }
+  double height() const { return height_; }
+
+  void polyline(const std::vector<Point>& points, const Stroke& stroke, bool closed = false);
+  void line(Point a, Point b, const Stroke& stroke) { polyline({a, b}, stroke); }
+  void polygon(const std::vector<Point>& points, Colour fill, const Stroke& stroke = {{}, 0, {}});
+  void rectangle(const Box& box, Colour fill, const Stroke& stroke = {{}, 0, {}},
+                 double corner_radius = 0);
+  void circle(Point centre, double radius, Colour fill, const Stroke& stroke = {{}, 0, {}});
+  /// `size` is the width of the marker's ink
+  void marker(Marker kind, Point at, double size, Colour fill, const Stroke& stroke);
+  void picture(const Image& image, const Box& box);
+
+  /// One line of text (or several, parted by \n) at an anchor. Returns the box of its ink.
+  Box text(const std::string& marked, Point anchor, const TextStyle& style);
+  /// The box `text` would take: its line height and advance, before rotation, anchor at (0, 0).
+  Box measure(const std::string& marked, const TextStyle& style) const;
+  /// The text shortened by '…' to at most `width`.
+  std::string shortened(const std::string& plain_text, double width, const TextStyle& style) const;
+
+  /// What `inside` draws is cut off at the box.
+  void clipped(const Box& box, const std::function<void()>& inside);
+
+  /// all texts drawn so far without their marks, in order
+  const std::vector<std::string>& texts() const { return texts_; }
+  /// ink boxes of all texts drawn so far, in order
+  const std::vector<Box>& text_boxes() const { return text_boxes_; }
+
+ private:
+  void paint_path(Colour fill, const Stroke& stroke);
+
+  cairo_t* cairo_;
+  double width_, height_;
+  std::vector<std::string> texts_;
+  std::vector<Box> text_boxes_;
+};
+
+using DrawOn = std::function<void(Canvas&)>;
+
+/// Draws over a picture; the canvas unit is a pixel.
+void draw_over(Image& image, const DrawOn& draw);
+
+/// A picture of width x height units at `pixels_per_unit`, on a background.
+Image draw_picture(double width, double height, double pixels_per_unit, Colour background,
+                   const DrawOn& draw);
+
+/// An SVG of width x height points. Letters become outlines, so that it looks the same on every
+/// machine; `title` and all texts stand in its <title> and <desc> for search and screen readers.
+std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw);
+
+/// The same drawing as `<stem>.png` (at `dpi`) and `<stem>.svg`, each whole or absent.
+/// Errors: Fault::io naming the path.
+Result<void> write_figure(const std::filesystem::path& stem, double width_pt, double height_pt,
+                          const std::string& title, const DrawOn& draw, double dpi = 300);
+
+}  // namespace gridshell::render

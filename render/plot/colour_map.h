@@ -1,0 +1,44 @@
+// Quantities to colours. Both maps are made in Oklab, where equal steps look equal
+// [Ottosson 2020].
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "render/image/image.h"
+
+namespace gridshell::render {
+
+/// Lightness and two opponent axes (green-red, blue-yellow).
+struct Oklab {
+  double L = 0, a = 0, b = 0;
+};
+Oklab to_oklab(Colour colour);
+/// Components outside of sRGB are clipped.
+Colour to_colour(Oklab lab, float alpha = 1);
+
+/// Blue - white - red over t in [-1, 1] (clipped): from the neutral middle two straight lines of
+/// equal length and equal lightness, so that equal |t| looks equally strong.
+Colour diverging(double t);
+
+/// Dark violet - blue - green - yellow over t in [0, 1] (clipped), lightness growing evenly: the
+/// nine knots of matplotlib's viridis (CC0), joined in Oklab.
+Colour sequential(double t);
+
+enum class ColourMap { diverging, sequential };
+
+/// What a value looks like: `low` … `high` over the whole map; beyond it the end colours, for an
+/// unknown value grey.
+struct ColourScale {
+  ColourMap map = ColourMap::diverging;
+  double low = -1, high = 1;
+
+  Colour operator()(double value) const;
+};
+
+/// The diverging scale, symmetric about zero, that suits `values`: its end is the `quantile` of
+/// their sizes, rounded up to a nice number, so that a few extreme cells do not pale the rest. Not
+/// finite values are ignored; without any, or all zero, the end is 1.
+ColourScale symmetric_scale(std::vector<double> values, double quantile = 0.99);
+
+}  // namespace gridshell::render

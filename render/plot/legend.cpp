@@ -1,0 +1,107 @@
+#include "render/plot/legend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/plot/ticks.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
+
+double bar_thickness(double font_size) { return 0.9 * font_size; }
+double tick_length(double font_size) { return 0.3 * font_size; }
+
+std::vector<Tick> bar_ticks(const ColourScale& scale, double height, double font_size) {
+  const int count = std::clamp(int(height / (2.2 * font_size)), 2, 6);
+  return linear_ticks(scale.low, scale.high, count);
+}
+
+double widest_label(const Canvas& canvas, const std::vector<Tick>& ticks, const TextStyle& style) {
+  double width = 0;
+  for (const Tick& tick : ticks)
+    if (tick.major) width = std::max(width, canvas.measure(tick.label, style).width);
+  return width;
+}
+
+// the colours as thin rectangles; each overlaps the next so that no seam shows
+void draw_colours(Canvas& canvas, const Box& bar, const ColourScale& scale) {
+  const int steps = 128;
+  for (int k = 0; k < steps; ++k) {
+    const double value = scale.high + (scale.low - scale.high) * (k + 0.5) / steps;
+    const double y = bar.y + bar.height * k / steps;
+    const double height = std::min(bar.height * 1.5 / steps, bar.bottom() - y);
+    canvas.rectangle({bar.x, y, bar.width, height}, scale(value));
+  }
+}
+
+}  // namespace
+
+double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_size) {
+  const TextStyle style{.size = font_size};
+  const double ticks = widest_label(canvas, bar_ticks(bar.scale, 8 * font_size, font_size), style);
+  const double with_ticks =
+      bar_thickness(font_size) + tick_length(font_size) + 0.25 * font_size + ticks;
+  return std::max(with_ticks, canvas.measure(bar.label, style).width) + 0.2 * font_size;
+}
+
+void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size) {
+  const TextStyle style{.size = font_size};
+  const double line = canvas.measure("0", style).height;
+  canvas.text(bar.label, {box.x, box.y}, {.size = font_size, .align_y = AlignY::top});
+
+  // room for the label, half a line for the outermost ticks' labels, and the points
+  const double point = 0.7 * bar_thickness(font_size);
+  const double top = box.y + 1.25 * line + std::max(line / 2, bar.beyond_high ? point : 0);
+  const double bottom = box.bottom() - std::max(line / 2, bar.beyond_low ? point : 0);
+  const Box body{box.x, top, bar_thickness(font_size), bottom - top};
+  if (body.height < line) return;
+
+  draw_colours(canvas, body, bar.scale);
+  std::vector<Point> rim = {{body.x, body.y}};
+  const double middle = body.middle().x;
+  if (bar.beyond_high) {
+    canvas.polygon({{body.x, body.y}, {middle, body.y - point}, {body.right(), body.y}},
+                   bar.scale(bar.scale.high));
+    rim.push_back({middle, body.y - point});
+  }
+  rim.insert(rim.end(), {{body.right(), body.y}, {body.right(), body.bottom()}});
+  if (bar.beyond_low) {
+    canvas.polygon(
+        {{body.x, body.bottom()}, {middle, body.bottom() + point}, {body.right(), body.bottom()}},
+        bar.scale(bar.scale.low));
+    rim.push_back({middle, body.bottom() + point});
+  }
+  rim.push_back({body.x, body.bottom()});
+  canvas.polyline(rim, {ink, font_size / 14, {}}, true);
+
+  for (const Tick& tick : bar_ticks(bar.scale, body.height, font_size)) {
+    if (!tick.major) continue;
+    const double t = (tick.value - bar.scale.low) / (bar.scale.high - bar.scale.low);
+    const double y = body.bottom() - t * body.height, x = body.right();
+    canvas.line({x, y}, {x + tick_length(font_size), y}, {ink, font_size / 14, {}});
+    canvas.text(tick.label, {x + tick_length(font_size) + 0.25 * font_size, y},
+                {.size = font_size, .align_y = AlignY::middle});
+  }
+}
+
+bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
+                    double font_size) {
+  const double length = length_mm * units_per_mm, thickness = 0.22 * font_size;
+  const std::string label =
+      (length_mm == std::round(length_mm) ? fixed(length_mm, 0) : scientific(length_mm, 2)) + " mm";
+  const TextStyle style{.size = font_size, .align_x = AlignX::centre, .align_y = AlignY::bottom};
+  const Box text = canvas.measure(label, style);
+  if (!(length > 0) || std::max(length, text.width) > box.width ||
+      text.height + 2 * thickness > box.height)
+    return false;
+  const double x = box.middle().x, y = box.bottom() - thickness;
+  canvas.rectangle({x - length / 2, y, length, thickness}, ink);
+  canvas.text(label, {x, y - thickness}, style);
+  return true;
+}
+
+}  // namespace gridshell::render

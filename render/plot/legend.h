@@ -1,0 +1,30 @@
+// What a picture needs to be read: a colour bar, a scale bar.
+#pragma once
+
+#include <string>
+
+#include "render/plot/canvas.h"
+#include "render/plot/colour_map.h"
+
+namespace gridshell::render {
+
+/// A colour bar: the quantity's name and unit above, ticks beside it.
+struct ColourBar {
+  std::string label;  ///< marked text with the unit: "*K*_{□} (rad)"
+  ColourScale scale;
+  bool beyond_low = false,
+       beyond_high = false;  ///< values beyond the scale occur: pointed ends say so
+};
+
+/// The width that a vertical bar with its labels takes at this font size.
+double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_size);
+
+/// Draws a vertical colour bar into `box`, everything within.
+void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size);
+
+/// A bar `length_mm` long with its length above, centred in `box`; nothing where it does not fit.
+/// Returns whether it was drawn.
+bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
+                    double font_size);
+
+}  // namespace gridshell::render

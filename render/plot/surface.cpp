@@ -1,0 +1,128 @@
+// What a Canvas ends as.
+#include <cairo-svg.h>
+#include <cairo.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/atomic_file.h"
+#include "render/image/png.h"
+#include "render/plot/canvas.h"
+#include "render/plot/pixels.h"
+
+namespace gridshell::render {
+namespace {
+
+struct Free {
+  void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
+  void operator()(cairo_t* c) const { cairo_destroy(c); }
+};
+using Surface = std::unique_ptr<cairo_surface_t, Free>;
+using Cairo = std::unique_ptr<cairo_t, Free>;
+
+cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) {
+  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+std::string escaped(const std::string& text) {
+  std::string xml;
+  for (char c : text) {
+    if (c == '&')
+      xml += "&amp;";
+    else if (c == '<')
+      xml += "&lt;";
+    else if (c == '>')
+      xml += "&gt;";
+    else
+      xml += c;
+  }
+  return xml;
+}
+
+}  // namespace
+
+void premultiply(const std::uint8_t* from, unsigned char* to, int pixels) {
+  for (int k = 0; k < pixels; ++k, from += 4, to += 4) {
+    const int a = from[3];
+    for (int c = 0; c < 3; ++c)
+      to[2 - c] = static_cast<unsigned char>(a == 255 ? from[c] : (from[c] * a + 127) / 255);
+    to[3] = from[3];
+  }
+}
+
+void unpremultiply(const unsigned char* from, std::uint8_t* to, int pixels) {
+  for (int k = 0; k < pixels; ++k, from += 4, to += 4) {
+    const int a = from[3];
+    for (int c = 0; c < 3; ++c)
+      to[c] = static_cast<std::uint8_t>(
+          a == 255 ? from[2 - c] : (a == 0 ? 0 : std::min(255, (from[2 - c] * 255 + a / 2) / a)));
+    to[3] = from[3];
+  }
+}
+
+void draw_over(Image& image, const DrawOn& draw) {
+  // Cairo draws in a copy of its own pixel order
+  std::vector<unsigned char> pixels(image.rgba.size());
+  const int count = image.width * image.height;
+  premultiply(image.rgba.data(), pixels.data(), count);
+  {
+    Surface surface(cairo_image_surface_create_for_data(
+        pixels.data(), CAIRO_FORMAT_ARGB32, image.width, image.height, 4 * image.width));
+    Cairo cairo(cairo_create(surface.get()));
+    Canvas canvas(cairo.get(), image.width, image.height);
+    draw(canvas);
+    cairo_surface_flush(surface.get());
+  }
+  unpremultiply(pixels.data(), image.rgba.data(), count);
+}
+
+Image draw_picture(double width, double height, double pixels_per_unit, Colour background,
+                   const DrawOn& draw) {
+  Image image(std::max(1, int(std::lround(width * pixels_per_unit))),
+              std::max(1, int(std::lround(height * pixels_per_unit))));
+  Surface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height));
+  Cairo cairo(cairo_create(surface.get()));
+  cairo_set_source_rgba(cairo.get(), background.r, background.g, background.b, background.a);
+  cairo_paint(cairo.get());
+  cairo_scale(cairo.get(), pixels_per_unit, pixels_per_unit);
+  Canvas canvas(cairo.get(), width, height);
+  draw(canvas);
+  cairo_surface_flush(surface.get());
+  const unsigned char* data = cairo_image_surface_get_data(surface.get());
+  const int stride = cairo_image_surface_get_stride(surface.get());
+  for (int y = 0; y < image.height; ++y)
+    unpremultiply(data + std::size_t(y) * stride, image.pixel(0, y), image.width);
+  return image;
+}
+
+std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw) {
+  std::string svg, description;
+  {
+    Surface surface(cairo_svg_surface_create_for_stream(append, &svg, width, height));
+    Cairo cairo(cairo_create(surface.get()));
+    Canvas canvas(cairo.get(), width, height);
+    canvas.rectangle({0, 0, width, height}, {1, 1, 1, 1});
+    draw(canvas);
+    for (const std::string& text : canvas.texts())
+      description += (description.empty() ? "" : "\n") + text;
+    cairo_surface_finish(surface.get());
+  }
+  const std::size_t root = svg.find("<svg"), end = svg.find('>', root);
+  if (root != std::string::npos && end != std::string::npos)
+    svg.insert(end + 1, "\n<title>" + escaped(title) + "</title>\n<desc>" + escaped(description) +
+                            "</desc>");
+  return svg;
+}
+
+Result<void> write_figure(const std::filesystem::path& stem, double width_pt, double height_pt,
+                          const std::string& title, const DrawOn& draw, double dpi) {
+  std::filesystem::path png = stem, svg = stem;
+  png += ".png";
+  svg += ".svg";
+  const Image image = draw_picture(width_pt, height_pt, dpi / 72, {1, 1, 1, 1}, draw);
+  if (auto written = write_png(image, png); !written) return written;
+  return write_atomically(svg, draw_svg(width_pt, height_pt, title, draw));
+}
+
+}  // namespace gridshell::render
