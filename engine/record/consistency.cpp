@@ -8,8 +8,8 @@ namespace {
 /// "rod 3 names node 99 of 50"
 tl::unexpected<Error> out_of_range(const char* owner, std::size_t at, const char* kind, int index,
                                    Eigen::Index count) {
-  return fail(Fault::bad_input, fmt::format("{} {} names {} {} of {}", owner, at, kind, index,
-                                            count));
+  return fail(Fault::bad_input,
+              fmt::format("{} {} names {} {} of {}", owner, at, kind, index, count));
 }
 
 bool outside(int index, Eigen::Index count) { return index < 0 || index >= count; }

@@ -1,4 +1,5 @@
-// Whether the parts of a trajectory fit each other, so that whoever reads one may trust its indices.
+// Whether the parts of a trajectory fit each other, so that whoever reads one may trust its
+// indices.
 #pragma once
 
 #include "engine/core/result.h"

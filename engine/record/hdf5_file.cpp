@@ -6,16 +6,9 @@
 namespace gridshell::record::hdf5 {
 namespace {
 
-/// H5Ewalk2 callback: keeps the innermost description, and the system's own words where it has them
+/// H5Ewalk2 callback: keeps the innermost description
 herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* out) {
-  if (depth != 0 || !error->desc) return 0;
-  std::string text = error->desc;
-  const std::string mark = "error message = '";
-  if (const auto at = text.find(mark); at != std::string::npos) {
-    text.erase(0, at + mark.size());
-    text.erase(text.find('\''));
-  }
-  *static_cast<std::string*>(out) = text;
+  if (depth == 0 && error->desc) *static_cast<std::string*>(out) = error->desc;
   return 0;
 }
 
@@ -74,14 +67,17 @@ bool File::check(hid_t result, const std::string& at) {
   return result >= 0;
 }
 
-Writer::Writer(const std::string& path) {
+Writer::Writer(const std::string& name, std::size_t expected_bytes) {
   // times of making would make equal runs differ
   no_times_ = Handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(no_times_, false);
   no_group_times_ = Handle(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
   H5Pset_obj_track_times(no_group_times_, false);
-  file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-  if (file_ < 0) fail_because(innermost_reason());
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access, expected_bytes + 65536, false);
+  // kept in memory: no file of this name is touched
+  file_ = Handle(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  check(file_, "file");
 }
 
 void Writer::group(const std::string& name) {
@@ -106,9 +102,9 @@ void Writer::dataset(const std::string& name, hid_t type, const Dims& dims, cons
   const Handle packed(H5Tcopy(type), H5Tclose);
   if (H5Tget_class(packed) == H5T_COMPOUND) H5Tpack(packed);
   const Handle space = space_of(dims);
-  const Handle made(H5Dcreate2(file_, name.c_str(), packed, space, H5P_DEFAULT, no_times_,
-                               H5P_DEFAULT),
-                    H5Dclose);
+  const Handle made(
+      H5Dcreate2(file_, name.c_str(), packed, space, H5P_DEFAULT, no_times_, H5P_DEFAULT),
+      H5Dclose);
   if (!check(made, name)) return;
   if (data && !check(H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name)) return;
   if (*unit) attribute(name, "unit", std::string(unit));
@@ -134,15 +130,22 @@ void Writer::lists(const std::string& name, const Lists& values) {
   dataset(name, list_type(), {pointers.size()}, pointers.data(), "1");
 }
 
-bool Writer::close() {
-  if (good()) check(H5Fflush(file_, H5F_SCOPE_LOCAL), "flush");
-  if (!file_.close()) fail_at("close");
-  return good();
+std::string Writer::bytes() {
+  if (!good() || !check(H5Fflush(file_, H5F_SCOPE_LOCAL), "file")) return {};
+  const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
+  if (!check(size, "file")) return {};
+  std::string image(size, '\0');
+  return check(H5Fget_file_image(file_, image.data(), image.size()), "file") ? image : "";
+}
+
+bool is_hdf5(const std::string& path) {
+  const Quiet quiet;
+  return H5Fis_hdf5(path.c_str()) > 0;
 }
 
 Reader::Reader(const std::string& path) {
   file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (file_ < 0) fail_because(innermost_reason());
+  check(file_, "file");
 }
 
 Dims Reader::dims(const std::string& name, std::size_t rank) {

@@ -18,7 +18,9 @@ class Handle {
   using Close = herr_t (*)(hid_t);
   Handle() = default;
   Handle(hid_t id, Close close) : id_(id), close_(close) {}
-  ~Handle() { close(); }
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
   Handle(Handle&& other) noexcept { *this = std::move(other); }
   Handle& operator=(Handle&& other) noexcept {
     std::swap(id_, other.id_);
@@ -26,13 +28,6 @@ class Handle {
     return *this;
   }
   operator hid_t() const { return id_; }
-
-  /// false when the library could not close it: what it still held may be lost
-  bool close() {
-    const bool good = id_ < 0 || close_(id_) >= 0;
-    id_ = -1;
-    return good;
-  }
 
  private:
   hid_t id_ = -1;
@@ -52,8 +47,9 @@ class Quiet {
   void* data_ = nullptr;
 };
 
+/// extents of a dataset, the slowest first
 using Dims = std::vector<hsize_t>;
-/// frames x points x 3 and the like: how a Matrix3Xd lies in a file
+/// lists of unequal length
 using Lists = std::vector<std::vector<int>>;
 
 /// What writer and reader share: the open file and the first failure.
@@ -77,10 +73,13 @@ class File {
   std::string reason_;
 };
 
-/// Makes a file. Every call after a failure does nothing.
+/// Makes a file in memory: on a full disk the library (1.10) loses track of what it holds and may
+/// crash, so its bytes go to the disk by write_atomically. Every call after a failure does nothing.
 class Writer : public File {
  public:
-  explicit Writer(const std::string& path);
+  /// `name` tells apart the files that threads make at a time; `expected_bytes` are reserved at
+  /// once
+  Writer(const std::string& name, std::size_t expected_bytes);
   void group(const std::string& name);
   void attribute(const std::string& object, const char* name, double value);
   void attribute(const std::string& object, const char* name, const std::string& value);
@@ -91,12 +90,15 @@ class Writer : public File {
   void write_slice(const std::string& name, hid_t type, hsize_t k, const void* data);
   void strings(const std::string& name, const std::vector<std::string>& values);
   void lists(const std::string& name, const Lists& values);
-  /// Flushes and closes; false when anything failed, now or before.
-  bool close();
+  /// the whole file; empty when anything failed, now or before
+  std::string bytes();
 
  private:
   Handle no_times_, no_group_times_;
 };
+
+/// Whether a file begins like an HDF5 file.
+bool is_hdf5(const std::string& path);
 
 /// Reads a file. Every call after a failure does nothing and returns empty values.
 class Reader : public File {

@@ -61,8 +61,10 @@ bool take(const Json& json, std::string& value, const char*& expected) {
 }
 bool take(const Json& json, int& value, const char*& expected) {
   expected = "a whole number";
-  if (json.is_number_integer()) value = json.get<int>();
-  return json.is_number_integer();
+  if (!json.is_number_integer()) return false;
+  const auto number = json.get<long long>();
+  value = static_cast<int>(number);
+  return value == number;
 }
 bool take(const Json& json, bool& value, const char*& expected) {
   expected = "true or false";

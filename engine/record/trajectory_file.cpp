@@ -62,9 +62,8 @@ void write_layout(hdf5::Writer& file, const Layout& layout) {
   boundary("/layout/actuated_boundary", layout.actuated_boundary);
 }
 
-void write_column(hdf5::Writer& file, const std::string& name, const char* unit,
+void write_column(hdf5::Writer& file, const std::string& name, const char*,
                   const std::vector<std::string>& values) {
-  (void)unit;
   file.strings(name, values);
 }
 template <class T>
@@ -130,8 +129,8 @@ void read_column(hdf5::Reader& file, const FrameColumn& column, std::vector<Fram
         else
           values = file.vector<T>(name, memory_type(T{}));
         if (values.size() != frames.size())
-          file.fail_because(fmt::format("{} has {} values for {} frames", name, values.size(),
-                                        frames.size()));
+          file.fail_because(
+              fmt::format("{} has {} values for {} frames", name, values.size(), frames.size()));
         if (!file.good()) return;
         for (std::size_t k = 0; k < frames.size(); ++k) frames[k].*field = std::move(values[k]);
       },
@@ -161,14 +160,17 @@ std::vector<Frame> read_frames(hdf5::Reader& file) {
 
 Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
   if (auto fits = check_consistency(trajectory); !fits) return fits;
-  AtomicFile target(path);
-  hdf5::Writer file(target.temporary().string());
-  if (file.good()) file.attribute("/", "format", format_name);
+  std::size_t expected = 0;
+  for (const Frame& frame : trajectory.frames)
+    expected += sizeof(double) * (frame.nodes.size() + frame.cell_K.size());
+  hdf5::Writer file(path.string(), expected);
+  file.attribute("/", "format", format_name);
   write_layout(file, trajectory.layout);
   write_frames(file, trajectory.frames, trajectory.layout.cells.size());
-  if (!file.close())
+  const std::string bytes = file.bytes();
+  if (!file.good())
     return fail(Fault::io, fmt::format("cannot write '{}': {}", path.string(), file.reason()));
-  return target.commit();
+  return write_atomically(path, bytes);
 }
 
 Result<Trajectory> read_trajectory(const std::filesystem::path& path) {
@@ -179,8 +181,10 @@ Result<Trajectory> read_trajectory(const std::filesystem::path& path) {
   // an ordinary open tells a file that is missing from one that is foreign
   if (const auto opens = check_readable(path); !opens) return tl::unexpected(opens.error());
   try {
+    if (!hdf5::is_hdf5(path.string())) return refuse("it is not an HDF5 file");
     hdf5::Reader file(path.string());
-    if (file.good() && file.text_attribute("/", "format") != format_name)
+    if (!file.good()) return refuse("it is cut short or damaged");
+    if (file.text_attribute("/", "format") != format_name)
       return refuse(fmt::format("it does not say \"{}\"", format_name));
     Trajectory trajectory;
     trajectory.layout = read_layout(file);

@@ -1,0 +1,80 @@
+// A small trajectory with every field set to something of its own.
+#pragma once
+
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "engine/record/snapshot.h"
+#include "engine/record/summary.h"
+
+namespace gridshell::record {
+
+inline Trajectory sample_trajectory() {
+  Trajectory run;
+  Layout& layout = run.layout;
+  layout.spacing_mm = 20;
+  layout.rod_diameter_mm = 0.254;
+  layout.length_scale_mm = 126;
+  // four crossings of two rods each way, edge points 4 ... 11
+  layout.rods = {{4, 0, 1, 5}, {6, 3, 2, 7}, {8, 0, 3, 9}, {10, 1, 2, 11}};
+  layout.joints = {
+      {-1, -1, -10, -10, 0}, {0, -1, 10, -10, 1}, {0, 0, 10, 10, 2}, {-1, 0, -10, 10, 3}};
+  layout.cells = {{-1, -1, 0, 0, {0, 1, 2, 3}}};
+  layout.edge_points = {4, 5, 6, 7, 8, 9, 10, 11};
+  layout.original_boundary = Eigen::Matrix3Xd::Random(3, 5);
+  layout.actuated_boundary = Eigen::Matrix3Xd::Random(3, 5);
+  for (int k = 0; k < 3; ++k) {
+    Frame frame;
+    frame.index = k;
+    frame.progress = k / 3.0;
+    frame.boundary_radius_mm = 126 - 0.1 * k;
+    frame.energy_bend_mJ = 1e-300 * k;
+    frame.energy_stretch_mJ = 0.1 + 0.2 * k;
+    frame.energy_twist_mJ = -0.0;
+    frame.height_mm = 1.0 / 7 * k;
+    frame.total_K = M_PI * k;
+    frame.residual_N = 5e-324;
+    frame.negative_pivots = k;
+    frame.error_estimate_mm = k == 1 ? unknown : 1e-3;
+    frame.newton_iterations = 7 * k;
+    frame.event = k == 2 ? "snap, \"fast\" \xC3\xA9" : "";
+    frame.actuation = k / 7.0;
+    frame.nodes = Eigen::Matrix3Xd::Random(3, 12) * 100;
+    frame.cell_K = Eigen::VectorXd::Constant(1, 0.01 * k);
+    run.frames.push_back(frame);
+  }
+  // a NaN that carries bits of its own
+  run.frames[1].nodes(0, 0) = std::nan("42");
+  return run;
+}
+
+inline Summary sample_summary() {
+  Summary summary;
+  summary.preset = "s1_actuation";
+  summary.model = "bend";
+  summary.model_reason = "isotropic rods";
+  summary.edges_per_segment = 4;
+  summary.rods = 24, summary.joints = 120, summary.cells = 97, summary.dof = 2736;
+  summary.stable = true;
+  summary.limit = Limit::snap;
+  summary.limit_reason = "a branch was lost at R_a = 97.1 mm";
+  summary.residual_N = 1.0 / 3e9;
+  summary.energy_bend_mJ = 39.979;
+  summary.height_mm = 0.1;
+  summary.total_K = 6.01157;
+  summary.max_deviation = 0.031029;
+  summary.newton_iterations = 12, summary.factorizations = 13;
+  summary.seconds_setup = 0.25;
+  return summary;
+}
+
+inline bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+template <class Matrix>
+bool same_bits(const Matrix& a, const Matrix& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() &&
+         std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
+}
+
+}  // namespace gridshell::record

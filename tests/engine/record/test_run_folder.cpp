@@ -1,0 +1,184 @@
+#include <catch2/catch.hpp>
+#include <clocale>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/run_folder.h"
+#include "engine/record/summary_file.h"
+#include "engine/record/trajectory_file.h"
+#include "tests/engine/record/sample_run.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::record;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// text before `key` replaced in summary.json, as read back
+std::string refusal(const std::string& from, const std::string& to) {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "summary.json";
+  std::string text = to_json(sample_summary());
+  REQUIRE(text.find(from) != std::string::npos);
+  text.replace(text.find(from), from.size(), to);
+  REQUIRE(write_atomically(path, text));
+  const auto read = read_summary(path);
+  REQUIRE_FALSE(read);
+  CHECK(read.error().fault == Fault::bad_input);
+  const std::string start = "'" + path.string() + "' is no summary of a run: ";
+  CHECK(read.error().message.substr(0, start.size()) == start);
+  return read.error().message.substr(start.size());
+}
+
+}  // namespace
+
+TEST_CASE("summary.json has the keys of a run in order, and null for what is unknown") {
+  const auto json = nlohmann::ordered_json::parse(to_json(sample_summary()));
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  CHECK(keys == std::vector<std::string>{"preset",
+                                         "model",
+                                         "model_reason",
+                                         "edges_per_segment",
+                                         "rods",
+                                         "joints",
+                                         "cells",
+                                         "dof",
+                                         "stable",
+                                         "negative_pivots",
+                                         "limit",
+                                         "limit_reason",
+                                         "residual_N",
+                                         "error_estimate_mm",
+                                         "energy_bend_mJ",
+                                         "energy_stretch_mJ",
+                                         "energy_twist_mJ",
+                                         "height_mm",
+                                         "total_K",
+                                         "max_deviation",
+                                         "mean_deviation",
+                                         "newton_iterations",
+                                         "factorizations",
+                                         "seconds_setup",
+                                         "seconds_simulation",
+                                         "seconds_render"});
+  CHECK(json["error_estimate_mm"].is_null());
+  CHECK(json["mean_deviation"].is_null());
+  CHECK(json["max_deviation"] == 0.031029);
+  CHECK(json["limit"] == "snap");
+  CHECK(json["stable"] == true);
+}
+
+TEST_CASE("a summary reads back as it was") {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "summary.json";
+  const Summary summary = sample_summary();
+  REQUIRE(write_summary(path, summary));
+  const auto back = read_summary(path);
+  REQUIRE(back);
+  CHECK(to_json(*back) == to_json(summary));
+  CHECK(same_bits(back->residual_N, summary.residual_N));
+  CHECK(std::isnan(back->error_estimate_mm));
+  CHECK(back->limit == Limit::snap);
+  for (const Limit limit :
+       {Limit::none, Limit::locking, Limit::branch_lost, Limit::no_equilibrium}) {
+    Summary other = summary;
+    other.limit = limit;
+    REQUIRE(write_summary(path, other));
+    CHECK(read_summary(path)->limit == limit);
+  }
+  CHECK(std::string(name_of(Limit::branch_lost)) == "branch_lost");
+}
+
+TEST_CASE("a summary that is none is refused by its key") {
+  CHECK(refusal("\"dof\": 2736,", "") == "has no \"dof\"");
+  CHECK(refusal("2736", "2736.5") == "\"dof\" is 2736.5, expected a whole number");
+  CHECK(refusal("2736", "99999999999") == "\"dof\" is 99999999999, expected a whole number");
+  CHECK(refusal("39.979", "\"much\"") ==
+        "\"energy_bend_mJ\" is \"much\", expected a number or null");
+  CHECK(refusal("\"snap\"", "\"crackle\"").substr(0, 37) ==
+        "\"limit\" is \"crackle\", expected one of");
+  CHECK(refusal("{", "[") == "not a JSON object");
+}
+
+TEST_CASE("CSV files have the columns that others read") {
+  const Trajectory run = sample_trajectory();
+  CHECK(first_line(joints_csv(run)) == "i,j,u_mm,v_mm,x_mm,y_mm,z_mm");
+  CHECK(first_line(cells_csv(run)) == "i,j,u_mm,v_mm,cx_mm,cy_mm,cz_mm,K");
+  CHECK(first_line(frames_csv(run)) ==
+        "frame,progress,boundary_radius_mm,depth_mm,force_N,energy_bend_mJ,energy_stretch_mJ,"
+        "energy_twist_mJ,height_mm,total_K,residual_N,negative_pivots,error_estimate_mm,"
+        "newton_iterations,event");
+}
+
+TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what is unknown") {
+  Trajectory run = sample_trajectory();
+  Eigen::Matrix3Xd& nodes = run.frames.back().nodes;
+  nodes.col(0) << 0.1, -1e-7, 1.0 / 3;
+  nodes.col(1) << 4, 0, 0;
+  nodes.col(2) << 0, 8, 0;
+  nodes.col(3) << 0, 0, 2;
+  nodes(0, 0) = unknown;
+  CHECK(joints_csv(run) ==
+        "i,j,u_mm,v_mm,x_mm,y_mm,z_mm\n"
+        "-1,-1,-10,-10,,-1e-07,0.3333333333333333\n"
+        "0,-1,10,-10,4,0,0\n"
+        "0,0,10,10,0,8,0\n"
+        "-1,0,-10,10,0,0,2\n");
+  nodes.col(0).setZero();
+  CHECK(cells_csv(run) ==
+        "i,j,u_mm,v_mm,cx_mm,cy_mm,cz_mm,K\n"
+        "-1,-1,0,0,1,2,0.5,0.02\n");
+  const std::string frames = frames_csv(run);
+  CHECK(frames.find("\n1,0.3333333333333333,125.9,,,1e-300,0.30000000000000004,-0,"
+                    "0.14285714285714285,3.141592653589793,5e-324,1,,7,\n") != std::string::npos);
+  CHECK(frames.substr(frames.size() - 30) == ",0.001,14,\"snap, \"\"fast\"\" \xC3\xA9\"\n");
+}
+
+TEST_CASE("numbers do not follow the locale") {
+  const std::string before = frames_csv(sample_trajectory()).substr(0, 200);
+  const std::string json = to_json(sample_summary());
+  const char* locale = std::setlocale(LC_ALL, "de_DE.UTF-8");
+  if (!locale) locale = std::setlocale(LC_ALL, "fr_FR.UTF-8");
+  CHECK(frames_csv(sample_trajectory()).substr(0, 200) == before);
+  CHECK(to_json(sample_summary()) == json);
+  std::setlocale(LC_ALL, "C");
+}
+
+TEST_CASE("a run's folder holds its five files and nothing else") {
+  TemporaryFolder folder;
+  const fs::path run = folder.path() / "out" / "s1_actuation";
+  REQUIRE(write_run(run, sample_trajectory(), sample_summary()));
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(run)) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  CHECK(names == std::vector<std::string>{"cells.csv", "frames.csv", "joints.csv", "summary.json",
+                                          "trajectory.h5"});
+  CHECK(read_summary(run / "summary.json"));
+  CHECK(read_trajectory(run / "trajectory.h5")->frames.size() == 3);
+}
+
+TEST_CASE("a run that cannot be written says where and why") {
+  TemporaryFolder folder;
+  const fs::path file = folder.path() / "file";
+  REQUIRE(write_atomically(file, "x"));
+  const auto in_file = write_run(file / "run", sample_trajectory(), sample_summary());
+  REQUIRE_FALSE(in_file);
+  CHECK(in_file.error().fault == Fault::io);
+  CHECK(in_file.error().message ==
+        "cannot make folder '" + (file / "run").string() + "': Not a directory");
+
+  // the disk fills up at the largest file: no summary claims that the run is there
+  const fs::path run = folder.path() / "run";
+  const FileSizeLimit full_disk(3000);
+  const auto full = write_run(run, sample_trajectory(), sample_summary());
+  REQUIRE_FALSE(full);
+  CHECK(full.error().message ==
+        "cannot write '" + (run / "trajectory.h5").string() + "': File too large");
+  CHECK_FALSE(fs::exists(run / "summary.json"));
+  CHECK_FALSE(fs::exists(run / "trajectory.h5"));
+}

@@ -1,0 +1,245 @@
+#include <hdf5.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <thread>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/frame_columns.h"
+#include "engine/record/trajectory_file.h"
+#include "tests/engine/record/sample_run.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::record;
+namespace fs = std::filesystem;
+
+namespace {
+
+void check_same_layout(const Layout& a, const Layout& b) {
+  CHECK(same_bits(a.spacing_mm, b.spacing_mm));
+  CHECK(same_bits(a.rod_diameter_mm, b.rod_diameter_mm));
+  CHECK(same_bits(a.length_scale_mm, b.length_scale_mm));
+  CHECK(a.rods == b.rods);
+  CHECK(a.edge_points == b.edge_points);
+  CHECK(same_bits(a.original_boundary, b.original_boundary));
+  CHECK(same_bits(a.actuated_boundary, b.actuated_boundary));
+  REQUIRE(a.joints.size() == b.joints.size());
+  for (std::size_t k = 0; k < a.joints.size(); ++k) {
+    const Joint &x = a.joints[k], &y = b.joints[k];
+    CHECK((x.i == y.i && x.j == y.j && x.node == y.node));
+    CHECK((same_bits(x.u_mm, y.u_mm) && same_bits(x.v_mm, y.v_mm)));
+  }
+  REQUIRE(a.cells.size() == b.cells.size());
+  for (std::size_t k = 0; k < a.cells.size(); ++k) {
+    const Cell &x = a.cells[k], &y = b.cells[k];
+    CHECK((x.i == y.i && x.j == y.j && x.joints == y.joints));
+    CHECK((same_bits(x.u_mm, y.u_mm) && same_bits(x.v_mm, y.v_mm)));
+  }
+}
+
+bool same(int a, int b) { return a == b; }
+bool same(double a, double b) { return same_bits(a, b); }
+bool same(const std::string& a, const std::string& b) { return a == b; }
+
+void check_same_frame(const Frame& a, const Frame& b) {
+  CHECK(same_bits(a.nodes, b.nodes));
+  CHECK(same_bits(a.cell_K, b.cell_K));
+  CHECK(same_bits(a.actuation, b.actuation));
+  for (const FrameColumn& column : frame_columns) {
+    INFO(column.name);
+    CHECK(std::visit([&](auto field) { return same(a.*field, b.*field); }, column.field));
+  }
+}
+
+/// the message with which a file of these bytes is refused
+std::string refusal(const std::string& bytes) {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "trajectory.h5";
+  REQUIRE(write_atomically(path, bytes));
+  const auto read = read_trajectory(path);
+  REQUIRE_FALSE(read);
+  CHECK(read.error().fault == Fault::bad_input);
+  const std::string start = "'" + path.string() + "' is no trajectory of a run: ";
+  CHECK(read.error().message.substr(0, start.size()) == start);
+  return read.error().message.substr(start.size());
+}
+
+std::string bytes_of(const Trajectory& run) {
+  TemporaryFolder folder;
+  REQUIRE(write_trajectory(folder.path() / "a.h5", run));
+  return read_whole(folder.path() / "a.h5").value();
+}
+
+}  // namespace
+
+TEST_CASE("a trajectory comes back bit for bit") {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "trajectory.h5";
+  const Trajectory run = sample_trajectory();
+  REQUIRE(write_trajectory(path, run));
+  CHECK(folder.entries() == std::vector<std::string>{"trajectory.h5"});
+  const auto back = read_trajectory(path);
+  REQUIRE(back);
+  check_same_layout(back->layout, run.layout);
+  REQUIRE(back->frames.size() == run.frames.size());
+  for (std::size_t k = 0; k < run.frames.size(); ++k)
+    check_same_frame(back->frames[k], run.frames[k]);
+}
+
+TEST_CASE("a trajectory without frames, joints or cells comes back too") {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "trajectory.h5";
+  Trajectory run;
+  run.layout.spacing_mm = 3;
+  REQUIRE(write_trajectory(path, run));
+  const auto back = read_trajectory(path);
+  REQUIRE(back);
+  check_same_layout(back->layout, run.layout);
+  CHECK(back->frames.empty());
+}
+
+TEST_CASE("equal trajectories give equal bytes") {
+  const Trajectory run = sample_trajectory();
+  CHECK(bytes_of(run) == bytes_of(run));
+}
+
+TEST_CASE("datasets bear their names, shapes and units") {
+  TemporaryFolder folder;
+  const std::string path = (folder.path() / "trajectory.h5").string();
+  REQUIRE(write_trajectory(path, sample_trajectory()));
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const auto unit = [&](const char* name) {
+    const hid_t attribute = H5Aopen_by_name(file, name, "unit", H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t type = H5Aget_type(attribute);
+    char text[16] = {};
+    H5Aread(attribute, type, text);
+    H5Tclose(type);
+    H5Aclose(attribute);
+    return std::string(text);
+  };
+  CHECK(unit("/nodes") == "mm");
+  CHECK(unit("/cell_K") == "rad");
+  CHECK(unit("/frames/force_N") == "N");
+  CHECK(unit("/frames/energy_bend_mJ") == "mJ");
+  CHECK(unit("/layout/original_boundary") == "mm");
+  for (const char* name : {"/rods", "/joints", "/cells", "/frames/event", "/frames/actuation"})
+    CHECK(H5Lexists(file, name, H5P_DEFAULT) > 0);
+  const hid_t nodes = H5Dopen2(file, "/nodes", H5P_DEFAULT), space = H5Dget_space(nodes);
+  hsize_t dims[3] = {};
+  REQUIRE(H5Sget_simple_extent_ndims(space) == 3);
+  H5Sget_simple_extent_dims(space, dims, nullptr);
+  CHECK((dims[0] == 3 && dims[1] == 12 && dims[2] == 3));
+  H5Sclose(space), H5Dclose(nodes), H5Fclose(file);
+}
+
+TEST_CASE("a file that is missing, foreign or cut short is refused in a sentence") {
+  const auto missing = read_trajectory("/nonexistent/trajectory.h5");
+  REQUIRE_FALSE(missing);
+  CHECK(missing.error().fault == Fault::io);
+  CHECK(missing.error().message ==
+        "cannot read '/nonexistent/trajectory.h5': No such file or directory");
+
+  CHECK(refusal("x,y\n1,2\n") == "it is not an HDF5 file");
+  CHECK(refusal("") == "it is not an HDF5 file");
+  const std::string whole = bytes_of(sample_trajectory());
+  for (const double part : {0.02, 0.3, 0.9})
+    CHECK(refusal(whole.substr(0, static_cast<std::size_t>(part * whole.size()))) ==
+          "it is cut short or damaged");
+}
+
+TEST_CASE("an HDF5 file of something else is refused") {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "other.h5";
+  H5Fclose(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  CHECK(refusal(read_whole(path).value()) == "it does not say \"gridshell trajectory 1\"");
+}
+
+TEST_CASE("a trajectory that lacks a dataset is refused by its name") {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.h5";
+  for (const std::string name : {"/rods", "/nodes", "/joints", "/cell_K", "/frames/event",
+                                 "/frames/actuation", "/layout/edge_points"}) {
+    REQUIRE(write_trajectory(path, sample_trajectory()));
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    H5Ldelete(file, name.c_str(), H5P_DEFAULT);
+    H5Fclose(file);
+    CHECK(refusal(read_whole(path).value()).substr(0, name.size() + 1) == name + ":");
+  }
+}
+
+TEST_CASE("parts that do not fit each other are neither written nor read") {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.h5";
+  Trajectory run = sample_trajectory();
+  run.layout.rods[3][1] = 99;
+  const auto written = write_trajectory(path, run);
+  REQUIRE_FALSE(written);
+  CHECK(written.error().message == "rod 3 names node 99 of 12");
+  CHECK(folder.entries().empty());
+
+  run = sample_trajectory();
+  run.frames[2].nodes.conservativeResize(3, 11);
+  CHECK(write_trajectory(path, run).error().message == "frame 2 has 11 nodes, the first one 12");
+  run = sample_trajectory();
+  run.layout.cells[0].joints[3] = -1;
+  CHECK(write_trajectory(path, run).error().message == "cell 0 names joint -1 of 4");
+  run = sample_trajectory();
+  run.frames[0].cell_K.resize(0);
+  CHECK(write_trajectory(path, run).error().message ==
+        "frame 0 has 0 values of cell_K for 1 cells");
+  run = sample_trajectory();
+  run.layout.actuated_boundary.resize(3, 4);
+  CHECK(write_trajectory(path, run).error().message ==
+        "the original boundary has 5 points, the actuated one 4");
+
+  // a file whose index was changed after writing
+  REQUIRE(write_trajectory(path, sample_trajectory()));
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t set = H5Dopen2(file, "/layout/edge_points", H5P_DEFAULT);
+  const int nodes[8] = {4, 5, 6, 7, 8, 9, 10, 1234};
+  H5Dwrite(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, nodes);
+  H5Dclose(set), H5Fclose(file);
+  CHECK(refusal(read_whole(path).value()) == "edge point 7 names node 1234 of 12");
+}
+
+TEST_CASE("a trajectory that cannot be written says why and leaves the old one") {
+  TemporaryFolder folder;
+  const fs::path missing = folder.path() / "none" / "trajectory.h5";
+  const auto nowhere = write_trajectory(missing, sample_trajectory());
+  REQUIRE_FALSE(nowhere);
+  CHECK(nowhere.error().fault == Fault::io);
+  CHECK(nowhere.error().message ==
+        "cannot write '" + missing.string() + "': No such file or directory");
+
+  const fs::path path = folder.path() / "trajectory.h5";
+  REQUIRE(write_trajectory(path, sample_trajectory()));
+  const std::string before = read_whole(path).value();
+  Trajectory large = sample_trajectory();
+  for (Frame& frame : large.frames) frame.nodes = Eigen::Matrix3Xd::Zero(3, 10000);
+  for (const rlim_t limit : {100, 3000, 100000, 700000}) {
+    INFO(limit);
+    const FileSizeLimit full_disk(limit);
+    const auto written = write_trajectory(path, large);
+    REQUIRE_FALSE(written);
+    CHECK(written.error().message == "cannot write '" + path.string() + "': File too large");
+  }
+  CHECK(read_whole(path).value() == before);
+  CHECK(folder.entries() == std::vector<std::string>{"trajectory.h5"});
+  // and the library is fit for the next run
+  CHECK(write_trajectory(path, large));
+  CHECK(read_trajectory(path));
+}
+
+TEST_CASE("threads write their trajectories at a time") {
+  TemporaryFolder folder;
+  std::vector<std::thread> threads;
+  for (int k = 0; k < 4; ++k)
+    threads.emplace_back([&, k] {
+      for (int again = 0; again < 20; ++again)
+        (void)write_trajectory(folder.path() / std::to_string(k), sample_trajectory());
+    });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(folder.entries() == std::vector<std::string>{"0", "1", "2", "3"});
+  for (const std::string& name : folder.entries()) CHECK(read_trajectory(folder.path() / name));
+}
