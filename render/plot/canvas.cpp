@@ -211,7 +211,7 @@ Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style
   cairo_move_to(cairo_, at.x, at.y);
   if (style.halo.a > 0) {
     pango_cairo_layout_path(cairo_, layout.get());
-    paint_path({0, 0, 0, 0}, {style.halo, style.size / 4, {}});
+    paint_path({0, 0, 0, 0}, {style.halo, style.size / 4});
     cairo_move_to(cairo_, at.x, at.y);
   }
   set_colour(cairo_, style.colour);

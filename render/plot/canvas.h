@@ -37,7 +37,7 @@ struct Box {
 struct Stroke {
   Colour colour{0, 0, 0, 1};
   double width = 1;
-  std::vector<double> dash;
+  std::vector<double> dash = {};
 };
 
 enum class AlignX { left, centre, right };
@@ -71,10 +71,10 @@ class Canvas {
 
   void polyline(const std::vector<Point>& points, const Stroke& stroke, bool closed = false);
   void line(Point a, Point b, const Stroke& stroke) { polyline({a, b}, stroke); }
-  void polygon(const std::vector<Point>& points, Colour fill, const Stroke& stroke = {{}, 0, {}});
-  void rectangle(const Box& box, Colour fill, const Stroke& stroke = {{}, 0, {}},
+  void polygon(const std::vector<Point>& points, Colour fill, const Stroke& stroke = {{}, 0});
+  void rectangle(const Box& box, Colour fill, const Stroke& stroke = {{}, 0},
                  double corner_radius = 0);
-  void circle(Point centre, double radius, Colour fill, const Stroke& stroke = {{}, 0, {}});
+  void circle(Point centre, double radius, Colour fill, const Stroke& stroke = {{}, 0});
   /// `size` is the width of the marker's ink
   void marker(Marker kind, Point at, double size, Colour fill, const Stroke& stroke);
   void picture(const Image& image, const Box& box);

@@ -76,13 +76,13 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
     rim.push_back({middle, body.bottom() + point});
   }
   rim.push_back({body.x, body.bottom()});
-  canvas.polyline(rim, {ink, font_size / 14, {}}, true);
+  canvas.polyline(rim, {ink, font_size / 14}, true);
 
   for (const Tick& tick : bar_ticks(bar.scale, body.height, font_size)) {
     if (!tick.major) continue;
     const double t = (tick.value - bar.scale.low) / (bar.scale.high - bar.scale.low);
     const double y = body.bottom() - t * body.height, x = body.right();
-    canvas.line({x, y}, {x + tick_length(font_size), y}, {ink, font_size / 14, {}});
+    canvas.line({x, y}, {x + tick_length(font_size), y}, {ink, font_size / 14});
     canvas.text(tick.label, {x + tick_length(font_size) + 0.25 * font_size, y},
                 {.size = font_size, .align_y = AlignY::middle});
   }

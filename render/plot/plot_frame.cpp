@@ -1,0 +1,164 @@
+#include "render/plot/plot_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gridshell::render {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
+
+struct Range {
+  double low = infinity, high = -infinity;
+  void add(double value, bool logarithmic) {
+    if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+Range data_range(const Plot& plot, bool of_x) {
+  const bool logarithmic = of_x ? plot.x.logarithmic : plot.y.logarithmic;
+  Range range;
+  for (const Series& s : plot.series) {
+    const auto& values = of_x ? s.x : s.y;
+    const auto& errors = of_x ? s.x_error : s.y_error;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double bar = s.kind == SeriesKind::bars && of_x ? s.bar_width / 2 : 0;
+      const double error = k < errors.size() && std::isfinite(errors[k]) ? errors[k] : 0;
+      range.add(values[k] - std::max(error, bar), logarithmic);
+      range.add(values[k] + std::max(error, bar), logarithmic);
+      if (s.kind == SeriesKind::bars && !of_x) range.add(0, logarithmic);
+    }
+  }
+  for (const Band& band : plot.bands) {
+    for (double v : of_x ? band.x : band.low) range.add(v, logarithmic);
+    if (!of_x)
+      for (double v : band.high) range.add(v, logarithmic);
+  }
+  for (const ReferenceLine& line : plot.references)
+    if (line.horizontal != of_x) range.add(line.at, logarithmic);
+  for (const Note& note : plot.notes) range.add(of_x ? note.x : note.y, logarithmic);
+  return range;
+}
+
+// the range of an axis: given ends stand, others get 5 % of room
+PlotAxis choose_range(const Plot& plot, bool of_x) {
+  const Axis& axis = of_x ? plot.x : plot.y;
+  Range range = data_range(plot, of_x);
+  if (!(range.low <= range.high)) range = axis.logarithmic ? Range{1, 10} : Range{0, 1};
+  const auto warp = [&](double v) { return axis.logarithmic ? std::log10(v) : v; };
+  const auto unwarp = [&](double v) { return axis.logarithmic ? std::pow(10.0, v) : v; };
+  double low = warp(axis.low.value_or(range.low)), high = warp(axis.high.value_or(range.high));
+  if (!(high > low)) {
+    const double room = axis.logarithmic ? 0.5 : std::max(std::abs(low) * 0.5, 0.5);
+    if (!axis.low) low -= room;
+    high = std::max(low + room, high + (axis.high ? 0 : room));
+  }
+  const double room = 0.05 * (high - low);
+  const bool bars_stand_on_low =
+      !of_x && range.low == 0 &&
+      std::any_of(plot.series.begin(), plot.series.end(),
+                  [](const Series& s) { return s.kind == SeriesKind::bars; });
+  if (!axis.low && !bars_stand_on_low) low -= room;
+  if (!axis.high) high += room;
+  return {axis.low.value_or(unwarp(low)), axis.high.value_or(unwarp(high)), axis.logarithmic, 0, 1};
+}
+
+std::vector<Tick> ticks_of(const PlotAxis& axis, int count) {
+  return axis.logarithmic ? log_ticks(axis.low, axis.high, count)
+                          : linear_ticks(axis.low, axis.high, count);
+}
+
+double widest(const Canvas& canvas, const std::vector<Tick>& ticks, const TextStyle& style) {
+  double width = 0;
+  for (const Tick& tick : ticks)
+    if (tick.major) width = std::max(width, canvas.measure(tick.label, style).width);
+  return width;
+}
+
+// fewer ticks until the labels along x keep a distance
+std::vector<Tick> ticks_without_overlap(const Canvas& canvas, const PlotAxis& axis, int count,
+                                        const TextStyle& style) {
+  for (;; --count) {
+    std::vector<Tick> ticks = ticks_of(axis, count);
+    double end = -infinity;
+    bool overlap = false;
+    for (const Tick& tick : ticks) {
+      if (!tick.major) continue;
+      const double half = canvas.measure(tick.label, style).width / 2, at = axis.place(tick.value);
+      overlap |= at - half < end;
+      end = at + half + 0.6 * style.size;
+    }
+    if (!overlap || count <= 2) return ticks;
+  }
+}
+
+}  // namespace
+
+double PlotAxis::place(double value) const {
+  if (logarithmic && !(value > 0)) return std::numeric_limits<double>::quiet_NaN();
+  const double t =
+      logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+  return from + t * (to - from);
+}
+
+PlotFrame lay_out(const Canvas& canvas, const Box& box, const Plot& plot, double head) {
+  const TextStyle style{.size = plot.font_size};
+  const double line = canvas.measure("0", style).height, gap = 0.35 * plot.font_size;
+  PlotFrame frame{{}, choose_range(plot, true), choose_range(plot, false), {}, {}};
+
+  const double top = box.y + head + (plot.title.empty() ? line / 2 : 1.35 * line);
+  const double bottom = box.bottom() - line - gap - (plot.x.label.empty() ? 0 : 1.15 * line);
+  frame.y.from = bottom;
+  frame.y.to = top;
+  const int rows = std::max(2, int((bottom - top) / (1.8 * line)));
+  frame.y_ticks = ticks_of(frame.y, std::min(plot.y.ticks, rows));
+
+  const double left =
+      box.x + (plot.y.label.empty() ? 0 : 1.2 * line) + widest(canvas, frame.y_ticks, style) + gap;
+  // half of the last label may stand out to the right of the frame
+  const double right = box.right() - widest(canvas, ticks_of(frame.x, plot.x.ticks), style) / 2 - 1;
+  frame.x.from = left;
+  frame.x.to = right;
+  frame.x_ticks = ticks_without_overlap(canvas, frame.x, plot.x.ticks, style);
+  frame.inside = {left, top, right - left, bottom - top};
+  return frame;
+}
+
+void draw_axes(Canvas& canvas, const Box& box, const Plot& plot, const PlotFrame& frame) {
+  const Box& in = frame.inside;
+  const double size = plot.font_size, long_tick = 0.4 * size, short_tick = 0.22 * size;
+  const Stroke stroke{ink, size / 12};
+  canvas.rectangle(in, {0, 0, 0, 0}, stroke);
+  // ticks point inwards, on both sides
+  for (const Tick& tick : frame.x_ticks) {
+    const double x = frame.x.place(tick.value), length = tick.major ? long_tick : short_tick;
+    canvas.line({x, in.bottom()}, {x, in.bottom() - length}, stroke);
+    canvas.line({x, in.y}, {x, in.y + length}, stroke);
+    if (tick.major)
+      canvas.text(tick.label, {x, in.bottom() + 0.3 * size},
+                  {.size = size, .align_x = AlignX::centre, .align_y = AlignY::top});
+  }
+  for (const Tick& tick : frame.y_ticks) {
+    const double y = frame.y.place(tick.value), length = tick.major ? long_tick : short_tick;
+    canvas.line({in.x, y}, {in.x + length, y}, stroke);
+    canvas.line({in.right(), y}, {in.right() - length, y}, stroke);
+    if (tick.major)
+      canvas.text(tick.label, {in.x - 0.35 * size, y},
+                  {.size = size, .align_x = AlignX::right, .align_y = AlignY::middle});
+  }
+  if (!plot.x.label.empty())
+    canvas.text(plot.x.label, {in.middle().x, box.bottom() - 0.12 * size},
+                {.size = size, .align_x = AlignX::centre, .align_y = AlignY::bottom});
+  if (!plot.y.label.empty())
+    canvas.text(plot.y.label, {box.x + 0.12 * size, in.middle().y},
+                {.size = size, .align_x = AlignX::centre, .align_y = AlignY::top, .angle_deg = 90});
+  if (!plot.title.empty())
+    canvas.text(plot.title, {in.middle().x, box.y},
+                {.size = size, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::top});
+}
+
+}  // namespace gridshell::render
