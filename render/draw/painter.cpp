@@ -1,0 +1,240 @@
+#include "render/draw/painter.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <utility>
+
+#include "render/draw/camera.h"
+#include "render/draw/colour.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr double ground_from = 1.3, ground_to = 4.5;  // where it pales, in radii of the scene
+constexpr float penumbra_least = 0.9f;                // mm, where rod and ground touch
+constexpr float penumbra_growth = 0.06f;              // width over height of what casts the shadow
+constexpr float roof = 0.35f;         // of the sky's light that a closed roof takes from the ground
+constexpr float shell_blur_mm = 0.8f;  // radius of the shadow's edge on the shell
+
+Eigen::Vector3f linear(const Colour& c) { return to_linear(c).head<3>(); }
+
+/// The ground hides nothing when it is seen from below.
+bool ground_seen(const Shot& shot) {
+  const Camera& camera = shot.camera;
+  const Eigen::Vector3d forward = camera_axes(camera).forward;
+  const double eye_z = camera.target.z() - camera_distance(camera) * forward.z();
+  const bool above = camera.field_of_view_deg <= 0 ? forward.z() < 0
+                                                   : eye_z > shot.drawing.ground_z_mm;
+  return shot.drawing.ground && above;
+}
+
+}  // namespace
+
+Painter::Painter(const Gl& gl, Programs programs, ShadowMap shadow)
+    : gl_(&gl),
+      programs_(std::move(programs)),
+      shadow_(std::move(shadow)),
+      solids_(gl),
+      ghosts_(gl),
+      cells_(gl),
+      no_vertices_(gl),
+      layer_(gl, Target::Depth::plain),
+      sum_(gl, Target::Depth::none),
+      pixels_(gl, Target::Depth::none) {}
+
+Result<Painter> Painter::create(const Gl& gl) {
+  auto shadow = ShadowMap::create(gl);
+  if (!shadow) return tl::unexpected(shadow.error());
+  auto solid = Program::create(gl, {"solid.vert"}, {"light.glsl", "shadow.glsl", "solid.frag"});
+  if (!solid) return tl::unexpected(solid.error());
+  auto cell = Program::create(gl, {"solid.vert"}, {"light.glsl", "shadow.glsl", "cell.frag"});
+  if (!cell) return tl::unexpected(cell.error());
+  auto resolve = Program::create(gl, {"screen.vert"}, {"ground.glsl", "resolve.frag"});
+  if (!resolve) return tl::unexpected(resolve.error());
+  auto mean = Program::create(gl, {"screen.vert"}, {"mean.frag"});
+  if (!mean) return tl::unexpected(mean.error());
+  return Painter(
+      gl, {std::move(*solid), std::move(*cell), std::move(*resolve), std::move(*mean)},
+      std::move(*shadow));
+}
+
+void Painter::begin(const Shot& shot) {
+  solids_.upload(shot.scene.solids);
+  ghosts_.upload(shot.scene.ghosts);
+  cells_.upload(shot.scene.cells);
+  passes_ = lighting_passes(shot.camera, shot.quality.jittered_passes);
+  shadow_of_ = -1;
+}
+
+Result<void> Painter::paint(const Shot& shot, const Tile& tile, Image& image) {
+  const bool many = passes_.size() > 1;
+  if (many) {
+    if (auto bound = sum_.bind(tile.width, tile.height, GL_RGBA32F); !bound) return bound;
+    gl_->ClearColor(0, 0, 0, 0);
+    gl_->Clear(GL_COLOR_BUFFER_BIT);
+  }
+  for (int i = 0; i < int(passes_.size()); ++i) {
+    if (shot.quality.shadow && shadow_of_ != i) {
+      auto done = shadow_.render(shot.scene, solids_, cells_, passes_[i].direction,
+                                 shot.drawing.ground_z_mm);
+      if (!done) return done;
+      shadow_of_ = i;
+    }
+    if (auto done = paint_layer(shot, tile, passes_[i]); !done) return done;
+    Target& to = many ? sum_ : pixels_;
+    if (auto bound = to.bind(tile.width, tile.height, many ? GL_RGBA32F : GL_SRGB8_ALPHA8); !bound)
+      return bound;
+    resolve(shot, tile, passes_[i]);
+  }
+  if (many) {
+    if (auto bound = pixels_.bind(tile.width, tile.height, GL_SRGB8_ALPHA8); !bound) return bound;
+    programs_.mean.use();
+    programs_.mean.set("sum", 0);
+    programs_.mean.set("share", 1.f / float(passes_.size()));
+    gl_->ActiveTexture(GL_TEXTURE0);
+    gl_->BindTexture(GL_TEXTURE_2D, sum_.colour());
+    gl_->Disable(GL_BLEND);
+    screen_triangle();
+  }
+  gl_->ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl_->PixelStorei(GL_PACK_ROW_LENGTH, shot.width);
+  gl_->ReadPixels(0, 0, tile.width, tile.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                  image.pixel(tile.x, tile.y));
+  gl_->PixelStorei(GL_PACK_ROW_LENGTH, 0);
+  return {};
+}
+
+Eigen::Matrix4d Painter::matrix(const Shot& shot, const Tile& tile, const Lighting& light) const {
+  return crop(tile, shot.width, shot.height, light.pixel_shift / shot.quality.supersample) *
+         view_projection(shot.camera, double(shot.width) / shot.height, shot.scene.centre(),
+                         shot.scene.radius());
+}
+
+Result<void> Painter::paint_layer(const Shot& shot, const Tile& tile, const Lighting& light) {
+  // light of a single pass may be brighter than white
+  const GLenum format = passes_.size() > 1 ? GL_RGBA16F : GL_SRGB8_ALPHA8;
+  const int s = shot.quality.supersample;
+  if (auto bound = layer_.bind(s * tile.width, s * tile.height, format); !bound) return bound;
+  gl_->Disable(GL_SCISSOR_TEST);
+  gl_->Enable(GL_FRAMEBUFFER_SRGB);
+  gl_->Enable(GL_DEPTH_TEST);
+  gl_->DepthFunc(GL_LESS);
+  gl_->DepthMask(GL_TRUE);
+  gl_->Disable(GL_BLEND);
+  gl_->ClearColor(0, 0, 0, 0);
+  gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+
+  // the ground hides what dips below it
+  const bool dips = ground_seen(shot) && shot.scene.low.z() < shot.drawing.ground_z_mm;
+  if (dips) gl_->Enable(GL_CLIP_DISTANCE0);
+  draw_meshes(shot, light, matrix(shot, tile, light).cast<float>());
+  if (dips) gl_->Disable(GL_CLIP_DISTANCE0);
+  return {};
+}
+
+void Painter::set_light(const Program& program, const Shot& shot, const Lighting& light) const {
+  const Eigen::Vector3d forward = camera_axes(shot.camera).forward;
+  const bool orthographic = shot.camera.field_of_view_deg <= 0;
+  const Eigen::Vector3d eye = orthographic ? Eigen::Vector3d(-forward)
+                                           : Eigen::Vector3d(shot.camera.target -
+                                                             camera_distance(shot.camera) * forward);
+  Eigen::Vector4f eye_uniform;
+  eye_uniform << eye.cast<float>(), orthographic ? 0.f : 1.f;
+  const double nearest = forward.dot(shot.scene.centre()) - shot.scene.radius();
+  program.set("ground_z", float(shot.drawing.ground_z_mm));
+  program.set("light_direction", Eigen::Vector3f(light.direction.cast<float>()));
+  program.set("key", float(light.key));
+  program.set("sky", float(light.sky));
+  program.set("bounce", float(light.bounce));
+  program.set("eye", eye_uniform);
+  program.set("background", linear(shot.drawing.background));
+  program.set("forward", Eigen::Vector3f(forward.cast<float>()));
+  program.set("haze", Eigen::Vector2f(float(nearest), float(0.5 / shot.scene.radius())));
+  program.set("shadow_on", int(shot.quality.shadow));
+  program.set("shadow_depth", 1);
+  program.set("light_matrix", shadow_.matrix());
+  // jittered light softens the shadow by itself
+  program.set("shadow_blur", passes_.size() > 1 ? 0.f : shell_blur_mm / shadow_.size_mm());
+  const double past_rod = std::max(shot.drawing.rod_diameter_mm, 0.01 * shot.scene.radius());
+  program.set("shadow_offset", Eigen::Vector3f((past_rod * light.direction).cast<float>()));
+}
+
+void Painter::draw_meshes(const Shot& shot, const Lighting& light, const Eigen::Matrix4f& matrix) {
+  gl_->ActiveTexture(GL_TEXTURE1);
+  gl_->BindTexture(GL_TEXTURE_2D, shadow_.depth());
+  programs_.solid.use();
+  programs_.solid.set("view_projection", matrix);
+  set_light(programs_.solid, shot, light);
+  gl_->Enable(GL_CULL_FACE);
+  solids_.draw();
+
+  gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  if (!ghosts_.empty()) {
+    // depth first, so that ghosts do not show through themselves
+    gl_->ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    ghosts_.draw();
+    gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl_->DepthFunc(GL_LEQUAL);
+    gl_->Enable(GL_BLEND);
+    ghosts_.draw();
+    gl_->DepthFunc(GL_LESS);
+  }
+  gl_->Disable(GL_CULL_FACE);
+  if (cells_.empty()) return;
+  programs_.cell.use();
+  programs_.cell.set("view_projection", matrix);
+  set_light(programs_.cell, shot, light);
+  gl_->Enable(GL_BLEND);
+  gl_->DepthMask(GL_FALSE);
+  cells_.draw();
+  gl_->DepthMask(GL_TRUE);
+}
+
+void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light) {
+  const Program& program = programs_.resolve;
+  const double radius = shot.scene.radius();
+  program.use();
+  program.set("samples", 0);
+  program.set("cover", 1);
+  program.set("per_side", shot.quality.supersample);
+  program.set("rows", tile.height);
+  program.set("to_world", Eigen::Matrix4f(matrix(shot, tile, light).inverse().cast<float>()));
+  program.set("ground_on", int(ground_seen(shot)));
+  program.set("ground_z", float(shot.drawing.ground_z_mm));
+  program.set("ground_colour", linear(shot.drawing.ground_colour));
+  program.set("background", linear(shot.drawing.background));
+  program.set("middle", Eigen::Vector2f(shot.scene.centre().head<2>().cast<float>()));
+  program.set("fade", Eigen::Vector2f(float(ground_from * radius), float(ground_to * radius)));
+  program.set("shadow_on", int(shot.quality.shadow));
+  program.set("light_matrix", shadow_.matrix());
+  program.set("height_range", shadow_.height_range_mm());
+  program.set("map_size", shadow_.size_mm());
+  program.set("map_texels", float(ShadowMap::texels));
+  // in many passes the light's disc and the sky come from the passes themselves
+  const bool many = passes_.size() > 1;
+  program.set("key_part", float(light.key * light.direction.z()));
+  program.set("sky_part", many ? 0.f : roof * float(light.sky));
+  program.set("open", float(light.key * light.direction.z() + light.sky));
+  program.set("penumbra", Eigen::Vector2f(penumbra_least, many ? 0.f : penumbra_growth));
+
+  gl_->ActiveTexture(GL_TEXTURE0);
+  gl_->BindTexture(GL_TEXTURE_2D, layer_.colour());
+  gl_->ActiveTexture(GL_TEXTURE1);
+  gl_->BindTexture(GL_TEXTURE_2D, shadow_.cover());
+  gl_->Disable(GL_DEPTH_TEST);
+  if (many) {
+    gl_->Enable(GL_BLEND);
+    gl_->BlendFunc(GL_ONE, GL_ONE);
+  } else {
+    gl_->Disable(GL_BLEND);
+  }
+  screen_triangle();
+}
+
+void Painter::screen_triangle() const {
+  gl_->Disable(GL_CULL_FACE);
+  gl_->BindVertexArray(no_vertices_.id());
+  gl_->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+}  // namespace gridshell::render

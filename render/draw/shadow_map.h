@@ -1,0 +1,44 @@
+// What the light sees of a scene: the depth of the first solid, for shadows on the shell, and how
+// much light is held back at which height above the ground, for the ground's soft shadow.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "engine/core/result.h"
+#include "render/draw/scene.h"
+#include "render/gl/program.h"
+#include "render/gl/target.h"
+#include "render/gl/vertex_store.h"
+
+namespace gridshell::render {
+
+class ShadowMap {
+ public:
+  static constexpr int texels = 2048;  ///< along a side
+
+  static Result<ShadowMap> create(const Gl& gl);
+
+  /// Draws the scene from the direction of the unit vector `light`. `solids` and `cells` hold the
+  /// scene's meshes. A cell holds back part of the light that its alpha would.
+  Result<void> render(const Scene& scene, const VertexStore& solids, const VertexStore& cells,
+                      const Eigen::Vector3d& light, double ground_z);
+
+  GLuint cover() const { return target_.colour(); }
+  GLuint depth() const { return target_.depth(); }
+  const Eigen::Matrix4f& matrix() const { return matrix_; }    ///< world to the map's [-1, 1]^3
+  float size_mm() const { return size_mm_; }                   ///< of the map's side
+  float height_range_mm() const { return height_range_mm_; }  ///< ground to the scene's top
+
+ private:
+  ShadowMap(const Gl& gl, Program program)
+      : gl_(&gl), program_(std::move(program)), target_(gl, Target::Depth::compared) {}
+  void fit(const Scene& scene, const Eigen::Vector3d& light);
+
+  const Gl* gl_;
+  Program program_;
+  Target target_;
+  Eigen::Matrix4f matrix_ = Eigen::Matrix4f::Identity();
+  float size_mm_ = 1, height_range_mm_ = 1;
+};
+
+}  // namespace gridshell::render

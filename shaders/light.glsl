@@ -1,0 +1,18 @@
+// Light on a surface, in linear light. See render/draw/lighting.h for the terms.
+uniform vec3 light_direction;
+uniform float key, sky, bounce;
+uniform vec4 eye;  // w = 1: the camera's position; w = 0: the direction towards it
+uniform vec3 background;
+uniform vec2 haze;  // distance along the view where it begins, and 1 / its depth
+uniform vec3 forward;
+
+vec3 towards_eye(vec3 world) { return normalize(eye.xyz - eye.w * world); }
+
+// Irradiance without the key light.
+float ambient(vec3 n) { return sky * (0.5 + 0.5 * n.z) + bounce * (0.5 - 0.5 * n.z); }
+
+// What lies further off pales a little: near and far rods stay apart.
+vec3 hazed(vec3 colour, vec3 world) {
+  float depth = clamp((dot(world, forward) - haze.x) * haze.y, 0.0, 1.0);
+  return mix(colour, background, 0.22 * depth);
+}

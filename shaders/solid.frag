@@ -1,0 +1,20 @@
+// Rods, rings and joints: a matt base with the sheen of drawn metal.
+in vec3 world;
+in vec3 surface_normal;
+in vec4 surface_colour;
+out vec4 fragment;
+
+void main() {
+  vec3 n = normalize(surface_normal);
+  vec3 v = towards_eye(world);
+  float facing = max(dot(n, light_direction), 0.0);
+  float key_light = facing > 0.0 ? key * lit(world) : 0.0;
+  vec3 half_way = normalize(v + light_direction);
+  float gloss = pow(max(dot(n, half_way), 0.0), 28.0);
+  float edge = 1.0 - max(dot(n, v), 0.0);
+  edge *= edge;
+  vec3 shine = mix(vec3(0.16), surface_colour.rgb, 0.5) * gloss * key_light +
+               0.10 * edge * edge * ambient(n);
+  vec3 colour = surface_colour.rgb * (facing * key_light + ambient(n)) + shine;
+  fragment = vec4(hazed(colour, world), 1.0) * surface_colour.a;
+}
