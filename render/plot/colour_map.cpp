@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/draw/colour.h"
 #include "render/plot/ticks.h"
 
 namespace gridshell::render {
 namespace {
-
-double linear(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
 
 double gamma(double v) {
   v = std::clamp(v, 0.0, 1.0);
@@ -27,7 +26,7 @@ Oklab from_polar(double L, double chroma, double hue) {
 }  // namespace
 
 Oklab to_oklab(Colour c) {
-  const double r = linear(c.r), g = linear(c.g), b = linear(c.b);
+  const double r = to_linear(c.r), g = to_linear(c.g), b = to_linear(c.b);
   const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
   const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
   const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
@@ -83,8 +82,9 @@ ColourScale symmetric_scale(std::vector<double> values, double quantile) {
     const auto k = std::size_t(std::clamp(quantile, 0.0, 1.0) * double(values.size() - 1) + 0.5);
     std::nth_element(values.begin(), values.begin() + long(k), values.end());
     end = values[k];
-    // where the quantile is nothing but a flat start, the largest value decides
-    if (end < 1e-9) end = *std::max_element(values.begin(), values.end());
+    // the largest value decides where it is not far off, or where most are zero
+    const double largest = *std::max_element(values.begin(), values.end());
+    if (largest <= 1.3 * end || end < 1e-9) end = largest;
   }
   end = end > 1e-12 ? nice_ceiling(end) : 1;
   return {ColourMap::diverging, -end, end};

@@ -1,0 +1,15 @@
+// The boundary on its way.
+#pragma once
+
+#include "engine/record/snapshot.h"
+
+namespace gridshell::render {
+
+/// Every point moves straight and evenly from the original (actuation 0) to the actuated boundary
+/// (1). 3 x n, mm.
+inline Eigen::Matrix3Xd boundary_at(const record::Layout& layout, double actuation) {
+  return layout.original_boundary +
+         actuation * (layout.actuated_boundary - layout.original_boundary);
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,31 @@
+#include "render/movie/captions.h"
+
+#include <cmath>
+
+#include "render/plot/ticks.h"
+
+namespace gridshell::render {
+
+std::vector<std::string> state_captions(const record::Frame& frame) {
+  std::vector<std::string> captions;
+  if (std::isfinite(frame.boundary_radius_mm))
+    captions.push_back("*R*_{a} = " + fixed(frame.boundary_radius_mm, 1) + " mm");
+  if (std::isfinite(frame.depth_mm))
+    captions.push_back("*δ* = " + fixed(frame.depth_mm, 2) + " mm");
+  if (std::isfinite(frame.force_N)) captions.push_back("force " + fixed(frame.force_N, 3) + " N");
+  captions.push_back("height " + fixed(frame.height_mm, 1) + " mm");
+  return captions;
+}
+
+std::string frame_caption(int index, int frames) {
+  return "frame " + std::to_string(index + 1) + " / " + std::to_string(frames);
+}
+
+std::string equilibrium_caption(const record::Frame& frame) {
+  std::string text = "residual " + scientific(frame.residual_N, 2) + " N, ";
+  if (frame.negative_pivots == 0) return text + "stable";
+  return text + "unstable (" + std::to_string(frame.negative_pivots) + " negative pivot" +
+         (frame.negative_pivots > 1 ? "s)" : ")");
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,36 @@
+// A run to a folder of numbered pictures.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/record/snapshot.h"
+#include "render/draw/renderer.h"
+#include "render/movie/style.h"
+
+namespace gridshell::render {
+
+/// What writing a movie took, wall-clock seconds in all.
+struct MovieReport {
+  int frames = 0;
+  double seconds_draw = 0;     ///< the 3D picture
+  double seconds_overlay = 0;  ///< captions, colour bar, top view
+  double seconds_write = 0;    ///< PNG and disk
+};
+
+/// "frame_00000.png"
+std::string frame_name(int index);
+
+/// Called after a frame stands on the disk.
+using OnFrame = std::function<void(int index, const Image& picture)>;
+
+/// Writes frame_00000.png ... into `folder` (made if absent), one picture a frame of the run. Every
+/// file is whole at any time. Progress of `watch` grows from 0 to 1. Errors: Fault::bad_input for a
+/// run without frames or an impossible size, Fault::cancelled between frames, Fault::io.
+Result<MovieReport> write_movie(const record::Trajectory& run, const MovieStyle& style,
+                                Renderer& renderer, const std::filesystem::path& folder,
+                                Watch& watch, const OnFrame& on_frame = {});
+
+}  // namespace gridshell::render

@@ -1,0 +1,85 @@
+#include "render/movie/stills.h"
+
+#include <fmt/format.h>
+
+#include "engine/core/atomic_file.h"
+#include "render/image/png.h"
+#include "render/movie/captions.h"
+#include "render/movie/stage.h"
+#include "render/plot/panels.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr int largest_columns = 3;
+
+// a still stands alone in print: no title, no frame count, no second view, no turn
+MovieStyle still_style(MovieStyle style) {
+  style.captions = false;
+  style.inset = false;
+  style.turn_deg = 0;
+  return style;
+}
+
+// legends of a single still; its caption stands where a movie has its title
+void finish_still(Image& picture, const Stage& stage, const record::Frame& frame, int index) {
+  draw_over(picture, [&](Canvas& canvas) {
+    stage.draw_overlay(canvas, index);
+    const double em = stage.layout().font_size;
+    canvas.text(still_caption(frame), {0.9 * em, 0.9 * em}, {.size = em, .align_y = AlignY::top});
+  });
+}
+
+std::filesystem::path with_suffix(const std::filesystem::path& stem, const std::string& suffix) {
+  std::filesystem::path path = stem;
+  path += suffix;
+  return path;
+}
+
+}  // namespace
+
+std::string still_caption(const record::Frame& frame) { return state_captions(frame).front(); }
+
+Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory& run,
+                                                        const MovieStyle& movie_style,
+                                                        Renderer& renderer,
+                                                        const std::filesystem::path& stem,
+                                                        Watch& watch) {
+  const MovieStyle style = still_style(movie_style);
+  if (auto showable = check_showable(run, style); !showable)
+    return tl::unexpected(showable.error());
+  if (stem.has_parent_path())
+    if (auto made = make_folder(stem.parent_path()); !made) return tl::unexpected(made.error());
+  const Stage stage(run, style);
+  PanelFigure figure{.panels = {},
+                     .columns = std::min(stage.frames(), largest_columns),
+                     .scale_bar_mm = style.scale_bar_mm,
+                     .pixels_per_mm = stage.pixels_per_mm(),
+                     .colour_bar = stage.colour_bar()};
+  std::vector<std::filesystem::path> files;
+  for (int k = 0; k < stage.frames(); ++k) {
+    if (watch.cancelled())
+      return fail(Fault::cancelled,
+                  fmt::format("stopped after {} of {} stills", k, stage.frames()));
+    const record::Frame& frame = run.frames[std::size_t(k)];
+    Result<Image> picture = renderer.draw(stage.drawing(k), stage.camera(k),
+                                          draw_quality(style.quality), style.width, style.height);
+    if (!picture) return tl::unexpected(picture.error());
+    figure.panels.push_back({*picture, stage.frames() > 1 ? std::string(1, char('a' + k % 26)) : "",
+                             still_caption(frame)});
+    finish_still(*picture, stage, frame, k);
+    files.push_back(with_suffix(stem, fmt::format("_{}.png", k + 1)));
+    if (auto written = write_png(*picture, files.back()); !written)
+      return tl::unexpected(written.error());
+    watch.report(double(k + 1) / (stage.frames() + 1));
+  }
+  Result<Image> whole = draw_panels(figure);
+  if (!whole) return tl::unexpected(whole.error());
+  files.push_back(with_suffix(stem, ".png"));
+  if (auto written = write_png(*whole, files.back()); !written)
+    return tl::unexpected(written.error());
+  watch.report(1);
+  return files;
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,28 @@
+// The frames of a run as stills of a figure: each by itself, and all side by side.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/record/snapshot.h"
+#include "render/draw/renderer.h"
+#include "render/movie/style.h"
+
+namespace gridshell::render {
+
+/// What one still shows under it, as marked text: "*R*_{a} = 115.9 mm".
+std::string still_caption(const record::Frame& frame);
+
+/// Draws every frame of the run from one fixed camera in the style's size, with its caption, colour
+/// bar and scale bar (style.scale_bar_mm) as `<stem>_1.png`, `<stem>_2.png` ..., and all of them
+/// side by side, lettered, with one scale bar and one colour bar, as `<stem>.png`. Returns the
+/// files written. Progress and errors as write_movie.
+Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory& run,
+                                                        const MovieStyle& style, Renderer& renderer,
+                                                        const std::filesystem::path& stem,
+                                                        Watch& watch);
+
+}  // namespace gridshell::render

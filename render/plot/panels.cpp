@@ -1,0 +1,92 @@
+#include "render/plot/panels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridshell::render {
+namespace {
+
+// all in pixels of the panels
+struct Grid {
+  int columns, rows;
+  double width, height;  // of a panel
+  double em, gap, caption, margin, foot, bar;
+
+  double total_width() const { return 2 * margin + columns * width + (columns - 1) * gap + bar; }
+  double total_height() const {
+    return 2 * margin + rows * (height + caption) + (rows - 1) * gap + foot;
+  }
+  Box panel(int index) const {
+    return {std::round(margin + (index % columns) * (width + gap)),
+            std::round(margin + (index / columns) * (height + caption + gap)), width, height};
+  }
+};
+
+Grid make_grid(const PanelFigure& figure) {
+  const int count = int(figure.panels.size());
+  Grid grid{};
+  grid.columns = std::clamp(figure.columns, 1, count);
+  grid.rows = (count + grid.columns - 1) / grid.columns;
+  grid.width = figure.panels[0].picture.width;
+  grid.height = figure.panels[0].picture.height;
+  // 8.5 pt when the whole is printed width_mm wide; margins and bar add about a tenth
+  const double pixels_per_pt = 1.1 * grid.columns * grid.width / (figure.width_mm / 25.4 * 72);
+  grid.em = std::max(7.5, 8.5 * pixels_per_pt);
+  grid.gap = grid.margin = std::round(0.6 * grid.em);
+  const bool captions = std::any_of(figure.panels.begin(), figure.panels.end(),
+                                    [](const Panel& p) { return !p.caption.empty(); });
+  grid.caption = captions ? std::round(1.7 * grid.em) : 0;
+  grid.foot = figure.scale_bar_mm > 0 ? std::round(2.2 * grid.em) : 0;
+  if (figure.colour_bar)
+    draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
+      grid.bar = grid.gap + std::ceil(colour_bar_width(canvas, *figure.colour_bar, grid.em));
+    });
+  return grid;
+}
+
+void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid) {
+  const double em = grid.em;
+  for (std::size_t k = 0; k < figure.panels.size(); ++k) {
+    const Panel& panel = figure.panels[k];
+    const Box box = grid.panel(int(k));
+    canvas.picture(panel.picture, box);
+    if (!panel.letter.empty())
+      canvas.text(
+          panel.letter, {box.x + 0.4 * em, box.y + 0.2 * em},
+          {.size = 1.2 * em, .bold = true, .align_y = AlignY::top, .halo = {1, 1, 1, 0.8f}});
+    canvas.text(panel.caption, {box.middle().x, box.bottom() + grid.caption / 2},
+                {.size = em, .align_x = AlignX::centre, .align_y = AlignY::middle});
+  }
+  const Box last = grid.panel(grid.columns - 1);
+  if (grid.foot > 0) {
+    const Box row{grid.margin, grid.total_height() - grid.margin - grid.foot,
+                  last.right() - grid.margin, grid.foot};
+    draw_scale_bar(canvas, row, figure.scale_bar_mm, figure.pixels_per_mm, em);
+  }
+  if (figure.colour_bar) {
+    const double height = std::min(grid.rows * grid.height, 16 * em);
+    draw_colour_bar(canvas, {last.right() + grid.gap, grid.margin, grid.bar - grid.gap, height},
+                    *figure.colour_bar, em);
+  }
+}
+
+}  // namespace
+
+Result<Image> draw_panels(const PanelFigure& figure) {
+  if (figure.panels.empty()) return fail(Fault::bad_input, "a figure needs at least one panel");
+  const Image& first = figure.panels[0].picture;
+  for (const Panel& panel : figure.panels)
+    if (panel.picture.width != first.width || panel.picture.height != first.height ||
+        first.width < 1 || first.height < 1)
+      return fail(
+          Fault::bad_input,
+          fmt::format("panels of a figure must be of one size: {} x {} and {} x {}", first.width,
+                      first.height, panel.picture.width, panel.picture.height));
+  const Grid grid = make_grid(figure);
+  return draw_picture(grid.total_width(), grid.total_height(), 1, {1, 1, 1, 1},
+                      [&](Canvas& canvas) { draw(canvas, figure, grid); });
+}
+
+}  // namespace gridshell::render

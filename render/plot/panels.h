@@ -1,0 +1,33 @@
+// Pictures side by side as one figure: letters, a caption under each, one scale bar and one colour
+// bar for all.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/plot/legend.h"
+
+namespace gridshell::render {
+
+/// One picture of a figure; all of a figure have the same size.
+struct Panel {
+  Image picture;
+  std::string letter;   ///< marked text, bold, at the upper left: "a"
+  std::string caption;  ///< marked text below: "*R*_{a} = 115.9 mm"
+};
+
+struct PanelFigure {
+  std::vector<Panel> panels;
+  int columns = 3;
+  double scale_bar_mm = 0;   ///< 0: none
+  double pixels_per_mm = 0;  ///< of the panels' pictures
+  std::optional<ColourBar> colour_bar;
+  double width_mm = 178;  ///< as printed; text is 8.5 pt at that width
+};
+
+/// The figure, panels pixel by pixel as they are. Errors: Fault::bad_input for no panel or panels
+/// of different size (naming both).
+Result<Image> draw_panels(const PanelFigure& figure);
+
+}  // namespace gridshell::render
