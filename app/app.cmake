@@ -15,7 +15,9 @@ list(FILTER APP_SOURCES EXCLUDE REGEX "/app/main\\.cpp$")
 add_library(gridshell_app STATIC ${APP_SOURCES} ${embedded_presets})
 target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
   PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json Threads::Threads)
-target_compile_definitions(gridshell_app PRIVATE GRIDSHELL_VERSION="${PROJECT_VERSION}")
+# read once instead of by every command
+target_precompile_headers(gridshell_app PRIVATE <CLI/CLI.hpp> <fmt/format.h>)
 
 add_executable(gridshell app/main.cpp)
-target_link_libraries(gridshell PRIVATE gridshell_app)
+target_link_libraries(gridshell PRIVATE gridshell_app CLI11::CLI11)
+target_compile_definitions(gridshell PRIVATE GRIDSHELL_VERSION="${PROJECT_VERSION}")

@@ -1,12 +1,14 @@
-// The presets that come with the program, embedded at build time.
+// Where a PRESET argument leads: a file, or one of the presets that come with the program.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "engine/preset/reader.h"
+
 namespace gridshell::app {
 
-/// One of presets/*.toml, as text.
+/// One of presets/*.toml, as text, embedded at build time.
 struct EmbeddedPreset {
   std::string name;  ///< of the file, without ".toml"
   std::string text;
@@ -14,5 +16,10 @@ struct EmbeddedPreset {
 
 /// All of them, sorted by name.
 const std::vector<EmbeddedPreset>& embedded_presets();
+
+/// The preset at the path `argument`, else the embedded one of that name. Errors: bad_input, with
+/// every fault of the preset, or the nearest name when there is none.
+Result<preset::Presets> load_preset(const std::string& argument,
+                                    const std::vector<preset::Override>& overrides);
 
 }  // namespace gridshell::app

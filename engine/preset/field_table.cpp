@@ -111,7 +111,7 @@ std::vector<Field> picture_fields() {
       {"movie", "colour_by", "", word<&P::movie, &Movie::colour_by>({"none", "K"}),
        "tint of the cells: none, or integrated Gauss curvature K"},
       {"movie", "azimuth_deg", "deg", real<&P::movie, &Movie::azimuth_deg>(between(-360, 360)),
-       "direction of the camera from +x towards +y in the middle of the movie"},
+       "direction of the camera at the first frame, from +x towards +y"},
       {"movie", "elevation_deg", "deg", real<&P::movie, &Movie::elevation_deg>(between(-90, 90)),
        "height of the camera above the boundary's plane"},
       {"movie", "turn_deg", "deg", real<&P::movie, &Movie::turn_deg>(between(-3600, 3600)),

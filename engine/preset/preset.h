@@ -61,7 +61,7 @@ struct Movie {
   int fps = 30;
   Quality quality = Quality::movie;
   ColourBy colour_by = ColourBy::K;
-  double azimuth_deg = 30;    ///< camera, from +x towards +y
+  double azimuth_deg = 30;    ///< camera at the first frame, from +x towards +y
   double elevation_deg = 22;  ///< camera, above the boundary's plane
   double turn_deg = 40;       ///< camera turn over the whole movie
   double zoom = 1;

@@ -1,0 +1,15 @@
+#include "app/commands/commands.h"
+
+namespace gridshell::app {
+
+void add_commands(CLI::App& program, Action& action) {
+  add_movie(program, action);
+  add_figure(program, action);
+  add_run(program, action);
+  add_render(program, action);
+  add_check(program, action);
+  add_compare(program, action);
+  add_list(program, action);
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,28 @@
+// What the program says and how it ends: errors in a sentence on stderr, exit codes of the README.
+#pragma once
+
+#include "engine/core/result.h"
+
+namespace gridshell::app {
+
+enum ExitCode : int {
+  done = 0,
+  failed = 1,     ///< no equilibrium, unstable, disk full
+  bad_input = 2,  ///< or bad usage
+  different = 3,  ///< compared and different
+  interrupted = 130
+};
+
+int exit_code(Fault fault);
+
+/// Prints the error's message on stderr; its exit code.
+int report(const Error& error);
+
+/// A path of the user's that cannot be read is bad input, whatever the system's reason.
+template <class T>
+Result<T> as_input(Result<T> result) {
+  if (!result && result.error().fault == Fault::io) result.error().fault = Fault::bad_input;
+  return result;
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,70 @@
+#include "app/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <regex>
+
+namespace gridshell::app {
+
+namespace {
+
+void add_changes(CLI::App& command, Options& options) {
+  command
+      .add_option("--set", options.set, "a key of the preset, any number of times: table.key=value")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--size", options.size, "width and height of a picture: WxH");
+  command.add_option("--quality", options.quality, "draft, movie or figure");
+}
+
+}  // namespace
+
+void add_preset_options(CLI::App& command, Options& options) {
+  command.add_option("PRESET", options.input, "a preset file, or a name of 'gridshell list'")
+      ->required();
+  add_changes(command, options);
+  command.add_option("--frames", options.frames, "frames of the movie");
+  command.add_flag("--print-config", options.print_config,
+                   "print what default < preset < --set came to, as a preset, and stop");
+}
+
+void add_run_options(CLI::App& command, Options& options) {
+  command.add_option("RUN", options.input, "the folder of a finished run")->required();
+  add_changes(command, options);
+}
+
+void add_work_options(CLI::App& command, Options& options, const std::string& output) {
+  command.add_option("-o,--output", options.output, output);
+  command.add_option("--threads", options.threads, "threads to work with; results do not change")
+      ->check(CLI::Range(1, 1024));
+  command.add_flag("--quiet", options.quiet, "print nothing but errors");
+}
+
+void add_picture_options(CLI::App& command, Options& options) {
+  command.add_option("--context", options.context, "auto, osmesa, egl or window")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl", "window"}));
+}
+
+Result<std::vector<preset::Override>> overrides_of(const Options& options) {
+  std::vector<preset::Override> overrides;
+  for (const auto& argument : options.set) {
+    auto change = preset::parse_override(argument);
+    if (!change) return tl::unexpected(change.error());
+    overrides.push_back(*change);
+  }
+  if (!options.frames.empty()) overrides.push_back({"--frames", "movie.frames", options.frames});
+  if (!options.quality.empty())
+    overrides.push_back({"--quality", "movie.quality", options.quality});
+  if (!options.size.empty()) {
+    std::smatch part;
+    if (!std::regex_match(options.size, part, std::regex("([0-9]{1,6})x([0-9]{1,6})")))
+      return fail(Fault::bad_input,
+                  fmt::format("--size {}: must be WxH, for example 1280x720", options.size));
+    overrides.push_back(
+        {"--size", "movie.size", fmt::format("[{}, {}]", std::stoi(part[1]), std::stoi(part[2]))});
+  }
+  return overrides;
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,45 @@
+// The options that the commands share, declared once.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/preset/reader.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gridshell::app {
+
+/// What was given on the command line; empty or zero where nothing was.
+struct Options {
+  std::string input;  ///< PRESET or RUN
+  std::filesystem::path output;
+  std::vector<std::string> set;
+  int threads = 0;
+  bool quiet = false;
+  std::string context = "auto";
+  std::string size, quality, frames;
+  bool print_config = false;
+};
+
+/// PRESET and everything that changes it: --set, --frames, --size, --quality, --print-config.
+void add_preset_options(CLI::App& command, Options& options);
+
+/// RUN and what changes its pictures: --set, --size, --quality.
+void add_run_options(CLI::App& command, Options& options);
+
+/// -o, --threads, --quiet: of commands that work for a while.
+void add_work_options(CLI::App& command, Options& options,
+                      const std::string& output = "folder to write, by default out/<preset>");
+
+/// --context: of commands that draw.
+void add_picture_options(CLI::App& command, Options& options);
+
+/// The options that change the preset, in the order in which they are laid over it. Errors:
+/// bad_input for a --set without key or value, a --size that is not WxH.
+Result<std::vector<preset::Override>> overrides_of(const Options& options);
+
+}  // namespace gridshell::app

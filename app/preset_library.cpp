@@ -1,0 +1,30 @@
+#include "app/preset_library.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "engine/preset/suggest.h"
+
+namespace gridshell::app {
+
+Result<preset::Presets> load_preset(const std::string& argument,
+                                    const std::vector<preset::Override>& overrides) {
+  std::error_code error;
+  const std::filesystem::path path(argument);
+  if (std::filesystem::is_regular_file(path, error))
+    return preset::read_preset_file(path, overrides);
+  std::vector<std::string> names;
+  for (const auto& embedded : embedded_presets()) {
+    if (embedded.name == argument)
+      return preset::read_preset_text(embedded.text, "built-in " + argument, argument, overrides);
+    names.push_back(embedded.name);
+  }
+  if (path.has_parent_path() || path.extension() == ".toml")
+    return preset::read_preset_file(path, overrides);
+  return fail(Fault::bad_input, fmt::format("no preset '{}': neither a file nor a listed name{} "
+                                            "('gridshell list' lists them)",
+                                            argument, preset::did_you_mean(argument, names)));
+}
+
+}  // namespace gridshell::app

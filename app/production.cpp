@@ -1,0 +1,164 @@
+#include "app/production.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/console.h"
+#include "app/delivery.h"
+#include "app/loading.h"
+#include "engine/core/atomic_file.h"
+#include "engine/preset/writer.h"
+#include "engine/record/run_folder.h"
+#include "engine/record/summary_file.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+// one run of the preset, and where it goes
+struct Job {
+  std::string name;  // of the case, empty without cases
+  preset::Preset preset;
+  experiment::Plan plan;
+  record::Summary summary;  // once it has run
+};
+
+// `figure` without radii shows the final state
+preset::Preset with_stills(preset::Preset preset, Pictures pictures) {
+  if (pictures == Pictures::stills && preset.figure.radii_mm.empty())
+    preset.figure.radii_mm = {preset.actuation.radius_mm};
+  return preset;
+}
+
+Result<std::vector<Job>> jobs_of(const preset::Presets& presets, Pictures pictures) {
+  std::vector<Job> jobs;
+  for (const auto& run : runs_of(presets)) {
+    auto plan = plan_of(run.preset);
+    if (!plan) return tl::unexpected(plan.error());
+    jobs.push_back({run.name, with_stills(run.preset, pictures), *plan, {}});
+  }
+  return jobs;
+}
+
+std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
+  std::vector<Phase> phases;
+  for (const auto& job : jobs) {
+    const double guess = job.plan.expected_seconds;
+    const auto of_case = job.name.empty() ? "" : " " + job.name;
+    phases.push_back({"simulating" + of_case, std::isnan(guess) ? 5 : guess});
+    if (pictures != Pictures::none)
+      phases.push_back({"drawing" + of_case, expected_seconds(pictures, job.preset)});
+  }
+  return phases;
+}
+
+// the run is safe on disk before a picture of it is drawn
+Result<void> do_job(Job& job, Pictures pictures, const fs::path& folder, Artist* artist,
+                    Progress& progress) {
+  auto outcome = experiment::run(job.preset, pictures == Pictures::stills, progress.next_phase());
+  if (!outcome) return tl::unexpected(outcome.error());
+  job.summary = outcome->summary;
+  auto written =
+      make_folder(folder)
+          .and_then(
+              [&] { return write_atomically(folder / "preset.toml", preset::to_toml(job.preset)); })
+          .and_then([&] { return record::write_run(folder, outcome->trajectory, job.summary); });
+  if (!written || !artist) return written;
+  const auto start = std::chrono::steady_clock::now();
+  auto drawn =
+      artist->draw(pictures, job.preset, outcome->trajectory, folder, progress.next_phase());
+  if (!drawn) return drawn;
+  job.summary.seconds_render =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return record::write_summary(folder / "summary.json", job.summary);
+}
+
+Result<void> do_jobs(std::vector<Job>& jobs, const std::string& name, Pictures pictures,
+                     const Options& options, const fs::path& partial, Progress& progress) {
+  std::unique_ptr<Artist> artist;
+  if (pictures != Pictures::none) {
+    auto made = Artist::create(options.context, options.threads);
+    if (!made) return tl::unexpected(made.error());
+    artist = std::move(*made);
+  }
+  std::vector<std::string> names;
+  std::vector<record::Summary> summaries;
+  for (auto& job : jobs) {
+    auto ended = do_job(job, pictures, folder_of(partial, job.name), artist.get(), progress);
+    if (!ended) return ended;
+    names.push_back(job.name);
+    summaries.push_back(job.summary);
+  }
+  if (jobs.front().name.empty()) return {};
+  return write_atomically(partial / "summary.json", summary_of_cases(name, names, summaries));
+}
+
+void print_result(const Job& job, const fs::path& folder) {
+  const auto& at = job.summary;
+  fmt::print(
+      "{}: {} joints, {} cells; height {:.2f} mm, bend energy {:.3f} mJ, {}, residual "
+      "{:.1e} N; {:.1f} s simulated",
+      folder_of(folder, job.name).string(), at.joints, at.cells, at.height_mm, at.energy_bend_mJ,
+      at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots), at.residual_N,
+      at.seconds_simulation);
+  if (at.seconds_render > 0) fmt::print(", {:.1f} s drawn", at.seconds_render);
+  fmt::print("\n");
+}
+
+}  // namespace
+
+std::string shortcoming(const record::Summary& summary, bool allow_unstable) {
+  if (summary.limit != record::Limit::none)
+    return fmt::format("the path ended early, limit \"{}\": {}", record::name_of(summary.limit),
+                       summary.limit_reason);
+  if (!summary.stable && !allow_unstable)
+    return fmt::format(
+        "ends in an unstable state with {} negative pivots; 'allow_unstable = true' "
+        "accepts that",
+        summary.negative_pivots);
+  return "";
+}
+
+std::string summary_of_cases(const std::string& preset, const std::vector<std::string>& names,
+                             const std::vector<record::Summary>& summaries) {
+  using Json = nlohmann::ordered_json;
+  Json all{{"preset", preset}, {"cases", Json::array()}};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    Json one{{"name", names[k]}};
+    one.update(Json::parse(record::to_json(summaries[k])));
+    all["cases"].push_back(std::move(one));
+  }
+  return all.dump(2) + "\n";
+}
+
+int produce(const Options& options, Pictures pictures) {
+  const auto presets = load(options);
+  if (!presets) return report(presets.error());
+  if (options.print_config) {
+    fmt::print("{}", preset::to_toml(*presets));
+    return ExitCode::done;
+  }
+  auto jobs = jobs_of(*presets, pictures);
+  if (!jobs) return report(jobs.error());
+  const auto& name = presets->base.name;
+  const auto folder = options.output.empty() ? fs::path("out") / name : options.output;
+  const int code = deliver(folder, phases_of(*jobs, pictures), options.quiet,
+                           [&](const fs::path& partial, Progress& progress) {
+                             return do_jobs(*jobs, name, pictures, options, partial, progress);
+                           });
+  if (code != ExitCode::done) return code;
+  bool whole = true;
+  for (const auto& job : *jobs) {
+    if (!options.quiet) print_result(job, folder);
+    const auto fault = shortcoming(job.summary, job.preset.allow_unstable);
+    if (!fault.empty()) std::fprintf(stderr, "%s: %s\n", job.preset.name.c_str(), fault.c_str());
+    whole = whole && fault.empty();
+  }
+  return whole ? ExitCode::done : ExitCode::failed;
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,75 @@
+// Long work under watch: one bar that counts evenly over all phases, with the time left, and the
+// stop within a second of Ctrl-C.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "engine/core/watch.h"
+
+namespace gridshell::app {
+
+/// A part of the work: its share of the bar is its expected time.
+struct Phase {
+  std::string label;
+  double expected_seconds = 1;
+};
+
+/// How far the work is, for a bar or a line.
+struct Standing {
+  double fraction = 0;      ///< of all phases
+  double seconds_left = 0;  ///< NaN while too little is done to say
+};
+
+/// Where work of `phases` stands: `current` is `fraction` done after `elapsed` seconds. Later
+/// phases are scaled by how much slower than expected the current one turns out.
+Standing standing(const std::vector<Phase>& phases, std::size_t current, double fraction,
+                  double elapsed);
+
+/// "[======>     ]  52 %  rendering, 0:31 left"
+std::string bar_text(const Standing& standing, const std::string& label, int width);
+
+/// Watches phases from a thread of its own: shows progress on stderr (a bar on a terminal, a line a
+/// tenth elsewhere), passes an interrupt on to the current phase's Watch, and where the work does
+/// not answer in time ends the program.
+class Progress {
+ public:
+  enum class Show { nothing, lines, bar };
+  /// a bar on a terminal, lines elsewhere, nothing when quiet
+  static Show show_for(bool quiet);
+
+  /// `last_words` runs, on another thread, before the program is ended because it did not stop.
+  Progress(std::vector<Phase> phases, Show show, std::function<void()> last_words);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Ends the phase before and begins the next; valid until the one after it begins.
+  Watch& next_phase();
+
+ private:
+  void loop();
+  void show_now();
+  void stop_if_asked();
+
+  std::vector<Phase> phases_;
+  Show show_;
+  std::function<void()> last_words_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool finished_ = false;
+  std::vector<std::unique_ptr<Watch>> watches_;
+  std::chrono::steady_clock::time_point phase_began_, interrupted_at_;
+  bool interrupted_ = false;
+  int tenth_shown_ = 0;
+  bool bar_open_ = false;
+  std::thread thread_;
+};
+
+}  // namespace gridshell::app
