@@ -1,0 +1,14 @@
+#!/bin/sh
+# app/run.sh [ARGUMENTS]: installs what is missing, builds, and runs gridshell with the arguments;
+# without any it makes Movie S1 in out/s1_actuation.
+set -e
+start=$PWD
+cd "$(dirname "$0")/.."
+root=$PWD
+. app/setup.sh
+install_missing_packages
+build gridshell
+[ $# -gt 0 ] || set -- movie s1_actuation -o "$root/out/s1_actuation"
+# paths among the arguments are meant from where the user stands
+cd "$start"
+exec "$root/build/gridshell" "$@"
