@@ -3,52 +3,34 @@ uniform sampler2D cover;  // (cover, cover * height) seen from the light; its le
 uniform mat4 light_matrix;
 uniform vec3 ground_colour, background;
 uniform float ground_z;
-uniform vec2 middle;        // of the shell
-uniform vec2 fade;          // distances from it where the ground begins and ends to pale
-uniform float open;         // light on level ground in the open
-uniform float key_part;     // of the light on level ground that the shadow takes
-uniform float sky_part;     // of the light that a roof over the whole sky takes
-uniform float height_range; // mm
-uniform float map_size;     // mm across
-uniform float map_texels;
-uniform vec2 penumbra;      // least width in mm, and width / height of what casts it
+uniform vec2 middle;         // of the shell
+uniform vec2 fade;           // distances from it where the ground begins and ends to pale
+uniform float open;          // light on level ground in the open
+uniform float key_part;      // of it that a full shadow takes
+uniform float sky_part;      // of it that a roof over the whole sky takes
+uniform float height_range;  // mm
+uniform float texel;         // of the map's finest level, mm
+uniform vec2 penumbra;       // least width in mm, and width / height of what casts it
 uniform bool shadow_on;
 
-// Mean cover about a point of the map over a disc of the given width in mm.
-float blurred(vec2 at, float width) {
-  float texels = width / map_size * map_texels;
-  float level = max(log2(0.45 * texels), 0.0);
-  float r = 0.33 * width / map_size;
-  float sum = 2.0 * textureLod(cover, at, level).r;
-  for (int k = 0; k < 7; ++k) {
-    float angle = 0.8975979 * float(k) + 0.3;
-    sum += textureLod(cover, at + r * vec2(cos(angle), sin(angle)), level).r;
-  }
-  return sum / 9.0;
-}
-
 // Light on the ground at p.
-float ground_light(vec3 p) {
-  vec2 at = (light_matrix * vec4(p, 1.0)).xy * 0.5 + 0.5;
+float ground_light(vec2 p) {
+  vec2 at = (light_matrix * vec4(p, ground_z, 1.0)).xy * 0.5 + 0.5;
   if (at != clamp(at, 0.0, 1.0)) return open;
-  float light = open;
-  if (sky_part > 0.0)
-    light -= sky_part * textureLod(cover, at, log2(0.06 * map_texels)).r;
   // a wide look first: nothing there, nothing to blur
-  float wide = penumbra.x + penumbra.y * height_range;
-  vec2 near = textureLod(cover, at, log2(max(wide / map_size * map_texels, 1.0))).rg;
-  if (near.x < 0.002) return light;
-  float height = near.y / near.x * height_range;
-  return light - key_part * blurred(at, penumbra.x + penumbra.y * height);
+  float widest = penumbra.x + penumbra.y * height_range;
+  vec2 wide = textureLod(cover, at, log2(2.0 * widest / texel)).rg;
+  if (wide.x == 0.0) return open;
+  float width = penumbra.x + penumbra.y * height_range * wide.y / wide.x;
+  return open - key_part * textureLod(cover, at, max(log2(width / texel), 0.0)).r -
+         sky_part * wide.x;
 }
 
-// Colour of the ground, or of what lies behind it, on the line from a to b.
-vec3 ground_seen(vec3 a, vec3 b) {
-  float fall = a.z - b.z;
-  float t = (a.z - ground_z) / fall;
-  if (fall <= 0.0) return background;
-  vec3 p = a + t * (b - a);
-  float paling = smoothstep(fade.x, fade.y, distance(p.xy, middle));
+// Colour of the ground at a point in homogeneous coordinates, or of what lies behind the ground.
+vec3 ground_seen(vec3 point) {
+  if (point.z <= 0.0) return background;
+  vec2 p = point.xy / point.z;
+  float paling = smoothstep(fade.x, fade.y, distance(p, middle));
   if (paling == 1.0) return background;
   float light = shadow_on ? ground_light(p) : open;
   return mix(ground_colour * light, background, paling);

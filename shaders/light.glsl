@@ -11,8 +11,7 @@ vec3 towards_eye(vec3 world) { return normalize(eye.xyz - eye.w * world); }
 // Irradiance without the key light.
 float ambient(vec3 n) { return sky * (0.5 + 0.5 * n.z) + bounce * (0.5 - 0.5 * n.z); }
 
-// What lies further off pales a little: near and far rods stay apart.
-vec3 hazed(vec3 colour, vec3 world) {
-  float depth = clamp((dot(world, forward) - haze.x) * haze.y, 0.0, 1.0);
-  return mix(colour, background, 0.22 * depth);
+// What lies further off pales a little, so that near and far rods stay apart: the part that pales.
+float haze_at(vec3 world) {
+  return 0.22 * clamp((dot(world, forward) - haze.x) * haze.y, 0.0, 1.0);
 }

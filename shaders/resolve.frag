@@ -1,6 +1,6 @@
 // The mean of a pixel's samples in linear light, over the ground. The ground is smooth, so once a
 // pixel serves for all samples.
-in vec4 near_point, far_point;
+in vec3 ground_point;
 uniform sampler2D samples;
 uniform int per_side;
 uniform int rows;  // of the target, which holds the top row first
@@ -15,7 +15,6 @@ void main() {
     for (int x = 0; x < per_side; ++x) sum += texelFetch(samples, first + ivec2(x, y), 0);
   sum /= float(per_side * per_side);
   vec3 behind = background;
-  if (ground_on && sum.a < 0.999)
-    behind = ground_seen(near_point.xyz / near_point.w, far_point.xyz / far_point.w);
+  if (ground_on && sum.a < 0.999) behind = ground_seen(ground_point);
   fragment = vec4(sum.rgb + (1.0 - min(sum.a, 1.0)) * behind, 1.0);
 }

@@ -9,12 +9,16 @@ void main() {
   vec3 v = towards_eye(world);
   float facing = max(dot(n, light_direction), 0.0);
   float key_light = facing > 0.0 ? key * lit(world) : 0.0;
-  vec3 half_way = normalize(v + light_direction);
-  float gloss = pow(max(dot(n, half_way), 0.0), 28.0);
+  float gloss = max(dot(n, normalize(v + light_direction)), 0.0);
+  gloss *= gloss;  // to the power of 32 in all
+  gloss *= gloss;
+  gloss *= gloss;
+  gloss *= gloss;
+  gloss *= gloss;
   float edge = 1.0 - max(dot(n, v), 0.0);
   edge *= edge;
-  vec3 shine = mix(vec3(0.16), surface_colour.rgb, 0.5) * gloss * key_light +
-               0.10 * edge * edge * ambient(n);
-  vec3 colour = surface_colour.rgb * (facing * key_light + ambient(n)) + shine;
-  fragment = vec4(hazed(colour, world), 1.0) * surface_colour.a;
+  float around = ambient(n);
+  vec3 shine = mix(vec3(0.16), surface_colour.rgb, 0.5) * gloss * key_light + 0.1 * edge * edge * around;
+  vec3 colour = surface_colour.rgb * (facing * key_light + around) + shine;
+  fragment = vec4(mix(colour, background, haze_at(world)), 1.0) * surface_colour.a;
 }

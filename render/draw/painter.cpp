@@ -18,6 +18,18 @@ constexpr float shell_blur_mm = 0.8f;  // radius of the shadow's edge on the she
 
 Eigen::Vector3f linear(const Colour& c) { return to_linear(c).head<3>(); }
 
+/// Takes (x, y, 1) of clip coordinates to the point (X, Y, 1) of the plane z, over its depth w.
+Eigen::Matrix4f to_ground(const Eigen::Matrix4d& matrix, double z) {
+  Eigen::Matrix3d plane;
+  for (int k = 0; k < 3; ++k) {
+    const int row = k < 2 ? k : 3;
+    plane.row(k) << matrix(row, 0), matrix(row, 1), matrix(row, 2) * z + matrix(row, 3);
+  }
+  Eigen::Matrix4f result = Eigen::Matrix4f::Identity();
+  result.topLeftCorner<3, 3>() = plane.inverse().cast<float>();
+  return result;
+}
+
 /// The ground hides nothing when it is seen from below.
 bool ground_seen(const Shot& shot) {
   const Camera& camera = shot.camera;
@@ -47,9 +59,9 @@ Result<Painter> Painter::create(const Gl& gl) {
   if (!shadow) return tl::unexpected(shadow.error());
   auto solid = Program::create(gl, {"solid.vert"}, {"light.glsl", "shadow.glsl", "solid.frag"});
   if (!solid) return tl::unexpected(solid.error());
-  auto cell = Program::create(gl, {"solid.vert"}, {"light.glsl", "shadow.glsl", "cell.frag"});
+  auto cell = Program::create(gl, {"light.glsl", "cell.vert"}, {"shadow.glsl", "cell.frag"});
   if (!cell) return tl::unexpected(cell.error());
-  auto resolve = Program::create(gl, {"screen.vert"}, {"ground.glsl", "resolve.frag"});
+  auto resolve = Program::create(gl, {"resolve.vert"}, {"ground.glsl", "resolve.frag"});
   if (!resolve) return tl::unexpected(resolve.error());
   auto mean = Program::create(gl, {"screen.vert"}, {"mean.frag"});
   if (!mean) return tl::unexpected(mean.error());
@@ -198,7 +210,7 @@ void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light)
   program.set("cover", 1);
   program.set("per_side", shot.quality.supersample);
   program.set("rows", tile.height);
-  program.set("to_world", Eigen::Matrix4f(matrix(shot, tile, light).inverse().cast<float>()));
+  program.set("to_ground", to_ground(matrix(shot, tile, light), shot.drawing.ground_z_mm));
   program.set("ground_on", int(ground_seen(shot)));
   program.set("ground_z", float(shot.drawing.ground_z_mm));
   program.set("ground_colour", linear(shot.drawing.ground_colour));
@@ -208,8 +220,7 @@ void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light)
   program.set("shadow_on", int(shot.quality.shadow));
   program.set("light_matrix", shadow_.matrix());
   program.set("height_range", shadow_.height_range_mm());
-  program.set("map_size", shadow_.size_mm());
-  program.set("map_texels", float(ShadowMap::texels));
+  program.set("texel", shadow_.size_mm() / float(ShadowMap::texels));
   // in many passes the light's disc and the sky come from the passes themselves
   const bool many = passes_.size() > 1;
   program.set("key_part", float(light.key * light.direction.z()));

@@ -11,10 +11,20 @@ constexpr float margin = 1.12f;       // empty rim, so that the blur's coarse le
 
 }  // namespace
 
+ShadowMap::ShadowMap(const Gl& gl, Program caster, Program halve)
+    : gl_(&gl),
+      caster_(std::move(caster)),
+      halve_(std::move(halve)),
+      target_(gl, Target::Depth::compared, levels),
+      level_(gl),
+      no_vertices_(gl) {}
+
 Result<ShadowMap> ShadowMap::create(const Gl& gl) {
-  auto program = Program::create(gl, {"caster.vert"}, {"caster.frag"});
-  if (!program) return tl::unexpected(program.error());
-  return ShadowMap(gl, std::move(*program));
+  auto caster = Program::create(gl, {"caster.vert"}, {"caster.frag"});
+  if (!caster) return tl::unexpected(caster.error());
+  auto halve = Program::create(gl, {"screen.vert"}, {"halve.frag"});
+  if (!halve) return tl::unexpected(halve.error());
+  return ShadowMap(gl, std::move(*caster), std::move(*halve));
 }
 
 void ShadowMap::fit(const Scene& scene, const Eigen::Vector3d& light) {
@@ -43,32 +53,56 @@ Result<void> ShadowMap::render(const Scene& scene, const VertexStore& solids,
   if (auto bound = target_.bind(texels, texels, GL_RG8); !bound) return bound;
   fit(scene, light);
   height_range_mm_ = float(std::max(1e-3, scene.high.z() - ground_z));
-  program_.use();
-  program_.set("light_matrix", matrix_);
-  program_.set("ground_z", float(ground_z));
-  program_.set("height_scale", 1 / height_range_mm_);
+  caster_.use();
+  caster_.set("light_matrix", matrix_);
+  caster_.set("ground_z", float(ground_z));
+  caster_.set("height_scale", 1 / height_range_mm_);
+  draw_casters(solids, cells);
+  blur();
+  return {};
+}
 
+void ShadowMap::draw_casters(const VertexStore& solids, const VertexStore& cells) const {
   gl_->ClearColor(0, 0, 0, 0);
   gl_->Enable(GL_DEPTH_TEST);
+  gl_->DepthFunc(GL_LESS);
   gl_->DepthMask(GL_TRUE);
   gl_->Disable(GL_BLEND);
-  gl_->Disable(GL_CULL_FACE);
   gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   gl_->Enable(GL_CULL_FACE);
-  program_.set("density", 1.f);
+  caster_.set("density", 1.f);
   solids.draw();
 
   gl_->Disable(GL_CULL_FACE);
   gl_->Enable(GL_BLEND);
   gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   gl_->DepthMask(GL_FALSE);
-  program_.set("density", cell_density);
+  caster_.set("density", cell_density);
   cells.draw();
   gl_->DepthMask(GL_TRUE);
+}
 
+void ShadowMap::blur() {
+  gl_->Disable(GL_BLEND);
+  gl_->Disable(GL_DEPTH_TEST);
+  gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, cover());
-  gl_->GenerateMipmap(GL_TEXTURE_2D);
-  return {};
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, level_.id());
+  gl_->BindVertexArray(no_vertices_.id());
+  halve_.use();
+  halve_.set("finer", 0);
+  for (int level = 1; level < levels; ++level) {
+    const int side = texels >> level;
+    // reads one level only, writes the next
+    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level - 1);
+    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
+    gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, cover(), level);
+    gl_->Viewport(0, 0, side, side);
+    halve_.set("finer_texel", 0.5f / float(side));
+    gl_->DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, 0);
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
 }
 
 }  // namespace gridshell::render

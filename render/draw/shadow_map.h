@@ -14,7 +14,8 @@ namespace gridshell::render {
 
 class ShadowMap {
  public:
-  static constexpr int texels = 2048;  ///< along a side
+  static constexpr int texels = 1024;  ///< along a side
+  static constexpr int levels = 7;     ///< of the cover, each half the size before
 
   static Result<ShadowMap> create(const Gl& gl);
 
@@ -30,13 +31,16 @@ class ShadowMap {
   float height_range_mm() const { return height_range_mm_; }  ///< ground to the scene's top
 
  private:
-  ShadowMap(const Gl& gl, Program program)
-      : gl_(&gl), program_(std::move(program)), target_(gl, Target::Depth::compared) {}
+  ShadowMap(const Gl& gl, Program caster, Program halve);
   void fit(const Scene& scene, const Eigen::Vector3d& light);
+  void draw_casters(const VertexStore& solids, const VertexStore& cells) const;
+  void blur();
 
   const Gl* gl_;
-  Program program_;
+  Program caster_, halve_;
   Target target_;
+  Framebuffer level_;
+  VertexArray no_vertices_;
   Eigen::Matrix4f matrix_ = Eigen::Matrix4f::Identity();
   float size_mm_ = 1, height_range_mm_ = 1;
 };

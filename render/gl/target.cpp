@@ -5,23 +5,22 @@
 namespace gridshell::render {
 namespace {
 
-void filter(const Gl& gl, GLint smaller, GLint larger, GLint beyond) {
+void filter(const Gl& gl, GLint smaller, GLint larger) {
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, smaller);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, larger);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, beyond);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, beyond);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
 }  // namespace
 
 void Target::allocate() {
-  // a depth that shadows compare with comes with a colour whose levels are read as a blur
-  const bool compared = depth_kind_ == Depth::compared;
   gl_->BindTexture(GL_TEXTURE_2D, colour_.id());
-  gl_->TexImage2D(GL_TEXTURE_2D, 0, GLint(format_), width_, height_, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                  nullptr);
-  filter(*gl_, compared ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST, compared ? GL_LINEAR : GL_NEAREST,
-         GL_CLAMP_TO_EDGE);
+  for (int level = 0; level < levels_; ++level)
+    gl_->TexImage2D(GL_TEXTURE_2D, level, GLint(format_), width_ >> level, height_ >> level, 0,
+                    GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  filter(*gl_, levels_ > 1 ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST,
+         levels_ > 1 ? GL_LINEAR : GL_NEAREST);
   gl_->BindFramebuffer(GL_FRAMEBUFFER, frame_.id());
   gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.id(), 0);
   if (depth_kind_ == Depth::none) return;
@@ -29,8 +28,8 @@ void Target::allocate() {
   gl_->BindTexture(GL_TEXTURE_2D, depth_.id());
   gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width_, height_, 0, GL_DEPTH_COMPONENT,
                   GL_FLOAT, nullptr);
-  filter(*gl_, compared ? GL_LINEAR : GL_NEAREST, compared ? GL_LINEAR : GL_NEAREST,
-         GL_CLAMP_TO_EDGE);
+  const bool compared = depth_kind_ == Depth::compared;
+  filter(*gl_, compared ? GL_LINEAR : GL_NEAREST, compared ? GL_LINEAR : GL_NEAREST);
   if (compared) {
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);

@@ -6,12 +6,15 @@
 
 namespace gridshell::render {
 
-/// Grows when asked for another size, and keeps its storage while the size stays.
+/// Allocates anew when asked for another size or format, and keeps its storage while they stay.
 class Target {
  public:
   enum class Depth { none, plain, compared };  ///< compared: read by a sampler2DShadow
 
-  Target(const Gl& gl, Depth depth) : gl_(&gl), depth_kind_(depth), frame_(gl), colour_(gl), depth_(gl) {}
+  /// Of the colour's `levels` (each half the size before) the first is drawn into; several levels
+  /// are read with smooth interpolation, a single one texel by texel.
+  Target(const Gl& gl, Depth depth, int levels = 1)
+      : gl_(&gl), depth_kind_(depth), levels_(levels), frame_(gl), colour_(gl), depth_(gl) {}
 
   /// Binds it for drawing over width x height pixels of the internal format `format`.
   /// Errors: Fault::io when the context cannot make it.
@@ -26,6 +29,7 @@ class Target {
 
   const Gl* gl_;
   Depth depth_kind_;
+  int levels_;
   Framebuffer frame_;
   Texture colour_, depth_;
   int width_ = 0, height_ = 0;
