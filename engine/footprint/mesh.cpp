@@ -1,15 +1,14 @@
 #include "engine/footprint/mesh.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gridshell {
 namespace {
 
-/// Edges of a leg shorter than d/4: the power of two that makes k nest in its base (at most 4).
+/// Edges of a leg shorter than d/4.
 int edges_of_short_leg(int edges_per_segment) {
-  int base = edges_per_segment, halvings = 1;
-  while (base > 4 && base % 2 == 0) base /= 2, halvings *= 2;
-  return halvings;
+  return std::max(1, int(std::lround(edges_per_segment / 4.0)));
 }
 
 }  // namespace
@@ -64,38 +63,83 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   return mesh;
 }
 
-Eigen::Matrix3Xd interpolate(const RodMesh& from, const Eigen::Matrix3Xd& x, const RodMesh& to) {
-  Eigen::Matrix3Xd result(3, to.nodes());
+/// Hermite weights in the interval [s_k, s_k+1]; slopes by a quadratic through three nodes. At the
+/// ends of a rod, where a neighbour is missing, the slope is that of the quadratic through the
+/// three nearest.
+MeshTransfer::Stencil MeshTransfer::stencil(const std::vector<int>& node,
+                                            const std::vector<double>& s, int k, double at,
+                                            int to) {
+  const int last = int(node.size()) - 1;
+  const double h = s[k + 1] - s[k], t = std::clamp((at - s[k]) / h, 0.0, 1.0);
+  const double t2 = t * t, t3 = t2 * t;
+  const double value0 = 2 * t3 - 3 * t2 + 1, value1 = 3 * t2 - 2 * t3;
+  const double slope0 = (t3 - 2 * t2 + t) * h, slope1 = (t3 - t2) * h;
+  Stencil w{to,
+            {node[std::max(k - 1, 0)], node[k], node[k + 1], node[std::min(k + 2, last)]},
+            {0, value0, value1, 0}};
+  const bool has_before = k > 0, has_after = k + 1 < last;
+  // slope at a node = sum of chords weighted by the other side's length; a chord is (x1 -
+  // x0)/length
+  const auto chord_before = [&](double share) {
+    const double length = s[k] - s[k - 1];
+    w.weight[0] -= share / length, w.weight[1] += share / length;
+  };
+  const auto chord_here = [&](double share) { w.weight[1] -= share / h, w.weight[2] += share / h; };
+  const auto chord_after = [&](double share) {
+    const double length = s[k + 2] - s[k + 1];
+    w.weight[2] -= share / length, w.weight[3] += share / length;
+  };
+  const double before = has_before ? s[k] - s[k - 1] : 0,
+               after = has_after ? s[k + 2] - s[k + 1] : 0;
+  const auto add_slope0 = [&](double share) {
+    chord_before(share * h / (before + h));
+    chord_here(share * before / (before + h));
+  };
+  const auto add_slope1 = [&](double share) {
+    chord_here(share * after / (after + h));
+    chord_after(share * h / (after + h));
+  };
+  if (has_before) add_slope0(slope0);
+  if (has_after) add_slope1(slope1);
+  if (!has_before) chord_here(has_after ? 2 * slope0 : slope0);
+  if (!has_before && has_after) add_slope1(-slope0);
+  if (!has_after) chord_here(has_before ? 2 * slope1 : slope1);
+  if (!has_after && has_before) add_slope0(-slope1);
+  return w;
+}
+
+MeshTransfer::MeshTransfer(const RodMesh& from, const RodMesh& to) : nodes_to_(to.nodes()) {
+  int first_edge = 0;
   for (std::size_t r = 0; r < from.rods.size(); ++r) {
     const std::vector<int>& node = from.rods[r];
     const std::vector<double>& s = from.position[r];
     const int last = int(node.size()) - 1;
-
-    // derivative by arc length at each node: quadratic through its neighbours, one-sided at ends
-    Eigen::Matrix3Xd slope(3, last + 1);
-    const auto chord = [&](int k) -> Eigen::Vector3d {
-      return (x.col(node[k + 1]) - x.col(node[k])) / (s[k + 1] - s[k]);
-    };
-    for (int k = 1; k < last; ++k) {
-      const double before = s[k] - s[k - 1], after = s[k + 1] - s[k];
-      slope.col(k) = (chord(k - 1) * after + chord(k) * before) / (before + after);
-    }
-    slope.col(0) = last > 1 ? Eigen::Vector3d(2 * chord(0) - slope.col(1)) : chord(0);
-    slope.col(last) =
-        last > 1 ? Eigen::Vector3d(2 * chord(last - 1) - slope.col(last - 1)) : chord(last - 1);
-
     int k = 0;
     for (std::size_t m = 0; m < to.rods[r].size(); ++m) {
       const double at = to.position[r][m];
       while (k + 1 < last && at >= s[k + 1]) ++k;
-      const double h = s[k + 1] - s[k], t = std::clamp((at - s[k]) / h, 0.0, 1.0);
-      const double t2 = t * t, t3 = t2 * t;
-      result.col(to.rods[r][m]) =
-          (2 * t3 - 3 * t2 + 1) * x.col(node[k]) + (t3 - 2 * t2 + t) * h * slope.col(k) +
-          (3 * t2 - 2 * t3) * x.col(node[k + 1]) + (t3 - t2) * h * slope.col(k + 1);
+      stencils_.push_back(stencil(node, s, k, at, to.rods[r][m]));
     }
+    k = 0;
+    for (std::size_t m = 1; m < to.rods[r].size(); ++m) {
+      const double middle = 0.5 * (to.position[r][m - 1] + to.position[r][m]);
+      while (k + 1 < last && middle >= s[k + 1]) ++k;
+      edge_.push_back(first_edge + k);
+    }
+    first_edge += last;
   }
-  return result;
+}
+
+void MeshTransfer::nodes(const Eigen::Matrix3Xd& from, Eigen::Matrix3Xd& to) const {
+  to.resize(3, nodes_to_);
+  for (const Stencil& s : stencils_)
+    to.col(s.to) = s.weight[0] * from.col(s.node[0]) + s.weight[1] * from.col(s.node[1]) +
+                   s.weight[2] * from.col(s.node[2]) + s.weight[3] * from.col(s.node[3]);
+}
+
+void MeshTransfer::edges(const Eigen::VectorXd& from, Eigen::VectorXd& to) const {
+  to.resize(Eigen::Index(edge_.size()));
+  for (std::size_t k = 0; k < edge_.size(); ++k) to[Eigen::Index(k)] = from[edge_[k]];
 }
 
 }  // namespace gridshell

@@ -22,13 +22,35 @@ struct RodMesh {
   int nodes() const { return int(flat.cols()); }
 };
 
-/// Cuts each segment into `edges_per_segment` = k edges, and each leg too; a leg shorter than d/4 is
-/// cut into 2^p edges only, where k = b 2^p and b is odd or at most 4. So the meshes of 4, 8, 16 ...
-/// (and 3, 6, 12 ...) edges nest: halving every edge of one gives the next.
+/// Cuts each segment into `edges_per_segment` = k edges, and each leg too; a leg shorter than d/4
+/// is cut into k/4 edges (rounded, at least one). So the meshes of 4, 8, 16 ... edges nest: halving
+/// every edge of one gives the next.
 RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment);
 
-/// Positions on a finer or coarser mesh of the same footprint by cubic interpolation along each rod
-/// (through the nodes, with the tangents of a quadratic fit); joints and edge points are kept.
-Eigen::Matrix3Xd interpolate(const RodMesh& from, const Eigen::Matrix3Xd& x, const RodMesh& to);
+/// Carries values between two meshes of one footprint, rod by rod along the flat arc length. The
+/// plan (where each node or edge of `to` lies in `from`) is made once.
+class MeshTransfer {
+ public:
+  MeshTransfer(const RodMesh& from, const RodMesh& to);
+
+  /// Positions by cubic interpolation through the nodes, with the tangents of a quadratic fit;
+  /// exact at nodes that the meshes share.
+  void nodes(const Eigen::Matrix3Xd& from, Eigen::Matrix3Xd& to) const;
+  /// One value an edge (edges rod by rod, in order): that of the edge of `from` around its middle.
+  void edges(const Eigen::VectorXd& from, Eigen::VectorXd& to) const;
+
+ private:
+  struct Stencil {
+    int to;       ///< node of the finer mesh
+    int node[4];  ///< before, begin, end, after; a neighbour that does not exist repeats
+    double weight[4];
+  };
+  static Stencil stencil(const std::vector<int>& node, const std::vector<double>& s, int k,
+                         double at, int to);
+
+  int nodes_to_ = 0;
+  std::vector<Stencil> stencils_;
+  std::vector<int> edge_;  ///< per edge of `to`: edge of `from`
+};
 
 }  // namespace gridshell

@@ -7,8 +7,8 @@ namespace gridshell {
 
 /// An edge vector with what every energy needs of it.
 struct EdgeGeometry {
-  Eigen::Vector3d tangent;  ///< unit
-  double length = 0;        ///< current length, mm
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  ///< unit
+  double length = 0;                                   ///< current length, mm
 };
 
 /// E = EI/(2l) |kb|^2 = (2EI/l) (1 - c)/(1 + c), c = t_e . t_f, with the curvature binormal

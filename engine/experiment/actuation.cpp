@@ -1,0 +1,265 @@
+#include "engine/experiment/actuation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "engine/measure/gauss.h"
+
+namespace gridshell::experiment {
+namespace {
+
+constexpr double first_shortening = 0.02;
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+record::Layout layout_of(const ActuationScene& scene, const RodMesh& mesh) {
+  record::Layout layout;
+  layout.spacing_mm = scene.footprint.spacing;
+  layout.rod_diameter_mm = scene.rod_diameter_mm;
+  layout.length_scale_mm = scene.length_scale_mm;
+  layout.rods = mesh.rods;
+  for (int k = 0; k < mesh.joints; ++k) {
+    const FootprintJoint& joint = scene.footprint.joints[k];
+    layout.joints.push_back({joint.i, joint.j, joint.u, joint.v, k});
+  }
+  for (const FootprintCell& cell : scene.footprint.cells) {
+    const FootprintJoint& corner = scene.footprint.joints[cell.joints[0]];
+    const double half = 0.5 * scene.footprint.spacing;
+    layout.cells.push_back({cell.i, cell.j, corner.u + half, corner.v + half, cell.joints});
+  }
+  for (int k = 0; k < mesh.edge_points; ++k) layout.edge_points.push_back(mesh.joints + k);
+  layout.original_boundary = scene.original_boundary;
+  layout.actuated_boundary = scene.actuated_boundary;
+  return layout;
+}
+
+/// Measures that are extrapolated like the positions.
+struct Measures {
+  Eigen::VectorXd K;
+  Energies energies;
+};
+
+Measures measure(const ActuationScene& scene, const RodMesh& mesh, const Model& model,
+                 const Eigen::Matrix3Xd& x) {
+  return {cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, x)),
+          energies_of(model, x)};
+}
+
+Measures measure(const ActuationScene& scene, const NestedShell& shell) {
+  const int last = shell.levels() - 1;
+  const NestedState& state = shell.state();
+  Measures fine = measure(scene, shell.mesh(last), shell.model(last), state.levels[last].x);
+  if (!shell.plan().extrapolate) return fine;
+  const Measures coarse =
+      measure(scene, shell.mesh(last - 1), shell.model(last - 1), state.levels[last - 1].x);
+  fine.K = (4 * fine.K - coarse.K) / 3;
+  fine.energies.bend = (4 * fine.energies.bend - coarse.energies.bend) / 3;
+  fine.energies.stretch = (4 * fine.energies.stretch - coarse.energies.stretch) / 3;
+  return fine;
+}
+
+class Actuation {
+ public:
+  Actuation(const ActuationScene& scene, const std::vector<double>& progress, Watch& watch)
+      : scene_(scene), progress_(progress), watch_(watch) {}
+
+  Result<ActuationOutcome> run() {
+    const double begin = now();
+    PathOptions options;
+    options.spacing_mm = scene_.footprint.spacing;
+    shell_ = std::make_unique<NestedShell>(scene_.footprint, scene_.section, scene_.motion,
+                                           scene_.levels, options);
+    outcome_.trajectory.layout = layout_of(scene_, shell_->mesh(shell_->levels() - 1));
+    outcome_.dof = shell_->model(shell_->levels() - 1).dof();
+    const double ready = now();
+    outcome_.seconds_setup = ready - begin;
+
+    if (auto failure = follow()) return tl::unexpected<Error>(*failure);
+    for (auto& [t, frame] : frames_) outcome_.trajectory.frames.push_back(std::move(frame));
+    outcome_.effort = shell_->effort();
+    outcome_.seconds_simulation = now() - ready;
+    return std::move(outcome_);
+  }
+
+ private:
+  std::optional<Error> follow() {
+    for (std::size_t k = 0; k < progress_.size(); ++k)
+      if (progress_[k] == 0) add_flat(int(k));
+    if (progress_.back() == 0) return std::nullopt;
+
+    const auto start =
+        parameter_of_shortening(shell_->mesh(0), shell_->motion(0), first_shortening);
+    if (!start) return start.error();
+    auto first = first_buckled(shell_->system(0), shell_->mesh(0), shell_->motion(0), *start,
+                               scene_.seed, watch_);
+    if (!first) return first.error();
+    if (auto failure = backwards(*start, *first)) return failure;
+    return forwards(*start, *first);
+  }
+
+  /// Samples between the flat and the first buckled state. The symmetric state that the path comes
+  /// from need not be stable all the way: such frames say so.
+  std::optional<Error> backwards(double start, const State& first) {
+    shell_->allow_unstable(true);
+    bool begun = false;
+    for (int k = int(progress_.size()) - 1; k >= 0; --k) {
+      const double t = std::sqrt(progress_[k]);
+      if (t == 0 || t >= start) continue;
+      NestedReport report;
+      if (!begun) report = shell_->start(start, first, watch_);
+      begun = true;
+      if (report.end == NestedEnd::reached) report = shell_->advance(t, watch_);
+      if (watch_.cancelled()) return Error{Fault::cancelled, "stopped"};
+      if (report.end != NestedEnd::reached) break;  // nearer to the flat nothing is certified
+      add(k, t, "");
+    }
+    shell_->allow_unstable(false);
+    return std::nullopt;
+  }
+
+  std::optional<Error> forwards(double start, const State& first) {
+    bool begun = false;
+    for (std::size_t k = 0; k < progress_.size(); ++k) {
+      const double t = std::sqrt(progress_[k]);
+      if (t < start) continue;
+      NestedReport report;
+      if (!begun) report = shell_->start(start, first, watch_);
+      begun = true;
+      if (report.end == NestedEnd::reached) report = shell_->advance(t, watch_);
+      if (watch_.cancelled()) return Error{Fault::cancelled, "stopped"};
+      std::string event;
+      if (report.end == NestedEnd::unstable) {
+        event = snap(t, report);
+        if (event.empty()) return std::nullopt;
+      } else if (report.end != NestedEnd::reached) {
+        stop(report);
+        return std::nullopt;
+      }
+      if (shell_->state().largest_strain > scene_.max_strain) {
+        lock(t);
+        return std::nullopt;
+      }
+      add(int(k), t, event);
+    }
+    return std::nullopt;
+  }
+
+  /// The path lost its stability before t: come to rest again from there, and go on to t.
+  std::string snap(double t, NestedReport report) {
+    for (int tries = 0; tries < 8 && report.end == NestedEnd::unstable; ++tries) {
+      const double lost = report.t;
+      State state = shell_->state().levels[0];
+      const PinnedMotion& motion = shell_->motion(0);
+      const double beyond = std::min(t, lost + 1e-3);
+      const Model& model = shell_->model(0);
+      for (int node = 0; node < model.nodes; ++node)
+        if (model.pinned[node])
+          state.x.col(node) = motion.begin.col(node) + beyond * beyond * motion.change.col(node);
+      auto rest = settle(shell_->system(0), state, watch_);
+      if (!rest) break;
+      report = shell_->start(beyond, *rest, watch_);
+      if (report.end == NestedEnd::reached) report = shell_->advance(t, watch_);
+      if (report.end == NestedEnd::reached) {
+        if (outcome_.limit == record::Limit::none) {
+          outcome_.limit = record::Limit::snap;
+          outcome_.limit_reason = fmt::format(
+              "the path lost its stability at progress {:.4f} and came to rest in another state",
+              lost * lost);
+        }
+        return fmt::format("snap at progress {:.4f}", lost * lost);
+      }
+    }
+    stop(report);
+    return {};
+  }
+
+  void stop(const NestedReport& report) {
+    outcome_.limit = report.end == NestedEnd::not_finite ? record::Limit::no_equilibrium
+                                                         : record::Limit::branch_lost;
+    const char* why = "the state jumped between load steps however small";
+    if (report.end == NestedEnd::unstable)
+      why = "the path lost its stability and no rest was found";
+    if (report.end == NestedEnd::folded) why = "two edges folded onto one another";
+    if (report.end == NestedEnd::levels_disagree) why = "a finer mesh went to another state";
+    if (report.end == NestedEnd::not_finite) why = "a pivot or a position was not finite";
+    outcome_.limit_reason = fmt::format("{} at progress {:.4f}", why, report.t * report.t);
+  }
+
+  void lock(double t) {
+    outcome_.limit = record::Limit::locking;
+    outcome_.limit_reason = fmt::format(
+        "the largest strain passed {:g} before progress {:.4f}: the rods are at their length",
+        scene_.max_strain, t * t);
+  }
+
+  record::Frame frame_at(int index, double progress) const {
+    record::Frame frame;
+    frame.index = index;
+    frame.progress = frame.actuation = progress;
+    frame.boundary_radius_mm =
+        scene_.radius_begin_mm + progress * (scene_.radius_end_mm - scene_.radius_begin_mm);
+    return frame;
+  }
+
+  void add_flat(int index) {
+    record::Frame frame = frame_at(index, 0);
+    const int last = shell_->levels() - 1;
+    const RodMesh& mesh = shell_->mesh(last);
+    State flat;
+    flat.x = Eigen::Matrix3Xd::Zero(3, mesh.nodes());
+    flat.x.topRows(2) = mesh.flat;
+    frame.negative_pivots = shell_->system(last).at(flat, false).negative_pivots;
+    frame.residual_N = shell_->system(last).residual();
+    frame.error_estimate_mm = 0;  // straight rods are exact on any mesh
+    frame.nodes = flat.x;
+    frame.cell_K = Eigen::VectorXd::Zero(Eigen::Index(scene_.footprint.cells.size()));
+    frames_.emplace(0.0, std::move(frame));
+    count_ = shell_->effort().newton_iterations;
+  }
+
+  void add(int index, double t, const std::string& event) {
+    const NestedState& state = shell_->state();
+    record::Frame frame = frame_at(index, progress_[index]);
+    const Measures measures = measure(scene_, *shell_);
+    frame.energy_bend_mJ = measures.energies.bend;
+    frame.energy_stretch_mJ = measures.energies.stretch;
+    frame.cell_K = measures.K;
+    frame.total_K = measures.K.sum();
+    frame.height_mm = state.x.row(2).leftCols(shell_->mesh(0).joints).maxCoeff();
+    frame.residual_N = state.residual_N;
+    frame.negative_pivots = state.inertia.negative_pivots;
+    frame.error_estimate_mm = state.error_estimate_mm;
+    frame.nodes = state.x;
+    frame.event = event;
+    if (event.empty() && frame.negative_pivots > 0)
+      frame.event = fmt::format("unstable: {} negative pivots", frame.negative_pivots);
+    const int count = shell_->effort().newton_iterations;
+    frame.newton_iterations = count - count_;
+    count_ = count;
+    frames_.emplace(t, std::move(frame));
+    watch_.report(double(frames_.size()) / double(progress_.size()));
+  }
+
+  const ActuationScene& scene_;
+  const std::vector<double>& progress_;
+  Watch& watch_;
+  std::unique_ptr<NestedShell> shell_;
+  std::map<double, record::Frame> frames_;
+  ActuationOutcome outcome_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+Result<ActuationOutcome> run_actuation(const ActuationScene& scene,
+                                       const std::vector<double>& progress, Watch& watch) {
+  return Actuation(scene, progress, watch).run();
+}
+
+}  // namespace gridshell::experiment

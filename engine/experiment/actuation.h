@@ -1,0 +1,51 @@
+// The actuation of a footprint: its edge points move straight and evenly from the original to the
+// actuated boundary, through equilibria.
+#pragma once
+
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/footprint/footprint.h"
+#include "engine/record/snapshot.h"
+#include "engine/record/summary.h"
+#include "engine/rod/section.h"
+#include "engine/solve/buckle.h"
+#include "engine/solve/nested.h"
+
+namespace gridshell::experiment {
+
+/// Everything that an actuation needs to know.
+struct ActuationScene {
+  Footprint footprint;
+  RodSection section;
+  double rod_diameter_mm = 0;
+  BoundaryMotion motion;
+  double length_scale_mm = 0;          ///< R_o: what errors are relative to
+  Eigen::Matrix3Xd original_boundary;  ///< closed polylines in correspondence, for pictures
+  Eigen::Matrix3Xd actuated_boundary;
+  double radius_begin_mm = record::unknown;  ///< of a circular boundary
+  double radius_end_mm = record::unknown;
+  BuckleSeed seed;
+  LevelPlan levels;
+  double max_strain = 1e-3;
+};
+
+/// What came out; `limit` says why the path ended before the last sample, if it did.
+struct ActuationOutcome {
+  record::Trajectory trajectory;
+  record::Limit limit = record::Limit::none;
+  std::string limit_reason;
+  int dof = 0;
+  Effort effort;
+  double seconds_setup = 0, seconds_simulation = 0;
+};
+
+/// Samples the path at `progress` (ascending, in [0, 1]; 0 is the flat footprint). The path is
+/// found the patient way: a first buckled state where the rods are 2 % shorter than flat on
+/// average, from there back towards the flat and on to the end. Errors: bad_input, no_equilibrium
+/// (not a single buckled state), cancelled.
+Result<ActuationOutcome> run_actuation(const ActuationScene& scene,
+                                       const std::vector<double>& progress, Watch& watch);
+
+}  // namespace gridshell::experiment

@@ -1,0 +1,33 @@
+// Integrated Gauss curvature of the cells from the rods' crossing angles [Baek 2018, eq. 2].
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/footprint/mesh.h"
+
+namespace gridshell {
+
+/// Unit tangents of the two rods at every joint: along +u of its u-rod, along +v of its v-rod (3 x
+/// joints). t is proportional to t1 l2 + t2 l1, with t1, t2 the unit tangents of the edges before
+/// and after the joint and l1, l2 their lengths: the derivative of a quadratic through three nodes,
+/// second order in edge length.
+struct JointTangents {
+  Eigen::Matrix3Xd u, v;
+};
+
+JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,
+                             const Eigen::Matrix3Xd& x);
+
+/// K of every complete cell = 2 pi - sum of its four interior angles, each between the tangents of
+/// the rods at the joint (rad). [Hazzidakis 1880; Baek 2018, eq. 2]
+Eigen::VectorXd cell_curvature(const Footprint& footprint, const JointTangents& tangents);
+
+/// Total K from the joints alone: with one tangent a rod at a joint its angles sum to 2 pi around,
+/// so inner joints cancel, and what is left is, with alpha the angle of the cells that are there:
+/// pi/2 - alpha at a joint of one cell, beta - pi/2 at one of three (beta that of the missing
+/// cell), 2 (pi/2 - alpha) at one of two opposite cells, 0 else. Computed from the four outgoing
+/// directions of the rods, not from cell_curvature.
+double total_curvature_from_corners(const Footprint& footprint, const JointTangents& tangents);
+
+}  // namespace gridshell

@@ -1,0 +1,201 @@
+#include "engine/solve/nested.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gridshell {
+namespace {
+
+// what the estimates are multiplied by, so that they stay on the safe side of the true error
+constexpr double margin = 1.25;
+
+PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
+  PinnedMotion pinned;
+  pinned.begin = pinned.change = Eigen::Matrix3Xd::Zero(3, mesh.nodes());
+  pinned.begin.middleCols(mesh.joints, mesh.edge_points) = motion.begin;
+  pinned.change.middleCols(mesh.joints, mesh.edge_points) = motion.end - motion.begin;
+  return pinned;
+}
+
+void pin(const Model& model, const PinnedMotion& motion, double t, Eigen::Matrix3Xd& x) {
+  for (int node = 0; node < model.nodes; ++node)
+    if (model.pinned[node]) x.col(node) = motion.begin.col(node) + t * t * motion.change.col(node);
+}
+
+NestedEnd end_of(PathEnd end) {
+  switch (end) {
+    case PathEnd::reached:
+      return NestedEnd::reached;
+    case PathEnd::unstable:
+      return NestedEnd::unstable;
+    case PathEnd::folded:
+      return NestedEnd::folded;
+    case PathEnd::not_finite:
+      return NestedEnd::not_finite;
+    case PathEnd::cancelled:
+      return NestedEnd::cancelled;
+    case PathEnd::lost:
+      break;
+  }
+  return NestedEnd::lost;
+}
+
+}  // namespace
+
+LevelPlan plan_levels(double tolerance, double error_of_four) {
+  // one level more than its own error needs: the last two give the estimate, so no extrapolation
+  const double plain_eight = error_of_four / 4;
+  if (tolerance >= 1.5 * plain_eight) return {{4, 8}, false};
+  // extrapolated from k/2 and k, the error falls sixteenfold a level; about 3e-5 from 4 and 8
+  LevelPlan plan{{4, 8, 16}, true};
+  double error = error_of_four * 1e-2 / 16 * 2;
+  while (error > tolerance && plan.edges_per_segment.back() < 64) {
+    plan.edges_per_segment.push_back(2 * plan.edges_per_segment.back());
+    error /= 16;
+  }
+  return plan;
+}
+
+NestedShell::NestedShell(const Footprint& footprint, const RodSection& section,
+                         const BoundaryMotion& motion, const LevelPlan& plan,
+                         const PathOptions& options)
+    : plan_(plan), options_(options) {
+  for (int edges : plan.edges_per_segment) {
+    auto level = std::make_unique<Level>();
+    level->mesh = mesh_rods(footprint, edges);
+    level->model = build_model(level->mesh, section);
+    level->motion = pinned_motion(level->mesh, motion);
+    level->system = std::make_unique<Linearisation>(level->model);
+    if (!levels_.empty()) {
+      level->from_coarser.emplace(levels_.back()->mesh, level->mesh);
+      level->to_coarser.emplace(level->mesh, levels_.back()->mesh);
+    }
+    levels_.push_back(std::move(level));
+  }
+  path_ = std::make_unique<PathFollower>(*levels_[0]->system, levels_[0]->motion, options_);
+}
+
+Effort NestedShell::effort() const {
+  Effort sum;
+  for (const auto& level : levels_) sum += level->system->effort();
+  return sum;
+}
+
+NestedReport NestedShell::start(double t, const State& coarse, const Watch& watch) {
+  for (auto& level : levels_) level->added.clear(), level->added_t.clear();
+  path_->allow_unstable(options_.allow_unstable);
+  const PathReport report = path_->start(t, coarse);
+  if (report.end != PathEnd::reached) return {end_of(report.end), t};
+  return certify(t, watch);
+}
+
+NestedReport NestedShell::advance(double t, const Watch& watch) {
+  path_->allow_unstable(options_.allow_unstable);
+  const PathReport report = path_->advance(t, watch);
+  if (report.end != PathEnd::reached) return {end_of(report.end), report.t};
+  return certify(t, watch);
+}
+
+State NestedShell::carried(const Level& level, const State& coarser) const {
+  State state;
+  level.from_coarser->nodes(coarser.x, state.x);
+  level.from_coarser->edges(coarser.force, state.force);
+  return state;
+}
+
+void NestedShell::remember(Level& level, double t, const State& coarser, const State& state) {
+  State added = carried(level, coarser);
+  added.x = state.x - added.x;
+  added.force = state.force - added.force;
+  level.added.push_back(std::move(added));
+  level.added_t.push_back(t);
+  if (level.added.size() > 2) {
+    level.added.erase(level.added.begin());
+    level.added_t.erase(level.added_t.begin());
+  }
+}
+
+bool NestedShell::correct(Level& level, const State& coarser, State& state, NewtonReport& report) {
+  NewtonOptions options;
+  options.tolerance_mm = options_.tolerance_mm;
+  options.widest_turn = options_.widest_turn;
+  report = newton(*level.system, state, options);
+  if (report.outcome != NewtonOutcome::converged) return false;
+  // a finer mesh moves the joints by less than a cell, or it went to another state
+  const int joints = level.mesh.joints;
+  return largest_column(state.x.leftCols(joints) - coarser.x.leftCols(joints)) <
+         0.5 * options_.spacing_mm;
+}
+
+NestedReport NestedShell::certify(double t, const Watch& watch) {
+  NestedState next;
+  next.t = t;
+  next.levels.push_back(path_->point().state);
+  NewtonReport report;
+  for (std::size_t k = 1; k < levels_.size(); ++k) {
+    if (watch.cancelled()) return {NestedEnd::cancelled, state_.t};
+    Level& level = *levels_[k];
+    const State& coarser = next.levels.back();
+    State guess = carried(level, coarser);
+    // what the finer mesh added at the last states carries on along the path
+    const std::size_t known = level.added.size();
+    if (known > 0) {
+      const double ahead =
+          known < 2 ? 0 : (t - level.added_t[1]) / (level.added_t[1] - level.added_t[0]);
+      const State& last = level.added.back();
+      guess.x += last.x;
+      guess.force += last.force;
+      if (std::abs(ahead) > 0 && std::abs(ahead) < 3) {
+        guess.x += ahead * (last.x - level.added[0].x);
+        guess.force += ahead * (last.force - level.added[0].force);
+      }
+    }
+    pin(level.model, level.motion, t, guess.x);
+    if (!correct(level, coarser, guess, report)) {
+      // without the memory of other states
+      guess = carried(level, coarser);
+      pin(level.model, level.motion, t, guess.x);
+      if (!correct(level, coarser, guess, report)) return {NestedEnd::levels_disagree, state_.t};
+    }
+    remember(level, t, coarser, guess);
+    next.levels.push_back(std::move(guess));
+  }
+  state_ = std::move(next);
+  finish();
+  if (!state_.inertia.usable) return {NestedEnd::not_finite, t};
+  if (!options_.allow_unstable && !state_.inertia.positive_definite())
+    return {NestedEnd::unstable, t};
+  return {NestedEnd::reached, t};
+}
+
+/// Certificate of the finest level, error estimate, extrapolation.
+void NestedShell::finish() {
+  const std::size_t last = levels_.size() - 1;
+  Level& finest = *levels_[last];
+  state_.inertia = finest.system->at(state_.levels[last], false);
+  state_.residual_N = finest.system->residual();
+  state_.largest_strain = finest.system->assembly().largest_strain;
+  state_.x = state_.levels[last].x;
+  state_.error_estimate_mm = std::numeric_limits<double>::quiet_NaN();
+  if (last == 0) return;
+
+  const int joints = finest.mesh.joints;
+  const auto joints_of = [&](std::size_t k) { return state_.levels[k].x.leftCols(joints); };
+  if (!plan_.extrapolate || last < 2) {
+    state_.error_estimate_mm = margin * largest_column(joints_of(last) - joints_of(last - 1)) / 3;
+    return;
+  }
+  const auto extrapolated = [&](std::size_t k) -> Eigen::Matrix3Xd {
+    return (4 * joints_of(k) - joints_of(k - 1)) / 3;
+  };
+  state_.error_estimate_mm =
+      margin * largest_column(extrapolated(last) - extrapolated(last - 1)) / 15;
+  // the correction is known at the coarser nodes; between them it is interpolated
+  Eigen::Matrix3Xd on_coarser, correction;
+  finest.to_coarser->nodes(state_.x, on_coarser);
+  finest.from_coarser->nodes((on_coarser - state_.levels[last - 1].x) / 3, correction);
+  state_.x += correction;
+}
+
+}  // namespace gridshell

@@ -1,0 +1,100 @@
+// Equilibria on nested meshes: the coarsest follows the path, finer ones correct, and the
+// differences between them give the error or, extrapolated, remove most of it [Richardson 1911].
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/footprint/mesh.h"
+#include "engine/rod/section.h"
+#include "engine/solve/path.h"
+
+namespace gridshell {
+
+/// Where the edge points are as the boundary moves, straight and evenly: column 2r is the begin, 2r
+/// + 1 the end of rod r.
+struct BoundaryMotion {
+  Eigen::Matrix3Xd begin, end;  ///< 3 x edge points, mm
+};
+
+/// Which meshes are solved and how they are used.
+struct LevelPlan {
+  std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before
+  bool extrapolate = false;  ///< over the last two (needs three, the third for the estimate)
+};
+
+/// The plan for a tolerance of the largest joint error, relative to the length scale: the error of
+/// k edges falls as 1/k^2, extrapolated as 1/k^4. `error_of_four` is that of four edges (about 3e-3
+/// for shells of the paper's kind); the estimate says afterwards whether it held.
+LevelPlan plan_levels(double tolerance, double error_of_four = 3e-3);
+
+/// One certified state on all levels.
+struct NestedState {
+  double t = 0;
+  std::vector<State> levels;     ///< coarse to fine
+  Eigen::Matrix3Xd x;            ///< on the finest mesh, extrapolated where planned
+  double error_estimate_mm = 0;  ///< of the joints of x; NaN when only one level is solved
+  double residual_N = 0;         ///< of the finest level's equilibrium
+  Inertia inertia;               ///< of the finest level's Hessian
+  double largest_strain = 0;
+};
+
+/// Why a state could not be certified.
+enum class NestedEnd { reached, unstable, folded, lost, not_finite, levels_disagree, cancelled };
+
+struct NestedReport {
+  NestedEnd end = NestedEnd::reached;
+  double t = 0;
+};
+
+/// A footprint meshed on several levels with one motion of its boundary.
+class NestedShell {
+ public:
+  NestedShell(const Footprint& footprint, const RodSection& section, const BoundaryMotion& motion,
+              const LevelPlan& plan, const PathOptions& options);
+
+  /// From a state of the coarsest level at t, an equilibrium or near one: certifies it on all
+  /// levels.
+  NestedReport start(double t, const State& coarse, const Watch& watch);
+  /// Follows the path to t and certifies there. The current state stays the last good one on
+  /// failure.
+  NestedReport advance(double t, const Watch& watch);
+
+  const NestedState& state() const { return state_; }
+  const LevelPlan& plan() const { return plan_; }
+  int levels() const { return int(levels_.size()); }
+  const RodMesh& mesh(int level) const { return levels_[level]->mesh; }
+  const Model& model(int level) const { return levels_[level]->model; }
+  Linearisation& system(int level) { return *levels_[level]->system; }
+  const PinnedMotion& motion(int level) const { return levels_[level]->motion; }
+  Effort effort() const;
+  /// Whether the path may go on through states with negative pivots (they stay in the report).
+  void allow_unstable(bool allow) { options_.allow_unstable = allow; }
+
+ private:
+  struct Level {
+    RodMesh mesh;
+    Model model;
+    PinnedMotion motion;
+    std::unique_ptr<Linearisation> system;
+    std::optional<MeshTransfer> from_coarser, to_coarser;
+    // what this level adds to the interpolated coarser one, at the last states
+    std::vector<double> added_t;
+    std::vector<State> added;
+  };
+  NestedReport certify(double t, const Watch& watch);
+  bool correct(Level& level, const State& coarser, State& state, NewtonReport& report);
+  void remember(Level& level, double t, const State& coarser, const State& state);
+  State carried(const Level& level, const State& coarser) const;
+  void finish();
+
+  LevelPlan plan_;
+  PathOptions options_;
+  std::vector<std::unique_ptr<Level>> levels_;
+  std::unique_ptr<PathFollower> path_;
+  NestedState state_;
+};
+
+}  // namespace gridshell

@@ -1,0 +1,146 @@
+#include "engine/solve/newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridshell {
+
+Linearisation::Linearisation(const Model& model, std::unique_ptr<LinearSolver> solver)
+    : model_(model), solver_(solver ? std::move(solver) : make_linear_solver(model)) {}
+
+Inertia Linearisation::at(const State& state, bool mixed, double shift, double EA_scale) {
+  EA_scale_ = EA_scale;
+  assemble_hessian(model_, state.x, mixed ? &state.force : nullptr, EA_scale, assembly_);
+  tangents_.resize(3, Eigen::Index(model_.edges.size()));
+  for (std::size_t k = 0; k < model_.edges.size(); ++k)
+    tangents_.col(k) =
+        (state.x.col(model_.edges[k].to) - state.x.col(model_.edges[k].from)).normalized();
+  return shifted(shift);
+}
+
+Inertia Linearisation::shifted(double shift) {
+  ++effort_.factorizations;
+  return solver_->factor(assembly_.hessian, shift);
+}
+
+void Linearisation::correction(Eigen::Matrix3Xd& dx) const {
+  dx = -assembly_.gradient;
+  solver_->solve(dx);
+}
+
+void Linearisation::tangent(const Eigen::Matrix3Xd& pinned_velocity,
+                            Eigen::Matrix3Xd& velocity) const {
+  Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, model_.nodes);
+  for (int node = 0; node < model_.nodes; ++node)
+    if (model_.pinned[node]) moved.col(node) = pinned_velocity.col(node);
+  multiply(model_, assembly_.hessian, moved, velocity);
+  velocity *= -1;
+  solver_->solve(velocity);
+  velocity += moved;
+}
+
+Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx) const {
+  Eigen::VectorXd change(Eigen::Index(model_.edges.size()));
+  for (std::size_t k = 0; k < model_.edges.size(); ++k) {
+    const ModelEdge& edge = model_.edges[k];
+    change[k] = EA_scale_ * edge.EA / edge.rest_length *
+                tangents_.col(k).dot(dx.col(edge.to) - dx.col(edge.from));
+  }
+  return change;
+}
+
+void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state) const {
+  state.x += dx;
+  state.force = assembly_.force + force_change(dx);
+}
+
+double largest_column(const Eigen::Matrix3Xd& dx) {
+  double largest = 0;
+  for (Eigen::Index k = 0; k < dx.cols(); ++k) {
+    const double size = dx.col(k).squaredNorm();
+    if (!(size <= largest)) largest = size;  // a nan is kept, not hidden
+  }
+  return std::sqrt(largest);
+}
+
+NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& options) {
+  NewtonReport report;
+  Eigen::Matrix3Xd dx;
+  const auto end = [&](NewtonOutcome outcome) {
+    report.outcome = outcome;
+    return report;
+  };
+  for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
+    report.inertia = system.at(state);
+    ++system.effort().newton_iterations;
+    if (!std::isfinite(system.assembly().energies.total())) return end(NewtonOutcome::not_finite);
+    if (system.assembly().largest_turn < options.widest_turn) return end(NewtonOutcome::folded);
+    if (!report.inertia.usable) return end(NewtonOutcome::not_finite);
+    system.correction(dx);
+    const double move = largest_column(dx);
+    if (!std::isfinite(move)) return end(NewtonOutcome::not_finite);
+    if (report.iterations == 1) report.first_move_mm = move;
+    // twice as far as the step before, and not at the start: it runs away
+    if (report.iterations > 3 && move > 2 * report.last_move_mm &&
+        move > 100 * options.tolerance_mm)
+      return end(NewtonOutcome::diverged);
+    report.last_move_mm = move;
+    system.apply(dx, state);
+    if (move <= options.tolerance_mm) return end(NewtonOutcome::converged);
+  }
+  return report;
+}
+
+NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions& options,
+                      const Watch& watch) {
+  NewtonReport report;
+  Eigen::Matrix3Xd dx, trial;
+  const Model& model = system.model();
+  const auto energy_at = [&](const Eigen::Matrix3Xd& x) {
+    const Energies energies = energies_of(model, x);
+    return energies.bend + options.EA_scale * energies.stretch;
+  };
+  double shift = 0;
+  for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
+    if (watch.cancelled()) return report;
+    // the smallest shift of a geometric row that makes the Hessian positive definite
+    report.inertia = system.at(state, false, shift, options.EA_scale);
+    ++system.effort().newton_iterations;
+    double first = shift;
+    while (!report.inertia.positive_definite()) {
+      if (shift > 1e8) {
+        report.outcome = NewtonOutcome::not_finite;
+        return report;
+      }
+      shift = std::max(4 * shift, 1e-6);
+      report.inertia = system.shifted(shift);
+    }
+    system.correction(dx);
+    const double move = largest_column(dx);
+    if (!std::isfinite(move)) {
+      report.outcome = NewtonOutcome::not_finite;
+      return report;
+    }
+    if (report.iterations == 1) report.first_move_mm = move;
+    report.last_move_mm = move;
+    if (move <= options.tolerance_mm && shift == 0) {
+      system.apply(dx, state);
+      report.outcome = NewtonOutcome::converged;
+      return report;
+    }
+
+    const double start = energy_at(state.x),
+                 slope = (system.assembly().gradient.array() * dx.array()).sum();
+    double step = 1;
+    for (; step > 1e-10; step /= 2) {
+      trial = state.x + step * dx;
+      const double energy = energy_at(trial);
+      if (energy <= start + 1e-4 * step * slope + 1e-14 * std::abs(start)) break;
+    }
+    state.x.swap(trial);
+    shift = step == 1 && first == shift ? (shift < 1e-5 ? 0 : shift / 4) : shift;
+  }
+  return report;
+}
+
+}  // namespace gridshell

@@ -1,0 +1,108 @@
+// Newton's method on the mixed form: positions and the axial force of every edge are unknowns; the
+// forces are eliminated edge by edge, so the system solved has the size and pattern of the Hessian.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "engine/core/watch.h"
+#include "engine/solve/linear_solver.h"
+
+namespace gridshell {
+
+/// What changes: positions (3 x nodes, mm) and axial forces (one an edge, N).
+struct State {
+  Eigen::Matrix3Xd x;
+  Eigen::VectorXd force;
+};
+
+/// Counts of the costly operations, for reports.
+struct Effort {
+  int newton_iterations = 0;
+  int factorizations = 0;
+  Effort& operator+=(const Effort& other) {
+    newton_iterations += other.newton_iterations;
+    factorizations += other.factorizations;
+    return *this;
+  }
+};
+
+/// One linearisation at a time of a model's equilibrium equations, and solves with it. With axial
+/// force N, unit tangent t and edge difference B dx = t . (dx_to - dx_from)/l,
+///   (K_bend + EA/l t t^T + N/|e| (I - t t^T)) dx = -dE/dx,   N <- EA (strain + B dx);
+/// at an equilibrium both forms agree. Owns the factorisation and the working memory of one model.
+class Linearisation {
+ public:
+  explicit Linearisation(const Model& model, std::unique_ptr<LinearSolver> solver = nullptr);
+
+  /// Assembles and factorises at `state`; with mixed = false the Hessian of the energy itself,
+  /// whose inertia certifies stability.
+  Inertia at(const State& state, bool mixed = true, double shift = 0, double EA_scale = 1);
+  /// Factorises the assembled Hessian again with another shift.
+  Inertia shifted(double shift);
+
+  /// Newton's correction: solves K dx = -dE/dx with the pinned nodes held.
+  void correction(Eigen::Matrix3Xd& dx) const;
+  /// Tangent of the path: how free nodes follow when pinned nodes move with `pinned_velocity` (its
+  /// columns at free nodes are ignored); comes back as the velocity of all nodes.
+  void tangent(const Eigen::Matrix3Xd& pinned_velocity, Eigen::Matrix3Xd& velocity) const;
+  /// Solves K y = right_hand_side at the free nodes, in place.
+  void solve(Eigen::Matrix3Xd& right_hand_side) const { solver_->solve(right_hand_side); }
+  /// Change of the axial forces with positions, EA B dx, at the linearisation point.
+  Eigen::VectorXd force_change(const Eigen::Matrix3Xd& dx) const;
+  /// state.x += dx and the mixed update of the forces.
+  void apply(const Eigen::Matrix3Xd& dx, State& state) const;
+
+  const Model& model() const { return model_; }
+  const Assembly& assembly() const { return assembly_; }  ///< of the last at()
+  double residual() const { return residual_of(model_, assembly_.gradient); }
+  const Effort& effort() const { return effort_; }
+  Effort& effort() { return effort_; }
+
+ private:
+  const Model& model_;
+  std::unique_ptr<LinearSolver> solver_;
+  Assembly assembly_;
+  Eigen::Matrix3Xd tangents_;  // unit tangent of each edge at the linearisation point
+  double EA_scale_ = 1;
+  Effort effort_;
+};
+
+/// Largest move of a node.
+double largest_column(const Eigen::Matrix3Xd& dx);
+
+struct NewtonOptions {
+  double tolerance_mm = 1e-5;  ///< converged when a correction moves no node further
+  int most_iterations = 25;
+  double widest_turn = -0.5;  ///< edges that turn further than this cosine have folded
+};
+
+/// How full Newton steps ended.
+enum class NewtonOutcome { converged, folded, diverged, not_finite, not_converged };
+
+struct NewtonReport {
+  NewtonOutcome outcome = NewtonOutcome::not_converged;
+  int iterations = 0;
+  double first_move_mm = 0;  ///< of the first correction: how good the guess was
+  double last_move_mm = 0;
+  double residual_N = 0;  ///< at the state left, once converged
+  Inertia inertia;        ///< of the last factorisation (mixed form)
+};
+
+/// Full mixed Newton steps from `state`, pinned nodes held. On success `state` is the equilibrium;
+/// else it holds the last iterate and the report says what it is.
+NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& options);
+
+struct MinimiseOptions {
+  double tolerance_mm = 1e-5;
+  int most_iterations = 400;
+  double EA_scale = 1;
+};
+
+/// Shifted Newton with line search from far away: the Hessian is shifted until it is positive
+/// definite, the energy falls at every step; ends at a minimum, never at a saddle. `state.force` is
+/// set at the end.
+NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions& options,
+                      const Watch& watch);
+
+}  // namespace gridshell

@@ -1,0 +1,133 @@
+#include "engine/solve/path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridshell {
+
+void PathFollower::take_velocity(PathPoint& point) const {
+  system_.tangent(motion_.velocity(point.t), point.velocity.x);
+  point.velocity.force = system_.force_change(point.velocity.x);
+}
+
+PathReport PathFollower::start(double t, State state) {
+  PathReport report;
+  has_before_ = false;
+  now_.t = t;
+  now_.state = std::move(state);
+  NewtonOptions options;
+  options.tolerance_mm = options_.tolerance_mm;
+  options.widest_turn = options_.widest_turn;
+  report.last = newton(system_, now_.state, options);
+  report.t = t;
+  if (report.last.outcome == NewtonOutcome::folded)
+    report.end = PathEnd::folded;
+  else if (report.last.outcome != NewtonOutcome::converged)
+    report.end = PathEnd::lost;
+  else if (!options_.allow_unstable && !report.last.inertia.positive_definite())
+    report.end = PathEnd::unstable;
+  else
+    take_velocity(now_);
+  return report;
+}
+
+State PathFollower::predict(double t) const {
+  const double h = t - now_.t;
+  // the change of the tangent since the point before gives the curvature of the path
+  const double bend = has_before_ ? 0.5 * h * h / (now_.t - before_.t) : 0.0;
+  State guess;
+  guess.x = now_.state.x + h * now_.velocity.x;
+  guess.force = now_.state.force + h * now_.velocity.force;
+  if (has_before_) {
+    guess.x += bend * (now_.velocity.x - before_.velocity.x);
+    guess.force += bend * (now_.velocity.force - before_.velocity.force);
+  }
+  // pinned nodes go exactly where they belong
+  const Model& model = system_.model();
+  for (int node = 0; node < model.nodes; ++node)
+    if (model.pinned[node])
+      guess.x.col(node) = motion_.begin.col(node) + t * t * motion_.change.col(node);
+  return guess;
+}
+
+PathFollower::StepOutcome PathFollower::step(double t, bool converge, NewtonReport& report) {
+  PathPoint next;
+  next.t = t;
+  next.state = predict(t);
+  const double predicted_move = largest_column(next.state.x - now_.state.x);
+  const double allowed = std::min(options_.largest_move * options_.spacing_mm,
+                                  0.5 * predicted_move + 1e-3 * options_.spacing_mm);
+  const double good_enough =
+      converge ? options_.tolerance_mm : options_.target_move * options_.spacing_mm;
+  Eigen::Matrix3Xd dx;
+  report = {};
+  for (report.iterations = 1; report.iterations <= 8; ++report.iterations) {
+    report.inertia = system_.at(next.state);
+    ++system_.effort().newton_iterations;
+    if (system_.assembly().largest_turn < options_.widest_turn) return StepOutcome::refused_folded;
+    if (!report.inertia.usable) return StepOutcome::not_finite;
+    system_.correction(dx);
+    const double move = largest_column(dx);
+    if (!std::isfinite(move)) return StepOutcome::not_finite;
+    if (report.iterations == 1) report.first_move_mm = move;
+    if (move > allowed) return StepOutcome::refused_move;
+    report.last_move_mm = move;
+    system_.apply(dx, next.state);
+    if (move <= good_enough) break;
+  }
+  if (report.last_move_mm > good_enough) return StepOutcome::refused_move;
+  if (!options_.allow_unstable && !report.inertia.positive_definite())
+    return StepOutcome::refused_unstable;
+  take_velocity(next);
+  before_ = std::move(now_);
+  has_before_ = true;
+  now_ = std::move(next);
+  report.outcome = NewtonOutcome::converged;
+  return StepOutcome::accepted;
+}
+
+PathReport PathFollower::advance(double t, const Watch& watch) {
+  PathReport report;
+  report.t = now_.t;
+  while (now_.t != t) {
+    if (watch.cancelled()) {
+      report.end = PathEnd::cancelled;
+      return report;
+    }
+    const double left = t - now_.t;
+    // the last two steps are made equal, so that none is tiny
+    double h = std::min({step_, options_.largest_step, std::abs(left)});
+    if (h < std::abs(left) && 2 * h > std::abs(left)) h = std::abs(left) / 2;
+    const double target = h == std::abs(left) ? t : now_.t + std::copysign(h, left);
+    const StepOutcome outcome = step(target, target == t, report.last);
+    ++report.steps;
+    if (outcome == StepOutcome::accepted) {
+      report.t = now_.t;
+      // the prediction is off by a term of third order in h
+      const double aim = options_.target_move * options_.spacing_mm;
+      const double grow = std::cbrt(aim / std::max(report.last.first_move_mm, 1e-3 * aim));
+      step_ = std::max(h * std::clamp(grow, 0.4, 2.5), options_.smallest_step);
+      continue;
+    }
+    ++report.halvings;
+    step_ = h / 2;
+    if (step_ >= options_.smallest_step) continue;
+    switch (outcome) {
+      case StepOutcome::refused_unstable:
+        report.end = PathEnd::unstable;
+        break;
+      case StepOutcome::refused_folded:
+        report.end = PathEnd::folded;
+        break;
+      case StepOutcome::not_finite:
+        report.end = PathEnd::not_finite;
+        break;
+      default:
+        report.end = PathEnd::lost;
+    }
+    return report;
+  }
+  return report;
+}
+
+}  // namespace gridshell
