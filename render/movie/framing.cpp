@@ -70,6 +70,7 @@ Framing::Framing(const Eigen::Matrix3Xd& points, const MovieStyle& style, const 
     up_mm_ += (view.middle().y - height_ / 2.0) / pixels_per_mm();
   }
   half_extent_mm_ /= style.zoom;
+  seen_ = union_of_views(points);
 }
 
 Camera Framing::camera(double moment) const {

@@ -24,6 +24,8 @@ class Framing {
   Camera camera(double moment) const;
   /// in the plane through the target that faces the camera
   double pixels_per_mm() const { return height_ / (2 * half_extent_mm_); }
+  /// what all points cover over the whole turn, in pixels
+  const Box& seen() const { return seen_; }
 
  private:
   Box union_of_views(const Eigen::Matrix3Xd& points) const;
@@ -33,6 +35,7 @@ class Framing {
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   double half_extent_mm_ = 1;
   double right_mm_ = 0, up_mm_ = 0;  ///< from the middle to the target, as the camera sees it
+  Box seen_;
 };
 
 }  // namespace gridshell::render

@@ -56,7 +56,9 @@ double lowest_z(const record::Trajectory& run) {
 
 // lines thinner than this many pixels flicker and vanish in a movie
 double least_pixels(const MovieStyle& style) {
-  return std::max(1.1, 1.35 * std::min(style.height / 720.0, style.width / 1000.0));
+  // a figure is printed at some 15 pixels a mm, where a hair line needs two
+  const double wished = style.quality == Quality::figure ? 2.0 : 1.35;
+  return std::max(1.1, wished * std::min(style.height / 720.0, style.width / 1000.0));
 }
 
 // one more than the largest node that the layout names
@@ -126,7 +128,7 @@ Drawing Stage::drawing(int index) const {
   drawing.nodes = frame.nodes;
   drawing.rod_diameter_mm = std::max(run_.layout.rod_diameter_mm, thin);
   drawing.joint_diameter_mm = std::max(joint_diameter_mm, 1.5 * drawing.rod_diameter_mm);
-  drawing.cell_colours = cell_colours(frame, 0.85f);
+  drawing.cell_colours = cell_colours(frame, 0.93f);
   // where both boundaries coincide the stronger one hides the fainter
   drawing.rings = {{run_.layout.original_boundary, std::max(0.6, thin), {0.66f, 0.67f, 0.7f, 1}},
                    {boundary_at(run_.layout, frame.actuation),
@@ -185,8 +187,14 @@ void Stage::draw_overlay(Canvas& canvas, int index) const {
   if (!layout_.title.empty()) draw_captions(canvas, index);
   if (bar_ && !layout_.colour_bar.empty())
     draw_colour_bar(canvas, layout_.colour_bar, *bar_, 0.95 * layout_.font_size);
-  if (!layout_.inset.empty())
+  if (!layout_.inset.empty()) {
     draw_top_view(canvas, layout_.inset, run_.layout, frame, top_, cell_colours(frame, 1));
+    // where the corner beside a round shell has room for it
+    const double size = 0.75 * layout_.font_size, gap = 0.3 * size;
+    if (layout_.inset.width > 11 * layout_.font_size)
+      canvas.text("top", {layout_.inset.x + gap, layout_.inset.y + gap},
+                  {.size = size, .colour = pale_ink, .align_y = AlignY::top});
+  }
   if (!layout_.scale_bar.empty())
     draw_scale_bar(canvas, layout_.scale_bar, style_.scale_bar_mm, pixels_per_mm(),
                    0.95 * layout_.font_size);

@@ -30,6 +30,8 @@ class Stage {
   /// of K□ over all frames; none when cells are not coloured
   const std::optional<ColourBar>& colour_bar() const { return bar_; }
   double pixels_per_mm() const { return framing_.pixels_per_mm(); }
+  /// what the shell covers over all frames, in pixels
+  const Box& shell_box() const { return framing_.seen(); }
 
   /// what to draw of frame `index`, and from where
   Drawing drawing(int index) const;

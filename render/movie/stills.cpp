@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/core/atomic_file.h"
 #include "render/image/png.h"
 #include "render/movie/captions.h"
@@ -28,6 +31,18 @@ void finish_still(Image& picture, const Stage& stage, const record::Frame& frame
     const double em = stage.layout().font_size;
     canvas.text(still_caption(frame), {0.9 * em, 0.9 * em}, {.size = em, .align_y = AlignY::top});
   });
+}
+
+// side by side, panels need no more ground than the shell takes
+Image around(const Image& picture, const Box& shell) {
+  const double margin = 0.05 * shell.width;
+  const int x0 = std::max(0, int(shell.x - margin)), y0 = std::max(0, int(shell.y - margin));
+  const int x1 = std::min(picture.width, int(std::ceil(shell.right() + margin)));
+  const int y1 = std::min(picture.height, int(std::ceil(shell.bottom() + margin)));
+  Image part(x1 - x0, y1 - y0);
+  for (int y = y0; y < y1; ++y)
+    std::copy_n(picture.pixel(x0, y), 4 * std::size_t(part.width), part.pixel(0, y - y0));
+  return part;
 }
 
 std::filesystem::path with_suffix(const std::filesystem::path& stem, const std::string& suffix) {
@@ -65,7 +80,8 @@ Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory
     Result<Image> picture = renderer.draw(stage.drawing(k), stage.camera(k),
                                           draw_quality(style.quality), style.width, style.height);
     if (!picture) return tl::unexpected(picture.error());
-    figure.panels.push_back({*picture, stage.frames() > 1 ? std::string(1, char('a' + k % 26)) : "",
+    figure.panels.push_back({around(*picture, stage.shell_box()),
+                             stage.frames() > 1 ? std::string(1, char('a' + k % 26)) : "",
                              still_caption(frame)});
     finish_still(*picture, stage, frame, k);
     files.push_back(with_suffix(stem, fmt::format("_{}.png", k + 1)));

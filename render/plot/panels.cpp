@@ -38,7 +38,7 @@ Grid make_grid(const PanelFigure& figure) {
   const bool captions = std::any_of(figure.panels.begin(), figure.panels.end(),
                                     [](const Panel& p) { return !p.caption.empty(); });
   grid.caption = captions ? std::round(1.7 * grid.em) : 0;
-  grid.foot = figure.scale_bar_mm > 0 ? std::round(2.2 * grid.em) : 0;
+  grid.foot = figure.scale_bar_mm > 0 ? std::round(1.9 * grid.em) : 0;
   if (figure.colour_bar)
     draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
       grid.bar = grid.gap + std::ceil(colour_bar_width(canvas, *figure.colour_bar, grid.em));
