@@ -12,6 +12,7 @@ constexpr double pi = std::numbers::pi;
 constexpr double key_azimuth = -70 * pi / 180;  // from the camera's, to its left
 constexpr double key_elevation = 60 * pi / 180;
 constexpr double key_disc = 5 * pi / 180;  // radius of the light's disc
+constexpr double key_spread = 0.04;        // narrower than the disc's: shadows of thin rods stay
 constexpr double key_share = 0.55;         // of the light on ground that faces up
 constexpr double ground_share = 0.5;       // of the sky's light returned by the ground
 
@@ -57,13 +58,15 @@ void normalise(std::vector<Lighting>& passes, int first, int last, double share)
 std::vector<Lighting> lighting_passes(const Camera& camera, int passes) {
   const Eigen::Vector3d key = key_direction(camera);
   const double sky = 1 - key_share, bounce = ground_share * sky;
-  if (passes <= 1) return {{key, key_share / key.z(), sky, bounce}};
+  if (passes <= 1) return {{key, key_share / key.z(), sky, bounce, key_spread}};
   std::vector<Lighting> result(passes);
   const int keys = std::clamp(int(std::lround(key_share * passes)), 1, passes - 1);
   for (int i = 0; i < passes; ++i) {
     const Eigen::Vector2d p = sequence(i, 0.5);
     result[i].direction = i < keys ? on_disc(key, p) : on_sky(p);
     result[i].bounce = bounce;
+    // each direction stands for its part of the sky: blurred so wide, single shadows do not show
+    result[i].spread = i < keys ? 0.01 : std::sqrt(2 * pi / (passes - keys));
     result[i].pixel_shift = sequence(i, 0.25) - Eigen::Vector2d::Constant(0.5);
   }
   normalise(result, 0, keys, key_share);

@@ -15,6 +15,7 @@ namespace gridshell::render {
 struct Lighting {
   Eigen::Vector3d direction;  ///< unit vector l towards the shadow-casting light
   double key = 0, sky = 0, bounce = 0;
+  double spread = 0;  ///< width of a shadow's edge over the height of what casts it
   Eigen::Vector2d pixel_shift = Eigen::Vector2d::Zero();  ///< in samples, within +-1/2
 };
 

@@ -11,8 +11,7 @@ namespace gridshell::render {
 namespace {
 
 constexpr double ground_from = 1.3, ground_to = 4.5;  // where it pales, in radii of the scene
-constexpr float penumbra_least = 0.9f;                // mm, where rod and ground touch
-constexpr float penumbra_growth = 0.06f;              // width over height of what casts the shadow
+constexpr float penumbra_least = 0.8f;                // mm, where rod and ground touch
 constexpr float roof = 0.35f;         // of the sky's light that a closed roof takes from the ground
 constexpr float shell_blur_mm = 0.8f;  // radius of the shadow's edge on the shell
 
@@ -221,12 +220,11 @@ void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light)
   program.set("light_matrix", shadow_.matrix());
   program.set("height_range", shadow_.height_range_mm());
   program.set("texel", shadow_.size_mm() / float(ShadowMap::texels));
-  // in many passes the light's disc and the sky come from the passes themselves
   const bool many = passes_.size() > 1;
   program.set("key_part", float(light.key * light.direction.z()));
   program.set("sky_part", many ? 0.f : roof * float(light.sky));
   program.set("open", float(light.key * light.direction.z() + light.sky));
-  program.set("penumbra", Eigen::Vector2f(penumbra_least, many ? 0.f : penumbra_growth));
+  program.set("penumbra", Eigen::Vector2f(penumbra_least, float(light.spread)));
 
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, layer_.colour());

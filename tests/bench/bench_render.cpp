@@ -1,0 +1,78 @@
+// CPU time of a frame by quality, off-screen: medians in ms, their ratios to a plain frame, and the
+// way back from the graphics side. Usage: bench_render [auto|osmesa|egl] [frames]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "render/context/context.h"
+#include "render/draw/renderer.h"
+#include "tests/render/draw/square_shell.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+namespace {
+
+double cpu_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);  // of all threads, the rasteriser's too
+  return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
+}
+
+struct Case {
+  const char* name;
+  DrawQuality quality;
+  std::vector<double> ms;
+
+  double median() {
+    std::nth_element(ms.begin(), ms.begin() + long(ms.size() / 2), ms.end());
+    return ms[ms.size() / 2];
+  }
+};
+
+void measure(Renderer& renderer, int width, int height, int frames) {
+  const auto shell = test::square_shell(17, 9);
+  const Drawing drawing = test::square_drawing(shell);
+  Camera camera;
+  camera.target = {0, 0, 15};
+  camera.half_extent_mm = 105;
+  std::vector<Case> cases = {{"plain", {1, false, 1}, {}},
+                             {"2x2", {2, false, 1}, {}},
+                             {"2x2 + shadow", {2, true, 1}, {}}};
+  // in turns, so that whatever else runs on the machine falls on all of them alike
+  for (int frame = -1; frame < frames; ++frame)
+    for (Case& c : cases) {
+      camera.azimuth_deg = 30 + 0.5 * frame;
+      const double before = cpu_ms();
+      if (auto image = renderer.draw(drawing, camera, c.quality, width, height); !image) {
+        fmt::print(stderr, "{}\n", image.error().message);
+        std::exit(1);
+      }
+      if (frame >= 0) c.ms.push_back(cpu_ms() - before);
+    }
+  const double plain = cases[0].median();
+  for (Case& c : cases)
+    fmt::print("{:>5} x {:<5} {:<14} {:8.1f} ms {:6.2f} of plain\n", width, height, c.name,
+               c.median(), c.median() / plain);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const std::string kind = count > 1 ? arguments[1] : "auto";
+  const int frames = count > 2 ? std::max(1, std::atoi(arguments[2])) : 15;
+  auto context = Context::create(kind == "egl"      ? ContextKind::egl
+                                 : kind == "osmesa" ? ContextKind::osmesa
+                                                    : ContextKind::automatic);
+  if (!context) return fmt::print(stderr, "{}\n", context.error().message), 1;
+  auto renderer = Renderer::create(**context);
+  if (!renderer) return fmt::print(stderr, "{}\n", renderer.error().message), 1;
+  fmt::print("{}: 4896 rod segments, 289 joints, 256 cells; median CPU time of {} frames\n",
+             (*context)->kind_name(), frames);
+  measure(**renderer, 1280, 720, frames);
+  measure(**renderer, 1920, 1080, std::max(1, frames / 3));
+}
