@@ -21,10 +21,13 @@ std::string leave_finished(const fs::path& partial) {
   }
   if (pictures + runs == 0) {
     fs::remove_all(partial, error);
-    return "nothing was finished, nothing is left behind";
+    return "nothing was finished, so nothing is left behind";
   }
-  return fmt::format("{} finished pictures and {} finished runs are in '{}'", pictures, runs,
-                     partial.string());
+  const auto count = [](int n, const char* what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  return fmt::format("{} and {}, each whole, are in '{}'", count(runs, "run"),
+                     count(pictures, "picture"), fs::proximate(partial).string());
 }
 
 int deliver(const fs::path& final_folder, const std::vector<Phase>& phases, bool quiet,
@@ -32,7 +35,7 @@ int deliver(const fs::path& final_folder, const std::vector<Phase>& phases, bool
   auto staged = StagedFolder::create(final_folder);
   if (!staged) return report(staged.error());
   const auto last_words = [&] {
-    std::fprintf(stderr, "stopped: %s\n", leave_finished(staged->path()).c_str());
+    std::fprintf(stderr, "stopped\n%s\n", leave_finished(staged->path()).c_str());
   };
   Result<void> outcome;
   {
@@ -46,7 +49,7 @@ int deliver(const fs::path& final_folder, const std::vector<Phase>& phases, bool
   if (fs::exists(staged->path())) staged->keep();
   auto error = outcome.error();
   if (error.fault == Fault::cancelled) error.message = "stopped";
-  error.message += ": " + left;
+  error.message += "\n" + left;
   return report(error);
 }
 

@@ -1,5 +1,5 @@
-// Pictures of a run as a preset wants them: what joins the renderer, which knows no preset, to the
-// commands.
+// Pictures of a run as its preset wants them: what joins the renderer, which knows no preset, to
+// the commands.
 #pragma once
 
 #include <filesystem>
@@ -10,28 +10,43 @@
 #include "engine/core/watch.h"
 #include "engine/preset/preset.h"
 #include "engine/record/snapshot.h"
+#include "render/context/context.h"
+#include "render/draw/renderer.h"
+#include "render/movie/style.h"
 
 namespace gridshell::app {
 
 /// Which pictures a command makes.
 enum class Pictures { none, movie, stills };
 
-/// Draws trajectories; holds the OpenGL context, so it stays on the thread that made it.
+/// How the preset wants its run shown.
+render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
+
+/// Draws runs; holds the OpenGL context, so it stays on the thread that made it.
 class Artist {
  public:
-  /// `context` as in --context; `threads` of the rasteriser, 0: its own choice. Errors: io when no
-  /// context can be had, naming what was tried.
-  static Result<std::unique_ptr<Artist>> create(const std::string& context, int threads);
-  virtual ~Artist() = default;
+  /// `context` as in --context; `threads` of the rasteriser, 0: as many as it likes. Errors: io
+  /// when no context can be had, naming what was tried.
+  static Result<Artist> create(const std::string& context, int threads);
 
-  /// Movie: folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is at hand.
-  /// Stills: folder/still_1.png ... Each file is whole or absent. Errors: io, cancelled.
-  virtual Result<void> draw(Pictures pictures, const preset::Preset& preset,
-                            const record::Trajectory& trajectory,
-                            const std::filesystem::path& folder, Watch& watch) = 0;
+  /// Movie: folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is on the PATH.
+  /// Stills: folder/<preset>_1.png ... and all in one, folder/<preset>.png. Each file is whole or
+  /// absent. Errors: io, cancelled, bad_input when a picture cannot be that size.
+  Result<void> draw(Pictures pictures, const preset::Preset& preset, const record::Trajectory& run,
+                    const std::filesystem::path& folder, Watch& watch);
+
+ private:
+  Artist(std::unique_ptr<render::Context> context, std::unique_ptr<render::Renderer> renderer)
+      : context_(std::move(context)), renderer_(std::move(renderer)) {}
+
+  std::unique_ptr<render::Context> context_;  // outlives the renderer
+  std::unique_ptr<render::Renderer> renderer_;
 };
 
-/// What drawing is expected to take, for the progress bar.
+/// What drawing will take about, for the progress bar and `check`.
 double expected_seconds(Pictures pictures, const preset::Preset& preset);
+
+/// Where movie frames lie without a movie (no ffmpeg): the line for a shell that makes it, else "".
+std::string missing_movie(const std::filesystem::path& folder, const preset::Preset& preset);
 
 }  // namespace gridshell::app

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/console.h"
 #include "app/delivery.h"
@@ -79,16 +80,17 @@ Result<void> do_job(Job& job, Pictures pictures, const fs::path& folder, Artist*
 
 Result<void> do_jobs(std::vector<Job>& jobs, const std::string& name, Pictures pictures,
                      const Options& options, const fs::path& partial, Progress& progress) {
-  std::unique_ptr<Artist> artist;
+  std::optional<Artist> artist;
   if (pictures != Pictures::none) {
     auto made = Artist::create(options.context, options.threads);
     if (!made) return tl::unexpected(made.error());
-    artist = std::move(*made);
+    artist.emplace(std::move(*made));
   }
   std::vector<std::string> names;
   std::vector<record::Summary> summaries;
   for (auto& job : jobs) {
-    auto ended = do_job(job, pictures, folder_of(partial, job.name), artist.get(), progress);
+    auto ended =
+        do_job(job, pictures, folder_of(partial, job.name), artist ? &*artist : nullptr, progress);
     if (!ended) return ended;
     names.push_back(job.name);
     summaries.push_back(job.summary);
@@ -107,6 +109,8 @@ void print_result(const Job& job, const fs::path& folder) {
       at.seconds_simulation);
   if (at.seconds_render > 0) fmt::print(", {:.1f} s drawn", at.seconds_render);
   fmt::print("\n");
+  const auto line = missing_movie(folder_of(folder, job.name), job.preset);
+  if (!line.empty()) fmt::print("no ffmpeg on the PATH; this makes the movie:\n  {}\n", line);
 }
 
 }  // namespace

@@ -141,6 +141,12 @@ Result<std::vector<FinishedRun>> read_runs(const Options& options) {
   return runs;
 }
 
+void print_drawn(const FinishedRun& run, const fs::path& folder) {
+  fmt::print("{}: {:.1f} s drawn\n", folder.string(), run.summary.seconds_render);
+  const auto line = missing_movie(folder, run.preset);
+  if (!line.empty()) fmt::print("no ffmpeg on the PATH; this makes the movie:\n  {}\n", line);
+}
+
 int render(const Options& options) {
   auto runs = read_runs(options);
   if (!runs) return report(runs.error());
@@ -154,17 +160,15 @@ int render(const Options& options) {
     auto artist = Artist::create(options.context, options.threads);
     if (!artist) return tl::unexpected(artist.error());
     for (auto& run : *runs) {
-      auto drawn = draw_run(run, **artist, folder_of(from, run.name), folder_of(partial, run.name),
-                            progress);
+      auto drawn =
+          draw_run(run, *artist, folder_of(from, run.name), folder_of(partial, run.name), progress);
       if (!drawn) return drawn;
     }
     return runs->front().name.empty() ? Result<void>{} : copy_data(from, partial);
   };
   const int code = deliver(folder, phases, options.quiet, work);
   if (code == ExitCode::done && !options.quiet)
-    for (const auto& run : *runs)
-      fmt::print("{}: {:.1f} s drawn\n", folder_of(folder, run.name).string(),
-                 run.summary.seconds_render);
+    for (const auto& run : *runs) print_drawn(run, folder_of(folder, run.name));
   return code;
 }
 
