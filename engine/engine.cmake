@@ -14,3 +14,6 @@ target_include_directories(gridshell_engine SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR
 target_compile_definitions(gridshell_engine PUBLIC EIGEN_DONT_PARALLELIZE)
 target_link_libraries(gridshell_engine PUBLIC fmt::fmt
   PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY} ${HDF5_HL_LIBRARY} PkgConfig::HDF5)
+# the two hot loops may contract a*b+c; everything else rounds each operation
+set_source_files_properties(engine/solve/block_cholesky.cpp engine/gridshell/assembly.cpp
+  PROPERTIES COMPILE_OPTIONS -ffp-contract=fast)

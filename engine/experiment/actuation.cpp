@@ -71,36 +71,80 @@ class Actuation {
 
   Result<ActuationOutcome> run() {
     const double begin = now();
-    PathOptions options;
-    options.spacing_mm = scene_.footprint.spacing;
-    shell_ = std::make_unique<NestedShell>(scene_.footprint, scene_.section, scene_.motion,
-                                           scene_.levels, options);
-    outcome_.trajectory.layout = layout_of(scene_, shell_->mesh(shell_->levels() - 1));
-    outcome_.dof = shell_->model(shell_->levels() - 1).dof();
-    const double ready = now();
-    outcome_.seconds_setup = ready - begin;
-
+    build(scene_.levels);
+    seconds_setup_ = now() - begin;
     if (auto failure = follow()) return tl::unexpected<Error>(*failure);
+    const RodMesh& mesh = shell_->mesh(shell_->levels() - 1);
+    outcome_.trajectory.layout = layout_of(scene_, mesh);
+    outcome_.levels = shell_->plan();
+    outcome_.dof = shell_->model(shell_->levels() - 1).dof();
     for (auto& [t, frame] : frames_) outcome_.trajectory.frames.push_back(std::move(frame));
-    outcome_.effort = shell_->effort();
-    outcome_.seconds_simulation = now() - ready;
+    outcome_.effort += shell_->effort();
+    outcome_.seconds_setup = seconds_setup_;
+    outcome_.seconds_simulation = now() - begin - seconds_setup_;
     return std::move(outcome_);
   }
 
  private:
+  void build(const LevelPlan& plan) {
+    PathOptions options;
+    options.spacing_mm = scene_.footprint.spacing;
+    // far below what the meshes leave, so that it does not show in the differences between them
+    options.tolerance_mm = std::clamp(1e-3 * scene_.tolerance * scene_.length_scale_mm, 1e-7, 1e-4);
+    if (shell_) outcome_.effort += shell_->effort();
+    shell_ = std::make_unique<NestedShell>(scene_.footprint, scene_.section, scene_.motion, plan,
+                                           options);
+    count_ = outcome_.effort.newton_iterations;
+  }
+
   std::optional<Error> follow() {
+    const double last = std::sqrt(progress_.back());
+    if (last > 0) {
+      const auto start =
+          parameter_of_shortening(shell_->mesh(0), shell_->motion(0), first_shortening);
+      if (!start) return start.error();
+      auto first = first_buckled(shell_->system(0), shell_->mesh(0), shell_->motion(0), *start,
+                                 scene_.seed, watch_);
+      if (!first) return first.error();
+      if (auto failure = find_levels(*start, *first)) return failure;
+      if (auto failure = backwards(*start, *first)) return failure;
+      if (auto failure = forwards(*start, *first)) return failure;
+    }
     for (std::size_t k = 0; k < progress_.size(); ++k)
       if (progress_[k] == 0) add_flat(int(k));
-    if (progress_.back() == 0) return std::nullopt;
+    return std::nullopt;
+  }
 
-    const auto start =
-        parameter_of_shortening(shell_->mesh(0), shell_->motion(0), first_shortening);
-    if (!start) return start.error();
-    auto first = first_buckled(shell_->system(0), shell_->mesh(0), shell_->motion(0), *start,
-                               scene_.seed, watch_);
-    if (!first) return first.error();
-    if (auto failure = backwards(*start, *first)) return failure;
-    return forwards(*start, *first);
+  /// Goes to the last sample at once, where errors are largest as a rule, and takes finer meshes
+  /// until the estimate there meets the tolerance. That state is the last frame: it does not depend
+  /// on how many frames are asked for.
+  std::optional<Error> find_levels(double start, const State& first) {
+    const double end = std::sqrt(progress_.back());
+    if (end < start) return std::nullopt;
+    for (;;) {
+      NestedReport report = shell_->start(start, first, watch_);
+      if (report.end == NestedEnd::reached) report = shell_->advance(end, watch_);
+      if (watch_.cancelled()) return Error{Fault::cancelled, "stopped"};
+      const bool reached = report.end == NestedEnd::reached;
+      const bool met =
+          !(shell_->state().error_estimate_mm > scene_.tolerance * scene_.length_scale_mm);
+      if (scene_.levels_fixed || met || !reached) {
+        if (reached && shell_->state().largest_strain <= scene_.max_strain)
+          add(int(progress_.size()) - 1, end, "");
+        return std::nullopt;
+      }
+      const auto plan = finer(shell_->plan());
+      if (!plan) {
+        return Error{
+            Fault::no_equilibrium,
+            fmt::format("the tolerance {:g} is not met: {} edges a segment leave an estimated "
+                        "error of {:.2g} mm, {:.2g} of the length scale",
+                        scene_.tolerance, shell_->plan().edges_per_segment.back(),
+                        shell_->state().error_estimate_mm,
+                        shell_->state().error_estimate_mm / scene_.length_scale_mm)};
+      }
+      build(*plan);
+    }
   }
 
   /// Samples between the flat and the first buckled state. The symmetric state that the path comes
@@ -110,7 +154,7 @@ class Actuation {
     bool begun = false;
     for (int k = int(progress_.size()) - 1; k >= 0; --k) {
       const double t = std::sqrt(progress_[k]);
-      if (t == 0 || t >= start) continue;
+      if (t == 0 || t >= start || frames_.contains(t)) continue;
       NestedReport report;
       if (!begun) report = shell_->start(start, first, watch_);
       begun = true;
@@ -127,7 +171,7 @@ class Actuation {
     bool begun = false;
     for (std::size_t k = 0; k < progress_.size(); ++k) {
       const double t = std::sqrt(progress_[k]);
-      if (t < start) continue;
+      if (t < start || frames_.contains(t)) continue;
       NestedReport report;
       if (!begun) report = shell_->start(start, first, watch_);
       begun = true;
@@ -220,7 +264,6 @@ class Actuation {
     frame.nodes = flat.x;
     frame.cell_K = Eigen::VectorXd::Zero(Eigen::Index(scene_.footprint.cells.size()));
     frames_.emplace(0.0, std::move(frame));
-    count_ = shell_->effort().newton_iterations;
   }
 
   void add(int index, double t, const std::string& event) {
@@ -239,7 +282,7 @@ class Actuation {
     frame.event = event;
     if (event.empty() && frame.negative_pivots > 0)
       frame.event = fmt::format("unstable: {} negative pivots", frame.negative_pivots);
-    const int count = shell_->effort().newton_iterations;
+    const int count = outcome_.effort.newton_iterations + shell_->effort().newton_iterations;
     frame.newton_iterations = count - count_;
     count_ = count;
     frames_.emplace(t, std::move(frame));
@@ -253,6 +296,7 @@ class Actuation {
   std::map<double, record::Frame> frames_;
   ActuationOutcome outcome_;
   int count_ = 0;
+  double seconds_setup_ = 0;
 };
 
 }  // namespace

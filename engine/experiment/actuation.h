@@ -27,7 +27,9 @@ struct ActuationScene {
   double radius_begin_mm = record::unknown;  ///< of a circular boundary
   double radius_end_mm = record::unknown;
   BuckleSeed seed;
-  LevelPlan levels;
+  LevelPlan levels;  ///< to begin with; finer ones follow where the tolerance asks for them
+  bool levels_fixed = false;  ///< the mesh was asked for
+  double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
   double max_strain = 1e-3;
 };
 
@@ -36,6 +38,7 @@ struct ActuationOutcome {
   record::Trajectory trajectory;
   record::Limit limit = record::Limit::none;
   std::string limit_reason;
+  LevelPlan levels;  ///< that were used
   int dof = 0;
   Effort effort;
   double seconds_setup = 0, seconds_simulation = 0;

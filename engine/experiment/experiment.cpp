@@ -65,6 +65,8 @@ Result<ActuationScene> scene_of(const preset::Preset& preset) {
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;
   scene.levels = levels_of(preset.accuracy);
+  scene.levels_fixed = preset.accuracy.edges_per_segment > 0;
+  scene.tolerance = preset.accuracy.tolerance;
   scene.max_strain = preset.limits.max_strain;
   return scene;
 }
@@ -90,7 +92,7 @@ record::Summary summary_of(const preset::Preset& preset, const ActuationScene& s
   s.preset = preset.name;
   s.model = "bend";
   s.model_reason = reason_for_bend;
-  s.edges_per_segment = scene.levels.edges_per_segment.back();
+  s.edges_per_segment = outcome.levels.edges_per_segment.back();
   s.rods = int(scene.footprint.rods.size());
   s.joints = int(scene.footprint.joints.size());
   s.cells = int(scene.footprint.cells.size());

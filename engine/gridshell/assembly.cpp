@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/clones.h"
 #include "engine/gridshell/model.h"
 #include "engine/rod/bend.h"
 #include "engine/rod/stretch.h"
@@ -33,16 +34,16 @@ inline void reset(const Model& model, Assembly& out) {
   out.largest_strain = 0;
 }
 
-/// Stretch of one edge: energy, force, gradient. Returns nothing that the caller cannot see in
-/// `out`.
-inline void add_stretch(const Model& model, int k, double EA, const EdgeGeometry& g,
+/// Stretch of one edge: energy and axial force.
+inline void add_stretch(const ModelEdge& edge, int k, double EA, const EdgeGeometry& g,
                         Assembly& out) {
-  const ModelEdge& edge = model.edges[k];
   const StretchEnergy s = stretch(EA, edge.rest_length, g.length);
   out.energies.stretch += s.value;
   out.force[k] = s.force;
   keep_largest(out.largest_strain, std::abs(g.length / edge.rest_length - 1));
-  const Eigen::Vector3d pull = s.force * g.tangent;
+}
+
+inline void add_pull(const ModelEdge& edge, const Eigen::Vector3d& pull, Assembly& out) {
   out.gradient.col(edge.from) -= pull;
   out.gradient.col(edge.to) += pull;
 }
@@ -81,24 +82,51 @@ Energies energies_of(const Model& model, const Eigen::Matrix3Xd& x) {
   return sum;
 }
 
-void assemble_gradient(const Model& model, const Eigen::Matrix3Xd& x, Assembly& out) {
+namespace {
+
+/// Energies, forces and gradient, the pull of edge k being pull_of(k, its geometry).
+template <class Pull>
+inline __attribute__((always_inline)) void assemble_forces(const Model& model,
+                                                           const Eigen::Matrix3Xd& x, Assembly& out,
+                                                           Pull pull_of) {
   reset(model, out);
   EdgeGeometry before, here;
   BendEnergy bend;
   std::size_t next_bend = 0;
   for (int k = 0; k < int(model.edges.size()); ++k) {
-    here = geometry_of(x, model.edges[k]);
-    add_stretch(model, k, model.edges[k].EA, here, out);
+    const ModelEdge& edge = model.edges[k];
+    here = geometry_of(x, edge);
+    add_stretch(edge, k, edge.EA, here, out);
+    add_pull(edge, pull_of(k, here), out);
     if (next_bend < model.bends.size() && model.bends[next_bend].edge + 1 == k) {
       keep_smallest(out.largest_turn, before.tangent.dot(here.tangent));
       bend_gradient(model.bends[next_bend].stiffness, before, here, bend);
-      add_bend_gradient(model.edges[k - 1], model.edges[k], bend, out);
+      add_bend_gradient(model.edges[k - 1], edge, bend, out);
       ++next_bend;
     }
     before = here;
   }
 }
 
+}  // namespace
+
+GRIDSHELL_CLONES
+void assemble_gradient(const Model& model, const Eigen::Matrix3Xd& x, Assembly& out) {
+  assemble_forces(model, x, out, [&](int k, const EdgeGeometry& g) -> Eigen::Vector3d {
+    return out.force[k] * g.tangent;
+  });
+}
+
+GRIDSHELL_CLONES
+void assemble_mixed_residual(const Model& model, const Eigen::Matrix3Xd& x,
+                             const Eigen::VectorXd& axial_force, const Eigen::Matrix3Xd& tangents,
+                             Assembly& out) {
+  assemble_forces(model, x, out, [&](int k, const EdgeGeometry& g) -> Eigen::Vector3d {
+    return axial_force[k] * g.tangent + (out.force[k] - axial_force[k]) * tangents.col(k);
+  });
+}
+
+GRIDSHELL_CLONES
 void assemble_hessian(const Model& model, const Eigen::Matrix3Xd& x,
                       const Eigen::VectorXd* axial_force, double EA_scale, Assembly& out) {
   reset(model, out);
@@ -113,7 +141,8 @@ void assemble_hessian(const Model& model, const Eigen::Matrix3Xd& x,
     const ModelEdge& edge = model.edges[k];
     const double EA = EA_scale * edge.EA;
     here = geometry_of(x, edge);
-    add_stretch(model, k, EA, here, out);
+    add_stretch(edge, k, EA, here, out);
+    add_pull(edge, out.force[k] * here.tangent, out);
     const double geometric = (axial_force ? (*axial_force)[k] : out.force[k]) / here.length;
     Eigen::Matrix3d stiffness =
         here.tangent * ((EA / edge.rest_length - geometric) * here.tangent).transpose();

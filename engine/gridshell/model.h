@@ -72,6 +72,13 @@ Energies energies_of(const Model& model, const Eigen::Matrix3Xd& x);
 /// Energies, gradient and axial forces at x.
 void assemble_gradient(const Model& model, const Eigen::Matrix3Xd& x, Assembly& out);
 
+/// The residual of the mixed form at x with axial forces N, its condition N = EA strain eliminated
+/// with the edges' directions t0 of an earlier linearisation: dE_bend/dx + sum over edges of N t +
+/// (EA strain - N) t0. Where N = EA strain it is the gradient.
+void assemble_mixed_residual(const Model& model, const Eigen::Matrix3Xd& x,
+                             const Eigen::VectorXd& axial_force, const Eigen::Matrix3Xd& tangents,
+                             Assembly& out);
+
 /// All of the above and the Hessian. `axial_force` (one an edge), where given, takes the place of
 /// EA (|e|/l - 1) in the geometric stiffness N/|e| (I - t t^T) only: the mixed form, whose axial
 /// forces are unknowns of their own, eliminated on the edge. Null: the Hessian of the energy.

@@ -6,15 +6,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "engine/core/clones.h"
 #include "engine/solve/linear_solver.h"
 #include "engine/solve/ordering.h"
-
-// one source, two instruction sets: the processor's own is picked when the program starts
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define GRIDSHELL_CLONES __attribute__((target_clones("arch=haswell", "default")))
-#else
-#define GRIDSHELL_CLONES
-#endif
 
 namespace gridshell {
 namespace {

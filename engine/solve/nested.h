@@ -25,10 +25,15 @@ struct LevelPlan {
   bool extrapolate = false;  ///< over the last two (needs three, the third for the estimate)
 };
 
-/// The plan for a tolerance of the largest joint error, relative to the length scale: the error of
-/// k edges falls as 1/k^2, extrapolated as 1/k^4. `error_of_four` is that of four edges (about 3e-3
-/// for shells of the paper's kind); the estimate says afterwards whether it held.
-LevelPlan plan_levels(double tolerance, double error_of_four = 3e-3);
+/// The cheapest plan worth trying for a tolerance of the largest joint error, relative to the
+/// length scale: the error of k edges falls as 1/k^2, extrapolated as 1/k^4, and is about 3e-3 at
+/// four edges for shells of the paper's kind. The estimate says afterwards whether it held; `finer`
+/// is what to try then.
+LevelPlan plan_levels(double tolerance);
+
+/// The next plan: extrapolation, or one level more. Empty when the finest mesh would pass 128
+/// edges.
+std::optional<LevelPlan> finer(const LevelPlan& plan);
 
 /// One certified state on all levels.
 struct NestedState {
@@ -88,7 +93,7 @@ class NestedShell {
   bool correct(Level& level, const State& coarser, State& state, NewtonReport& report);
   void remember(Level& level, double t, const State& coarser, const State& state);
   State carried(const Level& level, const State& coarser) const;
-  void finish();
+  void finish(const NewtonReport& report);
 
   LevelPlan plan_;
   PathOptions options_;

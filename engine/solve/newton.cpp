@@ -23,6 +23,10 @@ Inertia Linearisation::shifted(double shift) {
   return solver_->factor(assembly_.hessian, shift);
 }
 
+void Linearisation::residual_at(const State& state) {
+  assemble_mixed_residual(model_, state.x, state.force, tangents_, assembly_);
+}
+
 void Linearisation::correction(Eigen::Matrix3Xd& dx) const {
   dx = -assembly_.gradient;
   solver_->solve(dx);
@@ -70,8 +74,13 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     report.outcome = outcome;
     return report;
   };
+  bool factor = true;
+  double before = 0;
   for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
-    report.inertia = system.at(state);
+    if (factor)
+      report.inertia = system.at(state);
+    else
+      system.residual_at(state);
     ++system.effort().newton_iterations;
     if (!std::isfinite(system.assembly().energies.total())) return end(NewtonOutcome::not_finite);
     if (system.assembly().largest_turn < options.widest_turn) return end(NewtonOutcome::folded);
@@ -81,12 +90,16 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     if (!std::isfinite(move)) return end(NewtonOutcome::not_finite);
     if (report.iterations == 1) report.first_move_mm = move;
     // twice as far as the step before, and not at the start: it runs away
-    if (report.iterations > 3 && move > 2 * report.last_move_mm &&
-        move > 100 * options.tolerance_mm)
+    if (report.iterations > 4 && move > 2 * before && move > 100 * options.tolerance_mm)
       return end(NewtonOutcome::diverged);
-    report.last_move_mm = move;
+    if (move > options.farthest_mm) return end(NewtonOutcome::diverged);
     system.apply(dx, state);
+    report.last_move_mm = move;
     if (move <= options.tolerance_mm) return end(NewtonOutcome::converged);
+    // an old factorisation serves near the end only, and while it shrinks the corrections
+    const bool near = move < options.near_mm;
+    factor = !near || (!factor && move > 0.1 * before);
+    before = move;
   }
   return report;
 }

@@ -41,6 +41,11 @@ class Linearisation {
   /// Factorises the assembled Hessian again with another shift.
   Inertia shifted(double shift);
 
+  /// The energy's gradient at a state, without a factorisation.
+  void gradient_at(const State& state) { assemble_gradient(model_, state.x, assembly_); }
+  /// The mixed residual at another state, with the factorisation and directions of the last at().
+  void residual_at(const State& state);
+
   /// Newton's correction: solves K dx = -dE/dx with the pinned nodes held.
   void correction(Eigen::Matrix3Xd& dx) const;
   /// Tangent of the path: how free nodes follow when pinned nodes move with `pinned_velocity` (its
@@ -74,7 +79,9 @@ double largest_column(const Eigen::Matrix3Xd& dx);
 struct NewtonOptions {
   double tolerance_mm = 1e-5;  ///< converged when a correction moves no node further
   int most_iterations = 25;
-  double widest_turn = -0.5;  ///< edges that turn further than this cosine have folded
+  double near_mm = 0.2;        ///< corrections below this may use an old factorisation
+  double farthest_mm = 1e300;  ///< a correction that moves a node further is refused: diverged
+  double widest_turn = -0.5;   ///< edges that turn further than this cosine have folded
 };
 
 /// How full Newton steps ended.
@@ -82,15 +89,16 @@ enum class NewtonOutcome { converged, folded, diverged, not_finite, not_converge
 
 struct NewtonReport {
   NewtonOutcome outcome = NewtonOutcome::not_converged;
-  int iterations = 0;
+  int iterations = 0;        ///< corrections, with a new factorisation or an old one
   double first_move_mm = 0;  ///< of the first correction: how good the guess was
   double last_move_mm = 0;
   double residual_N = 0;  ///< at the state left, once converged
   Inertia inertia;        ///< of the last factorisation (mixed form)
 };
 
-/// Full mixed Newton steps from `state`, pinned nodes held. On success `state` is the equilibrium;
-/// else it holds the last iterate and the report says what it is.
+/// Full mixed Newton steps from `state`, pinned nodes held; a factorisation is used again for as
+/// long as its corrections shrink tenfold. On success `state` is the equilibrium, else it is the
+/// last iterate and the report says what happened.
 NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& options);
 
 struct MinimiseOptions {

@@ -12,15 +12,17 @@ constexpr int small_piece = 48;  // nodes; below, minimum degree beats another c
 
 class Dissection {
  public:
-  Dissection(const Model& model, const std::vector<std::vector<int>>& graph)
-      : model_(model), graph_(graph), piece_(graph.size(), 0) {
-    order_.reserve(graph.size());
+  Dissection(const Model& model, std::vector<std::vector<int>> graph)
+      : model_(model), graph_(std::move(graph)), piece_(graph_.size(), 0) {
+    order_.reserve(graph_.size());
   }
 
   std::vector<int> run() {
-    std::vector<int> all(graph_.size());
-    std::iota(all.begin(), all.end(), 0);
-    dissect(std::move(all));
+    condense();
+    std::vector<int> rest;
+    for (int node = 0; node < int(graph_.size()); ++node)
+      if (!eliminated(node)) rest.push_back(node);
+    dissect(std::move(rest));
     return std::move(order_);
   }
 
@@ -29,6 +31,37 @@ class Dissection {
     int axis = -1;
     double at = 0, cost = 0;
   };
+
+  /// Nodes inside a segment that touch nothing but their own segment go first, one after the other:
+  /// each has four neighbours then. What is left of a segment are its two joints and the nodes next
+  /// to them, so the rest of the work does not grow with the number of edges a segment.
+  void condense() {
+    std::vector<char> rods_through(model_.nodes, 0);
+    for (const ModelBend& bend : model_.bends) ++rods_through[model_.edges[bend.edge].to];
+    for (const ModelBend& bend : model_.bends) {
+      const ModelEdge &before = model_.edges[bend.edge], &after = model_.edges[bend.edge + 1];
+      const int node = model_.free_index[before.to];
+      if (node >= 0 && rods_through[before.from] < 2 && rods_through[before.to] < 2 &&
+          rods_through[after.to] < 2)
+        eliminate(node);
+    }
+  }
+
+  /// neighbours of an eliminated node become neighbours of one another
+  void eliminate(int node) {
+    order_.push_back(node);
+    piece_[node] = -1;
+    std::vector<int> around;
+    for (int other : graph_[node])
+      if (!eliminated(other)) around.push_back(other);
+    for (int a : around) {
+      std::vector<int>& list = graph_[a];
+      std::erase(list, node);
+      for (int b : around)
+        if (b != a && std::find(list.begin(), list.end(), b) == list.end()) list.push_back(b);
+    }
+    graph_[node].clear();
+  }
 
   double coordinate(int node, int axis) const { return model_.flat(axis, model_.free_nodes[node]); }
 
@@ -88,46 +121,27 @@ class Dissection {
       const double ca = coordinate(a, 1 - cut.axis), cb = coordinate(b, 1 - cut.axis);
       return ca != cb ? ca < cb : a < b;
     });
+    for (int node : middle) piece_[node] = -1;
     order_.insert(order_.end(), middle.begin(), middle.end());
   }
 
   /// exact minimum degree on a small piece; nodes outside count as neighbours eliminated later
-  void minimum_degree(const std::vector<int>& nodes) {
-    std::vector<std::vector<int>> adjacent(nodes.size());
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      for (int other : graph_[nodes[k]])
-        if (!eliminated(other)) adjacent[k].push_back(other);
-    for (auto& list : adjacent) std::sort(list.begin(), list.end());
-
-    std::vector<char> done(nodes.size(), 0);
-    for (std::size_t step = 0; step < nodes.size(); ++step) {
-      std::size_t pick = nodes.size();
-      for (std::size_t k = 0; k < nodes.size(); ++k)
-        if (!done[k] && (pick == nodes.size() || adjacent[k].size() < adjacent[pick].size()))
-          pick = k;
-      done[pick] = 1;
-      const int node = nodes[pick];
-      order_.push_back(node);
-      mark_eliminated(node);
-      // the neighbours of an eliminated node become neighbours of one another
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        if (done[k] || !std::binary_search(adjacent[pick].begin(), adjacent[pick].end(), nodes[k]))
-          continue;
-        std::vector<int> merged;
-        std::set_union(adjacent[k].begin(), adjacent[k].end(), adjacent[pick].begin(),
-                       adjacent[pick].end(), std::back_inserter(merged));
-        std::erase_if(merged, [&](int other) { return other == nodes[k] || other == node; });
-        adjacent[k] = std::move(merged);
-      }
+  void minimum_degree(std::vector<int> nodes) {
+    while (!nodes.empty()) {
+      const auto pick = std::min_element(nodes.begin(), nodes.end(), [&](int a, int b) {
+        const std::size_t da = graph_[a].size(), db = graph_[b].size();
+        return da != db ? da < db : a < b;
+      });
+      eliminate(*pick);
+      nodes.erase(pick);
     }
   }
 
   bool eliminated(int node) const { return piece_[node] < 0; }
-  void mark_eliminated(int node) { piece_[node] = -1; }
 
   const Model& model_;
-  const std::vector<std::vector<int>>& graph_;
-  std::vector<int> piece_;  // which piece a node is in; -1 once eliminated
+  std::vector<std::vector<int>> graph_;  // of what is not eliminated yet
+  std::vector<int> piece_;               // which piece a node is in; -1 once eliminated
   int pieces_ = 0;
   std::vector<int> order_;
 };

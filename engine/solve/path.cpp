@@ -20,6 +20,7 @@ PathReport PathFollower::start(double t, State state) {
   options.widest_turn = options_.widest_turn;
   report.last = newton(system_, now_.state, options);
   report.t = t;
+  last_ = report.last;
   if (report.last.outcome == NewtonOutcome::folded)
     report.end = PathEnd::folded;
   else if (report.last.outcome != NewtonOutcome::converged)
@@ -57,32 +58,30 @@ PathFollower::StepOutcome PathFollower::step(double t, bool converge, NewtonRepo
   const double predicted_move = largest_column(next.state.x - now_.state.x);
   const double allowed = std::min(options_.largest_move * options_.spacing_mm,
                                   0.5 * predicted_move + 1e-3 * options_.spacing_mm);
-  const double good_enough =
+  NewtonOptions newton_options;
+  newton_options.tolerance_mm =
       converge ? options_.tolerance_mm : options_.target_move * options_.spacing_mm;
-  Eigen::Matrix3Xd dx;
-  report = {};
-  for (report.iterations = 1; report.iterations <= 8; ++report.iterations) {
-    report.inertia = system_.at(next.state);
-    ++system_.effort().newton_iterations;
-    if (system_.assembly().largest_turn < options_.widest_turn) return StepOutcome::refused_folded;
-    if (!report.inertia.usable) return StepOutcome::not_finite;
-    system_.correction(dx);
-    const double move = largest_column(dx);
-    if (!std::isfinite(move)) return StepOutcome::not_finite;
-    if (report.iterations == 1) report.first_move_mm = move;
-    if (move > allowed) return StepOutcome::refused_move;
-    report.last_move_mm = move;
-    system_.apply(dx, next.state);
-    if (move <= good_enough) break;
+  newton_options.most_iterations = 8;
+  newton_options.farthest_mm = allowed;
+  newton_options.widest_turn = options_.widest_turn;
+  report = newton(system_, next.state, newton_options);
+  switch (report.outcome) {
+    case NewtonOutcome::converged:
+      break;
+    case NewtonOutcome::folded:
+      return StepOutcome::refused_folded;
+    case NewtonOutcome::not_finite:
+      return StepOutcome::not_finite;
+    default:
+      return StepOutcome::refused_move;
   }
-  if (report.last_move_mm > good_enough) return StepOutcome::refused_move;
   if (!options_.allow_unstable && !report.inertia.positive_definite())
     return StepOutcome::refused_unstable;
   take_velocity(next);
+  last_ = report;
   before_ = std::move(now_);
   has_before_ = true;
   now_ = std::move(next);
-  report.outcome = NewtonOutcome::converged;
   return StepOutcome::accepted;
 }
 

@@ -69,6 +69,7 @@ class PathFollower {
 
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
   const PathPoint& point() const { return now_; }
+  const NewtonReport& last() const { return last_; }  ///< of the current point
   const PinnedMotion& motion() const { return motion_; }
 
  private:
@@ -80,6 +81,7 @@ class PathFollower {
   PinnedMotion motion_;
   PathOptions options_;
   PathPoint now_, before_;
+  NewtonReport last_;
   bool has_before_ = false;
   double step_ = 0.05;
 };

@@ -1,0 +1,97 @@
+#include "engine/geometry/antiderivative.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gridshell {
+namespace {
+
+constexpr int points = 16;
+constexpr std::size_t most_panels = 20000;  // a function that is no function must not fill memory
+struct Rule {
+  std::array<double, points> node, weight;
+};
+
+/// nodes and weights on [-1, 1]: Newton iteration on the Legendre polynomial's recurrence
+Rule gauss_legendre() {
+  Rule rule;
+  for (int k = 0; k < points; ++k) {
+    double x = std::cos(M_PI * (k + 0.75) / (points + 0.5)), slope = 1;
+    for (int iteration = 0; iteration < 8; ++iteration) {
+      double before = 1, p = x;
+      for (int n = 2; n <= points; ++n) {
+        const double next = ((2 * n - 1) * x * p - (n - 1) * before) / n;
+        before = p;
+        p = next;
+      }
+      slope = points * (before - x * p) / (1 - x * x);
+      x -= p / slope;
+    }
+    rule.node[k] = x;
+    rule.weight[k] = 2 / ((1 - x * x) * slope * slope);
+  }
+  return rule;
+}
+
+}  // namespace
+
+Antiderivative::Antiderivative(std::function<double(double)> f, const std::vector<double>& breaks,
+                               double origin)
+    : f_(std::move(f)), ends_{breaks.front()}, values_{0} {
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+    if (breaks[k] < breaks[k + 1])
+      add_panel(breaks[k], breaks[k + 1], panel(breaks[k], breaks[k + 1]), 0);
+  const double at_origin = (*this)(origin);
+  for (double& value : values_) value -= at_origin;
+}
+
+double Antiderivative::panel(double a, double b) const {
+  static const Rule rule = gauss_legendre();
+  const double middle = (a + b) / 2, half = (b - a) / 2;
+  double total = 0;
+  for (int k = 0; k < points; ++k) total += rule.weight[k] * f_(middle + half * rule.node[k]);
+  return half * total;
+}
+
+void Antiderivative::add_panel(double a, double b, double whole, int halvings) {
+  const double middle = (a + b) / 2;
+  const double left = panel(a, middle), right = panel(middle, b);
+  // round-off in t and in the sum end the halving; the halves are better than their difference
+  const double size = (b - a) * std::max({std::abs(f_(a)), std::abs(f_(middle)), std::abs(f_(b))});
+  if (halvings < 45 && ends_.size() < most_panels &&
+      std::abs(left + right - whole) > 2e-14 * size) {
+    add_panel(a, middle, left, halvings + 1);
+    add_panel(middle, b, right, halvings + 1);
+    return;
+  }
+  ends_.push_back(b);
+  values_.push_back(values_.back() + left + right);
+}
+
+double Antiderivative::operator()(double t) const {
+  const auto after = std::upper_bound(ends_.begin() + 1, ends_.end() - 1, t);
+  const auto k = static_cast<std::size_t>(after - ends_.begin()) - 1;
+  return values_[k] + panel(ends_[k], t);
+}
+
+double Antiderivative::inverse(double value) const {
+  const auto after = std::upper_bound(values_.begin() + 1, values_.end() - 1, value);
+  const auto k = static_cast<std::size_t>(after - values_.begin()) - 1;
+  double low = ends_[k], high = ends_[k + 1];
+  const double width = high - low;
+  double t = low + (high - low) * (value - values_[k]) / (values_[k + 1] - values_[k]);
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const double miss = values_[k] + panel(ends_[k], t) - value;
+    (miss > 0 ? high : low) = t;
+    double next = t - miss / f_(t);
+    if (!(next > low && next < high)) next = (low + high) / 2;
+    const double step = std::abs(next - t);
+    t = next;
+    // Newton squares its error: the next step would be lost in round-off
+    if (step <= 1e-10 * width) break;
+  }
+  return t;
+}
+
+}  // namespace gridshell

@@ -1,0 +1,133 @@
+#include "engine/geometry/revolution_net.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridshell {
+namespace {
+
+// how near the net comes to its folds c r = 1 (rods around the axis) and c r = 0 (along it)
+constexpr double margin = 1e-8;
+
+bool exists(const Profile& profile, double c, double t) {
+  const double cr = c * profile.at(t).r;
+  return cr > margin && (1 - cr) * (1 + cr) > margin;
+}
+
+/// the piece of the profile around its middle on which the net exists, with the breaks inside
+std::vector<double> unfolded(const Profile& profile, double c) {
+  constexpr int samples = 64;  // between breaks, to find the first fold
+  std::vector<double> range{profile.origin};
+  const auto walk = [&](std::vector<double> breaks) {
+    double good = profile.origin;
+    for (const double to : breaks) {
+      const double from = good;
+      for (int k = 1; k <= samples; ++k) {
+        double bad = k == samples ? to : from + (to - from) * k / samples;
+        if (exists(profile, c, bad)) {
+          good = bad;
+          continue;
+        }
+        for (int halving = 0; halving < 100 && good != bad; ++halving) {
+          const double middle = (good + bad) / 2;
+          if (middle == good || middle == bad) break;
+          (exists(profile, c, middle) ? good : bad) = middle;
+        }
+        range.push_back(good);
+        return;
+      }
+      range.push_back(to);
+    }
+  };
+  std::vector<double> before, after;
+  for (const double t : profile.breaks) (t < profile.origin ? before : after).push_back(t);
+  std::reverse(before.begin(), before.end());
+  walk(before);
+  walk(after);
+  std::sort(range.begin(), range.end());
+  return range;
+}
+
+}  // namespace
+
+Result<RevolutionNet> RevolutionNet::make(Profile profile, double c) {
+  const double cr = c * profile.at(profile.origin).r;
+  if (!(c > 0))
+    return fail(Fault::bad_input,
+                fmt::format("a net on the {} needs c > 0, not {:g} / mm", profile.name, c));
+  if (!exists(profile, c, profile.origin))
+    return fail(Fault::bad_input,
+                fmt::format("no net exists on the {} with c = {:g} / mm: in its middle "
+                            "sin(omega/2) = c r is {:g}, it must lie between 0 and 1",
+                            profile.name, c, cr));
+  RevolutionNet net;
+  net.profile_ = std::move(profile);
+  net.c_ = c;
+  const std::vector<double> range = unfolded(net.profile_, c);
+  const auto dx = [at = net.profile_.at, c](double t) {
+    const ProfilePoint p = at(t);
+    return p.speed() / std::sqrt((1 - c * p.r) * (1 + c * p.r));
+  };
+  const auto dz = [at = net.profile_.at](double t) { return at(t).dz; };
+  net.x_ = std::make_shared<const Antiderivative>(dx, range, net.profile_.origin);
+  net.z_ = std::make_shared<const Antiderivative>(dz, range, net.profile_.origin);
+  return net;
+}
+
+double RevolutionNet::right_angled(const Profile& profile) {
+  return M_SQRT1_2 / profile.at(profile.origin).r;
+}
+
+std::string RevolutionNet::why_it_ends(bool last) const {
+  const double t = last ? x_->end() : x_->begin();
+  const double cr = c_ * profile_.at(t).r;
+  const char* angle = cr > 0.5 ? "180 degrees" : "0";
+  const bool folds = t != profile_.breaks.front() && t != profile_.breaks.back();
+  return fmt::format(
+      "{} where u + v = {:.7g} mm, {:.7g} mm along the axis",
+      folds ? fmt::format("the net on the {} folds (shear angle {})", profile_.name, angle)
+            : fmt::format("the {} ends", profile_.name),
+      (*x_)(t), profile_.axial_origin + (*z_)(t));
+}
+
+Result<NetPoint> RevolutionNet::at(double u, double v) const {
+  const double x = u + v, phi = c_ * (u - v);
+  if (!(x >= first_x() && x <= last_x()))
+    return fail(Fault::bad_input, fmt::format("{}; (u, v) = ({:g}, {:g}) mm lies beyond",
+                                              why_it_ends(!(x < 0)), u, v));
+  const double t = x_->inverse(x);
+  const ProfilePoint p = profile_.at(t);
+  const double sine = c_ * p.r, cosine = std::sqrt((1 - sine) * (1 + sine));
+  // down the side that phi turns to, and around
+  const Eigen::Vector3d radial(0, -std::sin(phi), std::cos(phi));
+  const Eigen::Vector3d around(0, -std::cos(phi), -std::sin(phi));
+  const double speed = p.speed();
+  const Eigen::Vector3d along = Eigen::Vector3d(p.dz / speed, 0, 0) + p.dr / speed * radial;
+  NetPoint point;
+  point.position = p.r * radial;
+  point.position.x() = profile_.axial_origin + (*z_)(t);
+  point.tangent_u = cosine * along + sine * around;
+  point.tangent_v = cosine * along - sine * around;
+  point.omega = 2 * std::atan2(sine, cosine);
+  point.K = p.K();
+  return point;
+}
+
+Result<double> RevolutionNet::x_at_axial(double z) const {
+  const double first = (*z_)(z_->begin()), last = (*z_)(z_->end());
+  if (!(z >= first && z <= last))
+    return fail(Fault::bad_input, fmt::format("{}; {:g} mm lies beyond", why_it_ends(!(z < 0)),
+                                              profile_.axial_origin + z));
+  double low = z_->begin(), high = z_->end();
+  // bisection: heights along a profile may grow unevenly
+  for (int halving = 0; halving < 200; ++halving) {
+    const double middle = (low + high) / 2;
+    if (middle == low || middle == high) break;
+    ((*z_)(middle) < z ? low : high) = middle;
+  }
+  return (*x_)((low + high) / 2);
+}
+
+}  // namespace gridshell

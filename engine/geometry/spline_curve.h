@@ -1,0 +1,45 @@
+// A smooth curve through points, by arc length.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "engine/core/result.h"
+#include "engine/geometry/antiderivative.h"
+
+namespace gridshell {
+
+/// Cubic spline through points of the plane or of space (one a column), knots by chord length,
+/// not-a-knot at its ends: twice continuously differentiable, error of fourth order in the spacing.
+class SplineCurve {
+ public:
+  struct Point {
+    Eigen::VectorXd position, first, second;  ///< C, dC/dt, d2C/dt2
+  };
+
+  /// Errors (bad_input): fewer than four points, a coordinate that is not finite, two equal
+  /// neighbours; names the point, counted from 1.
+  static Result<SplineCurve> through(const Eigen::MatrixXd& points);
+
+  const std::vector<double>& knots() const { return knots_; }
+  Point at(double t) const;  ///< t in [knots().front(), knots().back()]
+
+ private:
+  std::vector<double> knots_;
+  Eigen::MatrixXd points_, second_;  ///< positions and second derivatives at the knots
+};
+
+/// A spline curve at unit speed: s in [-length/2, length/2] from its middle, mm.
+class UnitSpeedCurve {
+ public:
+  explicit UnitSpeedCurve(SplineCurve curve);
+  double half_length() const { return half_length_; }
+  SplineCurve::Point at(double s) const;  ///< derivatives with respect to s
+
+ private:
+  std::shared_ptr<const SplineCurve> curve_;
+  std::shared_ptr<const Antiderivative> length_;
+  double half_length_ = 0;
+};
+
+}  // namespace gridshell
