@@ -27,14 +27,13 @@ double widest_label(const Canvas& canvas, const std::vector<Tick>& ticks, const 
   return width;
 }
 
-// the colours as thin rectangles; each overlaps the next so that no seam shows
+// each colour reaches down to the end and the next covers it: no seam and no pixel half white
 void draw_colours(Canvas& canvas, const Box& bar, const ColourScale& scale) {
   const int steps = 128;
   for (int k = 0; k < steps; ++k) {
     const double value = scale.high + (scale.low - scale.high) * (k + 0.5) / steps;
     const double y = bar.y + bar.height * k / steps;
-    const double height = std::min(bar.height * 1.5 / steps, bar.bottom() - y);
-    canvas.rectangle({bar.x, y, bar.width, height}, scale(value));
+    canvas.rectangle({bar.x, y, bar.width, bar.bottom() - y}, scale(value));
   }
 }
 

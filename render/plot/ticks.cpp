@@ -81,7 +81,7 @@ std::vector<Tick> linear_ticks(double low, double high, int count) {
   Step step = nice_step((high - low) / std::max(1, count));
   auto [first, last] = multiples(low, high, step.size);
   for (int attempt = 0; attempt < 3 && last - first < 1; ++attempt) {
-    step = nice_step(step.size / 2.1);
+    step = nice_step(step.size / 2.6);
     std::tie(first, last) = multiples(low, high, step.size);
   }
   const double largest = std::max(std::abs(low), std::abs(high));

@@ -1,0 +1,76 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "render/draw/camera.h"
+#include "render/movie/framing.h"
+#include "tests/render/synthetic.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+TEST_CASE("the whole run stays within the view over the whole turn, and fills it") {
+  const record::Trajectory run = synthetic::dome(8, 4);
+  const Eigen::Matrix3Xd points = extreme_points(run);
+  for (const auto& [width, height] : {std::pair{1280, 720}, {320, 240}, {600, 1200}})
+    for (double elevation : {0.0, 22.0, 60.0, 90.0})
+      for (double turn : {0.0, 40.0, -360.0}) {
+        MovieStyle style;
+        style.width = width;
+        style.height = height;
+        style.elevation_deg = elevation;
+        style.turn_deg = turn;
+        // a view off the picture's middle, as captions leave it
+        const Box view{0.05 * width, 0.2 * height, 0.6 * width, 0.7 * height};
+        const Framing framing(points, style, view);
+        INFO(width << " x " << height << " elevation " << elevation << " turn " << turn);
+        double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
+        for (std::size_t k = 0; k < run.frames.size(); ++k) {
+          const Camera camera = framing.camera(double(k) / double(run.frames.size() - 1));
+          for (const Eigen::Matrix3Xd& set : {run.frames[k].nodes, run.layout.original_boundary})
+            for (long n = 0; n < set.cols(); ++n) {
+              const Eigen::Vector2d p = to_pixel(camera, width, height, set.col(n));
+              x0 = std::min(x0, p.x()), x1 = std::max(x1, p.x());
+              y0 = std::min(y0, p.y()), y1 = std::max(y1, p.y());
+            }
+        }
+        // round points are met to within a hundredth
+        const double slack = 0.01 * std::max(view.width, view.height);
+        CHECK(view.inset(-slack).contains({x0, y0, x1 - x0, y1 - y0}));
+        CHECK(std::max((x1 - x0) / view.width, (y1 - y0) / view.height) > 0.93);
+        CHECK(framing.seen().inset(-slack).contains({x0, y0, x1 - x0, y1 - y0}));
+      }
+}
+
+TEST_CASE("the camera turns evenly about one target and keeps its distance") {
+  const record::Trajectory run = synthetic::dome(4, 2);
+  MovieStyle style;
+  style.azimuth_deg = 10;
+  style.turn_deg = 80;
+  const Framing framing(extreme_points(run), style, {0, 0, 1280, 720});
+  const Camera first = framing.camera(0), middle = framing.camera(0.5), last = framing.camera(1);
+  CHECK(first.azimuth_deg == Approx(10));
+  CHECK(middle.azimuth_deg == Approx(50));
+  CHECK(last.azimuth_deg == Approx(90));
+  CHECK(first.half_extent_mm == last.half_extent_mm);
+  CHECK(first.elevation_deg == last.elevation_deg);
+}
+
+TEST_CASE("zoom magnifies about the same middle") {
+  const record::Trajectory run = synthetic::dome(4, 2);
+  MovieStyle style;
+  const Framing plain(extreme_points(run), style, {0, 0, 1280, 720});
+  style.zoom = 2;
+  const Framing near(extreme_points(run), style, {0, 0, 1280, 720});
+  CHECK(near.pixels_per_mm() == Approx(2 * plain.pixels_per_mm()));
+  CHECK((near.camera(0).target - plain.camera(0).target).norm() < 1e-9);
+}
+
+TEST_CASE("a bar of pixels_per_mm is true in the plane through the target") {
+  const record::Trajectory run = synthetic::dome(4, 2);
+  const Framing framing(extreme_points(run), MovieStyle{}, {100, 100, 800, 500});
+  const Camera camera = framing.camera(0.3);
+  const CameraAxes axes = camera_axes(camera);
+  const Eigen::Vector2d a = to_pixel(camera, 1280, 720, camera.target);
+  const Eigen::Vector2d b = to_pixel(camera, 1280, 720, camera.target + 20 * axes.right);
+  CHECK((b - a).norm() == Approx(20 * framing.pixels_per_mm()));
+}

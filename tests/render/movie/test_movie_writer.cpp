@@ -1,0 +1,104 @@
+#include <catch2/catch.hpp>
+
+#include "render/image/png.h"
+#include "render/movie/movie_writer.h"
+#include "tests/render/movie/fake_renderer.h"
+#include "tests/render/synthetic.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+namespace {
+
+MovieStyle small() {
+  MovieStyle style;
+  style.width = 160;
+  style.height = 120;
+  return style;
+}
+
+}  // namespace
+
+TEST_CASE("a movie is numbered frames, each told when it is whole") {
+  const TemporaryFolder folder;
+  const record::Trajectory run = synthetic::dome(3, 2);
+  test::FakeRenderer renderer;
+  Watch watch;
+  std::vector<int> told;
+  const auto report = write_movie(run, small(), renderer, folder.path() / "frames", watch,
+                                  [&](int index, const Image& picture) {
+                                    told.push_back(index);
+                                    const auto file =
+                                        read_png(folder.path() / "frames" / frame_name(index));
+                                    REQUIRE(file);
+                                    CHECK(file->rgba == picture.rgba);
+                                    CHECK(watch.progress() == Approx((index + 1) / 3.0));
+                                  });
+  REQUIRE(report);
+  CHECK(report->frames == 3);
+  CHECK(told == std::vector<int>{0, 1, 2});
+  CHECK(watch.progress() == 1);
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "frames"))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  CHECK(names == std::vector<std::string>{"frame_00000.png", "frame_00001.png", "frame_00002.png"});
+  CHECK(renderer.outside == 0);
+  CHECK(renderer.last_quality.supersample == 2);
+  CHECK(renderer.last_quality.shadow);
+}
+
+TEST_CASE("a cancelled movie stops between frames and keeps the finished ones") {
+  const TemporaryFolder folder;
+  const record::Trajectory run = synthetic::dome(5, 2);
+  test::FakeRenderer renderer;
+  Watch watch;
+  const auto report =
+      write_movie(run, small(), renderer, folder.path(), watch, [&](int index, const Image&) {
+        if (index == 1) watch.cancel();
+      });
+  REQUIRE_FALSE(report);
+  CHECK(report.error().fault == Fault::cancelled);
+  CHECK(report.error().message == "stopped after 2 of 5 frames");
+  CHECK(folder.entries() == std::vector<std::string>{"frame_00000.png", "frame_00001.png"});
+  CHECK(read_png(folder.path() / "frame_00001.png"));
+}
+
+TEST_CASE("what goes wrong is passed on: the renderer, the disk, the run") {
+  const TemporaryFolder folder;
+  const record::Trajectory run = synthetic::dome(3, 2);
+  Watch watch;
+  test::FakeRenderer lost;
+  lost.fail_at = 2;
+  const auto broken = write_movie(run, small(), lost, folder.path(), watch);
+  REQUIRE_FALSE(broken);
+  CHECK(broken.error().message == "the context was lost");
+  CHECK(folder.entries() == std::vector<std::string>{"frame_00000.png"});
+
+  test::FakeRenderer renderer;
+  {
+    const FileSizeLimit full(500);
+    const auto written = write_movie(run, small(), renderer, folder.path() / "b", watch);
+    REQUIRE_FALSE(written);
+    CHECK(written.error().fault == Fault::io);
+    CHECK(written.error().message.find("frame_00000.png") != std::string::npos);
+  }
+  CHECK(std::filesystem::is_empty(folder.path() / "b"));
+
+  const auto nothing = write_movie({}, small(), renderer, folder.path() / "c", watch);
+  REQUIRE_FALSE(nothing);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "c"));
+}
+
+TEST_CASE("frames are the same bytes from run to run") {
+  const TemporaryFolder folder;
+  const record::Trajectory run = synthetic::dome(2, 4);
+  test::FakeRenderer renderer;
+  Watch watch;
+  std::vector<Image> first, second;
+  for (std::vector<Image>* movie : {&first, &second})
+    REQUIRE(write_movie(run, small(), renderer, folder.path(), watch,
+                        [&](int, const Image& picture) { movie->push_back(picture); }));
+  for (std::size_t k = 0; k < 2; ++k) CHECK(first[k].rgba == second[k].rgba);
+}

@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "render/movie/boundary.h"
+#include "render/movie/captions.h"
+#include "render/movie/stage.h"
+#include "tests/render/plot/ink.h"
+#include "tests/render/synthetic.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+namespace {
+
+MovieStyle titled(int width, int height) {
+  MovieStyle style;
+  style.width = width;
+  style.height = height;
+  style.scale_bar_mm = 20;
+  style.title =
+      "Actuation of a circular_gridshell with a title that is long enough to need cutting "
+      "somewhere before its end in most of the sizes";
+  return style;
+}
+
+}  // namespace
+
+TEST_CASE("captions, legends and view of a finished frame neither overlap nor leave the picture") {
+  record::Trajectory run = synthetic::dome(12, 2);
+  run.frames[8].depth_mm = 12.3;
+  run.frames[8].force_N = -0.214;
+  run.frames[8].negative_pivots = 12;
+  for (const auto& [width, height] :
+       {std::pair{320, 240}, {640, 360}, {1280, 720}, {3840, 2160}, {720, 1280}, {500, 500}}) {
+    const Stage stage(run, titled(width, height));
+    std::vector<Box> boxes;
+    std::vector<std::string> texts;
+    const Image image = draw_picture(width, height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+      stage.draw_overlay(canvas, 8);
+      boxes = canvas.text_boxes();
+      texts = canvas.texts();
+    });
+    INFO(width << " x " << height);
+    CHECK(test::rim_is_white(image));
+    for (std::size_t a = 0; a < boxes.size(); ++a) {
+      INFO(texts[a]);
+      CHECK(Box{0, 0, double(width), double(height)}.contains(boxes[a]));
+      CHECK_FALSE(boxes[a].overlaps(stage.layout().view));
+      for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+        INFO(texts[b]);
+        CHECK_FALSE(boxes[a].overlaps(boxes[b]));
+      }
+    }
+  }
+}
+
+TEST_CASE("a frame says what it is") {
+  const record::Trajectory run = synthetic::dome(12, 2);
+  MovieStyle style = titled(1280, 720);
+  style.title = "Movie_S1 *really*";
+  const Stage stage(run, style);
+  const auto texts_of = [&](int index) {
+    std::vector<std::string> texts;
+    draw_picture(1280, 720, 1, {}, [&](Canvas& canvas) {
+      stage.draw_overlay(canvas, index);
+      texts = canvas.texts();
+    });
+    return texts;
+  };
+  const auto has = [](const std::vector<std::string>& texts, const std::string& text) {
+    return std::find(texts.begin(), texts.end(), text) != texts.end();
+  };
+  const auto last = texts_of(11);
+  for (const std::string text :
+       {"Movie_S1 *really*", "Ra = 94.5 mm", "height 66.0 mm", "frame 12 / 12",
+        "residual 3.2 × 10−9 N, stable", "K□ (rad)", "20 mm"}) {
+    INFO(text);
+    CHECK(has(last, text));
+  }
+  // an event is told when it happens and for a while after, not before
+  CHECK(has(texts_of(8), "snap at a radius of 104.9 mm"));
+  CHECK(has(texts_of(9), "snap at a radius of 104.9 mm"));
+  CHECK_FALSE(has(texts_of(7), "snap at a radius of 104.9 mm"));
+}
+
+TEST_CASE("captions name only what is known") {
+  record::Frame frame;
+  frame.height_mm = 12.34;
+  CHECK(state_captions(frame) == std::vector<std::string>{"height 12.3 mm"});
+  frame.boundary_radius_mm = 115.9;
+  frame.depth_mm = 7.5;
+  frame.force_N = 0.2137;
+  CHECK(state_captions(frame) == std::vector<std::string>{"*R*_{a} = 115.9 mm", "*δ* = 7.50 mm",
+                                                          "force 0.214 N", "height 12.3 mm"});
+  frame.residual_N = 1.5e-8;
+  frame.negative_pivots = 1;
+  CHECK(equilibrium_caption(frame) == "residual 1.5 × 10^{−8} N, unstable (1 negative pivot)");
+}
+
+TEST_CASE("the colour range is fixed over the movie and symmetric") {
+  const record::Trajectory run = synthetic::dome(6, 2);
+  const Stage stage(run, MovieStyle{});
+  REQUIRE(stage.colour_bar());
+  const ColourScale scale = stage.colour_bar()->scale;
+  CHECK(scale.high == -scale.low);
+  double largest = 0;
+  for (const record::Frame& frame : run.frames)
+    largest = std::max(largest, frame.cell_K.cwiseAbs().maxCoeff());
+  CHECK(scale.high > 0.5 * largest);
+  CHECK(scale.high < 2 * largest);
+  CHECK(stage.colour_bar()->beyond_high == (largest > scale.high));
+  // the same K has the same colour in any frame
+  const Drawing last = stage.drawing(5);
+  REQUIRE(last.cell_colours.size() == run.layout.cells.size());
+  CHECK(last.cell_colours[7].r == scale(run.frames[5].cell_K[7]).r);
+
+  MovieStyle bare;
+  bare.colour_by = ColourBy::none;
+  const Stage uncoloured(run, bare);
+  CHECK_FALSE(uncoloured.colour_bar());
+  CHECK(uncoloured.drawing(5).cell_colours.empty());
+}
+
+TEST_CASE("the drawing shows both boundaries, thick enough rods and a ground below everything") {
+  const record::Trajectory run = synthetic::dome(6, 2);
+  for (const auto& [width, height] : {std::pair{1280, 720}, {320, 240}, {3840, 2160}}) {
+    const Stage stage(run, titled(width, height));
+    const Drawing drawing = stage.drawing(3);
+    CHECK(drawing.rod_diameter_mm * stage.pixels_per_mm() > 1.09);
+    CHECK(drawing.rod_diameter_mm >= run.layout.rod_diameter_mm);
+    CHECK(drawing.joint_diameter_mm >= 3);
+    REQUIRE(drawing.rings.size() == 2);
+    CHECK(drawing.rings[0].points.col(0).norm() == Approx(126));
+    CHECK(drawing.rings[1].points.col(0).norm() == Approx(run.frames[3].boundary_radius_mm));
+    for (int k = 0; k < stage.frames(); ++k) {
+      CHECK(stage.drawing(k).ground_z_mm == drawing.ground_z_mm);
+      CHECK(drawing.ground_z_mm < run.frames[std::size_t(k)].nodes.row(2).minCoeff());
+    }
+  }
+  // a shell that hangs below its boundary keeps its ground below
+  record::Trajectory hanging = run;
+  for (record::Frame& frame : hanging.frames) frame.nodes.row(2) *= -1;
+  CHECK(Stage(hanging, MovieStyle{}).drawing(0).ground_z_mm < -65);
+}
+
+TEST_CASE("the top view shows cells, rods and joints where they are") {
+  const record::Trajectory run = synthetic::dome(3, 4);
+  const Image image = draw_picture(300, 300, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+    draw_top_view(canvas, {0, 0, 300, 300}, run.layout, run.frames[2], {0, 0, 126}, {});
+  });
+  const auto redness = [&](double x_mm, double y_mm) {
+    const double scale = 300.0 / 2 / 131;  // the box less the joints' radius, about
+    const std::uint8_t* p = image.pixel(int(150 + scale * x_mm), int(150 - scale * y_mm));
+    return int(p[0]) - int(p[1]);
+  };
+  const double s = 0.75 * 10;  // joints at 10, 30, 50 mm drawn in to three quarters
+  CHECK(redness(s, s) > 60);
+  CHECK(redness(5 * s, s) > 60);
+  CHECK(redness(2 * s, 2 * s) < 10);
+}
+
+TEST_CASE("the boundary moves evenly from the original to the actuated one") {
+  const record::Layout layout = synthetic::dome(1, 1).layout;
+  CHECK((boundary_at(layout, 0) - layout.original_boundary).norm() == 0);
+  CHECK((boundary_at(layout, 1) - layout.actuated_boundary).norm() < 1e-9);
+  CHECK(boundary_at(layout, 0.5).col(7).norm() == Approx((126 + 94.5) / 2));
+}
+
+TEST_CASE("a run that cannot be shown is refused with its reason") {
+  const auto message = [](const record::Trajectory& run, const MovieStyle& style) {
+    const auto checked = check_showable(run, style);
+    REQUIRE_FALSE(checked);
+    CHECK(checked.error().fault == Fault::bad_input);
+    return checked.error().message;
+  };
+  record::Trajectory run = synthetic::dome(3, 2);
+  CHECK(check_showable(run, {}));
+  MovieStyle style;
+  style.width = 8;
+  CHECK(message(run, style) ==
+        "a picture of 8 x 720 pixels cannot be made: both sides must be 16 to 16384");
+  run.frames[1].nodes(2, 5) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(message(run, {}).find("frame 1 of the run has") == 0);
+  run = synthetic::dome(3, 2);
+  run.frames[2].cell_K.resize(5);
+  CHECK(message(run, {}) == "frame 2 of the run has K of 5 cells instead of 97");
+  run.frames.clear();
+  CHECK(message(run, {}) == "the run has no frame to show");
+}

@@ -1,0 +1,82 @@
+#include <catch2/catch.hpp>
+
+#include "render/image/png.h"
+#include "render/movie/stills.h"
+#include "render/plot/panels.h"
+#include "tests/render/movie/fake_renderer.h"
+#include "tests/render/plot/ink.h"
+#include "tests/render/synthetic.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+TEST_CASE("stills are one picture a frame and one of them all") {
+  const TemporaryFolder folder;
+  const record::Trajectory run = synthetic::dome(3, 2);
+  test::FakeRenderer renderer;
+  Watch watch;
+  MovieStyle style;
+  style.width = 400;
+  style.height = 300;
+  style.scale_bar_mm = 20;
+  style.quality = Quality::figure;
+  const auto files = write_stills(run, style, renderer, folder.path() / "fig1", watch);
+  REQUIRE(files);
+  CHECK(files->size() == 4);
+  CHECK(folder.entries() ==
+        std::vector<std::string>{"fig1.png", "fig1_1.png", "fig1_2.png", "fig1_3.png"});
+  CHECK(watch.progress() == 1);
+  CHECK(renderer.drawn == 3);
+  CHECK(renderer.outside == 0);
+  CHECK(renderer.last_quality.jittered_passes > 1);
+  const auto still = read_png(folder.path() / "fig1_2.png");
+  REQUIRE(still);
+  CHECK(still->width == 400);
+  const auto whole = read_png(folder.path() / "fig1.png");
+  REQUIRE(whole);
+  CHECK(whole->width > 900);
+  CHECK(whole->width < 1400);
+  CHECK(test::rim_is_white(*whole));
+}
+
+TEST_CASE("stills stop when asked to") {
+  const TemporaryFolder folder;
+  test::FakeRenderer renderer;
+  Watch watch;
+  watch.cancel();
+  const auto files =
+      write_stills(synthetic::dome(3, 2), {}, renderer, folder.path() / "fig1", watch);
+  REQUIRE_FALSE(files);
+  CHECK(files.error().fault == Fault::cancelled);
+  CHECK(folder.entries().empty());
+}
+
+TEST_CASE("panels stand side by side, pixel by pixel, with their captions under them") {
+  PanelFigure figure;
+  figure.columns = 2;
+  for (int k = 0; k < 3; ++k) {
+    Image picture(200, 100);
+    for (std::size_t n = 0; n < picture.rgba.size(); ++n)
+      picture.rgba[n] = n % 4 == 3 ? 255 : std::uint8_t(60 + 50 * k);
+    figure.panels.push_back({picture, "", "caption " + std::to_string(k)});
+  }
+  const auto image = draw_panels(figure);
+  REQUIRE(image);
+  CHECK(test::rim_is_white(*image));
+  // pixels of each panel's grey: all of them, none blended
+  int counts[3] = {0, 0, 0};
+  for (std::size_t n = 0; n < image->rgba.size(); n += 4)
+    for (int k = 0; k < 3; ++k)
+      counts[k] += image->rgba[n] == 60 + 50 * k && image->rgba[n + 1] == 60 + 50 * k;
+  for (int count : counts) CHECK(count >= 200 * 100);
+}
+
+TEST_CASE("panels of different size, or none, are refused") {
+  PanelFigure figure;
+  CHECK_FALSE(draw_panels(figure));
+  figure.panels = {{Image(20, 10), "", ""}, {Image(20, 12), "", ""}};
+  const auto image = draw_panels(figure);
+  REQUIRE_FALSE(image);
+  CHECK(image.error().message == "panels of a figure must be of one size: 20 x 10 and 20 x 12");
+}

@@ -1,0 +1,65 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "render/plot/legend.h"
+#include "tests/render/plot/ink.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+namespace {
+
+constexpr Colour white{1, 1, 1, 1};
+
+}  // namespace
+
+TEST_CASE("a colour bar stays in its box and shows its scale from end to end") {
+  const ColourBar bar{"*K*_{□} (rad)", {ColourMap::diverging, -0.08, 0.08}, true, true};
+  for (double font : {8.0, 14.0, 30.0}) {
+    const Box box{10, 10, 0, 16 * font};
+    std::vector<std::string> texts;
+    Box room = box;
+    const Image image = draw_picture(12 * font, 20 * font, 1, white, [&](Canvas& c) {
+      room.width = colour_bar_width(c, bar, font);
+      draw_colour_bar(c, room, bar, font);
+      texts = c.texts();
+    });
+    INFO("font " << font);
+    CHECK(room.inset(-1).contains(test::ink_box(image)));
+    REQUIRE(texts.size() >= 4);
+    CHECK(texts[0] == "K□ (rad)");
+    CHECK(texts[1] == "−0.05");
+    CHECK(texts.back() == "0.05");
+    // the pixel a quarter down the bar bears the colour of that value, not another one's
+    const int x = int(box.x + 0.45 * font);
+    std::vector<int> red, blue;
+    for (int y = int(box.y + 4 * font); y < int(room.bottom() - 2 * font); ++y) {
+      red.push_back(image.pixel(x, y)[0]);
+      blue.push_back(image.pixel(x, y)[2]);
+    }
+    // red above, blue below, and never back
+    CHECK(blue.front() < red.front());
+    CHECK(red.back() < blue.back());
+    for (std::size_t k = 1; k < red.size(); ++k)
+      CHECK(red[k] - blue[k] <= red[k - 1] - blue[k - 1] + 2);
+  }
+}
+
+TEST_CASE("a scale bar is as long as it says") {
+  const Image image = draw_picture(200, 40, 1, white, [](Canvas& c) {
+    CHECK(draw_scale_bar(c, {0, 0, 200, 40}, 20, 4.5, 12));
+    CHECK(c.texts().at(0) == "20 mm");
+  });
+  const Box ink = test::ink_box(image);
+  CHECK(ink.width == Approx(90).margin(1));
+  CHECK(ink.middle().x == Approx(100).margin(1));
+}
+
+TEST_CASE("a scale bar that does not fit is not drawn at all") {
+  const Image image = draw_picture(60, 40, 1, white, [](Canvas& c) {
+    CHECK_FALSE(draw_scale_bar(c, {0, 0, 60, 40}, 20, 4.5, 12));
+    CHECK_FALSE(draw_scale_bar(c, {0, 0, 60, 4}, 2, 4.5, 12));
+    CHECK_FALSE(draw_scale_bar(c, {0, 0, 60, 40}, 20, 0, 12));
+  });
+  CHECK(test::ink_box(image).empty());
+}
