@@ -22,7 +22,7 @@ float ground_light(vec2 p) {
   vec2 wide = textureLod(cover, at, log2(2.0 * widest / texel)).rg;
   if (wide.x == 0.0) return open;
   float width = penumbra.x + penumbra.y * height_range * wide.y / wide.x;
-  return open - key_part * textureLod(cover, at, max(log2(width / texel), 0.0)).r -
+  return open - key_part * textureLod(cover, at, max(log2(0.6 * width / texel), 0.0)).r -
          sky_part * wide.x;
 }
 

@@ -13,5 +13,6 @@ float ambient(vec3 n) { return sky * (0.5 + 0.5 * n.z) + bounce * (0.5 - 0.5 * n
 
 // What lies further off pales a little, so that near and far rods stay apart: the part that pales.
 float haze_at(vec3 world) {
-  return 0.22 * clamp((dot(world, forward) - haze.x) * haze.y, 0.0, 1.0);
+  float depth = clamp((dot(world, forward) - haze.x) * haze.y, 0.0, 1.0);
+  return 0.14 * depth * depth;
 }

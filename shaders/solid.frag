@@ -18,7 +18,7 @@ void main() {
   float edge = 1.0 - max(dot(n, v), 0.0);
   edge *= edge;
   float around = ambient(n);
-  vec3 shine = mix(vec3(0.16), surface_colour.rgb, 0.5) * gloss * key_light + 0.1 * edge * edge * around;
+  vec3 shine = mix(vec3(0.5), surface_colour.rgb, 0.5) * gloss * key_light + 0.12 * edge * edge * around;
   vec3 colour = surface_colour.rgb * (facing * key_light + around) + shine;
   fragment = vec4(mix(colour, background, haze_at(world)), 1.0) * surface_colour.a;
 }

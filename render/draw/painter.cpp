@@ -1,5 +1,7 @@
 #include "render/draw/painter.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <utility>
@@ -60,21 +62,27 @@ Result<Painter> Painter::create(const Gl& gl) {
   if (!solid) return tl::unexpected(solid.error());
   auto cell = Program::create(gl, {"light.glsl", "cell.vert"}, {"shadow.glsl", "cell.frag"});
   if (!cell) return tl::unexpected(cell.error());
-  auto resolve = Program::create(gl, {"resolve.vert"}, {"ground.glsl", "resolve.frag"});
-  if (!resolve) return tl::unexpected(resolve.error());
   auto mean = Program::create(gl, {"screen.vert"}, {"mean.frag"});
   if (!mean) return tl::unexpected(mean.error());
   return Painter(
-      gl, {std::move(*solid), std::move(*cell), std::move(*resolve), std::move(*mean)},
+      gl, {std::move(*solid), std::move(*cell), std::move(*mean)},
       std::move(*shadow));
 }
 
-void Painter::begin(const Shot& shot) {
+Result<void> Painter::begin(const Shot& shot) {
+  if (const int s = shot.quality.supersample; !resolve_.count(s)) {
+    // a loop of known length costs half of one that is not
+    auto program = Program::create(*gl_, {"resolve.vert"}, {"ground.glsl", "resolve.frag"},
+                                   fmt::format("#define PER_SIDE {}\n", s));
+    if (!program) return tl::unexpected(program.error());
+    resolve_.emplace(s, std::move(*program));
+  }
   solids_.upload(shot.scene.solids);
   ghosts_.upload(shot.scene.ghosts);
   cells_.upload(shot.scene.cells);
   passes_ = lighting_passes(shot.camera, shot.quality.jittered_passes);
   shadow_of_ = -1;
+  return {};
 }
 
 Result<void> Painter::paint(const Shot& shot, const Tile& tile, Image& image) {
@@ -202,12 +210,11 @@ void Painter::draw_meshes(const Shot& shot, const Lighting& light, const Eigen::
 }
 
 void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light) {
-  const Program& program = programs_.resolve;
+  const Program& program = resolve_.at(shot.quality.supersample);
   const double radius = shot.scene.radius();
   program.use();
   program.set("samples", 0);
   program.set("cover", 1);
-  program.set("per_side", shot.quality.supersample);
   program.set("rows", tile.height);
   program.set("to_ground", to_ground(matrix(shot, tile, light), shot.drawing.ground_z_mm));
   program.set("ground_on", int(ground_seen(shot)));

@@ -1,6 +1,8 @@
 // Paints one tile of a picture, pass by pass.
 #pragma once
 
+#include <map>
+
 #include "engine/core/result.h"
 #include "render/draw/lighting.h"
 #include "render/draw/scene.h"
@@ -25,15 +27,15 @@ class Painter {
   /// `gl` outlives it.
   static Result<Painter> create(const Gl& gl);
 
-  /// Sends the scene's triangles over; before the shot's first tile.
-  void begin(const Shot& shot);
+  /// Makes ready for the shot: sends the scene's triangles over. Before its first tile.
+  Result<void> begin(const Shot& shot);
 
   /// Fills the tile's part of `image`.
   Result<void> paint(const Shot& shot, const Tile& tile, Image& image);
 
  private:
   struct Programs {
-    Program solid, cell, resolve, mean;
+    Program solid, cell, mean;
   };
   Painter(const Gl& gl, Programs programs, ShadowMap shadow);
 
@@ -46,6 +48,7 @@ class Painter {
 
   const Gl* gl_;
   Programs programs_;
+  std::map<int, Program> resolve_;  ///< by samples along a pixel's side
   ShadowMap shadow_;
   VertexStore solids_, ghosts_, cells_;
   VertexArray no_vertices_;

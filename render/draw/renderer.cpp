@@ -52,7 +52,7 @@ class GlRenderer final : public Renderer {
 
     Image image(width, height);
     const Shot shot{*scene, drawing, camera, quality, width, height};
-    painter_->begin(shot);
+    if (auto ready = painter_->begin(shot); !ready) return tl::unexpected(ready.error());
     for (const Tile& tile : tiles(width, height, target_side_ / quality.supersample))
       if (auto done = painter_->paint(shot, tile, image); !done)
         return tl::unexpected(done.error());

@@ -11,8 +11,10 @@ namespace {
 constexpr int log_size = 2048;
 
 /// Compiles `files` into one shader of `stage` and attaches it to `program`.
-Result<void> attach(const Gl& gl, GLuint program, GLenum stage, Program::Files files) {
+Result<void> attach(const Gl& gl, GLuint program, GLenum stage, Program::Files files,
+                    std::string_view defines) {
   std::string text = "#version 330 core\n", names;
+  text.append(defines);
   for (std::string_view file : files) {
     const std::string_view part = shader_text(file);
     names += (names.empty() ? "" : " + ") + std::string(file);
@@ -38,11 +40,12 @@ Result<void> attach(const Gl& gl, GLuint program, GLenum stage, Program::Files f
 
 }  // namespace
 
-Result<Program> Program::create(const Gl& gl, Files vertex, Files fragment) {
+Result<Program> Program::create(const Gl& gl, Files vertex, Files fragment,
+                                std::string_view defines) {
   Program program(gl, gl.CreateProgram());
-  if (auto done = attach(gl, program.id_, GL_VERTEX_SHADER, vertex); !done)
+  if (auto done = attach(gl, program.id_, GL_VERTEX_SHADER, vertex, defines); !done)
     return tl::unexpected(done.error());
-  if (auto done = attach(gl, program.id_, GL_FRAGMENT_SHADER, fragment); !done)
+  if (auto done = attach(gl, program.id_, GL_FRAGMENT_SHADER, fragment, defines); !done)
     return tl::unexpected(done.error());
   gl.LinkProgram(program.id_);
   GLint good = 0;
@@ -58,6 +61,12 @@ Program::~Program() {
 }
 
 Program::Program(Program&& other) noexcept : gl_(other.gl_), id_(std::exchange(other.id_, 0)) {}
+
+Program& Program::operator=(Program&& other) noexcept {
+  std::swap(gl_, other.gl_);
+  std::swap(id_, other.id_);
+  return *this;
+}
 
 void Program::use() const { gl_->UseProgram(id_); }
 

@@ -15,11 +15,13 @@ class Program {
  public:
   using Files = std::initializer_list<std::string_view>;
 
-  /// Errors: Fault::io with the files and the compiler's log.
-  static Result<Program> create(const Gl& gl, Files vertex, Files fragment);
+  /// `defines`: lines of #define that go before all files. Errors: Fault::io with the files and the
+  /// compiler's log.
+  static Result<Program> create(const Gl& gl, Files vertex, Files fragment,
+                                std::string_view defines = {});
   ~Program();
   Program(Program&& other) noexcept;
-  Program& operator=(Program&&) = delete;
+  Program& operator=(Program&& other) noexcept;
 
   void use() const;
   // to the program in use; a name that no shader reads is ignored
