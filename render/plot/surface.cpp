@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "engine/core/atomic_file.h"
 #include "render/image/png.h"
@@ -40,23 +42,40 @@ std::string escaped(const std::string& text) {
   return xml;
 }
 
+// frames are opaque, and then there is nothing to multiply
+bool opaque(const std::uint8_t* pixel, int pixels) {
+  std::uint8_t all = 255;
+  for (int k = 0; k < pixels; ++k) all &= pixel[4 * k + 3];
+  return all == 255;
+}
+
+void swap_red_and_blue(const std::uint8_t* from, std::uint8_t* to, int pixels) {
+  for (int k = 0; k < pixels; ++k) {
+    std::uint32_t p;
+    std::memcpy(&p, from + 4 * k, 4);
+    p = (p & 0xff00ff00u) | (p & 0xffu) << 16 | (p >> 16 & 0xffu);
+    std::memcpy(to + 4 * k, &p, 4);
+  }
+}
+
 }  // namespace
 
 void premultiply(const std::uint8_t* from, unsigned char* to, int pixels) {
+  if (opaque(from, pixels)) return swap_red_and_blue(from, to, pixels);
   for (int k = 0; k < pixels; ++k, from += 4, to += 4) {
     const int a = from[3];
-    for (int c = 0; c < 3; ++c)
-      to[2 - c] = static_cast<unsigned char>(a == 255 ? from[c] : (from[c] * a + 127) / 255);
+    for (int c = 0; c < 3; ++c) to[2 - c] = static_cast<unsigned char>((from[c] * a + 127) / 255);
     to[3] = from[3];
   }
 }
 
 void unpremultiply(const unsigned char* from, std::uint8_t* to, int pixels) {
+  if (opaque(from, pixels)) return swap_red_and_blue(from, to, pixels);
   for (int k = 0; k < pixels; ++k, from += 4, to += 4) {
     const int a = from[3];
     for (int c = 0; c < 3; ++c)
-      to[c] = static_cast<std::uint8_t>(
-          a == 255 ? from[2 - c] : (a == 0 ? 0 : std::min(255, (from[2 - c] * 255 + a / 2) / a)));
+      to[c] =
+          static_cast<std::uint8_t>(a == 0 ? 0 : std::min(255, (from[2 - c] * 255 + a / 2) / a));
     to[3] = from[3];
   }
 }
