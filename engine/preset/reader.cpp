@@ -5,15 +5,12 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
-#include <system_error>
 #include <tuple>
 
+#include "engine/core/atomic_file.h"
 #include "engine/preset/assign.h"
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
@@ -304,17 +301,9 @@ Result<Presets> read_preset_text(const std::string& text, const std::string& sou
 
 Result<Presets> read_preset_file(const std::filesystem::path& file,
                                  const std::vector<Override>& overrides) {
-  const auto unreadable = [&](const std::string& reason) {
-    return fail(Fault::bad_input,
-                fmt::format("{}: cannot read the preset: {}", file.string(), reason));
-  };
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) return unreadable("it is a folder");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return unreadable(std::generic_category().message(errno));
-  std::ostringstream text;
-  text << in.rdbuf();
-  return read_preset_text(text.str(), file.string(), file.stem().string(), overrides);
+  auto text = read_whole(file);
+  if (!text) return fail(Fault::bad_input, text.error().message);
+  return read_preset_text(*text, file.string(), file.stem().string(), overrides);
 }
 
 }  // namespace gridshell::preset

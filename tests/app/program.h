@@ -1,0 +1,95 @@
+// Runs the program as a user does, in a folder of the test's.
+#pragma once
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+/// How a run of the program ended.
+struct Ended {
+  int code = 0;  ///< exit code; 128 + n when signal n ended it
+  std::string out, err;
+};
+
+/// A run of `gridshell ARGUMENTS` that has begun, with `folder` as its working directory.
+class Running {
+ public:
+  Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder)
+      : folder_(folder) {
+    pid_ = fork();
+    if (pid_ != 0) return;
+    std::vector<char*> words{const_cast<char*>(GRIDSHELL_PROGRAM)};
+    for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+    words.push_back(nullptr);
+    const bool ready = chdir(folder.c_str()) == 0 && divert("stdout.txt", STDOUT_FILENO) &&
+                       divert("stderr.txt", STDERR_FILENO);
+    if (ready) execv(words[0], words.data());
+    _exit(127);
+  }
+
+  void signal(int number) const { kill(pid_, number); }
+
+  Ended wait() const {
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    Ended ended;
+    ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    ended.out = take("stdout.txt");
+    ended.err = take("stderr.txt");
+    return ended;
+  }
+
+ private:
+  static bool divert(const char* file, int to) {
+    const int from = open(file, O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    return from >= 0 && dup2(from, to) >= 0 && close(from) == 0;
+  }
+
+  // what was printed, and the file is gone: the folder holds what the program left
+  std::string take(const char* file) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / file).rdbuf();
+    std::filesystem::remove(folder_ / file);
+    return text.str();
+  }
+
+  std::filesystem::path folder_;
+  pid_t pid_ = 0;
+};
+
+/// Runs `gridshell ARGUMENTS` to its end.
+inline Ended gridshell_program(const std::vector<std::string>& arguments,
+                               const std::filesystem::path& folder) {
+  return Running(arguments, folder).wait();
+}
+
+/// All files under a folder whose name ends so, sorted.
+inline std::vector<std::filesystem::path> files_under(const std::filesystem::path& folder,
+                                                      const std::string& ending) {
+  std::vector<std::filesystem::path> found;
+  std::error_code error;
+  for (std::filesystem::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error))
+    if (at->path().filename().string().ends_with(ending)) found.push_back(at->path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Waits until `ready`, at most ten seconds; whether it came.
+template <class Ready>
+bool wait_until(Ready ready) {
+  for (int k = 0; k < 1000; ++k) {
+    if (ready()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return ready();
+}

@@ -1,0 +1,108 @@
+// Arrows between folders go one way: who may include whom stands in one table.
+#include <catch2/catch.hpp>
+#include <map>
+#include <regex>
+#include <set>
+
+#include "engine/core/atomic_file.h"
+#include "tests/app/program.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Folders = std::set<std::string>;
+
+// What a folder may see beside itself. A folder that is not here may see nothing; `render/` and
+// `app/` stand for every folder in them.
+const std::map<std::string, Folders> may_see{
+    {"engine/core", {}},
+    {"engine/geometry", {"engine/core"}},
+    {"engine/footprint", {"engine/core", "engine/geometry"}},
+    {"engine/rod", {"engine/core"}},
+    {"engine/gridshell", {"engine/core", "engine/footprint", "engine/rod"}},
+    {"engine/solve", {"engine/core", "engine/footprint", "engine/rod", "engine/gridshell"}},
+    {"engine/measure", {"engine/core", "engine/geometry", "engine/footprint"}},
+    {"engine/preset", {"engine/core"}},
+    {"engine/record", {"engine/core"}},
+    // the one entry point of the engine joins the rest
+    {"engine/experiment",
+     {"engine/core", "engine/geometry", "engine/footprint", "engine/rod", "engine/gridshell",
+      "engine/solve", "engine/measure", "engine/preset", "engine/record"}},
+    // the renderer knows pictures of a run, not how it came to be
+    {"render", {"engine/core", "engine/record"}},
+    {"app", {"engine/core", "engine/preset", "engine/record", "engine/experiment", "render"}},
+};
+
+// "engine/preset" for engine/preset/reader.h, "render" and "app" for all below them
+std::string folder_of(const std::string& path) {
+  if (!path.starts_with("engine/")) return path.substr(0, path.find('/'));
+  return path.substr(0, path.find('/', 7));
+}
+
+// "file includes file" for every arrow that is not in the table
+std::vector<std::string> forbidden_arrows(const std::string& file, const std::string& text) {
+  static const std::regex include("#include \"([^\"]+)\"");
+  const auto own = folder_of(file);
+  const auto allowed = may_see.contains(own) ? may_see.at(own) : Folders{};
+  std::vector<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), include), end; at != end; ++at) {
+    const auto seen = folder_of((*at)[1]);
+    if (seen != own && !allowed.contains(seen))
+      found.push_back(file + " includes " + (*at)[1].str());
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("the table of arrows has no way round") {
+  // every folder stands above all it sees, so no two see each other
+  std::map<std::string, int> height;
+  const auto height_of = [&](const auto& self, const std::string& folder, int depth) -> int {
+    REQUIRE(depth < 20);
+    int highest = 0;
+    for (const auto& seen : may_see.at(folder))
+      highest = std::max(highest, 1 + self(self, seen, depth + 1));
+    return height[folder] = highest;
+  };
+  for (const auto& [folder, seen] : may_see) height_of(height_of, folder, 0);
+  CHECK(height["engine/core"] == 0);
+  CHECK(height["app"] > height["engine/experiment"]);
+}
+
+TEST_CASE("a forbidden arrow is found") {
+  CHECK(forbidden_arrows("engine/core/a.h", "#include \"engine/solve/path.h\"\n").size() == 1);
+  CHECK(forbidden_arrows("render/draw/a.cpp", "#include \"engine/solve/path.h\"\n").size() == 1);
+  CHECK(forbidden_arrows("render/draw/a.cpp", "#include \"engine/record/snapshot.h\"\n").empty());
+  CHECK(forbidden_arrows("engine/new/a.h", "#include \"engine/core/result.h\"\n").size() == 1);
+}
+
+TEST_CASE("every include follows the arrows") {
+  const fs::path root = GRIDSHELL_SOURCE_DIR;
+  std::vector<std::string> found;
+  int files = 0;
+  for (const char* top : {"engine", "render", "app"})
+    for (const char* ending : {".h", ".cpp"})
+      for (const auto& path : files_under(root / top, ending)) {
+        const auto more = forbidden_arrows(fs::relative(path, root).generic_string(),
+                                           gridshell::read_whole(path).value());
+        found.insert(found.end(), more.begin(), more.end());
+        ++files;
+      }
+  CHECK(files > 50);
+  CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("the engine knows no OpenGL, no window and does not print") {
+  const fs::path root = GRIDSHELL_SOURCE_DIR;
+  static const std::regex forbidden(
+      "#include "
+      "<(GL|EGL|GLFW|imgui|iostream|cairo|pango)[^>]*>|\\bprintf\\(|fmt::print\\(|std::cout|std::"
+      "cerr|\\bputs\\(");
+  for (const char* ending : {".h", ".cpp"})
+    for (const auto& path : files_under(root / "engine", ending)) {
+      INFO(path);
+      CHECK_FALSE(std::regex_search(gridshell::read_whole(path).value(), forbidden));
+    }
+}

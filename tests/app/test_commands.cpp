@@ -1,0 +1,235 @@
+// The commands from end to end on a shell small enough for seconds.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/trajectory_file.h"
+#include "render/image/png.h"
+#include "tests/app/program.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using gridshell::read_whole;
+using gridshell::write_atomically;
+
+namespace {
+
+// four rods a direction
+const std::string small = R"(title = "small"
+[footprint]
+rods = 4
+radius_mm = 45.0
+[actuation]
+radius_mm = 40.0
+[accuracy]
+edges_per_segment = 2
+[movie]
+frames = 3
+size = [160, 120]
+quality = "draft"
+)";
+
+const std::vector<std::string> data_files{"cells.csv",   "frames.csv",   "joints.csv",
+                                          "preset.toml", "summary.json", "trajectory.h5"};
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string text_of(const fs::path& file) { return read_whole(file).value(); }
+
+nlohmann::json json_of(const fs::path& file) { return nlohmann::json::parse(text_of(file)); }
+
+// a folder with small.toml in it
+struct Bench {
+  TemporaryFolder folder;
+  fs::path at = folder.path();
+
+  Bench() { REQUIRE(write_atomically(at / "small.toml", small)); }
+  Ended run(const std::vector<std::string>& arguments) const {
+    return gridshell_program(arguments, at);
+  }
+  // runs, and shows why when it does not end well
+  Ended good(const std::vector<std::string>& arguments) const {
+    const auto ended = run(arguments);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return ended;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("run writes a whole run folder and replaces the one before") {
+  const Bench bench;
+  bench.good({"run", "small.toml"});
+  const auto run = bench.at / "out/small";
+  CHECK(names_in(run) == data_files);
+  CHECK(names_in(bench.at / "out") == std::vector<std::string>{"small"});
+  CHECK(json_of(run / "summary.json")["preset"] == "small");
+  CHECK(gridshell::record::read_trajectory(run / "trajectory.h5")->frames.size() == 3);
+  // what is not of the new run does not stay
+  REQUIRE(write_atomically(run / "old.png", "x"));
+  bench.good({"run", "small.toml", "--frames", "4"});
+  CHECK(names_in(run) == data_files);
+  CHECK(gridshell::record::read_trajectory(run / "trajectory.h5")->frames.size() == 4);
+  CHECK(names_in(bench.at / "out") == std::vector<std::string>{"small"});
+}
+
+TEST_CASE("the same preset gives the same frames, from the run's own preset.toml too") {
+  const Bench bench;
+  bench.good({"run", "small.toml", "-o", "a", "--set", "rod.diameter_mm=0.3"});
+  bench.good({"run", "a/preset.toml", "-o", "b"});
+  CHECK(text_of(bench.at / "a/frames.csv") == text_of(bench.at / "b/frames.csv"));
+  CHECK(text_of(bench.at / "a/preset.toml") == text_of(bench.at / "b/preset.toml"));
+  bench.good({"run", "small.toml", "-o", "c"});
+  CHECK(text_of(bench.at / "a/frames.csv") != text_of(bench.at / "c/frames.csv"));
+}
+
+TEST_CASE("--print-config prints a preset that comes to the same, and runs nothing") {
+  const Bench bench;
+  const auto first = bench.good({"movie", "small.toml", "--set", "actuation.seed=down", "--size",
+                                 "320x200", "--frames", "9", "--print-config"});
+  CHECK_THAT(first.out, Catch::Contains("seed = \"down\"") &&
+                            Catch::Contains("size = [320, 200]") && Catch::Contains("frames = 9"));
+  REQUIRE(write_atomically(bench.at / "again.toml", first.out));
+  CHECK(bench.good({"movie", "again.toml", "--print-config"}).out == first.out);
+  CHECK_FALSE(fs::exists(bench.at / "out"));
+}
+
+TEST_CASE("movie draws a frame each; render draws them again without simulating") {
+  const Bench bench;
+  const auto said = bench.good({"movie", "small.toml", "-o", "run"});
+  CHECK_THAT(said.out, Catch::StartsWith("run: "));
+  const auto frames = files_under(bench.at / "run/frames", ".png");
+  REQUIRE(frames.size() == 3);
+  CHECK(frames[2].filename() == "frame_00002.png");
+  const auto picture = gridshell::render::read_png(frames[2]);
+  REQUIRE(picture);
+  CHECK(picture->width == 160);
+  CHECK(picture->height == 120);
+  CHECK(json_of(bench.at / "run/summary.json")["seconds_render"] > 0.0);
+
+  const auto bytes = text_of(frames[2]), states = text_of(bench.at / "run/frames.csv");
+  bench.good({"render", "run", "-o", "same"});
+  CHECK(text_of(bench.at / "same/frames/frame_00002.png") == bytes);
+  CHECK(text_of(bench.at / "same/frames.csv") == states);
+  bench.good({"render", "run", "--size", "80x60", "--quiet"});
+  CHECK(gridshell::render::read_png(frames[2])->width == 80);
+  const auto refused = bench.run({"render", "run", "--set", "rod.diameter_mm=0.3"});
+  CHECK(refused.code == 2);
+  CHECK(refused.err ==
+        "--set: rod.diameter_mm cannot change once a run is finished; 'render' takes keys of "
+        "[movie] and [figure] that only show it\n");
+}
+
+TEST_CASE("pictures do not depend on the number of threads") {
+  const Bench bench;
+  bench.good({"movie", "small.toml", "-o", "one", "--threads", "1"});
+  bench.good({"movie", "small.toml", "-o", "three", "--threads", "3"});
+  for (const char* frame : {"frames/frame_00000.png", "frames/frame_00002.png"})
+    CHECK(text_of(bench.at / "one" / frame) == text_of(bench.at / "three" / frame));
+  CHECK(text_of(bench.at / "one/frames.csv") == text_of(bench.at / "three/frames.csv"));
+}
+
+TEST_CASE("figure draws a still a radius and all in one") {
+  const Bench bench;
+  bench.good({"figure", "small.toml", "-o", "run", "--set", "figure.radii_mm=[45.0, 42.0]"});
+  std::vector<std::string> names;
+  for (const auto& file : files_under(bench.at / "run", ".png"))
+    names.push_back(file.filename().string());
+  CHECK(names == std::vector<std::string>{"small.png", "small_1.png", "small_2.png"});
+  const auto run = gridshell::record::read_trajectory(bench.at / "run/trajectory.h5");
+  REQUIRE(run->frames.size() == 2);
+  CHECK(run->frames[1].boundary_radius_mm == Approx(42.0));
+  // its stills are drawn again as stills
+  bench.good({"render", "run", "-o", "again"});
+  CHECK(fs::exists(bench.at / "again/small_2.png"));
+  CHECK_FALSE(fs::exists(bench.at / "again/frames"));
+}
+
+TEST_CASE("every case is a whole run folder, and summary.json on top lists them") {
+  const Bench bench;
+  const std::string cases =
+      "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
+  REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
+  bench.good({"movie", "small.toml", "-o", "run"});
+  CHECK(names_in(bench.at / "run") == std::vector<std::string>{"far", "near", "summary.json"});
+  for (const char* name : {"near", "far"}) {
+    CHECK(names_in(bench.at / "run" / name).size() == data_files.size() + 1);
+    CHECK(files_under(bench.at / "run" / name / "frames", ".png").size() == 3);
+  }
+  const auto top = json_of(bench.at / "run/summary.json");
+  CHECK(top["preset"] == "small");
+  REQUIRE(top["cases"].size() == 2);
+  CHECK(top["cases"][0]["name"] == "near");
+  CHECK(top["cases"][0]["height_mm"] < top["cases"][1]["height_mm"]);
+  CHECK(top["cases"][1]["height_mm"] == json_of(bench.at / "run/far/summary.json")["height_mm"]);
+  bench.good({"render", "run", "--size", "80x60"});
+  CHECK(gridshell::render::read_png(bench.at / "run/near/frames/frame_00000.png")->width == 80);
+}
+
+TEST_CASE("a path that ends early is written as far as it is certified, and exits with 1") {
+  const Bench bench;
+  const auto ended = bench.run({"run", "small.toml", "--set", "limits.max_strain=1e-7"});
+  CHECK(ended.code == 1);
+  CHECK_THAT(ended.err, Catch::Contains("the path ended early, limit \"locking\": "));
+  CHECK(json_of(bench.at / "out/small/summary.json")["limit"] == "locking");
+}
+
+TEST_CASE("check explains what would run and writes nothing") {
+  const Bench bench;
+  const auto said = bench.good({"check", "small.toml"});
+  CHECK_THAT(said.out, Catch::Contains("small: small") && Catch::Contains("model") &&
+                           Catch::Contains("unknowns") && Catch::Contains("8 rods"));
+  CHECK(bench.folder.entries() == std::vector<std::string>{"small.toml"});
+}
+
+TEST_CASE("list has a line a preset, and every one of them is sound") {
+  const TemporaryFolder folder;
+  const auto said = gridshell_program({"list"}, folder.path());
+  CHECK(said.code == 0);
+  CHECK_THAT(said.out, Catch::Contains("s1_actuation") && Catch::Contains("fig1_actuation"));
+  std::istringstream lines(said.out);
+  int presets = 0;
+  for (std::string line; std::getline(lines, line); ++presets) {
+    const auto name = line.substr(0, line.find(' '));
+    INFO(name);
+    CHECK(gridshell_program({"check", name}, folder.path()).code == 0);
+  }
+  CHECK(presets == int(files_under(fs::path(GRIDSHELL_SOURCE_DIR) / "presets", ".toml").size()));
+}
+
+TEST_CASE("compare tells the same from the different by its exit code") {
+  const TemporaryFolder folder;
+  gridshell::render::Image plain(64, 64), rod = plain;
+  for (std::size_t k = 3; k < plain.rgba.size(); k += 4) plain.rgba[k] = rod.rgba[k] = 255;
+  for (int x = 0; x < 64; ++x) rod.pixel(x, 30)[0] = 200;
+  REQUIRE(gridshell::render::write_png(plain, folder.path() / "a.png"));
+  REQUIRE(gridshell::render::write_png(rod, folder.path() / "b.png"));
+  CHECK(gridshell_program({"compare", "a.png", "a.png"}, folder.path()).code == 0);
+  const auto said =
+      gridshell_program({"compare", "a.png", "b.png", "--difference", "d.png"}, folder.path());
+  CHECK(said.code == 3);
+  // one row of eight differs by 200
+  CHECK_THAT(said.out, Catch::StartsWith("different: ") && Catch::Contains("differs by 25.00"));
+  CHECK(gridshell::render::read_png(folder.path() / "d.png"));
+  CHECK(gridshell_program({"compare", "a.png", "b.png", "--threshold", "26"}, folder.path()).code ==
+        0);
+}
+
+TEST_CASE("usage errors exit with 2, help with 0") {
+  const TemporaryFolder folder;
+  CHECK(gridshell_program({}, folder.path()).code == 2);
+  CHECK(gridshell_program({"movie"}, folder.path()).code == 2);
+  CHECK(gridshell_program({"run", "s1_actuation", "--treads", "2"}, folder.path()).code == 2);
+  CHECK(gridshell_program({"run", "s1_actuation", "--threads", "0"}, folder.path()).code == 2);
+  CHECK(gridshell_program({"movie", "s1_actuation", "--context", "x"}, folder.path()).code == 2);
+  CHECK(gridshell_program({"--help"}, folder.path()).code == 0);
+  CHECK(gridshell_program({"movie", "--help"}, folder.path()).code == 0);
+  CHECK(folder.entries().empty());
+}

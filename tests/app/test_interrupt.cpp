@@ -1,0 +1,97 @@
+// Ctrl-C, SIGTERM, SIGKILL and a full disk in the middle of a real movie: what is left is whole.
+#include <catch2/catch.hpp>
+#include <chrono>
+
+#include "render/image/png.h"
+#include "tests/app/program.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Movie S1, small, but long enough to be stopped
+const std::vector<std::string> movie{"movie",   "s1_actuation", "--size",
+                                     "320x180", "--set",        "accuracy.edges_per_segment=4"};
+
+bool frames_appear(const fs::path& folder) {
+  return wait_until([&] { return files_under(folder, "frame_00002.png").size() == 1; });
+}
+
+void check_all_whole(const fs::path& folder) {
+  const auto pictures = files_under(folder, ".png");
+  CHECK(pictures.size() >= 3);
+  for (const auto& picture : pictures) {
+    INFO(picture);
+    // a half-written file under a hidden name is no picture
+    if (picture.filename().string().starts_with('.')) continue;
+    CHECK(gridshell::render::read_png(picture));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Ctrl-C and SIGTERM stop within a second and leave finished frames whole") {
+  const int number = GENERATE(SIGINT, SIGTERM);
+  const TemporaryFolder folder;
+  const Running running(movie, folder.path());
+  REQUIRE(frames_appear(folder.path()));
+  const auto asked = std::chrono::steady_clock::now();
+  running.signal(number);
+  const auto ended = running.wait();
+  CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(1));
+  CHECK(ended.code == 130);
+  CHECK_THAT(ended.err, Catch::Contains("stopped\n1 run and ") &&
+                            Catch::Contains("each whole, are in 'out/s1_actuation.partial-"));
+  CHECK_FALSE(fs::exists(folder.path() / "out/s1_actuation"));
+  check_all_whole(folder.path());
+  for (const auto& file : files_under(folder.path(), ""))
+    CHECK_FALSE(file.filename().string().starts_with('.'));
+}
+
+TEST_CASE("Ctrl-C before anything is finished leaves nothing") {
+  const TemporaryFolder folder;
+  // minutes of simulation
+  const Running running(
+      {"run", "s1_actuation", "--set", "accuracy.edges_per_segment=32", "--frames", "5000"},
+      folder.path());
+  REQUIRE(wait_until([&] { return fs::exists(folder.path() / "out"); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const auto asked = std::chrono::steady_clock::now();
+  running.signal(SIGINT);
+  const auto ended = running.wait();
+  CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(1));
+  CHECK(ended.code == 130);
+  CHECK_THAT(ended.err,
+             Catch::EndsWith("stopped\nnothing was finished, so nothing is left behind\n"));
+  CHECK(files_under(folder.path(), "").empty());
+}
+
+TEST_CASE("a killed movie leaves no half file, and the run before it stays") {
+  const TemporaryFolder folder;
+  REQUIRE(
+      gridshell_program({"run", "s1_actuation", "--frames", "2", "--quiet"}, folder.path()).code ==
+      0);
+  const auto before = fs::last_write_time(folder.path() / "out/s1_actuation/summary.json");
+  const Running running(movie, folder.path());
+  REQUIRE(frames_appear(folder.path()));
+  running.signal(SIGKILL);
+  CHECK(running.wait().code == 128 + SIGKILL);
+  check_all_whole(folder.path());
+  CHECK(fs::last_write_time(folder.path() / "out/s1_actuation/summary.json") == before);
+  CHECK_FALSE(fs::exists(folder.path() / "out/s1_actuation/frames"));
+}
+
+TEST_CASE("a full disk fails with 1 and leaves nothing half-written under a final name") {
+  const TemporaryFolder folder;
+  Ended ended;
+  {
+    // the program inherits it: trajectory.h5 does not fit
+    const FileSizeLimit disk(100000);
+    ended = gridshell_program({"run", "s1_actuation"}, folder.path());
+  }
+  CHECK(ended.code == 1);
+  CHECK_THAT(ended.err, Catch::Contains("cannot write '") &&
+                            Catch::Contains("trajectory.h5': File too large\n"));
+  CHECK(files_under(folder.path(), "").empty());
+}
