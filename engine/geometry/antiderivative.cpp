@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace gridshell {
 namespace {
@@ -39,9 +40,12 @@ Rule gauss_legendre() {
 Antiderivative::Antiderivative(std::function<double(double)> f, const std::vector<double>& breaks,
                                double origin)
     : f_(std::move(f)), ends_{breaks.front()}, values_{0} {
+  double size = 0;
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+    size += std::abs(panel(breaks[k], breaks[k + 1]));
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
     if (breaks[k] < breaks[k + 1])
-      add_panel(breaks[k], breaks[k + 1], panel(breaks[k], breaks[k + 1]), 0);
+      add_panel(breaks[k], breaks[k + 1], panel(breaks[k], breaks[k + 1]), 1e-16 * size);
   const double at_origin = (*this)(origin);
   for (double& value : values_) value -= at_origin;
 }
@@ -54,19 +58,21 @@ double Antiderivative::panel(double a, double b) const {
   return half * total;
 }
 
-void Antiderivative::add_panel(double a, double b, double whole, int halvings) {
+void Antiderivative::add_panel(double a, double b, double whole, double small) {
   const double middle = (a + b) / 2;
   const double left = panel(a, middle), right = panel(middle, b);
-  // round-off in t and in the sum end the halving; the halves are better than their difference
+  // the halves are better than their difference to the whole; `small` is lost in the sum
   const double size = (b - a) * std::max({std::abs(f_(a)), std::abs(f_(middle)), std::abs(f_(b))});
-  if (halvings < 45 && ends_.size() < most_panels &&
-      std::abs(left + right - whole) > 2e-14 * size) {
-    add_panel(a, middle, left, halvings + 1);
-    add_panel(middle, b, right, halvings + 1);
+  const bool can_halve = a < middle && middle < b && ends_.size() < most_panels;
+  if (can_halve && std::abs(left + right - whole) > std::max(2e-14 * size, small)) {
+    add_panel(a, middle, left, small);
+    add_panel(middle, b, right, small);
     return;
   }
-  ends_.push_back(b);
-  values_.push_back(values_.back() + left + right);
+  for (const auto& [end, half] : {std::pair(middle, left), std::pair(b, right)}) {
+    ends_.push_back(end);
+    values_.push_back(values_.back() + half);
+  }
 }
 
 double Antiderivative::operator()(double t) const {
@@ -85,7 +91,7 @@ double Antiderivative::inverse(double value) const {
     const double miss = values_[k] + panel(ends_[k], t) - value;
     (miss > 0 ? high : low) = t;
     double next = t - miss / f_(t);
-    if (!(next > low && next < high)) next = (low + high) / 2;
+    if (!(next >= low && next <= high)) next = (low + high) / 2;
     const double step = std::abs(next - t);
     t = next;
     // Newton squares its error: the next step would be lost in round-off

@@ -23,7 +23,7 @@ class Antiderivative {
   double inverse(double value) const;
 
  private:
-  void add_panel(double a, double b, double whole, int halvings);
+  void add_panel(double a, double b, double whole, double small);
   double panel(double a, double b) const;
 
   std::function<double(double)> f_;

@@ -8,8 +8,10 @@
 namespace gridshell {
 namespace {
 
-// how near the net comes to its folds c r = 1 (rods around the axis) and c r = 0 (along it)
-constexpr double margin = 1e-8;
+// how near 1 - (c r)^2 and c r come to the folds at 0: rods around the axis, or along it
+constexpr double margin = 1e-6;
+// what a sum of lengths may lose to round-off, relative to the net's extent
+constexpr double round_off = 1e-12;
 
 bool exists(const Profile& profile, double c, double t) {
   const double cr = c * profile.at(t).r;
@@ -18,7 +20,8 @@ bool exists(const Profile& profile, double c, double t) {
 
 /// the piece of the profile around its middle on which the net exists, with the breaks inside
 std::vector<double> unfolded(const Profile& profile, double c) {
-  constexpr int samples = 64;  // between breaks, to find the first fold
+  // between breaks, to find the first fold
+  const int samples = std::clamp(256 / static_cast<int>(profile.breaks.size()), 4, 64);
   std::vector<double> range{profile.origin};
   const auto walk = [&](std::vector<double> breaks) {
     double good = profile.origin;
@@ -93,10 +96,13 @@ std::string RevolutionNet::why_it_ends(bool last) const {
 }
 
 Result<NetPoint> RevolutionNet::at(double u, double v) const {
-  const double x = u + v, phi = c_ * (u - v);
-  if (!(x >= first_x() && x <= last_x()))
+  const double first = first_x(), last = last_x(), slack = round_off * (last - first);
+  double x = u + v;
+  const double phi = c_ * (u - v);
+  if (!(x >= first - slack && x <= last + slack))
     return fail(Fault::bad_input, fmt::format("{}; (u, v) = ({:g}, {:g}) mm lies beyond",
                                               why_it_ends(!(x < 0)), u, v));
+  x = std::clamp(x, first, last);
   const double t = x_->inverse(x);
   const ProfilePoint p = profile_.at(t);
   const double sine = c_ * p.r, cosine = std::sqrt((1 - sine) * (1 + sine));
@@ -117,7 +123,8 @@ Result<NetPoint> RevolutionNet::at(double u, double v) const {
 
 Result<double> RevolutionNet::x_at_axial(double z) const {
   const double first = (*z_)(z_->begin()), last = (*z_)(z_->end());
-  if (!(z >= first && z <= last))
+  const double slack = round_off * (last - first);
+  if (!(z >= first - slack && z <= last + slack))
     return fail(Fault::bad_input, fmt::format("{}; {:g} mm lies beyond", why_it_ends(!(z < 0)),
                                               profile_.axial_origin + z));
   double low = z_->begin(), high = z_->end();

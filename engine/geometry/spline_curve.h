@@ -13,8 +13,10 @@ namespace gridshell {
 /// not-a-knot at its ends: twice continuously differentiable, error of fourth order in the spacing.
 class SplineCurve {
  public:
+  /// of two or three coordinates, without memory of its own on the heap
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
   struct Point {
-    Eigen::VectorXd position, first, second;  ///< C, dC/dt, d2C/dt2
+    Vector position, first, second;  ///< C, dC/dt, d2C/dt2
   };
 
   /// Errors (bad_input): fewer than four points, a coordinate that is not finite, two equal

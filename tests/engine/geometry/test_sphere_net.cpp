@@ -1,0 +1,129 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/geometry/sphere_net.h"
+#include "tests/engine/geometry/net_checks.h"
+
+using namespace gridshell;
+
+namespace {
+
+/// visit(u, v) over the square that holds the hemisphere's footprint, without the folded corners
+template <class Visit>
+void each_point(double radius, Visit visit) {
+  for (double u = -1.5; u <= 1.58; u += 0.0771)
+    for (double v = -1.55; v <= 1.58; v += 0.1043)
+      if (std::abs(u * v) < 1.8) visit(u * radius, v * radius);
+}
+
+}  // namespace
+
+TEST_CASE("sphere net: shear angle has the known values") {
+  CHECK(std::abs(SphereNet::shear(1) - 0.62276356305489) < 5e-15);
+  CHECK(SphereNet::shear(0) == M_PI_2);
+  // f = pi/2 - z + z^3/18 - ...
+  const double z = 1e-3;
+  CHECK(std::abs(SphereNet::shear(z) - (M_PI_2 - z + z * z * z / 18)) < 1e-15);
+  for (const double at : {0.3, 0.99, 1.5, 1.8})
+    CHECK(std::abs(SphereNet::shear(-at) + SphereNet::shear(at) - M_PI) < 1e-15);
+  // its first zero
+  CHECK(SphereNet::shear(1.86159167725) > 0);
+  CHECK(SphereNet::shear(1.86159167735) < 0);
+  CHECK(std::abs(SphereNet::shear(SphereNet::fold)) < 1e-10);
+}
+
+TEST_CASE("sphere net: the shear angle solves f' + z f'' = -sin f") {
+  // integrated twice: f(z) - f(0) = -integral over y of (1/y) integral over x < y of sin f(x)
+  const auto inner = [](double y) {
+    return y == 0 ? 1.0
+                  : integral([](double x) { return std::sin(SphereNet::shear(x)); }, 0, y) / y;
+  };
+  for (const double z : {0.5, 1.0, 1.2, 1.8})
+    CHECK(std::abs(SphereNet::shear(z) - M_PI_2 + integral(inner, 0, z)) < 1e-13);
+}
+
+TEST_CASE("sphere net: on the sphere, at unit speed, at the shear angle, for any radius") {
+  for (const double radius : {1.0, 76.394, 1e-3, 2e5}) {
+    const SphereNet net(radius);
+    double off_sphere = 0, off_unit = 0, off_tangent = 0, off_angle = 0;
+    each_point(radius, [&](double u, double v) {
+      const NetPoint p = point_of(net, u, v);
+      off_sphere = std::max(off_sphere, std::abs(p.position.norm() / radius - 1));
+      off_unit = std::max(off_unit, unit_residual(net, u, v));
+      off_tangent = std::max({off_tangent, std::abs(p.position.dot(p.tangent_u)) / radius,
+                              std::abs(p.position.dot(p.tangent_v)) / radius});
+      off_angle =
+          std::max(off_angle, std::abs(p.omega - SphereNet::shear(u / radius * (v / radius))));
+    });
+    CHECK(off_sphere < 1e-12);
+    CHECK(off_unit < 1e-12);
+    CHECK(off_tangent < 1e-12);
+    CHECK(off_angle < 1e-12);
+  }
+}
+
+TEST_CASE("sphere net: axes are great circles through the pole, and the frame is as named") {
+  const SphereNet net(10);
+  for (const double s : {-12.0, 0.0, 3.0, 15.0, 29.0}) {
+    const double a = s / 10;
+    const Eigen::Vector3d on_u(10 * std::sin(a), 0, 10 * std::cos(a));
+    const Eigen::Vector3d on_v(0, 10 * std::sin(a), 10 * std::cos(a));
+    CHECK((point_of(net, s, 0).position - on_u).norm() < 1e-13);
+    CHECK((point_of(net, 0, s).position - on_v).norm() < 1e-13);
+  }
+  CHECK((point_of(net, 2, 3).normal() - point_of(net, 2, 3).position / 10).norm() < 1e-14);
+  CHECK(point_of(net, 2, 3).K == Approx(0.01));
+}
+
+TEST_CASE("sphere net: the same whether followed along u or along v") {
+  // the code follows rods v = const only; swapping u and v mirrors the net in x = y
+  const SphereNet net(1);
+  double worst = 0;
+  each_point(1, [&](double u, double v) {
+    const NetPoint p = point_of(net, u, v), q = point_of(net, v, u);
+    const auto swapped = [](const Eigen::Vector3d& a) { return Eigen::Vector3d(a[1], a[0], a[2]); };
+    worst = std::max({worst, (p.position - swapped(q.position)).norm(),
+                      (p.tangent_u - swapped(q.tangent_v)).norm(),
+                      (p.tangent_v - swapped(q.tangent_u)).norm()});
+  });
+  CHECK(worst < 1e-12);
+}
+
+TEST_CASE("sphere net: C_u and C_v integrate to C, and C_uv = -cos(omega) C / rho^2") {
+  const SphereNet net(1);
+  CHECK(tangent_residual(net, -0.4, 1.5, 0.9, 1.5) < 1e-12);
+  CHECK(tangent_residual(net, 0.2, 1.0, -0.8, 0.7) < 1e-12);
+  for (int k = 0; k < 3; ++k) {
+    for (const double u : {-1.1, 0.3, 0.95}) {
+      const auto mixed = [&](double v) {
+        const NetPoint p = point_of(net, u, v);
+        return -std::cos(p.omega) * p.position[k];
+      };
+      const double change = point_of(net, u, 1).tangent_u[k] - point_of(net, u, -0.7).tangent_u[k];
+      CHECK(std::abs(change - integral(mixed, -0.7, 1)) < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("sphere net: Gauss and Hazzidakis") {
+  const SphereNet net(50);
+  for (const double u : {-30.0, 10.0, 45.0})
+    for (const double v : {-20.0, 5.0, 40.0}) CHECK(gauss_residual(net, u, v, 50) < 1e-9);
+  CHECK(hazzidakis_residual(net, -20, 49, 3, 49) < 1e-12);
+  CHECK(hazzidakis_residual(net, -60, 10, -15, 50) < 1e-12);
+}
+
+TEST_CASE("sphere net: a fold is named with its place") {
+  const SphereNet net(10);
+  CHECK(net.at(13.6, 13.6));
+  const auto acute = net.at(13.7, 13.7);
+  REQUIRE_FALSE(acute);
+  CHECK(acute.error().fault == Fault::bad_input);
+  CHECK(acute.error().message ==
+        "the net on the sphere of radius 10 mm folds (shear angle 0) where u v = 186.1592 mm^2; "
+        "(u, v) = (13.7, 13.7) mm lies beyond");
+  CHECK(net.at(13.7, -13.7).error().message ==
+        "the net on the sphere of radius 10 mm folds (shear angle 180 degrees) where u v = "
+        "-186.1592 mm^2; (u, v) = (13.7, -13.7) mm lies beyond");
+  CHECK_FALSE(net.at(std::nan(""), 1));
+}
