@@ -13,7 +13,7 @@ void main() {
   world = position;
   vec3 n = dot(normal, towards_eye(position)) < 0.0 ? -normal : normal;
   float through = dot(n, light_direction);
-  const float own = 0.45;
+  const float own = 0.6;
   float pale = haze_at(position);
   float strength = (1.0 - own) * key * max(through, -0.6 * through) * (1.0 - pale);
   vec3 still = colour.rgb * (own * (sky + key * light_direction.z) + (1.0 - own) * ambient(n));

@@ -3,7 +3,7 @@ uniform sampler2D cover;  // (cover, cover * height) seen from the light; its le
 uniform mat4 light_matrix;
 uniform vec3 ground_colour, background;
 uniform float ground_z;
-uniform vec2 middle;         // of the shell
+uniform vec2 middle;         // of the view
 uniform vec2 fade;           // distances from it where the ground begins and ends to pale
 uniform float open;          // light on level ground in the open
 uniform float key_part;      // of it that a full shadow takes

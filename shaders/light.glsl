@@ -11,8 +11,8 @@ vec3 towards_eye(vec3 world) { return normalize(eye.xyz - eye.w * world); }
 // Irradiance without the key light.
 float ambient(vec3 n) { return sky * (0.5 + 0.5 * n.z) + bounce * (0.5 - 0.5 * n.z); }
 
-// What lies further off pales a little, so that near and far rods stay apart: the part that pales.
+// What lies beyond the target pales a little, so that near and far rods stay apart: by this part.
 float haze_at(vec3 world) {
   float depth = clamp((dot(world, forward) - haze.x) * haze.y, 0.0, 1.0);
-  return 0.14 * depth * depth;
+  return 0.16 * depth * depth;
 }

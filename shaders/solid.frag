@@ -18,7 +18,11 @@ void main() {
   float edge = 1.0 - max(dot(n, v), 0.0);
   edge *= edge;
   float around = ambient(n);
-  vec3 shine = mix(vec3(0.5), surface_colour.rgb, 0.5) * gloss * key_light + 0.12 * edge * edge * around;
-  vec3 colour = surface_colour.rgb * (facing * key_light + around) + shine;
+  // grey metal shines white, a strong colour in itself: what colours mean stays readable
+  vec3 base = surface_colour.rgb;
+  float hue = max(base.r, max(base.g, base.b)) - min(base.r, min(base.g, base.b));
+  vec3 shine = mix(vec3(0.5), base, 0.5 + 0.5 * hue) * gloss * key_light +
+               0.12 * edge * edge * around;
+  vec3 colour = base * (facing * key_light + around) + shine;
   fragment = vec4(mix(colour, background, haze_at(world)), 1.0) * surface_colour.a;
 }

@@ -12,7 +12,7 @@
 namespace gridshell::render {
 namespace {
 
-constexpr double ground_from = 1.3, ground_to = 4.5;  // where it pales, in radii of the scene
+constexpr double ground_from = 1.2, ground_to = 4;  // where it pales, in half extents of the view
 constexpr float penumbra_least = 0.8f;                // mm, where rod and ground touch
 constexpr float roof = 0.35f;         // of the sky's light that a closed roof takes from the ground
 constexpr float shell_blur_mm = 0.8f;  // radius of the shadow's edge on the shell
@@ -159,7 +159,9 @@ void Painter::set_light(const Program& program, const Shot& shot, const Lighting
                                                              camera_distance(shot.camera) * forward);
   Eigen::Vector4f eye_uniform;
   eye_uniform << eye.cast<float>(), orthographic ? 0.f : 1.f;
-  const double nearest = forward.dot(shot.scene.centre()) - shot.scene.radius();
+  // what the camera shows, not what the scene holds: a movie's frames must not differ by it
+  const double extent = shot.camera.half_extent_mm;
+  const double middle = forward.dot(shot.camera.target);
   program.set("ground_z", float(shot.drawing.ground_z_mm));
   program.set("light_direction", Eigen::Vector3f(light.direction.cast<float>()));
   program.set("key", float(light.key));
@@ -168,13 +170,13 @@ void Painter::set_light(const Program& program, const Shot& shot, const Lighting
   program.set("eye", eye_uniform);
   program.set("background", linear(shot.drawing.background));
   program.set("forward", Eigen::Vector3f(forward.cast<float>()));
-  program.set("haze", Eigen::Vector2f(float(nearest), float(0.5 / shot.scene.radius())));
+  program.set("haze", Eigen::Vector2f(float(middle), float(1 / extent)));
   program.set("shadow_on", int(shot.quality.shadow));
   program.set("shadow_depth", 1);
   program.set("light_matrix", shadow_.matrix());
   // jittered light softens the shadow by itself
-  program.set("shadow_blur", passes_.size() > 1 ? 0.f : shell_blur_mm / shadow_.size_mm());
-  const double past_rod = std::max(shot.drawing.rod_diameter_mm, 0.01 * shot.scene.radius());
+  program.set("shadow_blur", passes_.size() > 1 ? 0.f : shell_blur_mm / shadow_.texel_mm() / float(ShadowMap::texels));
+  const double past_rod = std::max(shot.drawing.rod_diameter_mm, 1.5 * shadow_.texel_mm());
   program.set("shadow_offset", Eigen::Vector3f((past_rod * light.direction).cast<float>()));
 }
 
@@ -210,8 +212,8 @@ void Painter::draw_meshes(const Shot& shot, const Lighting& light, const Eigen::
 }
 
 void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light) {
+  const double extent = shot.camera.half_extent_mm;
   const Program& program = resolve_.at(shot.quality.supersample);
-  const double radius = shot.scene.radius();
   program.use();
   program.set("samples", 0);
   program.set("cover", 1);
@@ -221,12 +223,12 @@ void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light)
   program.set("ground_z", float(shot.drawing.ground_z_mm));
   program.set("ground_colour", linear(shot.drawing.ground_colour));
   program.set("background", linear(shot.drawing.background));
-  program.set("middle", Eigen::Vector2f(shot.scene.centre().head<2>().cast<float>()));
-  program.set("fade", Eigen::Vector2f(float(ground_from * radius), float(ground_to * radius)));
+  program.set("middle", Eigen::Vector2f(shot.camera.target.head<2>().cast<float>()));
+  program.set("fade", Eigen::Vector2f(float(ground_from * extent), float(ground_to * extent)));
   program.set("shadow_on", int(shot.quality.shadow));
   program.set("light_matrix", shadow_.matrix());
   program.set("height_range", shadow_.height_range_mm());
-  program.set("texel", shadow_.size_mm() / float(ShadowMap::texels));
+  program.set("texel", shadow_.texel_mm());
   const bool many = passes_.size() > 1;
   program.set("key_part", float(light.key * light.direction.z()));
   program.set("sky_part", many ? 0.f : roof * float(light.sky));

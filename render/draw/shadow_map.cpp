@@ -27,21 +27,27 @@ Result<ShadowMap> ShadowMap::create(const Gl& gl) {
   return ShadowMap(gl, std::move(*caster), std::move(*halve));
 }
 
-void ShadowMap::fit(const Scene& scene, const Eigen::Vector3d& light) {
+void ShadowMap::fit(const Scene& scene, const Eigen::Vector3d& light, double ground_z) {
   Eigen::Matrix3f axes;  // rows: right, up, towards the light
   const Eigen::Vector3d right = light.unitOrthogonal();
   axes.row(0) = right.transpose().cast<float>();
   axes.row(1) = light.cross(right).transpose().cast<float>();
   axes.row(2) = light.transpose().cast<float>();
   Eigen::AlignedBox3f box;
+  auto top = float(ground_z);
   for (const Mesh* mesh : {&scene.solids, &scene.cells})
-    for (const Vertex& v : mesh->vertices) box.extend(axes * v.position);
+    for (const Vertex& v : mesh->vertices) {
+      box.extend(axes * v.position);
+      top = std::max(top, v.position.z());
+    }
   if (box.isEmpty()) box.extend(Eigen::Vector3f::Zero());
   const Eigen::Vector3f middle = box.center();
-  size_mm_ = std::max(1e-3f, margin * std::max(box.sizes().x(), box.sizes().y()));
+  const float side = std::max(1e-3f, margin * std::max(box.sizes().x(), box.sizes().y()));
+  texel_mm_ = side / texels;
+  height_range_mm_ = std::max(1e-3f, top - float(ground_z));
   const float depth = std::max(1e-3f, margin * box.sizes().z());
 
-  const Eigen::Vector3f scale(2 / size_mm_, 2 / size_mm_, -2 / depth);
+  const Eigen::Vector3f scale(2 / side, 2 / side, -2 / depth);
   matrix_.setIdentity();
   matrix_.topLeftCorner<3, 3>() = scale.asDiagonal() * axes;
   matrix_.topRightCorner<3, 1>() = -scale.cwiseProduct(middle);
@@ -51,8 +57,7 @@ Result<void> ShadowMap::render(const Scene& scene, const VertexStore& solids,
                                const VertexStore& cells, const Eigen::Vector3d& light,
                                double ground_z) {
   if (auto bound = target_.bind(texels, texels, GL_RG8); !bound) return bound;
-  fit(scene, light);
-  height_range_mm_ = float(std::max(1e-3, scene.high.z() - ground_z));
+  fit(scene, light, ground_z);
   caster_.use();
   caster_.set("light_matrix", matrix_);
   caster_.set("ground_z", float(ground_z));

@@ -27,12 +27,12 @@ class ShadowMap {
   GLuint cover() const { return target_.colour(); }
   GLuint depth() const { return target_.depth(); }
   const Eigen::Matrix4f& matrix() const { return matrix_; }    ///< world to the map's [-1, 1]^3
-  float size_mm() const { return size_mm_; }                   ///< of the map's side
-  float height_range_mm() const { return height_range_mm_; }  ///< ground to the scene's top
+  float texel_mm() const { return texel_mm_; }                ///< of the finest level
+  float height_range_mm() const { return height_range_mm_; }  ///< ground to the shell's top
 
  private:
   ShadowMap(const Gl& gl, Program caster, Program halve);
-  void fit(const Scene& scene, const Eigen::Vector3d& light);
+  void fit(const Scene& scene, const Eigen::Vector3d& light, double ground_z);
   void draw_casters(const VertexStore& solids, const VertexStore& cells) const;
   void blur();
 
@@ -42,7 +42,7 @@ class ShadowMap {
   Framebuffer level_;
   VertexArray no_vertices_;
   Eigen::Matrix4f matrix_ = Eigen::Matrix4f::Identity();
-  float size_mm_ = 1, height_range_mm_ = 1;
+  float texel_mm_ = 1, height_range_mm_ = 1;
 };
 
 }  // namespace gridshell::render

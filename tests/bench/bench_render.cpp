@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/context/context.h"
@@ -23,10 +25,19 @@ double cpu_ms() {
   return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
 }
 
+/// What a result holds; the end of the program when it holds an error.
+template <class T>
+T value(Result<T> result) {
+  if (result) return std::move(*result);
+  fmt::print(stderr, "{}\n", result.error().message);
+  std::exit(1);
+}
+
 struct Case {
   const char* name;
   DrawQuality quality;
-  std::vector<double> ms;
+  std::vector<double> ms = {};
+  std::unique_ptr<Renderer> renderer = nullptr;  // of its own: a movie keeps its targets
 
   double median() {
     std::nth_element(ms.begin(), ms.begin() + long(ms.size() / 2), ms.end());
@@ -34,24 +45,22 @@ struct Case {
   }
 };
 
-void measure(Renderer& renderer, int width, int height, int frames) {
+void measure(Context& context, int width, int height, int frames) {
   const auto shell = test::square_shell(17, 9);
   const Drawing drawing = test::square_drawing(shell);
   Camera camera;
   camera.target = {0, 0, 15};
   camera.half_extent_mm = 105;
-  std::vector<Case> cases = {{"plain", {1, false, 1}, {}},
-                             {"2x2", {2, false, 1}, {}},
-                             {"2x2 + shadow", {2, true, 1}, {}}};
+  Case cases[] = {{"plain", {1, false, 1}},
+                             {"2x2", {2, false, 1}},
+                             {"2x2 + shadow", {2, true, 1}}};
+  for (Case& c : cases) c.renderer = value(Renderer::create(context));
   // in turns, so that whatever else runs on the machine falls on all of them alike
   for (int frame = -1; frame < frames; ++frame)
     for (Case& c : cases) {
       camera.azimuth_deg = 30 + 0.5 * frame;
       const double before = cpu_ms();
-      if (auto image = renderer.draw(drawing, camera, c.quality, width, height); !image) {
-        fmt::print(stderr, "{}\n", image.error().message);
-        std::exit(1);
-      }
+      value(c.renderer->draw(drawing, camera, c.quality, width, height));
       if (frame >= 0) c.ms.push_back(cpu_ms() - before);
     }
   const double plain = cases[0].median();
@@ -65,14 +74,11 @@ void measure(Renderer& renderer, int width, int height, int frames) {
 int main(int count, char** arguments) {
   const std::string kind = count > 1 ? arguments[1] : "auto";
   const int frames = count > 2 ? std::max(1, std::atoi(arguments[2])) : 15;
-  auto context = Context::create(kind == "egl"      ? ContextKind::egl
-                                 : kind == "osmesa" ? ContextKind::osmesa
-                                                    : ContextKind::automatic);
-  if (!context) return fmt::print(stderr, "{}\n", context.error().message), 1;
-  auto renderer = Renderer::create(**context);
-  if (!renderer) return fmt::print(stderr, "{}\n", renderer.error().message), 1;
+  const auto context = value(Context::create(kind == "egl"      ? ContextKind::egl
+                                       : kind == "osmesa" ? ContextKind::osmesa
+                                                          : ContextKind::automatic));
   fmt::print("{}: 4896 rod segments, 289 joints, 256 cells; median CPU time of {} frames\n",
-             (*context)->kind_name(), frames);
-  measure(**renderer, 1280, 720, frames);
-  measure(**renderer, 1920, 1080, std::max(1, frames / 3));
+             context->kind_name(), frames);
+  measure(*context, 1280, 720, frames);
+  measure(*context, 1920, 1080, std::max(1, frames / 3));
 }

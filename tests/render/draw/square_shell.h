@@ -1,5 +1,6 @@
-// A square net over a dome, for benches and for pictures whose size in rods is asked for: n + n rods
-// on a square grid, n^2 joints, (n-1)^2 cells, 2 n (n-1) k rod segments of one edge. Geometry alone.
+// A square net over a dome, for benches and for pictures whose size in rods is asked for: n + n
+// rods on a square grid, n^2 joints, (n-1)^2 cells, 2 n (n-1) k rod segments of one edge. Geometry
+// alone.
 #pragma once
 
 #include <cmath>
@@ -51,7 +52,10 @@ inline SquareShell square_shell(int rods, int edges, double half = 100) {
   for (int j = 0; j + 1 < rods; ++j)
     for (int i = 0; i + 1 < rods; ++i) {
       const int a = j * rods + i;
-      layout.cells.push_back({i, j, (i + 0.5) * spacing - half, (j + 0.5) * spacing - half,
+      layout.cells.push_back({i,
+                              j,
+                              (i + 0.5) * spacing - half,
+                              (j + 0.5) * spacing - half,
                               {a, a + 1, a + rods + 1, a + rods}});
     }
   shell.nodes.resize(3, long(points.size()));

@@ -1,0 +1,32 @@
+#include "render/gl/program.h"
+
+#include <catch2/catch.hpp>
+
+#include "render/context/context.h"
+#include "render/gl/shader_text.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+TEST_CASE("shaders are part of the program", "[gl]") {
+  CHECK(shader_text("solid.vert").find("void main()") != std::string_view::npos);
+  CHECK(shader_text("no_such.vert").empty());
+}
+
+TEST_CASE("a shader that does not compile is an error with the compiler's log", "[gl]") {
+  const auto context = Context::create(ContextKind::automatic);
+  REQUIRE(context);
+  const auto gl = Gl::load(**context);
+  REQUIRE(gl);
+  CHECK(Program::create(*gl, {"screen.vert"}, {"mean.frag"}));
+
+  const auto missing = Program::create(*gl, {"screen.vert"}, {"no_such.frag"});
+  REQUIRE_FALSE(missing);
+  CHECK(missing.error().message == "no shader of the name no_such.frag");
+
+  // its functions are in light.glsl
+  const auto wrong = Program::create(*gl, {"solid.vert"}, {"solid.frag"});
+  REQUIRE_FALSE(wrong);
+  CHECK(wrong.error().fault == Fault::io);
+  CHECK_THAT(wrong.error().message, Catch::Matchers::Contains("solid.frag does not compile"));
+}
