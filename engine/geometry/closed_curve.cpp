@@ -1,0 +1,287 @@
+#include "engine/geometry/closed_curve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/geometry/spline_curve.h"
+
+namespace gridshell {
+namespace {
+
+using Eigen::Vector2d;
+
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// root of g in [low, high], where g changes sign: bracketed Newton iteration, g = {value, slope}
+double root(const std::function<Vector2d(double)>& g, double low, double high) {
+  const bool rising = g(low)[0] < 0;
+  const double width = high - low;
+  double t = (low + high) / 2;
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    const Vector2d here = g(t);
+    ((here[0] >= 0) == rising ? high : low) = t;
+    double next = t - here[0] / here[1];
+    if (!(next >= low && next <= high)) next = (low + high) / 2;
+    const double step = std::abs(next - t);
+    t = next;
+    if (step <= 1e-16 * width || high - low <= 1e-16 * width) break;
+  }
+  return t;
+}
+
+/// The points without a repeated first one, counter-clockwise; at least three, all of them finite.
+Result<Eigen::Matrix2Xd> cleaned(const Eigen::Matrix2Xd& given) {
+  Eigen::Matrix2Xd points = given;
+  if (points.cols() > 1 && points.col(0) == points.col(points.cols() - 1))
+    points.conservativeResize(2, points.cols() - 1);
+  const Eigen::Index n = points.cols();
+  if (n < 3)
+    return fail(Fault::bad_input, fmt::format("a closed curve needs at least 3 points, not {}", n));
+  double area = 0;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (!points.col(k).allFinite())
+      return fail(Fault::bad_input,
+                  fmt::format("point {} of the closed curve is not finite", k + 1));
+    const Vector2d next = points.col((k + 1) % n);
+    if (points.col(k) == next)
+      return fail(Fault::bad_input, fmt::format("points {} and {} of the closed curve are the same",
+                                                k + 1, (k + 1) % n + 1));
+    area += cross(points.col(k), next) / 2;
+  }
+  if (area < 0) points.rightCols(n - 1).rowwise().reverseInPlace();
+  return points;
+}
+
+bool segments_meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
+  const auto side = [](const Vector2d& p, const Vector2d& q, const Vector2d& r) {
+    return cross(q - p, r - p) > 0;
+  };
+  return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
+}
+
+}  // namespace
+
+Result<ClosedCurve> ClosedCurve::make(std::function<Point(double)> at, std::vector<double> breaks) {
+  ClosedCurve curve;
+  curve.at_ = std::move(at);
+  curve.breaks_ = std::move(breaks);
+  std::vector<Vector2d> p;
+  for (const double t : curve.samples()) p.push_back(curve.at_(t).position);
+  const std::size_t n = p.size() - 1;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 2; j < n && j < n + i - 1; ++j)
+      if (segments_meet(p[i], p[i + 1], p[j], p[j + 1]))
+        return fail(Fault::bad_input,
+                    fmt::format("the closed curve crosses itself near ({:.6g}, {:.6g}) mm",
+                                p[i].x(), p[i].y()));
+  const auto speed = [at = curve.at_](double s) { return at(s).first.norm(); };
+  curve.length_ = std::make_shared<const Antiderivative>(speed, curve.breaks_, 0);
+  return curve;
+}
+
+Result<ClosedCurve> ClosedCurve::ellipse(double a, double b) { return superellipse(a, b, 2); }
+
+Result<ClosedCurve> ClosedCurve::superellipse(double a, double b, double exponent) {
+  if (!(a > 0 && b > 0 && std::isfinite(a) && std::isfinite(b)))
+    return fail(Fault::bad_input,
+                fmt::format("the half axes are {:g} and {:g} mm, they must be positive", a, b));
+  if (!(exponent >= 1 && exponent <= 100))
+    return fail(Fault::bad_input, fmt::format("the superellipse's exponent is {:g}, it must lie "
+                                              "between 1 and 100",
+                                              exponent));
+  const auto at = [a, b, n = exponent](double t) {
+    const double cosine = std::cos(t), sine = std::sin(t);
+    const double p = std::pow(std::abs(cosine / a), n), q = std::pow(std::abs(sine / b), n);
+    // r = (p + q)^(-1/n), and dp/dt = -n p tan t, dq/dt = n q cot t
+    const double r = std::pow(p + q, -1 / n);
+    const double dp = p == 0 ? 0 : -p * sine / cosine, dq = q == 0 ? 0 : q * cosine / sine;
+    const double dr = -r * (dp + dq) / (p + q);
+    return Point{Vector2d(r * cosine, r * sine),
+                 Vector2d(dr * cosine - r * sine, dr * sine + r * cosine)};
+  };
+  return make(at, {0, M_PI_2, M_PI, 3 * M_PI_2, 2 * M_PI});
+}
+
+Result<ClosedCurve> ClosedCurve::polygon(const Eigen::Matrix2Xd& given) {
+  const auto points = cleaned(given);
+  if (!points) return tl::unexpected(points.error());
+  const Eigen::Index n = points->cols();
+  const auto at = [points = *points, n](double t) {
+    const Eigen::Index k = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(t), 0, n - 1);
+    const Vector2d a = points.col(k), edge = points.col((k + 1) % n) - a;
+    return Point{a + (t - static_cast<double>(k)) * edge, edge};
+  };
+  std::vector<double> breaks;
+  for (Eigen::Index k = 0; k <= n; ++k) breaks.push_back(static_cast<double>(k));
+  return make(at, breaks);
+}
+
+Result<ClosedCurve> ClosedCurve::spline(const Eigen::Matrix2Xd& given) {
+  const auto points = cleaned(given);
+  if (!points) return tl::unexpected(points.error());
+  // an end of a spline is forgotten by a factor 0.27 a knot: after 40 it is periodic to round-off
+  constexpr Eigen::Index around = 40;
+  const Eigen::Index n = points->cols();
+  Eigen::Matrix2Xd wound(2, n + 2 * around + 1);
+  for (Eigen::Index k = 0; k < wound.cols(); ++k)
+    wound.col(k) = points->col((k - around % n + n) % n);
+  const auto spline = SplineCurve::through(wound);
+  if (!spline) return tl::unexpected(spline.error());
+  const auto curve = std::make_shared<const SplineCurve>(*spline);
+  const double start = curve->knots()[around];
+  const auto at = [curve, start](double t) {
+    const SplineCurve::Point p = curve->at(start + t);
+    return Point{p.position, p.first};
+  };
+  std::vector<double> breaks;
+  for (Eigen::Index k = 0; k <= n; ++k) breaks.push_back(curve->knots()[around + k] - start);
+  return make(at, breaks);
+}
+
+std::vector<double> ClosedCurve::samples() const {
+  const std::size_t pieces = breaks_.size() - 1,
+                    each = std::clamp<std::size_t>(256 / pieces, 4, 64);
+  std::vector<double> t;
+  for (std::size_t k = 0; k < pieces; ++k)
+    for (std::size_t n = 0; n < each; ++n)
+      t.push_back(breaks_[k] + (breaks_[k + 1] - breaks_[k]) * static_cast<double>(n) / each);
+  t.push_back(last());
+  return t;
+}
+
+double ClosedCurve::at_arc_length(double s) const {
+  const double around = std::fmod(s, length());
+  return length_->inverse(around < 0 ? around + length() : around);
+}
+
+std::vector<double> ClosedCurve::crossings(int axis, double c) const {
+  const auto g = [&](double t) {
+    const Point p = at_(t);
+    return Vector2d(p.position[axis] - c, p.first[axis]);
+  };
+  const auto above = [&](double t) { return g(t)[0] >= 0; };
+  const std::vector<double> t = samples();
+  std::vector<double> found;
+  for (std::size_t k = 0; k + 1 < t.size(); ++k) {
+    // the end of the last piece is the start of the first, exactly
+    const bool first = above(t[k]), last = above(k + 2 == t.size() ? t[0] : t[k + 1]);
+    double low = t[k], high = t[k + 1];
+    if (first != last) {
+      found.push_back(root(g, low, high));
+      continue;
+    }
+    if (!(g(low)[1] * g(high)[1] < 0)) continue;
+    // a turn in between: the curve may cross the line and come back
+    const bool falling = g(low)[1] < 0;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = (low + high) / 2;
+      ((g(middle)[1] < 0) == falling ? low : high) = middle;
+    }
+    if (above(low) == first) continue;
+    found.push_back(root(g, t[k], low));
+    found.push_back(root(g, low, t[k + 1]));
+  }
+  return found;
+}
+
+double ClosedCurve::nearest(const Vector2d& point) const {
+  const std::vector<double> t = samples();
+  const auto distance = [&](double at) { return (at_(at).position - point).squaredNorm(); };
+  std::size_t best = 0;
+  for (std::size_t k = 1; k + 1 < t.size(); ++k)
+    if (distance(t[k]) < distance(t[best])) best = k;
+  // golden-section search on either side of the nearest sample, corners being samples
+  const double ratio = (std::sqrt(5.0) - 1) / 2;
+  double found = t[best];
+  const std::size_t before = best == 0 ? t.size() - 2 : best - 1;
+  for (const auto& [from, to] :
+       {std::pair(t[before], best == 0 ? last() : t[best]), std::pair(t[best], t[best + 1])}) {
+    double low = from, high = to;
+    for (int step = 0; step < 90; ++step) {
+      const double a = high - ratio * (high - low), b = low + ratio * (high - low);
+      (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
+    }
+    // squared distances are flat at their minimum: one Newton step on their slope
+    double at = (low + high) / 2;
+    const Point p = at_(at);
+    at = std::clamp(at - (p.position - point).dot(p.first) / p.first.squaredNorm(), from, to);
+    if (distance(at) <= distance(found)) found = at;
+  }
+  return found;
+}
+
+namespace {
+
+/// t where the ray from the origin at `angle` meets the curve; all of them
+std::vector<double> on_ray(const ClosedCurve& curve, double angle) {
+  // turned so that the ray is the positive x-axis
+  const Vector2d along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
+  std::vector<double> found;
+  std::vector<double> t;
+  const int samples = std::max(512, 8 * static_cast<int>(curve.breaks().size()));
+  for (int k = 0; k < samples; ++k) t.push_back(curve.last() * k / samples);
+  t.insert(t.end(), curve.breaks().begin(), curve.breaks().end());
+  std::sort(t.begin(), t.end());
+  const auto g = [&](double at) {
+    const ClosedCurve::Point p = curve.at(at);
+    return Vector2d(across.dot(p.position), across.dot(p.first));
+  };
+  for (std::size_t k = 0; k + 1 < t.size(); ++k) {
+    const double end = k + 2 == t.size() ? t[0] : t[k + 1];
+    if ((g(t[k])[0] >= 0) == (g(end)[0] >= 0)) continue;
+    const double at = root(g, t[k], t[k + 1]);
+    if (along.dot(curve.at(at).position) > 0) found.push_back(at);
+  }
+  return found;
+}
+
+Result<void> check_star(const ClosedCurve& curve, const char* name, Correspondence how) {
+  const std::size_t on_axis = on_ray(curve, 0).size();
+  if (on_axis % 2 == 0)
+    return fail(Fault::bad_input, fmt::format("the origin is not inside the {} boundary", name));
+  if (how == Correspondence::arc_length && on_axis > 1)
+    return fail(Fault::bad_input, fmt::format("the positive x-axis meets the {} boundary more than "
+                                              "once: arc lengths need one place to start",
+                                              name));
+  // seen from the origin a star turns one way only
+  constexpr int samples = 2048;
+  for (int k = 0; how == Correspondence::angle && k < samples; ++k) {
+    const ClosedCurve::Point p = curve.at(curve.last() * (k + 0.5) / samples);
+    if (cross(p.position, p.first) > 0) continue;
+    return fail(Fault::bad_input,
+                fmt::format("the ray from the origin at {:.4g} degrees meets the {} boundary more "
+                            "than once: use correspondence \"arc_length\"",
+                            std::atan2(p.position.y(), p.position.x()) * 180 / M_PI, name));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<BoundaryMap> BoundaryMap::make(ClosedCurve original, ClosedCurve actuated,
+                                      Correspondence how) {
+  if (auto good = check_star(original, "original", how); !good) return tl::unexpected(good.error());
+  if (auto good = check_star(actuated, "actuated", how); !good) return tl::unexpected(good.error());
+  BoundaryMap map;
+  map.start_original_ = original.arc_length(on_ray(original, 0).front());
+  map.start_actuated_ = actuated.arc_length(on_ray(actuated, 0).front());
+  map.original_ = std::move(original);
+  map.actuated_ = std::move(actuated);
+  map.how_ = how;
+  return map;
+}
+
+Vector2d BoundaryMap::operator()(const Vector2d& on_original) const {
+  if (how_ == Correspondence::angle) {
+    const auto t = on_ray(actuated_, std::atan2(on_original.y(), on_original.x()));
+    return actuated_.at(t.front()).position;
+  }
+  const double s = original_.arc_length(original_.nearest(on_original)) - start_original_;
+  const double t =
+      actuated_.at_arc_length(start_actuated_ + s * actuated_.length() / original_.length());
+  return actuated_.at(t).position;
+}
+
+}  // namespace gridshell

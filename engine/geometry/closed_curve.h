@@ -1,0 +1,76 @@
+// Closed plane curves: original and actuated boundaries that a user gives.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/geometry/antiderivative.h"
+
+namespace gridshell {
+
+/// A closed curve without crossings, counter-clockwise, mm; t runs from 0 to last() once around.
+class ClosedCurve {
+ public:
+  struct Point {
+    Eigen::Vector2d position, first;  ///< C(t), dC/dt
+  };
+
+  /// All errors are bad_input and name the value that is wrong.
+  static Result<ClosedCurve> ellipse(double half_x_mm, double half_y_mm);  ///< a circle too
+  /// |x/a|^n + |y/b|^n = 1, n >= 1 (2: an ellipse), by polar angle
+  static Result<ClosedCurve> superellipse(double half_x_mm, double half_y_mm, double exponent);
+  /// straight between points (2 x n, n >= 3), in either direction, the first repeated or not
+  static Result<ClosedCurve> polygon(const Eigen::Matrix2Xd& points);
+  /// periodic cubic spline through points as above, knots by chord length
+  static Result<ClosedCurve> spline(const Eigen::Matrix2Xd& points);
+
+  double last() const { return breaks_.back(); }
+  const std::vector<double>& breaks() const { return breaks_; }  ///< corners, knots, both ends
+  Point at(double t) const { return at_(t); }
+  double length() const { return (*length_)(last()); }
+  double arc_length(double t) const { return (*length_)(t); }  ///< from t = 0
+  double at_arc_length(double s) const;                        ///< t, s taken modulo the length
+
+  /// every t where coordinate `axis` (0: x, 1: y) equals c, solved to round-off. A stretch that
+  /// lies on the line counts as on its positive side, so the number of crossings is even.
+  std::vector<double> crossings(int axis, double c) const;
+
+  /// t of the point of the curve nearest to `point`
+  double nearest(const Eigen::Vector2d& point) const;
+
+ private:
+  static Result<ClosedCurve> make(std::function<Point(double)> at, std::vector<double> breaks);
+  /// `breaks` with so many points in between that the curve turns little from one to the next
+  std::vector<double> samples() const;
+
+  std::function<Point(double)> at_;
+  std::vector<double> breaks_;
+  std::shared_ptr<const Antiderivative> length_;
+};
+
+/// How a point of the original boundary finds its place on the actuated one.
+enum class Correspondence {
+  arc_length,  ///< the same fraction of the length, both counted from the positive x-axis
+  angle,       ///< the same polar angle about the origin
+};
+
+/// Maps points of the original boundary to the actuated one.
+class BoundaryMap {
+ public:
+  /// Errors (bad_input), saying which boundary and where: the origin is not inside; for `angle`, a
+  /// ray from the origin meets a boundary more than once.
+  static Result<BoundaryMap> make(ClosedCurve original, ClosedCurve actuated, Correspondence how);
+
+  /// the actuated place of a point on the original boundary
+  Eigen::Vector2d operator()(const Eigen::Vector2d& on_original) const;
+
+ private:
+  ClosedCurve original_, actuated_;
+  Correspondence how_{};
+  double start_original_ = 0, start_actuated_ = 0;  ///< arc length on the positive x-axis
+};
+
+}  // namespace gridshell

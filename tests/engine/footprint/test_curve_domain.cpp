@@ -1,0 +1,164 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/footprint/curve_domain.h"
+
+using namespace gridshell;
+
+namespace {
+
+Eigen::Matrix2Xd points(std::initializer_list<Eigen::Vector2d> list) {
+  Eigen::Matrix2Xd matrix(2, list.size());
+  Eigen::Index k = 0;
+  for (const Eigen::Vector2d& point : list) matrix.col(k++) = point;
+  return matrix;
+}
+
+}  // namespace
+
+TEST_CASE("curve domain: a circle cuts grid lines where a disk does") {
+  const CurveDomain circle(ClosedCurve::ellipse(126, 126).value());
+  const Disk disk(126);
+  for (const double c : {-125.9999, -110.0, -10.0, 0.0, 10.0, 70.0, 125.9999}) {
+    for (const Family family : {Family::u, Family::v}) {
+      const auto pieces = circle.intervals(family, c);
+      REQUIRE(pieces.size() == 1);
+      CHECK(std::abs(pieces[0].begin - disk.intervals(family, c)[0].begin) < 1e-10);
+      CHECK(std::abs(pieces[0].end - disk.intervals(family, c)[0].end) < 1e-10);
+    }
+  }
+  CHECK(circle.intervals(Family::u, 126.01).empty());
+  CHECK(circle.reach() == Approx(126).epsilon(2e-5));
+  CHECK(circle.reach() >= 126);
+  const Eigen::Matrix2Xd ring = circle.boundary(100);
+  for (const auto& point : ring.colwise()) CHECK(point.norm() == Approx(126).epsilon(1e-14));
+}
+
+TEST_CASE("curve domain: an ellipse and a superellipse") {
+  const CurveDomain ellipse(ClosedCurve::ellipse(100, 60).value());
+  CHECK(ellipse.intervals(Family::u, 30)[0].end == Approx(100 * std::sqrt(0.75)).epsilon(1e-13));
+  CHECK(ellipse.intervals(Family::v, 80)[0].end == Approx(36).epsilon(1e-13));
+  const CurveDomain squarish(ClosedCurve::superellipse(100, 60, 4).value());
+  CHECK(squarish.intervals(Family::u, 30)[0].end ==
+        Approx(100 * std::pow(1 - std::pow(0.5, 4), 0.25)).epsilon(1e-13));
+}
+
+TEST_CASE("curve domain: hollows cut a line more than once, edges on a line once") {
+  // a U, open upwards, given clockwise and with its first point repeated
+  const CurveDomain u(
+      ClosedCurve::polygon(
+          points(
+              {{0, 0}, {0, 40}, {10, 40}, {10, 10}, {30, 10}, {30, 40}, {40, 40}, {40, 0}, {0, 0}}))
+          .value());
+  auto pieces = u.intervals(Family::u, 20);
+  REQUIRE(pieces.size() == 2);
+  CHECK((pieces[0].begin == Approx(0).margin(1e-14) && pieces[0].end == Approx(10)));
+  CHECK((pieces[1].begin == Approx(30) && pieces[1].end == Approx(40)));
+  CHECK(u.intervals(Family::u, 5).size() == 1);
+  CHECK(u.intervals(Family::v, 20)[0].end == Approx(10));
+  // along edges: always whole pieces
+  for (const double c : {0.0, 10.0, 40.0})
+    for (const auto& piece : u.intervals(Family::u, c)) CHECK(piece.end - piece.begin > 9.9);
+  for (const double c : {0.0, 10.0, 30.0, 40.0})
+    for (const auto& piece : u.intervals(Family::v, c)) CHECK(piece.end - piece.begin > 9.9);
+  // all eight corners are in the polyline
+  int corners = 0;
+  const Eigen::Matrix2Xd ring = u.boundary(50);
+  for (const auto& at : ring.colwise()) {
+    const auto is = [](double a, std::initializer_list<double> of) {
+      return std::any_of(of.begin(), of.end(), [a](double b) { return std::abs(a - b) < 1e-12; });
+    };
+    corners += is(at[0], {0, 10, 30, 40}) && is(at[1], {0, 10, 40});
+  }
+  CHECK(corners >= 8);
+}
+
+TEST_CASE("curve domain: a peanut of spline points has a waist") {
+  Eigen::Matrix2Xd outline(2, 240);
+  const auto radius = [](double angle) { return 60 + 30 * std::cos(2 * angle); };
+  for (int k = 0; k < 240; ++k) {
+    const double angle = 2 * M_PI * k / 240;
+    outline.col(k) << radius(angle) * std::cos(angle), radius(angle) * std::sin(angle);
+  }
+  const CurveDomain peanut(ClosedCurve::spline(outline).value());
+  CHECK(peanut.intervals(Family::v, 0)[0].end == Approx(30).epsilon(1e-6));
+  CHECK(peanut.intervals(Family::u, 0)[0].end == Approx(90).epsilon(1e-6));
+  const auto pieces = peanut.intervals(Family::u, 31);
+  REQUIRE(pieces.size() == 2);
+  CHECK(pieces[0].begin == Approx(-pieces[1].end).epsilon(1e-9));
+  CHECK(pieces[1].begin > 1);
+  for (const auto& piece : pieces)
+    for (const double u : {piece.begin, piece.end}) {
+      const double angle = std::atan2(31, u);
+      CHECK(std::hypot(u, 31) == Approx(radius(angle)).epsilon(1e-4));
+    }
+  // the seam of the periodic spline is as smooth as the rest
+  const auto curve = ClosedCurve::spline(outline).value();
+  const auto start = curve.at(0), end = curve.at(curve.last());
+  CHECK((start.position - end.position).norm() < 1e-12);
+  CHECK((start.first - end.first).norm() < 1e-12);
+}
+
+TEST_CASE("closed curves: lengths, nearest points, and what is refused") {
+  const auto circle = ClosedCurve::ellipse(10, 10).value();
+  CHECK(circle.length() == Approx(20 * M_PI).epsilon(1e-14));
+  CHECK(circle.at_arc_length(-5 * M_PI) == Approx(1.5 * M_PI).epsilon(1e-14));
+  for (const double angle : {0.0, 0.001, 1.0, 3.0, 6.28}) {
+    const Eigen::Vector2d on(10 * std::cos(angle), 10 * std::sin(angle));
+    CHECK((circle.at(circle.nearest(on)).position - on).norm() < 1e-12);
+  }
+  CHECK(ClosedCurve::polygon(points({{0, 0}, {3, 0}, {3, 4}})).value().length() == Approx(12));
+
+  CHECK(ClosedCurve::polygon(points({{0, 0}, {10, 10}, {10, 0}, {0, 8}}))
+            .error()
+            .message.find("the closed curve crosses itself near (") == 0);
+  CHECK(ClosedCurve::polygon(points({{0, 0}, {1, 1}})).error().message ==
+        "a closed curve needs at least 3 points, not 2");
+  CHECK(ClosedCurve::spline(points({{0, 0}, {1, 1}, {1, 1}, {0, 3}})).error().message ==
+        "points 2 and 3 of the closed curve are the same");
+  CHECK(ClosedCurve::polygon(points({{0, 0}, {1, NAN}, {1, 2}})).error().message ==
+        "point 2 of the closed curve is not finite");
+  CHECK(ClosedCurve::ellipse(0, 1).error().message ==
+        "the half axes are 0 and 1 mm, they must be positive");
+  CHECK_FALSE(ClosedCurve::superellipse(1, 1, 0.5));
+}
+
+TEST_CASE("boundary maps: by arc length and by angle") {
+  const auto ellipse = ClosedCurve::ellipse(100, 60).value();
+  const auto circle = ClosedCurve::ellipse(50, 50).value();
+  const auto by_angle = BoundaryMap::make(ellipse, circle, Correspondence::angle).value();
+  const auto by_length = BoundaryMap::make(ellipse, circle, Correspondence::arc_length).value();
+  for (const double t : {0.0, 0.4, 1.9, 3.0, 4.4, 6.0}) {
+    const Eigen::Vector2d on = ellipse.at(t).position;
+    CHECK((by_angle(on) - 50 * on.normalized()).norm() < 1e-12);
+    const double angle = 2 * M_PI * ellipse.arc_length(t) / ellipse.length();
+    CHECK((by_length(on) - 50 * Eigen::Vector2d(std::cos(angle), std::sin(angle))).norm() < 1e-10);
+  }
+  // a circle shrinks evenly either way
+  const auto large = ClosedCurve::ellipse(126, 126).value();
+  for (const auto how : {Correspondence::angle, Correspondence::arc_length}) {
+    const auto shrink = BoundaryMap::make(large, circle, how).value();
+    const Eigen::Vector2d on(126 * std::cos(2.0), 126 * std::sin(2.0));
+    CHECK((shrink(on) - on * 50 / 126).norm() < 1e-11);
+  }
+  // polygons start anywhere, also in the middle of an edge
+  const auto square =
+      ClosedCurve::polygon(points({{-10, -10}, {10, -10}, {10, 10}, {-10, 10}})).value();
+  const auto half = ClosedCurve::polygon(points({{5, 5}, {-5, 5}, {-5, -5}, {5, -5}})).value();
+  const auto scale = BoundaryMap::make(square, half, Correspondence::arc_length).value();
+  CHECK((scale({10, 3}) - Eigen::Vector2d(5, 1.5)).norm() < 1e-12);
+  CHECK((scale({-10, -3}) - Eigen::Vector2d(-5, -1.5)).norm() < 1e-12);
+
+  const auto away = ClosedCurve::polygon(points({{1, 1}, {3, 1}, {2, 3}})).value();
+  CHECK(BoundaryMap::make(circle, away, Correspondence::angle).error().message ==
+        "the origin is not inside the actuated boundary");
+  const auto hook =
+      ClosedCurve::polygon(points({{-1, -1}, {9, -1}, {9, 9}, {3, 9}, {6, 6}, {6, 2}, {-1, 2}}))
+          .value();
+  CHECK(BoundaryMap::make(hook, circle, Correspondence::angle)
+            .error()
+            .message.find(
+                "meets the original boundary more than once: use correspondence \"arc_length\"") !=
+        std::string::npos);
+  CHECK(BoundaryMap::make(hook, circle, Correspondence::arc_length));
+}
