@@ -71,11 +71,12 @@ double expected_seconds(Pictures pictures, const preset::Preset& preset) {
   return count * 1e-6 * movie.size[0] * movie.size[1] * megapixel_seconds;
 }
 
-std::string missing_movie(const fs::path& folder, const preset::Preset& preset) {
+std::string how_to_make_movie(const fs::path& folder, const preset::Preset& preset) {
   std::error_code error;
   const auto frames = folder / "frames", movie = folder / "movie.mp4";
   if (!fs::exists(frames, error) || fs::exists(movie, error)) return "";
-  return render::shell_line(render::encode_arguments(frames, preset.movie.fps, movie));
+  const auto line = render::shell_line(render::encode_arguments(frames, preset.movie.fps, movie));
+  return "no ffmpeg on the PATH; this makes the movie:\n  " + line + "\n";
 }
 
 }  // namespace gridshell::app

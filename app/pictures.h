@@ -46,7 +46,8 @@ class Artist {
 /// What drawing will take about, for the progress bar and `check`.
 double expected_seconds(Pictures pictures, const preset::Preset& preset);
 
-/// Where movie frames lie without a movie (no ffmpeg): the line for a shell that makes it, else "".
-std::string missing_movie(const std::filesystem::path& folder, const preset::Preset& preset);
+/// Two lines that say how to make a movie of the frames in a run's folder, where there are frames
+/// and no movie because ffmpeg is not on the PATH; else empty.
+std::string how_to_make_movie(const std::filesystem::path& folder, const preset::Preset& preset);
 
 }  // namespace gridshell::app

@@ -45,12 +45,15 @@ Result<std::vector<Job>> jobs_of(const preset::Presets& presets, Pictures pictur
   return jobs;
 }
 
+// the first equilibrium and some milliseconds a frame, where the engine does not say
+double simulation_guess(const Job& job) { return 0.5 + 0.01 * job.preset.movie.frames; }
+
 std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
   std::vector<Phase> phases;
   for (const auto& job : jobs) {
     const double guess = job.plan.expected_seconds;
     const auto of_case = job.name.empty() ? "" : " " + job.name;
-    phases.push_back({"simulating" + of_case, std::isnan(guess) ? 5 : guess});
+    phases.push_back({"simulating" + of_case, std::isnan(guess) ? simulation_guess(job) : guess});
     if (pictures != Pictures::none)
       phases.push_back({"drawing" + of_case, expected_seconds(pictures, job.preset)});
   }
@@ -109,8 +112,7 @@ void print_result(const Job& job, const fs::path& folder) {
       at.seconds_simulation);
   if (at.seconds_render > 0) fmt::print(", {:.1f} s drawn", at.seconds_render);
   fmt::print("\n");
-  const auto line = missing_movie(folder_of(folder, job.name), job.preset);
-  if (!line.empty()) fmt::print("no ffmpeg on the PATH; this makes the movie:\n  {}\n", line);
+  fmt::print("{}", how_to_make_movie(folder_of(folder, job.name), job.preset));
 }
 
 }  // namespace

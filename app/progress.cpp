@@ -27,7 +27,9 @@ std::string time_text(double seconds) {
 }
 
 std::string left_text(const Standing& at) {
-  return std::isnan(at.seconds_left) ? "" : fmt::format(", {} left", time_text(at.seconds_left));
+  return std::isnan(at.seconds_left) || at.fraction >= 1
+             ? ""
+             : fmt::format(", {} left", time_text(at.seconds_left));
 }
 
 }  // namespace

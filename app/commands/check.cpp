@@ -25,7 +25,7 @@ void print_plan(const preset::Preset& preset, const experiment::Plan& plan) {
   fmt::print("  footprint       {}\n", plan.footprint);
   fmt::print("  boundary        {} mm to {} mm\n", preset.footprint.radius_mm,
              preset.actuation.radius_mm);
-  fmt::print("  model           {}: {}\n", plan.model, plan.model_reason);
+  fmt::print("  model           {}\n", plan.model_reason);
   fmt::print("  meshes          {} edges a segment{}\n", fmt::join(plan.levels, ", "),
              plan.extrapolated ? ", extrapolated" : "");
   fmt::print("  size            {} rods, {} joints, {} cells, {} unknowns\n", plan.rods,

@@ -143,8 +143,7 @@ Result<std::vector<FinishedRun>> read_runs(const Options& options) {
 
 void print_drawn(const FinishedRun& run, const fs::path& folder) {
   fmt::print("{}: {:.1f} s drawn\n", folder.string(), run.summary.seconds_render);
-  const auto line = missing_movie(folder, run.preset);
-  if (!line.empty()) fmt::print("no ffmpeg on the PATH; this makes the movie:\n  {}\n", line);
+  fmt::print("{}", how_to_make_movie(folder, run.preset));
 }
 
 int render(const Options& options) {
