@@ -5,6 +5,7 @@ pkg_check_modules(PANGOCAIRO REQUIRED IMPORTED_TARGET pangocairo)
 find_path(GL_CORE_INCLUDE_DIR GL/glcorearb.h REQUIRED)
 find_path(OSMESA_INCLUDE_DIR GL/osmesa.h REQUIRED)
 find_path(EGL_INCLUDE_DIR EGL/egl.h REQUIRED)
+find_path(GLFW_INCLUDE_DIR GLFW/glfw3.h REQUIRED)
 
 # the shaders become strings of the program
 file(GLOB SHADER_FILES CONFIGURE_DEPENDS shaders/*.vert shaders/*.frag shaders/*.glsl)
@@ -19,6 +20,7 @@ add_custom_command(
 file(GLOB_RECURSE RENDER_SOURCES CONFIGURE_DEPENDS render/*.cpp render/*.h)
 add_library(gridshell_render STATIC ${RENDER_SOURCES} ${SHADER_TEXT})
 target_include_directories(gridshell_render SYSTEM PRIVATE
-  ${GL_CORE_INCLUDE_DIR} ${OSMESA_INCLUDE_DIR} ${EGL_INCLUDE_DIR})
+  ${GL_CORE_INCLUDE_DIR} ${OSMESA_INCLUDE_DIR} ${EGL_INCLUDE_DIR}
+  ${GLFW_INCLUDE_DIR})
 target_link_libraries(gridshell_render PUBLIC gridshell_engine
   PRIVATE PNG::PNG PkgConfig::PANGOCAIRO ${CMAKE_DL_LIBS})

@@ -1,4 +1,4 @@
-// One triangle over the whole target, top row first, with the point of the ground behind each pixel.
+// One triangle over the target, top row first, with the point of the ground behind each pixel.
 uniform mat4 to_ground;  // its first three rows and columns: (x, y, 1) of clip to (X, Y, 1) / depth
 out vec3 ground_point;
 

@@ -57,8 +57,7 @@ class EglContext final : public Context {
     EGLConfig config = nullptr;
     EGLint count = 0;
     if (!egl_.bind_api(EGL_OPENGL_API)) return false;
-    if (!egl_.choose_config(display_, config_wanted, &config, 1, &count) || count < 1)
-      return false;
+    if (!egl_.choose_config(display_, config_wanted, &config, 1, &count) || count < 1) return false;
     const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
                              3,
                              EGL_CONTEXT_MINOR_VERSION,
@@ -95,9 +94,8 @@ Result<std::unique_ptr<Context>> create_egl_context() {
   const auto get_display = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
       egl.proc_address("eglGetPlatformDisplayEXT"));
   EGLDisplay display =
-      get_display
-          ? get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)
-          : EGL_NO_DISPLAY;
+      get_display ? get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr)
+                  : EGL_NO_DISPLAY;
   if (display == EGL_NO_DISPLAY || !egl.initialize(display, nullptr, nullptr))
     return fail(Fault::io, "EGL: no surfaceless display (install libgl1-mesa-dri)");
   auto context = std::make_unique<EglContext>(egl, display);

@@ -22,8 +22,7 @@ struct Osmesa {
 
 class OsmesaContext final : public Context {
  public:
-  OsmesaContext(const Osmesa& osmesa, OSMesaContext context)
-      : osmesa_(osmesa), context_(context) {}
+  OsmesaContext(const Osmesa& osmesa, OSMesaContext context) : osmesa_(osmesa), context_(context) {}
   ~OsmesaContext() override {
     osmesa_.make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
     osmesa_.destroy(context_);

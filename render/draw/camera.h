@@ -1,4 +1,5 @@
-// Where a Camera puts a point: the matrices of the renderer, and pixels for whoever labels a picture.
+// Where a Camera puts a point: the matrices of the renderer, and pixels for whoever labels a
+// picture.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +25,6 @@ Eigen::Matrix4d view_projection(const Camera& camera, double aspect, const Eigen
 
 /// Where `point` (mm) falls in a picture of width x height pixels: x to the right, y down, from the
 /// top left corner. Only for points before the camera.
-Eigen::Vector2d to_pixel(const Camera& camera, int width, int height,
-                         const Eigen::Vector3d& point);
+Eigen::Vector2d to_pixel(const Camera& camera, int width, int height, const Eigen::Vector3d& point);
 
 }  // namespace gridshell::render

@@ -20,8 +20,8 @@ struct Lighting {
 };
 
 /// One pass has the sky without shadow. More passes sample the light's disc and the sky (even over
-/// the half sphere) by a fixed low-discrepancy sequence [Roberts 2018], each pass with one direction
-/// that casts a shadow; their mean tends to the same light, with the sky shadowed too.
+/// the half sphere) by a fixed low-discrepancy sequence [Roberts 2018], each pass with one
+/// direction that casts a shadow; their mean tends to the same light, with the sky shadowed too.
 std::vector<Lighting> lighting_passes(const Camera& camera, int passes);
 
 }  // namespace gridshell::render

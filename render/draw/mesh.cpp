@@ -57,7 +57,8 @@ std::vector<Eigen::Vector3f> transport(const std::vector<Eigen::Vector3f>& t) {
 
 /// The angle by which a closed tube's last frame must turn to meet its first.
 float closing_angle(const std::vector<Eigen::Vector3f>& t, const std::vector<Eigen::Vector3f>& n) {
-  const Eigen::Vector3f arrived = Eigen::Quaternionf::FromTwoVectors(t.back(), t.front()) * n.back();
+  const Eigen::Vector3f arrived =
+      Eigen::Quaternionf::FromTwoVectors(t.back(), t.front()) * n.back();
   return std::atan2(t.front().dot(arrived.cross(n.front())), arrived.dot(n.front()));
 }
 
@@ -73,7 +74,7 @@ void join_rings(Mesh& mesh, std::uint32_t from, std::uint32_t to, int sides) {
 /// A ring of vertices with normals leaning by `lean` (sine) along the axis.
 std::uint32_t add_ring(Mesh& mesh, const std::vector<Eigen::Vector2f>& corner,
                        const Eigen::Vector3f& centre, const Eigen::Matrix3f& frame, float radius,
-                       float lean, const Eigen::Vector4f& colour) {
+                       float lean, const PackedColour& colour) {
   const auto first = std::uint32_t(mesh.vertices.size());
   const float across = std::sqrt(std::max(0.f, 1 - lean * lean));
   for (const Eigen::Vector2f& c : corner) {
@@ -86,7 +87,7 @@ std::uint32_t add_ring(Mesh& mesh, const std::vector<Eigen::Vector2f>& corner,
 /// Closes a ring with a round cap; `sign` +1 at the end of the axis, -1 at its start.
 void add_cap(Mesh& mesh, const std::vector<Eigen::Vector2f>& corner, std::uint32_t ring,
              const Eigen::Vector3f& centre, const Eigen::Matrix3f& frame, float radius, float sign,
-             const Eigen::Vector4f& colour) {
+             const PackedColour& colour) {
   const int sides = int(corner.size());
   const float half = std::numbers::sqrt2_v<float> / 2;
   const Eigen::Vector3f axis = sign * frame.col(2);
@@ -115,13 +116,18 @@ void Mesh::clear() {
   indices.clear();
 }
 
-std::uint32_t Mesh::add(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
-                        const Eigen::Vector4f& colour) {
-  Vertex v{position, {}, {}};
-  for (int k = 0; k < 3; ++k)
-    v.normal[k] = std::int16_t(std::lround(32767 * std::clamp(normal[k], -1.f, 1.f)));
+PackedColour pack(const Eigen::Vector4f& linear) {
+  PackedColour packed;
   for (int k = 0; k < 4; ++k)
-    v.colour[k] = std::uint16_t(std::lround(65535 * std::clamp(colour[k], 0.f, 1.f)));
+    packed[k] = std::uint16_t(65535 * std::clamp(linear[k], 0.f, 1.f) + 0.5f);
+  return packed;
+}
+
+std::uint32_t Mesh::add(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
+                        const PackedColour& colour) {
+  Vertex v{position, {}, colour};
+  // towards zero: rounding would cost a call for each of a hundred thousand
+  for (int k = 0; k < 3; ++k) v.normal[k] = std::int16_t(32767 * std::clamp(normal[k], -1.f, 1.f));
   vertices.push_back(v);
   return std::uint32_t(vertices.size() - 1);
 }
@@ -145,7 +151,7 @@ void add_tube(Mesh& mesh, const Tube& tube) {
         tube.closed ? Eigen::Vector3f(Eigen::AngleAxisf(angle * i / n, t[i]) * normals[i])
                     : normals[i];
     const std::uint32_t ring = add_ring(mesh, corner, tube.points[i], frame_of(t[i], normal),
-                                        tube.radius, 0, tube.colours[i]);
+                                        tube.radius, 0, pack(tube.colours[i]));
     if (i == 0)
       first = ring;
     else
@@ -154,15 +160,16 @@ void add_tube(Mesh& mesh, const Tube& tube) {
   }
   if (tube.closed) return join_rings(mesh, before, first, tube.sides);
   add_cap(mesh, corner, first, tube.points[0], frame_of(t[0], normals[0]), tube.radius, -1,
-          tube.colours[0]);
+          pack(tube.colours[0]));
   add_cap(mesh, corner, before, tube.points[n - 1], frame_of(t[n - 1], normals[n - 1]), tube.radius,
-          1, tube.colours[n - 1]);
+          1, pack(tube.colours[n - 1]));
 }
 
 void add_button(Mesh& mesh, const Eigen::Vector3f& centre, const Eigen::Vector3f& axis,
                 float radius, float half_height, int sides, const Eigen::Vector4f& colour) {
   const auto corner = corners(sides);
   const Eigen::Matrix3f frame = frame_of(axis, any_normal(axis));
+  const PackedColour packed = pack(colour);
   const float rim = 0.3f * std::min(radius, half_height);
   const float inner = radius - rim, side_height = half_height - rim;
   // from the bottom up: flat face, rim, side, rim, flat face
@@ -172,7 +179,7 @@ void add_button(Mesh& mesh, const Eigen::Vector3f& centre, const Eigen::Vector3f
   std::uint32_t before = 0;
   for (std::size_t k = 0; k < rings.size(); ++k) {
     const std::uint32_t ring = add_ring(mesh, corner, centre + rings[k][1] * axis, frame,
-                                        rings[k][0], rings[k][2], colour);
+                                        rings[k][0], rings[k][2], packed);
     const bool bottom = k == 0, top = k + 1 == rings.size();
     if (!bottom) join_rings(mesh, before, ring, sides);
     for (int i = 1; i + 1 < sides && (bottom || top); ++i) {

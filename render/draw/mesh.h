@@ -9,11 +9,16 @@
 
 namespace gridshell::render {
 
+/// Linear light and alpha, times 65535.
+using PackedColour = std::array<std::uint16_t, 4>;
+
+PackedColour pack(const Eigen::Vector4f& linear);
+
 /// As the shaders read it (attributes 0, 1, 2).
 struct Vertex {
-  Eigen::Vector3f position;             ///< mm
-  std::array<std::int16_t, 4> normal;   ///< unit vector times 32767
-  std::array<std::uint16_t, 4> colour;  ///< linear light and alpha, times 65535
+  Eigen::Vector3f position;            ///< mm
+  std::array<std::int16_t, 4> normal;  ///< unit vector times 32767
+  PackedColour colour;
 };
 
 /// Counter-clockwise triangles, seen from outside.
@@ -23,15 +28,15 @@ struct Mesh {
 
   void clear();
   std::uint32_t add(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
-                    const Eigen::Vector4f& colour);
+                    const PackedColour& colour);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 };
 
 /// A tube around a polyline.
 struct Tube {
-  std::span<const Eigen::Vector3f> points;    ///< at least 2, or 3 when closed; mm
-  std::span<const Eigen::Vector4f> colours;   ///< linear, one a point
-  float radius = 1;                           ///< mm
+  std::span<const Eigen::Vector3f> points;   ///< at least 2, or 3 when closed; mm
+  std::span<const Eigen::Vector4f> colours;  ///< linear, one a point
+  float radius = 1;                          ///< mm
   int sides = 8;
   bool closed = false;  ///< the last point joins the first; else round caps close the ends
 };
@@ -40,7 +45,8 @@ struct Tube {
 /// transported in parallel [Bishop 1975], so that no facet twists about the rod.
 void add_tube(Mesh& mesh, const Tube& tube);
 
-/// A short upright cylinder with rounded rims about `centre`, its axis along the unit vector `axis`.
+/// A short upright cylinder with rounded rims about `centre`, its axis along the unit vector
+/// `axis`.
 void add_button(Mesh& mesh, const Eigen::Vector3f& centre, const Eigen::Vector3f& axis,
                 float radius, float half_height, int sides, const Eigen::Vector4f& colour);
 

@@ -13,8 +13,8 @@ namespace gridshell::render {
 namespace {
 
 constexpr double ground_from = 1.2, ground_to = 4;  // where it pales, in half extents of the view
-constexpr float penumbra_least = 0.8f;                // mm, where rod and ground touch
-constexpr float roof = 0.35f;         // of the sky's light that a closed roof takes from the ground
+constexpr float penumbra_least = 0.8f;              // mm, where rod and ground touch
+constexpr float roof = 0.35f;  // of the sky's light that a closed roof takes from the ground
 constexpr float shell_blur_mm = 0.8f;  // radius of the shadow's edge on the shell
 
 Eigen::Vector3f linear(const Colour& c) { return to_linear(c).head<3>(); }
@@ -36,8 +36,8 @@ bool ground_seen(const Shot& shot) {
   const Camera& camera = shot.camera;
   const Eigen::Vector3d forward = camera_axes(camera).forward;
   const double eye_z = camera.target.z() - camera_distance(camera) * forward.z();
-  const bool above = camera.field_of_view_deg <= 0 ? forward.z() < 0
-                                                   : eye_z > shot.drawing.ground_z_mm;
+  const bool above =
+      camera.field_of_view_deg <= 0 ? forward.z() < 0 : eye_z > shot.drawing.ground_z_mm;
   return shot.drawing.ground && above;
 }
 
@@ -64,9 +64,7 @@ Result<Painter> Painter::create(const Gl& gl) {
   if (!cell) return tl::unexpected(cell.error());
   auto mean = Program::create(gl, {"screen.vert"}, {"mean.frag"});
   if (!mean) return tl::unexpected(mean.error());
-  return Painter(
-      gl, {std::move(*solid), std::move(*cell), std::move(*mean)},
-      std::move(*shadow));
+  return Painter(gl, {std::move(*solid), std::move(*cell), std::move(*mean)}, std::move(*shadow));
 }
 
 Result<void> Painter::begin(const Shot& shot) {
@@ -154,9 +152,9 @@ Result<void> Painter::paint_layer(const Shot& shot, const Tile& tile, const Ligh
 void Painter::set_light(const Program& program, const Shot& shot, const Lighting& light) const {
   const Eigen::Vector3d forward = camera_axes(shot.camera).forward;
   const bool orthographic = shot.camera.field_of_view_deg <= 0;
-  const Eigen::Vector3d eye = orthographic ? Eigen::Vector3d(-forward)
-                                           : Eigen::Vector3d(shot.camera.target -
-                                                             camera_distance(shot.camera) * forward);
+  const Eigen::Vector3d eye =
+      orthographic ? Eigen::Vector3d(-forward)
+                   : Eigen::Vector3d(shot.camera.target - camera_distance(shot.camera) * forward);
   Eigen::Vector4f eye_uniform;
   eye_uniform << eye.cast<float>(), orthographic ? 0.f : 1.f;
   // what the camera shows, not what the scene holds: a movie's frames must not differ by it
@@ -175,7 +173,9 @@ void Painter::set_light(const Program& program, const Shot& shot, const Lighting
   program.set("shadow_depth", 1);
   program.set("light_matrix", shadow_.matrix());
   // jittered light softens the shadow by itself
-  program.set("shadow_blur", passes_.size() > 1 ? 0.f : shell_blur_mm / shadow_.texel_mm() / float(ShadowMap::texels));
+  program.set("shadow_blur", passes_.size() > 1
+                                 ? 0.f
+                                 : shell_blur_mm / shadow_.texel_mm() / float(ShadowMap::texels));
   const double past_rod = std::max(shot.drawing.rod_diameter_mm, 1.5 * shadow_.texel_mm());
   program.set("shadow_offset", Eigen::Vector3f((past_rod * light.direction).cast<float>()));
 }

@@ -58,7 +58,8 @@ class GlRenderer final : public Renderer {
         return tl::unexpected(done.error());
     if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR)
       return fail(Fault::io, fmt::format("OpenGL failed on a picture of {} x {} pixels, "
-                                         "error {:#x}{}", width, height, error,
+                                         "error {:#x}{}",
+                                         width, height, error,
                                          error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
     return image;
   }

@@ -73,8 +73,7 @@ class TubeMaker {
 void add_rods(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
   const TubeMaker tube(drawing.rod_diameter_mm, mm_per_sample);
   Colours of_node(drawing.node_colours.size());
-  std::transform(drawing.node_colours.begin(), drawing.node_colours.end(), of_node.begin(),
-                 opaque);
+  std::transform(drawing.node_colours.begin(), drawing.node_colours.end(), of_node.begin(), opaque);
   const Eigen::Vector4f plain = opaque(drawing.rod_colour);
   Points points;
   Colours colours;
@@ -165,8 +164,7 @@ Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm
     Colours colours(drawing.cell_colours.size());
     std::transform(drawing.cell_colours.begin(), drawing.cell_colours.end(), colours.begin(),
                    [](const Colour& c) { return to_linear(c); });
-    add_cells(scene.cells, *drawing.layout, drawing.nodes, colours,
-              camera_axes(camera).forward);
+    add_cells(scene.cells, *drawing.layout, drawing.nodes, colours, camera_axes(camera).forward);
   }
   enclose(scene);
   return scene;

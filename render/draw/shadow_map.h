@@ -26,7 +26,7 @@ class ShadowMap {
 
   GLuint cover() const { return target_.colour(); }
   GLuint depth() const { return target_.depth(); }
-  const Eigen::Matrix4f& matrix() const { return matrix_; }    ///< world to the map's [-1, 1]^3
+  const Eigen::Matrix4f& matrix() const { return matrix_; }   ///< world to the map's [-1, 1]^3
   float texel_mm() const { return texel_mm_; }                ///< of the finest level
   float height_range_mm() const { return height_range_mm_; }  ///< ground to the shell's top
 

@@ -89,8 +89,8 @@ Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) {
       const float u = float(i) / n, v = float(j) / n;
-      const Eigen::Vector3f bilinear = (1 - v) * ((1 - u) * c0[0] + u * c0[n]) +
-                                       v * ((1 - u) * c1[0] + u * c1[n]);
+      const Eigen::Vector3f bilinear =
+          (1 - v) * ((1 - u) * c0[0] + u * c0[n]) + v * ((1 - u) * c1[0] + u * c1[n]);
       patch.points.push_back((1 - v) * c0[i] + v * c1[i] + (1 - u) * d0[j] + u * d1[j] - bilinear);
     }
   return patch;
@@ -99,8 +99,9 @@ Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
 void add_patch(Mesh& mesh, const Patch& patch, const Eigen::Vector4f& colour) {
   const int n = patch.steps;
   const auto first = std::uint32_t(mesh.vertices.size());
+  const PackedColour packed = pack(colour);
   for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) mesh.add(patch.at(i, j), patch.normal(i, j), colour);
+    for (int i = 0; i <= n; ++i) mesh.add(patch.at(i, j), patch.normal(i, j), packed);
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const std::uint32_t a = first + j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;

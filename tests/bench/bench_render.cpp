@@ -51,9 +51,7 @@ void measure(Context& context, int width, int height, int frames) {
   Camera camera;
   camera.target = {0, 0, 15};
   camera.half_extent_mm = 105;
-  Case cases[] = {{"plain", {1, false, 1}},
-                             {"2x2", {2, false, 1}},
-                             {"2x2 + shadow", {2, true, 1}}};
+  Case cases[] = {{"plain", {1, false, 1}}, {"2x2", {2, false, 1}}, {"2x2 + shadow", {2, true, 1}}};
   for (Case& c : cases) c.renderer = value(Renderer::create(context));
   // in turns, so that whatever else runs on the machine falls on all of them alike
   for (int frame = -1; frame < frames; ++frame)
@@ -75,8 +73,8 @@ int main(int count, char** arguments) {
   const std::string kind = count > 1 ? arguments[1] : "auto";
   const int frames = count > 2 ? std::max(1, std::atoi(arguments[2])) : 15;
   const auto context = value(Context::create(kind == "egl"      ? ContextKind::egl
-                                       : kind == "osmesa" ? ContextKind::osmesa
-                                                          : ContextKind::automatic));
+                                             : kind == "osmesa" ? ContextKind::osmesa
+                                                                : ContextKind::automatic));
   fmt::print("{}: 4896 rod segments, 289 joints, 256 cells; median CPU time of {} frames\n",
              context->kind_name(), frames);
   measure(*context, 1280, 720, frames);

@@ -41,3 +41,14 @@ TEST_CASE("compiled shaders are kept in a folder", "[context]") {
   if (std::getenv("HOME") || std::getenv("XDG_CACHE_HOME"))
     CHECK(std::getenv("MESA_SHADER_CACHE_DIR") != nullptr);
 }
+
+TEST_CASE("a window needs a display, and says so", "[context]") {
+  const auto context = Context::create(ContextKind::window);
+  if (context) {
+    CHECK(std::string((*context)->kind_name()) == "window");
+    CHECK((*context)->proc_address("glDrawElements") != nullptr);
+    return;
+  }
+  CHECK(context.error().fault == Fault::io);
+  CHECK(context.error().message.rfind("window: ", 0) == 0);
+}
