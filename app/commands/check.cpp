@@ -57,6 +57,9 @@ void add_check(CLI::App& program, Action& action) {
   const auto options = std::make_shared<Options>();
   auto* command = program.add_subcommand("check", "validate a preset and say what would run");
   add_preset_options(*command, *options);
+  // the command line of a movie can be checked as it stands
+  add_work_options(*command, *options);
+  add_picture_options(*command, *options);
   command->callback([&action, options] {
     action = [options]() -> int {
       const auto checked = check(*options);
