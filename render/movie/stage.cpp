@@ -15,18 +15,20 @@ constexpr double joint_diameter_mm = 3;  // the paper's elastomer joints
 constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, pale_ink{0.38f, 0.39f, 0.42f, 1},
     event_ink{0.70f, 0.10f, 0.08f, 1};
 
-// K of every cell that has been curved at all is within one scale over the run
+// one scale over the run, from the most that each cell comes to, so that it does not depend on how
+// many frames sample the path; a few strongly bent cells at the boundary must not pale the rest
 std::optional<ColourBar> bar_of(const record::Trajectory& run, const MovieStyle& style) {
-  if (style.colour_by == ColourBy::none) return std::nullopt;
-  std::vector<double> values;
-  for (const record::Frame& frame : run.frames)
-    values.insert(values.end(), frame.cell_K.begin(), frame.cell_K.end());
-  if (values.empty()) return std::nullopt;
-  ColourBar bar{"*K*_{□} (rad)", symmetric_scale(values)};
-  for (double value : values) {
-    bar.beyond_low |= value < bar.scale.low;
-    bar.beyond_high |= value > bar.scale.high;
+  if (style.colour_by == ColourBy::none || run.layout.cells.empty()) return std::nullopt;
+  Eigen::ArrayXd low = Eigen::ArrayXd::Zero(long(run.layout.cells.size())), high = low;
+  for (const record::Frame& frame : run.frames) {
+    const Eigen::ArrayXd K = frame.cell_K.array().isFinite().select(frame.cell_K.array(), 0.0);
+    low = low.min(K);
+    high = high.max(K);
   }
+  const Eigen::ArrayXd most = high.max(-low);
+  ColourBar bar{"*K*_{□} (rad)", symmetric_scale({most.begin(), most.end()}, 0.9)};
+  bar.beyond_low = low.minCoeff() < bar.scale.low;
+  bar.beyond_high = high.maxCoeff() > bar.scale.high;
   return bar;
 }
 

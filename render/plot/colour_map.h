@@ -40,6 +40,6 @@ struct ColourScale {
 /// their sizes (or the largest, where that is not far off), rounded up to a nice number, so that a
 /// few extreme cells do not pale the rest. Not finite values are ignored; without any, or all zero,
 /// the end is 1.
-ColourScale symmetric_scale(std::vector<double> values, double quantile = 0.99);
+ColourScale symmetric_scale(std::vector<double> values, double quantile);
 
 }  // namespace gridshell::render

@@ -110,6 +110,9 @@ TEST_CASE("the colour range is fixed over the movie and symmetric") {
   CHECK(scale.high > 0.5 * largest);
   CHECK(scale.high < 2 * largest);
   CHECK(stage.colour_bar()->beyond_high == (largest > scale.high));
+  // however many frames sample the path
+  const record::Trajectory fine = synthetic::dome(31, 2);
+  CHECK(Stage(fine, MovieStyle{}).colour_bar()->scale.high == scale.high);
   // the same K has the same colour in any frame
   const Drawing last = stage.drawing(5);
   REQUIRE(last.cell_colours.size() == run.layout.cells.size());

@@ -80,13 +80,13 @@ TEST_CASE("a scale maps its ends and clips beyond; the unknown is grey") {
 TEST_CASE("the symmetric scale is round and not paled by a few extreme cells") {
   std::vector<double> values;
   for (int k = 0; k < 1000; ++k) values.push_back(0.036 * std::sin(k));
-  CHECK(symmetric_scale(values).high == Approx(0.04));
-  CHECK(symmetric_scale(values).low == Approx(-0.04));
+  CHECK(symmetric_scale(values, 0.99).high == Approx(0.04));
+  CHECK(symmetric_scale(values, 0.99).low == Approx(-0.04));
   values[3] = -5;
   values[4] = std::numeric_limits<double>::quiet_NaN();
   values[5] = std::numeric_limits<double>::infinity();
-  CHECK(symmetric_scale(values).high == Approx(0.04));
-  CHECK(symmetric_scale({0.01, -0.019}).high == Approx(0.02));
-  CHECK(symmetric_scale({}).high == 1);
-  CHECK(symmetric_scale({0, 0, 0}).high == 1);
+  CHECK(symmetric_scale(values, 0.99).high == Approx(0.04));
+  CHECK(symmetric_scale({0.01, -0.019}, 0.99).high == Approx(0.02));
+  CHECK(symmetric_scale({}, 0.99).high == 1);
+  CHECK(symmetric_scale({0, 0, 0}, 0.99).high == 1);
 }
