@@ -65,14 +65,6 @@ Result<std::string> read_whole(const std::filesystem::path& path) {
   return bytes;
 }
 
-Result<void> check_readable(const std::filesystem::path& path) {
-  File file(std::fopen(path.c_str(), "rb"));
-  if (!file) return fail_io("read", path, errno);
-  std::fgetc(file.get());
-  if (std::ferror(file.get())) return fail_io("read", path, errno);
-  return {};
-}
-
 Result<void> make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

@@ -43,9 +43,6 @@ Result<void> write_atomically(const std::filesystem::path& path, std::string_vie
 /// The whole of a file. Errors: Fault::io, "cannot read 'path': reason".
 Result<std::string> read_whole(const std::filesystem::path& path);
 
-/// Whether a file opens for reading and is no folder. Errors as for read_whole.
-Result<void> check_readable(const std::filesystem::path& path);
-
 /// Makes a folder and its parents; one that exists is fine. Errors: Fault::io, path and reason.
 Result<void> make_folder(const std::filesystem::path& folder);
 

@@ -138,13 +138,11 @@ std::string Writer::bytes() {
   return check(H5Fget_file_image(file_, image.data(), image.size()), "file") ? image : "";
 }
 
-bool is_hdf5(const std::string& path) {
-  const Quiet quiet;
-  return H5Fis_hdf5(path.c_str()) > 0;
-}
-
-Reader::Reader(const std::string& path) {
-  file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+Reader::Reader(std::string_view bytes) {
+  // read where it lies: neither copied, written to nor released
+  file_ = Handle(H5LTopen_file_image(const_cast<char*>(bytes.data()), bytes.size(),
+                                     H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE),
+                 H5Fclose);
   check(file_, "file");
 }
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -97,13 +98,11 @@ class Writer : public File {
   Handle no_times_, no_group_times_;
 };
 
-/// Whether a file begins like an HDF5 file.
-bool is_hdf5(const std::string& path);
-
-/// Reads a file. Every call after a failure does nothing and returns empty values.
+/// Reads the bytes of a file, which must outlive it. Every call after a failure does nothing and
+/// returns empty values. Damaged bytes can crash the library: check them before.
 class Reader : public File {
  public:
-  explicit Reader(const std::string& path);
+  explicit Reader(std::string_view bytes);
   /// extents of a dataset; a failure when it has another number of dimensions
   Dims dims(const std::string& name, std::size_t rank);
   void read(const std::string& name, hid_t type, void* data);

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <new>
+#include <string_view>
 
 #include "engine/core/atomic_file.h"
 #include "engine/record/consistency.h"
@@ -17,6 +19,30 @@ using hdf5::Dims;
 using hdf5::Handle;
 
 const std::string format_name = "gridshell trajectory 1";
+
+// HDF5 looks for its own beginning at 0, 512, 1024 ...: what lies before is the program's to use
+constexpr std::size_t seal_size = 512;
+
+/// Name and checksum (64-bit FNV-1a) of the HDF5 bytes that follow.
+std::string seal_of(std::string_view hdf5) {
+  std::uint64_t sum = 14695981039346656037u;
+  for (const char byte : hdf5) sum = (sum ^ static_cast<unsigned char>(byte)) * 1099511628211u;
+  std::string seal = fmt::format("{}\n{} bytes, FNV-1a {:016x}\n", format_name, hdf5.size(), sum);
+  seal.resize(seal_size, '\0');
+  return seal;
+}
+
+/// The HDF5 bytes of a file, or why they are not to be trusted. Without a seal (another program
+/// rewrote the file) they are taken as they are.
+Result<std::string_view> unsealed(std::string_view bytes) {
+  if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return bytes;
+  if (!bytes.starts_with(format_name)) return fail(Fault::bad_input, "it is not an HDF5 file");
+  if (bytes.size() < seal_size) return fail(Fault::bad_input, "it is cut short");
+  const std::string_view hdf5 = bytes.substr(seal_size);
+  if (bytes.substr(0, seal_size) == seal_of(hdf5)) return hdf5;
+  return fail(Fault::bad_input,
+              "it is cut short, damaged or was changed: its checksum does not match");
+}
 
 Handle joint_type() {
   Handle type(H5Tcreate(H5T_COMPOUND, sizeof(Joint)), H5Tclose);
@@ -170,7 +196,7 @@ Result<void> write_trajectory(const std::filesystem::path& path, const Trajector
   const std::string bytes = file.bytes();
   if (!file.good())
     return fail(Fault::io, fmt::format("cannot write '{}': {}", path.string(), file.reason()));
-  return write_atomically(path, bytes);
+  return write_atomically(path, seal_of(bytes) + bytes);
 }
 
 Result<Trajectory> read_trajectory(const std::filesystem::path& path) {
@@ -178,11 +204,12 @@ Result<Trajectory> read_trajectory(const std::filesystem::path& path) {
     return fail(Fault::bad_input,
                 fmt::format("'{}' is no trajectory of a run: {}", path.string(), reason));
   };
-  // an ordinary open tells a file that is missing from one that is foreign
-  if (const auto opens = check_readable(path); !opens) return tl::unexpected(opens.error());
+  const auto bytes = read_whole(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  const auto trusted = unsealed(*bytes);
+  if (!trusted) return refuse(trusted.error().message);
   try {
-    if (!hdf5::is_hdf5(path.string())) return refuse("it is not an HDF5 file");
-    hdf5::Reader file(path.string());
+    hdf5::Reader file(*trusted);
     if (!file.good()) return refuse("it is cut short or damaged");
     if (file.text_attribute("/", "format") != format_name)
       return refuse(fmt::format("it does not say \"{}\"", format_name));

@@ -9,6 +9,7 @@
 //   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),
 //                   original_boundary, actuated_boundary (points x 3, mm)
 //
+// Before the HDF5 part stand 512 bytes with its size and checksum, which HDF5 programs skip.
 // Datasets bear their unit in the attribute `unit`. Equal trajectories give equal bytes.
 #pragma once
 
@@ -23,9 +24,9 @@ namespace gridshell::record {
 /// Fault::bad_input when the trajectory's parts do not fit each other.
 Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory);
 
-/// Reads a file of write_trajectory. Errors: Fault::io when it cannot be opened; Fault::bad_input,
-/// in a sentence naming the path, when it is no HDF5 file, is cut short, is not a trajectory, or
-/// when its parts do not fit each other.
+/// Reads a file of write_trajectory. Errors: Fault::io when it cannot be read; Fault::bad_input,
+/// in a sentence naming the path, when it is no HDF5 file, is cut short or damaged, is not a
+/// trajectory, or when its parts do not fit each other.
 Result<Trajectory> read_trajectory(const std::filesystem::path& path);
 
 }  // namespace gridshell::record

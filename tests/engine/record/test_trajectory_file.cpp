@@ -65,6 +65,19 @@ std::string refusal(const std::string& bytes) {
   return read.error().message.substr(start.size());
 }
 
+/// a trajectory as another program would leave it, without a seal, changed by `change(file)`
+template <class Change>
+std::string changed(Change change, const Trajectory& run = sample_trajectory()) {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.h5";
+  REQUIRE(write_trajectory(path, run));
+  REQUIRE(write_atomically(path, read_whole(path)->substr(512)));
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  change(file);
+  H5Fclose(file);
+  return read_whole(path).value();
+}
+
 std::string bytes_of(const Trajectory& run) {
   TemporaryFolder folder;
   REQUIRE(write_trajectory(folder.path() / "a.h5", run));
@@ -143,9 +156,20 @@ TEST_CASE("a file that is missing, foreign or cut short is refused in a sentence
   CHECK(refusal("x,y\n1,2\n") == "it is not an HDF5 file");
   CHECK(refusal("") == "it is not an HDF5 file");
   const std::string whole = bytes_of(sample_trajectory());
-  for (const double part : {0.02, 0.3, 0.9})
-    CHECK(refusal(whole.substr(0, static_cast<std::size_t>(part * whole.size()))) ==
-          "it is cut short or damaged");
+  CHECK(refusal(whole.substr(0, 100)) == "it is cut short");
+  const std::string damaged =
+      "it is cut short, damaged or was changed: its checksum does not match";
+  for (const double part : {0.3, 0.9})
+    CHECK(refusal(whole.substr(0, static_cast<std::size_t>(part * whole.size()))) == damaged);
+  // one bit anywhere
+  for (const std::size_t at :
+       {std::size_t{40}, std::size_t{511}, whole.size() / 2, whole.size() - 1}) {
+    std::string wrong = whole;
+    wrong[at] = static_cast<char>(wrong[at] ^ 4);
+    CHECK(refusal(wrong) == damaged);
+  }
+  // what another program rewrote has no seal, but must still be whole
+  CHECK(refusal(whole.substr(512, 2000)) == "it is cut short or damaged");
 }
 
 TEST_CASE("an HDF5 file of something else is refused") {
@@ -156,15 +180,10 @@ TEST_CASE("an HDF5 file of something else is refused") {
 }
 
 TEST_CASE("a trajectory that lacks a dataset is refused by its name") {
-  TemporaryFolder folder;
-  const fs::path path = folder.path() / "a.h5";
   for (const std::string name : {"/rods", "/nodes", "/joints", "/cell_K", "/frames/event",
                                  "/frames/actuation", "/layout/edge_points"}) {
-    REQUIRE(write_trajectory(path, sample_trajectory()));
-    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-    H5Ldelete(file, name.c_str(), H5P_DEFAULT);
-    H5Fclose(file);
-    CHECK(refusal(read_whole(path).value()).substr(0, name.size() + 1) == name + ":");
+    const auto without = [&](hid_t file) { H5Ldelete(file, name.c_str(), H5P_DEFAULT); };
+    CHECK(refusal(changed(without)).substr(0, name.size() + 1) == name + ":");
   }
 }
 
@@ -193,14 +212,24 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
   CHECK(write_trajectory(path, run).error().message ==
         "the original boundary has 5 points, the actuated one 4");
 
-  // a file whose index was changed after writing
-  REQUIRE(write_trajectory(path, sample_trajectory()));
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  const hid_t set = H5Dopen2(file, "/layout/edge_points", H5P_DEFAULT);
-  const int nodes[8] = {4, 5, 6, 7, 8, 9, 10, 1234};
-  H5Dwrite(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, nodes);
-  H5Dclose(set), H5Fclose(file);
-  CHECK(refusal(read_whole(path).value()) == "edge point 7 names node 1234 of 12");
+  // a file whose index another program changed
+  const auto wrong_index = [](hid_t file) {
+    const hid_t set = H5Dopen2(file, "/layout/edge_points", H5P_DEFAULT);
+    const int nodes[8] = {4, 5, 6, 7, 8, 9, 10, 1234};
+    H5Dwrite(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, nodes);
+    H5Dclose(set);
+  };
+  CHECK(refusal(changed(wrong_index)) == "edge point 7 names node 1234 of 12");
+}
+
+TEST_CASE("a trajectory that another program rewrote is read") {
+  TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.h5";
+  const Trajectory run = sample_trajectory();
+  REQUIRE(write_atomically(path, changed([](hid_t) {}, run)));
+  const auto back = read_trajectory(path);
+  REQUIRE(back);
+  CHECK(same_bits(back->frames[2].nodes, run.frames[2].nodes));
 }
 
 TEST_CASE("a trajectory that cannot be written says why and leaves the old one") {
