@@ -49,6 +49,22 @@ TEST_CASE("Ctrl-C and SIGTERM stop within a second and leave finished frames who
     CHECK_FALSE(file.filename().string().starts_with('.'));
 }
 
+TEST_CASE("a picture that takes long does not hold up Ctrl-C") {
+  const TemporaryFolder folder;
+  const Running running(
+      {"movie", "s1_actuation", "--frames", "2", "--quality", "figure", "--size", "3840x2160"},
+      folder.path());
+  REQUIRE(wait_until([&] { return !files_under(folder.path(), "summary.json").empty(); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const auto asked = std::chrono::steady_clock::now();
+  running.signal(SIGINT);
+  const auto ended = running.wait();
+  CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(1));
+  CHECK(ended.code == 130);
+  CHECK_THAT(ended.err, Catch::Contains("stopped\n1 run and 0 pictures, each whole, are in "));
+  CHECK(files_under(folder.path(), "trajectory.h5").size() == 1);
+}
+
 TEST_CASE("Ctrl-C before anything is finished leaves nothing") {
   const TemporaryFolder folder;
   // minutes of simulation
