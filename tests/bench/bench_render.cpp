@@ -7,11 +7,13 @@
 #include <ctime>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "render/context/context.h"
 #include "render/draw/renderer.h"
+#include "render/gl/target.h"
 #include "tests/render/draw/square_shell.h"
 
 using namespace gridshell;
@@ -28,7 +30,12 @@ double cpu_ms() {
 /// What a result holds; the end of the program when it holds an error.
 template <class T>
 T value(Result<T> result) {
-  if (result) return std::move(*result);
+  if (result) {
+    if constexpr (std::is_void_v<T>)
+      return;
+    else
+      return std::move(*result);
+  }
   fmt::print(stderr, "{}\n", result.error().message);
   std::exit(1);
 }
@@ -67,6 +74,25 @@ void measure(Context& context, int width, int height, int frames) {
                c.median(), c.median() / plain);
 }
 
+/// The way of a drawn frame into memory alone.
+void measure_read_back(Context& context, int width, int height, int frames) {
+  const Gl gl = value(Gl::load(context));
+  Target target(gl, Target::Depth::none);
+  Image image(width, height);
+  std::vector<double> ms;
+  for (int frame = 0; frame < frames; ++frame) {
+    value(target.bind(width, height, GL_SRGB8_ALPHA8));
+    gl.ClearColor(0.1f * float(frame % 10), 0.5f, 0.5f, 1);
+    gl.Clear(GL_COLOR_BUFFER_BIT);
+    gl.Finish();
+    const double before = cpu_ms();
+    gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+    ms.push_back(cpu_ms() - before);
+  }
+  std::nth_element(ms.begin(), ms.begin() + frames / 2, ms.end());
+  fmt::print("{:>5} x {:<5} {:<14} {:8.1f} ms\n", width, height, "read-back", ms[frames / 2]);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -78,5 +104,6 @@ int main(int count, char** arguments) {
   fmt::print("{}: 4896 rod segments, 289 joints, 256 cells; median CPU time of {} frames\n",
              context->kind_name(), frames);
   measure(*context, 1280, 720, frames);
+  measure_read_back(*context, 1280, 720, frames);
   measure(*context, 1920, 1080, std::max(1, frames / 3));
 }
