@@ -1,0 +1,92 @@
+// A single pinned rod against the exact elastica: a/L = 2E(m)/K(m) - 1, h/L = sqrt(m)/K,
+// P = 4 K^2 EI/L^2.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/solve/newton.h"
+
+using namespace gridshell;
+
+namespace {
+
+constexpr double length = 252;
+
+RodMesh single_rod(int edges) {
+  RodMesh mesh;
+  mesh.edge_points = 2;
+  mesh.rods = {{0}};
+  mesh.position = {{0.0}};
+  mesh.flat = Eigen::Matrix2Xd::Zero(2, edges + 1);
+  for (int k = 1; k <= edges; ++k) {
+    const int node = k == edges ? 1 : k + 1;  // edge points are nodes 0 and 1
+    mesh.rods[0].push_back(node);
+    mesh.position[0].push_back(length * k / edges);
+    mesh.flat(0, node) = length * k / edges;
+  }
+  return mesh;
+}
+
+struct Found {
+  double height, force;
+};
+
+Found elastica(int edges, double shortening, double stretch_scale) {
+  RodSection section = circular_section(0.254, 83);
+  section.EA *= stretch_scale;
+  const RodMesh mesh = single_rod(edges);
+  const Model model = build_model(mesh, section);
+  Linearisation system(model);
+  State state;
+  state.x = Eigen::Matrix3Xd::Zero(3, model.nodes);
+  state.force.setZero(edges);
+  for (int k = 0; k < model.nodes; ++k) {
+    const double s = mesh.flat(0, k) / length;
+    state.x.col(k) << length * (1 - shortening) * s, 0,
+        0.6 * std::sqrt(shortening) * length * std::sin(M_PI * s);
+  }
+  const Watch watch;
+  MinimiseOptions options;
+  options.tolerance_mm = 1e-5;  // what round-off in EA x strain leaves
+  const NewtonReport report = minimise(system, state, options, watch);
+  REQUIRE(report.outcome == NewtonOutcome::converged);
+  system.gradient_at(state);
+  return {state.x.row(2).maxCoeff(), std::abs(system.assembly().gradient(0, 0))};
+}
+
+}  // namespace
+
+TEST_CASE("elastica: five shortenings, second order over 50, 100, 200 edges") {
+  struct Row {
+    double shortening, m, height, load;  // h/L, P/P_Euler
+  };
+  const Row table[] = {{0.05, 0.04968353, 0.140111, 1.025724},
+                       {0.10, 0.09871763, 0.194924, 1.052987},
+                       {0.25, 0.24165275, 0.292390, 1.145587},
+                       {0.50, 0.46400983, 0.373306, 1.349449},
+                       {0.75, 0.66169429, 0.402205, 1.657767}};
+  const double euler = M_PI * M_PI * circular_section(0.254, 83).EI / (length * length);
+  for (const Row& row : table) {
+    const double K = std::comp_ellint_1(std::sqrt(row.m));
+    const double height = std::sqrt(row.m) / K, load = 4 * K * K / (M_PI * M_PI);
+    CHECK(height == Approx(row.height).margin(1e-6));  // the table's own digits
+    CHECK(load == Approx(row.load).margin(1e-6));
+    double before_height = 0, before_load = 0;
+    for (int edges : {50, 100, 200}) {
+      const Found found = elastica(edges, row.shortening, 10);
+      const double off_height = std::abs(found.height / length - height);
+      const double off_load = std::abs(found.force / euler - load);
+      if (before_height > 0) {
+        CHECK(std::log2(before_height / off_height) == Approx(2).margin(0.1));
+        CHECK(std::log2(before_load / off_load) == Approx(2).margin(0.1));
+      }
+      before_height = off_height;
+      before_load = off_load;
+    }
+    CHECK(before_height < 1e-4);
+  }
+}
+
+TEST_CASE("elastica: the discrete heights that other codes find") {
+  CHECK(elastica(26, 0.25, 10).height == Approx(73.720148).margin(2e-5));
+  CHECK(elastica(50, 0.25, 10).height == Approx(73.692392).margin(2e-5));
+}
