@@ -1,0 +1,14 @@
+// From a preset's values to the scene of an actuation: footprint, section, boundary, meshes.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/experiment/actuation.h"
+#include "engine/preset/preset.h"
+
+namespace gridshell::experiment {
+
+/// Builds what an actuation needs. Errors: Fault::bad_input with the reason when the preset's
+/// values do not make a footprint.
+Result<ActuationScene> scene_of(const preset::Preset& preset);
+
+}  // namespace gridshell::experiment
