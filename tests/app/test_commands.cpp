@@ -44,6 +44,20 @@ std::string text_of(const fs::path& file) { return read_whole(file).value(); }
 
 nlohmann::json json_of(const fs::path& file) { return nlohmann::json::parse(text_of(file)); }
 
+// the frames of a run, read back
+std::vector<gridshell::record::Frame> frames_of(const fs::path& run) {
+  const auto trajectory = gridshell::record::read_trajectory(run / "trajectory.h5");
+  if (!trajectory) FAIL(trajectory.error().message);
+  return trajectory->frames;
+}
+
+// of a picture
+int width_of(const fs::path& file) {
+  const auto picture = gridshell::render::read_png(file);
+  if (!picture) FAIL(picture.error().message);
+  return picture->width;
+}
+
 // a folder with small.toml in it
 struct Bench {
   TemporaryFolder folder;
@@ -71,12 +85,12 @@ TEST_CASE("run writes a whole run folder and replaces the one before") {
   CHECK(names_in(run) == data_files);
   CHECK(names_in(bench.at / "out") == std::vector<std::string>{"small"});
   CHECK(json_of(run / "summary.json")["preset"] == "small");
-  CHECK(gridshell::record::read_trajectory(run / "trajectory.h5")->frames.size() == 3);
+  CHECK(frames_of(run).size() == 3);
   // what is not of the new run does not stay
   REQUIRE(write_atomically(run / "old.png", "x"));
   bench.good({"run", "small.toml", "--frames", "4"});
   CHECK(names_in(run) == data_files);
-  CHECK(gridshell::record::read_trajectory(run / "trajectory.h5")->frames.size() == 4);
+  CHECK(frames_of(run).size() == 4);
   CHECK(names_in(bench.at / "out") == std::vector<std::string>{"small"});
 }
 
@@ -90,7 +104,7 @@ TEST_CASE("the same preset gives the same frames, from the run's own preset.toml
   CHECK(text_of(bench.at / "a/frames.csv") != text_of(bench.at / "c/frames.csv"));
 }
 
-TEST_CASE("--print-config prints a preset that comes to the same, and runs nothing") {
+TEST_CASE("a printed config (--print-config) comes to the same, and nothing runs") {
   const Bench bench;
   const auto first = bench.good({"movie", "small.toml", "--set", "actuation.seed=down", "--size",
                                  "320x200", "--frames", "9", "--print-config"});
@@ -101,7 +115,7 @@ TEST_CASE("--print-config prints a preset that comes to the same, and runs nothi
   CHECK_FALSE(fs::exists(bench.at / "out"));
 }
 
-TEST_CASE("movie draws a frame each; render draws them again without simulating") {
+TEST_CASE("movie draws a frame each, and render draws them again without simulating") {
   const Bench bench;
   const auto said = bench.good({"movie", "small.toml", "-o", "run"});
   CHECK_THAT(said.out, Catch::StartsWith("run: "));
@@ -119,7 +133,7 @@ TEST_CASE("movie draws a frame each; render draws them again without simulating"
   CHECK(text_of(bench.at / "same/frames/frame_00002.png") == bytes);
   CHECK(text_of(bench.at / "same/frames.csv") == states);
   bench.good({"render", "run", "--size", "80x60", "--quiet"});
-  CHECK(gridshell::render::read_png(frames[2])->width == 80);
+  CHECK(width_of(frames[2]) == 80);
   const auto refused = bench.run({"render", "run", "--set", "rod.diameter_mm=0.3"});
   CHECK(refused.code == 2);
   CHECK(refused.err ==
@@ -143,9 +157,9 @@ TEST_CASE("figure draws a still a radius and all in one") {
   for (const auto& file : files_under(bench.at / "run", ".png"))
     names.push_back(file.filename().string());
   CHECK(names == std::vector<std::string>{"small.png", "small_1.png", "small_2.png"});
-  const auto run = gridshell::record::read_trajectory(bench.at / "run/trajectory.h5");
-  REQUIRE(run->frames.size() == 2);
-  CHECK(run->frames[1].boundary_radius_mm == Approx(42.0));
+  const auto states = frames_of(bench.at / "run");
+  REQUIRE(states.size() == 2);
+  CHECK(states[1].boundary_radius_mm == Approx(42.0));
   // its stills are drawn again as stills
   bench.good({"render", "run", "-o", "again"});
   CHECK(fs::exists(bench.at / "again/small_2.png"));
@@ -170,7 +184,7 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
   CHECK(top["cases"][0]["height_mm"] < top["cases"][1]["height_mm"]);
   CHECK(top["cases"][1]["height_mm"] == json_of(bench.at / "run/far/summary.json")["height_mm"]);
   bench.good({"render", "run", "--size", "80x60"});
-  CHECK(gridshell::render::read_png(bench.at / "run/near/frames/frame_00000.png")->width == 80);
+  CHECK(width_of(bench.at / "run/near/frames/frame_00000.png") == 80);
 }
 
 TEST_CASE("a path that ends early is written as far as it is certified, and exits with 1") {

@@ -111,7 +111,7 @@ TEST_CASE("the last frame does not depend on how many frames are asked for") {
   }
 }
 
-TEST_CASE("joints and energy converge at second order; extrapolated they agree with the estimate") {
+TEST_CASE("joints and energy converge at second order, extrapolated they agree with the estimate") {
   const auto at = [](int edges) {
     preset::Preset p = fig1(2, 1e-3);
     p.accuracy.edges_per_segment = edges;

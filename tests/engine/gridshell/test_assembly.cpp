@@ -65,7 +65,7 @@ TEST_CASE("assembly: Hessian is the derivative of the gradient, in all blocks") 
   }
 }
 
-TEST_CASE("assembly: both ways give one gradient; the mixed residual is it where N = EA strain") {
+TEST_CASE("assembly: both ways give one gradient, the mixed residual is it where N = EA strain") {
   Bent bent = bent_shell(4);
   Assembly with_hessian, alone, mixed;
   assemble_hessian(bent.model, bent.x, nullptr, 1, with_hessian);

@@ -140,7 +140,7 @@ TEST_CASE("a refused value conflicts with nothing") {
         "bad.toml:2:13: [footprint] radius_mm = -1: out of range, must be a number > 0");
 }
 
-TEST_CASE("--set lies over the file") {
+TEST_CASE("an override (--set) lies over the file") {
   const std::string text = "[footprint]\nradius_mm = 130.0\n";
   const auto set = [](const std::string& argument) { return parse_override(argument).value(); };
   CHECK(good(text, {set("footprint.radius_mm=140.5")}).base.footprint.radius_mm == 140.5);

@@ -67,7 +67,7 @@ TEST_CASE("a difference in the last pixel of an odd size counts") {
   CHECK(c->y == 93 - 8);
 }
 
-TEST_CASE("a difference in alpha counts; a tiny picture is one block") {
+TEST_CASE("a difference in alpha counts, a tiny picture is one block") {
   Image a(3, 2), b(3, 2);
   b.pixel(1, 1)[3] = 60;
   const auto c = compare(a, b);

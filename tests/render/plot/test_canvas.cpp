@@ -150,7 +150,7 @@ TEST_CASE("a picture within a picture keeps its colours") {
   CHECK(int(image.pixel(20, 20)[0]) == 255);
 }
 
-TEST_CASE("a figure is written as PNG and SVG; the SVG is well-formed and holds its words") {
+TEST_CASE("a figure is written as PNG and SVG, the SVG is well-formed and holds its words") {
   const TemporaryFolder folder;
   const DrawOn draw = [](Canvas& c) {
     c.text("*R*_{a} < 10 & more", {10, 30}, {});

@@ -66,7 +66,7 @@ TEST_CASE("the sequential map grows lighter all the way") {
   CHECK(sequential(1).r == Approx(0xfd / 255.0).margin(0.003));
 }
 
-TEST_CASE("a scale maps its ends and clips beyond; the unknown is grey") {
+TEST_CASE("a scale maps its ends and clips beyond, the unknown is grey") {
   const ColourScale scale{ColourMap::diverging, -0.1, 0.1};
   CHECK(scale(0.1).r == diverging(1).r);
   CHECK(scale(0.3).r == diverging(1).r);

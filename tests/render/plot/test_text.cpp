@@ -5,7 +5,7 @@
 
 using namespace gridshell::render;
 
-TEST_CASE("marks lower, raise and slant; the letters stay") {
+TEST_CASE("marks lower, raise and slant, the letters stay") {
   const auto runs = parse_marked("*R*_{a} = 10^{−3} mm");
   REQUIRE(runs.size() == 5);
   CHECK(runs[0].text == "R");
