@@ -18,11 +18,6 @@ PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
   return pinned;
 }
 
-void pin(const Model& model, const PinnedMotion& motion, double t, Eigen::Matrix3Xd& x) {
-  for (int node = 0; node < model.nodes; ++node)
-    if (model.pinned[node]) x.col(node) = motion.begin.col(node) + t * t * motion.change.col(node);
-}
-
 NestedEnd end_of(PathEnd end) {
   switch (end) {
     case PathEnd::reached:
@@ -102,6 +97,17 @@ NestedReport NestedShell::advance(double t, const Watch& watch) {
   return certify(t, watch);
 }
 
+void NestedShell::push_joint(const Prescription& prescription,
+                             const Eigen::Vector3d& displacement) {
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    Level& level = *levels_[k];
+    level.motion = {state_.levels[k].x, Eigen::Matrix3Xd::Zero(3, level.model.nodes), Pace::even};
+    level.motion.change.col(prescription.node) = displacement;
+    level.system->prescribe(prescription);
+  }
+  path_ = std::make_unique<PathFollower>(*levels_[0]->system, levels_[0]->motion, options_);
+}
+
 State NestedShell::carried(const Level& level, const State& coarser) const {
   State state;
   level.from_coarser->nodes(coarser.x, state.x);
@@ -156,11 +162,11 @@ NestedReport NestedShell::certify(double t, const Watch& watch) {
         guess.force += ahead * (last.force - level.added[0].force);
       }
     }
-    pin(level.model, level.motion, t, guess.x);
+    level.motion.impose(*level.system, t, guess.x);
     if (!correct(level, coarser, guess, report)) {
       // without the memory of other states
       guess = carried(level, coarser);
-      pin(level.model, level.motion, t, guess.x);
+      level.motion.impose(*level.system, t, guess.x);
       if (!correct(level, coarser, guess, report)) return {NestedEnd::levels_disagree, state_.t};
     }
     remember(level, t, coarser, guess);
@@ -194,6 +200,7 @@ void NestedShell::finish(const NewtonReport& report) {
   finest.system->gradient_at(state_.levels[last]);
   state_.residual_N = finest.system->residual();
   state_.largest_strain = finest.system->assembly().largest_strain;
+  if (finest.system->prescription().active()) take_reaction();
   state_.x = state_.levels[last].x;
   state_.error_estimate_mm = std::numeric_limits<double>::quiet_NaN();
   if (last == 0) return;
@@ -214,6 +221,15 @@ void NestedShell::finish(const NewtonReport& report) {
   finest.to_coarser->nodes(state_.x, on_coarser);
   finest.from_coarser->nodes((on_coarser - state_.levels[last - 1].x) / 3, correction);
   state_.x += correction;
+}
+
+void NestedShell::take_reaction() {
+  const std::size_t last = levels_.size() - 1;
+  state_.reaction = levels_[last]->system->reaction();
+  if (!plan_.extrapolate) return;
+  Linearisation& coarser = *levels_[last - 1]->system;
+  coarser.gradient_at(state_.levels[last - 1]);
+  state_.reaction = (4 * state_.reaction - coarser.reaction()) / 3;
 }
 
 }  // namespace gridshell

@@ -44,6 +44,7 @@ struct NestedState {
   double residual_N = 0;         ///< of the finest level's equilibrium
   Inertia inertia;               ///< of the finest level's Hessian
   double largest_strain = 0;
+  Eigen::Vector3d reaction = Eigen::Vector3d::Zero();  ///< on a pushed joint, extrapolated as x, N
 };
 
 /// Why a state could not be certified.
@@ -66,6 +67,11 @@ class NestedShell {
   /// Follows the path to t and certifies there. The current state stays the last good one on
   /// failure.
   NestedReport advance(double t, const Watch& watch);
+
+  /// From the current state on the boundary stays and a joint is pushed: t = 0 is the current
+  /// state, at t = 1 its prescribed components have moved by `displacement`, on every level from
+  /// where that level's joint is. A start() at t = 0 follows.
+  void push_joint(const Prescription& prescription, const Eigen::Vector3d& displacement);
 
   const NestedState& state() const { return state_; }
   const LevelPlan& plan() const { return plan_; }
@@ -94,6 +100,7 @@ class NestedShell {
   void remember(Level& level, double t, const State& coarser, const State& state);
   State carried(const Level& level, const State& coarser) const;
   void finish(const NewtonReport& report);
+  void take_reaction();
 
   LevelPlan plan_;
   PathOptions options_;

@@ -1,9 +1,17 @@
 #include "engine/solve/newton.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 namespace gridshell {
+namespace {
+
+// of the order of a shell's own stiffness, so that neither swamps the other
+constexpr double border_stiffness = 1;  // g, N/mm
+
+}  // namespace
 
 Linearisation::Linearisation(const Model& model, std::unique_ptr<LinearSolver> solver)
     : model_(model), solver_(solver ? std::move(solver) : make_linear_solver(model)) {}
@@ -15,12 +23,61 @@ Inertia Linearisation::at(const State& state, bool mixed, double shift, double E
   for (std::size_t k = 0; k < model_.edges.size(); ++k)
     tangents_.col(k) =
         (state.x.col(model_.edges[k].to) - state.x.col(model_.edges[k].from)).normalized();
+  if (prescription_.active())
+    assembly_.hessian.diagonal[prescription_.node] +=
+        border_stiffness * prescription_.directions * prescription_.directions.transpose();
   return shifted(shift);
 }
 
 Inertia Linearisation::shifted(double shift) {
   ++effort_.factorizations;
-  return solver_->factor(assembly_.hessian, shift);
+  Inertia inertia = solver_->factor(assembly_.hessian, shift);
+  if (prescription_.active() && inertia.usable) border(inertia);
+  return inertia;
+}
+
+/// Inertia of the bordered matrix [K B; B^T 0]: that of K and of the Schur complement -C; the
+/// border itself brings m positive and m negative ones [Haynsworth 1968].
+void Linearisation::border(Inertia& inertia) {
+  const Eigen::Index m = prescription_.directions.cols();
+  border_.resize(std::size_t(m));
+  compliance_.resize(m, m);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    Eigen::Matrix3Xd& column = border_[std::size_t(k)];
+    column.setZero(3, model_.nodes);
+    column.col(prescription_.node) = prescription_.directions.col(k);
+    solver_->solve(column);
+    compliance_.col(k) = prescription_.directions.transpose() * column.col(prescription_.node);
+  }
+  compliance_ = (0.5 * (compliance_ + compliance_.transpose())).eval();
+  const Eigen::VectorXd own =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(compliance_, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  inertia.usable = own.allFinite() && (own.array() != 0).all();
+  inertia.negative_pivots += int((own.array() > 0).count()) - int(m);
+}
+
+void Linearisation::solve(Eigen::Matrix3Xd& right_hand_side) const {
+  solver_->solve(right_hand_side);
+  if (!prescription_.active()) return;
+  const Eigen::VectorXd moved =
+      prescription_.directions.transpose() * right_hand_side.col(prescription_.node);
+  const Eigen::VectorXd force = compliance_.partialPivLu().solve(moved);
+  for (std::size_t k = 0; k < border_.size(); ++k)
+    right_hand_side -= force[Eigen::Index(k)] * border_[k];
+}
+
+Eigen::MatrixXd Linearisation::prescribed_stiffness() const {
+  Eigen::MatrixXd stiffness = compliance_.inverse();
+  stiffness.diagonal().array() -= border_stiffness;
+  return stiffness;
+}
+
+double Linearisation::residual() const {
+  if (!prescription_.active()) return residual_of(model_, assembly_.gradient);
+  Eigen::Matrix3Xd unheld = assembly_.gradient;
+  unheld.col(prescription_.node) -= prescription_.part(reaction());
+  return residual_of(model_, unheld);
 }
 
 void Linearisation::residual_at(const State& state) {
@@ -29,7 +86,7 @@ void Linearisation::residual_at(const State& state) {
 
 void Linearisation::correction(Eigen::Matrix3Xd& dx) const {
   dx = -assembly_.gradient;
-  solver_->solve(dx);
+  solve(dx);
 }
 
 void Linearisation::tangent(const Eigen::Matrix3Xd& pinned_velocity,
@@ -37,9 +94,11 @@ void Linearisation::tangent(const Eigen::Matrix3Xd& pinned_velocity,
   Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, model_.nodes);
   for (int node = 0; node < model_.nodes; ++node)
     if (model_.pinned[node]) moved.col(node) = pinned_velocity.col(node);
+  if (prescription_.active())
+    moved.col(prescription_.node) = prescription_.part(pinned_velocity.col(prescription_.node));
   multiply(model_, assembly_.hessian, moved, velocity);
   velocity *= -1;
-  solver_->solve(velocity);
+  solve(velocity);
   velocity += moved;
 }
 

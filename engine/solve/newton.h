@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "engine/core/watch.h"
 #include "engine/solve/linear_solver.h"
@@ -14,6 +15,19 @@ namespace gridshell {
 struct State {
   Eigen::Matrix3Xd x;
   Eigen::VectorXd force;
+};
+
+/// A free node of which some components are prescribed: a joint that is pushed. With one direction
+/// it is held along that direction only and finds its own way across; with three it is held.
+struct Prescription {
+  int node = -1;                     ///< -1: none
+  Eigen::Matrix3Xd directions = {};  ///< orthonormal columns, one to three
+
+  bool active() const { return node >= 0; }
+  /// The prescribed part of a vector at the node.
+  Eigen::Vector3d part(const Eigen::Vector3d& v) const {
+    return directions * (directions.transpose() * v);
+  }
 };
 
 /// Counts of the costly operations, for reports.
@@ -31,6 +45,10 @@ struct Effort {
 /// force N, unit tangent t and edge difference B dx = t . (dx_to - dx_from)/l,
 ///   (K_bend + EA/l t t^T + N/|e| (I - t t^T)) dx = -dE/dx,   N <- EA (strain + B dx);
 /// at an equilibrium both forms agree. Owns the factorisation and the working memory of one model.
+/// With a prescription B (3 x m at one node) every solve is that of the bordered system
+///   K dx - B c = r,   B^T dx = 0,
+/// by block elimination with K + g B B^T in the place of K: the same solution, but positive
+/// definite wherever the constrained system is, also where K is singular (a limit point in force).
 class Linearisation {
  public:
   explicit Linearisation(const Model& model, std::unique_ptr<LinearSolver> solver = nullptr);
@@ -41,6 +59,15 @@ class Linearisation {
   /// Factorises the assembled Hessian again with another shift.
   Inertia shifted(double shift);
 
+  /// From the next at() on these components are prescribed: corrections leave them as they are, the
+  /// inertia is that of the constrained system.
+  void prescribe(const Prescription& prescription) { prescription_ = prescription; }
+  const Prescription& prescription() const { return prescription_; }
+  /// The force that holds the prescribed node where it is, all components, N; of the last assembly.
+  Eigen::Vector3d reaction() const { return assembly_.gradient.col(prescription_.node); }
+  /// How the force grows with the prescribed components, m x m, N/mm; of the last factorisation.
+  Eigen::MatrixXd prescribed_stiffness() const;
+
   /// The energy's gradient at a state, without a factorisation.
   void gradient_at(const State& state) { assemble_gradient(model_, state.x, assembly_); }
   /// The mixed residual at another state, with the factorisation and directions of the last at().
@@ -48,11 +75,11 @@ class Linearisation {
 
   /// Newton's correction: solves K dx = -dE/dx with the pinned nodes held.
   void correction(Eigen::Matrix3Xd& dx) const;
-  /// Tangent of the path: how free nodes follow when pinned nodes move with `pinned_velocity` (its
-  /// columns at free nodes are ignored); comes back as the velocity of all nodes.
+  /// Tangent of the path: how free nodes follow when pinned nodes move with `pinned_velocity` (of
+  /// free nodes only what is prescribed counts); comes back as the velocity of all nodes.
   void tangent(const Eigen::Matrix3Xd& pinned_velocity, Eigen::Matrix3Xd& velocity) const;
-  /// Solves K y = right_hand_side at the free nodes, in place.
-  void solve(Eigen::Matrix3Xd& right_hand_side) const { solver_->solve(right_hand_side); }
+  /// Solves K y = right_hand_side at the free nodes, in place; prescribed components of y are zero.
+  void solve(Eigen::Matrix3Xd& right_hand_side) const;
   /// Change of the axial forces with positions, EA B dx, at the linearisation point.
   Eigen::VectorXd force_change(const Eigen::Matrix3Xd& dx) const;
   /// state.x += dx and the mixed update of the forces.
@@ -60,15 +87,20 @@ class Linearisation {
 
   const Model& model() const { return model_; }
   const Assembly& assembly() const { return assembly_; }  ///< of the last at()
-  double residual() const { return residual_of(model_, assembly_.gradient); }
+  double residual() const;  ///< largest force on a free node that nothing holds
   const Effort& effort() const { return effort_; }
   Effort& effort() { return effort_; }
 
  private:
+  void border(Inertia& inertia);
+
   const Model& model_;
   std::unique_ptr<LinearSolver> solver_;
   Assembly assembly_;
-  Eigen::Matrix3Xd tangents_;  // unit tangent of each edge at the linearisation point
+  Prescription prescription_;
+  std::vector<Eigen::Matrix3Xd> border_;  // (K + g B B^T)^-1 B, a matrix a column
+  Eigen::MatrixXd compliance_;            // B^T (K + g B B^T)^-1 B
+  Eigen::Matrix3Xd tangents_;             // unit tangent of each edge at the linearisation point
   double EA_scale_ = 1;
   Effort effort_;
 };

@@ -5,6 +5,16 @@
 
 namespace gridshell {
 
+void PinnedMotion::impose(const Linearisation& system, double t, Eigen::Matrix3Xd& x) const {
+  const Model& model = system.model();
+  for (int node = 0; node < model.nodes; ++node)
+    if (model.pinned[node]) x.col(node) = begin.col(node) + come(t) * change.col(node);
+  const Prescription& held = system.prescription();
+  if (!held.active()) return;
+  const Eigen::Vector3d there = begin.col(held.node) + come(t) * change.col(held.node);
+  x.col(held.node) += held.part(there - x.col(held.node));
+}
+
 void PathFollower::take_velocity(PathPoint& point) const {
   system_.tangent(motion_.velocity(point.t), point.velocity.x);
   point.velocity.force = system_.force_change(point.velocity.x);
@@ -43,11 +53,7 @@ State PathFollower::predict(double t) const {
     guess.x += bend * (now_.velocity.x - before_.velocity.x);
     guess.force += bend * (now_.velocity.force - before_.velocity.force);
   }
-  // pinned nodes go exactly where they belong
-  const Model& model = system_.model();
-  for (int node = 0; node < model.nodes; ++node)
-    if (model.pinned[node])
-      guess.x.col(node) = motion_.begin.col(node) + t * t * motion_.change.col(node);
+  motion_.impose(system_, t, guess.x);
   return guess;
 }
 

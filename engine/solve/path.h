@@ -9,15 +9,27 @@
 
 namespace gridshell {
 
-/// Where the pinned nodes are at path parameter t, and how fast they move.
-/// The parameter is t = sqrt(progress): a shell that buckles out of the flat rises as the square
-/// root of how far its boundary came, so positions are smooth in t down to the flat.
-struct PinnedMotion {
-  Eigen::Matrix3Xd begin;   ///< 3 x nodes at t = 0 (columns of free nodes are ignored)
-  Eigen::Matrix3Xd change;  ///< to t = 1
+/// How far a motion has come at path parameter t.
+enum class Pace {
+  square,  ///< t^2: a shell that buckles out of the flat rises as the square root of how far its
+           ///< boundary came, so positions are smooth in t = sqrt(progress) down to the flat
+  even     ///< t
+};
 
-  Eigen::Matrix3Xd at(double t) const { return begin + t * t * change; }
-  Eigen::Matrix3Xd velocity(double t) const { return 2 * t * change; }
+/// Where the pinned nodes, and of a prescribed node the prescribed components, are at path
+/// parameter t, and how fast they move.
+struct PinnedMotion {
+  Eigen::Matrix3Xd begin;   ///< 3 x nodes at t = 0 (what is free is ignored)
+  Eigen::Matrix3Xd change;  ///< to t = 1
+  Pace pace = Pace::square;
+
+  double come(double t) const { return pace == Pace::square ? t * t : t; }
+  Eigen::Matrix3Xd at(double t) const { return begin + come(t) * change; }
+  Eigen::Matrix3Xd velocity(double t) const {
+    return (pace == Pace::square ? 2 * t : 1.0) * change;
+  }
+  /// Puts the nodes that `system` does not leave free where they belong at t.
+  void impose(const Linearisation& system, double t, Eigen::Matrix3Xd& x) const;
 };
 
 /// A state on the path with its derivative by t.
