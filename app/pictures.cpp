@@ -1,5 +1,6 @@
 #include "app/pictures.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 
@@ -67,7 +68,7 @@ double expected_seconds(Pictures pictures, const preset::Preset& preset) {
                                    : movie.quality == preset::Quality::movie ? 0.35
                                                                              : 15;
   const double count =
-      pictures == Pictures::movie ? movie.frames : double(preset.figure.radii_mm.size());
+      pictures == Pictures::movie ? movie.frames : std::max(1.0, double(preset.figure.radii_mm.size()));
   return count * 1e-6 * movie.size[0] * movie.size[1] * megapixel_seconds;
 }
 

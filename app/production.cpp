@@ -30,7 +30,8 @@ struct Job {
 
 // `figure` without radii shows the final state
 preset::Preset with_stills(preset::Preset preset, Pictures pictures) {
-  if (pictures == Pictures::stills && preset.figure.radii_mm.empty())
+  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
+  if (pictures == Pictures::stills && circle && preset.figure.radii_mm.empty())
     preset.figure.radii_mm = {preset.actuation.radius_mm};
   return preset;
 }

@@ -23,8 +23,9 @@ std::string or_unknown(double value, const char* unit) {
 void print_plan(const preset::Preset& preset, const experiment::Plan& plan) {
   fmt::print("{}: {}\n", preset.name, preset.title);
   fmt::print("  footprint       {}\n", plan.footprint);
-  fmt::print("  boundary        {} mm to {} mm\n", preset.footprint.radius_mm,
-             preset.actuation.radius_mm);
+  if (preset.footprint.kind == preset::FootprintKind::circle)
+    fmt::print("  boundary        {} mm to {} mm\n", preset.footprint.radius_mm,
+               preset.actuation.radius_mm);
   fmt::print("  model           {}\n", plan.model_reason);
   fmt::print("  meshes          {} edges a segment{}\n", fmt::join(plan.levels, ", "),
              plan.extrapolated ? ", extrapolated" : "");

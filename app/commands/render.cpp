@@ -64,8 +64,10 @@ Result<std::vector<preset::Override>> picture_overrides(const Options& options) 
   return overrides;
 }
 
-// a run sampled at the stills' radii came from `figure`
+// a run sampled at the stills' radii, or of a net's end alone, came from `figure`
 Pictures pictures_of(const preset::Preset& preset, const record::Trajectory& trajectory) {
+  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
+  if (!circle) return trajectory.frames.size() == 1 ? Pictures::stills : Pictures::movie;
   const auto& radii = preset.figure.radii_mm;
   if (radii.size() != trajectory.frames.size()) return Pictures::movie;
   for (std::size_t k = 0; k < radii.size(); ++k)

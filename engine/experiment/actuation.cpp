@@ -7,7 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "engine/measure/gauss.h"
+#include "engine/experiment/frames.h"
+#include "engine/experiment/net_design.h"
 
 namespace gridshell::experiment {
 namespace {
@@ -18,7 +19,7 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-record::Layout layout_of(const ActuationScene& scene, const RodMesh& mesh) {
+Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mesh) {
   record::Layout layout;
   layout.spacing_mm = scene.footprint.spacing;
   layout.rod_diameter_mm = scene.rod_diameter_mm;
@@ -36,32 +37,12 @@ record::Layout layout_of(const ActuationScene& scene, const RodMesh& mesh) {
   for (int k = 0; k < mesh.edge_points; ++k) layout.edge_points.push_back(mesh.joints + k);
   layout.original_boundary = scene.original_boundary;
   layout.actuated_boundary = scene.actuated_boundary;
+  if (scene.net) {
+    auto net = sample(*scene.net, mesh.flat);
+    if (!net) return tl::unexpected<Error>(net.error());
+    layout.net_nodes = std::move(*net);
+  }
   return layout;
-}
-
-/// Measures that are extrapolated like the positions.
-struct Measures {
-  Eigen::VectorXd K;
-  Energies energies;
-};
-
-Measures measure(const ActuationScene& scene, const RodMesh& mesh, const Model& model,
-                 const Eigen::Matrix3Xd& x) {
-  return {cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, x)),
-          energies_of(model, x)};
-}
-
-Measures measure(const ActuationScene& scene, const NestedShell& shell) {
-  const int last = shell.levels() - 1;
-  const NestedState& state = shell.state();
-  Measures fine = measure(scene, shell.mesh(last), shell.model(last), state.levels[last].x);
-  if (!shell.plan().extrapolate) return fine;
-  const Measures coarse =
-      measure(scene, shell.mesh(last - 1), shell.model(last - 1), state.levels[last - 1].x);
-  fine.K = (4 * fine.K - coarse.K) / 3;
-  fine.energies.bend = (4 * fine.energies.bend - coarse.energies.bend) / 3;
-  fine.energies.stretch = (4 * fine.energies.stretch - coarse.energies.stretch) / 3;
-  return fine;
 }
 
 class Actuation {
@@ -75,11 +56,14 @@ class Actuation {
     seconds_setup_ = now() - begin;
     if (auto failure = follow()) return tl::unexpected<Error>(*failure);
     const RodMesh& mesh = shell_->mesh(shell_->levels() - 1);
-    outcome_.trajectory.layout = layout_of(scene_, mesh);
+    auto layout = layout_of(scene_, mesh);
+    if (!layout) return tl::unexpected<Error>(layout.error());
+    outcome_.trajectory.layout = std::move(*layout);
     outcome_.levels = shell_->plan();
     outcome_.dof = shell_->model(shell_->levels() - 1).dof();
     for (auto& [t, frame] : frames_) outcome_.trajectory.frames.push_back(std::move(frame));
     outcome_.effort += shell_->effort();
+    outcome_.shell = std::move(shell_);
     outcome_.seconds_setup = seconds_setup_;
     outcome_.seconds_simulation = now() - begin - seconds_setup_;
     return std::move(outcome_);
@@ -99,12 +83,14 @@ class Actuation {
 
   std::optional<Error> follow() {
     const double last = std::sqrt(progress_.back());
-    if (last > 0) {
+    if (scene_.from_net) {
+      if (auto failure = follow_from_net()) return failure;
+    } else if (last > 0) {
       const auto start =
           parameter_of_shortening(shell_->mesh(0), shell_->motion(0), first_shortening);
       if (!start) return start.error();
       auto first = first_buckled(shell_->system(0), shell_->mesh(0), shell_->motion(0), *start,
-                                 scene_.seed, watch_);
+                                 scene_.seed, scene_.flat, watch_);
       if (!first) return first.error();
       if (auto failure = find_levels(*start, *first)) return failure;
       if (auto failure = backwards(*start, *first)) return failure;
@@ -115,6 +101,36 @@ class Actuation {
     return std::nullopt;
   }
 
+  /// The equilibrium next to the net, and the path from there backwards.
+  std::optional<Error> follow_from_net() {
+    auto first = rest_near_net();
+    if (!first) return first.error();
+    if (auto failure = find_levels(1, *first)) return failure;
+    return backwards(1, *first);
+  }
+
+  Result<State> rest_near_net() {
+    const auto net = sample(*scene_.net, shell_->mesh(0).flat);
+    if (!net) return tl::unexpected<Error>(net.error());
+    const Eigen::VectorXd slack = Eigen::VectorXd::Zero(shell_->model(0).edges.size());
+    State state{*net, slack};
+    Linearisation& system = shell_->system(0);
+    NewtonOptions options;
+    options.farthest_mm = 0.5 * scene_.footprint.spacing;
+    const NewtonReport report = newton(system, state, options);
+    // the net is nearly at rest as a rule; where full steps lead elsewhere, the patient way down
+    if (report.outcome == NewtonOutcome::converged && system.at(state, false).positive_definite())
+      return state;
+    state = {*net, slack};
+    const NewtonReport down = minimise(system, state, {}, watch_);
+    if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (down.outcome == NewtonOutcome::converged) return state;
+    return fail(Fault::no_equilibrium,
+                fmt::format("no equilibrium near the net after {} iterations; the last moved a "
+                            "node by {:.2g} mm",
+                            down.iterations, down.last_move_mm));
+  }
+
   /// Goes to the last sample at once, where errors are largest as a rule, and takes finer meshes
   /// until the estimate there meets the tolerance. That state is the last frame: it does not depend
   /// on how many frames are asked for.
@@ -123,7 +139,7 @@ class Actuation {
     if (end < start) return std::nullopt;
     for (;;) {
       NestedReport report = shell_->start(start, first, watch_);
-      if (report.end == NestedEnd::reached) report = shell_->advance(end, watch_);
+      if (report.end == NestedEnd::reached && end > start) report = shell_->advance(end, watch_);
       if (watch_.cancelled()) return Error{Fault::cancelled, "stopped"};
       const bool reached = report.end == NestedEnd::reached;
       const bool met =
@@ -242,22 +258,20 @@ class Actuation {
         scene_.max_strain, t * t);
   }
 
-  record::Frame frame_at(int index, double progress) const {
-    record::Frame frame;
+  void place(record::Frame& frame, int index, double progress) const {
     frame.index = index;
     frame.progress = frame.actuation = progress;
     frame.boundary_radius_mm =
         scene_.radius_begin_mm + progress * (scene_.radius_end_mm - scene_.radius_begin_mm);
-    return frame;
   }
 
   void add_flat(int index) {
-    record::Frame frame = frame_at(index, 0);
+    record::Frame frame;
+    place(frame, index, 0);
     const int last = shell_->levels() - 1;
     const RodMesh& mesh = shell_->mesh(last);
     State flat;
-    flat.x = Eigen::Matrix3Xd::Zero(3, mesh.nodes());
-    flat.x.topRows(2) = mesh.flat;
+    flat.x = scene_.flat.all(mesh.flat);
     frame.negative_pivots = shell_->system(last).at(flat, false).negative_pivots;
     frame.residual_N = shell_->system(last).residual();
     frame.error_estimate_mm = 0;  // straight rods are exact on any mesh
@@ -267,18 +281,8 @@ class Actuation {
   }
 
   void add(int index, double t, const std::string& event) {
-    const NestedState& state = shell_->state();
-    record::Frame frame = frame_at(index, progress_[index]);
-    const Measures measures = measure(scene_, *shell_);
-    frame.energy_bend_mJ = measures.energies.bend;
-    frame.energy_stretch_mJ = measures.energies.stretch;
-    frame.cell_K = measures.K;
-    frame.total_K = measures.K.sum();
-    frame.height_mm = state.x.row(2).leftCols(shell_->mesh(0).joints).maxCoeff();
-    frame.residual_N = state.residual_N;
-    frame.negative_pivots = state.inertia.negative_pivots;
-    frame.error_estimate_mm = state.error_estimate_mm;
-    frame.nodes = state.x;
+    record::Frame frame = frame_of(scene_, *shell_);
+    place(frame, index, progress_[index]);
     frame.event = event;
     if (event.empty() && frame.negative_pivots > 0)
       frame.event = fmt::format("unstable: {} negative pivots", frame.negative_pivots);

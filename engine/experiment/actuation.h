@@ -2,11 +2,14 @@
 // actuated boundary, through equilibria.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
+#include "engine/footprint/flat_frame.h"
 #include "engine/footprint/footprint.h"
+#include "engine/geometry/chebyshev_net.h"
 #include "engine/record/snapshot.h"
 #include "engine/record/summary.h"
 #include "engine/rod/section.h"
@@ -22,6 +25,9 @@ struct ActuationScene {
   double rod_diameter_mm = 0;
   BoundaryMotion motion;
   double length_scale_mm = 0;          ///< R_o: what errors are relative to
+  FlatFrame flat;                      ///< where the flat footprint lies
+  std::shared_ptr<const ChebyshevNet> net;  ///< that it was designed on, if it was
+  bool from_net = false;  ///< the path starts at the net, where progress is 1
   Eigen::Matrix3Xd original_boundary;  ///< closed polylines in correspondence, for pictures
   Eigen::Matrix3Xd actuated_boundary;
   double radius_begin_mm = record::unknown;  ///< of a circular boundary
@@ -41,12 +47,14 @@ struct ActuationOutcome {
   LevelPlan levels;  ///< that were used
   int dof = 0;
   Effort effort;
+  std::unique_ptr<NestedShell> shell;  ///< in the state certified last, to go on from
   double seconds_setup = 0, seconds_simulation = 0;
 };
 
-/// Samples the path at `progress` (ascending, in [0, 1]; 0 is the flat footprint). The path is
-/// found the patient way: a first buckled state where the rods are 2 % shorter than flat on
-/// average, from there back towards the flat and on to the end. Errors: bad_input, no_equilibrium
+/// Samples the path at `progress` (ascending, in [0, 1]; 0 is the flat footprint). From flat the
+/// path is found the patient way: a first buckled state where the rods are 2 % shorter than flat on
+/// average, from there back towards the flat and on to the end. From the net it is found at the
+/// equilibrium next to the net, progress 1, and followed backwards. Errors: bad_input, no_equilibrium
 /// (not a single buckled state), cancelled.
 Result<ActuationOutcome> run_actuation(const ActuationScene& scene,
                                        const std::vector<double>& progress, Watch& watch);

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "engine/experiment/actuation.h"
+#include "engine/experiment/indentation.h"
 #include "engine/experiment/scene.h"
+#include "engine/measure/deviation.h"
 
 namespace gridshell::experiment {
 namespace {
@@ -19,6 +21,8 @@ const char* reason_for_bend =
 
 std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
   std::vector<double> progress;
+  // only a circle's boundary has a radius all the way
+  if (stills && preset.footprint.kind != preset::FootprintKind::circle) return {1.0};
   if (stills && !preset.figure.radii_mm.empty()) {
     const double from = preset.footprint.radius_mm, to = preset.actuation.radius_mm;
     for (double radius : preset.figure.radii_mm) progress.push_back((from - radius) / (from - to));
@@ -27,6 +31,15 @@ std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
   }
   const int frames = preset.movie.frames;
   if (frames == 1) return {1.0};
+  for (int k = 0; k < frames; ++k) progress.push_back(double(k) / (frames - 1));
+  return progress;
+}
+
+/// Of a push: all frames of a movie, or the unloaded shell and the end.
+std::vector<double> even_samples(const preset::Preset& preset, bool stills) {
+  if (stills) return {0.0, 1.0};
+  const int frames = std::max(2, preset.movie.frames);
+  std::vector<double> progress;
   for (int k = 0; k < frames; ++k) progress.push_back(double(k) / (frames - 1));
   return progress;
 }
@@ -54,6 +67,15 @@ record::Summary summary_of(const preset::Preset& preset, const ActuationScene& s
   s.energy_twist_mJ = last.energy_twist_mJ;
   s.height_mm = last.height_mm;
   s.total_K = last.total_K;
+  const record::Layout& layout = outcome.trajectory.layout;
+  if (layout.net_nodes.size() > 0) {
+    // joints are the first nodes
+    const Eigen::Index joints = s.joints;
+    const Deviation deviation(last.nodes.leftCols(joints), layout.net_nodes.leftCols(joints),
+                              layout.length_scale_mm);
+    s.max_deviation = deviation.largest();
+    s.mean_deviation = deviation.mean();
+  }
   s.newton_iterations = outcome.effort.newton_iterations;
   s.factorizations = outcome.effort.factorizations;
   s.seconds_setup = outcome.seconds_setup;
@@ -87,7 +109,10 @@ Result<Plan> plan(const preset::Preset& preset) {
 Result<Outcome> run(const preset::Preset& preset, bool stills, Watch& watch) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
-  auto outcome = run_actuation(*scene, samples_of(preset, stills), watch);
+  const bool pushed = preset.indentation.wanted();
+  auto outcome =
+      pushed ? run_indentation(*scene, preset.indentation, even_samples(preset, stills), watch)
+             : run_actuation(*scene, samples_of(preset, stills), watch);
   if (!outcome) return tl::unexpected<Error>(outcome.error());
   if (outcome->trajectory.frames.empty())
     return fail(Fault::no_equilibrium, "no frame was certified: " + outcome->limit_reason);

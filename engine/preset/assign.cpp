@@ -84,6 +84,20 @@ std::string put(const IntegerPair& kind, const toml::node& value, Preset& preset
   return "";
 }
 
+std::string put(const IntegerList& kind, const toml::node& value, Preset& preset) {
+  const auto* list = value.as_array();
+  if (!list) return "is " + type_text(value);
+  std::vector<int> numbers;
+  for (const auto& item : *list) {
+    const auto* integer = item.as_integer();
+    if (!integer) return "is a list with " + type_text(item);
+    if (!kind.range.holds(double(integer->get()))) return "out of range";
+    numbers.push_back(int(integer->get()));
+  }
+  kind.in(preset) = std::move(numbers);
+  return "";
+}
+
 std::string put(const RealList& kind, const toml::node& value, Preset& preset) {
   const auto* list = value.as_array();
   if (!list) return "is " + type_text(value);

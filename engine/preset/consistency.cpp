@@ -14,7 +14,8 @@ constexpr const char* spacing = "[footprint] spacing_mm";
 std::vector<Conflict> conflicts(const Preset& preset) {
   std::vector<Conflict> found;
   const double original = preset.footprint.radius_mm, actuated = preset.actuation.radius_mm;
-  if (actuated > original)
+  const bool circle = preset.footprint.kind == FootprintKind::circle;
+  if (circle && actuated > original)
     found.push_back({"actuation",
                      "radius_mm",
                      {original_radius},
@@ -27,7 +28,19 @@ std::vector<Conflict> conflicts(const Preset& preset) {
                      fmt::format("neighbouring rods would touch, must be less than {} = {}",
                                  spacing, preset.footprint.spacing_mm)});
   double last = original;
-  for (const double radius : preset.figure.radii_mm) {
+  if (circle && preset.actuation.start == Start::net)
+    found.push_back({"actuation",
+                     "start",
+                     {"[footprint] kind"},
+                     "a circle has no net to start from, must be \"flat\", or [footprint] kind = "
+                     "\"net\""});
+  if (!circle && !preset.figure.radii_mm.empty())
+    found.push_back({"figure",
+                     "radii_mm",
+                     {"[footprint] kind"},
+                     "only a circle's boundary has a radius all the way, must be empty for "
+                     "[footprint] kind = \"net\""});
+  for (const double radius : circle ? preset.figure.radii_mm : std::vector<double>{}) {
     if (radius > last || radius < actuated) {
       found.push_back({"figure",
                        "radii_mm",
@@ -39,6 +52,11 @@ std::vector<Conflict> conflicts(const Preset& preset) {
     }
     last = radius;
   }
+  if (const auto count = preset.indentation.joint.size(); count != 0 && count != 2)
+    found.push_back({"indentation",
+                     "joint",
+                     {},
+                     fmt::format("a list of {}, must be [i, j] or empty", count)});
   return found;
 }
 

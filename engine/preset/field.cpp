@@ -60,6 +60,7 @@ std::string allowed(const Field& field) {
           [](const Text&) { return std::string("a string"); },
           [](const Word& k) { return words_text(k.words); },
           [](const IntegerPair& k) { return "two integers, each" + bounds_text(k.range); },
+          [](const IntegerList& k) { return "a list of integers" + bounds_text(k.range); },
           [](const RealList& k) { return "a list of numbers, each" + bounds_text(k.range); },
       },
       field.kind);
@@ -76,6 +77,9 @@ std::string value_text(const Field& field, const Preset& preset) {
                         [&](const Word& k) { return quoted(k.words.at(k.get(preset))); },
                         [&](const IntegerPair& k) {
                           return fmt::format("[{}, {}]", k.in(from)[0], k.in(from)[1]);
+                        },
+                        [&](const IntegerList& k) {
+                          return fmt::format("[{}]", fmt::join(k.in(from), ", "));
                         },
                         [&](const RealList& k) {
                           std::vector<std::string> items;

@@ -57,12 +57,17 @@ struct RealList {
   Range range;
 };
 
+struct IntegerList {
+  std::vector<int>& (*in)(Preset&);
+  Range range;
+};
+
 /// One key.
 struct Field {
   std::string table;  ///< empty at the top of the file
   std::string key;
   std::string unit;  ///< empty: a pure number or not a number
-  std::variant<Real, Integer, Flag, Text, Word, IntegerPair, RealList> kind;
+  std::variant<Real, Integer, Flag, Text, Word, IntegerPair, RealList, IntegerList> kind;
   std::string meaning;  ///< one sentence without a full stop
 };
 

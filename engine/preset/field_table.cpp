@@ -42,6 +42,10 @@ IntegerPair pair(Range range) {
   return {reach<path...>, range};
 }
 template <auto... path>
+IntegerList integers(Range range) {
+  return {reach<path...>, range};
+}
+template <auto... path>
 RealList list(Range range) {
   return {reach<path...>, range};
 }
@@ -62,19 +66,35 @@ std::vector<Field> shell_fields() {
        "\"shared\": crossing rods share the joint's node, shear freely and pass no twist"},
       {"ends", "kind", "", word<&P::ends, &Ends::kind>({"pinned"}),
        "\"pinned\": position held, direction and spin free"},
-      {"footprint", "kind", "", word<&P::footprint, &Footprint::kind>({"circle"}),
-       "boundary that cuts the flat square grid"},
+      {"footprint", "kind", "", word<&P::footprint, &Footprint::kind>({"circle", "net"}),
+       "boundary that cuts the flat square grid: a circle, or the one that a net maps to the "
+       "boundary wanted"},
       {"footprint", "rods", "", integer<&P::footprint, &Footprint::rods>(between(1, 500)),
-       "rods a direction, n"},
+       "rods a direction in a circle, n"},
       {"footprint", "radius_mm", "mm", real<&P::footprint, &Footprint::radius_mm>(above(0)),
-       "radius of the original boundary, R_o"},
+       "radius of a circle, R_o"},
       {"footprint", "spacing_mm", "mm", real<&P::footprint, &Footprint::spacing_mm>(above(0)),
        "distance between neighbouring rods, d"},
       {"footprint", "placement", "",
        word<&P::footprint, &Footprint::placement>({"half", "on_axis"}),
        "rods at u = (i + 1/2) d, or at u = i d with one on each axis"},
+      {"net", "kind", "",
+       word<&P::net, &Net::kind>({"sphere", "cylinder", "spool", "beltrami"}),
+       "\"sphere\": a cap of Chebyshev's net; the others: the upper half of a surface of "
+       "revolution about the x-axis, \"spool\" and \"beltrami\" of constant K = -1/rho^2"},
+      {"net", "radius_mm", "mm", real<&P::net, &Net::radius_mm>(above(0)),
+       "radius rho of the sphere or cylinder; K = -1/rho^2 of the others"},
+      {"net", "cut_height", "", real<&P::net, &Net::cut_height>(between(0, 0.999)),
+       "height of a cap's boundary over rho, z*/rho; 0: the hemisphere"},
+      {"net", "length_mm", "mm", real<&P::net, &Net::length_mm>(above(0)),
+       "distance between the end rings of a surface of revolution"},
+      {"net", "waist", "", real<&P::net, &Net::waist>({0, 100, true}),
+       "radius over rho in the middle of a spool (its smallest) or beltrami surface (below 1)"},
       {"actuation", "radius_mm", "mm", real<&P::actuation, &Actuation::radius_mm>(above(0)),
-       "radius of the actuated boundary, R_a, at most R_o"},
+       "radius of the actuated boundary of a circle, R_a, at most R_o"},
+      {"actuation", "start", "", word<&P::actuation, &Actuation::start>({"flat", "net"}),
+       "\"flat\": patiently from the flat footprint; \"net\": at once to the equilibrium next to "
+       "the net"},
       {"actuation", "seed", "", word<&P::actuation, &Actuation::seed>({"up", "down"}),
        "side to which the flat shell buckles"},
       {"actuation", "seed_diagonal", "",
@@ -83,12 +103,39 @@ std::vector<Field> shell_fields() {
   };
 }
 
+std::vector<Field> indentation_fields() {
+  using I = Indentation;
+  return {
+      {"indentation", "at", "", word<&P::indentation, &I::at>({"pole", "highest"}),
+       "joint that is pushed: the one nearest to the pole, or the highest"},
+      {"indentation", "latitude_deg", "deg",
+       real<&P::indentation, &I::latitude_deg>(between(-90, 90)),
+       "of the place pushed, as seen from the net's origin; below 90 in the place of `at`"},
+      {"indentation", "longitude_deg", "deg",
+       real<&P::indentation, &I::longitude_deg>(between(-360, 360)), "from +x towards +y"},
+      {"indentation", "joint", "", integers<&P::indentation, &I::joint>(between(-500, 500)),
+       "[i, j] of the joint pushed, in the place of all of these; empty: not by its indices"},
+      {"indentation", "direction", "",
+       word<&P::indentation, &I::direction>({"inward", "outward"}),
+       "against or along the normal of the net, or of the unloaded shell, at the joint; fixed in "
+       "space"},
+      {"indentation", "depth", "", real<&P::indentation, &I::depth>(between(0, 10)),
+       "depth of the push over rho of a net or R_o of a circle; 0: nothing is pushed"},
+      {"indentation", "depth_mm", "mm", real<&P::indentation, &I::depth_mm>(at_least(0)),
+       "the same in millimetres, in the place of `depth`"},
+      {"indentation", "lateral", "", word<&P::indentation, &I::lateral>({"free", "held"}),
+       "whether the joint pushed may move across the push"},
+      {"indentation", "unload", "", flag<&P::indentation, &I::unload>(),
+       "whether the push is taken back at the end, in the second half of the frames"},
+  };
+}
+
 std::vector<Field> numerics_fields() {
   return {
       {"limits", "max_strain", "", real<&P::limits, &Limits::max_strain>(above(0)),
        "axial strain of an edge at which the run stops with limit \"locking\""},
       {"accuracy", "tolerance", "", real<&P::accuracy, &Accuracy::tolerance>({0, 1, true}),
-       "largest joint error allowed, over R_o"},
+       "largest joint error allowed, over R_o of a circle or rho of a net"},
       {"accuracy", "edges_per_segment", "",
        integer<&P::accuracy, &Accuracy::edges_per_segment>(between(0, 64)),
        "edges between two joints of a rod; 0 chooses them from the tolerance"},
@@ -138,7 +185,9 @@ const std::vector<Table>& tables() {
       {"joints", "What holds crossing rods together."},
       {"ends", "What holds the rods' ends on the boundary."},
       {"footprint", "The flat, unloaded grid."},
+      {"net", "The net that the footprint is designed on, for footprints of kind \"net\"."},
       {"actuation", "How the boundary moves: every edge point straight and evenly."},
+      {"indentation", "The push at one joint of the actuated shell."},
       {"limits", "Where the model stops being valid."},
       {"accuracy", "How exact the answer is to be."},
       {"movie", "The frames of `gridshell movie` and their camera."},
@@ -150,7 +199,7 @@ const std::vector<Table>& tables() {
 const std::vector<Field>& field_table() {
   static const std::vector<Field> all = [] {
     auto fields = shell_fields();
-    for (auto& more : {numerics_fields(), picture_fields()})
+    for (auto& more : {indentation_fields(), numerics_fields(), picture_fields()})
       fields.insert(fields.end(), more.begin(), more.end());
     return fields;
   }();

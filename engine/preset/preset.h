@@ -24,7 +24,7 @@ struct Ends {
   EndKind kind = EndKind::pinned;
 };
 
-enum class FootprintKind { circle };
+enum class FootprintKind { circle, net };
 enum class Placement { half, on_axis };
 struct Footprint {
   FootprintKind kind = FootprintKind::circle;
@@ -34,12 +34,39 @@ struct Footprint {
   Placement placement = Placement::half;
 };
 
+enum class NetKind { sphere, cylinder, spool, beltrami };
+struct Net {
+  NetKind kind = NetKind::sphere;
+  double radius_mm = 120.0;  ///< rho, the deviation's scale
+  double cut_height = 0;     ///< z*/rho of a cap
+  double length_mm = 240.0;  ///< between the end rings
+  double waist = 0.5;        ///< a
+};
+
+enum class Start { flat, net };
 enum class Seed { up, down };
 enum class SeedDiagonal { y_eq_x, y_eq_minus_x };  ///< "y=x", "y=-x"
 struct Actuation {
   double radius_mm = 94.5;  ///< R_a
+  Start start = Start::flat;
   Seed seed = Seed::up;
   SeedDiagonal seed_diagonal = SeedDiagonal::y_eq_x;
+};
+
+enum class IndentationPlace { pole, highest };
+enum class Direction { inward, outward };
+enum class Lateral { free, held };
+struct Indentation {
+  IndentationPlace at = IndentationPlace::pole;
+  double latitude_deg = 90, longitude_deg = 0;
+  std::vector<int> joint;  ///< (i, j), or empty
+  Direction direction = Direction::inward;
+  double depth = 0;     ///< of rho; 0: none
+  double depth_mm = 0;  ///< 0: none
+  Lateral lateral = Lateral::free;
+  bool unload = false;
+
+  bool wanted() const { return depth > 0 || depth_mm > 0; }
 };
 
 struct Limits {
@@ -82,7 +109,9 @@ struct Preset {
   Joints joints;
   Ends ends;
   Footprint footprint;
+  Net net;
   Actuation actuation;
+  Indentation indentation;
   Limits limits;
   Accuracy accuracy;
   Movie movie;

@@ -17,7 +17,7 @@ struct FrameColumn {
   std::variant<int Frame::*, double Frame::*, std::string Frame::*> field;
 };
 
-inline const std::array<FrameColumn, 15> frame_columns{{
+inline const std::array<FrameColumn, 18> frame_columns{{
     {"frame", "1", &Frame::index},
     {"progress", "1", &Frame::progress},
     {"boundary_radius_mm", "mm", &Frame::boundary_radius_mm},
@@ -33,6 +33,9 @@ inline const std::array<FrameColumn, 15> frame_columns{{
     {"error_estimate_mm", "mm", &Frame::error_estimate_mm},
     {"newton_iterations", "1", &Frame::newton_iterations},
     {"event", "", &Frame::event},
+    {"reach_above_tenth", "1", &Frame::reach_above_tenth},
+    {"reach_above_half", "1", &Frame::reach_above_half},
+    {"lowest_latitude_deg", "deg", &Frame::lowest_latitude_deg},
 }};
 
 /// Stored in trajectory.h5 beside the columns above, to draw the boundary of a frame.

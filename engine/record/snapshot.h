@@ -37,6 +37,7 @@ struct Layout {
   std::vector<int> edge_points;        ///< nodes pinned on the boundary
   Eigen::Matrix3Xd original_boundary;  ///< closed polyline (last point joins the first)
   Eigen::Matrix3Xd actuated_boundary;  ///< same number of points; in correspondence
+  Eigen::Matrix3Xd net_nodes;          ///< place of every node on the net designed on, if any
 };
 
 /// One sampled state. A quantity that does not apply or is not known is NaN (`unknown`).
@@ -45,7 +46,10 @@ struct Frame {
   double progress = 0;  ///< 0 at the original boundary, 1 at the end of the experiment
   double boundary_radius_mm = unknown;
   double depth_mm = unknown;
-  double force_N = unknown;
+  double force_N = unknown;  ///< positive when the shell resists
+  /// of a push: share of the joints that moved more than 0.1 and 0.5 of the depth, and the lowest
+  /// latitude among the first
+  double reach_above_tenth = unknown, reach_above_half = unknown, lowest_latitude_deg = unknown;
   double energy_bend_mJ = 0, energy_stretch_mJ = 0, energy_twist_mJ = 0;
   double height_mm = 0;  ///< highest joint above the boundary's plane
   double total_K = 0;    ///< rad
@@ -56,6 +60,9 @@ struct Frame {
   std::string event;       ///< a snap, a limit, a recovery; empty when nothing happened
   Eigen::Matrix3Xd nodes;  ///< positions, mm
   Eigen::VectorXd cell_K;  ///< integrated Gauss curvature of each cell, rad
+  /// K of the cells by their centroid's x/L, L the half-span of the actuated boundary, in bins of
+  /// equal width from -1 to 1, one a row: mean (rad), standard deviation (rad), number of cells
+  Eigen::MatrixX3d K_bins;
 
   /// The boundary at this frame: every point moves straight and evenly, so it is linear in how far
   /// the actuation (not an indentation) has come.

@@ -48,7 +48,8 @@ Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& 
 }
 
 Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
-                            double t, const BuckleSeed& seed, const Watch& watch) {
+                            double t, const BuckleSeed& seed, const FlatFrame& flat,
+                            const Watch& watch) {
   const Model& model = system.model();
   const double reach2 = mesh.flat.colwise().squaredNorm().maxCoeff();
   const double shortening = mean_shortening(mesh, motion, t);
@@ -60,7 +61,8 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
     const Eigen::Vector2d p = mesh.flat.col(node);
     const double dome = 1 - p.squaredNorm() / reach2;
     const double tilted = 1 - seed.up * seed.diagonal * tilt * p.x() * p.y() / reach2;
-    state.x.col(node) << (1 - shortening) * p, seed.up * height * dome * tilted;
+    state.x.col(node) = flat.at((1 - shortening) * p);
+    state.x(2, node) += seed.up * height * dome * tilted;
     if (model.pinned[node])
       state.x.col(node) = motion.begin.col(node) + t * t * motion.change.col(node);
   }

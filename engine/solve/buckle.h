@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/footprint/flat_frame.h"
 #include "engine/footprint/mesh.h"
 #include "engine/solve/path.h"
 
@@ -25,7 +26,8 @@ Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& 
 /// tilted along a diagonal, brought to rest with EA scaled by 0.01, 0.1 and 1 in turn. Errors:
 /// no_equilibrium, cancelled.
 Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
-                            double t, const BuckleSeed& seed, const Watch& watch);
+                            double t, const BuckleSeed& seed, const FlatFrame& flat,
+                            const Watch& watch);
 
 /// From a state that is not stable: along its softest mode, both ways, to rest; the lower of the
 /// two. Errors: no_equilibrium, cancelled.

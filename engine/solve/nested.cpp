@@ -226,6 +226,9 @@ void NestedShell::finish(const NewtonReport& report) {
 void NestedShell::take_reaction() {
   const std::size_t last = levels_.size() - 1;
   state_.reaction = levels_[last]->system->reaction();
+  const Eigen::Matrix3Xd& held = levels_[last]->system->prescription().directions;
+  state_.push_stiffness =
+      held * levels_[last]->system->prescribed_stiffness() * held.transpose();
   if (!plan_.extrapolate) return;
   Linearisation& coarser = *levels_[last - 1]->system;
   coarser.gradient_at(state_.levels[last - 1]);

@@ -45,6 +45,8 @@ struct NestedState {
   Inertia inertia;               ///< of the finest level's Hessian
   double largest_strain = 0;
   Eigen::Vector3d reaction = Eigen::Vector3d::Zero();  ///< on a pushed joint, extrapolated as x, N
+  /// how the reaction grows with the prescribed components (zero in the others), N/mm
+  Eigen::Matrix3d push_stiffness = Eigen::Matrix3d::Zero();
 };
 
 /// Why a state could not be certified.

@@ -34,6 +34,7 @@ Preset all_changed() {
     if (auto* k = std::get_if<Word>(&kind))
       k->set(preset, k->get(preset) == 0 ? int(k->words.size()) - 1 : 0);
     if (auto* k = std::get_if<IntegerPair>(&kind)) k->in(preset) = {333, 222};
+    if (auto* k = std::get_if<IntegerList>(&kind)) k->in(preset) = {3, 2};
     if (auto* k = std::get_if<RealList>(&kind)) k->in(preset) = {87.1, 1e2 / 1.5};
   }
   return preset;

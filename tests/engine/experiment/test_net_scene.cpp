@@ -1,0 +1,79 @@
+// Shells designed on Chebyshev nets: footprints, boundaries, deviations, and both ways to start.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/experiment/experiment.h"
+#include "engine/experiment/scene.h"
+
+using namespace gridshell;
+
+namespace {
+
+preset::Preset cap(double cut_height, preset::Placement placement, preset::Start start) {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::net;
+  p.footprint.placement = placement;
+  p.net.radius_mm = 120;
+  p.net.cut_height = cut_height;
+  p.actuation.start = start;
+  p.movie.frames = 2;
+  return p;
+}
+
+experiment::Outcome run(const preset::Preset& p, bool stills = true) {
+  Watch watch;
+  auto outcome = experiment::run(p, stills, watch);
+  if (!outcome) FAIL(outcome.error().message);
+  return std::move(*outcome);
+}
+
+}  // namespace
+
+TEST_CASE("the scene of a cap: its boundary maps to the circle at z*, edge points with it") {
+  const auto scene = experiment::scene_of(
+      cap(0.3, preset::Placement::half, preset::Start::net));
+  REQUIRE(scene.has_value());
+  const double z = 0.3 * 120, r = 120 * std::sqrt(1 - 0.09);
+  for (const Eigen::Matrix3Xd* points : {&scene->motion.end, &scene->actuated_boundary}) {
+    CHECK((points->row(2).array() - z).abs().maxCoeff() < 1e-10);
+    CHECK((points->topRows(2).colwise().norm().array() - r).abs().maxCoeff() < 1e-10);
+  }
+  // flat, in the plane of the actuated boundary
+  CHECK((scene->motion.begin.row(2).array() - z).abs().maxCoeff() == 0);
+  CHECK((scene->original_boundary.row(2).array() - z).abs().maxCoeff() == 0);
+  CHECK(scene->length_scale_mm == 120);
+}
+
+TEST_CASE("the hemisphere on the axes, converged: deviation, total curvature and energy") {
+  preset::Preset p = cap(0, preset::Placement::on_axis, preset::Start::net);
+  p.accuracy.tolerance = 1e-7;
+  const record::Summary s = run(p).summary;
+  CHECK(s.stable);
+  CHECK(s.limit == record::Limit::none);
+  CHECK(100 * s.max_deviation == Approx(3.1029).margin(5e-5));
+  CHECK(100 * s.mean_deviation == Approx(0.9955).margin(5e-5));
+  CHECK(s.total_K == Approx(6.01157).margin(5e-6));
+  CHECK(s.energy_bend_mJ + s.energy_stretch_mJ == Approx(8.07123).margin(5e-6));
+  CHECK(s.error_estimate_mm < 1e-7 * 120);
+}
+
+TEST_CASE("from flat and from the net a cap comes to the same state") {
+  for (const auto placement : {preset::Placement::on_axis, preset::Placement::half}) {
+    const experiment::Outcome net = run(cap(0.5, placement, preset::Start::net));
+    const experiment::Outcome flat = run(cap(0.5, placement, preset::Start::flat));
+    const auto& a = net.trajectory.frames.back().nodes;
+    const auto& b = flat.trajectory.frames.back().nodes;
+    REQUIRE(a.cols() == b.cols());
+    CHECK((a - b).colwise().norm().maxCoeff() < 1e-6 * 120);
+    CHECK(net.summary.max_deviation == Approx(flat.summary.max_deviation).margin(1e-7));
+  }
+}
+
+TEST_CASE("a net that does not exist, and a circle asked to start from one, are refused") {
+  preset::Preset p = cap(0, preset::Placement::on_axis, preset::Start::net);
+  p.net.kind = preset::NetKind::beltrami;
+  p.net.waist = 1.5;
+  const auto scene = experiment::scene_of(p);
+  REQUIRE_FALSE(scene.has_value());
+  CHECK(scene.error().fault == Fault::bad_input);
+}
