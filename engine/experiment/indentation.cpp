@@ -54,17 +54,25 @@ class Push {
 
   Result<ActuationOutcome> run(const std::vector<double>& progress) {
     const double begin = now();
+    const Effort before = shell_.effort();
+    count_ = before.newton_iterations;
     if (auto failure = take_hold()) return tl::unexpected<Error>(*failure);
     outcome_.trajectory.frames.clear();
     for (std::size_t k = 0; k < progress.size(); ++k) {
-      if (!go_to(depth_at(progress[k])) && !at_limit_) break;
+      const double t = depth_at(progress[k]);
+      // a snap may have come to rest beyond
+      if (k > 0 && (t - good_t_) * (t - depth_at(progress[k - 1])) < 0) continue;
+      if (!go_to(t) && !at_limit_) break;
       if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
+      if (shell_.state().t != t && !at_limit_) continue;
       add(int(k), progress[k]);
       if (at_limit_) break;
       watch_.report(double(k + 1) / double(progress.size()));
     }
     if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
-    outcome_.effort += shell_.effort();
+    const Effort after = shell_.effort();
+    outcome_.effort += {after.newton_iterations - before.newton_iterations,
+                        after.factorizations - before.factorizations};
     outcome_.seconds_simulation += now() - begin;
     return std::move(outcome_);
   }
@@ -119,15 +127,16 @@ class Push {
   void keep() { good_ = shell_.state().levels[0], good_t_ = shell_.state().t; }
   bool back_to_good() { return shell_.start(good_t_, good_, watch_).end == NestedEnd::reached; }
 
-  /// In load steps to t; false where the run stops, before or at t.
+  /// In load steps to t, or beyond where a snap carries it; false where the run stops.
   bool go_to(double t) {
     const double largest = load_step * scene_.length_scale_mm / full_depth_;
-    while (good_t_ != t && !watch_.cancelled()) {
+    const double way = t > good_t_ ? 1 : -1;
+    while (way * (t - good_t_) > 0 && !watch_.cancelled()) {
       const int steps = std::max(1, int(std::ceil(std::abs(t - good_t_) / largest - 1e-9)));
       const double next = steps == 1 ? t : good_t_ + (t - good_t_) / steps;
       const NestedReport report = shell_.advance(next, watch_);
       if (watch_.cancelled()) return false;
-      if (report.end != NestedEnd::reached && !snap(next, report)) return false;
+      if (report.end != NestedEnd::reached && !snap(way, report.end)) return false;
       if (locked()) return stop_at_lock(shell_.state().t);
       keep();
     }
@@ -158,30 +167,31 @@ class Push {
     return false;
   }
 
-  /// The branch ended before t: comes to rest again a little further on.
-  bool snap(double t, const NestedReport& lost) {
-    const double at = lost.t, way = t > good_t_ ? 1 : -1;
-    for (double beyond = 1e-3; beyond < 0.1; beyond *= 3) {
-      const double there =
-          at + way * std::min(beyond * scene_.length_scale_mm / full_depth_, std::abs(t - at));
-      State state = shell_.state().levels[0];
+  /// The branch ended: comes to rest again a little further on. The meshes lose it at slightly
+  /// different depths; beyond the last of them all find the new state.
+  bool snap(double way, NestedEnd lost) {
+    const PathPoint last = shell_.followed();
+    const double at = last.t * full_depth_;
+    for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
+      const double there = last.t + way * beyond * scene_.length_scale_mm / full_depth_;
+      if (there < 0 || there > 1) break;
+      State state = last.state;
       shell_.motion(0).impose(shell_.system(0), there, state.x);
       const auto rest = settle(shell_.system(0), state, watch_);
       if (watch_.cancelled()) return false;
       if (!rest || shell_.start(there, *rest, watch_).end != NestedEnd::reached) continue;
-      event_ = fmt::format("snap at depth {:.2f} mm", at * full_depth_);
+      event_ = fmt::format("snap at depth {:.2f} mm", at);
       if (outcome_.limit == record::Limit::none) {
         outcome_.limit = record::Limit::snap;
         outcome_.limit_reason = fmt::format(
             "held at the joint, the shell lost its {} at depth {:.3f} mm and came to rest in "
             "another state",
-            lost.end == NestedEnd::unstable ? "stability" : "equilibrium", at * full_depth_);
+            lost == NestedEnd::unstable ? "stability" : "equilibrium", at);
       }
       return true;
     }
     outcome_.limit = record::Limit::branch_lost;
-    outcome_.limit_reason =
-        fmt::format("no rest was found beyond depth {:.3f} mm", at * full_depth_);
+    outcome_.limit_reason = fmt::format("no rest was found beyond depth {:.3f} mm", at);
     return false;
   }
 
@@ -244,12 +254,32 @@ Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint
 Result<ActuationOutcome> run_indentation(const ActuationScene& scene,
                                          const preset::Indentation& indentation,
                                          const std::vector<double>& progress, Watch& watch) {
-  auto actuated = run_actuation(scene, {1.0}, watch);
-  if (!actuated) return actuated;
-  if (actuated->limit != record::Limit::none || actuated->trajectory.frames.empty())
-    return fail(Fault::no_equilibrium,
-                "there is no actuated shell to push: " + actuated->limit_reason);
-  return Push(scene, indentation, std::move(*actuated), watch).run(progress);
+  ActuationScene refined = scene;
+  Effort effort;
+  double seconds = 0;
+  for (;;) {
+    auto actuated = run_actuation(refined, {1.0}, watch);
+    if (!actuated) return actuated;
+    if (actuated->limit != record::Limit::none || actuated->trajectory.frames.empty())
+      return fail(Fault::no_equilibrium,
+                  "there is no actuated shell to push: " + actuated->limit_reason);
+    actuated->effort += effort;
+    actuated->seconds_simulation += seconds;
+    auto pushed = Push(refined, indentation, std::move(*actuated), watch).run(progress);
+    if (!pushed || scene.levels_fixed) return pushed;
+    // as in an actuation the last state decides, where errors are largest as a rule
+    const double error = pushed->trajectory.frames.back().error_estimate_mm;
+    if (!(error > scene.tolerance * scene.length_scale_mm)) return pushed;
+    const auto plan = finer(pushed->levels);
+    if (!plan)
+      return fail(Fault::no_equilibrium,
+                  fmt::format("the tolerance {:g} is not met: {} edges a segment leave an "
+                              "estimated error of {:.2g} mm at the end of the push",
+                              scene.tolerance, pushed->levels.edges_per_segment.back(), error));
+    refined.levels = *plan;
+    effort = pushed->effort;
+    seconds = pushed->seconds_simulation;
+  }
 }
 
 }  // namespace gridshell::experiment

@@ -76,6 +76,8 @@ class NestedShell {
   void push_joint(const Prescription& prescription, const Eigen::Vector3d& displacement);
 
   const NestedState& state() const { return state_; }
+  /// How far the coarsest mesh came: beyond the current state where an advance() failed.
+  const PathPoint& followed() const { return path_->point(); }
   const LevelPlan& plan() const { return plan_; }
   int levels() const { return int(levels_.size()); }
   const RodMesh& mesh(int level) const { return levels_[level]->mesh; }
