@@ -138,7 +138,8 @@ class Actuation {
     const double end = std::sqrt(progress_.back());
     if (end < start) return std::nullopt;
     for (;;) {
-      NestedReport report = shell_->start(start, first, watch_);
+      NestedReport report =
+          end > start ? shell_->place(start, first) : shell_->start(start, first, watch_);
       if (report.end == NestedEnd::reached && end > start) report = shell_->advance(end, watch_);
       if (watch_.cancelled()) return Error{Fault::cancelled, "stopped"};
       const bool reached = report.end == NestedEnd::reached;
@@ -172,11 +173,16 @@ class Actuation {
       const double t = std::sqrt(progress_[k]);
       if (t == 0 || t >= start || frames_.contains(t)) continue;
       NestedReport report;
-      if (!begun) report = shell_->start(start, first, watch_);
+      if (!begun) report = shell_->place(start, first);
       begun = true;
       if (report.end == NestedEnd::reached) report = shell_->advance(t, watch_);
       if (watch_.cancelled()) return Error{Fault::cancelled, "stopped"};
-      if (report.end != NestedEnd::reached) break;  // nearer to the flat nothing is certified
+      if (report.end != NestedEnd::reached) {
+        outcome_.limit = record::Limit::no_equilibrium;
+        outcome_.limit_reason = fmt::format(
+            "nearer to the flat than progress {:.2g} no state was certified", report.t * report.t);
+        break;
+      }
       add(k, t, "");
     }
     shell_->allow_unstable(false);
@@ -189,7 +195,7 @@ class Actuation {
       const double t = std::sqrt(progress_[k]);
       if (t < start || frames_.contains(t)) continue;
       NestedReport report;
-      if (!begun) report = shell_->start(start, first, watch_);
+      if (!begun) report = shell_->place(start, first);
       begun = true;
       if (report.end == NestedEnd::reached) report = shell_->advance(t, watch_);
       if (watch_.cancelled()) return Error{Fault::cancelled, "stopped"};

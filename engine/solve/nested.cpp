@@ -82,12 +82,15 @@ Effort NestedShell::effort() const {
   return sum;
 }
 
-NestedReport NestedShell::start(double t, const State& coarse, const Watch& watch) {
+NestedReport NestedShell::place(double t, const State& coarse) {
   for (auto& level : levels_) level->added.clear(), level->added_t.clear();
   path_->allow_unstable(options_.allow_unstable);
-  const PathReport report = path_->start(t, coarse);
-  if (report.end != PathEnd::reached) return {end_of(report.end), t};
-  return certify(t, watch);
+  return {end_of(path_->start(t, coarse).end), t};
+}
+
+NestedReport NestedShell::start(double t, const State& coarse, const Watch& watch) {
+  const NestedReport report = place(t, coarse);
+  return report.end == NestedEnd::reached ? certify(t, watch) : report;
 }
 
 NestedReport NestedShell::advance(double t, const Watch& watch) {
@@ -149,8 +152,14 @@ NestedReport NestedShell::certify(double t, const Watch& watch) {
     Level& level = *levels_[k];
     const State& coarser = next.levels.back();
     State guess = carried(level, coarser);
-    // what the finer mesh added at the last states carries on along the path
+    // what the finer mesh added at the last states carries on along the path; for the first one it
+    // is a quarter of what the level below added, the error being of second order
     const std::size_t known = level.added.size();
+    if (known == 0 && k > 1) {
+      const State quarter = carried(level, levels_[k - 1]->added.back());
+      guess.x += quarter.x / 4;
+      guess.force += quarter.force / 4;
+    }
     if (known > 0) {
       const double ahead =
           known < 2 ? 0 : (t - level.added_t[1]) / (level.added_t[1] - level.added_t[0]);
@@ -185,19 +194,28 @@ void NestedShell::finish(const NewtonReport& report) {
   const std::size_t last = levels_.size() - 1;
   Level& finest = *levels_[last];
   // the factorisation of the last correction is the state's own but for that correction; where it
-  // moved the state too far to vouch for it, and at the end, the energy's Hessian there is
-  // factorised anew
+  // moved the state too far to vouch for it, the energy's Hessian there is factorised anew
   constexpr double same_state = 1e-3;  // of d
-  if (state_.t >= 1 || report.first_move_mm > same_state * options_.spacing_mm ||
-      !report.inertia.positive_definite()) {
-    state_.inertia = finest.system->at(state_.levels[last], false);
-    Eigen::Matrix3Xd polish;
+  State& found = state_.levels[last];
+  state_.inertia = report.inertia;
+  if (report.factored_move_mm > same_state * options_.spacing_mm ||
+      !report.inertia.positive_definite())
+    state_.inertia = finest.system->at(found, false);
+  finest.system->gradient_at(found);
+  // at the end of a path the residual goes down to what round-off leaves; a correction is cheap
+  Eigen::Matrix3Xd polish;
+  for (int k = 0; k < 3 && state_.t >= 1 && state_.inertia.usable; ++k) {
+    const double residual = finest.system->residual();
+    if (residual < 1e-9) break;
+    State trial = found;
+    finest.system->residual_at(trial);
     finest.system->correction(polish);
-    if (state_.inertia.usable) finest.system->apply(polish, state_.levels[last]);
-  } else {
-    state_.inertia = report.inertia;
+    finest.system->apply(polish, trial);
+    finest.system->gradient_at(trial);
+    if (!(finest.system->residual() < residual)) break;
+    found = std::move(trial);
   }
-  finest.system->gradient_at(state_.levels[last]);
+  finest.system->gradient_at(found);
   state_.residual_N = finest.system->residual();
   state_.largest_strain = finest.system->assembly().largest_strain;
   if (finest.system->prescription().active()) take_reaction();
@@ -227,8 +245,7 @@ void NestedShell::take_reaction() {
   const std::size_t last = levels_.size() - 1;
   state_.reaction = levels_[last]->system->reaction();
   const Eigen::Matrix3Xd& held = levels_[last]->system->prescription().directions;
-  state_.push_stiffness =
-      held * levels_[last]->system->prescribed_stiffness() * held.transpose();
+  state_.push_stiffness = held * levels_[last]->system->prescribed_stiffness() * held.transpose();
   if (!plan_.extrapolate) return;
   Linearisation& coarser = *levels_[last - 1]->system;
   coarser.gradient_at(state_.levels[last - 1]);

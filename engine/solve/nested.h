@@ -66,6 +66,9 @@ class NestedShell {
   /// From a state of the coarsest level at t, an equilibrium or near one: certifies it on all
   /// levels.
   NestedReport start(double t, const State& coarse, const Watch& watch);
+  /// The same without a certificate: only the coarsest level is brought to rest, for the path to go
+  /// on.
+  NestedReport place(double t, const State& coarse);
   /// Follows the path to t and certifies there. The current state stays the last good one on
   /// failure.
   NestedReport advance(double t, const Watch& watch);

@@ -154,7 +154,9 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     if (move > options.farthest_mm) return end(NewtonOutcome::diverged);
     system.apply(dx, state);
     report.last_move_mm = move;
-    if (move <= options.tolerance_mm) return end(NewtonOutcome::converged);
+    report.factored_move_mm = factor ? move : report.factored_move_mm + move;
+    const double next = factor && options.trust_quadratic ? move * std::min(move, 1.0) : move;
+    if (next <= options.tolerance_mm) return end(NewtonOutcome::converged);
     // an old factorisation serves near the end only, and while it shrinks the corrections
     const bool near = move < options.near_mm;
     factor = !near || (!factor && move > 0.1 * before);

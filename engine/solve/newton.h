@@ -111,7 +111,10 @@ double largest_column(const Eigen::Matrix3Xd& dx);
 struct NewtonOptions {
   double tolerance_mm = 1e-5;  ///< converged when a correction moves no node further
   int most_iterations = 25;
-  double near_mm = 0.2;        ///< corrections below this may use an old factorisation
+  double near_mm = 0.2;  ///< corrections below this may use an old factorisation
+  bool trust_quadratic =
+      false;  ///< take a correction m of a new factorisation as the last where m^2/(1 mm) is
+              ///< within the tolerance: the next would be about that
   double farthest_mm = 1e300;  ///< a correction that moves a node further is refused: diverged
   double widest_turn = -0.5;   ///< edges that turn further than this cosine have folded
 };
@@ -124,6 +127,8 @@ struct NewtonReport {
   int iterations = 0;        ///< corrections, with a new factorisation or an old one
   double first_move_mm = 0;  ///< of the first correction: how good the guess was
   double last_move_mm = 0;
+  double factored_move_mm =
+      0;                  ///< since the last factorisation, the first correction with it included
   double residual_N = 0;  ///< at the state left, once converged
   Inertia inertia;        ///< of the last factorisation (mixed form)
 };

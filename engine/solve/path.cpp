@@ -69,6 +69,7 @@ PathFollower::StepOutcome PathFollower::step(double t, bool converge, NewtonRepo
       converge ? options_.tolerance_mm : options_.target_move * options_.spacing_mm;
   newton_options.most_iterations = 8;
   newton_options.farthest_mm = allowed;
+  newton_options.trust_quadratic = true;
   newton_options.widest_turn = options_.widest_turn;
   report = newton(system_, next.state, newton_options);
   switch (report.outcome) {
