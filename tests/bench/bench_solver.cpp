@@ -149,6 +149,7 @@ void paper_shell(int runs) {
 
 void sizes() {
   const Watch watch;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   fmt::print("\n{:>4} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}  (seconds, 4 edges)\n", "n", "dof",
              "set-up", "assembly", "factor", "first", "path");
   std::vector<std::array<double, 6>> rows;
