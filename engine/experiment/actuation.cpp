@@ -24,7 +24,11 @@ Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mes
   layout.spacing_mm = scene.footprint.spacing;
   layout.rod_diameter_mm = scene.rod_diameter_mm;
   layout.length_scale_mm = scene.length_scale_mm;
-  layout.rods = mesh.rods;
+  for (const std::vector<int>& nodes : mesh.rods) {
+    layout.rods.emplace_back();
+    for (int node : nodes)
+      if (!mesh.is_ghost(node)) layout.rods.back().push_back(node);
+  }
   for (int k = 0; k < mesh.joints; ++k) {
     const FootprintJoint& joint = scene.footprint.joints[k];
     layout.joints.push_back({joint.i, joint.j, joint.u, joint.v, k});
@@ -38,9 +42,11 @@ Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mes
   layout.original_boundary = scene.original_boundary;
   layout.actuated_boundary = scene.actuated_boundary;
   if (scene.net) {
-    auto net = sample(*scene.net, mesh.flat);
+    const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
+    auto net = sample(*scene.net, flat);
     if (!net) return tl::unexpected<Error>(net.error());
     layout.net_nodes = std::move(*net);
+    layout.flat_nodes = scene.flat.all(flat);
   }
   return layout;
 }
@@ -110,8 +116,11 @@ class Actuation {
   }
 
   Result<State> rest_near_net() {
-    const auto net = sample(*scene_.net, shell_->mesh(0).flat);
+    const RodMesh& mesh = shell_->mesh(0);
+    auto net = sample(*scene_.net, mesh.flat.leftCols(mesh.rod_nodes()));
     if (!net) return tl::unexpected<Error>(net.error());
+    net->conservativeResize(3, mesh.nodes());
+    net->rightCols(mesh.ghosts) = shell_->motion(0).at(1).rightCols(mesh.ghosts);
     const Eigen::VectorXd slack = Eigen::VectorXd::Zero(shell_->model(0).edges.size());
     State state{*net, slack};
     Linearisation& system = shell_->system(0);
@@ -281,7 +290,7 @@ class Actuation {
     frame.negative_pivots = shell_->system(last).at(flat, false).negative_pivots;
     frame.residual_N = shell_->system(last).residual();
     frame.error_estimate_mm = 0;  // straight rods are exact on any mesh
-    frame.nodes = flat.x;
+    frame.nodes = flat.x.leftCols(mesh.rod_nodes());
     frame.cell_K = Eigen::VectorXd::Zero(Eigen::Index(scene_.footprint.cells.size()));
     frames_.emplace(0.0, std::move(frame));
   }

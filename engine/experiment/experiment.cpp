@@ -98,7 +98,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.joints = int(scene->footprint.joints.size());
   plan.cells = int(scene->footprint.cells.size());
   const RodMesh mesh = mesh_rods(scene->footprint, plan.edges_per_segment);
-  plan.dof = 3 * (mesh.nodes() - mesh.edge_points);
+  plan.dof = build_model(mesh, scene->section).dof();
   plan.footprint = fmt::format(
       "{} rods, {} joints, {} cells; longest leg {:.2f} d, shortest {:.2f} d", plan.rods,
       plan.joints, plan.cells, scene->footprint.longest_leg() / scene->footprint.spacing,

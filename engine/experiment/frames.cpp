@@ -62,7 +62,7 @@ record::Frame frame_of(const ActuationScene& scene, NestedShell& shell) {
   frame.residual_N = state.residual_N;
   frame.negative_pivots = state.inertia.negative_pivots;
   frame.error_estimate_mm = state.error_estimate_mm;
-  frame.nodes = state.x;
+  frame.nodes = state.x.leftCols(shell.mesh(shell.levels() - 1).rod_nodes());
   return frame;
 }
 

@@ -1,5 +1,6 @@
 #include "engine/experiment/scene.h"
 
+#include <cmath>
 #include <utility>
 
 #include "engine/experiment/net_design.h"
@@ -54,6 +55,38 @@ Result<void> build_circle(const preset::Preset& preset, ActuationScene& scene) {
   return {};
 }
 
+/// Lets go of the ends on the end rings of a surface of revolution, but for those on its long edges.
+void free_rings(ActuationScene& scene) {
+  const double ring = scene.actuated_boundary.row(0).cwiseAbs().maxCoeff();
+  const double near = 1e-9 * scene.length_scale_mm;
+  for (std::size_t r = 0; r < scene.footprint.rods.size(); ++r) {
+    const auto on_ring = [&](Eigen::Index end) {
+      const Eigen::Vector3d at = scene.motion.end.col(end);
+      return std::abs(at.x()) > ring - near && at.z() > near;
+    };
+    FootprintRod& rod = scene.footprint.rods[r];
+    if (on_ring(2 * Eigen::Index(r))) rod.begin = RodEnd::free;
+    if (on_ring(2 * Eigen::Index(r) + 1)) rod.end = RodEnd::free;
+  }
+}
+
+/// Holds the directions of all ends that are held at all, from the flat to the net's tangents.
+Result<void> hold_directions(const Eigen::Matrix2Xd& ends, ActuationScene& scene) {
+  scene.motion.begin_tangent = scene.motion.end_tangent = Eigen::Matrix3Xd::Zero(3, ends.cols());
+  for (Eigen::Index k = 0; k < ends.cols(); ++k) {
+    FootprintRod& rod = scene.footprint.rods[std::size_t(k / 2)];
+    RodEnd& held = k % 2 == 0 ? rod.begin : rod.end;
+    if (held == RodEnd::free) continue;
+    held = RodEnd::tangent;
+    const auto point = scene.net->at(ends(0, k), ends(1, k));
+    if (!point) return tl::unexpected<Error>(point.error());
+    const bool u = rod.family == Family::u;
+    scene.motion.begin_tangent.col(k) = scene.flat.axes.col(u ? 0 : 1);
+    scene.motion.end_tangent.col(k) = u ? point->tangent_u : point->tangent_v;
+  }
+  return {};
+}
+
 Result<void> build_net(const preset::Preset& preset, ActuationScene& scene) {
   auto design = net_design(preset.net);
   if (!design) return tl::unexpected<Error>(design.error());
@@ -65,9 +98,9 @@ Result<void> build_net(const preset::Preset& preset, ActuationScene& scene) {
   scene.flat = design->flat;
   scene.from_net = preset.actuation.start == preset::Start::net;
   scene.length_scale_mm = design->scale_mm;
-  // C maps the original boundary to the actuated one, the edge points too
   const Eigen::Matrix2Xd ring = design->domain->boundary(boundary_points);
   const Eigen::Matrix2Xd ends = edge_points(scene.footprint);
+  // C maps the original boundary to the actuated one, the edge points too
   const auto actuated = sample(*scene.net, ring), held = sample(*scene.net, ends);
   for (const auto* sampled : {&actuated, &held})
     if (!*sampled) return tl::unexpected<Error>(sampled->error());
@@ -75,6 +108,8 @@ Result<void> build_net(const preset::Preset& preset, ActuationScene& scene) {
   scene.actuated_boundary = *actuated;
   scene.motion.begin = scene.flat.all(ends);
   scene.motion.end = *held;
+  if (preset.ends.rings == preset::Rings::free) free_rings(scene);
+  if (preset.ends.kind == preset::EndKind::tangent) return hold_directions(ends, scene);
   return {};
 }
 

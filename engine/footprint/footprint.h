@@ -26,6 +26,9 @@ struct FootprintCell {
   std::array<int, 4> joints{};
 };
 
+/// What holds a rod's end: nothing, its position, or its position and direction (spin free).
+enum class RodEnd { free, pinned, tangent };
+
 /// One rod from edge point to edge point. Positions run along the rod: u on a u-rod, v on a v-rod.
 struct FootprintRod {
   Family family = Family::u;
@@ -33,6 +36,7 @@ struct FootprintRod {
   double line = 0;          ///< its v (u-rod) or u (v-rod), mm
   Interval span;            ///< edge points
   std::vector<int> joints;  ///< in order along the rod, at least one
+  RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
 };
 
 /// All rods, joints and complete cells inside an original boundary. Lengths in mm.

@@ -11,6 +11,24 @@ int edges_of_short_leg(int edges_per_segment) {
   return std::max(1, int(std::lround(edges_per_segment / 4.0)));
 }
 
+void add_ghosts(const Footprint& footprint, int& next, RodMesh& mesh) {
+  mesh.ghost_length = footprint.spacing / 4;
+  const int first = next;
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
+    std::vector<int>& node = mesh.rods[r];
+    std::vector<double>& at = mesh.position[r];
+    if (footprint.rods[r].begin == RodEnd::tangent) {
+      node.insert(node.begin(), next++);
+      at.insert(at.begin(), at.front() - mesh.ghost_length);
+    }
+    if (footprint.rods[r].end == RodEnd::tangent) {
+      node.push_back(next++);
+      at.push_back(at.back() + mesh.ghost_length);
+    }
+  }
+  mesh.ghosts = next - first;
+}
+
 }  // namespace
 
 RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
@@ -22,6 +40,7 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
 
   for (int r = 0; r < int(footprint.rods.size()); ++r) {
     const FootprintRod& rod = footprint.rods[r];
+    mesh.ends.insert(mesh.ends.end(), {rod.begin, rod.end});
     std::vector<int> stops{mesh.joints + 2 * r};
     std::vector<double> at{rod.span.begin};
     for (int joint : rod.joints) {
@@ -51,6 +70,7 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
     mesh.position.push_back(std::move(position));
   }
 
+  add_ghosts(footprint, next, mesh);
   mesh.flat.resize(2, next);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const FootprintRod& rod = footprint.rods[r];

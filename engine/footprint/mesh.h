@@ -8,18 +8,26 @@
 
 namespace gridshell {
 
-/// Nodes of all rods. Joints come first (node = index of the joint, shared by its two rods), then
+/// Nodes of all rods. An end whose direction is held has one node more, a *ghost* beyond its edge
+/// point, pinned where the direction asks for it: ghosts are the last nodes of the mesh and the
+/// first or last of their rod, `ghost_length` from the edge point on every mesh.
+/// Joints come first (node = index of the joint, shared by its two rods), then
 /// edge points (rod r has node joints + 2r at its begin, joints + 2r + 1 at its end), then the
 /// nodes inside segments and legs, rod by rod.
 struct RodMesh {
   int edges_per_segment = 0;
   int joints = 0;
   int edge_points = 0;
+  std::vector<RodEnd> ends;                   ///< of every edge point; empty: all pinned
+  int ghosts = 0;
+  double ghost_length = 0;                    ///< mm
   std::vector<std::vector<int>> rods;         ///< nodes of each rod from edge point to edge point
   std::vector<std::vector<double>> position;  ///< of those nodes along their rod in the flat, mm
   Eigen::Matrix2Xd flat;                      ///< (u, v) of every node, mm
 
   int nodes() const { return int(flat.cols()); }
+  int rod_nodes() const { return nodes() - ghosts; }  ///< those that are not ghosts
+  bool is_ghost(int node) const { return node >= rod_nodes(); }
 };
 
 /// Cuts each segment into `edges_per_segment` = k edges, and each leg too; a leg shorter than d/4

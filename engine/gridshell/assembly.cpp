@@ -40,7 +40,8 @@ inline void add_stretch(const ModelEdge& edge, int k, double EA, const EdgeGeome
   const StretchEnergy s = stretch(EA, edge.rest_length, g.length);
   out.energies.stretch += s.value;
   out.force[k] = s.force;
-  keep_largest(out.largest_strain, std::abs(g.length / edge.rest_length - 1));
+  // the edge to a ghost only shows a direction
+  if (edge.EA > 0) keep_largest(out.largest_strain, std::abs(g.length / edge.rest_length - 1));
 }
 
 inline void add_pull(const ModelEdge& edge, const Eigen::Vector3d& pull, Assembly& out) {

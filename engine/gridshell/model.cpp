@@ -11,13 +11,19 @@ Model build_model(const RodMesh& mesh, const RodSection& section) {
     const std::vector<double>& at = mesh.position[r];
     for (std::size_t k = 1; k < node.size(); ++k) {
       const int edge = int(model.edges.size());
-      model.edges.push_back({node[k - 1], node[k], at[k] - at[k - 1], section.EA});
-      if (k + 1 < node.size())
-        model.bends.push_back({edge, 2 * section.EI / (0.5 * (at[k + 1] - at[k - 1]))});
+      const bool ghost = mesh.is_ghost(node[k - 1]) || mesh.is_ghost(node[k]);
+      model.edges.push_back({node[k - 1], node[k], at[k] - at[k - 1], ghost ? 0 : section.EA});
+      if (k + 1 == node.size()) continue;
+      // only the rod bends, not what lies beyond its end
+      const double before = mesh.is_ghost(node[k - 1]) ? 0 : at[k] - at[k - 1];
+      const double after = mesh.is_ghost(node[k + 1]) ? 0 : at[k + 1] - at[k];
+      model.bends.push_back({edge, 2 * section.EI / (0.5 * (before + after))});
     }
   }
   model.pinned.assign(model.nodes, 0);
-  for (int k = 0; k < mesh.edge_points; ++k) model.pinned[mesh.joints + k] = 1;
+  for (int k = 0; k < mesh.edge_points; ++k)
+    model.pinned[mesh.joints + k] = mesh.ends.empty() || mesh.ends[k] != RodEnd::free;
+  for (int node = mesh.rod_nodes(); node < model.nodes; ++node) model.pinned[node] = 1;
   model.free_index.assign(model.nodes, -1);
   for (int node = 0; node < model.nodes; ++node) {
     if (model.pinned[node]) continue;

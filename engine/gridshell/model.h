@@ -39,7 +39,8 @@ struct Model {
   int dof() const { return 3 * free(); }
 };
 
-/// Rods of `mesh` with `section`; all edge points pinned.
+/// Rods of `mesh` with `section`; edge points are pinned but for free ends, ghosts too. A held direction costs EI/l |kb|^2, l the length of the edge at the end: half an edge bends
+/// there [the symmetric ghost of beam theory, second order]. The edge to a ghost has no EA.
 Model build_model(const RodMesh& mesh, const RodSection& section);
 
 /// Potential energy by term, mJ.

@@ -34,6 +34,16 @@ std::vector<Conflict> conflicts(const Preset& preset) {
                      {"[footprint] kind"},
                      "a circle has no net to start from, must be \"flat\", or [footprint] kind = "
                      "\"net\""});
+  if (circle && preset.ends.kind == EndKind::tangent)
+    found.push_back({"ends",
+                     "kind",
+                     {"[footprint] kind"},
+                     "a circle has no net whose tangents could be held, must be \"pinned\""});
+  if ((circle || preset.net.kind == NetKind::sphere) && preset.ends.rings == Rings::free)
+    found.push_back({"ends",
+                     "rings",
+                     {"[footprint] kind", "[net] kind"},
+                     "only a surface of revolution has end rings, must be \"pinned\""});
   if (!circle && !preset.figure.radii_mm.empty())
     found.push_back({"figure",
                      "radii_mm",

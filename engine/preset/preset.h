@@ -19,9 +19,11 @@ struct Joints {
   JointKind kind = JointKind::shared;
 };
 
-enum class EndKind { pinned };
+enum class EndKind { pinned, tangent };
+enum class Rings { pinned, free };
 struct Ends {
   EndKind kind = EndKind::pinned;
+  Rings rings = Rings::pinned;
 };
 
 enum class FootprintKind { circle, net };
@@ -81,7 +83,7 @@ struct Accuracy {
 };
 
 enum class Quality { draft, movie, figure };
-enum class ColourBy { none, K };
+enum class ColourBy { none, K, displacement };
 struct Movie {
   int frames = 240;
   std::array<int, 2> size{1280, 720};
@@ -93,6 +95,7 @@ struct Movie {
   double turn_deg = 40;       ///< camera turn over the whole movie
   double zoom = 1;
   bool inset = true;  ///< the small top view
+  bool bins = false;  ///< the plot of K in bins
   bool captions = true;
 };
 

@@ -38,6 +38,7 @@ struct Layout {
   Eigen::Matrix3Xd original_boundary;  ///< closed polyline (last point joins the first)
   Eigen::Matrix3Xd actuated_boundary;  ///< same number of points; in correspondence
   Eigen::Matrix3Xd net_nodes;          ///< place of every node on the net designed on, if any
+  Eigen::Matrix3Xd flat_nodes;         ///< and in the flat footprint, where there is a net
 };
 
 /// One sampled state. A quantity that does not apply or is not known is NaN (`unknown`).

@@ -86,6 +86,8 @@ void write_layout(hdf5::Writer& file, const Layout& layout) {
   };
   boundary("/layout/original_boundary", layout.original_boundary);
   boundary("/layout/actuated_boundary", layout.actuated_boundary);
+  boundary("/layout/net_nodes", layout.net_nodes);
+  boundary("/layout/flat_nodes", layout.flat_nodes);
 }
 
 void write_column(hdf5::Writer& file, const std::string& name, const char*,
@@ -142,6 +144,8 @@ Layout read_layout(hdf5::Reader& file) {
   layout.edge_points = file.vector<int>("/layout/edge_points", H5T_NATIVE_INT);
   layout.original_boundary = read_points(file, "/layout/original_boundary");
   layout.actuated_boundary = read_points(file, "/layout/actuated_boundary");
+  layout.net_nodes = read_points(file, "/layout/net_nodes");
+  layout.flat_nodes = read_points(file, "/layout/flat_nodes");
   return layout;
 }
 

@@ -17,6 +17,8 @@ namespace gridshell {
 /// + 1 the end of rod r.
 struct BoundaryMotion {
   Eigen::Matrix3Xd begin, end;  ///< 3 x edge points, mm
+  /// unit tangents there, along the rod as its positions grow; needed where a direction is held
+  Eigen::Matrix3Xd begin_tangent = {}, end_tangent = {};
 };
 
 /// Which meshes are solved and how they are used.
@@ -66,8 +68,7 @@ class NestedShell {
   /// From a state of the coarsest level at t, an equilibrium or near one: certifies it on all
   /// levels.
   NestedReport start(double t, const State& coarse, const Watch& watch);
-  /// The same without a certificate: only the coarsest level is brought to rest, for the path to go
-  /// on.
+  /// The same without a certificate: only the coarsest level is brought to rest, to follow the path on.
   NestedReport place(double t, const State& coarse);
   /// Follows the path to t and certifies there. The current state stays the last good one on
   /// failure.

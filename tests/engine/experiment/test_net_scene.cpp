@@ -20,6 +20,14 @@ preset::Preset cap(double cut_height, preset::Placement placement, preset::Start
   return p;
 }
 
+preset::Preset surface(preset::NetKind kind, double radius, double length) {
+  preset::Preset p = cap(0, preset::Placement::on_axis, preset::Start::net);
+  p.net.kind = kind;
+  p.net.radius_mm = radius;
+  p.net.length_mm = length;
+  return p;
+}
+
 experiment::Outcome run(const preset::Preset& p, bool stills = true) {
   Watch watch;
   auto outcome = experiment::run(p, stills, watch);
@@ -67,6 +75,55 @@ TEST_CASE("from flat and from the net a cap comes to the same state") {
     CHECK((a - b).colwise().norm().maxCoeff() < 1e-6 * 120);
     CHECK(net.summary.max_deviation == Approx(flat.summary.max_deviation).margin(1e-7));
   }
+}
+
+TEST_CASE("a cylinder whose ends are held along the helices is its net, to second order") {
+  double before = 0;
+  for (const int edges : {4, 8, 16}) {
+    preset::Preset p = surface(preset::NetKind::cylinder, 80, 200);
+    p.ends.kind = preset::EndKind::tangent;
+    p.accuracy.edges_per_segment = edges;
+    const record::Summary s = run(p).summary;
+    CHECK(s.stable);
+    if (before > 0) CHECK(std::log2(before / s.max_deviation) == Approx(2).margin(0.15));
+    before = s.max_deviation;
+  }
+  CHECK(before < 1e-4);
+}
+
+TEST_CASE("a saddle's cells are negative over most of the arch, a cylinder's near zero") {
+  preset::Preset p = surface(preset::NetKind::spool, 120, 180);
+  p.net.waist = 0.6;
+  const experiment::Outcome saddle = run(p);
+  const auto K = [](const experiment::Outcome& outcome) -> Eigen::ArrayXd {
+    return outcome.trajectory.frames.back().cell_K.array();
+  };
+  CHECK(saddle.summary.stable);
+  CHECK((K(saddle) < 0).count() > 0.6 * double(K(saddle).size()));
+  const experiment::Outcome cylinder = run(surface(preset::NetKind::cylinder, 80, 200));
+  CHECK(std::abs(K(cylinder).mean()) < 0.2 * std::abs(K(saddle).mean()));
+  CHECK((K(run(cap(0, preset::Placement::on_axis, preset::Start::net))) > 0).all());
+}
+
+TEST_CASE("end rings let go: their ends are free, the others still held, the state stable") {
+  preset::Preset p = surface(preset::NetKind::cylinder, 80, 200);
+  p.ends.rings = preset::Rings::free;
+  const auto scene = experiment::scene_of(p);
+  REQUIRE(scene.has_value());
+  int free = 0;
+  for (std::size_t r = 0; r < scene->footprint.rods.size(); ++r) {
+    const FootprintRod& rod = scene->footprint.rods[r];
+    for (const bool begin : {true, false}) {
+      const RodEnd held = begin ? rod.begin : rod.end;
+      const Eigen::Vector3d at = scene->motion.end.col(2 * Eigen::Index(r) + (begin ? 0 : 1));
+      CHECK((held == RodEnd::free) == (std::abs(at.x()) > 100 - 1e-6 && at.z() > 1e-6));
+      free += held == RodEnd::free;
+    }
+  }
+  CHECK(free > 4);
+  const record::Summary s = run(p).summary;
+  CHECK(s.stable);
+  CHECK(s.residual_N < 1e-8);
 }
 
 TEST_CASE("a net that does not exist, and a circle asked to start from one, are refused") {
