@@ -151,11 +151,13 @@ class Actuation {
           end > start ? shell_->place(start, first) : shell_->start(start, first, watch_);
       if (report.end == NestedEnd::reached && end > start) report = shell_->advance(end, watch_);
       if (watch_.cancelled()) return Error{Fault::cancelled, "stopped"};
-      const bool reached = report.end == NestedEnd::reached;
+      // with a snap on the way the frames are found in order, so that it stands at the right one
+      const bool snapped = lost_branch(report) && !snap(end, report).empty();
+      const bool reached = snapped || report.end == NestedEnd::reached;
       const bool met =
           !(shell_->state().error_estimate_mm > scene_.tolerance * scene_.length_scale_mm);
       if (scene_.levels_fixed || met || !reached) {
-        if (reached && shell_->state().largest_strain <= scene_.max_strain)
+        if (reached && !snapped && shell_->state().largest_strain <= scene_.max_strain)
           add(int(progress_.size()) - 1, end, "");
         return std::nullopt;
       }
@@ -209,7 +211,7 @@ class Actuation {
       if (report.end == NestedEnd::reached) report = shell_->advance(t, watch_);
       if (watch_.cancelled()) return Error{Fault::cancelled, "stopped"};
       std::string event;
-      if (report.end == NestedEnd::unstable) {
+      if (lost_branch(report)) {
         event = snap(t, report);
         if (event.empty()) return std::nullopt;
       } else if (report.end != NestedEnd::reached) {
@@ -225,11 +227,17 @@ class Actuation {
     return std::nullopt;
   }
 
+  /// Stability lost at a bifurcation, or a path that turns back at a limit point: steps however
+  /// small then find no neighbour.
+  static bool lost_branch(const NestedReport& report) {
+    return report.end == NestedEnd::unstable || report.end == NestedEnd::lost;
+  }
+
   /// The path lost its stability before t: come to rest again from there, and go on to t.
   std::string snap(double t, NestedReport report) {
-    for (int tries = 0; tries < 8 && report.end == NestedEnd::unstable; ++tries) {
+    for (int tries = 0; tries < 8 && lost_branch(report); ++tries) {
       const double lost = report.t;
-      State state = shell_->state().levels[0];
+      State state = shell_->followed().state;
       const PinnedMotion& motion = shell_->motion(0);
       const double beyond = std::min(t, lost + 1e-3);
       const Model& model = shell_->model(0);

@@ -38,8 +38,7 @@ experiment::Outcome run(const preset::Preset& p, bool stills = true) {
 }  // namespace
 
 TEST_CASE("the scene of a cap: its boundary maps to the circle at z*, edge points with it") {
-  const auto scene = experiment::scene_of(
-      cap(0.3, preset::Placement::half, preset::Start::net));
+  const auto scene = experiment::scene_of(cap(0.3, preset::Placement::half, preset::Start::net));
   REQUIRE(scene.has_value());
   const double z = 0.3 * 120, r = 120 * std::sqrt(1 - 0.09);
   for (const Eigen::Matrix3Xd* points : {&scene->motion.end, &scene->actuated_boundary}) {

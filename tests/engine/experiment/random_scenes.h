@@ -1,0 +1,81 @@
+// Random circular shells to judge error estimates by: the estimate beside the true error, which is
+// measured against meshes two levels finer on the same branch.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <random>
+#include <string>
+
+#include "engine/experiment/actuation.h"
+#include "engine/experiment/scene.h"
+
+namespace gridshell {
+
+/// What one scene came to. Errors are those of the joints over R_o.
+struct EstimateTrial {
+  std::string scene;  ///< what was asked
+  double tolerance = 0;
+  std::string refused;  ///< why there is no state to judge; empty when there is one
+  double estimate = 0, truth = 0;
+};
+
+/// n of 4 to 16, placement by its parity, longest leg 0.2 to 2.5 d, R_a/R_o 0.6 to 0.95, tolerance
+/// 1e-2 to 1e-6, all from one generator.
+inline preset::Preset random_scene(std::mt19937& random) {
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * double(random() >> 5) / double(1 << 27);
+  };
+  preset::Preset p;
+  p.footprint.rods = int(uniform(4, 17));
+  p.footprint.placement =
+      p.footprint.rods % 2 ? preset::Placement::on_axis : preset::Placement::half;
+  p.footprint.radius_mm = 20 * ((p.footprint.rods - 1) / 2.0 + uniform(0.2, 2.5));
+  p.actuation.radius_mm = p.footprint.radius_mm * uniform(0.6, 0.95);
+  p.accuracy.tolerance = std::pow(10, uniform(-6, -2));
+  return p;
+}
+
+inline EstimateTrial try_estimate(const preset::Preset& preset) {
+  EstimateTrial trial;
+  trial.tolerance = preset.accuracy.tolerance;
+  trial.scene =
+      fmt::format("n {:2} R_o {:6.2f} mm R_a/R_o {:.3f} tolerance {:.1e}", preset.footprint.rods,
+                  preset.footprint.radius_mm,
+                  preset.actuation.radius_mm / preset.footprint.radius_mm, trial.tolerance);
+  Watch watch;
+  auto scene = experiment::scene_of(preset);
+  if (!scene) {
+    trial.refused = scene.error().message;
+    return trial;
+  }
+  const auto asked = experiment::run_actuation(*scene, {1.0}, watch);
+  if (!asked || asked->trajectory.frames.empty()) {
+    trial.refused = asked ? asked->limit_reason : asked.error().message;
+    return trial;
+  }
+  scene->levels = asked->levels;
+  for (int more = 0; more < 2; ++more)
+    scene->levels.edges_per_segment.push_back(2 * scene->levels.edges_per_segment.back());
+  scene->levels.extrapolate = true;
+  scene->levels_fixed = true;
+  scene->tolerance = std::min(scene->tolerance, 1e-6);
+  const auto finer = experiment::run_actuation(*scene, {1.0}, watch);
+  if (!finer || finer->trajectory.frames.empty()) {
+    trial.refused = "reference: " + (finer ? finer->limit_reason : finer.error().message);
+    return trial;
+  }
+  const auto &a = asked->trajectory, &b = finer->trajectory;
+  double worst = 0;
+  for (std::size_t k = 0; k < a.layout.joints.size(); ++k)
+    worst = std::max(worst, (a.frames.back().nodes.col(a.layout.joints[k].node) -
+                             b.frames.back().nodes.col(b.layout.joints[k].node))
+                                .norm());
+  trial.truth = worst / preset.footprint.radius_mm;
+  trial.estimate = a.frames.back().error_estimate_mm / preset.footprint.radius_mm;
+  return trial;
+}
+
+}  // namespace gridshell
