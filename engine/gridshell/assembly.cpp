@@ -30,6 +30,7 @@ inline void reset(const Model& model, Assembly& out) {
   out.energies = {};
   out.gradient.setZero(3, model.nodes);
   out.force.resize(Eigen::Index(model.edges.size()));
+  out.tangents.resize(3, Eigen::Index(model.edges.size()));
   out.largest_turn = 1;
   out.largest_strain = 0;
 }
@@ -40,6 +41,7 @@ inline void add_stretch(const ModelEdge& edge, int k, double EA, const EdgeGeome
   const StretchEnergy s = stretch(EA, edge.rest_length, g.length);
   out.energies.stretch += s.value;
   out.force[k] = s.force;
+  out.tangents.col(k) = g.tangent;
   // the edge to a ghost only shows a direction
   if (edge.EA > 0) keep_largest(out.largest_strain, std::abs(g.length / edge.rest_length - 1));
 }

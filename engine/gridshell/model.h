@@ -39,8 +39,9 @@ struct Model {
   int dof() const { return 3 * free(); }
 };
 
-/// Rods of `mesh` with `section`; edge points are pinned but for free ends, ghosts too. A held direction costs EI/l |kb|^2, l the length of the edge at the end: half an edge bends
-/// there [the symmetric ghost of beam theory, second order]. The edge to a ghost has no EA.
+/// Rods of `mesh` with `section`; edge points are pinned but for free ends, ghosts too. A held
+/// direction costs EI/l |kb|^2, l the length of the edge at the end: half an edge bends there [the
+/// symmetric ghost of beam theory, second order]. The edge to a ghost has no EA.
 Model build_model(const RodMesh& mesh, const RodSection& section);
 
 /// Potential energy by term, mJ.
@@ -60,6 +61,7 @@ struct ChainHessian {
 struct Assembly {
   Energies energies;
   Eigen::Matrix3Xd gradient;  ///< dE/dx at every node, pinned ones too (their reaction), N
+  Eigen::Matrix3Xd tangents;  ///< unit tangent of every edge
   Eigen::VectorXd force;      ///< axial force EA (|e|/l - 1) of every edge, N
   ChainHessian hessian;
   double largest_turn =

@@ -140,7 +140,8 @@ class BlockCholesky final : public LinearSolver {
   }
 
   void solve(Eigen::Matrix3Xd& b) const override {
-    std::vector<Column> x(order_.size());
+    work_.resize(order_.size());
+    std::vector<Column>& x = work_;
     for (std::size_t k = 0; k < order_.size(); ++k) {
       const auto v = b.col(model_.free_nodes[order_[k]]);
       x[k] = Column{v[0], v[1], v[2], 0};
@@ -255,6 +256,7 @@ class BlockCholesky final : public LinearSolver {
   std::vector<int> order_, place_;  // elimination order of free nodes, and its inverse
   std::vector<Scatter> next_, second_;
   Factor factor_;
+  mutable std::vector<Column> work_;  // of solve()
 };
 
 }  // namespace

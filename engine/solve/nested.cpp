@@ -133,10 +133,8 @@ State NestedShell::carried(const Level& level, const State& coarser) const {
   return state;
 }
 
-void NestedShell::remember(Level& level, double t, const State& coarser, const State& state) {
-  State added = carried(level, coarser);
-  added.x = state.x - added.x;
-  added.force = state.force - added.force;
+void NestedShell::remember(Level& level, double t, const State& base, const State& state) {
+  State added{state.x - base.x, state.force - base.force};
   level.added.push_back(std::move(added));
   level.added_t.push_back(t);
   if (level.added.size() > 2) {
@@ -166,7 +164,8 @@ NestedReport NestedShell::certify(double t, const Watch& watch) {
     if (watch.cancelled()) return {NestedEnd::cancelled, state_.t};
     Level& level = *levels_[k];
     const State& coarser = next.levels.back();
-    State guess = carried(level, coarser);
+    const State base = carried(level, coarser);
+    State guess = base;
     // what the finer mesh added at the last states carries on along the path; for the first one it
     // is a quarter of what the level below added, the error being of second order
     const std::size_t known = level.added.size();
@@ -189,11 +188,11 @@ NestedReport NestedShell::certify(double t, const Watch& watch) {
     level.motion.impose(*level.system, t, guess.x);
     if (!correct(level, coarser, guess, report)) {
       // without the memory of other states
-      guess = carried(level, coarser);
+      guess = base;
       level.motion.impose(*level.system, t, guess.x);
       if (!correct(level, coarser, guess, report)) return {NestedEnd::levels_disagree, state_.t};
     }
-    remember(level, t, coarser, guess);
+    remember(level, t, base, guess);
     next.levels.push_back(std::move(guess));
   }
   state_ = std::move(next);
@@ -230,10 +229,12 @@ void NestedShell::finish(const NewtonReport& report) {
     finest.system->correction(polish);
     finest.system->apply(polish, trial);
     finest.system->gradient_at(trial);
-    if (!(finest.system->residual() < residual)) break;
+    if (!(finest.system->residual() < residual)) {
+      finest.system->gradient_at(found);
+      break;
+    }
     found = std::move(trial);
   }
-  finest.system->gradient_at(found);
   state_.residual_N = finest.system->residual();
   state_.largest_strain = finest.system->assembly().largest_strain;
   if (finest.system->prescription().active()) take_reaction();

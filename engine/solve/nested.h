@@ -68,7 +68,8 @@ class NestedShell {
   /// From a state of the coarsest level at t, an equilibrium or near one: certifies it on all
   /// levels.
   NestedReport start(double t, const State& coarse, const Watch& watch);
-  /// The same without a certificate: only the coarsest level is brought to rest, to follow the path on.
+  /// The same without a certificate: only the coarsest level is brought to rest, to follow the path
+  /// on.
   NestedReport place(double t, const State& coarse);
   /// Follows the path to t and certifies there. The current state stays the last good one on
   /// failure.
@@ -105,7 +106,7 @@ class NestedShell {
   };
   NestedReport certify(double t, const Watch& watch);
   bool correct(Level& level, const State& coarser, State& state, NewtonReport& report);
-  void remember(Level& level, double t, const State& coarser, const State& state);
+  void remember(Level& level, double t, const State& base, const State& state);
   State carried(const Level& level, const State& coarser) const;
   void finish(const NewtonReport& report);
   void take_reaction();

@@ -19,10 +19,7 @@ Linearisation::Linearisation(const Model& model, std::unique_ptr<LinearSolver> s
 Inertia Linearisation::at(const State& state, bool mixed, double shift, double EA_scale) {
   EA_scale_ = EA_scale;
   assemble_hessian(model_, state.x, mixed ? &state.force : nullptr, EA_scale, assembly_);
-  tangents_.resize(3, Eigen::Index(model_.edges.size()));
-  for (std::size_t k = 0; k < model_.edges.size(); ++k)
-    tangents_.col(k) =
-        (state.x.col(model_.edges[k].to) - state.x.col(model_.edges[k].from)).normalized();
+  tangents_ = assembly_.tangents;
   if (prescription_.active())
     assembly_.hessian.diagonal[prescription_.node] +=
         border_stiffness * prescription_.directions * prescription_.directions.transpose();
