@@ -16,7 +16,7 @@ namespace {
 
 constexpr double load_step = 0.02;         // of the length scale, at most
 constexpr double stiffness_growth = 100;   // at which the rods are at their length
-constexpr double smallest_step_mm = 1e-4;  // to which a limit is located
+constexpr double smallest_step_mm = 5e-3;  // to which a limit is located
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

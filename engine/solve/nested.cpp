@@ -216,9 +216,11 @@ void NestedShell::finish(const NewtonReport& report) {
       !report.inertia.positive_definite())
     state_.inertia = finest.system->at(found, false);
   finest.system->gradient_at(found);
-  // at the end of a path the residual goes down to what round-off leaves: corrections are cheap
+  // at the end of a path, and where a force is measured, the residual goes down to what round-off
+  // leaves: corrections are cheap
+  const bool polished = state_.t >= 1 || finest.system->prescription().active();
   Eigen::Matrix3Xd polish;
-  for (int k = 0; k < 4 && state_.t >= 1 && state_.inertia.usable; ++k) {
+  for (int k = 0; k < 4 && polished && state_.inertia.usable; ++k) {
     const double residual = finest.system->residual();
     if (residual < 1e-9) break;
     State trial = found;
