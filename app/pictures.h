@@ -35,6 +35,8 @@ class Artist {
   Result<void> draw(Pictures pictures, const preset::Preset& preset, const record::Trajectory& run,
                     const std::filesystem::path& folder, Watch& watch);
 
+  render::Renderer& renderer() { return *renderer_; }
+
  private:
   Artist(std::unique_ptr<render::Context> context, std::unique_ptr<render::Renderer> renderer)
       : context_(std::move(context)), renderer_(std::move(renderer)) {}

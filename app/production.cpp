@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include "app/console.h"
 #include "app/delivery.h"
 #include "app/loading.h"
+#include "app/net_pictures.h"
 #include "engine/core/atomic_file.h"
 #include "engine/preset/writer.h"
 #include "engine/record/run_folder.h"
@@ -49,6 +51,8 @@ Result<std::vector<Job>> jobs_of(const preset::Presets& presets, Pictures pictur
 // the first equilibrium and some milliseconds a frame, where the engine does not say
 double simulation_guess(const Job& job) { return 0.5 + 0.01 * job.preset.movie.frames; }
 
+bool has_net(const Job& job) { return job.preset.footprint.kind == preset::FootprintKind::net; }
+
 std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
   std::vector<Phase> phases;
   for (const auto& job : jobs) {
@@ -58,12 +62,16 @@ std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
     if (pictures != Pictures::none)
       phases.push_back({"drawing" + of_case, expected_seconds(pictures, job.preset)});
   }
+  const bool stills = pictures == Pictures::stills;
+  if (stills && std::any_of(jobs.begin(), jobs.end(), has_net))
+    phases.push_back({"drawing shells over nets",
+                      2 * double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
   return phases;
 }
 
 // the run is safe on disk before a picture of it is drawn
 Result<void> do_job(Job& job, Pictures pictures, const fs::path& folder, Artist* artist,
-                    Progress& progress) {
+                    Progress& progress, std::vector<NetRecord>& nets) {
   auto outcome = experiment::run(job.preset, pictures == Pictures::stills, progress.next_phase());
   if (!outcome) return tl::unexpected(outcome.error());
   job.summary = outcome->summary;
@@ -77,6 +85,8 @@ Result<void> do_job(Job& job, Pictures pictures, const fs::path& folder, Artist*
   auto drawn =
       artist->draw(pictures, job.preset, outcome->trajectory, folder, progress.next_phase());
   if (!drawn) return drawn;
+  if (pictures == Pictures::stills && outcome->trajectory.layout.net_nodes.size() > 0)
+    nets.push_back({job.preset, std::move(outcome->trajectory)});
   job.summary.seconds_render =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record::write_summary(folder / "summary.json", job.summary);
@@ -92,12 +102,21 @@ Result<void> do_jobs(std::vector<Job>& jobs, const std::string& name, Pictures p
   }
   std::vector<std::string> names;
   std::vector<record::Summary> summaries;
+  std::vector<NetRecord> nets;
   for (auto& job : jobs) {
     auto ended =
-        do_job(job, pictures, folder_of(partial, job.name), artist ? &*artist : nullptr, progress);
+        do_job(job, pictures, folder_of(partial, job.name), artist ? &*artist : nullptr, progress,
+               nets);
     if (!ended) return ended;
     names.push_back(job.name);
     summaries.push_back(job.summary);
+  }
+  // shells on nets are shown beside one another
+  if (!nets.empty()) {
+    const auto stem = partial / fs::path(name).filename();
+    if (auto drawn = draw_net_pictures(nets, artist->renderer(), stem, progress.next_phase());
+        !drawn)
+      return drawn;
   }
   if (jobs.front().name.empty()) return {};
   return write_atomically(partial / "summary.json", summary_of_cases(name, names, summaries));

@@ -1,0 +1,105 @@
+#include "render/figure/net_figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "render/movie/stage.h"
+#include "render/plot/panels.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr Colour shell_ink{0.10f, 0.10f, 0.12f, 1}, net_ink{0.16f, 0.42f, 0.78f, 1};
+
+/// The last frame alone, its boundary where it is held.
+record::Trajectory final_state(const record::Trajectory& run) {
+  record::Trajectory last;
+  last.layout = run.layout;
+  last.layout.original_boundary = run.layout.actuated_boundary;
+  last.frames = {run.frames.back()};
+  return last;
+}
+
+MovieStyle plain_style(MovieStyle style) {
+  style.captions = style.inset = false;
+  style.turn_deg = 0;
+  style.colour_by = ColourBy::none;
+  return style;
+}
+
+using Dress = std::function<void(const record::Trajectory&, Drawing&)>;
+
+/// One panel a run, the drawing of each changed by `dress`.
+Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
+                              Renderer& renderer, Watch& watch, const Dress& dress) {
+  const MovieStyle style = plain_style(movie_style);
+  PanelFigure figure;
+  figure.columns = std::min(3, int(runs.size()));
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
+    if (auto showable = check_showable(*runs[k].run, style); !showable)
+      return tl::unexpected(showable.error());
+    const record::Trajectory last = final_state(*runs[k].run);
+    const Stage stage(last, style);
+    Drawing drawing = stage.drawing(0);
+    drawing.ground = false;
+    dress(last, drawing);
+    auto picture = renderer.draw(drawing, stage.camera(0), draw_quality(style.quality),
+                                 style.width, style.height);
+    if (!picture) return tl::unexpected(picture.error());
+    const std::string letter = runs.size() > 1 ? std::string(1, char('a' + k % 26)) : "";
+    figure.panels.push_back({std::move(*picture), letter, runs[k].caption});
+    if (runs.size() == 1) {
+      figure.scale_bar_mm = style.scale_bar_mm;
+      figure.pixels_per_mm = stage.pixels_per_mm();
+    }
+  }
+  return figure;
+}
+
+}  // namespace
+
+Eigen::VectorXd deviation_of_nodes(const record::Trajectory& run) {
+  return (run.frames.back().nodes - run.layout.net_nodes).colwise().norm().transpose() /
+         run.layout.length_scale_mm;
+}
+
+bool on_sphere(const record::Layout& layout) {
+  if (layout.net_nodes.size() == 0) return false;
+  const auto radius = layout.net_nodes.colwise().norm().array();
+  return (radius - layout.length_scale_mm).abs().maxCoeff() < 1e-6 * layout.length_scale_mm;
+}
+
+Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
+                             Renderer& renderer, Watch& watch) {
+  const auto dress = [](const record::Trajectory& run, Drawing& drawing) {
+    drawing.rod_colour = shell_ink;
+    drawing.joint_diameter_mm = 0;
+    drawing.ghosts.push_back(
+        {run.layout.net_nodes, run.layout.rods, drawing.rod_diameter_mm, net_ink});
+  };
+  return panels_of(runs, style, renderer, watch, dress).and_then(draw_panels);
+}
+
+Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
+                              Renderer& renderer, Watch& watch) {
+  double largest = 0;
+  for (const NetRun& one : runs)
+    largest = std::max(largest, 100 * deviation_of_nodes(*one.run).maxCoeff());
+  // a round end, so that the bar's last label is the scale's end
+  const double step = std::pow(10.0, std::floor(std::log10(std::max(largest, 1e-9)))) / 2;
+  const ColourScale scale{ColourMap::sequential, 0, step * std::ceil(largest / step)};
+  const auto dress = [&](const record::Trajectory& run, Drawing& drawing) {
+    const Eigen::VectorXd deviation = deviation_of_nodes(run);
+    for (double one : deviation) drawing.node_colours.push_back(scale(100 * one));
+    drawing.rod_diameter_mm *= 1.8;
+    drawing.joint_diameter_mm = 0;
+  };
+  auto figure = panels_of(runs, style, renderer, watch, dress);
+  if (!figure) return tl::unexpected(figure.error());
+  figure->colour_bar = ColourBar{"Δ/*ρ* (%)", scale};
+  return draw_panels(*figure);
+}
+
+}  // namespace gridshell::render

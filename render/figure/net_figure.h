@@ -1,0 +1,35 @@
+// Shells beside the nets they were designed on, in space [Baek 2018, Figs. 3 and 4A].
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/record/snapshot.h"
+#include "render/draw/renderer.h"
+#include "render/movie/style.h"
+
+namespace gridshell::render {
+
+/// A run whose layout knows its net, shown by its last frame.
+struct NetRun {
+  const record::Trajectory* run = nullptr;
+  std::string caption;  ///< marked text
+};
+
+/// Distance of every node of the last frame from its place on the net, over rho.
+Eigen::VectorXd deviation_of_nodes(const record::Trajectory& run);
+
+/// Whether the net is a part of a sphere about the origin, of radius rho.
+bool on_sphere(const record::Layout& layout);
+
+/// The shells, dark, over their nets, blue, side by side. Progress and errors as write_stills.
+Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
+                             Renderer& renderer, Watch& watch);
+
+/// The shells coloured by their deviation, side by side with one colour bar.
+Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
+                              Renderer& renderer, Watch& watch);
+
+}  // namespace gridshell::render

@@ -1,0 +1,159 @@
+#include "render/figure/net_plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/figure/net_figure.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr Colour rod_ink{0.45f, 0.46f, 0.5f, 1}, ink{0.1f, 0.1f, 0.12f, 1};
+constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+
+Eigen::Matrix3Xd joints_of(const record::Trajectory& run) {
+  Eigen::Matrix3Xd joints(3, run.layout.joints.size());
+  for (std::size_t k = 0; k < run.layout.joints.size(); ++k)
+    joints.col(long(k)) = run.frames.back().nodes.col(run.layout.joints[k].node);
+  return joints;
+}
+
+/// Places points of the flat plane, mm, into a box to scale.
+struct ToScale {
+  Box box;
+  Eigen::Vector2d middle;
+  double scale = 1;
+  Point operator()(const Eigen::Vector2d& p) const {
+    return {box.middle().x + scale * (p.x() - middle.x()),
+            box.middle().y - scale * (p.y() - middle.y())};
+  }
+};
+
+std::vector<Point> placed(const Eigen::Matrix2Xd& points, const ToScale& place) {
+  std::vector<Point> line;
+  for (long k = 0; k < points.cols(); ++k) line.push_back(place(points.col(k)));
+  return line;
+}
+
+void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(INFINITY), high = -low;
+  for (const NamedRun& one : runs) {
+    const auto flat = one.run->layout.original_boundary.topRows<2>();
+    low = low.cwiseMin(flat.rowwise().minCoeff());
+    high = high.cwiseMax(flat.rowwise().maxCoeff());
+  }
+  const Eigen::Vector2d size = high - low;
+  const ToScale place{box, 0.5 * (low + high),
+                      std::min(box.width / size.x(), box.height / size.y())};
+  if (runs.size() == 1) {
+    const record::Layout& layout = runs.front().run->layout;
+    for (const auto& rod : layout.rods)
+      canvas.line(place(layout.flat_nodes.col(rod.front()).head<2>()),
+                  place(layout.flat_nodes.col(rod.back()).head<2>()), {rod_ink, 0.7});
+  }
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    canvas.polyline(placed(runs[k].run->layout.original_boundary.topRows<2>(), place),
+                    {runs.size() == 1 ? ink : series_colour(k), 1.4}, true);
+  // a length to read the drawing by
+  const double bar = runs.front().run->layout.spacing_mm;
+  const Point left{box.x, box.bottom() + 9};
+  canvas.line(left, {left.x + place.scale * bar, left.y}, {ink, 1.4});
+  canvas.text(fmt::format("*d* = {:g} mm", bar), {left.x + place.scale * bar + 4, left.y},
+              {.size = 8, .align_y = AlignY::middle});
+}
+
+/// A sphere from the side and the planes z = z* of its caps.
+void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
+  const double rho = runs.front().run->layout.length_scale_mm;
+  const double scale = std::min(box.width / 2.95, box.height / 1.35) / rho;
+  const Point centre{box.x + 1.15 * scale * rho, box.middle().y + 0.5 * scale * rho};
+  std::vector<Point> arc;
+  for (int k = 0; k <= 90; ++k) {
+    const double angle = std::numbers::pi * k / 90;
+    arc.push_back({centre.x + scale * rho * std::cos(angle),
+                   centre.y - scale * rho * std::sin(angle)});
+  }
+  canvas.polyline(arc, {{0.55f, 0.56f, 0.6f, 1}, 1});
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const double z = runs[k].run->layout.actuated_boundary.row(2).mean();
+    const double half = 1.1 * scale * rho, y = centre.y - scale * z;
+    const Colour colour = runs.size() == 1 ? ink : series_colour(k);
+    canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4});
+    // to a hundredth, and no minus before a zero
+    const double shown = std::round(100 * z / rho) / 100 + 0.0;
+    canvas.text(fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", shown),
+                {centre.x + half + 4, y}, {.size = 6.5, .colour = colour, .align_y = AlignY::middle});
+  }
+}
+
+}  // namespace
+
+Plot curvature_plot(const std::vector<NamedRun>& runs) {
+  Plot plot;
+  plot.x.label = "*x*/*L*";
+  plot.x.low = -1.05;
+  plot.x.high = 1.05;
+  plot.y.label = "*K*_{□} (rad)";
+  plot.references.push_back({.at = 0, .label = ""});
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const record::Trajectory& run = *runs[r].run;
+    const double L = run.layout.actuated_boundary.row(0).cwiseAbs().maxCoeff();
+    const Eigen::Matrix3Xd joints = joints_of(run);
+    Series series;
+    series.name = runs[r].name;
+    for (std::size_t k = 0; k < run.layout.cells.size(); ++k) {
+      double x = 0;
+      for (int joint : run.layout.cells[k].joints) x += joints(0, joint) / 4;
+      series.x.push_back(x / L);
+      series.y.push_back(run.frames.back().cell_K[long(k)]);
+    }
+    series.colour = series_colour(r);
+    series.line_width = 0;
+    series.marker = markers[r % std::size(markers)];
+    series.marker_size = 3.2;
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+Plot latitude_plot(const NamedRun& named) {
+  const record::Trajectory& run = *named.run;
+  const double rho = run.layout.length_scale_mm;
+  Plot plot;
+  plot.x.label = "latitude (°)";
+  plot.y.label = "*r*/*ρ*";
+  Series net{.name = "net", .x = {0, 90}, .y = {1, 1}, .colour = {0.16f, 0.42f, 0.78f, 1}};
+  net.line_width = 1.3;
+  const Eigen::Matrix3Xd joints = joints_of(run);
+  const double lowest = run.layout.actuated_boundary.row(2).mean() / rho;
+  net.x.front() = std::asin(std::clamp(lowest, -1.0, 1.0)) * 180 / std::numbers::pi;
+  plot.x.low = net.x.front();
+  plot.x.high = 90;
+  Series shell{.name = "joints, computed", .colour = ink};
+  for (long k = 0; k < joints.cols(); ++k) {
+    const double r = joints.col(k).norm();
+    shell.x.push_back(std::asin(std::clamp(joints(2, k) / r, -1.0, 1.0)) * 180 / std::numbers::pi);
+    shell.y.push_back(r / rho);
+  }
+  shell.line_width = 0;
+  shell.marker = Marker::circle;
+  shell.marker_size = 2.6;
+  plot.series = {net, shell};
+  return plot;
+}
+
+Result<void> write_footprints(const std::filesystem::path& stem,
+                              const std::vector<NamedRun>& runs) {
+  const bool caps = std::all_of(runs.begin(), runs.end(),
+                                [](const NamedRun& one) { return on_sphere(one.run->layout); });
+  const double width = caps ? 470 : 250, height = 250;
+  return write_figure(stem, width, height, "Original boundaries", [&](Canvas& canvas) {
+    draw_boundaries(canvas, {10, 8, 230, 222}, runs);
+    if (caps) draw_planes(canvas, {250, 10, 210, 220}, runs);
+  });
+}
+
+}  // namespace gridshell::render

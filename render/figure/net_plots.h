@@ -1,0 +1,33 @@
+// Shells designed on nets in the plane: footprints, curvature, distance from the centre [Baek 2018,
+// Figs. 3B, 3C and 4B].
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/record/snapshot.h"
+#include "render/plot/plot.h"
+
+namespace gridshell::render {
+
+/// A run and what the legend calls it (marked text).
+struct NamedRun {
+  const record::Trajectory* run = nullptr;
+  std::string name;
+};
+
+/// K of every cell in the last frame against x/L of its centroid, L the half-span of the actuated
+/// boundary along x.
+Plot curvature_plot(const std::vector<NamedRun>& runs);
+
+/// r/rho of the joints and of the net (a line at 1) against latitude, for nets on a sphere; joints
+/// measured by others can be added as one more series.
+Plot latitude_plot(const NamedRun& run);
+
+/// Original boundaries to scale, with the rods inside when there is one; beside them, for caps, the
+/// planes that cut them from the sphere. Writes `<stem>.png` and `<stem>.svg`.
+Result<void> write_footprints(const std::filesystem::path& stem, const std::vector<NamedRun>& runs);
+
+}  // namespace gridshell::render
