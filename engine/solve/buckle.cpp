@@ -74,6 +74,10 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
     report = minimise(system, state, options, watch);
     if (report.outcome == NewtonOutcome::not_finite || watch.cancelled()) break;
   }
+  // nothing moves any more, but a mode without stiffness keeps it from being a minimum
+  const bool on_saddle =
+      report.outcome == NewtonOutcome::not_converged && report.last_move_mm < 1e-3;
+  if (on_saddle && !watch.cancelled()) return settle(system, state, watch);
   return at_rest(report, std::move(state), watch);
 }
 

@@ -190,7 +190,13 @@ NestedReport NestedShell::certify(double t, const Watch& watch) {
       // without the memory of other states
       guess = base;
       level.motion.impose(*level.system, t, guess.x);
-      if (!correct(level, coarser, guess, report)) return {NestedEnd::levels_disagree, state_.t};
+      if (!correct(level, coarser, guess, report)) {
+        // full steps lead away: down the energy from there, as long as that stays nearby
+        guess = base;
+        level.motion.impose(*level.system, t, guess.x);
+        minimise(*level.system, guess, {.most_iterations = 60}, watch);
+        if (!correct(level, coarser, guess, report)) return {NestedEnd::levels_disagree, state_.t};
+      }
     }
     remember(level, t, base, guess);
     next.levels.push_back(std::move(guess));
