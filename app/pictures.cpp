@@ -25,6 +25,7 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures) {
   style.turn_deg = movie.turn_deg;
   style.zoom = movie.zoom;
   style.inset = movie.inset;
+  style.bins = movie.bins;
   style.captions = movie.captions;
   style.scale_bar_mm = pictures == Pictures::stills ? preset.figure.scale_bar_mm : 0;
   style.title = preset.title;

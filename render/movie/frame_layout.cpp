@@ -46,7 +46,19 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
   const double bar_wide = bar ? bar_width(*bar, 0.95 * em) : 0;
   const double bar_tall = wide ? std::min(0.42 * h, 20 * em) : side;
   bool with_bar = bar && bar_tall > 5 * line && bar_wide < 0.4 * rest.width;
-  if (wide && (inset || with_bar)) {
+  if (wide && style.bins && 0.42 * w > 16 * em && rest.height > 16 * em) {
+    // a plot above, the small legends beside one another below it
+    Box column = cut_right(rest, 0.42 * w);
+    cut_right(rest, margin);
+    layout.plot = cut_top(column, 0.62 * column.height);
+    cut_top(column, margin);
+    if (with_bar) {
+      layout.colour_bar = cut_right(column, bar_wide);
+      cut_right(column, 2 * margin);
+    }
+    const double square = std::min({side, column.width, column.height});
+    if (inset) layout.inset = {column.right() - square, column.y, square, square};
+  } else if (wide && (inset || with_bar)) {
     Box column = cut_right(rest, std::max(inset ? side : 0, with_bar ? bar_wide : 0));
     cut_right(rest, margin);
     if (inset) {

@@ -15,11 +15,11 @@ struct FrameLayout {
   double font_size = 17;  ///< of captions; follows the picture's height
   Box title, state;       ///< upper left, a line each
   Box event, progress;    ///< lower left, a line each
-  Box colour_bar, inset, scale_bar;
+  Box colour_bar, inset, scale_bar, plot;
   Box view;  ///< what is left for the shell
 
   std::vector<Box> parts() const {
-    return {title, state, event, progress, colour_bar, inset, scale_bar, view};
+    return {title, state, event, progress, colour_bar, inset, scale_bar, plot, view};
   }
 };
 

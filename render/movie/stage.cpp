@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/movie/bins_plot.h"
 #include "render/movie/boundary.h"
 #include "render/movie/captions.h"
 
@@ -18,6 +19,8 @@ constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, pale_ink{0.38f, 0.39f, 0.42f, 1},
 // one scale over the run, from the most that each cell comes to, so that it does not depend on how
 // many frames sample the path; a few strongly bent cells at the boundary must not pale the rest
 std::optional<ColourBar> bar_of(const record::Trajectory& run, const MovieStyle& style) {
+  if (style.colour_by == ColourBy::displacement)
+    return ColourBar{"|*u*| / *δ*_{0}", {ColourMap::sequential, 0, 1}};
   if (style.colour_by == ColourBy::none || run.layout.cells.empty()) return std::nullopt;
   Eigen::ArrayXd low = Eigen::ArrayXd::Zero(long(run.layout.cells.size())), high = low;
   for (const record::Frame& frame : run.frames) {
@@ -38,6 +41,14 @@ TopExtent top_extent(const Eigen::Matrix3Xd& points) {
   const Eigen::Vector3d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
   return {(low.x() + high.x()) / 2, (low.y() + high.y()) / 2,
           std::max({1e-6, (high.x() - low.x()) / 2, (high.y() - low.y()) / 2})};
+}
+
+// how deep a push goes; 0 without one
+double deepest(const record::Trajectory& run) {
+  double depth = 0;
+  for (const record::Frame& frame : run.frames)
+    if (frame.depth_mm > depth) depth = frame.depth_mm;
+  return depth;
 }
 
 // below everything that is drawn in any frame
@@ -106,6 +117,7 @@ Stage::Stage(const record::Trajectory& run, const MovieStyle& style)
       layout_(lay_out_frame(style, bar_ ? &*bar_ : nullptr)),
       framing_(extreme_points(run), style, layout_.view),
       top_(top_extent(extreme_points(run))),
+      depth_mm_(deepest(run)),
       ground_z_mm_(lowest_z(run) - 0.75 * joint_diameter_mm) {}
 
 Camera Stage::camera(int index) const {
@@ -114,11 +126,21 @@ Camera Stage::camera(int index) const {
 
 std::vector<Colour> Stage::cell_colours(const record::Frame& frame, float alpha) const {
   std::vector<Colour> colours;
-  if (!bar_) return colours;
+  if (!bar_ || style_.colour_by != ColourBy::K) return colours;
   for (double K : frame.cell_K) {
     colours.push_back(bar_->scale(K));
     colours.back().a = alpha;
   }
+  return colours;
+}
+
+std::vector<Colour> Stage::node_colours(const record::Frame& frame) const {
+  std::vector<Colour> colours;
+  if (style_.colour_by != ColourBy::displacement) return colours;
+  const Eigen::Matrix3Xd& before = run_.frames.front().nodes;
+  for (long n = 0; n < frame.nodes.cols(); ++n)
+    colours.push_back(
+        bar_->scale(depth_mm_ > 0 ? (frame.nodes.col(n) - before.col(n)).norm() / depth_mm_ : 0));
   return colours;
 }
 
@@ -131,6 +153,9 @@ Drawing Stage::drawing(int index) const {
   drawing.rod_diameter_mm = std::max(run_.layout.rod_diameter_mm, thin);
   drawing.joint_diameter_mm = std::max(joint_diameter_mm, 1.5 * drawing.rod_diameter_mm);
   drawing.cell_colours = cell_colours(frame, 0.93f);
+  drawing.node_colours = node_colours(frame);
+  // colours need some width to be seen
+  if (!drawing.node_colours.empty()) drawing.rod_diameter_mm *= 1.8;
   // where both boundaries coincide the stronger one hides the fainter
   drawing.rings = {{run_.layout.original_boundary, std::max(0.6, thin), {0.66f, 0.67f, 0.7f, 1}},
                    {boundary_at(run_.layout, frame.actuation),
@@ -197,6 +222,8 @@ void Stage::draw_overlay(Canvas& canvas, int index) const {
       canvas.text("top", {layout_.inset.x + gap, layout_.inset.y + gap},
                   {.size = size, .colour = pale_ink, .align_y = AlignY::top});
   }
+  if (!layout_.plot.empty() && frame.K_bins.rows() > 0)
+    draw_plot(canvas, layout_.plot, bins_plot(run_, index, 0.95 * layout_.font_size));
   if (!layout_.scale_bar.empty())
     draw_scale_bar(canvas, layout_.scale_bar, style_.scale_bar_mm, pixels_per_mm(),
                    0.95 * layout_.font_size);

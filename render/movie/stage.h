@@ -27,7 +27,7 @@ class Stage {
   int frames() const { return int(run_.frames.size()); }
   const MovieStyle& style() const { return style_; }
   const FrameLayout& layout() const { return layout_; }
-  /// of K□ over all frames; none when cells are not coloured
+  /// of K□ over all frames, or of the displacement; none when nothing is coloured
   const std::optional<ColourBar>& colour_bar() const { return bar_; }
   double pixels_per_mm() const { return framing_.pixels_per_mm(); }
   /// what the shell covers over all frames, in pixels
@@ -44,6 +44,7 @@ class Stage {
 
  private:
   std::vector<Colour> cell_colours(const record::Frame& frame, float alpha) const;
+  std::vector<Colour> node_colours(const record::Frame& frame) const;
   void draw_captions(Canvas& canvas, int index) const;
   const std::string& event_at(int index) const;
 
@@ -53,6 +54,7 @@ class Stage {
   FrameLayout layout_;
   Framing framing_;
   TopExtent top_;
+  double depth_mm_ = 0;  ///< of a push, at its deepest
   double ground_z_mm_ = 0;
 };
 

@@ -8,7 +8,7 @@
 namespace gridshell::render {
 
 enum class Quality { draft, movie, figure };
-enum class ColourBy { none, K };
+enum class ColourBy { none, K, displacement };
 
 struct MovieStyle {
   int width = 1280, height = 720;  ///< pixels
@@ -19,6 +19,7 @@ struct MovieStyle {
   double turn_deg = 40;                         ///< how far it turns until the last
   double zoom = 1;                              ///< 1: the whole run just fits
   bool inset = true;                            ///< the small top view
+  bool bins = false;                            ///< K of the cells in bins along x, as a plot
   bool captions = true;                         ///< title, radius, height, frame, events
   double scale_bar_mm = 0;                      ///< 0: none
   std::string title;                            ///< shown as it is
