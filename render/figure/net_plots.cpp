@@ -85,7 +85,8 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
     // to a hundredth, and no minus before a zero
     const double shown = std::round(100 * z / rho) / 100 + 0.0;
     canvas.text(fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", shown),
-                {centre.x + half + 4, y}, {.size = 6.5, .colour = colour, .align_y = AlignY::middle});
+                {centre.x + half + 4, y},
+                {.size = 6.5, .colour = colour, .align_y = AlignY::middle});
   }
 }
 
