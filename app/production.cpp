@@ -51,7 +51,11 @@ Result<std::vector<Job>> jobs_of(const preset::Presets& presets, Pictures pictur
 // the first equilibrium and some milliseconds a frame, where the engine does not say
 double simulation_guess(const Job& job) { return 0.5 + 0.01 * job.preset.movie.frames; }
 
-bool has_net(const Job& job) { return job.preset.footprint.kind == preset::FootprintKind::net; }
+// a shell that was designed on a net and is shown beside it; a pushed one is shown by itself
+bool has_net(const Job& job) {
+  return job.preset.footprint.kind == preset::FootprintKind::net &&
+         !job.preset.indentation.wanted();
+}
 
 std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
   std::vector<Phase> phases;
@@ -85,7 +89,8 @@ Result<void> do_job(Job& job, Pictures pictures, const fs::path& folder, Artist*
   auto drawn =
       artist->draw(pictures, job.preset, outcome->trajectory, folder, progress.next_phase());
   if (!drawn) return drawn;
-  if (pictures == Pictures::stills && outcome->trajectory.layout.net_nodes.size() > 0)
+  if (pictures == Pictures::stills && has_net(job) &&
+      outcome->trajectory.layout.net_nodes.size() > 0)
     nets.push_back({job.preset, std::move(outcome->trajectory)});
   job.summary.seconds_render =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -104,9 +109,8 @@ Result<void> do_jobs(std::vector<Job>& jobs, const std::string& name, Pictures p
   std::vector<record::Summary> summaries;
   std::vector<NetRecord> nets;
   for (auto& job : jobs) {
-    auto ended =
-        do_job(job, pictures, folder_of(partial, job.name), artist ? &*artist : nullptr, progress,
-               nets);
+    auto ended = do_job(job, pictures, folder_of(partial, job.name), artist ? &*artist : nullptr,
+                        progress, nets);
     if (!ended) return ended;
     names.push_back(job.name);
     summaries.push_back(job.summary);
@@ -138,7 +142,8 @@ void print_result(const Job& job, const fs::path& folder) {
 }  // namespace
 
 std::string shortcoming(const record::Summary& summary, bool allow_unstable) {
-  if (summary.limit != record::Limit::none)
+  // a shell that snapped and came to rest went on to the end
+  if (summary.limit != record::Limit::none && summary.limit != record::Limit::snap)
     return fmt::format("the path ended early, limit \"{}\": {}", record::name_of(summary.limit),
                        summary.limit_reason);
   if (!summary.stable && !allow_unstable)

@@ -52,9 +52,8 @@ Plot bins_plot(const record::Trajectory& run, int index, double font_size) {
   now.marker_size = 0.6 * font_size;
   plot.series = {before, now};
   plot.references = {{true, first.total_K / cells, "", {reference_ink, 0.08 * font_size, {4, 3}}},
-                     {true, frame.total_K / cells,
-                      "total / cells; total " + fixed(frame.total_K, 3) + " rad",
-                      {total_ink, 0.1 * font_size, {}}}};
+                     {true, frame.total_K / cells, "", {total_ink, 0.1 * font_size, {}}}};
+  plot.title = "line: mean over all cells; total " + fixed(frame.total_K, 3) + " rad";
   return plot;
 }
 

@@ -1,5 +1,6 @@
 #include "render/movie/captions.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/plot/ticks.h"
@@ -22,7 +23,9 @@ std::string frame_caption(int index, int frames) {
 }
 
 std::string equilibrium_caption(const record::Frame& frame) {
-  std::string text = "residual " + scientific(frame.residual_N, 2) + " N, ";
+  // its order alone: the digits of what round-off leaves differ from processor to processor
+  const double order = std::ceil(std::log10(std::max(frame.residual_N, 1e-9)) - 1e-9);
+  std::string text = "residual < " + scientific(std::pow(10, order), 1) + " N, ";
   if (frame.negative_pivots == 0) return text + "stable";
   return text + "unstable (" + std::to_string(frame.negative_pivots) + " negative pivot" +
          (frame.negative_pivots > 1 ? "s)" : ")");

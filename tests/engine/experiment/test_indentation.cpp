@@ -88,7 +88,7 @@ TEST_CASE("total K equals the sum over the corner joints in every frame") {
     }
 }
 
-TEST_CASE("the pushed joint goes straight down its normal; held, it does not go sideways") {
+TEST_CASE("the pushed joint goes straight down its normal, held, it does not go sideways") {
   for (const auto lateral : {preset::Lateral::free, preset::Lateral::held}) {
     preset::Preset p = hemisphere(Case::oblique_inward, 120, preset::Placement::on_axis, 0.1, 3);
     p.indentation.lateral = lateral;
@@ -184,7 +184,7 @@ TEST_CASE("deep pushes end certified or at a named limit", "[full]") {
     }
 }
 
-TEST_CASE("unloading follows the way back; a shell that has snapped does not come back", "[full]") {
+TEST_CASE("unloading follows the way back, a shell that has snapped does not come back", "[full]") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, preset::Placement::on_axis, 0.1, 9);
   p.indentation.unload = true;
   const experiment::Outcome there_and_back = run(p);

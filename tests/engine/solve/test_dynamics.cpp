@@ -121,7 +121,7 @@ TEST_CASE("dynamics: a rod without mass is refused") {
   }
 }
 
-TEST_CASE("baselines: both come to the rest that Newton's method finds; too long a step blows up") {
+TEST_CASE("baselines: both come to the rest that Newton's method finds, too long a step blows up") {
   const double length = 40;
   const Model model = build_model(single_rod(8, length), circular_section(diameter, 83));
   const Eigen::VectorXd mass = lumped_masses(model, density, diameter).value();

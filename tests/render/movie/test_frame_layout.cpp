@@ -46,7 +46,10 @@ TEST_CASE("at the usual sizes nothing is left out, and text grows with the pictu
     style.scale_bar_mm = 20;
     const FrameLayout layout = lay_out_frame(style, &bar);
     INFO(width << " x " << height);
-    for (const Box& part : layout.parts()) CHECK_FALSE(part.empty());
+    for (const Box& part : {layout.title, layout.state, layout.event, layout.progress,
+                            layout.colour_bar, layout.inset, layout.scale_bar, layout.view})
+      CHECK_FALSE(part.empty());
+    CHECK(layout.plot.empty());  // not asked for
     CHECK(layout.font_size > before);
     before = layout.font_size;
   }
