@@ -33,6 +33,10 @@ struct LevelPlan {
 /// is what to try then.
 LevelPlan plan_levels(double tolerance);
 
+/// What a plan leaves of the largest joint error, over the length scale, as a rule: for plans
+/// before a run.
+double expected_error(const LevelPlan& plan);
+
 /// The next plan: extrapolation, or one level more. Empty when the finest mesh would pass 128
 /// edges.
 std::optional<LevelPlan> finer(const LevelPlan& plan);
