@@ -4,27 +4,13 @@
 
 #include "engine/solve/newton.h"
 #include "engine/solve/relaxation.h"
+#include "tests/engine/solve/single_rod.h"
 
 using namespace gridshell;
 
 namespace {
 
 constexpr double diameter = 0.254, density = 6450;
-
-RodMesh single_rod(int edges, double length) {
-  RodMesh mesh;
-  mesh.edge_points = 2;
-  mesh.rods = {{0}};
-  mesh.position = {{0.0}};
-  mesh.flat = Eigen::Matrix2Xd::Zero(2, edges + 1);
-  for (int k = 1; k <= edges; ++k) {
-    const int node = k == edges ? 1 : k + 1;  // edge points are nodes 0 and 1
-    mesh.rods[0].push_back(node);
-    mesh.position[0].push_back(length * k / edges);
-    mesh.flat(0, node) = length * k / edges;
-  }
-  return mesh;
-}
 
 Motion bent_at_rest(const Model& model, double length, double chord, double bump) {
   Motion motion;

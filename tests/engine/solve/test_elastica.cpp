@@ -4,27 +4,13 @@
 #include <cmath>
 
 #include "engine/solve/newton.h"
+#include "tests/engine/solve/single_rod.h"
 
 using namespace gridshell;
 
 namespace {
 
 constexpr double length = 252;
-
-RodMesh single_rod(int edges) {
-  RodMesh mesh;
-  mesh.edge_points = 2;
-  mesh.rods = {{0}};
-  mesh.position = {{0.0}};
-  mesh.flat = Eigen::Matrix2Xd::Zero(2, edges + 1);
-  for (int k = 1; k <= edges; ++k) {
-    const int node = k == edges ? 1 : k + 1;  // edge points are nodes 0 and 1
-    mesh.rods[0].push_back(node);
-    mesh.position[0].push_back(length * k / edges);
-    mesh.flat(0, node) = length * k / edges;
-  }
-  return mesh;
-}
 
 struct Found {
   double height, force;
@@ -33,7 +19,7 @@ struct Found {
 Found elastica(int edges, double shortening, double stretch_scale) {
   RodSection section = circular_section(0.254, 83);
   section.EA *= stretch_scale;
-  const RodMesh mesh = single_rod(edges);
+  const RodMesh mesh = single_rod(edges, length);
   const Model model = build_model(mesh, section);
   Linearisation system(model);
   State state;
