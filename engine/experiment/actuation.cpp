@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 
+#include "engine/core/clock.h"
 #include "engine/experiment/frames.h"
 #include "engine/experiment/net_design.h"
 
@@ -14,10 +14,6 @@ namespace gridshell::experiment {
 namespace {
 
 constexpr double first_shortening = 0.02;
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mesh) {
   record::Layout layout;
@@ -57,9 +53,9 @@ class Actuation {
       : scene_(scene), progress_(progress), watch_(watch) {}
 
   Result<ActuationOutcome> run() {
-    const double begin = now();
+    const double begin = seconds_now();
     build(scene_.levels);
-    seconds_setup_ = now() - begin;
+    seconds_setup_ = seconds_now() - begin;
     if (auto failure = follow()) return tl::unexpected<Error>(*failure);
     const RodMesh& mesh = shell_->mesh(shell_->levels() - 1);
     auto layout = layout_of(scene_, mesh);
@@ -71,7 +67,7 @@ class Actuation {
     outcome_.effort += shell_->effort();
     outcome_.shell = std::move(shell_);
     outcome_.seconds_setup = seconds_setup_;
-    outcome_.seconds_simulation = now() - begin - seconds_setup_;
+    outcome_.seconds_simulation = seconds_now() - begin - seconds_setup_;
     return std::move(outcome_);
   }
 
@@ -238,12 +234,8 @@ class Actuation {
     for (int tries = 0; tries < 8 && lost_branch(report); ++tries) {
       const double lost = report.t;
       State state = shell_->followed().state;
-      const PinnedMotion& motion = shell_->motion(0);
       const double beyond = std::min(t, lost + 1e-3);
-      const Model& model = shell_->model(0);
-      for (int node = 0; node < model.nodes; ++node)
-        if (model.pinned[node])
-          state.x.col(node) = motion.begin.col(node) + beyond * beyond * motion.change.col(node);
+      shell_->motion(0).impose(shell_->system(0), beyond, state.x);
       auto rest = settle(shell_->system(0), state, watch_);
       if (!rest) break;
       report = shell_->start(beyond, *rest, watch_);

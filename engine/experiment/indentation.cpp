@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "engine/core/clock.h"
 #include "engine/experiment/frames.h"
 #include "engine/experiment/net_design.h"
 #include "engine/measure/displacement.h"
@@ -17,10 +17,6 @@ namespace {
 constexpr double load_step = 0.02;         // of the length scale, at most
 constexpr double stiffness_growth = 100;   // at which the rods are at their length
 constexpr double smallest_step_mm = 5e-3;  // to which a limit is located
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 Eigen::Vector3d direction_of(const preset::Indentation& indentation) {
   const double degree = M_PI / 180, latitude = degree * indentation.latitude_deg,
@@ -53,7 +49,7 @@ class Push {
         unloaded_(outcome_.trajectory.frames.back()) {}
 
   Result<ActuationOutcome> run(const std::vector<double>& progress) {
-    const double begin = now();
+    const double begin = seconds_now();
     const Effort before = shell_.effort();
     count_ = before.newton_iterations;
     if (auto failure = take_hold()) return tl::unexpected<Error>(*failure);
@@ -73,7 +69,7 @@ class Push {
     const Effort after = shell_.effort();
     outcome_.effort += {after.newton_iterations - before.newton_iterations,
                         after.factorizations - before.factorizations};
-    outcome_.seconds_simulation += now() - begin;
+    outcome_.seconds_simulation += seconds_now() - begin;
     return std::move(outcome_);
   }
 
