@@ -78,7 +78,7 @@ class Actuation {
     // far below what the meshes leave, so that it does not show in the differences between them
     options.tolerance_mm = std::clamp(1e-3 * scene_.tolerance * scene_.length_scale_mm, 1e-7, 1e-4);
     if (shell_) outcome_.effort += shell_->effort();
-    shell_ = std::make_unique<NestedShell>(scene_.footprint, scene_.section, scene_.motion, plan,
+    shell_ = std::make_unique<NestedShell>(scene_.footprint, scene_.rods, scene_.motion, plan,
                                            options);
     count_ = outcome_.effort.newton_iterations;
   }
@@ -287,6 +287,7 @@ class Actuation {
     const RodMesh& mesh = shell_->mesh(last);
     State flat;
     flat.x = scene_.flat.all(mesh.flat);
+    shell_->system(last).set_load(0);
     frame.negative_pivots = shell_->system(last).at(flat, false).negative_pivots;
     frame.residual_N = shell_->system(last).residual();
     frame.error_estimate_mm = 0;  // straight rods are exact on any mesh

@@ -12,7 +12,6 @@
 #include "engine/geometry/chebyshev_net.h"
 #include "engine/record/snapshot.h"
 #include "engine/record/summary.h"
-#include "engine/rod/section.h"
 #include "engine/solve/buckle.h"
 #include "engine/solve/nested.h"
 
@@ -21,7 +20,7 @@ namespace gridshell::experiment {
 /// Everything that an actuation needs to know.
 struct ActuationScene {
   Footprint footprint;
-  RodSection section;
+  ShellRods rods;
   double rod_diameter_mm = 0;
   BoundaryMotion motion;
   double length_scale_mm = 0;          ///< R_o: what errors are relative to

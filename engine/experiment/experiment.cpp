@@ -90,7 +90,7 @@ double seconds_for(const ActuationScene& scene, const preset::Preset& preset) {
   constexpr double to_rest = 1.5e-5, a_frame = 4e-7;  // seconds an unknown
   double seconds = 0;
   for (int edges : scene.levels.edges_per_segment) {
-    const double dof = build_model(mesh_rods(scene.footprint, edges), scene.section).dof();
+    const double dof = build_model(mesh_rods(scene.footprint, edges), scene.rods).dof();
     if (seconds == 0) seconds = to_rest * dof;
     seconds += a_frame * dof * preset.movie.frames;
   }
@@ -112,7 +112,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.joints = int(scene->footprint.joints.size());
   plan.cells = int(scene->footprint.cells.size());
   const RodMesh mesh = mesh_rods(scene->footprint, plan.edges_per_segment);
-  plan.dof = build_model(mesh, scene->section).dof();
+  plan.dof = build_model(mesh, scene->rods).dof();
   plan.expected_error_mm = expected_error(scene->levels) * scene->length_scale_mm;
   plan.expected_seconds = seconds_for(*scene, preset);
   plan.footprint = fmt::format(

@@ -120,7 +120,7 @@ Result<ActuationScene> scene_of(const preset::Preset& preset) {
   const bool net = preset.footprint.kind == preset::FootprintKind::net;
   if (const auto built = net ? build_net(preset, scene) : build_circle(preset, scene); !built)
     return tl::unexpected<Error>(built.error());
-  scene.section = circular_section(preset.rod.diameter_mm, preset.rod.young_GPa);
+  scene.rods = circular_section(preset.rod.diameter_mm, preset.rod.young_GPa);
   scene.rod_diameter_mm = preset.rod.diameter_mm;
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;

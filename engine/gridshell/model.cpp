@@ -2,13 +2,15 @@
 
 namespace gridshell {
 
-Model build_model(const RodMesh& mesh, const RodSection& section) {
+Model build_model(const RodMesh& mesh, const ShellRods& rods) {
   Model model;
   model.nodes = mesh.nodes();
   model.flat = mesh.flat;
+  model.load = dead_loads(mesh, rods);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const std::vector<int>& node = mesh.rods[r];
     const std::vector<double>& at = mesh.position[r];
+    const RodSection& section = rods.section(r);
     for (std::size_t k = 1; k < node.size(); ++k) {
       const int edge = int(model.edges.size());
       const bool ghost = mesh.is_ghost(node[k - 1]) || mesh.is_ghost(node[k]);
@@ -31,6 +33,16 @@ Model build_model(const RodMesh& mesh, const RodSection& section) {
     model.free_nodes.push_back(node);
   }
   return model;
+}
+
+double load_energy(const Model& model, const Eigen::Matrix3Xd& x, double factor) {
+  return model.load.size() == 0 ? 0 : -factor * (model.load.array() * x.array()).sum();
+}
+
+void add_loads(const Model& model, const Eigen::Matrix3Xd& x, double factor, Assembly& out) {
+  if (model.load.size() == 0) return;
+  out.energies.load = load_energy(model, x, factor);
+  out.gradient -= factor * model.load;
 }
 
 double residual_of(const Model& model, const Eigen::Matrix3Xd& gradient) {

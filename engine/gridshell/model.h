@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/footprint/mesh.h"
-#include "engine/rod/section.h"
+#include "engine/gridshell/shell_rods.h"
 
 namespace gridshell {
 
@@ -34,20 +34,21 @@ struct Model {
   std::vector<int> free_index;  ///< per node: index among the free ones, or -1
   std::vector<int> free_nodes;  ///< its inverse
   Eigen::Matrix2Xd flat;        ///< (u, v) of every node, for seeds and orderings
+  Eigen::Matrix3Xd load;        ///< dead force on every node, N; empty: none
 
   int free() const { return int(free_nodes.size()); }
   int dof() const { return 3 * free(); }
 };
 
-/// Rods of `mesh` with `section`; edge points are pinned but for free ends, ghosts too. A held
+/// Rods of `mesh` with their sections and loads; edge points are pinned but for free ends, ghosts too. A held
 /// direction costs EI/l |kb|^2, l the length of the edge at the end: half an edge bends there [the
 /// symmetric ghost of beam theory, second order]. The edge to a ghost has no EA.
-Model build_model(const RodMesh& mesh, const RodSection& section);
+Model build_model(const RodMesh& mesh, const ShellRods& rods);
 
-/// Potential energy by term, mJ.
+/// Potential energy by term, mJ. `load` is minus the work of the dead loads.
 struct Energies {
-  double bend = 0, stretch = 0;
-  double total() const { return bend + stretch; }
+  double bend = 0, stretch = 0, load = 0;
+  double total() const { return bend + stretch + load; }
 };
 
 /// The symmetric Hessian of a net of chains in 3x3 blocks: `diagonal` per node, `next` per edge
@@ -69,7 +70,7 @@ struct Assembly {
   double largest_strain = 0;  ///< over all edges, absolute
 };
 
-/// Energies alone.
+/// Energies of the rods alone, without the loads.
 Energies energies_of(const Model& model, const Eigen::Matrix3Xd& x);
 
 /// Energies, gradient and axial forces at x.
@@ -88,6 +89,13 @@ void assemble_mixed_residual(const Model& model, const Eigen::Matrix3Xd& x,
 /// `EA_scale` multiplies EA (continuation in stiffness).
 void assemble_hessian(const Model& model, const Eigen::Matrix3Xd& x,
                       const Eigen::VectorXd* axial_force, double EA_scale, Assembly& out);
+
+/// Adds `factor` times the dead loads to the energies and the gradient of an assembly at x; the
+/// assemblies above are those of the unloaded rods.
+void add_loads(const Model& model, const Eigen::Matrix3Xd& x, double factor, Assembly& out);
+
+/// Minus the work of `factor` times the dead loads, mJ.
+double load_energy(const Model& model, const Eigen::Matrix3Xd& x, double factor);
 
 /// y = H x over all nodes (3 x nodes).
 void multiply(const Model& model, const ChainHessian& hessian, const Eigen::Matrix3Xd& x,

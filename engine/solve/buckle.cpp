@@ -53,6 +53,7 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
   const Model& model = system.model();
   const double reach2 = mesh.flat.colwise().squaredNorm().maxCoeff();
   const double shortening = mean_shortening(mesh, motion, t);
+  system.set_load(motion.load(t));
   const double height = std::sqrt(std::max(shortening, 0.0) * reach2);
   State state;
   state.x.resize(3, model.nodes);
@@ -108,7 +109,8 @@ Result<State> settle(Linearisation& system, const State& unstable, const Watch& 
     state.x += side * push * mode;
     const NewtonReport report = minimise(system, state, {}, watch);
     if (report.outcome != NewtonOutcome::converged) continue;
-    const double energy = energies_of(system.model(), state.x).total();
+    const double energy = energies_of(system.model(), state.x).total() +
+                          load_energy(system.model(), state.x, system.load_factor());
     if (best && energy >= lowest) continue;
     lowest = energy;
     best = std::move(state);

@@ -79,14 +79,14 @@ std::optional<LevelPlan> finer(const LevelPlan& plan) {
   return next;
 }
 
-NestedShell::NestedShell(const Footprint& footprint, const RodSection& section,
+NestedShell::NestedShell(const Footprint& footprint, const ShellRods& rods,
                          const BoundaryMotion& motion, const LevelPlan& plan,
                          const PathOptions& options)
     : plan_(plan), options_(options) {
   for (int edges : plan.edges_per_segment) {
     auto level = std::make_unique<Level>();
     level->mesh = mesh_rods(footprint, edges);
-    level->model = build_model(level->mesh, section);
+    level->model = build_model(level->mesh, rods);
     level->motion = pinned_motion(level->mesh, motion);
     level->system = std::make_unique<Linearisation>(level->model);
     if (!levels_.empty()) {
@@ -126,7 +126,9 @@ void NestedShell::push_joint(const Prescription& prescription,
                              const Eigen::Vector3d& displacement) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = *levels_[k];
-    level.motion = {state_.levels[k].x, Eigen::Matrix3Xd::Zero(3, level.model.nodes), Pace::even};
+    const double load = level.system->load_factor();
+    level.motion = {state_.levels[k].x, Eigen::Matrix3Xd::Zero(3, level.model.nodes), Pace::even,
+                    load, 0};
     level.motion.change.col(prescription.node) = displacement;
     level.system->prescribe(prescription);
   }
@@ -282,6 +284,7 @@ void NestedShell::take_reaction() {
   state_.push_stiffness = held * levels_[last]->system->prescribed_stiffness() * held.transpose();
   if (!plan_.extrapolate) return;
   Linearisation& coarser = *levels_[last - 1]->system;
+  coarser.set_load(levels_[last]->system->load_factor());
   coarser.gradient_at(state_.levels[last - 1]);
   state_.reaction = (4 * state_.reaction - coarser.reaction()) / 3;
 }

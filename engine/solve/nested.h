@@ -8,7 +8,6 @@
 
 #include "engine/core/result.h"
 #include "engine/footprint/mesh.h"
-#include "engine/rod/section.h"
 #include "engine/solve/path.h"
 
 namespace gridshell {
@@ -66,7 +65,7 @@ struct NestedReport {
 /// A footprint meshed on several levels with one motion of its boundary.
 class NestedShell {
  public:
-  NestedShell(const Footprint& footprint, const RodSection& section, const BoundaryMotion& motion,
+  NestedShell(const Footprint& footprint, const ShellRods& rods, const BoundaryMotion& motion,
               const LevelPlan& plan, const PathOptions& options);
 
   /// From a state of the coarsest level at t, an equilibrium or near one: certifies it on all

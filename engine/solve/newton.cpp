@@ -19,6 +19,7 @@ Linearisation::Linearisation(const Model& model, std::unique_ptr<LinearSolver> s
 Inertia Linearisation::at(const State& state, bool mixed, double shift, double EA_scale) {
   EA_scale_ = EA_scale;
   assemble_hessian(model_, state.x, mixed ? &state.force : nullptr, EA_scale, assembly_);
+  add_loads(model_, state.x, load_factor_, assembly_);
   tangents_ = assembly_.tangents;
   if (prescription_.active())
     assembly_.hessian.diagonal[prescription_.node] +=
@@ -79,6 +80,12 @@ double Linearisation::residual() const {
 
 void Linearisation::residual_at(const State& state) {
   assemble_mixed_residual(model_, state.x, state.force, tangents_, assembly_);
+  add_loads(model_, state.x, load_factor_, assembly_);
+}
+
+void Linearisation::gradient_at(const State& state) {
+  assemble_gradient(model_, state.x, assembly_);
+  add_loads(model_, state.x, load_factor_, assembly_);
 }
 
 void Linearisation::correction(Eigen::Matrix3Xd& dx) const {
@@ -86,8 +93,8 @@ void Linearisation::correction(Eigen::Matrix3Xd& dx) const {
   solve(dx);
 }
 
-void Linearisation::tangent(const Eigen::Matrix3Xd& pinned_velocity,
-                            Eigen::Matrix3Xd& velocity) const {
+void Linearisation::tangent(const Eigen::Matrix3Xd& pinned_velocity, Eigen::Matrix3Xd& velocity,
+                            double load_velocity) const {
   Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, model_.nodes);
   for (int node = 0; node < model_.nodes; ++node)
     if (model_.pinned[node]) moved.col(node) = pinned_velocity.col(node);
@@ -95,6 +102,7 @@ void Linearisation::tangent(const Eigen::Matrix3Xd& pinned_velocity,
     moved.col(prescription_.node) = prescription_.part(pinned_velocity.col(prescription_.node));
   multiply(model_, assembly_.hessian, moved, velocity);
   velocity *= -1;
+  if (model_.load.size() > 0) velocity += load_velocity * model_.load;
   solve(velocity);
   velocity += moved;
 }
@@ -169,7 +177,8 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
   const Model& model = system.model();
   const auto energy_at = [&](const Eigen::Matrix3Xd& x) {
     const Energies energies = energies_of(model, x);
-    return energies.bend + options.EA_scale * energies.stretch;
+    return energies.bend + options.EA_scale * energies.stretch +
+           load_energy(model, x, system.load_factor());
   };
   double shift = 0;
   for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {

@@ -68,16 +68,22 @@ class Linearisation {
   /// How the force grows with the prescribed components, m x m, N/mm; of the last factorisation.
   Eigen::MatrixXd prescribed_stiffness() const;
 
+  /// How much of the model's dead loads acts from the next assembly on, as a factor.
+  void set_load(double factor) { load_factor_ = factor; }
+  double load_factor() const { return load_factor_; }
+
   /// The energy's gradient at a state, without a factorisation.
-  void gradient_at(const State& state) { assemble_gradient(model_, state.x, assembly_); }
+  void gradient_at(const State& state);
   /// The mixed residual at another state, with the factorisation and directions of the last at().
   void residual_at(const State& state);
 
   /// Newton's correction: solves K dx = -dE/dx with the pinned nodes held.
   void correction(Eigen::Matrix3Xd& dx) const;
   /// Tangent of the path: how free nodes follow when pinned nodes move with `pinned_velocity` (of
-  /// free nodes only what is prescribed counts); comes back as the velocity of all nodes.
-  void tangent(const Eigen::Matrix3Xd& pinned_velocity, Eigen::Matrix3Xd& velocity) const;
+  /// free nodes only what is prescribed counts) and the load factor grows by `load_velocity`; comes
+  /// back as the velocity of all nodes.
+  void tangent(const Eigen::Matrix3Xd& pinned_velocity, Eigen::Matrix3Xd& velocity,
+               double load_velocity = 0) const;
   /// Solves K y = right_hand_side at the free nodes, in place; prescribed components of y are zero.
   void solve(Eigen::Matrix3Xd& right_hand_side) const;
   /// Change of the axial forces with positions, EA B dx, at the linearisation point.
@@ -101,7 +107,7 @@ class Linearisation {
   std::vector<Eigen::Matrix3Xd> border_;  // (K + g B B^T)^-1 B, a matrix a column
   Eigen::MatrixXd compliance_;            // B^T (K + g B B^T)^-1 B
   Eigen::Matrix3Xd tangents_;             // unit tangent of each edge at the linearisation point
-  double EA_scale_ = 1;
+  double EA_scale_ = 1, load_factor_ = 1;
   Effort effort_;
 };
 

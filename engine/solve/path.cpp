@@ -5,7 +5,8 @@
 
 namespace gridshell {
 
-void PinnedMotion::impose(const Linearisation& system, double t, Eigen::Matrix3Xd& x) const {
+void PinnedMotion::impose(Linearisation& system, double t, Eigen::Matrix3Xd& x) const {
+  system.set_load(load(t));
   const Model& model = system.model();
   for (int node = 0; node < model.nodes; ++node)
     if (model.pinned[node]) x.col(node) = begin.col(node) + come(t) * change.col(node);
@@ -16,7 +17,7 @@ void PinnedMotion::impose(const Linearisation& system, double t, Eigen::Matrix3X
 }
 
 void PathFollower::take_velocity(PathPoint& point) const {
-  system_.tangent(motion_.velocity(point.t), point.velocity.x);
+  system_.tangent(motion_.velocity(point.t), point.velocity.x, motion_.load_velocity(point.t));
   point.velocity.force = system_.force_change(point.velocity.x);
 }
 
@@ -28,6 +29,7 @@ PathReport PathFollower::start(double t, State state) {
   NewtonOptions options;
   options.tolerance_mm = options_.tolerance_mm;
   options.widest_turn = options_.widest_turn;
+  system_.set_load(motion_.load(t));
   report.last = newton(system_, now_.state, options);
   report.t = t;
   last_ = report.last;

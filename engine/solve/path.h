@@ -17,19 +17,25 @@ enum class Pace {
 };
 
 /// Where the pinned nodes, and of a prescribed node the prescribed components, are at path
-/// parameter t, and how fast they move.
+/// parameter t, and how fast they move; and how much of the dead loads acts, which come on in
+/// proportion: the flat shell carries none.
 struct PinnedMotion {
   Eigen::Matrix3Xd begin;   ///< 3 x nodes at t = 0 (what is free is ignored)
   Eigen::Matrix3Xd change;  ///< to t = 1
   Pace pace = Pace::square;
+  double load_begin = 0, load_change = 1;  ///< factor of the dead loads, as the positions
 
   double come(double t) const { return pace == Pace::square ? t * t : t; }
   Eigen::Matrix3Xd at(double t) const { return begin + come(t) * change; }
   Eigen::Matrix3Xd velocity(double t) const {
     return (pace == Pace::square ? 2 * t : 1.0) * change;
   }
-  /// Puts the nodes that `system` does not leave free where they belong at t.
-  void impose(const Linearisation& system, double t, Eigen::Matrix3Xd& x) const;
+  double load(double t) const { return load_begin + come(t) * load_change; }
+  double load_velocity(double t) const {
+    return (pace == Pace::square ? 2 * t : 1.0) * load_change;
+  }
+  /// Puts the nodes that `system` does not leave free where they belong at t, and the loads on.
+  void impose(Linearisation& system, double t, Eigen::Matrix3Xd& x) const;
 };
 
 /// A state on the path with its derivative by t.
