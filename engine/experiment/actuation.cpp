@@ -9,6 +9,7 @@
 #include "engine/core/clock.h"
 #include "engine/experiment/frames.h"
 #include "engine/experiment/net_design.h"
+#include "engine/solve/minimise.h"
 
 namespace gridshell::experiment {
 namespace {

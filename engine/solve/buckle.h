@@ -23,7 +23,7 @@ Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& 
                                        double shortening);
 
 /// A stable equilibrium at t, from the seed's shape: a dome as high as the shortening asks for,
-/// tilted along a diagonal, brought to rest with EA scaled by 0.01, 0.1 and 1 in turn. Errors:
+/// tilted along a diagonal, brought to rest with EA scaled by 0.01 and then as it is. Errors:
 /// no_equilibrium, cancelled.
 Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
                             double t, const BuckleSeed& seed, const FlatFrame& flat,

@@ -198,7 +198,7 @@ std::unique_ptr<LinearSolver> make_cholmod(const Model& model, const CholmodOpti
 }
 
 std::unique_ptr<LinearSolver> make_linear_solver(const Model& model) {
-  constexpr int crossover = 40000;  // degrees of freedom
+  constexpr int crossover = 200000;  // degrees of freedom
   return model.dof() <= crossover ? make_block_cholesky(model) : make_cholmod(model);
 }
 

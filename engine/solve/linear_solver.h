@@ -34,7 +34,7 @@ class LinearSolver {
 };
 
 /// The faster of the two below for the size of `model`: block Cholesky up to the crossover measured
-/// by tests/bench/bench_solver (about 40 000 degrees of freedom), supernodal CHOLMOD above.
+/// by tests/bench/bench_solver (about 200 000 degrees of freedom), supernodal CHOLMOD above.
 std::unique_ptr<LinearSolver> make_linear_solver(const Model& model);
 
 /// 3x3-block signed Cholesky L S L^T on a fixed schedule, geometric nested dissection.

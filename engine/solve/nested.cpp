@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/solve/minimise.h"
+
 namespace gridshell {
 namespace {
 

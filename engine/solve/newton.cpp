@@ -122,6 +122,19 @@ void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state) const {
   state.force = assembly_.force + force_change(dx);
 }
 
+void Linearisation::restore_lengths(const Eigen::VectorXd& force, Eigen::Matrix3Xd& x) const {
+  Eigen::Matrix3Xd pull = Eigen::Matrix3Xd::Zero(3, model_.nodes);
+  for (std::size_t k = 0; k < model_.edges.size(); ++k) {
+    const ModelEdge& edge = model_.edges[k];
+    const double strain = (x.col(edge.to) - x.col(edge.from)).norm() / edge.rest_length - 1;
+    const double excess = EA_scale_ * edge.EA * strain - force[Eigen::Index(k)];
+    pull.col(edge.from) += excess * tangents_.col(k);
+    pull.col(edge.to) -= excess * tangents_.col(k);
+  }
+  solve(pull);
+  x += pull;
+}
+
 double largest_column(const Eigen::Matrix3Xd& dx) {
   double largest = 0;
   for (Eigen::Index k = 0; k < dx.cols(); ++k) {
@@ -166,59 +179,6 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     const bool near = move < options.near_mm;
     factor = !near || (!factor && move > 0.1 * before);
     before = move;
-  }
-  return report;
-}
-
-NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions& options,
-                      const Watch& watch) {
-  NewtonReport report;
-  Eigen::Matrix3Xd dx, trial;
-  const Model& model = system.model();
-  const auto energy_at = [&](const Eigen::Matrix3Xd& x) {
-    const Energies energies = energies_of(model, x);
-    return energies.bend + options.EA_scale * energies.stretch +
-           load_energy(model, x, system.load_factor());
-  };
-  double shift = 0;
-  for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
-    if (watch.cancelled()) return report;
-    // the smallest shift of a geometric row that makes the Hessian positive definite
-    report.inertia = system.at(state, false, shift, options.EA_scale);
-    ++system.effort().newton_iterations;
-    double first = shift;
-    while (!report.inertia.positive_definite()) {
-      if (shift > 1e8) {
-        report.outcome = NewtonOutcome::not_finite;
-        return report;
-      }
-      shift = std::max(4 * shift, 1e-6);
-      report.inertia = system.shifted(shift);
-    }
-    system.correction(dx);
-    const double move = largest_column(dx);
-    if (!std::isfinite(move)) {
-      report.outcome = NewtonOutcome::not_finite;
-      return report;
-    }
-    if (report.iterations == 1) report.first_move_mm = move;
-    report.last_move_mm = move;
-    if (move <= options.tolerance_mm && shift == 0) {
-      system.apply(dx, state);
-      report.outcome = NewtonOutcome::converged;
-      return report;
-    }
-
-    const double start = energy_at(state.x),
-                 slope = (system.assembly().gradient.array() * dx.array()).sum();
-    double step = 1;
-    for (; step > 1e-10; step /= 2) {
-      trial = state.x + step * dx;
-      const double energy = energy_at(trial);
-      if (energy <= start + 1e-4 * step * slope + 1e-14 * std::abs(start)) break;
-    }
-    state.x.swap(trial);
-    shift = step == 1 && first == shift ? (shift < 1e-5 ? 0 : shift / 4) : shift;
   }
   return report;
 }

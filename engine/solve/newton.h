@@ -88,6 +88,9 @@ class Linearisation {
   void solve(Eigen::Matrix3Xd& right_hand_side) const;
   /// Change of the axial forces with positions, EA B dx, at the linearisation point.
   Eigen::VectorXd force_change(const Eigen::Matrix3Xd& dx) const;
+  /// Moves x, which a long step came to, so that its axial forces become `force` to first order: a
+  /// straight step across a bent rod stretches it at second order.
+  void restore_lengths(const Eigen::VectorXd& force, Eigen::Matrix3Xd& x) const;
   /// state.x += dx and the mixed update of the forces.
   void apply(const Eigen::Matrix3Xd& dx, State& state) const;
 
@@ -143,17 +146,5 @@ struct NewtonReport {
 /// long as its corrections shrink tenfold. On success `state` is the equilibrium, else it is the
 /// last iterate and the report says what happened.
 NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& options);
-
-struct MinimiseOptions {
-  double tolerance_mm = 1e-5;
-  int most_iterations = 400;
-  double EA_scale = 1;
-};
-
-/// Shifted Newton with line search from far away: the Hessian is shifted until it is positive
-/// definite, the energy falls at every step; ends at a minimum, never at a saddle. `state.force` is
-/// set at the end.
-NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions& options,
-                      const Watch& watch);
 
 }  // namespace gridshell

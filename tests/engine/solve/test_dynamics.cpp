@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/solve/newton.h"
+#include "engine/solve/minimise.h"
 #include "engine/solve/relaxation.h"
 #include "tests/engine/solve/single_rod.h"
 

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "engine/solve/newton.h"
+#include "engine/solve/minimise.h"
 
 using namespace gridshell;
 

@@ -1,0 +1,113 @@
+#include "engine/solve/minimise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridshell {
+namespace {
+
+/// The way down: what changes between its steps.
+class Descent {
+ public:
+  Descent(Linearisation& system, State& state, const MinimiseOptions& options)
+      : system_(system), state_(state), options_(options) {}
+
+  /// Factorises the mixed form at the state, or what is near it and positive definite.
+  Inertia factorise() {
+    shift_ /= 4;
+    weakening_ = weakening_ < 0.01 ? 0 : weakening_ / 4;
+    for (;;) {
+      State weakened = state_;
+      weakened.force = state_.force.cwiseMax((1 - weakening_) * state_.force);
+      const Inertia inertia = system_.at(weakened, true, 0, options_.EA_scale);
+      if (inertia.positive_definite()) {
+        shift_ = 0;
+        return inertia;
+      }
+      if (weakening_ >= 1) break;
+      weakening_ = weakening_ == 0 ? 0.02 : std::min(1.0, 4 * weakening_);
+    }
+    Inertia inertia;
+    do {
+      shift_ = std::max(4 * shift_, 1e-6);
+      inertia = system_.shifted(shift_);
+    } while (!inertia.positive_definite() && shift_ < 1e8);
+    return inertia;
+  }
+
+  /// Whether the last matrix was the mixed form as it is.
+  bool exact() const { return weakening_ == 0 && shift_ == 0; }
+
+  /// As far along dx as the energy falls.
+  void go(const Eigen::Matrix3Xd& dx) {
+    const double begin = energy_at(state_.x),
+                 slope = (system_.assembly().gradient.array() * dx.array()).sum();
+    const Eigen::VectorXd force = system_.assembly().force, change = system_.force_change(dx);
+    const auto falls = [&](double step) {
+      return energy_at(trial_) <= begin + 1e-4 * step * slope + 1e-14 * std::abs(begin);
+    };
+    double step = 1;
+    for (; step > 1e-10; step /= 2) {
+      trial_ = state_.x + step * dx;
+      if (falls(step)) break;
+      system_.restore_lengths(force + step * change, trial_);
+      if (falls(step)) break;
+    }
+    state_.force = force + step * change;
+    state_.x.swap(trial_);
+  }
+
+ private:
+  double energy_at(const Eigen::Matrix3Xd& x) const {
+    const Energies energies = energies_of(system_.model(), x);
+    return energies.bend + options_.EA_scale * energies.stretch +
+           load_energy(system_.model(), x, system_.load_factor());
+  }
+
+  Linearisation& system_;
+  State& state_;
+  const MinimiseOptions& options_;
+  Eigen::Matrix3Xd trial_;
+  double weakening_ = 0, shift_ = 0;
+};
+
+/// Whether the energy's Hessian is positive definite, but for round-off: a rod between two pins may
+/// turn about their line without any force.
+bool is_minimum(Linearisation& system, const State& state, double EA_scale) {
+  constexpr double round_off = 1e-12;
+  const double largest = system.at(state, false, 0, EA_scale).largest_pivot;
+  return system.shifted(round_off * largest).positive_definite();
+}
+
+}  // namespace
+
+NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions& options,
+                      const Watch& watch) {
+  NewtonReport report;
+  Eigen::Matrix3Xd dx;
+  Descent descent(system, state, options);
+  for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
+    if (watch.cancelled()) return report;
+    report.inertia = descent.factorise();
+    ++system.effort().newton_iterations;
+    system.correction(dx);
+    const double move = largest_column(dx);
+    if (!report.inertia.positive_definite() || !std::isfinite(move)) {
+      report.outcome = NewtonOutcome::not_finite;
+      return report;
+    }
+    if (report.iterations == 1) report.first_move_mm = move;
+    report.last_move_mm = move;
+    if (move > options.tolerance_mm) {
+      descent.go(dx);
+      continue;
+    }
+    system.apply(dx, state);
+    if (descent.exact() || is_minimum(system, state, options.EA_scale))
+      report.outcome = NewtonOutcome::converged;
+    return report;
+  }
+  return report;
+}
+
+}  // namespace gridshell
