@@ -28,6 +28,7 @@ struct Job {
   preset::Preset preset;
   experiment::Plan plan;
   record::Summary summary;  // once it has run
+  double length_scale_mm = 0;
 };
 
 // `figure` without radii shows the final state
@@ -43,7 +44,7 @@ Result<std::vector<Job>> jobs_of(const preset::Presets& presets, Pictures pictur
   for (const auto& run : runs_of(presets)) {
     auto plan = plan_of(run.preset);
     if (!plan) return tl::unexpected(plan.error());
-    jobs.push_back({run.name, with_stills(run.preset, pictures), *plan, {}});
+    jobs.push_back({run.name, with_stills(run.preset, pictures), *plan, {}, 0});
   }
   return jobs;
 }
@@ -52,10 +53,7 @@ Result<std::vector<Job>> jobs_of(const preset::Presets& presets, Pictures pictur
 double simulation_guess(const Job& job) { return 0.5 + 0.01 * job.preset.movie.frames; }
 
 // a shell that was designed on a net and is shown beside it; a pushed one is shown by itself
-bool has_net(const Job& job) {
-  return job.preset.footprint.kind == preset::FootprintKind::net &&
-         !job.preset.indentation.wanted();
-}
+bool has_net(const Job& job) { return job.preset.on_net() && !job.preset.indentation.wanted(); }
 
 std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
   std::vector<Phase> phases;
@@ -79,6 +77,7 @@ Result<void> do_job(Job& job, Pictures pictures, const fs::path& folder, Artist*
   auto outcome = experiment::run(job.preset, pictures == Pictures::stills, progress.next_phase());
   if (!outcome) return tl::unexpected(outcome.error());
   job.summary = outcome->summary;
+  job.length_scale_mm = outcome->trajectory.layout.length_scale_mm;
   auto written =
       make_folder(folder)
           .and_then(
@@ -135,6 +134,15 @@ void print_result(const Job& job, const fs::path& folder) {
       at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots), at.residual_N,
       at.seconds_simulation);
   if (at.seconds_render > 0) fmt::print(", {:.1f} s drawn", at.seconds_render);
+  if (!std::isnan(at.max_deviation))
+    fmt::print(
+        "\n  from its net: at most {:.3f} %, mean {:.3f} %, median {:.3f} %, nine tenths "
+        "within {:.3f} % of {:.4g} mm",
+        100 * at.max_deviation, 100 * at.mean_deviation, 100 * at.median_deviation,
+        100 * at.deviation_p90, job.length_scale_mm);
+  if (!std::isnan(at.max_seam_gap_mm))
+    fmt::print("\n  {:.2f} mm from its blocks at most; seams: gap {:.2f} mm, kink {:.1f} degrees",
+               at.max_deviation * job.length_scale_mm, at.max_seam_gap_mm, at.max_seam_kink_deg);
   fmt::print("\n");
   fmt::print("{}", how_to_make_movie(folder_of(folder, job.name), job.preset));
 }

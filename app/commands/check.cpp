@@ -26,6 +26,7 @@ void print_plan(const preset::Preset& preset, const experiment::Plan& plan) {
   if (preset.footprint.kind == preset::FootprintKind::circle)
     fmt::print("  boundary        {} mm to {} mm\n", preset.footprint.radius_mm,
                preset.actuation.radius_mm);
+  for (const auto& seam : plan.seams) fmt::print("  seam            {}\n", seam);
   fmt::print("  model           {}\n", plan.model_reason);
   fmt::print("  meshes          {} edges a segment{}\n", fmt::join(plan.levels, ", "),
              plan.extrapolated ? ", extrapolated" : "");

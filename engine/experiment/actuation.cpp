@@ -7,6 +7,7 @@
 #include <map>
 
 #include "engine/core/clock.h"
+#include "engine/experiment/block_design.h"
 #include "engine/experiment/frames.h"
 #include "engine/experiment/net_design.h"
 #include "engine/solve/minimise.h"
@@ -44,6 +45,10 @@ Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mes
     if (!net) return tl::unexpected<Error>(net.error());
     layout.net_nodes = std::move(*net);
     layout.flat_nodes = scene.flat.all(flat);
+  }
+  if (scene.blocks) {
+    if (auto shown = record_blocks(*scene.blocks, scene.flat, layout); !shown)
+      return tl::unexpected<Error>(shown.error());
   }
   return layout;
 }
@@ -114,10 +119,13 @@ class Actuation {
 
   Result<State> rest_near_net() {
     const RodMesh& mesh = shell_->mesh(0);
-    auto net = sample(*scene_.net, mesh.flat.leftCols(mesh.rod_nodes()));
+    const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
+    // blocks that meet with a gap would tear the rods between them
+    auto net = scene_.blocks ? scene_.blocks->closed(flat, 4 * scene_.footprint.spacing)
+                             : sample(*scene_.net, flat);
     if (!net) return tl::unexpected<Error>(net.error());
     net->conservativeResize(3, mesh.nodes());
-    net->rightCols(mesh.ghosts) = shell_->motion(0).at(1).rightCols(mesh.ghosts);
+    shell_->motion(0).impose(shell_->system(0), 1, *net);
     const Eigen::VectorXd slack = Eigen::VectorXd::Zero(shell_->model(0).edges.size());
     State state{*net, slack};
     Linearisation& system = shell_->system(0);

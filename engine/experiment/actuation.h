@@ -7,6 +7,7 @@
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
+#include "engine/footprint/blocks.h"
 #include "engine/footprint/flat_frame.h"
 #include "engine/footprint/footprint.h"
 #include "engine/geometry/chebyshev_net.h"
@@ -23,11 +24,12 @@ struct ActuationScene {
   ShellRods rods;
   double rod_diameter_mm = 0;
   BoundaryMotion motion;
-  double length_scale_mm = 0;          ///< R_o: what errors are relative to
-  FlatFrame flat;                      ///< where the flat footprint lies
-  std::shared_ptr<const ChebyshevNet> net;  ///< that it was designed on, if it was
-  bool from_net = false;  ///< the path starts at the net, where progress is 1
-  Eigen::Matrix3Xd original_boundary;  ///< closed polylines in correspondence, for pictures
+  double length_scale_mm = 0;                ///< R_o: what errors are relative to
+  FlatFrame flat;                            ///< where the flat footprint lies
+  std::shared_ptr<const ChebyshevNet> net;   ///< that it was designed on, if it was
+  std::shared_ptr<const Assemblage> blocks;  ///< that the net is made of, if it is
+  bool from_net = false;                     ///< the path starts at the net, where progress is 1
+  Eigen::Matrix3Xd original_boundary;        ///< closed polylines in correspondence, for pictures
   Eigen::Matrix3Xd actuated_boundary;
   double radius_begin_mm = record::unknown;  ///< of a circular boundary
   double radius_end_mm = record::unknown;
@@ -53,8 +55,8 @@ struct ActuationOutcome {
 /// Samples the path at `progress` (ascending, in [0, 1]; 0 is the flat footprint). From flat the
 /// path is found the patient way: a first buckled state where the rods are 2 % shorter than flat on
 /// average, from there back towards the flat and on to the end. From the net it is found at the
-/// equilibrium next to the net, progress 1, and followed backwards. Errors: bad_input, no_equilibrium
-/// (not a single buckled state), cancelled.
+/// equilibrium next to the net, progress 1, and followed backwards. Errors: bad_input,
+/// no_equilibrium (not a single buckled state), cancelled.
 Result<ActuationOutcome> run_actuation(const ActuationScene& scene,
                                        const std::vector<double>& progress, Watch& watch);
 

@@ -75,6 +75,15 @@ record::Summary summary_of(const preset::Preset& preset, const ActuationScene& s
                               layout.length_scale_mm);
     s.max_deviation = deviation.largest();
     s.mean_deviation = deviation.mean();
+    s.median_deviation = deviation.quantile(0.5);
+    s.deviation_p90 = deviation.quantile(0.9);
+  }
+  if (scene.blocks && !scene.blocks->seams().empty()) {
+    s.max_seam_gap_mm = s.max_seam_kink_deg = 0;
+    for (const Seam& seam : scene.blocks->seams()) {
+      s.max_seam_gap_mm = std::max(s.max_seam_gap_mm, seam.max_gap_mm());
+      s.max_seam_kink_deg = std::max(s.max_seam_kink_deg, seam.max_kink_deg());
+    }
   }
   s.newton_iterations = outcome.effort.newton_iterations;
   s.factorizations = outcome.effort.factorizations;
@@ -119,6 +128,11 @@ Result<Plan> plan(const preset::Preset& preset) {
       "{} rods, {} joints, {} cells; longest leg {:.2f} d, shortest {:.2f} d", plan.rods,
       plan.joints, plan.cells, scene->footprint.longest_leg() / scene->footprint.spacing,
       scene->footprint.shortest_leg() / scene->footprint.spacing);
+  if (scene->blocks)
+    for (const Seam& seam : scene->blocks->seams())
+      plan.seams.push_back(fmt::format(
+          "{}: {} rods across, at most {:.2f} mm apart, kinked by at most {:.1f} degrees",
+          seam.name, seam.rods.size(), seam.max_gap_mm(), seam.max_kink_deg()));
   return plan;
 }
 

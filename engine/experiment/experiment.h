@@ -29,7 +29,8 @@ struct Plan {
   int rods = 0, joints = 0, cells = 0, dof = 0;
   double expected_error_mm = record::unknown;
   double expected_seconds = record::unknown;
-  std::string footprint;  ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
+  std::vector<std::string> seams;  ///< of building blocks, a sentence each
+  std::string footprint;           ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
 };
 
 /// Builds the scene of a preset and says what would run. Errors: Fault::bad_input with the reason.

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "engine/core/result.h"
+#include "engine/footprint/blocks.h"
 #include "engine/footprint/domain.h"
 #include "engine/footprint/flat_frame.h"
 #include "engine/geometry/chebyshev_net.h"
@@ -17,7 +18,8 @@ struct NetDesign {
   std::shared_ptr<const ChebyshevNet> net;
   std::unique_ptr<Domain> domain;
   FlatFrame flat;
-  double scale_mm = 0;  ///< rho
+  double scale_mm = 0;                       ///< rho
+  std::shared_ptr<const Assemblage> blocks;  ///< where the net is one of blocks
 };
 
 /// Errors (bad_input): what the net or its boundary cannot be, with where it folds or ends.

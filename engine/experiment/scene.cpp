@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/experiment/block_design.h"
+#include "engine/experiment/curve_design.h"
 #include "engine/experiment/net_design.h"
 
 namespace gridshell::experiment {
@@ -55,7 +57,25 @@ Result<void> build_circle(const preset::Preset& preset, ActuationScene& scene) {
   return {};
 }
 
-/// Lets go of the ends on the end rings of a surface of revolution, but for those on its long edges.
+Result<void> build_curve(const preset::Preset& preset, ActuationScene& scene) {
+  auto design = curve_design(preset);
+  if (!design) return tl::unexpected<Error>(design.error());
+  auto footprint =
+      cut_footprint(*design->domain, preset.footprint.spacing_mm, placement_of(preset));
+  if (!footprint) return tl::unexpected<Error>(footprint.error());
+  scene.footprint = std::move(*footprint);
+  scene.length_scale_mm = design->scale_mm;
+  const Eigen::Matrix2Xd ring = design->domain->boundary(boundary_points);
+  const Eigen::Matrix2Xd ends = edge_points(scene.footprint);
+  scene.original_boundary = scene.flat.all(ring);
+  scene.actuated_boundary = scene.flat.all(design->actuated(ring));
+  scene.motion.begin = scene.flat.all(ends);
+  scene.motion.end = scene.flat.all(design->actuated(ends));
+  return {};
+}
+
+/// Lets go of the ends on the end rings of a surface of revolution, but for those on its long
+/// edges.
 void free_rings(ActuationScene& scene) {
   const double ring = scene.actuated_boundary.row(0).cwiseAbs().maxCoeff();
   const double near = 1e-9 * scene.length_scale_mm;
@@ -88,13 +108,15 @@ Result<void> hold_directions(const Eigen::Matrix2Xd& ends, ActuationScene& scene
 }
 
 Result<void> build_net(const preset::Preset& preset, ActuationScene& scene) {
-  auto design = net_design(preset.net);
+  auto design = preset.footprint.kind == preset::FootprintKind::blocks ? block_design(preset)
+                                                                       : net_design(preset.net);
   if (!design) return tl::unexpected<Error>(design.error());
   auto footprint =
       cut_footprint(*design->domain, preset.footprint.spacing_mm, placement_of(preset));
   if (!footprint) return tl::unexpected<Error>(footprint.error());
   scene.footprint = std::move(*footprint);
   scene.net = design->net;
+  scene.blocks = design->blocks;
   scene.flat = design->flat;
   scene.from_net = preset.actuation.start == preset::Start::net;
   scene.length_scale_mm = design->scale_mm;
@@ -117,8 +139,11 @@ Result<void> build_net(const preset::Preset& preset, ActuationScene& scene) {
 
 Result<ActuationScene> scene_of(const preset::Preset& preset) {
   ActuationScene scene;
-  const bool net = preset.footprint.kind == preset::FootprintKind::net;
-  if (const auto built = net ? build_net(preset, scene) : build_circle(preset, scene); !built)
+  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
+  if (const auto built = circle            ? build_circle(preset, scene)
+                         : preset.on_net() ? build_net(preset, scene)
+                                           : build_curve(preset, scene);
+      !built)
     return tl::unexpected<Error>(built.error());
   scene.rods = circular_section(preset.rod.diameter_mm, preset.rod.young_GPa);
   scene.rod_diameter_mm = preset.rod.diameter_mm;

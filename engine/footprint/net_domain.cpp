@@ -136,6 +136,14 @@ class Rectangle final : public Domain {
   std::array<Side, 2> sides_;
 };
 
+/// first <= u + v <= last, half a turn around
+std::unique_ptr<Domain> half_between(const RevolutionNet& net, double first, double last) {
+  const double quarter_turn = M_PI_2 / net.c();
+  return std::make_unique<Rectangle>(
+      std::array<Rectangle::Side, 2>{{{Eigen::Vector2d(1, 1), first, last},
+                                      {Eigen::Vector2d(-1, 1), -quarter_turn, quarter_turn}}});
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Domain>> cap_of(const SphereNet& net, double cut_height) {
@@ -153,10 +161,11 @@ Result<std::unique_ptr<Domain>> half_of(const RevolutionNet& net, double length)
   const auto first = net.x_at_axial(-length / 2), last = net.x_at_axial(length / 2);
   for (const auto* end : {&first, &last})
     if (!*end) return tl::unexpected(end->error());
-  const double quarter_turn = M_PI_2 / net.c();
-  return std::make_unique<Rectangle>(
-      std::array<Rectangle::Side, 2>{{{Eigen::Vector2d(1, 1), *first, *last},
-                                      {Eigen::Vector2d(-1, 1), -quarter_turn, quarter_turn}}});
+  return half_between(net, *first, *last);
+}
+
+std::unique_ptr<Domain> half_of_all(const RevolutionNet& net) {
+  return half_between(net, net.first_x(), net.last_x());
 }
 
 std::unique_ptr<Domain> all_of(const TranslationNet& net) {

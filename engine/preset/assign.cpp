@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "engine/preset/point_file.h"
 #include "engine/preset/suggest.h"
 
 namespace gridshell::preset {
@@ -112,9 +113,52 @@ std::string put(const RealList& kind, const toml::node& value, Preset& preset) {
   return "";
 }
 
+std::string put(const OptionalInteger& kind, const toml::node& value, Preset& preset) {
+  if (const auto* text = value.as_string(); text && text->get() == "none") {
+    kind.in(preset).reset();
+    return "";
+  }
+  const auto* integer = value.as_integer();
+  if (!integer) return "is " + type_text(value);
+  if (!kind.range.holds(double(integer->get()))) return "out of range";
+  kind.in(preset) = int(integer->get());
+  return "";
+}
+
+std::string put(const PointList& kind, const toml::node& value, Preset& preset) {
+  const auto* list = value.as_array();
+  if (!list) return "is " + type_text(value);
+  Points points;
+  for (const auto& item : *list) {
+    const auto* point = item.as_array();
+    if (!point) return "is a list with " + type_text(item);
+    if (point->size() != kind.coordinates.size())
+      return "holds a point of " + std::to_string(point->size()) + " coordinates";
+    points.emplace_back();
+    for (const auto& number : *point) {
+      const auto real = real_of(number);
+      if (!real) return "holds a point with " + type_text(number);
+      points.back().push_back(*real);
+    }
+  }
+  kind.in(preset) = std::move(points);
+  return "";
+}
+
+// the points of a file, or what is wrong with it
+std::string put_file(const PointList& kind, const std::filesystem::path& file, Preset& preset) {
+  auto points = read_points(file, kind.coordinates);
+  if (!points) return points.error().message;
+  kind.in(preset) = std::move(*points);
+  return "";
+}
+
 }  // namespace
 
-std::string assign(const Field& field, const toml::node& value, Preset& preset) {
+std::string assign(const Field& field, const toml::node& value, Preset& preset,
+                   const std::filesystem::path& folder) {
+  if (const auto* points = std::get_if<PointList>(&field.kind); points && value.is_string())
+    return put_file(*points, folder / value.as_string()->get(), preset);
   const auto wrong =
       std::visit([&](const auto& kind) { return put(kind, value, preset); }, field.kind);
   if (wrong.empty()) return "";

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/preset/shape_consistency.h"
+
 namespace gridshell::preset {
 namespace {
 
@@ -9,12 +11,18 @@ constexpr const char* original_radius = "[footprint] radius_mm";
 constexpr const char* actuated_radius = "[actuation] radius_mm";
 constexpr const char* spacing = "[footprint] spacing_mm";
 
+bool has_rings(const Preset& preset) {
+  return preset.footprint.kind == FootprintKind::net && preset.net.kind != NetKind::sphere &&
+         preset.net.kind != NetKind::translation;
+}
+
 }  // namespace
 
 std::vector<Conflict> conflicts(const Preset& preset) {
   std::vector<Conflict> found;
   const double original = preset.footprint.radius_mm, actuated = preset.actuation.radius_mm;
   const bool circle = preset.footprint.kind == FootprintKind::circle;
+  const bool net = preset.on_net();
   if (circle && actuated > original)
     found.push_back({"actuation",
                      "radius_mm",
@@ -28,18 +36,20 @@ std::vector<Conflict> conflicts(const Preset& preset) {
                      fmt::format("neighbouring rods would touch, must be less than {} = {}",
                                  spacing, preset.footprint.spacing_mm)});
   double last = original;
-  if (circle && preset.actuation.start == Start::net)
+  if (!net && preset.actuation.start == Start::net)
     found.push_back({"actuation",
                      "start",
                      {"[footprint] kind"},
-                     "a circle has no net to start from, must be \"flat\", or [footprint] kind = "
-                     "\"net\""});
-  if (circle && preset.ends.kind == EndKind::tangent)
+                     circle ? "a circle has no net to start from, must be \"flat\", or [footprint] "
+                              "kind = \"net\""
+                            : "a curve has no net to start from, must be \"flat\", or [footprint] "
+                              "kind = \"net\""});
+  if (!net && preset.ends.kind == EndKind::tangent)
     found.push_back({"ends",
                      "kind",
                      {"[footprint] kind"},
-                     "a circle has no net whose tangents could be held, must be \"pinned\""});
-  if ((circle || preset.net.kind == NetKind::sphere) && preset.ends.rings == Rings::free)
+                     "only a net has tangents that could be held, must be \"pinned\""});
+  if (!has_rings(preset) && preset.ends.rings == Rings::free)
     found.push_back({"ends",
                      "rings",
                      {"[footprint] kind", "[net] kind"},
@@ -49,7 +59,7 @@ std::vector<Conflict> conflicts(const Preset& preset) {
                      "radii_mm",
                      {"[footprint] kind"},
                      "only a circle's boundary has a radius all the way, must be empty for "
-                     "[footprint] kind = \"net\""});
+                     "any other [footprint] kind"});
   for (const double radius : circle ? preset.figure.radii_mm : std::vector<double>{}) {
     if (radius > last || radius < actuated) {
       found.push_back({"figure",
@@ -63,10 +73,10 @@ std::vector<Conflict> conflicts(const Preset& preset) {
     last = radius;
   }
   if (const auto count = preset.indentation.joint.size(); count != 0 && count != 2)
-    found.push_back({"indentation",
-                     "joint",
-                     {},
-                     fmt::format("a list of {}, must be [i, j] or empty", count)});
+    found.push_back(
+        {"indentation", "joint", {}, fmt::format("a list of {}, must be [i, j] or empty", count)});
+  for (auto& more : {shape_conflicts(preset), block_conflicts(preset)})
+    found.insert(found.end(), more.begin(), more.end());
   return found;
 }
 

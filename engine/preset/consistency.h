@@ -14,6 +14,7 @@ struct Conflict {
   std::string table, key;
   std::vector<std::string> others;  ///< the other keys, "[table] key"
   std::string what;                 ///< what is wrong, what is allowed
+  int item = -1;                    ///< of a list of tables, from 0
 };
 
 /// Empty when the preset makes sense as a whole (whether its footprint can be built is not known

@@ -45,6 +45,16 @@ std::string words_text(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string points_text(const Points& points) {
+  std::vector<std::string> items;
+  for (const auto& point : points) {
+    std::vector<std::string> numbers;
+    for (const double value : point) numbers.push_back(real_text(value));
+    items.push_back(fmt::format("[{}]", fmt::join(numbers, ", ")));
+  }
+  return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
 }  // namespace
 
 std::string name_of(const Field& field) {
@@ -62,6 +72,13 @@ std::string allowed(const Field& field) {
           [](const IntegerPair& k) { return "two integers, each" + bounds_text(k.range); },
           [](const IntegerList& k) { return "a list of integers" + bounds_text(k.range); },
           [](const RealList& k) { return "a list of numbers, each" + bounds_text(k.range); },
+          [](const OptionalInteger& k) {
+            return "an integer" + bounds_text(k.range) + ", or \"none\"";
+          },
+          [](const PointList& k) {
+            return fmt::format("a list of points [{}], or the name of a file with one a line",
+                               fmt::join(k.coordinates, ", "));
+          },
       },
       field.kind);
 }
@@ -69,25 +86,29 @@ std::string allowed(const Field& field) {
 std::string value_text(const Field& field, const Preset& preset) {
   // the accessors reach for writing; nothing is written here
   auto& from = const_cast<Preset&>(preset);
-  return std::visit(Overloaded{
-                        [&](const Real& k) { return real_text(k.in(from)); },
-                        [&](const Integer& k) { return std::to_string(k.in(from)); },
-                        [&](const Flag& k) { return std::string(k.in(from) ? "true" : "false"); },
-                        [&](const Text& k) { return quoted(k.in(from)); },
-                        [&](const Word& k) { return quoted(k.words.at(k.get(preset))); },
-                        [&](const IntegerPair& k) {
-                          return fmt::format("[{}, {}]", k.in(from)[0], k.in(from)[1]);
-                        },
-                        [&](const IntegerList& k) {
-                          return fmt::format("[{}]", fmt::join(k.in(from), ", "));
-                        },
-                        [&](const RealList& k) {
-                          std::vector<std::string> items;
-                          for (const double value : k.in(from)) items.push_back(real_text(value));
-                          return fmt::format("[{}]", fmt::join(items, ", "));
-                        },
-                    },
-                    field.kind);
+  return std::visit(
+      Overloaded{
+          [&](const Real& k) { return real_text(k.in(from)); },
+          [&](const Integer& k) { return std::to_string(k.in(from)); },
+          [&](const Flag& k) { return std::string(k.in(from) ? "true" : "false"); },
+          [&](const Text& k) { return quoted(k.in(from)); },
+          [&](const Word& k) { return quoted(k.words.at(k.get(preset))); },
+          [&](const IntegerPair& k) {
+            return fmt::format("[{}, {}]", k.in(from)[0], k.in(from)[1]);
+          },
+          [&](const IntegerList& k) { return fmt::format("[{}]", fmt::join(k.in(from), ", ")); },
+          [&](const RealList& k) {
+            std::vector<std::string> items;
+            for (const double value : k.in(from)) items.push_back(real_text(value));
+            return fmt::format("[{}]", fmt::join(items, ", "));
+          },
+          [&](const OptionalInteger& k) {
+            const auto& value = k.in(from);
+            return value ? std::to_string(*value) : std::string("\"none\"");
+          },
+          [&](const PointList& k) { return points_text(k.in(from)); },
+      },
+      field.kind);
 }
 
 }  // namespace gridshell::preset

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -62,12 +63,25 @@ struct IntegerList {
   Range range;
 };
 
+/// A number, or nothing where the key is "none".
+struct OptionalInteger {
+  std::optional<int>& (*in)(Preset&);
+  Range range;
+};
+/// Points of two or three coordinates, in the preset or in a file beside it.
+struct PointList {
+  Points& (*in)(Preset&);
+  std::vector<std::string> coordinates;  ///< their names
+};
+
 /// One key.
 struct Field {
   std::string table;  ///< empty at the top of the file
   std::string key;
   std::string unit;  ///< empty: a pure number or not a number
-  std::variant<Real, Integer, Flag, Text, Word, IntegerPair, RealList, IntegerList> kind;
+  std::variant<Real, Integer, Flag, Text, Word, IntegerPair, RealList, IntegerList, OptionalInteger,
+               PointList>
+      kind;
   std::string meaning;  ///< one sentence without a full stop
 };
 

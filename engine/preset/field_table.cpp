@@ -1,54 +1,10 @@
 #include "engine/preset/field_table.h"
 
-#include <type_traits>
-#include <utility>
+#include "engine/preset/field_makers.h"
+#include "engine/preset/shape_fields.h"
 
 namespace gridshell::preset {
 namespace {
-
-// the member at the end of a path of member pointers: reach<&Preset::rod, &Rod::diameter_mm>
-template <auto... path>
-auto& reach(Preset& preset) {
-  return (preset.*....*path);
-}
-
-template <auto... path>
-Real real(Range range) {
-  return {reach<path...>, range};
-}
-template <auto... path>
-Integer integer(Range range) {
-  return {reach<path...>, range};
-}
-template <auto... path>
-Flag flag() {
-  return {reach<path...>};
-}
-template <auto... path>
-Text text() {
-  return {reach<path...>};
-}
-template <auto... path>
-Word word(std::vector<std::string> words) {
-  using Enum = std::remove_reference_t<decltype(reach<path...>(std::declval<Preset&>()))>;
-  return {[](const Preset& preset) {
-            return static_cast<int>(reach<path...>(const_cast<Preset&>(preset)));
-          },
-          [](Preset& preset, int index) { reach<path...>(preset) = static_cast<Enum>(index); },
-          std::move(words)};
-}
-template <auto... path>
-IntegerPair pair(Range range) {
-  return {reach<path...>, range};
-}
-template <auto... path>
-IntegerList integers(Range range) {
-  return {reach<path...>, range};
-}
-template <auto... path>
-RealList list(Range range) {
-  return {reach<path...>, range};
-}
 
 using P = Preset;
 
@@ -69,9 +25,10 @@ std::vector<Field> shell_fields() {
        "tangents, spin free"},
       {"ends", "rings", "", word<&P::ends, &Ends::rings>({"pinned", "free"}),
        "whether the ends on the rings of a surface of revolution are held like the others or free"},
-      {"footprint", "kind", "", word<&P::footprint, &Footprint::kind>({"circle", "net"}),
-       "boundary that cuts the flat square grid: a circle, or the one that a net maps to the "
-       "boundary wanted"},
+      {"footprint", "kind", "",
+       word<&P::footprint, &Footprint::kind>({"circle", "net", "curve", "blocks"}),
+       "boundary that cuts the flat square grid: a circle, the one that a net maps to the boundary "
+       "wanted, a curve of your own, or that of blocks joined"},
       {"footprint", "rods", "", integer<&P::footprint, &Footprint::rods>(between(1, 500)),
        "rods a direction in a circle, n"},
       {"footprint", "radius_mm", "mm", real<&P::footprint, &Footprint::radius_mm>(above(0)),
@@ -81,18 +38,6 @@ std::vector<Field> shell_fields() {
       {"footprint", "placement", "",
        word<&P::footprint, &Footprint::placement>({"half", "on_axis"}),
        "rods at u = (i + 1/2) d, or at u = i d with one on each axis"},
-      {"net", "kind", "",
-       word<&P::net, &Net::kind>({"sphere", "cylinder", "spool", "beltrami"}),
-       "\"sphere\": a cap of Chebyshev's net; the others: the upper half of a surface of "
-       "revolution about the x-axis, \"spool\" and \"beltrami\" of constant K = -1/rho^2"},
-      {"net", "radius_mm", "mm", real<&P::net, &Net::radius_mm>(above(0)),
-       "radius rho of the sphere or cylinder; K = -1/rho^2 of the others"},
-      {"net", "cut_height", "", real<&P::net, &Net::cut_height>(between(0, 0.999)),
-       "height of a cap's boundary over rho, z*/rho; 0: the hemisphere"},
-      {"net", "length_mm", "mm", real<&P::net, &Net::length_mm>(above(0)),
-       "distance between the end rings of a surface of revolution"},
-      {"net", "waist", "", real<&P::net, &Net::waist>({0, 100, true}),
-       "radius over rho in the middle of a spool (its smallest) or beltrami surface (below 1)"},
       {"actuation", "radius_mm", "mm", real<&P::actuation, &Actuation::radius_mm>(above(0)),
        "radius of the actuated boundary of a circle, R_a, at most R_o"},
       {"actuation", "start", "", word<&P::actuation, &Actuation::start>({"flat", "net"}),
@@ -118,8 +63,7 @@ std::vector<Field> indentation_fields() {
        real<&P::indentation, &I::longitude_deg>(between(-360, 360)), "from +x towards +y"},
       {"indentation", "joint", "", integers<&P::indentation, &I::joint>(between(-500, 500)),
        "[i, j] of the joint pushed, in the place of all of these; empty: not by its indices"},
-      {"indentation", "direction", "",
-       word<&P::indentation, &I::direction>({"inward", "outward"}),
+      {"indentation", "direction", "", word<&P::indentation, &I::direction>({"inward", "outward"}),
        "against or along the normal of the net, or of the unloaded shell, at the joint; fixed in "
        "space"},
       {"indentation", "depth", "", real<&P::indentation, &I::depth>(between(0, 10)),
@@ -179,6 +123,8 @@ std::vector<Field> picture_fields() {
        "boundary radii of the stills, falling from R_o to R_a; empty: the final state alone"},
       {"figure", "scale_bar_mm", "mm", real<&P::figure, &Figure::scale_bar_mm>(at_least(0)),
        "length of the scale bar; 0: none"},
+      {"figure", "scan", "", points<&P::figure, &Figure::scan>({"x", "y", "z"}),
+       "joints measured by others, mm, in the frame of the net: a series of the latitude plot"},
   };
 }
 
@@ -192,6 +138,9 @@ const std::vector<Table>& tables() {
       {"ends", "What holds the rods' ends on the boundary."},
       {"footprint", "The flat, unloaded grid."},
       {"net", "The net that the footprint is designed on, for footprints of kind \"net\"."},
+      {"blocks", "How building blocks must meet, for footprints of kind \"blocks\"."},
+      {"block", "A building block: a net and where it is cut.", true},
+      {"join", "Two sides of blocks that become one seam.", true},
       {"actuation", "How the boundary moves: every edge point straight and evenly."},
       {"indentation", "The push at one joint of the actuated shell."},
       {"limits", "Where the model stops being valid."},
@@ -205,7 +154,8 @@ const std::vector<Table>& tables() {
 const std::vector<Field>& field_table() {
   static const std::vector<Field> all = [] {
     auto fields = shell_fields();
-    for (auto& more : {indentation_fields(), numerics_fields(), picture_fields()})
+    for (auto& more : {boundary_fields(), net_fields(), indentation_fields(), numerics_fields(),
+                       picture_fields()})
       fields.insert(fields.end(), more.begin(), more.end());
     return fields;
   }();

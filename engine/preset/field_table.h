@@ -13,6 +13,7 @@ namespace gridshell::preset {
 struct Table {
   std::string name;  ///< empty for the keys at the top
   std::string meaning;
+  bool list = false;  ///< stands once an item: [[block]]
 };
 
 const std::vector<Table>& tables();

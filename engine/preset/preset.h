@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,30 +27,66 @@ struct Ends {
   Rings rings = Rings::pinned;
 };
 
-enum class FootprintKind { circle, net };
+/// Points of a curve, each of as many coordinates as its key says, mm.
+using Points = std::vector<std::vector<double>>;
+
+enum class CurveKind { circle, ellipse, superellipse, polygon, spline };
+/// A closed curve in the plane; the radius of a circle stands beside it.
+struct Curve {
+  CurveKind kind = CurveKind::circle;
+  double half_x_mm = 126.0, half_y_mm = 100.0;  ///< of an ellipse or superellipse
+  double exponent = 4.0;                        ///< of a superellipse
+  Points points;                                ///< (x, y) of a polygon or spline
+};
+
+enum class FootprintKind { circle, net, curve, blocks };
 enum class Placement { half, on_axis };
 struct Footprint {
   FootprintKind kind = FootprintKind::circle;
+  Curve boundary;
   int rods = 12;             ///< a direction
   double radius_mm = 126.0;  ///< R_o
   double spacing_mm = 20.0;  ///< d
   Placement placement = Placement::half;
 };
 
-enum class NetKind { sphere, cylinder, spool, beltrami };
+enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation };
 struct Net {
   NetKind kind = NetKind::sphere;
   double radius_mm = 120.0;  ///< rho, the deviation's scale
   double cut_height = 0;     ///< z*/rho of a cap
   double length_mm = 240.0;  ///< between the end rings
   double waist = 0.5;        ///< a
+  double crossing_deg = 90;  ///< omega in the middle of a surface of revolution
+  Points profile;            ///< (r, z)
+  Points curve_u, curve_v;   ///< (x, y, z) of a translation net
 };
 
+/// A building block: a net and the rows of joints at which it is cut.
+struct Block {
+  std::string name;
+  Net net;
+  std::optional<int> east, west, north, south;
+};
+
+/// Two sides of blocks that become one seam, each as "name.side".
+struct Join {
+  std::string first, second;
+};
+
+struct Blocks {
+  double max_gap_mm = 10;
+};
+
+enum class Correspondence { arc_length, angle };
 enum class Start { flat, net };
 enum class Seed { up, down };
 enum class SeedDiagonal { y_eq_x, y_eq_minus_x };  ///< "y=x", "y=-x"
 struct Actuation {
   double radius_mm = 94.5;  ///< R_a
+  double scale = 0;         ///< of the original boundary; 0: `boundary` is given by itself
+  Curve boundary;
+  Correspondence correspondence = Correspondence::arc_length;
   Start start = Start::flat;
   Seed seed = Seed::up;
   SeedDiagonal seed_diagonal = SeedDiagonal::y_eq_x;
@@ -102,6 +139,7 @@ struct Movie {
 struct Figure {
   std::vector<double> radii_mm;  ///< boundary radii of the stills
   double scale_bar_mm = 20;
+  Points scan;  ///< (x, y, z) of joints measured by others
 };
 
 struct Preset {
@@ -113,12 +151,19 @@ struct Preset {
   Ends ends;
   Footprint footprint;
   Net net;
+  Blocks blocks;
+  std::vector<Block> block;  ///< [[block]]
+  std::vector<Join> join;    ///< [[join]]
   Actuation actuation;
   Indentation indentation;
   Limits limits;
   Accuracy accuracy;
   Movie movie;
   Figure figure;
+
+  bool on_net() const {
+    return footprint.kind == FootprintKind::net || footprint.kind == FootprintKind::blocks;
+  }
 };
 
 }  // namespace gridshell::preset

@@ -55,19 +55,28 @@ std::vector<std::string> table_names() {
   return names;
 }
 
-bool is_table_name(const std::string& name) {
-  const auto names = table_names();
-  return name != "case" && std::find(names.begin(), names.end(), name) != names.end();
+bool is_list_name(const std::string& name) {
+  return std::ranges::any_of(tables(),
+                             [&](const Table& table) { return table.list && table.name == name; });
 }
 
-std::string bracketed(const std::string& table, const std::string& key) {
+bool is_table_name(const std::string& name) {
+  const auto names = table_names();
+  return name != "case" && !is_list_name(name) &&
+         std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// how a fault calls a key; `item` counts the tables of a list from 0
+std::string bracketed(const std::string& table, const std::string& key, int item = -1) {
+  if (item >= 0) return fmt::format("[[{}]] {} {}", table, item + 1, key);
   return table.empty() ? key : fmt::format("[{}] {}", table, key);
 }
 
 // Lays TOML over presets and gathers what is wrong on the way.
 class Reading {
  public:
-  explicit Reading(std::string source) : source_(std::move(source)) {}
+  Reading(std::string source, std::filesystem::path folder)
+      : source_(std::move(source)), folder_(std::move(folder)) {}
 
   Place place_of(const toml::source_region& region) const {
     // values of an override have no place in the file
@@ -82,7 +91,9 @@ class Reading {
     for (const auto& [key, value] : root) {
       const std::string name(key.str());
       if (name == apart) continue;
-      if (!is_table_name(name) && !value.is_table())
+      if (is_list_name(name))
+        lay_items(key, value, apart == "case", draft);
+      else if (!is_table_name(name) && !value.is_table())
         assign_key("", key, value, draft);
       else
         lay_table(key, value, draft);
@@ -107,17 +118,19 @@ class Reading {
 
   void check(const Draft& draft) {
     for (const auto& conflict : conflicts(draft.preset)) {
-      const auto name = bracketed(conflict.table, conflict.key);
+      const auto name = bracketed(conflict.table, conflict.key, conflict.item);
       // a refused value left its default behind, which conflicts with nothing the user wrote
       const auto refused = [&](const std::string& key) { return draft.faulty.contains(key); };
       if (refused(name) || std::ranges::any_of(conflict.others, refused)) continue;
       const auto* field = find_field(conflict.table, conflict.key);
       auto keys = conflict.others;
       keys.insert(keys.begin(), name);
+      if (conflict.item >= 0) keys.push_back(bracketed(conflict.table, "", conflict.item));
       const auto set = std::ranges::find_if(
           keys, [&](const std::string& key) { return draft.set_at.contains(key); });
       fault(set == keys.end() ? Place{source_} : draft.set_at.at(*set),
-            fmt::format("{} = {}: {}", name, value_text(*field, draft.preset), conflict.what));
+            fmt::format("{} = {}: {}", name, value_text(*field, up_to(draft.preset, conflict.item)),
+                        conflict.what));
     }
   }
 
@@ -151,6 +164,35 @@ class Reading {
     return toml::table{{"x", value}};
   }
 
+  // the items of a list of tables, each with defaults of its own
+  void lay_items(const toml::key& key, const toml::node& value, bool in_file, Draft& draft) {
+    const std::string name(key.str());
+    if (!in_file || !value.is_array_of_tables()) {
+      fault(place_of(key.source()),
+            in_file ? fmt::format("{}: must be tables, each [[{}]]", name, name)
+                    : fmt::format("{}: stands outside of cases, as [[{}]]", name, name));
+      return;
+    }
+    int item = 0;
+    for (const auto& table : *value.as_array()) {
+      if (name == "block")
+        draft.preset.block.emplace_back();
+      else
+        draft.preset.join.emplace_back();
+      draft.set_at[bracketed(name, "", item)] = place_of(table.source());
+      for (const auto& [inner, one] : *table.as_table()) assign_key(name, inner, one, draft, item);
+      ++item;
+    }
+  }
+
+  // a preset whose lists of tables end with an item
+  static Preset up_to(Preset preset, int item) {
+    if (item < 0) return preset;
+    preset.block.resize(std::min(preset.block.size(), std::size_t(item) + 1));
+    preset.join.resize(std::min(preset.join.size(), std::size_t(item) + 1));
+    return preset;
+  }
+
   void lay_table(const toml::key& key, const toml::node& value, Draft& draft) {
     const std::string name(key.str());
     const auto place = place_of(key.source());
@@ -165,17 +207,17 @@ class Reading {
   }
 
   void assign_key(const std::string& table, const toml::key& key, const toml::node& value,
-                  Draft& draft) {
+                  Draft& draft, int item = -1) {
     const std::string name(key.str());
     const auto* field = find_field(table, name);
-    const auto full = bracketed(table, name);
+    const auto full = bracketed(table, name, item);
     if (!field) {
       fault(place_of(key.source()),
             fmt::format("{} = {}: unknown key{}", full, shown(value), hint(table, name)));
       return;
     }
     const auto place = place_of(value.source());
-    const auto wrong = assign(*field, value, draft.preset);
+    const auto wrong = assign(*field, value, draft.preset, override_.empty() ? folder_ : "");
     draft.set_at[full] = place;
     if (wrong.empty()) {
       draft.faulty.erase(full);
@@ -198,7 +240,8 @@ class Reading {
   }
 
   std::string source_;
-  std::string override_;  // while an override is laid: its option
+  std::filesystem::path folder_;  // of the file
+  std::string override_;          // while an override is laid: its option
   std::vector<PlacedFault> faults_;
 };
 
@@ -238,7 +281,7 @@ Presets read_presets(const toml::table& root, const std::string& name,
                      const std::vector<Override>& overrides, Reading& reading) {
   Draft base;
   base.preset.name = name;
-  reading.lay(root, "case", base);
+  reading.lay(root, "case", base);  // and with it the lists of tables
   const auto finish = [&](Draft draft) {
     for (const auto& change : overrides) reading.lay_override(change, draft);
     return draft;
@@ -293,7 +336,7 @@ Result<Presets> read_preset_text(const std::string& text, const std::string& sou
     return fail(Fault::bad_input, fmt::format("{}:{}:{}: not TOML: {}", source, at.line, at.column,
                                               error.description()));
   }
-  Reading reading(source);
+  Reading reading(source, std::filesystem::path(source).parent_path());
   auto presets = read_presets(root, name, overrides, reading);
   if (!reading.clean()) return fail(Fault::bad_input, reading.report());
   return presets;

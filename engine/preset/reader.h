@@ -34,7 +34,8 @@ struct Presets {
 /// "table.key=value" as given to --set. Errors: bad_input when there is no key or no '='.
 Result<Override> parse_override(const std::string& argument);
 
-/// Reads TOML text. `source` names the text in faults, `name` becomes Preset::name.
+/// Reads TOML text. `source` names the text in faults, `name` becomes Preset::name; files of points
+/// are looked for beside `source`, and their points become the preset's own.
 /// Errors: bad_input with every fault found.
 Result<Presets> read_preset_text(const std::string& text, const std::string& source,
                                  const std::string& name,

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/preset/field_table.h"
 
 namespace gridshell::preset {
@@ -18,16 +20,41 @@ std::string cell(std::string text) {
   return text;
 }
 
+// the last item of a list of tables
+std::string item_text(const std::string& table, const Preset& preset) {
+  auto text = fmt::format("\n[[{}]]\n", table);
+  for (const auto& field : field_table())
+    if (field.table == table)
+      text += fmt::format("{} = {}\n", field.key, value_text(field, preset));
+  return text;
+}
+
+bool is_list(const std::string& name) {
+  return std::any_of(tables().begin(), tables().end(),
+                     [&](const Table& table) { return table.list && table.name == name; });
+}
+
 }  // namespace
 
 std::string to_toml(const Preset& preset) {
   std::string text;
   for (const auto& table : tables()) {
+    if (table.list) continue;
     if (!table.name.empty()) text += fmt::format("\n[{}]  # {}\n", table.name, table.meaning);
     for (const auto& field : field_table())
       if (field.table == table.name)
         text +=
             fmt::format("{} = {}  # {}\n", field.key, value_text(field, preset), comment_of(field));
+  }
+  for (const Block& block : preset.block) {
+    Preset one;
+    one.block = {block};
+    text += item_text("block", one);
+  }
+  for (const Join& join : preset.join) {
+    Preset one;
+    one.join = {join};
+    text += item_text("join", one);
   }
   return text;
 }
@@ -37,6 +64,7 @@ std::string to_toml(const Presets& presets) {
   for (const auto& one : presets.cases) {
     text += fmt::format("\n[[case]]\nname = \"{}\"\n", one.name);
     for (const auto& field : field_table()) {
+      if (is_list(field.table)) continue;
       const auto value = value_text(field, one.preset);
       if (value == value_text(field, presets.base)) continue;
       text += fmt::format("{}{}{} = {}\n", field.table, field.table.empty() ? "" : ".", field.key,
@@ -47,10 +75,15 @@ std::string to_toml(const Presets& presets) {
 }
 
 std::string reference_markdown() {
-  const Preset defaults;
+  Preset defaults;
+  // what an item is before a key of it is read
+  defaults.block.emplace_back();
+  defaults.join.emplace_back();
   std::string text;
   for (const auto& table : tables()) {
-    text += table.name.empty() ? "At the top of the file: " : fmt::format("`[{}]` ", table.name);
+    text += table.name.empty() ? "At the top of the file: "
+            : table.list       ? fmt::format("`[[{}]]` ", table.name)
+                               : fmt::format("`[{}]` ", table.name);
     text += table.meaning + "\n\n| key | unit | default | allowed | meaning |\n";
     text += "| --- | --- | --- | --- | --- |\n";
     for (const auto& field : field_table())

@@ -28,6 +28,16 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
   for (std::size_t k = 0; k < layout.cells.size(); ++k)
     for (const int joint : layout.cells[k].joints)
       if (outside(joint, joints)) return out_of_range("cell", k, "joint", joint, joints);
+  for (const Part& part : layout.parts) {
+    if (part.net.cols() != part.flat.cols())
+      return fail(Fault::bad_input, fmt::format("block \"{}\" has {} points on its net and {} in "
+                                                "the flat",
+                                                part.name, part.net.cols(), part.flat.cols()));
+    for (std::size_t r = 0; r < part.rods.size(); ++r)
+      for (const int point : part.rods[r])
+        if (outside(point, part.net.cols()))
+          return out_of_range("rod", r, "point", point, part.net.cols());
+  }
   return {};
 }
 

@@ -146,6 +146,10 @@ Reader::Reader(std::string_view bytes) {
   check(file_, "file");
 }
 
+bool Reader::has(const std::string& name) {
+  return good() && H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+}
+
 Dims Reader::dims(const std::string& name, std::size_t rank) {
   if (!good()) return {};
   const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);

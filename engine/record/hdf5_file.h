@@ -103,6 +103,7 @@ class Writer : public File {
 class Reader : public File {
  public:
   explicit Reader(std::string_view bytes);
+  bool has(const std::string& name);
   /// extents of a dataset; a failure when it has another number of dimensions
   Dims dims(const std::string& name, std::size_t rank);
   void read(const std::string& name, hid_t type, void* data);

@@ -84,6 +84,14 @@ std::string cells_csv(const Trajectory& trajectory) {
   return std::move(csv).text();
 }
 
+std::string seams_csv(const Layout& layout) {
+  Csv csv;
+  csv.line("seam", "family", "line_mm", "gap_mm", "kink_deg");
+  for (const SeamRod& rod : layout.seam_rods)
+    csv.line(rod.seam, std::string(1, rod.family), rod.line_mm, rod.gap_mm, rod.kink_deg);
+  return std::move(csv).text();
+}
+
 std::string frames_csv(const Trajectory& trajectory) {
   Csv csv;
   for (const FrameColumn& column : frame_columns) csv.cell(column.name);
@@ -103,6 +111,10 @@ Result<void> write_run(const std::filesystem::path& folder, const Trajectory& tr
       .and_then([&] { return write_atomically(folder / "joints.csv", joints_csv(trajectory)); })
       .and_then([&] { return write_atomically(folder / "cells.csv", cells_csv(trajectory)); })
       .and_then([&] { return write_atomically(folder / "frames.csv", frames_csv(trajectory)); })
+      .and_then([&]() -> Result<void> {
+        if (trajectory.layout.seam_rods.empty()) return {};
+        return write_atomically(folder / "seams.csv", seams_csv(trajectory.layout));
+      })
       .and_then([&] { return write_trajectory(folder / "trajectory.h5", trajectory); })
       .and_then([&] { return write_summary(folder / "summary.json", summary); });
 }

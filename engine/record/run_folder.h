@@ -20,6 +20,8 @@ std::string cells_csv(const Trajectory& trajectory);
 
 /// The text of frames.csv: a line a frame.
 std::string frames_csv(const Trajectory& trajectory);
+/// A rod across the seam of two building blocks a line, with gap and kink.
+std::string seams_csv(const Layout& layout);
 
 /// Writes the five files into `folder`, which is made if missing; each is whole or absent, and
 /// summary.json, written last, says that the others are there. Errors: Fault::io with path and

@@ -26,6 +26,22 @@ struct Cell {
   std::array<int, 4> joints{};
 };
 
+/// A building block on its own net: rods as polylines, where they would lie without the others.
+struct Part {
+  std::string name;
+  std::vector<std::vector<int>> rods;  ///< columns of the points below
+  Eigen::Matrix3Xd net, flat;          ///< in space, and in the flat footprint
+};
+
+/// A rod across the seam of two building blocks.
+struct SeamRod {
+  std::string seam;  ///< "left.east - middle.west"
+  char family = 'u';
+  double line_mm = 0;   ///< v of a u-rod, u of a v-rod
+  double gap_mm = 0;    ///< between the two nets at the seam
+  double kink_deg = 0;  ///< between its tangents there
+};
+
 /// The net, fixed over a run.
 struct Layout {
   double spacing_mm = 0;
@@ -39,6 +55,8 @@ struct Layout {
   Eigen::Matrix3Xd actuated_boundary;  ///< same number of points; in correspondence
   Eigen::Matrix3Xd net_nodes;          ///< place of every node on the net designed on, if any
   Eigen::Matrix3Xd flat_nodes;         ///< and in the flat footprint, where there is a net
+  std::vector<Part> parts;             ///< of a net made of building blocks
+  std::vector<SeamRod> seam_rods;      ///< and how they meet
 };
 
 /// One sampled state. A quantity that does not apply or is not known is NaN (`unknown`).

@@ -31,6 +31,10 @@ struct Summary {
   double total_K = 0;
   double max_deviation = unknown,
          mean_deviation = unknown;                ///< from the net, over rho, joints only
+  double median_deviation = unknown;              ///< half of the joints lie nearer to the net
+  double deviation_p90 = unknown;                 ///< nine tenths do
+  double max_seam_gap_mm = unknown;               ///< between building blocks, in space
+  double max_seam_kink_deg = unknown;             ///< and of the rods' tangents across
   int newton_iterations = 0, factorizations = 0;  ///< of the whole run
   double seconds_setup = 0, seconds_simulation = 0, seconds_render = 0;
 };

@@ -40,6 +40,10 @@ void each_field(SummaryType& summary, Visit visit) {
   visit("total_K", summary.total_K);
   visit("max_deviation", summary.max_deviation);
   visit("mean_deviation", summary.mean_deviation);
+  visit("median_deviation", summary.median_deviation);
+  visit("deviation_p90", summary.deviation_p90);
+  visit("max_seam_gap_mm", summary.max_seam_gap_mm);
+  visit("max_seam_kink_deg", summary.max_seam_kink_deg);
   visit("newton_iterations", summary.newton_iterations);
   visit("factorizations", summary.factorizations);
   visit("seconds_setup", summary.seconds_setup);

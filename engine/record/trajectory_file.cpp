@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <new>
 #include <string_view>
+#include <utility>
 
 #include "engine/core/atomic_file.h"
 #include "engine/record/consistency.h"
@@ -69,6 +71,31 @@ Handle cell_type() {
 hid_t memory_type(int) { return H5T_NATIVE_INT; }
 hid_t memory_type(double) { return H5T_NATIVE_DOUBLE; }
 
+void write_parts(hdf5::Writer& file, const Layout& layout) {
+  std::vector<std::string> names, seams, families;
+  std::vector<std::array<double, 3>> numbers;
+  file.group("/parts");
+  for (const Part& part : layout.parts) {
+    const std::string group = fmt::format("/parts/{}", names.size());
+    names.push_back(part.name);
+    file.group(group);
+    file.lists(group + "/rods", part.rods);
+    for (const auto& [name, points] : {std::pair("/net", &part.net), {"/flat", &part.flat}})
+      file.dataset(group + name, H5T_NATIVE_DOUBLE, {static_cast<hsize_t>(points->cols()), 3},
+                   points->data(), "mm");
+  }
+  for (const SeamRod& rod : layout.seam_rods) {
+    seams.push_back(rod.seam);
+    families.emplace_back(1, rod.family);
+    numbers.push_back({rod.line_mm, rod.gap_mm, rod.kink_deg});
+  }
+  file.strings("/parts/names", names);
+  file.strings("/parts/seams", seams);
+  file.strings("/parts/families", families);
+  file.dataset("/parts/seam_rods", H5T_NATIVE_DOUBLE, {numbers.size(), 3}, numbers.data(),
+               "mm, mm, degrees");
+}
+
 void write_layout(hdf5::Writer& file, const Layout& layout) {
   file.group("/layout");
   file.attribute("/layout", "spacing_mm", layout.spacing_mm);
@@ -88,6 +115,7 @@ void write_layout(hdf5::Writer& file, const Layout& layout) {
   boundary("/layout/actuated_boundary", layout.actuated_boundary);
   boundary("/layout/net_nodes", layout.net_nodes);
   boundary("/layout/flat_nodes", layout.flat_nodes);
+  if (!layout.parts.empty()) write_parts(file, layout);
 }
 
 void write_column(hdf5::Writer& file, const std::string& name, const char*,
@@ -133,6 +161,24 @@ Eigen::Matrix3Xd read_points(hdf5::Reader& file, const std::string& name) {
   return points;
 }
 
+void read_parts(hdf5::Reader& file, Layout& layout) {
+  for (const std::string& name : file.strings("/parts/names")) {
+    const std::string group = fmt::format("/parts/{}", layout.parts.size());
+    layout.parts.push_back({name, file.lists(group + "/rods"), read_points(file, group + "/net"),
+                            read_points(file, group + "/flat")});
+  }
+  const auto seams = file.strings("/parts/seams");
+  const auto families = file.strings("/parts/families");
+  const Dims dims = file.dims("/parts/seam_rods", 2);
+  if (file.good() && (dims != Dims{seams.size(), 3} || families.size() != seams.size()))
+    file.fail_because("/parts does not have one line, gap and kink a rod across a seam");
+  std::vector<std::array<double, 3>> numbers(file.good() ? seams.size() : 0);
+  file.read("/parts/seam_rods", H5T_NATIVE_DOUBLE, numbers.data());
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    layout.seam_rods.push_back(
+        {seams[k], families[k] == "u" ? 'u' : 'v', numbers[k][0], numbers[k][1], numbers[k][2]});
+}
+
 Layout read_layout(hdf5::Reader& file) {
   Layout layout;
   layout.spacing_mm = file.attribute("/layout", "spacing_mm");
@@ -146,6 +192,7 @@ Layout read_layout(hdf5::Reader& file) {
   layout.actuated_boundary = read_points(file, "/layout/actuated_boundary");
   layout.net_nodes = read_points(file, "/layout/net_nodes");
   layout.flat_nodes = read_points(file, "/layout/flat_nodes");
+  if (file.has("/parts")) read_parts(file, layout);
   return layout;
 }
 

@@ -77,7 +77,7 @@ TEST_CASE("a fault names its place, key, value, what is wrong and what is right"
        "bad.toml:1:2: [actuatoin]: unknown table; did you mean 'actuation'?"},
       {"footprint = 3",
        "bad.toml:1:1: footprint = 3: is a table, must hold keys: kind, rods, radius_mm, "
-       "spacing_mm, placement"},
+       "spacing_mm, placement, boundary, half_x_mm, half_y_mm, exponent, points_mm"},
       {"[footprint]\nradius_mm = -126.0",
        "bad.toml:2:13: [footprint] radius_mm = -126.0: out of range, must be a number > 0"},
       {"[footprint]\nradius_mm = nan",
@@ -217,6 +217,91 @@ TEST_CASE("cases need names that can be folders, each its own") {
        "[footprint] radius_mm = 126"},
   }));
   CHECK(faults_of(text) == sentence);
+}
+
+TEST_CASE("lists of tables: blocks and joins, and what is wrong with them") {
+  const auto preset = good(R"(
+[footprint]
+kind = "blocks"
+[[block]]
+name = "left"
+radius_mm = 100.0
+east = 2
+[[block]]
+name = "right"
+kind = "cylinder"
+west = -1
+[[join]]
+first = "left.east"
+second = "right.west"
+)")
+                          .base;
+  REQUIRE(preset.block.size() == 2);
+  CHECK(preset.block[0].net.radius_mm == 100.0);
+  CHECK(preset.block[0].east == 2);
+  CHECK_FALSE(preset.block[0].west.has_value());
+  CHECK(preset.block[1].net.kind == NetKind::cylinder);
+  CHECK(preset.block[1].net.radius_mm == Net{}.radius_mm);
+  REQUIRE(preset.join.size() == 1);
+  CHECK(preset.join[0].second == "right.west");
+
+  const std::string start = "[footprint]\nkind = \"blocks\"\n[[block]]\nname = \"a\"\n";
+  using Row = std::pair<std::string, std::string>;
+  const auto [text, sentence] = GENERATE_COPY(values<Row>({
+      {"[footprint]\nkind = \"blocks\"",
+       "bad.toml:2:8: [footprint] kind = \"blocks\": there is no block, must have at least one "
+       "[[block]]"},
+      {start + "[[block]]\nname = \"a\"",
+       "bad.toml:6:8: [[block]] 2 name = \"a\": used twice, must be unique"},
+      {start + "[[block]]\nradius_mm = 1.0",
+       "bad.toml:5:1: [[block]] 2 name = \"\": must be a name without a dot"},
+      {start + "east = 0.5",
+       "bad.toml:5:8: [[block]] 1 east = 0.5: is a number, must be an integer from -500 to 500, "
+       "or \"none\""},
+      {start + "kind = \"cone\"",
+       "bad.toml:5:8: [[block]] 1 kind = \"cone\": unknown word, must be \"sphere\", \"cylinder\", "
+       "\"spool\", \"beltrami\", \"profile\" or \"translation\""},
+      {start + "[[join]]\nfirst = \"a.est\"\nsecond = \"a.west\"",
+       "bad.toml:6:9: [[join]] 1 first = \"a.est\": no side of a block, must be a block's name and "
+       "east, west, north or south with a dot between; did you mean 'a.east'?"},
+      {start + "kind = \"profile\"\nprofile = [[1, 2], [3, 4]]",
+       "bad.toml:6:11: [[block]] 1 profile = [[1.0, 2.0], [3.0, 4.0]]: 2 points, must be at least "
+       "4 for kind = \"profile\""},
+      {"[block]\nname = \"a\"", "bad.toml:1:2: block: must be tables, each [[block]]"},
+      {"[[case]]\nname = \"a\"\n[[case.block]]\nname = \"b\"",
+       "bad.toml:3:8: block: stands outside of cases, as [[block]]"},
+  }));
+  CHECK(faults_of(text) == sentence);
+}
+
+TEST_CASE("points stand in the preset or in a file beside it") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "shell.toml";
+  const auto with = [&](const std::string& points, const std::string& csv) {
+    REQUIRE(write_atomically(folder.path() / "edge.csv", csv));
+    REQUIRE(write_atomically(
+        file, "[footprint]\nkind = \"curve\"\nboundary = \"polygon\"\npoints_mm = " + points));
+    return read_preset_file(file);
+  };
+  const Points square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  CHECK(with("[[-1, -1], [1, -1], [1, 1], [-1, 1]]", "")->base.footprint.boundary.points == square);
+  CHECK(with("\"edge.csv\"", "x_mm, y_mm\n-1,-1\n1\t-1  # a corner\n\n1 1\r\n-1; 1")
+            ->base.footprint.boundary.points == square);
+  const auto wrong = [&](const std::string& points, const std::string& csv) {
+    return with(points, csv).error().message;
+  };
+  const auto place = file.string() + ":4:13: [footprint] points_mm = ";
+  const auto csv = (folder.path() / "edge.csv").string();
+  CHECK(wrong("\"edge.csv\"", "0 0\n1 2 3\n") ==
+        place + "\"edge.csv\": " + csv + ":2: holds 3 values, must be 2 numbers: x, y");
+  CHECK(wrong("\"edge.csv\"", "0 0\n1 nan\n") ==
+        place + "\"edge.csv\": " + csv + ":2: 'nan' is no number, must be 2 numbers: x, y");
+  CHECK_THAT(wrong("\"edge.csv\"", "# nothing\n"), Catch::Contains("holds no point"));
+  CHECK_THAT(wrong("\"none.csv\"", ""), Catch::Contains("cannot read"));
+  CHECK_THAT(wrong("[[1, 2, 3]]", ""),
+             Catch::Contains("holds a point of 3 coordinates, must be a "
+                             "list of points [x, y], or the name of a file"));
+  CHECK_THAT(wrong("[[0, 0], [1, 1]]", ""), Catch::Contains("2 points, must be at least 3"));
 }
 
 TEST_CASE("a file is read under its own name") {

@@ -1,0 +1,103 @@
+#include "engine/experiment/block_design.h"
+
+#include <cmath>
+
+#include "engine/preset/shape_consistency.h"
+
+namespace gridshell::experiment {
+namespace {
+
+/// u + v along x, v - u along y: where rods of a surface of revolution lie on both sides of its
+/// axis
+FlatFrame common_frame() {
+  FlatFrame frame;
+  frame.axes << M_SQRT1_2, M_SQRT1_2, -M_SQRT1_2, M_SQRT1_2, 0, 0;
+  return frame;
+}
+
+Result<Block> block_of(const preset::Block& wanted, const preset::Footprint& footprint) {
+  auto design = net_design(wanted.net);
+  if (!design)
+    return fail(design.error().fault, "block \"" + wanted.name + "\": " + design.error().message);
+  Block block;
+  block.name = wanted.name;
+  block.net = design->net;
+  block.domain = std::move(design->domain);
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  block.pose.linear() = common_frame().axes * design->flat.axes.transpose() + up * up.transpose();
+  block.pose.translation().z() = -design->flat.origin.z();
+  block.spacing = footprint.spacing_mm;
+  block.placement =
+      footprint.placement == preset::Placement::half ? Placement::half : Placement::on_axis;
+  block.cut = {wanted.east, wanted.west, wanted.north, wanted.south};
+  return block;
+}
+
+Side side_of(const std::string& name) {
+  for (const Side side : {Side::east, Side::west, Side::north})
+    if (name == name_of(side)) return side;
+  return Side::south;
+}
+
+Result<BlockSide> block_side(const preset::Preset& preset, const std::string& name) {
+  const auto side = preset::side_named(preset, name);
+  if (!side) return fail(Fault::bad_input, "\"" + name + "\" is no side of a block");
+  return BlockSide{side->block, side_of(side->side)};
+}
+
+}  // namespace
+
+Result<NetDesign> block_design(const preset::Preset& preset) {
+  std::vector<Block> blocks;
+  for (const preset::Block& wanted : preset.block) {
+    auto block = block_of(wanted, preset.footprint);
+    if (!block) return tl::unexpected(block.error());
+    blocks.push_back(std::move(*block));
+  }
+  std::vector<Join> joins;
+  for (const preset::Join& wanted : preset.join) {
+    const auto first = block_side(preset, wanted.first), second = block_side(preset, wanted.second);
+    if (!first) return tl::unexpected(first.error());
+    if (!second) return tl::unexpected(second.error());
+    joins.push_back({*first, *second});
+  }
+  auto whole = Assemblage::make(std::move(blocks), joins, preset.blocks.max_gap_mm);
+  if (!whole) return tl::unexpected(whole.error());
+  NetDesign design;
+  design.net = whole->net();
+  design.domain = whole->domain();
+  design.flat = common_frame();
+  const Eigen::Matrix2Xd ring = design.domain->boundary(256);
+  design.scale_mm = 0.5 * (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();
+  design.blocks = std::make_shared<const Assemblage>(std::move(*whole));
+  return design;
+}
+
+Result<void> record_blocks(const Assemblage& blocks, const FlatFrame& flat,
+                           record::Layout& layout) {
+  for (int k = 0; k < blocks.blocks(); ++k) {
+    const auto rods = blocks.rods(k, blocks.block(k).spacing / 8);
+    if (!rods) return tl::unexpected(rods.error());
+    record::Part part;
+    part.name = blocks.block(k).name;
+    Eigen::Index points = 0;
+    for (const BlockRod& rod : *rods) points += rod.net.cols();
+    part.net.resize(3, points);
+    part.flat.resize(3, points);
+    int next = 0;
+    for (const BlockRod& rod : *rods) {
+      part.net.middleCols(next, rod.net.cols()) = rod.net;
+      part.flat.middleCols(next, rod.net.cols()) = flat.all(rod.flat);
+      part.rods.emplace_back();
+      for (Eigen::Index n = 0; n < rod.net.cols(); ++n) part.rods.back().push_back(next++);
+    }
+    layout.parts.push_back(std::move(part));
+  }
+  for (const Seam& seam : blocks.seams())
+    for (const SeamRod& rod : seam.rods)
+      layout.seam_rods.push_back(
+          {seam.name, rod.family == Family::u ? 'u' : 'v', rod.line_mm, rod.gap_mm, rod.kink_deg});
+  return {};
+}
+
+}  // namespace gridshell::experiment

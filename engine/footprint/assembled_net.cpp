@@ -1,0 +1,197 @@
+// What an assemblage is to those who know nets and domains: both piece by piece.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/footprint/placed_block.h"
+
+namespace gridshell {
+namespace {
+
+using Places = Assemblage::Places;
+
+/// The blocks that hold a point: one, or on a seam those that meet there.
+std::vector<const Assemblage::Placed*> holders(const Places& places, const Eigen::Vector2d& uv) {
+  std::vector<const Assemblage::Placed*> held, nearest;
+  for (const auto& place : places)
+    if (place.within_cuts(uv)) held.push_back(&place);
+  if (held.size() < 2) return held;
+  for (const auto* place : held)
+    if (place->within_boundary(uv)) nearest.push_back(place);
+  return nearest.empty() ? held : nearest;
+}
+
+class AssembledNet final : public ChebyshevNet {
+ public:
+  explicit AssembledNet(std::shared_ptr<const Places> places) : places_(std::move(places)) {}
+
+  Result<NetPoint> at(double u, double v) const override {
+    const Eigen::Vector2d uv(u, v);
+    const auto held = holders(*places_, uv);
+    if (held.empty())
+      return fail(Fault::bad_input, fmt::format("no block holds (u, v) = ({:g}, {:g}) mm", u, v));
+    NetPoint middle{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    for (const auto* place : held) {
+      const auto point = place->at(uv);
+      if (!point) return point;
+      if (held.size() == 1) return point;
+      const double share = 1.0 / double(held.size());
+      middle.position += share * point->position;
+      middle.tangent_u += point->tangent_u;
+      middle.tangent_v += point->tangent_v;
+      middle.K += share * point->K;
+    }
+    middle.tangent_u.normalize();
+    middle.tangent_v.normalize();
+    middle.omega = std::atan2(middle.tangent_u.cross(middle.tangent_v).norm(),
+                              middle.tangent_u.dot(middle.tangent_v));
+    return middle;
+  }
+
+ private:
+  std::shared_ptr<const Places> places_;
+};
+
+/// Open polylines joined where their ends are nearest, from the first on.
+std::vector<Eigen::Vector2d> linked(std::vector<Eigen::Matrix2Xd> pieces) {
+  std::vector<Eigen::Vector2d> ring;
+  while (!pieces.empty()) {
+    auto next = pieces.begin();
+    if (!ring.empty())
+      next = std::min_element(pieces.begin(), pieces.end(), [&](const auto& a, const auto& b) {
+        return (a.col(0) - ring.back()).norm() < (b.col(0) - ring.back()).norm();
+      });
+    for (Eigen::Index k = 0; k < next->cols(); ++k) ring.emplace_back(next->col(k));
+    pieces.erase(next);
+  }
+  return ring;
+}
+
+/// `points` of the corners of a closed polyline, about even by length: corners lie on the blocks'
+/// boundaries, what is between them need not.
+Eigen::Matrix2Xd evenly(const std::vector<Eigen::Vector2d>& ring, int points) {
+  std::vector<double> length{0};
+  for (std::size_t k = 1; k <= ring.size(); ++k)
+    length.push_back(length.back() + (ring[k % ring.size()] - ring[k - 1]).norm());
+  Eigen::Matrix2Xd even(2, points);
+  std::size_t k = 0;
+  for (int n = 0; n < points; ++n) {
+    const double at = length.back() * n / points;
+    while (k + 1 < ring.size() && std::abs(length[k + 1] - at) <= std::abs(length[k] - at)) ++k;
+    even.col(n) = ring[k];
+  }
+  return even;
+}
+
+class AssembledDomain final : public Domain {
+ public:
+  explicit AssembledDomain(std::shared_ptr<const Places> places) : places_(std::move(places)) {}
+
+  std::vector<Interval> intervals(Family family, double c) const override {
+    std::vector<Interval> pieces;
+    for (const auto& place : *places_)
+      for (const Interval& piece : place.intervals(family, c)) pieces.push_back(piece);
+    std::sort(pieces.begin(), pieces.end(),
+              [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+    // a rod that ends on a seam goes on in the next block
+    std::vector<Interval> rods;
+    const double near = 1e-9 * places_->front().block.spacing;
+    for (const Interval& piece : pieces) {
+      if (!rods.empty() && piece.begin <= rods.back().end + near)
+        rods.back().end = std::max(rods.back().end, piece.end);
+      else
+        rods.push_back(piece);
+    }
+    return rods;
+  }
+
+  Eigen::Matrix2Xd boundary(int points) const override {
+    std::vector<Eigen::Matrix2Xd> pieces;
+    for (const auto& place : *places_)
+      for (auto& piece : place.outline(4 * points)) pieces.push_back(std::move(piece));
+    return evenly(linked(std::move(pieces)), points);
+  }
+
+  double reach() const override {
+    double reach = 0;
+    for (const auto& place : *places_)
+      reach = std::max(reach, place.block.domain->reach() + place.shift.cwiseAbs().maxCoeff());
+    return reach;
+  }
+
+ private:
+  std::shared_ptr<const Places> places_;
+};
+
+}  // namespace
+
+std::shared_ptr<const ChebyshevNet> Assemblage::net() const {
+  return std::make_shared<AssembledNet>(places_);
+}
+
+std::unique_ptr<Domain> Assemblage::domain() const {
+  return std::make_unique<AssembledDomain>(places_);
+}
+
+Result<Eigen::Matrix3Xd> Assemblage::closed(const Eigen::Matrix2Xd& uv, double fade) const {
+  Eigen::Matrix3Xd points(3, uv.cols());
+  const AssembledNet net(places_);
+  for (Eigen::Index k = 0; k < uv.cols(); ++k) {
+    const auto here = net.at(uv(0, k), uv(1, k));
+    if (!here) return tl::unexpected(here.error());
+    points.col(k) = here->position;
+    const auto held = holders(*places_, uv.col(k));
+    if (held.size() != 1) continue;
+    for (const Join& join : joins_) {
+      const bool first = held.front() == &(*places_)[join.first.block];
+      if (!first && held.front() != &(*places_)[join.second.block]) continue;
+      const BlockSide own = first ? join.first : join.second;
+      const Placed& other = (*places_)[first ? join.second.block : join.first.block];
+      // straight across to the seam, where both nets are asked
+      const double t = held.front()->depth(own.side, uv.col(k)) / fade;
+      const bool sum = own.side == Side::east || own.side == Side::west;
+      const Eigen::Vector2d across = 0.5 * Eigen::Vector2d(sum ? 1 : -1, 1) * outward(own.side);
+      const Eigen::Vector2d on_seam = uv.col(k) + t * fade * across;
+      const auto a = held.front()->at(on_seam), b = other.at(on_seam);
+      // beyond a seam's end one of the nets may fold: nothing is to be closed there
+      if (!(t < 1) || !a || !b) continue;
+      points.col(k) += 0.5 * (1 - t) * (1 - t) * (1 + 2 * t) * (b->position - a->position);
+    }
+  }
+  return points;
+}
+
+int Assemblage::blocks() const { return static_cast<int>(places_->size()); }
+
+const Block& Assemblage::block(int index) const { return (*places_)[index].block; }
+
+Result<std::vector<BlockRod>> Assemblage::rods(int index, double step) const {
+  const Placed& place = (*places_)[index];
+  const Block& block = place.block;
+  std::vector<BlockRod> rods;
+  const int last =
+      static_cast<int>(std::ceil(AssembledDomain(places_).reach() / block.spacing)) + 1;
+  for (const Family family : {Family::u, Family::v}) {
+    for (int k = -last; k <= last; ++k) {
+      const double line = line_of(block.placement, k, block.spacing);
+      for (const Interval& piece : place.intervals(family, line)) {
+        const int steps =
+            std::max(1, static_cast<int>(std::ceil((piece.end - piece.begin) / step)));
+        BlockRod rod{Eigen::Matrix3Xd(3, steps + 1), Eigen::Matrix2Xd(2, steps + 1)};
+        for (int n = 0; n <= steps; ++n) {
+          const double along = piece.begin + (piece.end - piece.begin) * n / steps;
+          rod.flat.col(n) =
+              family == Family::u ? Eigen::Vector2d(along, line) : Eigen::Vector2d(line, along);
+          const auto point = place.at(rod.flat.col(n));
+          if (!point) return tl::unexpected(point.error());
+          rod.net.col(n) = point->position;
+        }
+        rods.push_back(std::move(rod));
+      }
+    }
+  }
+  return rods;
+}
+
+}  // namespace gridshell

@@ -1,0 +1,20 @@
+// Points in a text file: boundaries, profiles, curves and measured joints that a user brings.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/preset/preset.h"
+
+namespace gridshell::preset {
+
+/// Reads a point a line: as many numbers as there are `coordinates`, apart by blanks or commas.
+/// What follows a '#' and empty lines are left out, and a first line of words (a CSV header) too.
+/// Errors (bad_input) as "file:line: what is wrong, must be ..."; a file that cannot be read, or
+/// holds no point.
+Result<Points> read_points(const std::filesystem::path& file,
+                           const std::vector<std::string>& coordinates);
+
+}  // namespace gridshell::preset

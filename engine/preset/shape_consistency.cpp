@@ -1,0 +1,104 @@
+#include "engine/preset/shape_consistency.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <set>
+
+#include "engine/preset/suggest.h"
+
+namespace gridshell::preset {
+namespace {
+
+const std::vector<std::string> side_names{"east", "west", "north", "south"};
+
+/// Where a curve is given by points it needs some.
+void check_curve(const std::string& table, const Curve& curve, std::vector<Conflict>& found) {
+  const bool by_points = curve.kind == CurveKind::polygon || curve.kind == CurveKind::spline;
+  if (by_points && curve.points.size() < 3)
+    found.push_back({table,
+                     "points_mm",
+                     {fmt::format("[{}] boundary", table)},
+                     fmt::format("{} points, must be at least 3 for a polygon or spline",
+                                 curve.points.size())});
+}
+
+void check_net(const std::string& table, const Net& net, int item, std::vector<Conflict>& found) {
+  const auto need = [&](const char* key, const Points& points, const char* kind) {
+    if (points.size() >= 4) return;
+    const std::string kind_key =
+        item < 0 ? fmt::format("[{}] kind", table) : fmt::format("[[{}]] {} kind", table, item + 1);
+    found.push_back(
+        {table,
+         key,
+         {kind_key},
+         fmt::format("{} points, must be at least 4 for kind = \"{}\"", points.size(), kind),
+         item});
+  };
+  if (net.kind == NetKind::profile) need("profile", net.profile, "profile");
+  if (net.kind == NetKind::translation) {
+    need("curve_u", net.curve_u, "translation");
+    need("curve_v", net.curve_v, "translation");
+  }
+}
+
+void check_join(const Preset& preset, int item, const char* key, const std::string& name,
+                std::vector<Conflict>& found) {
+  if (side_named(preset, name)) return;
+  std::vector<std::string> known;
+  for (const Block& block : preset.block)
+    for (const auto& side : side_names) known.push_back(block.name + "." + side);
+  found.push_back({"join",
+                   key,
+                   {},
+                   "no side of a block, must be a block's name and east, west, north or south with "
+                   "a dot between" +
+                       did_you_mean(name, known),
+                   item});
+}
+
+}  // namespace
+
+std::vector<Conflict> shape_conflicts(const Preset& preset) {
+  std::vector<Conflict> found;
+  if (preset.footprint.kind == FootprintKind::curve) {
+    check_curve("footprint", preset.footprint.boundary, found);
+    if (preset.actuation.scale == 0) check_curve("actuation", preset.actuation.boundary, found);
+  }
+  if (preset.footprint.kind == FootprintKind::net) check_net("net", preset.net, -1, found);
+  return found;
+}
+
+std::vector<Conflict> block_conflicts(const Preset& preset) {
+  std::vector<Conflict> found;
+  if (preset.footprint.kind != FootprintKind::blocks) return found;
+  if (preset.block.empty())
+    found.push_back(
+        {"footprint", "kind", {}, "there is no block, must have at least one [[block]]"});
+  std::set<std::string> names;
+  for (int k = 0; k < int(preset.block.size()); ++k) {
+    const Block& block = preset.block[k];
+    if (block.name.empty() || block.name.find('.') != std::string::npos)
+      found.push_back({"block", "name", {}, "must be a name without a dot", k});
+    else if (!names.insert(block.name).second)
+      found.push_back({"block", "name", {}, "used twice, must be unique", k});
+    check_net("block", block.net, k, found);
+  }
+  for (int k = 0; k < int(preset.join.size()); ++k) {
+    check_join(preset, k, "first", preset.join[k].first, found);
+    check_join(preset, k, "second", preset.join[k].second, found);
+  }
+  return found;
+}
+
+std::optional<NamedSide> side_named(const Preset& preset, const std::string& name) {
+  const auto dot = name.find('.');
+  if (dot == std::string::npos) return std::nullopt;
+  for (int k = 0; k < int(preset.block.size()); ++k)
+    for (const auto& side : side_names)
+      if (preset.block[k].name == name.substr(0, dot) && side == name.substr(dot + 1))
+        return NamedSide{k, side};
+  return std::nullopt;
+}
+
+}  // namespace gridshell::preset

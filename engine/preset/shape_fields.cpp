@@ -1,0 +1,100 @@
+#include "engine/preset/shape_fields.h"
+
+#include "engine/preset/field_makers.h"
+
+namespace gridshell::preset {
+namespace {
+
+using P = Preset;
+
+/// A closed curve at the end of `path`, in the table of that name.
+template <auto... path>
+std::vector<Field> curve_fields(const std::string& table, const std::string& meaning) {
+  return {
+      {table, "boundary", "",
+       word<path..., &Curve::kind>({"circle", "ellipse", "superellipse", "polygon", "spline"}),
+       meaning},
+      {table, "half_x_mm", "mm", real<path..., &Curve::half_x_mm>(above(0)),
+       "half axis of an ellipse or superellipse along x"},
+      {table, "half_y_mm", "mm", real<path..., &Curve::half_y_mm>(above(0)), "and along y"},
+      {table, "exponent", "", real<path..., &Curve::exponent>(between(1, 100)),
+       "n of a superellipse, |x/a|^n + |y/b|^n = 1"},
+      {table, "points_mm", "mm", points<path..., &Curve::points>({"x", "y"}),
+       "corners of a polygon, or points that a closed spline goes through"},
+  };
+}
+
+/// A net at the end of `path`, in the table of that name.
+template <auto... path>
+std::vector<Field> fields_of_net(const std::string& table) {
+  return {
+      {table, "kind", "",
+       word<path..., &Net::kind>(
+           {"sphere", "cylinder", "spool", "beltrami", "profile", "translation"}),
+       "\"sphere\": a cap of Chebyshev's net; \"translation\": the sum of two curves; the others: "
+       "the upper half of a surface of revolution about the x-axis, \"spool\" and \"beltrami\" of "
+       "constant K = -1/rho^2"},
+      {table, "radius_mm", "mm", real<path..., &Net::radius_mm>(above(0)),
+       "radius rho of the sphere or cylinder; K = -1/rho^2 of spool and beltrami"},
+      {table, "cut_height", "", real<path..., &Net::cut_height>(between(0, 0.999)),
+       "height of a cap's boundary over rho, z*/rho; 0: the hemisphere"},
+      {table, "length_mm", "mm", real<path..., &Net::length_mm>(at_least(0)),
+       "distance between the end rings of a surface of revolution; 0: all of a profile"},
+      {table, "waist", "", real<path..., &Net::waist>({0, 100, true}),
+       "radius over rho in the middle of a spool (its smallest) or beltrami surface (below 1)"},
+      {table, "crossing_deg", "deg", real<path..., &Net::crossing_deg>(between(1, 179)),
+       "angle between the rods, seen along the axis, in the middle of a surface of revolution"},
+      {table, "profile", "", points<path..., &Net::profile>({"r", "z"}),
+       "points of a profile, mm: radius and place along the axis"},
+      {table, "curve_u", "", points<path..., &Net::curve_u>({"x", "y", "z"}),
+       "points of the curve X of a translation net X(u) + Y(v), mm"},
+      {table, "curve_v", "", points<path..., &Net::curve_v>({"x", "y", "z"}), "and of Y"},
+  };
+}
+
+template <std::optional<int> Block::*side>
+Field cut_field(const char* key, const char* meaning) {
+  return {"block", key, "", optional<&P::block, side>(between(-500, 500)), meaning};
+}
+
+void append(std::vector<Field>& fields, std::vector<Field> more) {
+  fields.insert(fields.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+std::vector<Field> boundary_fields() {
+  auto fields = curve_fields<&P::footprint, &Footprint::boundary>(
+      "footprint", "boundary of a footprint of kind \"curve\", about the origin");
+  append(fields, {{"actuation", "scale", "", real<&P::actuation, &Actuation::scale>(between(0, 1)),
+                   "of a footprint of kind \"curve\": the actuated boundary is the original one "
+                   "times this; 0: it is given by `boundary`"}});
+  append(fields, curve_fields<&P::actuation, &Actuation::boundary>(
+                     "actuation", "actuated boundary of a footprint of kind \"curve\""));
+  append(fields, {{"actuation", "correspondence", "",
+                   word<&P::actuation, &Actuation::correspondence>({"arc_length", "angle"}),
+                   "which point of it an edge point moves to: the one at the same fraction of the "
+                   "length from +x, or at the same polar angle"}});
+  return fields;
+}
+
+std::vector<Field> net_fields() {
+  auto fields = fields_of_net<&P::net>("net");
+  append(fields, {{"blocks", "max_gap_mm", "mm", real<&P::blocks, &Blocks::max_gap_mm>(at_least(0)),
+                   "largest distance in space between two blocks at a joint of their seam"},
+                  {"block", "name", "", text<&P::block, &Block::name>(), "of the block, its own"}});
+  append(fields, fields_of_net<&P::block, &Block::net>("block"));
+  append(fields, {cut_field<&Block::east>("east",
+                                          "row m of joints at which it is cut: kept where "
+                                          "u + v <= m d, u and v its net's own"),
+                  cut_field<&Block::west>("west", "kept where u + v >= m d"),
+                  cut_field<&Block::north>("north", "kept where v - u <= m d"),
+                  cut_field<&Block::south>("south", "kept where v - u >= m d"),
+                  {"join", "first", "", text<&P::join, &Join::first>(),
+                   "side of a block, as \"name.east\""},
+                  {"join", "second", "", text<&P::join, &Join::second>(),
+                   "side that faces it, as \"other.west\""}});
+  return fields;
+}
+
+}  // namespace gridshell::preset
