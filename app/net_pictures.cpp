@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/pictures.h"
+#include "render/figure/block_figure.h"
 #include "render/figure/net_figure.h"
 #include "render/figure/net_plots.h"
 #include "render/image/png.h"
@@ -11,13 +12,19 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-std::string name_of(const preset::Net& net) {
+std::string name_of(const preset::Preset& preset) {
+  if (preset.footprint.kind == preset::FootprintKind::blocks) return "over its blocks";
+  const preset::Net& net = preset.net;
   switch (net.kind) {
     case preset::NetKind::sphere:
       return net.cut_height == 0 ? "hemisphere"
                                  : fmt::format("*z*^{{*}}/*ρ* = {:g}", net.cut_height);
     case preset::NetKind::cylinder:
       return "cylinder";
+    case preset::NetKind::profile:
+      return "surface of revolution";
+    case preset::NetKind::translation:
+      return "translation net";
     default:
       return "saddle";
   }
@@ -25,19 +32,40 @@ std::string name_of(const preset::Net& net) {
 
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
 
+/// Of one assemblage: its blocks apart, their footprints, and how they meet.
+Result<void> draw_block_pictures(const NetRecord& one, const render::MovieStyle& style,
+                                 render::Renderer& renderer, const fs::path& stem, Watch& watch) {
+  return render::draw_blocks(one.run, style, renderer, watch)
+      .and_then([&](const render::Image& image) {
+        return render::write_png(image, with_suffix(stem, "_blocks.png"));
+      })
+      .and_then(
+          [&] { return render::write_block_footprints(with_suffix(stem, "_footprint"), one.run); })
+      .and_then([&]() -> Result<void> {
+        if (one.run.layout.seam_rods.empty()) return {};
+        return render::write_plot(with_suffix(stem, "_seams"), render::seam_plot(one.run));
+      });
+}
+
 }  // namespace
 
 Result<void> draw_net_pictures(const std::vector<NetRecord>& records, render::Renderer& renderer,
                                const fs::path& stem, Watch& watch) {
   const auto style = style_of(records.front().preset, Pictures::stills);
+  Eigen::Matrix3Xd scan(3, records.front().preset.figure.scan.size());
+  for (Eigen::Index k = 0; k < scan.cols(); ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      scan(axis, k) = records.front().preset.figure.scan[std::size_t(k)].at(std::size_t(axis));
   std::vector<render::NetRun> shells, shades;
   std::vector<render::NamedRun> named;
   for (const NetRecord& one : records) {
-    const std::string name = name_of(one.preset.net);
+    const std::string name = name_of(one.preset);
     const double largest =
         render::deviation_of_nodes(one.run).head(long(one.run.layout.joints.size())).maxCoeff();
     shells.push_back({&one.run, name});
-    shades.push_back({&one.run, fmt::format("{}: at most {:.2f} %", name, 100 * largest)});
+    const auto unit = render::deviation_unit(one.run.layout);
+    shades.push_back({&one.run, fmt::format("{}: at most {:.2f} {}", name, unit.factor * largest,
+                                            one.run.layout.parts.empty() ? "%" : "mm")});
     named.push_back({&one.run, name});
   }
   const auto save = [&](const char* suffix) {
@@ -49,14 +77,21 @@ Result<void> draw_net_pictures(const std::vector<NetRecord>& records, render::Re
       .and_then(save("_net.png"))
       .and_then([&] { return render::draw_deviations(shades, style, renderer, watch); })
       .and_then(save("_deviation.png"))
-      .and_then([&] { return render::write_footprints(with_suffix(stem, "_footprint"), named); })
+      .and_then([&] {
+        const bool blocks = records.size() == 1 && !records.front().run.layout.parts.empty();
+        return blocks ? draw_block_pictures(records.front(), style, renderer, stem, watch)
+                      : render::write_footprints(with_suffix(stem, "_footprint"), named);
+      })
       .and_then([&] {
         return render::write_plot(with_suffix(stem, "_K"), render::curvature_plot(named));
+      })
+      .and_then([&] {
+        return render::write_plot(with_suffix(stem, "_quantiles"), render::quantile_plot(named));
       })
       .and_then([&]() -> Result<void> {
         if (records.size() > 1 || !render::on_sphere(records.front().run.layout)) return {};
         return render::write_plot(with_suffix(stem, "_latitude"),
-                                  render::latitude_plot(named.front()));
+                                  render::latitude_plot(named.front(), scan));
       });
 }
 

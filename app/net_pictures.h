@@ -20,8 +20,9 @@ struct NetRecord {
 };
 
 /// Writes `<stem>_net.png`, `<stem>_deviation.png` and, each as PNG and SVG, `<stem>_footprint`,
-/// `<stem>_K` and, for one cap alone, `<stem>_latitude`. Errors: io, cancelled, bad_input when a
-/// picture cannot be that size.
+/// `<stem>_K`, `<stem>_quantiles`, for one cap alone `<stem>_latitude` with the joints scanned
+/// where the preset has any, and for building blocks `<stem>_blocks.png` and `<stem>_seams`.
+/// Errors: io, cancelled, bad_input when a picture cannot be that size.
 Result<void> draw_net_pictures(const std::vector<NetRecord>& records, render::Renderer& renderer,
                                const std::filesystem::path& stem, Watch& watch);
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include "app/console.h"
 #include "app/delivery.h"
 #include "app/loading.h"
+#include "app/net_pictures.h"
 #include "app/options.h"
 #include "app/pictures.h"
 #include "engine/core/atomic_file.h"
@@ -94,6 +96,12 @@ Result<FinishedRun> read_run(const fs::path& folder, const std::string& name,
   return run;
 }
 
+// as `figure` decides it: a pushed shell is shown by itself
+bool shows_net(const FinishedRun& run) {
+  return run.pictures == Pictures::stills && run.preset.on_net() &&
+         !run.preset.indentation.wanted() && run.trajectory.layout.net_nodes.size() > 0;
+}
+
 bool is_picture(const fs::path& path) {
   const auto kind = path.extension();
   return path.filename() == "frames" || kind == ".png" || kind == ".svg" || kind == ".mp4";
@@ -112,6 +120,19 @@ Result<void> copy_data(const fs::path& from, const fs::path& to) {
     return fail(Fault::io, fmt::format("cannot copy '{}' to '{}': {}", from.string(), to.string(),
                                        error.message()));
   return {};
+}
+
+// shells on nets that `figure` made are shown beside one another again
+Result<void> draw_nets(std::vector<FinishedRun>& runs, const fs::path& from, Artist& artist,
+                       const fs::path& to, Progress& progress) {
+  std::vector<NetRecord> nets;
+  for (auto& run : runs)
+    if (shows_net(run)) nets.push_back({run.preset, run.trajectory});
+  if (nets.empty()) return {};
+  const auto name = fs::path(runs.front().summary.preset);
+  const auto stem = runs.front().name.empty() ? name.filename() : name.parent_path().filename();
+  return draw_net_pictures(nets, artist.renderer(), to / (stem.empty() ? from.filename() : stem),
+                           progress.next_phase());
 }
 
 Result<void> draw_run(FinishedRun& run, Artist& artist, const fs::path& from, const fs::path& to,
@@ -157,6 +178,10 @@ int render(const Options& options) {
   for (const auto& run : *runs)
     phases.push_back({"drawing" + (run.name.empty() ? "" : " " + run.name),
                       expected_seconds(run.pictures, run.preset)});
+  if (std::any_of(runs->begin(), runs->end(), shows_net))
+    phases.push_back({"drawing shells over nets",
+                      2 * double(runs->size()) *
+                          expected_seconds(runs->front().pictures, runs->front().preset)});
   const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
     auto artist = Artist::create(options.context, options.threads);
     if (!artist) return tl::unexpected(artist.error());
@@ -165,6 +190,7 @@ int render(const Options& options) {
           draw_run(run, *artist, folder_of(from, run.name), folder_of(partial, run.name), progress);
       if (!drawn) return drawn;
     }
+    if (auto drawn = draw_nets(*runs, from, *artist, partial, progress); !drawn) return drawn;
     return runs->front().name.empty() ? Result<void>{} : copy_data(from, partial);
   };
   const int code = deliver(folder, phases, options.quiet, work);

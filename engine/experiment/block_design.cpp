@@ -1,5 +1,7 @@
 #include "engine/experiment/block_design.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "engine/preset/shape_consistency.h"
@@ -18,7 +20,8 @@ FlatFrame common_frame() {
 Result<Block> block_of(const preset::Block& wanted, const preset::Footprint& footprint) {
   auto design = net_design(wanted.net);
   if (!design)
-    return fail(design.error().fault, "block \"" + wanted.name + "\": " + design.error().message);
+    return fail(design.error().fault,
+                fmt::format("block \"{}\": {}", wanted.name, design.error().message));
   Block block;
   block.name = wanted.name;
   block.net = design->net;
@@ -41,7 +44,7 @@ Side side_of(const std::string& name) {
 
 Result<BlockSide> block_side(const preset::Preset& preset, const std::string& name) {
   const auto side = preset::side_named(preset, name);
-  if (!side) return fail(Fault::bad_input, "\"" + name + "\" is no side of a block");
+  if (!side) return fail(Fault::bad_input, fmt::format("\"{}\" is no side of a block", name));
   return BlockSide{side->block, side_of(side->side)};
 }
 

@@ -1,5 +1,7 @@
 #include "engine/footprint/placed_block.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -43,7 +45,8 @@ Result<NetPoint> Assemblage::Placed::at(const Eigen::Vector2d& uv) const {
   const Eigen::Vector2d own = uv - shift;
   auto point = block.net->at(own.x(), own.y());
   if (!point)
-    return fail(point.error().fault, "block \"" + block.name + "\": " + point.error().message);
+    return fail(point.error().fault,
+                fmt::format("block \"{}\": {}", block.name, point.error().message));
   point->position = block.pose * point->position + offset;
   point->tangent_u = block.pose.linear() * point->tangent_u;
   point->tangent_v = block.pose.linear() * point->tangent_v;

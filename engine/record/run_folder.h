@@ -1,4 +1,5 @@
-// A run's folder: summary.json, joints.csv, cells.csv, frames.csv and trajectory.h5.
+// A run's folder: summary.json, joints.csv, cells.csv, frames.csv, trajectory.h5 and, of
+// building blocks, seams.csv.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +24,7 @@ std::string frames_csv(const Trajectory& trajectory);
 /// A rod across the seam of two building blocks a line, with gap and kink.
 std::string seams_csv(const Layout& layout);
 
-/// Writes the five files into `folder`, which is made if missing; each is whole or absent, and
+/// Writes these files, seams.csv only where there are seams, into `folder`, which is made if missing; each is whole or absent, and
 /// summary.json, written last, says that the others are there. Errors: Fault::io with path and
 /// reason; Fault::bad_input when the trajectory's parts do not fit each other.
 Result<void> write_run(const std::filesystem::path& folder, const Trajectory& trajectory,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "render/figure/block_figure.h"
 #include "render/movie/stage.h"
 #include "render/plot/panels.h"
 
@@ -45,8 +46,8 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
     Drawing drawing = stage.drawing(0);
     drawing.ground = false;
     dress(last, drawing);
-    auto picture = renderer.draw(drawing, stage.camera(0), draw_quality(style.quality),
-                                 style.width, style.height);
+    auto picture = renderer.draw(drawing, stage.camera(0), draw_quality(style.quality), style.width,
+                                 style.height);
     if (!picture) return tl::unexpected(picture.error());
     const std::string letter = runs.size() > 1 ? std::string(1, char('a' + k % 26)) : "";
     figure.panels.push_back({std::move(*picture), letter, runs[k].caption});
@@ -76,29 +77,41 @@ Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& 
   const auto dress = [](const record::Trajectory& run, Drawing& drawing) {
     drawing.rod_colour = shell_ink;
     drawing.joint_diameter_mm = 0;
-    drawing.ghosts.push_back(
-        {run.layout.net_nodes, run.layout.rods, drawing.rod_diameter_mm, net_ink});
+    const record::Layout& layout = run.layout;
+    // blocks each on a net of its own
+    for (std::size_t k = 0; k < layout.parts.size(); ++k)
+      drawing.ghosts.push_back(
+          {layout.parts[k].net, layout.parts[k].rods, drawing.rod_diameter_mm, block_colour(k)});
+    if (layout.parts.empty())
+      drawing.ghosts.push_back({layout.net_nodes, layout.rods, drawing.rod_diameter_mm, net_ink});
   };
   return panels_of(runs, style, renderer, watch, dress).and_then(draw_panels);
+}
+
+DeviationUnit deviation_unit(const record::Layout& layout) {
+  // blocks have no radius that is theirs alone
+  if (!layout.parts.empty()) return {layout.length_scale_mm, "Δ (mm)"};
+  return {100, "Δ/*ρ* (%)"};
 }
 
 Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
                               Renderer& renderer, Watch& watch) {
   double largest = 0;
+  const DeviationUnit unit = deviation_unit(runs.front().run->layout);
   for (const NetRun& one : runs)
-    largest = std::max(largest, 100 * deviation_of_nodes(*one.run).maxCoeff());
+    largest = std::max(largest, unit.factor * deviation_of_nodes(*one.run).maxCoeff());
   // a round end, so that the bar's last label is the scale's end
   const double step = std::pow(10.0, std::floor(std::log10(std::max(largest, 1e-9)))) / 2;
   const ColourScale scale{ColourMap::sequential, 0, step * std::ceil(largest / step)};
   const auto dress = [&](const record::Trajectory& run, Drawing& drawing) {
     const Eigen::VectorXd deviation = deviation_of_nodes(run);
-    for (double one : deviation) drawing.node_colours.push_back(scale(100 * one));
+    for (double one : deviation) drawing.node_colours.push_back(scale(unit.factor * one));
     drawing.rod_diameter_mm *= 1.8;
     drawing.joint_diameter_mm = 0;
   };
   auto figure = panels_of(runs, style, renderer, watch, dress);
   if (!figure) return tl::unexpected(figure.error());
-  figure->colour_bar = ColourBar{"Δ/*ρ* (%)", scale};
+  figure->colour_bar = ColourBar{unit.label, scale};
   return draw_panels(*figure);
 }
 

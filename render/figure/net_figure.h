@@ -21,6 +21,14 @@ struct NetRun {
 /// Distance of every node of the last frame from its place on the net, over rho.
 Eigen::VectorXd deviation_of_nodes(const record::Trajectory& run);
 
+/// What deviations over the length scale are multiplied by to be shown, and what they are then:
+/// per cent of rho, or for building blocks millimetres.
+struct DeviationUnit {
+  double factor = 100;
+  std::string label;  ///< marked text
+};
+DeviationUnit deviation_unit(const record::Layout& layout);
+
 /// Whether the net is a part of a sphere about the origin, of radius rho.
 bool on_sphere(const record::Layout& layout);
 

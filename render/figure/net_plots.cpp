@@ -73,8 +73,8 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
   std::vector<Point> arc;
   for (int k = 0; k <= 90; ++k) {
     const double angle = std::numbers::pi * k / 90;
-    arc.push_back({centre.x + scale * rho * std::cos(angle),
-                   centre.y - scale * rho * std::sin(angle)});
+    arc.push_back(
+        {centre.x + scale * rho * std::cos(angle), centre.y - scale * rho * std::sin(angle)});
   }
   canvas.polyline(arc, {{0.55f, 0.56f, 0.6f, 1}, 1});
   for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -88,6 +88,18 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
                 {centre.x + half + 4, y},
                 {.size = 6.5, .colour = colour, .align_y = AlignY::middle});
   }
+}
+
+/// Joints by latitude and distance from the centre.
+Series by_latitude(const std::string& name, const Eigen::Matrix3Xd& joints, double rho) {
+  Series series{.name = name};
+  for (long k = 0; k < joints.cols(); ++k) {
+    const double r = joints.col(k).norm();
+    series.x.push_back(std::asin(std::clamp(joints(2, k) / r, -1.0, 1.0)) * 180 / std::numbers::pi);
+    series.y.push_back(r / rho);
+  }
+  series.line_width = 0;
+  return series;
 }
 
 }  // namespace
@@ -120,7 +132,30 @@ Plot curvature_plot(const std::vector<NamedRun>& runs) {
   return plot;
 }
 
-Plot latitude_plot(const NamedRun& named) {
+Plot quantile_plot(const std::vector<NamedRun>& runs) {
+  Plot plot;
+  plot.x.label = "share of the joints (%)";
+  plot.x.low = 0;
+  plot.x.high = 100;
+  const DeviationUnit unit = deviation_unit(runs.front().run->layout);
+  plot.y.label = unit.label;
+  plot.y.low = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const record::Trajectory& run = *runs[r].run;
+    Eigen::VectorXd sorted = deviation_of_nodes(run).head(long(run.layout.joints.size()));
+    std::sort(sorted.begin(), sorted.end());
+    Series series{.name = runs[r].name, .colour = series_colour(r)};
+    for (long k = 0; k < sorted.size(); ++k) {
+      series.x.push_back(sorted.size() > 1 ? 100.0 * double(k) / double(sorted.size() - 1) : 100);
+      series.y.push_back(unit.factor * sorted[k]);
+    }
+    series.line_width = 1.2;
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   const record::Trajectory& run = *named.run;
   const double rho = run.layout.length_scale_mm;
   Plot plot;
@@ -133,16 +168,19 @@ Plot latitude_plot(const NamedRun& named) {
   net.x.front() = std::asin(std::clamp(lowest, -1.0, 1.0)) * 180 / std::numbers::pi;
   plot.x.low = net.x.front();
   plot.x.high = 90;
-  Series shell{.name = "joints, computed", .colour = ink};
-  for (long k = 0; k < joints.cols(); ++k) {
-    const double r = joints.col(k).norm();
-    shell.x.push_back(std::asin(std::clamp(joints(2, k) / r, -1.0, 1.0)) * 180 / std::numbers::pi);
-    shell.y.push_back(r / rho);
-  }
-  shell.line_width = 0;
+  Series shell = by_latitude("joints, computed", joints, rho);
+  shell.colour = ink;
   shell.marker = Marker::circle;
   shell.marker_size = 2.6;
   plot.series = {net, shell};
+  if (scan.cols() > 0) {
+    Series measured = by_latitude("joints, scanned", scan, rho);
+    measured.colour = {0.80f, 0.16f, 0.12f, 1};
+    measured.marker = Marker::circle;
+    measured.marker_size = 3.4;
+    measured.hollow = true;
+    plot.series.push_back(std::move(measured));
+  }
   return plot;
 }
 

@@ -22,9 +22,13 @@ struct NamedRun {
 /// boundary along x.
 Plot curvature_plot(const std::vector<NamedRun>& runs);
 
+/// Delta/rho that a share of the joints does not exceed, against that share: from the nearest joint
+/// to the farthest.
+Plot quantile_plot(const std::vector<NamedRun>& runs);
+
 /// r/rho of the joints and of the net (a line at 1) against latitude, for nets on a sphere; joints
-/// measured by others can be added as one more series.
-Plot latitude_plot(const NamedRun& run);
+/// measured by others (3 x n, mm, in the frame of the net) are one more series where there are any.
+Plot latitude_plot(const NamedRun& run, const Eigen::Matrix3Xd& scan = {});
 
 /// Original boundaries to scale, with the rods inside when there is one; beside them, for caps, the
 /// planes that cut them from the sphere. Writes `<stem>.png` and `<stem>.svg`.

@@ -166,6 +166,45 @@ TEST_CASE("figure draws a still a radius and all in one") {
   CHECK_FALSE(fs::exists(bench.at / "again/frames"));
 }
 
+TEST_CASE("figures of building blocks, drawn again from the run") {
+  const Bench bench;
+  REQUIRE(write_atomically(bench.at / "dome.toml", R"(
+[footprint]
+kind = "blocks"
+[[block]]
+name = "a"
+radius_mm = 60.0
+east = 0
+[[block]]
+name = "b"
+radius_mm = 60.0
+west = 0
+[[join]]
+first = "a.east"
+second = "b.west"
+[actuation]
+start = "net"
+[movie]
+size = [160, 120]
+quality = "draft"
+)"));
+  const auto said = bench.good({"figure", "dome.toml", "-o", "run"});
+  CHECK_THAT(said.out, Catch::Contains("mm from its blocks at most; seams: gap 0.00 mm"));
+  CHECK(text_of(bench.at / "run/seams.csv").starts_with("seam,family,line_mm,gap_mm,kink_deg\n"));
+  const std::vector<std::string> pictures{
+      "dome.png",        "dome_1.png",         "dome_K.png",
+      "dome_blocks.png", "dome_deviation.png", "dome_footprint.png",
+      "dome_net.png",    "dome_quantiles.png", "dome_seams.png"};
+  bench.good({"render", "run", "-o", "again"});
+  for (const auto& name : pictures) {
+    INFO(name);
+    REQUIRE(fs::exists(bench.at / "run" / name));
+    REQUIRE(fs::exists(bench.at / "again" / name));
+    CHECK(text_of(bench.at / "run" / name) == text_of(bench.at / "again" / name));
+  }
+  CHECK(names_in(bench.at / "run") == names_in(bench.at / "again"));
+}
+
 TEST_CASE("every case is a whole run folder, and summary.json on top lists them") {
   const Bench bench;
   const std::string cases =

@@ -22,6 +22,11 @@ inline Trajectory sample_trajectory() {
       {-1, -1, -10, -10, 0}, {0, -1, 10, -10, 1}, {0, 0, 10, 10, 2}, {-1, 0, -10, 10, 3}};
   layout.cells = {{-1, -1, 0, 0, {0, 1, 2, 3}}};
   layout.edge_points = {4, 5, 6, 7, 8, 9, 10, 11};
+  layout.parts = {
+      {"left", {{0, 1, 2}}, Eigen::Matrix3Xd::Random(3, 3), Eigen::Matrix3Xd::Random(3, 3)},
+      {"right", {{0, 1}, {1, 0}}, Eigen::Matrix3Xd::Random(3, 2), Eigen::Matrix3Xd::Random(3, 2)}};
+  layout.seam_rods = {{"left.east - right.west", 'u', -10, 1.0 / 3, 7},
+                      {"left.east - right.west", 'v', 10, 1.0 / 3, 0.1}};
   layout.original_boundary = Eigen::Matrix3Xd::Random(3, 5);
   layout.actuated_boundary = Eigen::Matrix3Xd::Random(3, 5);
   for (int k = 0; k < 3; ++k) {

@@ -154,15 +154,23 @@ TEST_CASE("numbers do not follow the locale") {
   std::setlocale(LC_ALL, "C");
 }
 
-TEST_CASE("a run's folder holds its five files and nothing else") {
+TEST_CASE("a run's folder holds its files and nothing else, seams.csv only where there are seams") {
   TemporaryFolder folder;
   const fs::path run = folder.path() / "out" / "s1_actuation";
   REQUIRE(write_run(run, sample_trajectory(), sample_summary()));
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(run)) names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
-  CHECK(names == std::vector<std::string>{"cells.csv", "frames.csv", "joints.csv", "summary.json",
-                                          "trajectory.h5"});
+  CHECK(names == std::vector<std::string>{"cells.csv", "frames.csv", "joints.csv", "seams.csv",
+                                          "summary.json", "trajectory.h5"});
+  CHECK(seams_csv(sample_trajectory().layout) ==
+        "seam,family,line_mm,gap_mm,kink_deg\n"
+        "left.east - right.west,u,-10,0.3333333333333333,7\n"
+        "left.east - right.west,v,10,0.3333333333333333,0.1\n");
+  auto plain = sample_trajectory();
+  plain.layout.seam_rods.clear();
+  REQUIRE(write_run(folder.path() / "plain", plain, sample_summary()));
+  CHECK_FALSE(fs::exists(folder.path() / "plain/seams.csv"));
   CHECK(read_summary(run / "summary.json"));
   CHECK(read_trajectory(run / "trajectory.h5")->frames.size() == 3);
 }

@@ -36,6 +36,19 @@ void check_same_layout(const Layout& a, const Layout& b) {
     CHECK((x.i == y.i && x.j == y.j && x.joints == y.joints));
     CHECK((same_bits(x.u_mm, y.u_mm) && same_bits(x.v_mm, y.v_mm)));
   }
+  REQUIRE(a.parts.size() == b.parts.size());
+  for (std::size_t k = 0; k < a.parts.size(); ++k) {
+    CHECK((a.parts[k].name == b.parts[k].name && a.parts[k].rods == b.parts[k].rods));
+    CHECK(same_bits(a.parts[k].net, b.parts[k].net));
+    CHECK(same_bits(a.parts[k].flat, b.parts[k].flat));
+  }
+  REQUIRE(a.seam_rods.size() == b.seam_rods.size());
+  for (std::size_t k = 0; k < a.seam_rods.size(); ++k) {
+    const SeamRod &x = a.seam_rods[k], &y = b.seam_rods[k];
+    CHECK((x.seam == y.seam && x.family == y.family));
+    CHECK((same_bits(x.line_mm, y.line_mm) && same_bits(x.gap_mm, y.gap_mm)));
+    CHECK(same_bits(x.kink_deg, y.kink_deg));
+  }
 }
 
 bool same(int a, int b) { return a == b; }

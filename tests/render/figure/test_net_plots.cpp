@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "render/figure/block_figure.h"
 #include "render/figure/net_figure.h"
 #include "render/figure/net_plots.h"
 #include "tests/temporary_folder.h"
@@ -61,6 +62,59 @@ TEST_CASE("r over rho is plotted against latitude, the net at one") {
   CHECK(plot.series[0].y == std::vector<double>{1, 1});
   for (double latitude : plot.series[1].x) CHECK(latitude == Approx(45));
   for (double r : plot.series[1].y) CHECK(r == Approx(0.98));
+}
+
+TEST_CASE("scanned joints are one more series of the latitude plot") {
+  const record::Trajectory run = one_cell();
+  Eigen::Matrix3Xd scan(3, 2);
+  scan << 0, 60, 0, 0, 101, 80;
+  const Plot plot = latitude_plot({&run, "shell"}, scan);
+  REQUIRE(plot.series.size() == 3);
+  CHECK(plot.series[2].x[0] == Approx(90));
+  CHECK(plot.series[2].y == std::vector<double>{1.01, 1.0});
+}
+
+TEST_CASE("quantiles of the deviation run from the nearest joint to the farthest") {
+  record::Trajectory run = one_cell();
+  run.frames[0].nodes.col(2) = 0.95 * run.layout.net_nodes.col(2);
+  const Plot plot = quantile_plot({{&run, "shell"}});
+  REQUIRE(plot.series.size() == 1);
+  const Series& series = plot.series[0];
+  CHECK(series.x == std::vector<double>{0, 100.0 / 3, 200.0 / 3, 100});
+  CHECK(series.y.front() == Approx(2));
+  CHECK(series.y.back() == Approx(5));
+  // blocks are measured in millimetres
+  run.layout.parts.emplace_back();
+  CHECK(quantile_plot({{&run, "shell"}}).series[0].y.back() == Approx(5));
+  CHECK(quantile_plot({{&run, "shell"}}).y.label == "Δ (mm)");
+}
+
+TEST_CASE("seams are plotted about their middles, gap and kink") {
+  record::Trajectory run = one_cell();
+  run.layout.seam_rods = {{"a.east - b.west", 'u', 30, 1.5, 7},
+                          {"a.east - b.west", 'v', 10, 1.5, 6},
+                          {"a.east - b.west", 'u', 10, 0.5, 3},
+                          {"a.east - b.west", 'v', 30, 0.5, 4}};
+  const Plot plot = seam_plot(run);
+  REQUIRE(plot.series.size() == 2);
+  // rods of one joint stand at one place
+  const double place = 10 * M_SQRT2;
+  CHECK(plot.series[0].x[0] == Approx(-place));
+  CHECK(plot.series[0].x[1] == Approx(-place));
+  CHECK(plot.series[0].x[2] == Approx(place));
+  CHECK(plot.series[0].y == std::vector<double>{1.5, 1.5, 0.5, 0.5});
+  CHECK(plot.series[1].y == std::vector<double>{7, 6, 3, 4});
+}
+
+TEST_CASE("footprints of blocks are written as PNG and SVG") {
+  const TemporaryFolder folder;
+  record::Trajectory run = one_cell();
+  run.layout.parts = {{"a", run.layout.rods, run.layout.net_nodes, run.layout.flat_nodes},
+                      {"b", run.layout.rods, run.layout.net_nodes, run.layout.flat_nodes}};
+  run.layout.parts[1].flat.row(0).array() += 200;
+  REQUIRE(write_block_footprints(folder.path() / "blocks", run).has_value());
+  CHECK(std::filesystem::file_size(folder.path() / "blocks.png") > 1000);
+  CHECK(std::filesystem::file_size(folder.path() / "blocks.svg") > 1000);
 }
 
 TEST_CASE("footprints are written as PNG and SVG") {

@@ -1,0 +1,30 @@
+// Building blocks, apart and joined [Baek 2018, Fig. 5].
+#pragma once
+
+#include <filesystem>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/record/snapshot.h"
+#include "render/draw/renderer.h"
+#include "render/movie/style.h"
+#include "render/plot/plot.h"
+
+namespace gridshell::render {
+
+/// The colour of a block in all pictures.
+Colour block_colour(std::size_t index);
+
+/// The blocks of a run on their nets, drawn apart in one picture. Errors as write_stills.
+Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& style,
+                          Renderer& renderer, Watch& watch);
+
+/// The blocks' footprints apart, and below them the joined footprint with its original boundary, to
+/// scale. Writes `<stem>.png` and `<stem>.svg`.
+Result<void> write_block_footprints(const std::filesystem::path& stem,
+                                    const record::Trajectory& run);
+
+/// Gap and kink of every rod across a seam against its place along the seam, one marker a seam.
+Plot seam_plot(const record::Trajectory& run);
+
+}  // namespace gridshell::render
