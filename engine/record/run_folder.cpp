@@ -1,60 +1,16 @@
 #include "engine/record/run_folder.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <iterator>
 
 #include "engine/core/atomic_file.h"
 #include "engine/record/consistency.h"
+#include "engine/record/csv.h"
 #include "engine/record/frame_columns.h"
 #include "engine/record/summary_file.h"
 #include "engine/record/trajectory_file.h"
 
 namespace gridshell::record {
-namespace {
-
-/// One CSV file as it grows (RFC 4180, "\n" at the end of a line).
-class Csv {
- public:
-  void cell(const char* text) { cell(std::string(text)); }
-  void cell(int value) { start() += fmt::format("{}", value); }
-  void cell(double value) {
-    std::string& text = start();
-    if (!std::isnan(value)) text += fmt::format("{}", value);
-  }
-  void cell(const std::string& value) {
-    std::string& text = start();
-    if (value.find_first_of(",\"\r\n") == std::string::npos) {
-      text += value;
-      return;
-    }
-    text += '"';
-    for (const char c : value) text.append(c == '"' ? 2 : 1, c);
-    text += '"';
-  }
-  void end_line() {
-    text_ += '\n';
-    first_ = true;
-  }
-  template <class... Cells>
-  void line(const Cells&... cells) {
-    (cell(cells), ...);
-    end_line();
-  }
-  std::string text() && { return std::move(text_); }
-
- private:
-  std::string& start() {
-    if (!first_) text_ += ',';
-    first_ = false;
-    return text_;
-  }
-  std::string text_;
-  bool first_ = true;
-};
-
-}  // namespace
 
 std::string joints_csv(const Trajectory& trajectory) {
   Csv csv;

@@ -3,15 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/solve/newton.h"
+
 namespace gridshell {
 namespace {
 
-/// one explicit step of the free nodes; returns the kinetic energy after it
-double kick_and_drift(const Model& model, const Eigen::VectorXd& mass, double h, double keep,
-                      const Assembly& assembly, Eigen::Matrix3Xd& x, Eigen::Matrix3Xd& velocity) {
+/// one explicit step of the free nodes, the kick over `kick` and the drift over h; returns the
+/// kinetic energy after it
+double kick_and_drift(const Model& model, const Eigen::VectorXd& mass, double kick, double h,
+                      double keep, const Assembly& assembly, Eigen::Matrix3Xd& x,
+                      Eigen::Matrix3Xd& velocity) {
   double kinetic = 0;
   for (int node : model.free_nodes) {
-    velocity.col(node) = keep * velocity.col(node) - h / mass[node] * assembly.gradient.col(node);
+    velocity.col(node) =
+        keep * velocity.col(node) - kick / mass[node] * assembly.gradient.col(node);
     x.col(node) += h * velocity.col(node);
     kinetic += 0.5 * mass[node] * velocity.col(node).squaredNorm();
   }
@@ -21,6 +26,35 @@ double kick_and_drift(const Model& model, const Eigen::VectorXd& mass, double h,
 /// energies beyond any the rods could hold: strained by more than one half
 bool grown(const Assembly& assembly) {
   return !(assembly.largest_strain < 0.5) || !std::isfinite(assembly.energies.total());
+}
+
+/// one implicit step; false where Newton's method does not solve it, the motion is then unchanged
+bool euler_step(const Model& model, const Eigen::VectorXd& mass, double h, double inertia,
+                LinearSolver& solver, Assembly& assembly, Motion& motion) {
+  constexpr int most_iterations = 50;
+  constexpr double tolerance_mm = 1e-7;
+  Eigen::Matrix3Xd x = motion.x, dx;
+  for (int k = 0; k < most_iterations; ++k) {
+    assemble_hessian(model, x, nullptr, 1, assembly);
+    if (grown(assembly)) return false;
+    dx = -assembly.gradient;
+    for (int node : model.free_nodes) {
+      assembly.hessian.diagonal[std::size_t(node)].diagonal().array() += inertia * mass[node];
+      dx.col(node) += mass[node] * (motion.velocity.col(node) / h -
+                                    inertia * (x.col(node) - motion.x.col(node)));
+    }
+    if (!solver.factor(assembly.hessian, 0).usable) return false;
+    solver.solve(dx);
+    const double move = largest_column(dx);
+    if (!std::isfinite(move)) return false;
+    x += dx;
+    if (move > tolerance_mm) continue;
+    motion.velocity = (x - motion.x) / h;
+    motion.x = std::move(x);
+    motion.time += h;
+    return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -45,7 +79,7 @@ BaselineReport explicit_to_rest(const Model& model, const Eigen::VectorXd& mass,
     if (grown(assembly)) return report.end = BaselineEnd::blow_up, report;
     if (report.residual_N < options.tolerance_N) return report.end = BaselineEnd::at_rest, report;
     if (watch.cancelled()) return report.end = BaselineEnd::cancelled, report;
-    kick_and_drift(model, mass, h, keep, assembly, motion.x, motion.velocity);
+    kick_and_drift(model, mass, h, h, keep, assembly, motion.x, motion.velocity);
     motion.time += h;
   }
   return report;
@@ -54,7 +88,8 @@ BaselineReport explicit_to_rest(const Model& model, const Eigen::VectorXd& mass,
 BaselineReport dynamic_relaxation(const Model& model, Eigen::Matrix3Xd& x,
                                   const BaselineOptions& options, const Watch& watch) {
   BaselineReport report;
-  // masses for which a step of 1 is at the limit: half the row's stiffness
+  // a quarter of what a row of the Hessian sums up to at most where rods are straight: no mode is
+  // then faster than 2, and a step of 1 is at the limit (Gershgorin)
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(model.nodes);
   for (const ModelEdge& edge : model.edges)
     for (int node : {edge.from, edge.to}) mass[node] += edge.EA / edge.rest_length;
@@ -66,16 +101,46 @@ BaselineReport dynamic_relaxation(const Model& model, Eigen::Matrix3Xd& x,
   mass *= 0.5;
   Assembly assembly;
   Eigen::Matrix3Xd velocity = Eigen::Matrix3Xd::Zero(3, model.nodes);
+  const double h = options.step;
   double before = 0;
+  bool from_rest = true;
   for (report.steps = 0; report.steps < options.most_steps; ++report.steps) {
     assemble_gradient(model, x, assembly);
     report.residual_N = residual_of(model, assembly.gradient);
     if (grown(assembly)) return report.end = BaselineEnd::blow_up, report;
     if (report.residual_N < options.tolerance_N) return report.end = BaselineEnd::at_rest, report;
     if (watch.cancelled()) return report.end = BaselineEnd::cancelled, report;
-    const double kinetic = kick_and_drift(model, mass, options.step, 1, assembly, x, velocity);
-    if (kinetic < before) velocity.setZero();
-    before = kinetic < before ? 0 : kinetic;
+    // velocities stand half a step after positions: the first from rest is half a kick; a whole one
+    // would feed the fast modes at every restart
+    const double kick = from_rest ? 0.5 * h : h;
+    const double kinetic = kick_and_drift(model, mass, kick, h, 1, assembly, x, velocity);
+    from_rest = kinetic < before;
+    if (from_rest) {
+      // the peak lies a step and a half back; without the way back the fast modes' peaks would stop
+      // the slow ones again and again
+      for (int node : model.free_nodes)
+        x.col(node) -= 1.5 * h * velocity.col(node) +
+                       0.5 * h * h / mass[node] * assembly.gradient.col(node);
+      velocity.setZero();
+    }
+    before = from_rest ? 0 : kinetic;
+  }
+  return report;
+}
+
+BaselineReport implicit_to_rest(const Model& model, const Eigen::VectorXd& mass, Motion& motion,
+                                const BaselineOptions& options, const Watch& watch) {
+  BaselineReport report;
+  Assembly assembly;
+  const auto solver = make_linear_solver(model);
+  const double h = options.step, inertia = 1 / (h * h) + options.damping_per_s / h;
+  for (; report.steps < options.most_steps; ++report.steps) {
+    if (watch.cancelled()) return report.end = BaselineEnd::cancelled, report;
+    assemble_gradient(model, motion.x, assembly);
+    report.residual_N = residual_of(model, assembly.gradient);
+    if (report.residual_N < options.tolerance_N) return report.end = BaselineEnd::at_rest, report;
+    if (!euler_step(model, mass, h, inertia, *solver, assembly, motion))
+      return report.end = grown(assembly) ? BaselineEnd::blow_up : BaselineEnd::too_slow, report;
   }
   return report;
 }

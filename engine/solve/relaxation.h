@@ -17,9 +17,9 @@ struct BaselineReport {
 };
 
 struct BaselineOptions {
-  /// of the estimated largest stable step; an estimate: on a strongly bent rod dynamic relaxation
-  /// came to rest at 0.5 of it and blew up at 0.8
-  double step = 1;
+  /// of the largest stable step: of dynamic relaxation Gershgorin's bound for rods at rest (under
+  /// tension they are stiffer), of the explicit integrator l_min/c; implicit: seconds
+  double step = 0.9;
   double damping_per_s = 0;   ///< explicit integrator only
   double tolerance_N = 1e-7;  ///< at rest: no larger force on a free node
   int most_steps = 2000000;
@@ -34,8 +34,15 @@ BaselineReport explicit_to_rest(const Model& model, const Eigen::VectorXd& mass,
                                 const BaselineOptions& options, const Watch& watch);
 
 /// Kinetic dynamic relaxation [Barnes 1999]: fictitious masses from each node's stiffness, no
-/// damping, velocities set to zero at each peak of the kinetic energy.
+/// damping; at each peak of the kinetic energy positions go back to it, velocities to zero, and the
+/// next kick is half a one.
 BaselineReport dynamic_relaxation(const Model& model, Eigen::Matrix3Xd& x,
                                   const BaselineOptions& options, const Watch& watch);
+
+/// Implicit Euler, m (v1 - v0)/h = F(x1) - c m v1, x1 = x0 + h v1, a whole Newton solve a step, to
+/// rest: large steps damp by themselves. `options.step` is h in seconds. A step that Newton's method
+/// does not solve ends it as `too_slow` with the steps so far.
+BaselineReport implicit_to_rest(const Model& model, const Eigen::VectorXd& mass, Motion& motion,
+                                const BaselineOptions& options, const Watch& watch);
 
 }  // namespace gridshell

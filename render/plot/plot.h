@@ -2,6 +2,7 @@
 // notes and a legend, as a journal prints it.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ struct Series {
   std::vector<double> x = {}, y = {};
   std::vector<double> y_error = {};  ///< half-lengths; empty: none
   std::vector<double> x_error = {};  ///< half-lengths; empty: none
+  std::vector<std::array<double, 2>> x_span = {};  ///< ends of a bar, least and most; empty: none
   Colour colour{0.27f, 0.47f, 0.67f, 1};
   SeriesKind kind = SeriesKind::points;
   double line_width = 1;          ///< in units of the canvas; 0: markers alone

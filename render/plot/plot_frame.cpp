@@ -33,6 +33,9 @@ Range data_range(const Plot& plot, bool of_x) {
       if (s.kind == SeriesKind::bars && !of_x) range.add(0, logarithmic);
     }
   }
+  for (const Series& s : plot.series)
+    for (const auto& span : s.x_span)
+      if (of_x) range.add(span[0], logarithmic), range.add(span[1], logarithmic);
   for (const Band& band : plot.bands) {
     for (double v : of_x ? band.x : band.low) range.add(v, logarithmic);
     if (!of_x)

@@ -1,0 +1,90 @@
+#include "engine/record/charts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/record/csv.h"
+
+namespace gridshell::record {
+
+const char* name_of(RunOutcome outcome) {
+  switch (outcome) {
+    case RunOutcome::right:
+      return "right";
+    case RunOutcome::refused:
+      return "refused";
+    case RunOutcome::not_converged:
+      return "not_converged";
+    case RunOutcome::blow_up:
+      return "blow_up";
+    case RunOutcome::too_slow:
+      return "too_slow";
+    case RunOutcome::planar_saddle:
+      return "planar_saddle";
+    case RunOutcome::other_state:
+      return "other_state";
+    case RunOutcome::silent_wrong:
+      break;
+  }
+  return "silent_wrong";
+}
+
+bool silently_wrong(RunOutcome outcome) {
+  return outcome == RunOutcome::planar_saddle || outcome == RunOutcome::other_state ||
+         outcome == RunOutcome::silent_wrong;
+}
+
+std::string accuracy_csv(const std::vector<AccuracyRow>& rows) {
+  Csv csv;
+  csv.line("method", "edges_per_segment", "dof", "error", "cpu_s", "cpu_min_s", "cpu_max_s",
+           "outcome");
+  for (const AccuracyRow& row : rows)
+    csv.line(row.method, row.edges_per_segment, row.dof, row.error, row.cpu_s, row.cpu_min_s,
+             row.cpu_max_s, name_of(row.outcome));
+  return std::move(csv).text();
+}
+
+std::string scaling_csv(const std::vector<ScalingRow>& rows) {
+  Csv csv;
+  csv.line("method", "rods", "edges_per_segment", "dof", "cpu_s", "cpu_min_s", "cpu_max_s",
+           "outcome");
+  for (const ScalingRow& row : rows)
+    csv.line(row.method, row.rods, row.edges_per_segment, row.dof, row.cpu_s, row.cpu_min_s,
+             row.cpu_max_s, name_of(row.outcome));
+  return std::move(csv).text();
+}
+
+std::string stability_csv(const std::vector<StabilityRow>& rows) {
+  Csv csv;
+  csv.line("map", "method", "x_name", "x", "y_name", "y", "outcome");
+  for (const StabilityRow& row : rows)
+    csv.line(row.map, row.method, row.x_name, row.x, row.y_name, row.y, name_of(row.outcome));
+  return std::move(csv).text();
+}
+
+double exponent(const std::vector<double>& x, const std::vector<double>& y) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k) {
+    if (!(x[k] > 0) || !(y[k] > 0)) continue;
+    const double a = std::log(x[k]), b = std::log(y[k]);
+    n += 1, sx += a, sy += b, sxx += a * a, sxy += a * b;
+  }
+  const double spread = n * sxx - sx * sx;
+  return n > 1 && spread > 0 ? (n * sxy - sx * sy) / spread : unknown;
+}
+
+std::vector<std::size_t> pareto_front(const std::vector<AccuracyRow>& rows) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (rows[k].outcome == RunOutcome::right && rows[k].cpu_s > 0 && rows[k].error > 0)
+      order.push_back(k);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(rows[a].cpu_s, rows[a].error) < std::pair(rows[b].cpu_s, rows[b].error);
+  });
+  std::vector<std::size_t> front;
+  for (std::size_t k : order)
+    if (front.empty() || rows[k].error < rows[front.back()].error) front.push_back(k);
+  return front;
+}
+
+}  // namespace gridshell::record

@@ -1,0 +1,219 @@
+#include "engine/study/accuracy_study.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include "engine/study/judge.h"
+
+namespace gridshell::study {
+namespace {
+
+using record::AccuracyRow;
+using record::RunOutcome;
+
+constexpr double claimed = 1e-4;  // of the length scale: what methods on one mesh come to rest to
+
+/// A method on meshes from coarse to fine: beyond one that is too slow there is no need to look.
+struct Ladder {
+  std::vector<Method> rungs;
+  double allowed = INFINITY;  // error promised where one mesh cannot tell
+};
+
+struct Measured {
+  Arrival arrival;
+  std::vector<double> seconds;  // ascending
+  RunOutcome outcome = RunOutcome::right;
+  double median() const { return seconds[seconds.size() / 2]; }
+};
+
+/// Several runs of a fast method, one of a slow one.
+Measured measure(Case& study, const Method& method, double allowed, const AccuracyOptions& options,
+                 const Watch& watch) {
+  Measured measured;
+  for (int run = 0; run < std::max(1, options.runs); ++run) {
+    Stopwatch stopwatch;
+    TimeLimit limit(options.seconds, watch);
+    measured.arrival = method.run(study, stopwatch, limit.watch());
+    measured.seconds.push_back(stopwatch.seconds());
+    const bool slow = stopwatch.seconds() > 0.5, very_slow = stopwatch.seconds() > 2;
+    if (very_slow || (slow && run >= 2) || watch.cancelled()) break;
+    if (measured.arrival.claim != RunOutcome::right) break;
+  }
+  std::sort(measured.seconds.begin(), measured.seconds.end());
+  measured.outcome = judge(study, measured.arrival, claimed, allowed, watch);
+  return measured;
+}
+
+AccuracyRow row_of(const Case& study, const Method& method, const Measured& measured) {
+  AccuracyRow row;
+  row.method = method.name;
+  row.edges_per_segment = measured.arrival.edges;
+  row.dof = measured.arrival.dof;
+  row.outcome = measured.outcome;
+  row.cpu_s = measured.median();
+  row.cpu_min_s = measured.seconds.front();
+  row.cpu_max_s = measured.seconds.back();
+  const bool there = measured.arrival.claim == RunOutcome::right;
+  if (there) row.error = study.error_of(measured.arrival.x);
+  return row;
+}
+
+template <class Make>
+Ladder ladder(Make make, int most_edges, int coarsest = 1) {
+  Ladder ladder;
+  for (int k = coarsest; k <= most_edges; k *= 2) ladder.rungs.push_back(make(k));
+  return ladder;
+}
+
+/// The engine's own: fractions of a second each.
+std::vector<Ladder> own_ladders(const AccuracyOptions& options) {
+  std::vector<Ladder> all{{{net_method()}, 1}, ladder(bend_method, options.most_edges)};
+  std::vector<int> edges{4};
+  while (2 * edges.back() <= options.most_edges) {
+    edges.push_back(2 * edges.back());
+    all.push_back({{nested_method(edges)}, 1e-2});
+  }
+  for (double tolerance : auto_tolerances) all.push_back({{auto_method(tolerance)}, tolerance});
+  return all;
+}
+
+/// What others use.
+std::vector<Ladder> other_ladders(const AccuracyOptions& options) {
+  const auto up_to = [&](int edges) { return std::min(edges, options.most_edges); };
+  const auto relaxed = [](Relaxation kind) {
+    return [kind](int edges) { return relaxed_method(kind, edges); };
+  };
+  std::vector<Ladder> all{ladder(relaxed(Relaxation::explicit_damped), up_to(8)),
+                          ladder(relaxed(Relaxation::kinetic), up_to(8)),
+                          ladder(textbook_method, up_to(8)),
+                          ladder(twist_method, up_to(8)),
+                          ladder(relaxed(Relaxation::implicit_euler), up_to(8))};
+  for (double stiffness : {1.0, 10.0, 100.0})
+    all.push_back(ladder([stiffness](int edges) { return spring_method(edges, stiffness); },
+                         up_to(4)));
+  return all;
+}
+
+/// Runs ladders on several threads; rows come back in the order of the ladders.
+std::vector<AccuracyRow> climb(Case& study, const std::vector<Ladder>& ladders, int threads,
+                               const AccuracyOptions& options, Watch& watch, double from,
+                               double to) {
+  std::vector<std::vector<AccuracyRow>> rows(ladders.size());
+  std::atomic<std::size_t> next{0}, done{0};
+  const auto work = [&] {
+    for (std::size_t k = next++; k < ladders.size(); k = next++) {
+      for (const Method& method : ladders[k].rungs) {
+        if (watch.cancelled()) return;
+        const Measured measured = measure(study, method, ladders[k].allowed, options, watch);
+        rows[k].push_back(row_of(study, method, measured));
+        if (measured.outcome == RunOutcome::too_slow) break;
+      }
+      watch.report(from + (to - from) * double(++done) / double(ladders.size()));
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (int k = 1; k < threads; ++k) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+  std::vector<AccuracyRow> all;
+  for (const auto& some : rows) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+bool is_auto(const AccuracyRow& row) { return row.method.starts_with("auto "); }
+
+double fastest(const std::vector<AccuracyRow>& rows, double error) {
+  double best = record::unknown;
+  for (const AccuracyRow& row : rows)
+    if (!is_auto(row) && row.outcome == RunOutcome::right && row.error <= error &&
+        !(row.cpu_s >= best))
+      best = row.cpu_s;
+  return best;
+}
+
+std::vector<AutoStanding> standings_of(const std::vector<AccuracyRow>& rows) {
+  std::vector<AutoStanding> standings;
+  for (const AccuracyRow& row : rows)
+    if (is_auto(row)) {
+      const double tolerance = auto_tolerances[standings.size()];
+      // two runs of one plan differ in round-off
+      standings.push_back({tolerance, row.error, row.cpu_s, fastest(rows, 1.001 * row.error),
+                           fastest(rows, tolerance)});
+    }
+  return standings;
+}
+
+/// The same shape with rods `factor` times further apart.
+preset::Preset respaced(preset::Preset preset, double factor) {
+  auto& footprint = preset.footprint;
+  if (footprint.kind == preset::FootprintKind::circle) {
+    const double leg = footprint.radius_mm / footprint.spacing_mm - (footprint.rods - 1) / 2.0;
+    footprint.rods = std::max(4, int(std::lround(footprint.rods / factor)));
+    footprint.placement =
+        footprint.rods % 2 ? preset::Placement::on_axis : preset::Placement::half;
+    footprint.spacing_mm = footprint.radius_mm / ((footprint.rods - 1) / 2.0 + leg);
+  } else {
+    footprint.spacing_mm *= factor;
+  }
+  return preset;
+}
+
+std::vector<record::ScalingRow> scaling_of(const preset::Preset& preset,
+                                           const AccuracyOptions& options, Watch& watch) {
+  constexpr int edges = 4;
+  AccuracyOptions limited = options;
+  limited.seconds = std::min(options.seconds, 4.0);
+  limited.runs = std::min(options.runs, 3);
+  std::vector<Method> methods{auto_method(1e-3), bend_method(edges), twist_method(edges),
+                              textbook_method(edges), relaxed_method(Relaxation::kinetic, edges),
+                              relaxed_method(Relaxation::implicit_euler, edges)};
+  std::vector<char> slow(methods.size(), 0);
+  std::vector<record::ScalingRow> rows;
+  int step = 0;
+  for (double factor : {2.0, 1.5, 1.0, 0.75, 0.5}) {
+    watch.report(0.75 + 0.05 * step++);
+    auto made = Case::create(respaced(preset, factor), 16, watch);
+    if (!made) continue;  // a footprint that cannot be cut so, or whose path is lost
+    for (std::size_t k = 0; k < methods.size() && !watch.cancelled(); ++k) {
+      if (slow[k]) continue;
+      const Measured measured = measure(**made, methods[k], INFINITY, limited, watch);
+      record::ScalingRow row;
+      row.method = methods[k].name;
+      row.rods = int((*made)->scene().footprint.rods.size()) / 2;
+      row.edges_per_segment = measured.arrival.edges;
+      row.dof = measured.arrival.dof;
+      row.cpu_s = measured.median();
+      row.cpu_min_s = measured.seconds.front();
+      row.cpu_max_s = measured.seconds.back();
+      row.outcome = measured.outcome;
+      slow[k] = row.outcome == RunOutcome::too_slow;
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const AccuracyOptions& options,
+                                     Watch& watch) {
+  auto made = Case::create(preset, options.finest, watch);
+  if (!made) return tl::unexpected<Error>(made.error());
+  Case& study = **made;
+  for (int k = 1; k <= options.most_edges; k *= 2)
+    (void)study.problem(k, watch);  // a mesh without one is refused where it is used
+  AccuracyStudy result;
+  result.reference_error = study.reference_error();
+  result.rows = climb(study, own_ladders(options), 1, options, watch, 0.02, 0.05);
+  const auto others = climb(study, other_ladders(options), std::max(1, options.threads), options,
+                            watch, 0.05, options.scaling ? 0.75 : 1);
+  result.rows.insert(result.rows.end(), others.begin(), others.end());
+  result.standings = standings_of(result.rows);
+  if (options.scaling) result.scaling = scaling_of(preset, options, watch);
+  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+  return result;
+}
+
+}  // namespace gridshell::study

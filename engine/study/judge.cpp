@@ -1,0 +1,53 @@
+#include "engine/study/judge.h"
+
+#include <cmath>
+
+namespace gridshell::study {
+namespace {
+
+using record::RunOutcome;
+
+constexpr double flat = 1e-3;  // of the length scale
+
+/// Height of the joints above one another, over the length scale.
+double height_of(const Case& study, const Eigen::Matrix3Xd& x) {
+  const auto z = x.leftCols(study.joints()).row(2);
+  return (z.maxCoeff() - z.minCoeff()) / study.scale_mm();
+}
+
+/// What a state that is not the right one is on its own mesh.
+RunOutcome kind_of(const Case& study, const Problem& problem, const Eigen::Matrix3Xd& x,
+                   double near_mm) {
+  if (height_of(study, x) < flat && height_of(study, problem.end.x) > 10 * flat)
+    return RunOutcome::planar_saddle;
+  Linearisation system(problem.model);
+  const State state{x, Eigen::VectorXd::Zero(Eigen::Index(problem.model.edges.size()))};
+  if (!system.at(state, false).positive_definite()) return RunOutcome::silent_wrong;
+  Eigen::Matrix3Xd dx;
+  system.correction(dx);
+  return largest_column(dx) < near_mm ? RunOutcome::other_state : RunOutcome::silent_wrong;
+}
+
+}  // namespace
+
+RunOutcome judge(Case& study, const Arrival& arrival, double claimed, double allowed,
+                 const Watch& watch) {
+  if (arrival.claim != RunOutcome::right) return arrival.claim;
+  if (!arrival.x.allFinite() || arrival.x.cols() < study.joints()) return RunOutcome::silent_wrong;
+  const double error = study.error_of(arrival.x);
+  const auto problem =
+      arrival.edges > 0 ? study.problem(arrival.edges, watch) : Result<const Problem*>(nullptr);
+  if (!arrival.whole_mesh || !problem || !*problem) {
+    if (error <= 10 * allowed) return RunOutcome::right;
+    return height_of(study, arrival.x) < flat && arrival.edges > 0 ? RunOutcome::planar_saddle
+                                                                    : RunOutcome::silent_wrong;
+  }
+  const Eigen::Index joints = study.joints();
+  const double off =
+      largest_column(arrival.x.leftCols(joints) - (*problem)->end.x.leftCols(joints));
+  const double near = 10 * claimed * study.scale_mm();
+  if (off <= near) return RunOutcome::right;
+  return kind_of(study, **problem, arrival.x, near);
+}
+
+}  // namespace gridshell::study

@@ -1,0 +1,94 @@
+// The ways of getting from the start of a problem to its end that studies compare: the engine's
+// own, and those that programs and textbooks use.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/record/charts.h"
+#include "engine/study/case.h"
+#include "engine/study/stopwatch.h"
+
+namespace gridshell::study {
+
+/// What a method says it came to. Claims: right (success), refused, not_converged, blow_up,
+/// too_slow.
+struct Arrival {
+  record::RunOutcome claim = record::RunOutcome::not_converged;
+  Eigen::Matrix3Xd x;  ///< joints in the first columns; of spring joints the middles
+  /// on the problem's mesh where the claim can be checked there: negative pivots, residual
+  bool whole_mesh = false;
+  int edges = 0, dof = 0;
+};
+
+/// One method on one mesh. `run` starts the stopwatch for what the method is charged for, its set-up
+/// too; certified starts are given.
+struct Method {
+  std::string name;
+  int edges = 0;  ///< of the finest mesh; 0: none
+  std::function<Arrival(Case&, Stopwatch&, const Watch&)> run;
+};
+
+/// Path parameter of load step `k` of `steps`: boundary or joint move evenly.
+double load_parameter(const Problem& problem, int k, int steps);
+
+/// Chebyshev's net at the joints, without mechanics; refused where there is no net.
+Method net_method();
+
+/// The engine's path follower on one mesh.
+Method bend_method(int edges);
+
+/// The same on nested meshes, extrapolated where there are three.
+Method nested_method(const std::vector<int>& edges);
+
+/// As an experiment with `accuracy.tolerance`: meshes by plan_levels(), finer ones until the
+/// estimate meets the tolerance, all on the bill.
+Method auto_method(double tolerance);
+
+/// What keeps Newton's method on a minimum.
+enum class Globalisation {
+  none,         ///< full steps
+  line_search,  ///< full direction, shortened until the energy falls (or the residual, on a saddle)
+  shifted       ///< Hessian shifted until positive definite, line search
+};
+const char* name_of(Globalisation globalisation);
+
+/// Newton's method on the energy's own Hessian, factorised by supernodal CHOLMOD in its own order:
+/// the boundary is moved, the rest is found from there, no prediction.
+struct MarchOptions {
+  int load_steps = 40;
+  Globalisation globalisation = Globalisation::shifted;
+  double tolerance_mm = 1e-5;
+  double EA_scale = 1;
+  int most_iterations = 200;  ///< a load step
+};
+Arrival march(const Problem& problem, const MarchOptions& options, Stopwatch& stopwatch,
+              const Watch& watch);
+Method textbook_method(int edges);
+
+/// Rods on the twist rung, joints shared or held together by springs of `stiffness_N_per_mm`.
+struct TwistMarch {
+  int load_steps = 10;
+  double stiffness_N_per_mm = 0;  ///< 0: shared nodes
+  double tolerance_mm = 1e-6;
+};
+Arrival march_twist(const Case& study, const Problem& problem, const TwistMarch& options,
+                    Stopwatch& stopwatch, const Watch& watch);
+Method twist_method(int edges);
+Method spring_method(int edges, double stiffness_N_per_mm);
+
+/// Methods that move in time, to rest after every load step.
+enum class Relaxation { kinetic, explicit_damped, implicit_euler };
+struct RelaxMarch {
+  Relaxation kind = Relaxation::kinetic;
+  int load_steps = 40;
+  double step = 0.9;          ///< of the limit; implicit: seconds
+  double tolerance_N = 1e-5;  ///< largest force left at the end
+  double loose_N = 1e-3;      ///< and in between
+};
+Arrival march_relaxed(const Problem& problem, const RelaxMarch& options, Stopwatch& stopwatch,
+                      const Watch& watch);
+Method relaxed_method(Relaxation kind, int edges);
+
+}  // namespace gridshell::study

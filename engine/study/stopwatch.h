@@ -1,0 +1,46 @@
+// What a method is charged for, and when it is cut off.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "engine/core/clock.h"
+#include "engine/core/watch.h"
+
+namespace gridshell::study {
+
+/// Processor time of the calling thread between start() and stop(), summed.
+class Stopwatch {
+ public:
+  void start() { since_ = cpu_seconds_now(); }
+  void stop() { seconds_ += cpu_seconds_now() - since_; }
+  double seconds() const { return seconds_; }
+
+ private:
+  double since_ = 0, seconds_ = 0;
+};
+
+/// A Watch of its own that is cancelled once the thread that made it has worked for `seconds` more,
+/// or with `outer`.
+class TimeLimit {
+ public:
+  TimeLimit(double seconds, const Watch& outer);
+  ~TimeLimit();
+  TimeLimit(const TimeLimit&) = delete;
+  TimeLimit& operator=(const TimeLimit&) = delete;
+
+  const Watch& watch() const { return watch_; }
+  /// Whether the time ran out, and not the patience of the user.
+  bool ran_out() const { return watch_.cancelled() && !outer_.cancelled(); }
+
+ private:
+  Watch watch_;
+  const Watch& outer_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool finished_ = false;
+  std::thread thread_;
+};
+
+}  // namespace gridshell::study
