@@ -83,7 +83,7 @@ std::vector<std::size_t> pareto_front(const std::vector<AccuracyRow>& rows) {
   });
   std::vector<std::size_t> front;
   for (std::size_t k : order)
-    if (front.empty() || rows[k].error < rows[front.back()].error) front.push_back(k);
+    if (front.empty() || rows[k].error < 0.95 * rows[front.back()].error) front.push_back(k);
   return front;
 }
 

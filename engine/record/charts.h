@@ -33,8 +33,8 @@ struct AccuracyRow {
   std::string method;
   int edges_per_segment = 0;  ///< of the finest mesh; 0 for the net
   int dof = 0;
-  double error = unknown;     ///< largest joint error over R_o or rho
-  double cpu_s = unknown;     ///< median
+  double error = unknown;  ///< largest joint error over R_o or rho
+  double cpu_s = unknown;  ///< median
   double cpu_min_s = unknown, cpu_max_s = unknown;
   RunOutcome outcome = RunOutcome::right;
 };
@@ -67,7 +67,8 @@ std::string stability_csv(const std::vector<StabilityRow>& rows);
 double exponent(const std::vector<double>& x, const std::vector<double>& y);
 
 /// Indices of the points that no other is both faster and more accurate than, from the fastest to
-/// the most accurate; only outcomes `right`.
+/// the most accurate; only outcomes `right`. Errors within 5 % count as the same: methods on one
+/// mesh differ by how far they came to rest.
 std::vector<std::size_t> pareto_front(const std::vector<AccuracyRow>& rows);
 
 }  // namespace gridshell::record

@@ -64,8 +64,7 @@ Error lost(const NestedReport& report, const char* where) {
 
 }  // namespace
 
-Result<std::unique_ptr<Case>> Case::create(const preset::Preset& preset, int finest,
-                                           Watch& watch) {
+Result<std::unique_ptr<Case>> Case::create(const preset::Preset& preset, int finest, Watch& watch) {
   std::unique_ptr<Case> made(new Case);
   if (auto ready = made->set_up(preset); !ready) return tl::unexpected<Error>(ready.error());
   if (auto followed = made->follow(finest, watch); !followed)
@@ -77,10 +76,10 @@ Result<void> Case::set_up(const preset::Preset& preset) {
   auto scene = experiment::scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
   scene_ = std::move(*scene);
+  if (scene_.rods.loaded())
+    return fail(Fault::bad_input, "[loads]: a study compares methods on shells without dead loads");
   pushed_ = preset.indentation;
-  task_ = pushed_.wanted()   ? Task::push
-          : scene_.from_net ? Task::beside_net
-                            : Task::actuation;
+  task_ = pushed_.wanted() ? Task::push : scene_.from_net ? Task::beside_net : Task::actuation;
   return {};
 }
 
@@ -92,18 +91,20 @@ Result<void> Case::follow(int finest, Watch& watch) {
   NestedReport report;
   if (scene_.from_net) {
     t_ = 1;
-    auto net = on_net(scene_, reference.mesh(0), reference.motion(0),
-                      reference.model(0).edges.size());
+    auto net =
+        on_net(scene_, reference.mesh(0), reference.motion(0), reference.model(0).edges.size());
     if (!net) return tl::unexpected<Error>(net.error());
     if (!bring_to_rest(reference.system(0), *net, 0.5 * scene_.footprint.spacing, watch))
       return tl::unexpected<Error>(lost({NestedEnd::lost, 1}, "finds no rest beside the net"));
     report = reference.start(1, *net, watch);
   } else {
-    const auto t = parameter_of_shortening(reference.mesh(0), reference.motion(0), first_shortening);
+    const auto t =
+        parameter_of_shortening(reference.mesh(0), reference.motion(0), first_shortening);
     if (!t) return tl::unexpected<Error>(t.error());
     if (*t >= 1)
-      return fail(Fault::bad_input, "the boundary shortens the rods by less than 2 %: too little "
-                                    "for a study");
+      return fail(Fault::bad_input,
+                  "the boundary shortens the rods by less than 2 %: too little "
+                  "for a study");
     t_ = *t;
     auto first = first_buckled(reference.system(0), reference.mesh(0), reference.motion(0), t_,
                                scene_.seed, scene_.flat, watch);
@@ -166,7 +167,7 @@ NestedShell Case::shell(const LevelPlan& plan, double tolerance) const {
   PathOptions options;
   options.spacing_mm = scene_.footprint.spacing;
   options.tolerance_mm = std::clamp(1e-3 * tolerance * scale_mm(), 1e-7, 1e-4);
-  return NestedShell(scene_.footprint, scene_.section, scene_.motion, plan, options);
+  return NestedShell(scene_.footprint, scene_.rods, scene_.motion, plan, options);
 }
 
 NestedReport Case::begin(NestedShell& shell, const Watch& watch) {
@@ -205,9 +206,9 @@ Result<State> Case::rest_near(const Problem& problem, const Eigen::Matrix3Xd& wa
                      largest_column(state.x.leftCols(joints()) - wanted.leftCols(joints())) < near;
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
   if (found) return state;
-  return fail(Fault::no_equilibrium,
-              fmt::format("{} edges a segment have no stable state near the reference's",
-                          problem.edges));
+  return fail(
+      Fault::no_equilibrium,
+      fmt::format("{} edges a segment have no stable state near the reference's", problem.edges));
 }
 
 Result<const Problem*> Case::problem(int edges, const Watch& watch) {

@@ -29,11 +29,11 @@ struct Problem {
 };
 
 /// A scene with its reference. The start is the first buckled state where the rods are 2 % shorter
-/// than flat on average (of a circle: R_a = 0.98 R_o), the net, or the unloaded shell. The reference
-/// is followed from there on meshes of 4, 8, ... `finest` edges a segment and extrapolated over the
-/// last two; every coarser mesh is brought to rest from the reference's positions, so all starts and
-/// ends lie on one branch. A push holds the joint across, too (`lateral = "held"`): one problem
-/// for methods that cannot prescribe one direction alone.
+/// than flat on average (of a circle: R_a = 0.98 R_o), the net, or the unloaded shell. The
+/// reference is followed from there on meshes of 4, 8, ... `finest` edges a segment and
+/// extrapolated over the last two; every coarser mesh is brought to rest from the reference's
+/// positions, so all starts and ends lie on one branch. A push holds the joint across, too
+/// (`lateral = "held"`): one problem for methods that cannot prescribe one direction alone.
 class Case {
  public:
   /// Errors: bad_input (scene), no_equilibrium (the path is lost or snaps on the way: there is
@@ -41,7 +41,8 @@ class Case {
   static Result<std::unique_ptr<Case>> create(const preset::Preset& preset, int finest,
                                               Watch& watch);
 
-  /// Made once a mesh, from any thread. Errors: no_equilibrium where the mesh has no state near the reference's.
+  /// Made once a mesh, from any thread. Errors: no_equilibrium where the mesh has no state near the
+  /// reference's.
   Result<const Problem*> problem(int edges, const Watch& watch);
 
   /// Largest distance of a joint from the reference's end over the length scale; `x` has the joints
@@ -72,8 +73,8 @@ class Case {
   experiment::ActuationScene scene_;
   preset::Indentation pushed_;
   Task task_ = Task::actuation;
-  double t_ = 0;                    // where the actuation starts
-  int joint_ = -1;                  // pushed
+  double t_ = 0;    // where the actuation starts
+  int joint_ = -1;  // pushed
   Eigen::Vector3d displacement_ = Eigen::Vector3d::Zero();
   RodMesh finest_;
   Eigen::Matrix3Xd start_, end_;  // of the reference, on finest_

@@ -40,7 +40,7 @@ RunOutcome judge(Case& study, const Arrival& arrival, double claimed, double all
   if (!arrival.whole_mesh || !problem || !*problem) {
     if (error <= 10 * allowed) return RunOutcome::right;
     return height_of(study, arrival.x) < flat && arrival.edges > 0 ? RunOutcome::planar_saddle
-                                                                    : RunOutcome::silent_wrong;
+                                                                   : RunOutcome::silent_wrong;
   }
   const Eigen::Index joints = study.joints();
   const double off =

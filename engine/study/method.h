@@ -22,8 +22,8 @@ struct Arrival {
   int edges = 0, dof = 0;
 };
 
-/// One method on one mesh. `run` starts the stopwatch for what the method is charged for, its set-up
-/// too; certified starts are given.
+/// One method on one mesh. `run` starts the stopwatch for what the method is charged for, its
+/// set-up too; certified starts are given.
 struct Method {
   std::string name;
   int edges = 0;  ///< of the finest mesh; 0: none

@@ -23,7 +23,8 @@ RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOption
     double factor = 1;
     if (options.globalisation == Globalisation::line_search) {
       // the residual falls along Newton's direction, whatever the inertia
-      const double before = system.assembly().gradient(Eigen::all, system.model().free_nodes).norm();
+      const double before =
+          system.assembly().gradient(Eigen::all, system.model().free_nodes).norm();
       for (; factor > 1e-6; factor /= 2) {
         trial = state.x + factor * dx;
         assemble_gradient(system.model(), trial, there);

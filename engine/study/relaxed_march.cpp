@@ -45,7 +45,8 @@ double slowest_frequency(const Problem& problem, const Eigen::VectorXd& mass) {
   double frequency2 = 0;
   for (int k = 0; k < 30; ++k) {
     mode = mode * mass.asDiagonal();
-    const double before = std::sqrt((mode * mass.cwiseInverse().asDiagonal()).cwiseProduct(mode).sum());
+    const double before =
+        std::sqrt((mode * mass.cwiseInverse().asDiagonal()).cwiseProduct(mode).sum());
     system.solve(mode);
     const double after = std::sqrt((mode * mass.asDiagonal()).cwiseProduct(mode).sum());
     frequency2 = before / after;

@@ -16,12 +16,12 @@ constexpr double shear_over_young = 31.0 / 83;  // of Nitinol; at rest these rod
 /// Rods of a mesh, those of the second family with nodes of their own at the joints where springs
 /// hold them there: the joint's index after all other nodes.
 Result<TwistModel> model_of(const Case& study, const Problem& problem, double stiffness) {
-  const RodSection& section = study.scene().section;
-  const RodMaterial material = round_material(section, 2 * section.EI * shear_over_young);
   const int nodes = problem.mesh.nodes(), joints = problem.mesh.joints;
   std::vector<TwistRod> rods;
   for (std::size_t r = 0; r < problem.mesh.rods.size(); ++r) {
-    TwistRod rod{problem.mesh.rods[r], problem.mesh.position[r], material};
+    const RodSection& section = study.scene().rods.section(r);
+    const double GJ = 2 * section.EI * shear_over_young;
+    TwistRod rod{problem.mesh.rods[r], problem.mesh.position[r], round_material(section, GJ)};
     const auto hold = [&](int node) {
       return problem.model.pinned[std::size_t(node)] ? EndHold::pinned : EndHold::free;
     };
@@ -104,8 +104,8 @@ Arrival march_twist(const Case& study, const Problem& problem, const TwistMarch&
   stopwatch.stop();
   arrival.x = walk.state.x.leftCols(problem.model.nodes);
   if (model->nodes > problem.model.nodes)
-    arrival.x.leftCols(joints) = 0.5 * (walk.state.x.leftCols(joints) +
-                                        walk.state.x.rightCols(joints));
+    arrival.x.leftCols(joints) =
+        0.5 * (walk.state.x.leftCols(joints) + walk.state.x.rightCols(joints));
   arrival.whole_mesh = model->nodes == problem.model.nodes;
   return arrival;
 }

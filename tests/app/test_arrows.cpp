@@ -29,9 +29,15 @@ const std::map<std::string, Folders> may_see{
     {"engine/experiment",
      {"engine/core", "engine/geometry", "engine/footprint", "engine/rod", "engine/gridshell",
       "engine/solve", "engine/measure", "engine/preset", "engine/record"}},
+    // methods compared, the engine's own among them, on the scenes of experiments
+    {"engine/study",
+     {"engine/core", "engine/footprint", "engine/rod", "engine/gridshell", "engine/solve",
+      "engine/measure", "engine/preset", "engine/record", "engine/experiment"}},
     // the renderer knows pictures of a run, not how it came to be
     {"render", {"engine/core", "engine/record"}},
-    {"app", {"engine/core", "engine/preset", "engine/record", "engine/experiment", "render"}},
+    {"app",
+     {"engine/core", "engine/preset", "engine/record", "engine/experiment", "engine/study",
+      "render"}},
 };
 
 // "engine/preset" for engine/preset/reader.h, "render" and "app" for all below them

@@ -286,3 +286,18 @@ TEST_CASE("usage errors exit with 2, help with 0") {
   CHECK(gridshell_program({"movie", "--help"}, folder.path()).code == 0);
   CHECK(folder.entries().empty());
 }
+
+TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", "[full]") {
+  const Bench bench;
+  const auto said = bench.good({"chart", "accuracy", "small.toml", "--limit", "0.05", "--edges", "4"});
+  CHECK_THAT(said.out, Catch::Contains("auto at 1e-06: error"));
+  const auto folder = bench.at / "out/small_accuracy";
+  CHECK(names_in(folder) ==
+        std::vector<std::string>{"accuracy.csv", "accuracy.png", "accuracy.svg", "preset.toml",
+                                 "scaling.csv", "scaling.png", "scaling.svg", "summary.json",
+                                 "unknowns.png", "unknowns.svg"});
+  CHECK(json_of(folder / "summary.json")["chart"] == "accuracy");
+  // the folder may be replaced by the next chart
+  CHECK(bench.run({"chart", "accuracy", "small.toml", "--limit", "0"}).code == 2);
+  CHECK(bench.run({"chart", "speed", "small.toml"}).code == 2);
+}

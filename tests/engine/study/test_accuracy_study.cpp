@@ -1,0 +1,97 @@
+// Speed against accuracy on a small shell: what the chart promises.
+#include "engine/study/accuracy_study.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "engine/study/judge.h"
+#include "tests/engine/study/small_scene.h"
+
+using namespace gridshell;
+using namespace gridshell::study;
+using record::RunOutcome;
+
+namespace {
+
+const record::AccuracyRow* find(const AccuracyStudy& study, const std::string& method, int edges) {
+  for (const auto& row : study.rows)
+    if (row.method == method && row.edges_per_segment == edges) return &row;
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("a case starts and ends every mesh on the branch of its reference") {
+  Watch watch;
+  auto made = Case::create(small_scene(), 64, watch);
+  REQUIRE(made);
+  Case& study = **made;
+  CHECK(study.reference_error() < 1e-6);
+  double before = 0;
+  for (int edges : {2, 4, 8, 16}) {
+    const Problem* problem = study.problem(edges, watch).value();
+    const double error = study.error_of(problem->end.x);
+    CAPTURE(edges, error);
+    if (before > 0) CHECK(before / error == Approx(4).epsilon(0.35));
+    before = error;
+    // the start is where the rods are 2 % shorter: R_a = 0.98 R_o
+    CHECK(problem->motion.at(problem->t)(0, problem->mesh.joints) ==
+          Approx(0.98 * problem->motion.begin(0, problem->mesh.joints)));
+  }
+}
+
+TEST_CASE("every method comes to the same state of its mesh, the error falls with the edges",
+          "[full]") {
+  Watch watch;
+  AccuracyOptions options;
+  options.seconds = 20;
+  options.finest = 64;
+  options.most_edges = 4;
+  options.runs = 1;
+  options.scaling = false;
+  const auto study = accuracy_study(small_scene(), options, watch);
+  REQUIRE(study);
+  std::set<std::string> methods;
+  for (const auto& row : study->rows) {
+    CAPTURE(row.method, row.edges_per_segment, row.error, record::name_of(row.outcome));
+    methods.insert(row.method);
+    CHECK_FALSE(record::silently_wrong(row.outcome));
+    if (row.outcome == RunOutcome::right) {
+      CHECK(row.cpu_min_s <= row.cpu_s);
+      CHECK(row.cpu_s <= row.cpu_max_s);
+    }
+    // one mesh, one error, whatever the method: but for joints of springs
+    const auto* bend = find(*study, "bend", row.edges_per_segment);
+    const bool of_mesh = !row.method.starts_with("springs") && !row.method.starts_with("auto");
+    if (bend && of_mesh && row.outcome == RunOutcome::right)
+      CHECK(row.error == Approx(bend->error).epsilon(0.1));
+  }
+  CHECK(methods.size() >= 15);
+  // softer springs open the joints further
+  CHECK(std::abs(find(*study, "springs 1 N/mm", 4)->error - find(*study, "bend", 4)->error) >
+        10 * std::abs(find(*study, "springs 100 N/mm", 4)->error - find(*study, "bend", 4)->error));
+  for (const auto& at : study->standings) CHECK(at.error < at.tolerance);
+}
+
+TEST_CASE("a run beyond its time is stopped and said to be too slow") {
+  Watch watch;
+  auto made = Case::create(small_scene(), 16, watch);
+  REQUIRE(made);
+  const TimeLimit limit(0.05, watch);
+  Stopwatch stopwatch;
+  RelaxMarch forever{.kind = Relaxation::explicit_damped, .tolerance_N = 0};
+  const auto arrival =
+      march_relaxed(*(*made)->problem(4, watch).value(), forever, stopwatch, limit.watch());
+  CHECK(arrival.claim == RunOutcome::too_slow);
+  CHECK(limit.ran_out());
+  CHECK(stopwatch.seconds() < 2);
+}
+
+TEST_CASE("a study of what has no path to compare with is refused with the reason") {
+  Watch watch;
+  auto preset = small_scene();
+  preset.actuation.radius_mm = 0.99 * preset.footprint.radius_mm;
+  const auto made = Case::create(preset, 16, watch);
+  REQUIRE_FALSE(made);
+  CHECK(made.error().fault == Fault::bad_input);
+}
