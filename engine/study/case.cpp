@@ -10,6 +10,7 @@
 #include "engine/experiment/scene.h"
 #include "engine/measure/gauss.h"
 #include "engine/solve/buckle.h"
+#include "engine/solve/minimise.h"
 
 namespace gridshell::study {
 namespace {

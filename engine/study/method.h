@@ -61,7 +61,7 @@ struct MarchOptions {
   Globalisation globalisation = Globalisation::shifted;
   double tolerance_mm = 1e-5;
   double EA_scale = 1;
-  int most_iterations = 200;  ///< a load step
+  int most_iterations = 400;  ///< a load step
 };
 Arrival march(const Problem& problem, const MarchOptions& options, Stopwatch& stopwatch,
               const Watch& watch);

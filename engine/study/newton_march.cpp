@@ -1,4 +1,5 @@
 // Newton's method the textbook's way.
+#include <algorithm>
 #include <cmath>
 
 #include "engine/study/method.h"
@@ -39,24 +40,49 @@ RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOption
   return RunOutcome::not_converged;
 }
 
+/// The Hessian shifted until it is positive definite, the step shortened until the energy falls.
+RunOutcome rest_shifted(Linearisation& system, State& state, const MarchOptions& options,
+                        const Watch& watch) {
+  const auto energy_at = [&](const Eigen::Matrix3Xd& x) {
+    const Energies energies = energies_of(system.model(), x);
+    return energies.bend + options.EA_scale * energies.stretch;
+  };
+  Eigen::Matrix3Xd dx, trial;
+  double shift = 0;
+  for (int k = 0; k < options.most_iterations; ++k) {
+    if (watch.cancelled()) return RunOutcome::too_slow;
+    Inertia inertia = system.at(state, false, shift, options.EA_scale);
+    const double first = shift;
+    while (!inertia.positive_definite()) {
+      if (shift > 1e8) return RunOutcome::blow_up;
+      shift = std::max(4 * shift, 1e-6);
+      inertia = system.shifted(shift);
+    }
+    system.correction(dx);
+    const double move = largest_column(dx);
+    if (!std::isfinite(move)) return RunOutcome::blow_up;
+    if (move <= options.tolerance_mm && shift == 0) {
+      state.x += dx;
+      return RunOutcome::right;
+    }
+    const double start = energy_at(state.x),
+                 slope = (system.assembly().gradient.array() * dx.array()).sum();
+    double step = 1;
+    for (; step > 1e-10; step /= 2) {
+      trial = state.x + step * dx;
+      if (energy_at(trial) <= start + 1e-4 * step * slope + 1e-14 * std::abs(start)) break;
+    }
+    state.x.swap(trial);
+    shift = step == 1 && first == shift ? (shift < 1e-5 ? 0 : shift / 4) : shift;
+  }
+  return RunOutcome::not_converged;
+}
+
 RunOutcome rest(Linearisation& system, State& state, const MarchOptions& options,
                 const Watch& watch) {
-  if (options.globalisation != Globalisation::shifted)
-    return rest_unshifted(system, state, options, watch);
-  MinimiseOptions how;
-  how.tolerance_mm = options.tolerance_mm;
-  how.most_iterations = options.most_iterations;
-  how.EA_scale = options.EA_scale;
-  const NewtonReport report = minimise(system, state, how, watch);
-  if (watch.cancelled()) return RunOutcome::too_slow;
-  switch (report.outcome) {
-    case NewtonOutcome::converged:
-      return RunOutcome::right;
-    case NewtonOutcome::not_finite:
-      return RunOutcome::blow_up;
-    default:
-      return RunOutcome::not_converged;
-  }
+  return options.globalisation == Globalisation::shifted
+             ? rest_shifted(system, state, options, watch)
+             : rest_unshifted(system, state, options, watch);
 }
 
 }  // namespace
