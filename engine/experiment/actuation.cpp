@@ -84,8 +84,8 @@ class Actuation {
     // far below what the meshes leave, so that it does not show in the differences between them
     options.tolerance_mm = std::clamp(1e-3 * scene_.tolerance * scene_.length_scale_mm, 1e-7, 1e-4);
     if (shell_) outcome_.effort += shell_->effort();
-    shell_ = std::make_unique<NestedShell>(scene_.footprint, scene_.rods, scene_.motion, plan,
-                                           options);
+    shell_ =
+        std::make_unique<NestedShell>(scene_.footprint, scene_.rods, scene_.motion, plan, options);
     count_ = outcome_.effort.newton_iterations;
   }
 
@@ -157,6 +157,7 @@ class Actuation {
       if (report.end == NestedEnd::reached && end > start) report = shell_->advance(end, watch_);
       if (watch_.cancelled()) return Error{Fault::cancelled, "stopped"};
       // with a snap on the way the frames are found in order, so that it stands at the right one
+      if (scene_.levels_fixed && lost_branch(report)) return std::nullopt;
       const bool snapped = lost_branch(report) && !snap(end, report).empty();
       const bool reached = snapped || report.end == NestedEnd::reached;
       const bool met =
@@ -240,12 +241,13 @@ class Actuation {
 
   /// The path lost its stability before t: come to rest again from there, and go on to t.
   std::string snap(double t, NestedReport report) {
+    std::string snaps;
     for (int tries = 0; tries < 8 && lost_branch(report); ++tries) {
       const double lost = report.t;
-      State state = shell_->followed().state;
+      snaps += fmt::format("{}{:.4f}", snaps.empty() ? "" : " and ", lost * lost);
       const double beyond = std::min(t, lost + 1e-3);
-      shell_->motion(0).impose(shell_->system(0), beyond, state.x);
-      auto rest = settle(shell_->system(0), state, watch_);
+      auto rest =
+          leave_branch(shell_->system(0), shell_->motion(0), shell_->followed(), beyond, watch_);
       if (!rest) break;
       report = shell_->start(beyond, *rest, watch_);
       if (report.end == NestedEnd::reached) report = shell_->advance(t, watch_);
@@ -253,10 +255,10 @@ class Actuation {
         if (outcome_.limit == record::Limit::none) {
           outcome_.limit = record::Limit::snap;
           outcome_.limit_reason = fmt::format(
-              "the path lost its stability at progress {:.4f} and came to rest in another state",
-              lost * lost);
+              "the path lost its stability at progress {} and came to rest in another state",
+              snaps);
         }
-        return fmt::format("snap at progress {:.4f}", lost * lost);
+        return "snap at progress " + snaps;
       }
     }
     stop(report);

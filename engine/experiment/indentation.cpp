@@ -171,9 +171,7 @@ class Push {
     for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
       const double there = last.t + way * beyond * scene_.length_scale_mm / full_depth_;
       if (there < 0 || there > 1) break;
-      State state = last.state;
-      shell_.motion(0).impose(shell_.system(0), there, state.x);
-      const auto rest = settle(shell_.system(0), state, watch_);
+      const auto rest = leave_branch(shell_.system(0), shell_.motion(0), last, there, watch_);
       if (watch_.cancelled()) return false;
       if (!rest || shell_.start(there, *rest, watch_).end != NestedEnd::reached) continue;
       event_ = fmt::format("snap at depth {:.2f} mm", at);

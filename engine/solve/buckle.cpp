@@ -80,45 +80,56 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
   // nothing moves any more, but a mode without stiffness keeps it from being a minimum
   const bool on_saddle =
       report.outcome == NewtonOutcome::not_converged && report.last_move_mm < 1e-3;
-  if (on_saddle && !watch.cancelled()) return settle(system, state, watch);
+  if (on_saddle && !watch.cancelled()) {
+    system.at(state, false);
+    return settle(system, state, softest_mode(system), watch);
+  }
   return at_rest(report, std::move(state), watch);
 }
 
 Eigen::Matrix3Xd softest_mode(Linearisation& system) {
   const Model& model = system.model();
   double shift = 1e-6;
-  while (!system.shifted(shift).positive_definite() && shift < 1e6) shift *= 2;
+  while (!system.shifted(shift).positive_definite() && shift < 1e6) shift *= 4;
   // a start with a part along any mode: no symmetry of the net leaves it unchanged
   Eigen::Matrix3Xd mode(3, model.nodes);
   for (int node = 0; node < model.nodes; ++node)
     mode.col(node) << std::sin(0.7 + 1.3 * node), std::sin(1.9 + 2.1 * node),
         1 + std::sin(2.3 + 0.9 * node);
-  for (int k = 0; k < 40; ++k) {
+  for (int k = 0; k < 20; ++k) {
     system.solve(mode);
     mode /= mode.norm();
   }
   return mode;
 }
 
-Result<State> settle(Linearisation& system, const State& unstable, const Watch& watch) {
-  system.at(unstable, false);
-  const Eigen::Matrix3Xd mode = softest_mode(system);
+Result<State> settle(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& mode,
+                     const Watch& watch) {
   const double push = 0.5 / largest_column(mode);  // mm: far above round-off, far below a cell
-  Result<State> best = fail(Fault::no_equilibrium, "no rest found beside an unstable state");
-  double lowest = 0;
-  for (double side : {1.0, -1.0}) {
-    State state = unstable;
-    state.x += side * push * mode;
-    const NewtonReport report = minimise(system, state, {}, watch);
-    if (report.outcome != NewtonOutcome::converged) continue;
-    const double energy = energies_of(system.model(), state.x).total() +
-                          load_energy(system.model(), state.x, system.load_factor());
-    if (best && energy >= lowest) continue;
-    lowest = energy;
-    best = std::move(state);
+  const auto pushed = [&](double side) {
+    return State{unstable.x + side * push * mode, unstable.force};
+  };
+  const auto energy = [&](const State& state) {
+    return energies_of(system.model(), state.x).total() +
+           load_energy(system.model(), state.x, system.load_factor());
+  };
+  const double lower = energy(pushed(1)) <= energy(pushed(-1)) ? 1 : -1;
+  for (double side : {lower, -lower}) {
+    State state = pushed(side);
+    if (minimise(system, state, {}, watch).outcome == NewtonOutcome::converged) return state;
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for a rest");
   }
-  if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for a rest");
-  return best;
+  return fail(Fault::no_equilibrium, "no rest found beside an unstable state");
+}
+
+Result<State> leave_branch(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
+                           double beyond, const Watch& watch) {
+  system.set_load(motion.load(last.t));
+  system.at(last.state, false);
+  const Eigen::Matrix3Xd mode = softest_mode(system);
+  State state = last.state;
+  motion.impose(system, beyond, state.x);
+  return settle(system, state, mode, watch);
 }
 
 }  // namespace gridshell

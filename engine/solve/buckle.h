@@ -29,9 +29,16 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
                             double t, const BuckleSeed& seed, const FlatFrame& flat,
                             const Watch& watch);
 
-/// From a state that is not stable: along its softest mode, both ways, to rest; the lower of the
-/// two. Errors: no_equilibrium, cancelled.
-Result<State> settle(Linearisation& system, const State& unstable, const Watch& watch);
+/// From a state that is not stable, to rest: pushed along `mode` (its softest), to the side on
+/// which the energy is lower, and only where no rest is found there to the other. Errors:
+/// no_equilibrium, cancelled.
+Result<State> settle(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& mode,
+                     const Watch& watch);
+
+/// From the last point of a path that lost its stability or turned back: with the motion a little
+/// further, at `beyond`, along the mode that went soft. Errors as settle().
+Result<State> leave_branch(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
+                           double beyond, const Watch& watch);
 
 /// Softest mode of the Hessian last assembled in `system` by inverse iteration: unit vector over
 /// all nodes, zero at pinned ones.
