@@ -25,7 +25,7 @@ class Descent {
         return inertia;
       }
       if (weakening_ >= 1) break;
-      weakening_ = weakening_ == 0 ? 0.02 : std::min(1.0, 4 * weakening_);
+      weakening_ = weakening_ == 0 ? 0.1 : 1.0;
     }
     Inertia inertia;
     do {
