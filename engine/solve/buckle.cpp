@@ -113,13 +113,20 @@ Result<State> settle(Linearisation& system, const State& unstable, const Eigen::
     return energies_of(system.model(), state.x).total() +
            load_energy(system.model(), state.x, system.load_factor());
   };
-  const double lower = energy(pushed(1)) <= energy(pushed(-1)) ? 1 : -1;
-  for (double side : {lower, -lower}) {
+  Result<State> best = fail(Fault::no_equilibrium, "no rest found beside an unstable state");
+  double lowest = 0;
+  for (double side : {1.0, -1.0}) {
     State state = pushed(side);
-    if (minimise(system, state, {}, watch).outcome == NewtonOutcome::converged) return state;
+    const NewtonReport report = minimise(system, state, {}, watch);
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for a rest");
+    if (report.outcome != NewtonOutcome::converged) continue;
+    // of two mirror images it is always the same one, whatever round-off says
+    const double found = energy(state);
+    if (best && found > lowest - 1e-6 * std::abs(lowest)) continue;
+    lowest = found;
+    best = std::move(state);
   }
-  return fail(Fault::no_equilibrium, "no rest found beside an unstable state");
+  return best;
 }
 
 Result<State> leave_branch(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,

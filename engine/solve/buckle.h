@@ -29,9 +29,8 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
                             double t, const BuckleSeed& seed, const FlatFrame& flat,
                             const Watch& watch);
 
-/// From a state that is not stable, to rest: pushed along `mode` (its softest), to the side on
-/// which the energy is lower, and only where no rest is found there to the other. Errors:
-/// no_equilibrium, cancelled.
+/// From a state that is not stable, pushed along `mode` (its softest) to either side, to rest; the
+/// one of lower energy. Errors: no_equilibrium, cancelled.
 Result<State> settle(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& mode,
                      const Watch& watch);
 

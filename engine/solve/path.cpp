@@ -23,7 +23,9 @@ void PathFollower::take_velocity(PathPoint& point) const {
 
 PathReport PathFollower::start(double t, State state) {
   PathReport report;
+  // from the same point the same path, whatever was followed before
   has_before_ = false;
+  step_ = first_step;
   now_.t = t;
   now_.state = std::move(state);
   NewtonOptions options;

@@ -101,7 +101,8 @@ class PathFollower {
   PathPoint now_, before_;
   NewtonReport last_;
   bool has_before_ = false;
-  double step_ = 0.05;
+  static constexpr double first_step = 0.05;  // in t
+  double step_ = first_step;
 };
 
 }  // namespace gridshell
