@@ -82,8 +82,9 @@ second = "middle.west"
   REQUIRE_FALSE(refused);
   CHECK_THAT(refused.error().message, Catch::Contains("is cut and not joined"));
 
-  const auto outcome = run(read(open + text.substr(0, text.find("[[join]]")) +
-                                "[[join]]\nfirst = \"middle.east\"\nsecond = \"b.west\"\n"));
+  auto stadium = read(open + text.substr(0, text.find("[[join]]")) +
+                      "[[join]]\nfirst = \"middle.east\"\nsecond = \"b.west\"\n");
+  const auto outcome = run(stadium);
   const auto& layout = outcome.trajectory.layout;
   CHECK(outcome.summary.stable);
   CHECK(outcome.summary.limit == record::Limit::none);
@@ -92,4 +93,13 @@ second = "middle.west"
   CHECK(layout.parts.size() == 3);
   CHECK(layout.seam_rods.size() == 2 * 22);
   for (const record::Part& part : layout.parts) CHECK(part.net.allFinite());
+
+  // from flat it comes to the same state
+  stadium.actuation.start = preset::Start::flat;
+  const auto flat = run(stadium);
+  CHECK(flat.summary.limit == record::Limit::none);
+  const Eigen::Index joints = outcome.summary.joints;
+  const Eigen::Matrix3Xd off = flat.trajectory.frames.back().nodes.leftCols(joints) -
+                               outcome.trajectory.frames.back().nodes.leftCols(joints);
+  CHECK(off.colwise().norm().maxCoeff() < 1e-3);
 }

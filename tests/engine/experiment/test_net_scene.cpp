@@ -76,6 +76,32 @@ TEST_CASE("from flat and from the net a cap comes to the same state") {
   }
 }
 
+TEST_CASE("from flat, through snaps, and from the net a saddle comes to the same state") {
+  preset::Preset p = surface(preset::NetKind::spool, 120, 180);
+  p.net.waist = 0.6;
+  const experiment::Outcome net = run(p);
+  p.actuation.start = preset::Start::flat;
+  const experiment::Outcome flat = run(p);
+  CHECK(net.summary.limit == record::Limit::none);
+  CHECK(flat.summary.limit == record::Limit::snap);
+  CHECK(flat.summary.stable);
+  const Eigen::Index joints = net.summary.joints;
+  const auto& a = net.trajectory.frames.back().nodes;
+  const auto& b = flat.trajectory.frames.back().nodes;
+  CHECK((a.leftCols(joints) - b.leftCols(joints)).colwise().norm().maxCoeff() < 1e-6 * 120);
+}
+
+TEST_CASE("Beltrami's pseudosphere: stable, its cells negative on the whole") {
+  preset::Preset p = surface(preset::NetKind::beltrami, 120, 70);
+  p.net.waist = 0.6;
+  p.net.crossing_deg = 60;
+  const experiment::Outcome shell = run(p);
+  CHECK(shell.summary.stable);
+  CHECK(shell.summary.limit == record::Limit::none);
+  CHECK(shell.summary.total_K < 0);
+  CHECK(shell.summary.max_deviation < 0.03);
+}
+
 TEST_CASE("a cylinder whose ends are held along the helices is its net, to second order") {
   double before = 0;
   for (const int edges : {4, 8, 16}) {
