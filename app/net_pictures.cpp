@@ -62,11 +62,10 @@ Result<void> draw_net_pictures(const std::vector<NetRecord>& records, render::Re
     const std::string name = name_of(one.preset);
     const double largest =
         render::deviation_of_nodes(one.run).head(long(one.run.layout.joints.size())).maxCoeff();
-    // one alone has room for what the colours are
-    const char* over = one.run.layout.parts.empty() ? "shell dark, net blue"
-                                                    : "shell dark, blocks in colour";
-    shells.push_back(
-        {&one.run, records.size() > 1 ? name : fmt::format("{}: {}", name, over)});
+    // said once, what the colours are
+    const char* over =
+        one.run.layout.parts.empty() ? "shell dark, net blue" : "shell dark, blocks in colour";
+    shells.push_back({&one.run, shells.empty() ? fmt::format("{}: {}", name, over) : name});
     const auto unit = render::deviation_unit(one.run.layout);
     shades.push_back({&one.run, fmt::format("{}: at most {:.2f} {}", name, unit.factor * largest,
                                             one.run.layout.parts.empty() ? "%" : "mm")});

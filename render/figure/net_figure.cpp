@@ -59,6 +59,14 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
   return figure;
 }
 
+/// A round end above `largest`, so that a bar's last label is the scale's end.
+double round_end(double largest) {
+  const double power = std::pow(10.0, std::floor(std::log10(std::max(largest, 1e-9))));
+  for (const double leading : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (largest <= leading * power) return leading * power;
+  return 10 * power;
+}
+
 }  // namespace
 
 Eigen::VectorXd deviation_of_nodes(const record::Trajectory& run) {
@@ -100,9 +108,7 @@ Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle&
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
   for (const NetRun& one : runs)
     largest = std::max(largest, unit.factor * deviation_of_nodes(*one.run).maxCoeff());
-  // a round end, so that the bar's last label is the scale's end
-  const double step = std::pow(10.0, std::floor(std::log10(std::max(largest, 1e-9)))) / 2;
-  const ColourScale scale{ColourMap::sequential, 0, step * std::ceil(largest / step)};
+  const ColourScale scale{ColourMap::sequential, 0, round_end(largest)};
   const auto dress = [&](const record::Trajectory& run, Drawing& drawing) {
     const Eigen::VectorXd deviation = deviation_of_nodes(run);
     for (double one : deviation) drawing.node_colours.push_back(scale(unit.factor * one));

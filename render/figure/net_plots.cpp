@@ -38,6 +38,19 @@ std::vector<Point> placed(const Eigen::Matrix2Xd& points, const ToScale& place) 
   return line;
 }
 
+bool all_caps(const std::vector<NamedRun>& runs) {
+  return std::all_of(runs.begin(), runs.end(),
+                     [](const NamedRun& one) { return on_sphere(one.run->layout); });
+}
+
+/// The names of the runs in their colours, one after the other.
+void draw_names(Canvas& canvas, Point at, const std::vector<NamedRun>& runs) {
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const TextStyle style{.size = 8, .colour = series_colour(k), .align_y = AlignY::middle};
+    at.x = canvas.text(runs[k].name, at, style).right() + 8;
+  }
+}
+
 void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(INFINITY), high = -low;
   for (const NamedRun& one : runs) {
@@ -61,8 +74,11 @@ void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>
   const double bar = runs.front().run->layout.spacing_mm;
   const Point left{box.x, box.bottom() + 9};
   canvas.line(left, {left.x + place.scale * bar, left.y}, {ink, 1.4});
-  canvas.text(fmt::format("*d* = {:g} mm", bar), {left.x + place.scale * bar + 4, left.y},
-              {.size = 8, .align_y = AlignY::middle});
+  const Box length =
+      canvas.text(fmt::format("*d* = {:g} mm", bar), {left.x + place.scale * bar + 4, left.y},
+                  {.size = 8, .align_y = AlignY::middle});
+  // caps are named beside the planes that cut them
+  if (runs.size() > 1 && !all_caps(runs)) draw_names(canvas, {length.right() + 14, left.y}, runs);
 }
 
 /// A sphere from the side and the planes z = z* of its caps.
@@ -186,8 +202,7 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
 
 Result<void> write_footprints(const std::filesystem::path& stem,
                               const std::vector<NamedRun>& runs) {
-  const bool caps = std::all_of(runs.begin(), runs.end(),
-                                [](const NamedRun& one) { return on_sphere(one.run->layout); });
+  const bool caps = all_caps(runs);
   const double width = caps ? 470 : 250, height = 250;
   return write_figure(stem, width, height, "Original boundaries", [&](Canvas& canvas) {
     draw_boundaries(canvas, {10, 8, 230, 222}, runs);

@@ -120,8 +120,12 @@ PlotFrame lay_out(const Canvas& canvas, const Box& box, const Plot& plot, double
   const int rows = std::max(2, int((bottom - top) / (1.8 * line)));
   frame.y_ticks = ticks_of(frame.y, std::min(plot.y.ticks, rows));
 
-  const double left =
-      box.x + (plot.y.label.empty() ? 0 : 1.2 * line) + widest(canvas, frame.y_ticks, style) + gap;
+  // a label with a subscript is taller than a line
+  const double label = plot.y.label.empty()
+                           ? 0
+                           : std::max(1.2 * line, canvas.measure(plot.y.label, style).height +
+                                                      0.35 * plot.font_size);
+  const double left = box.x + label + widest(canvas, frame.y_ticks, style) + gap;
   // half of the last label may stand out to the right of the frame
   const double right = box.right() - widest(canvas, ticks_of(frame.x, plot.x.ticks), style) / 2 - 1;
   frame.x.from = left;
