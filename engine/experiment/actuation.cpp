@@ -139,6 +139,11 @@ class Actuation {
     const NewtonReport down = minimise(system, state, {}, watch_);
     if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
     if (down.outcome == NewtonOutcome::converged) return state;
+    // at rest and not stable: the shell comes to rest beside it
+    if (down.last_move_mm < 1e-3) {
+      system.at(state, false);
+      if (auto rest = settle(system, state, softest_mode(system), watch_)) return rest;
+    }
     return fail(Fault::no_equilibrium,
                 fmt::format("no equilibrium near the net after {} iterations; the last moved a "
                             "node by {:.2g} mm",
