@@ -125,14 +125,18 @@ Result<void> do_jobs(std::vector<Job>& jobs, const std::string& name, Pictures p
   return write_atomically(partial / "summary.json", summary_of_cases(name, names, summaries));
 }
 
+std::string state_text(const record::Summary& at) {
+  if (!at.solved) return "the net itself, no equilibrium";
+  return fmt::format("bend energy {:.3f} mJ, {}, residual {:.1e} N", at.energy_bend_mJ,
+                     at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots),
+                     at.residual_N);
+}
+
 void print_result(const Job& job, const fs::path& folder) {
   const auto& at = job.summary;
-  fmt::print(
-      "{}: {} joints, {} cells; height {:.2f} mm, bend energy {:.3f} mJ, {}, residual "
-      "{:.1e} N; {:.1f} s simulated",
-      folder_of(folder, job.name).string(), at.joints, at.cells, at.height_mm, at.energy_bend_mJ,
-      at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots), at.residual_N,
-      at.seconds_simulation);
+  fmt::print("{}: {} joints, {} cells; height {:.2f} mm, {}; {:.1f} s simulated",
+             folder_of(folder, job.name).string(), at.joints, at.cells, at.height_mm,
+             state_text(at), at.seconds_simulation);
   if (at.seconds_render > 0) fmt::print(", {:.1f} s drawn", at.seconds_render);
   if (!std::isnan(at.max_deviation))
     fmt::print(
@@ -154,7 +158,7 @@ std::string shortcoming(const record::Summary& summary, bool allow_unstable) {
   if (summary.limit != record::Limit::none && summary.limit != record::Limit::snap)
     return fmt::format("the path ended early, limit \"{}\": {}", record::name_of(summary.limit),
                        summary.limit_reason);
-  if (!summary.stable && !allow_unstable)
+  if (summary.solved && !summary.stable && !allow_unstable)
     return fmt::format(
         "ends in an unstable state with {} negative pivots; 'allow_unstable = true' "
         "accepts that",

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "engine/core/clock.h"
-#include "engine/experiment/block_design.h"
 #include "engine/experiment/frames.h"
 #include "engine/experiment/net_design.h"
 #include "engine/solve/minimise.h"
@@ -16,42 +15,6 @@ namespace gridshell::experiment {
 namespace {
 
 constexpr double first_shortening = 0.02;
-
-Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mesh) {
-  record::Layout layout;
-  layout.spacing_mm = scene.footprint.spacing;
-  layout.rod_diameter_mm = scene.rod_diameter_mm;
-  layout.length_scale_mm = scene.length_scale_mm;
-  for (const std::vector<int>& nodes : mesh.rods) {
-    layout.rods.emplace_back();
-    for (int node : nodes)
-      if (!mesh.is_ghost(node)) layout.rods.back().push_back(node);
-  }
-  for (int k = 0; k < mesh.joints; ++k) {
-    const FootprintJoint& joint = scene.footprint.joints[k];
-    layout.joints.push_back({joint.i, joint.j, joint.u, joint.v, k});
-  }
-  for (const FootprintCell& cell : scene.footprint.cells) {
-    const FootprintJoint& corner = scene.footprint.joints[cell.joints[0]];
-    const double half = 0.5 * scene.footprint.spacing;
-    layout.cells.push_back({cell.i, cell.j, corner.u + half, corner.v + half, cell.joints});
-  }
-  for (int k = 0; k < mesh.edge_points; ++k) layout.edge_points.push_back(mesh.joints + k);
-  layout.original_boundary = scene.original_boundary;
-  layout.actuated_boundary = scene.actuated_boundary;
-  if (scene.net) {
-    const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
-    auto net = sample(*scene.net, flat);
-    if (!net) return tl::unexpected<Error>(net.error());
-    layout.net_nodes = std::move(*net);
-    layout.flat_nodes = scene.flat.all(flat);
-  }
-  if (scene.blocks) {
-    if (auto shown = record_blocks(*scene.blocks, scene.flat, layout); !shown)
-      return tl::unexpected<Error>(shown.error());
-  }
-  return layout;
-}
 
 class Actuation {
  public:

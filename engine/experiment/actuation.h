@@ -11,6 +11,7 @@
 #include "engine/footprint/flat_frame.h"
 #include "engine/footprint/footprint.h"
 #include "engine/geometry/chebyshev_net.h"
+#include "engine/gridshell/twist_shell.h"
 #include "engine/record/snapshot.h"
 #include "engine/record/summary.h"
 #include "engine/solve/buckle.h"
@@ -22,6 +23,8 @@ namespace gridshell::experiment {
 struct ActuationScene {
   Footprint footprint;
   ShellRods rods;
+  TwistRods twist;                    ///< the same on the `twist` rung
+  std::vector<double> mass_t_per_mm;  ///< one a rod; 0: not known
   double rod_diameter_mm = 0;
   BoundaryMotion motion;
   double length_scale_mm = 0;                ///< R_o: what errors are relative to

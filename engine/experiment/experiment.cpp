@@ -7,17 +7,14 @@
 
 #include "engine/experiment/actuation.h"
 #include "engine/experiment/indentation.h"
+#include "engine/experiment/net_sample.h"
 #include "engine/experiment/scene.h"
+#include "engine/experiment/twist_actuation.h"
 #include "engine/measure/deviation.h"
+#include "engine/preset/rung.h"
 
 namespace gridshell::experiment {
 namespace {
-
-const char* reason_for_bend =
-    "bend: the rods are round and naturally straight, their ends spin freely and the joints pass "
-    "no "
-    "twist, so the twist energy is zero at rest and leaving it out changes nothing; joints are "
-    "shared nodes, the limit of stiff springs";
 
 std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
   std::vector<double> progress;
@@ -49,14 +46,15 @@ record::Summary summary_of(const preset::Preset& preset, const ActuationScene& s
   const record::Frame& last = outcome.trajectory.frames.back();
   record::Summary s;
   s.preset = preset.name;
-  s.model = "bend";
-  s.model_reason = reason_for_bend;
+  s.model = preset::name_of(preset::rung_of(preset));
+  s.model_reason = preset::model_reason(preset);
+  s.solved = preset::rung_of(preset) != preset::Model::net;
   s.edges_per_segment = outcome.levels.edges_per_segment.back();
   s.rods = int(scene.footprint.rods.size());
   s.joints = int(scene.footprint.joints.size());
   s.cells = int(scene.footprint.cells.size());
   s.dof = outcome.dof;
-  s.negative_pivots = last.negative_pivots;
+  s.negative_pivots = std::max(last.negative_pivots, 0);
   s.stable = last.negative_pivots == 0;
   s.limit = outcome.limit;
   s.limit_reason = outcome.limit_reason;
@@ -92,18 +90,40 @@ record::Summary summary_of(const preset::Preset& preset, const ActuationScene& s
   return s;
 }
 
+int dof_of(const ActuationScene& scene, preset::Model rung, int edges_per_segment) {
+  if (rung == preset::Model::net) return 0;
+  const RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
+  if (rung == preset::Model::bend) return build_model(mesh, scene.rods).dof();
+  const auto model = twist_model_of(mesh, scene.twist);
+  return model ? model->dof() : 0;
+}
+
 /// About how long a run takes on one core: bringing the coarsest mesh to rest, then two corrections
 /// a frame on each mesh. Measured on shells of 500 to 40 000 unknowns; good within a factor of
 /// three.
-double seconds_for(const ActuationScene& scene, const preset::Preset& preset) {
-  constexpr double to_rest = 1.5e-5, a_frame = 4e-7;  // seconds an unknown
+double seconds_for(const ActuationScene& scene, preset::Model rung, const preset::Preset& preset) {
+  constexpr double to_rest = 1.5e-5, a_frame = 4e-7, a_twist_frame = 1e-5;  // seconds an unknown
+  if (rung == preset::Model::net) return 0.01;
+  const bool twist = rung == preset::Model::twist;
   double seconds = 0;
   for (int edges : scene.levels.edges_per_segment) {
-    const double dof = build_model(mesh_rods(scene.footprint, edges), scene.rods).dof();
+    const double dof = dof_of(scene, rung, edges);
     if (seconds == 0) seconds = to_rest * dof;
-    seconds += a_frame * dof * preset.movie.frames;
+    seconds += (twist ? a_twist_frame : a_frame) * dof * preset.movie.frames;
   }
   return seconds;
+}
+
+Result<ActuationOutcome> actuate(const ActuationScene& scene, preset::Model rung,
+                                 const std::vector<double>& progress, Watch& watch) {
+  switch (rung) {
+    case preset::Model::net:
+      return sample_net(scene, progress, watch);
+    case preset::Model::twist:
+      return run_twist_actuation(scene, progress, watch);
+    default:
+      return run_actuation(scene, progress, watch);
+  }
 }
 
 }  // namespace
@@ -112,18 +132,20 @@ Result<Plan> plan(const preset::Preset& preset) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
   Plan plan;
-  plan.model = "bend";
-  plan.model_reason = reason_for_bend;
+  const preset::Model rung = preset::rung_of(preset);
+  plan.model = preset::name_of(rung);
+  plan.model_reason = preset::model_reason(preset);
   plan.levels = scene->levels.edges_per_segment;
   plan.edges_per_segment = plan.levels.back();
   plan.extrapolated = scene->levels.extrapolate;
   plan.rods = int(scene->footprint.rods.size());
   plan.joints = int(scene->footprint.joints.size());
   plan.cells = int(scene->footprint.cells.size());
-  const RodMesh mesh = mesh_rods(scene->footprint, plan.edges_per_segment);
-  plan.dof = build_model(mesh, scene->rods).dof();
-  plan.expected_error_mm = expected_error(scene->levels) * scene->length_scale_mm;
-  plan.expected_seconds = seconds_for(*scene, preset);
+  plan.dof = dof_of(*scene, rung, plan.edges_per_segment);
+  plan.expected_error_mm = rung == preset::Model::net
+                               ? net_error * scene->length_scale_mm
+                               : expected_error(scene->levels) * scene->length_scale_mm;
+  plan.expected_seconds = seconds_for(*scene, rung, preset);
   plan.footprint = fmt::format(
       "{} rods, {} joints, {} cells; longest leg {:.2f} d, shortest {:.2f} d", plan.rods,
       plan.joints, plan.cells, scene->footprint.longest_leg() / scene->footprint.spacing,
@@ -142,7 +164,7 @@ Result<Outcome> run(const preset::Preset& preset, bool stills, Watch& watch) {
   const bool pushed = preset.indentation.wanted();
   auto outcome =
       pushed ? run_indentation(*scene, preset.indentation, even_samples(preset, stills), watch)
-             : run_actuation(*scene, samples_of(preset, stills), watch);
+             : actuate(*scene, preset::rung_of(preset), samples_of(preset, stills), watch);
   if (!outcome) return tl::unexpected<Error>(outcome.error());
   if (outcome->trajectory.frames.empty())
     return fail(Fault::no_equilibrium, "no frame was certified: " + outcome->limit_reason);

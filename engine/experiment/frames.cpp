@@ -1,5 +1,7 @@
 #include "engine/experiment/frames.h"
 
+#include "engine/experiment/block_design.h"
+#include "engine/experiment/net_design.h"
 #include "engine/measure/bins.h"
 #include "engine/measure/gauss.h"
 
@@ -48,21 +50,61 @@ Eigen::MatrixX3d bins_of(const ActuationScene& scene, const Eigen::Matrix3Xd& x,
 
 }  // namespace
 
+Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mesh) {
+  record::Layout layout;
+  layout.spacing_mm = scene.footprint.spacing;
+  layout.rod_diameter_mm = scene.rod_diameter_mm;
+  layout.length_scale_mm = scene.length_scale_mm;
+  for (const std::vector<int>& nodes : mesh.rods) {
+    layout.rods.emplace_back();
+    for (int node : nodes)
+      if (!mesh.is_ghost(node)) layout.rods.back().push_back(node);
+  }
+  for (int k = 0; k < mesh.joints; ++k) {
+    const FootprintJoint& joint = scene.footprint.joints[k];
+    layout.joints.push_back({joint.i, joint.j, joint.u, joint.v, k});
+  }
+  for (const FootprintCell& cell : scene.footprint.cells) {
+    const FootprintJoint& corner = scene.footprint.joints[cell.joints[0]];
+    const double half = 0.5 * scene.footprint.spacing;
+    layout.cells.push_back({cell.i, cell.j, corner.u + half, corner.v + half, cell.joints});
+  }
+  for (int k = 0; k < mesh.edge_points; ++k) layout.edge_points.push_back(mesh.joints + k);
+  layout.original_boundary = scene.original_boundary;
+  layout.actuated_boundary = scene.actuated_boundary;
+  if (scene.net) {
+    const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
+    auto net = sample(*scene.net, flat);
+    if (!net) return tl::unexpected<Error>(net.error());
+    layout.net_nodes = std::move(*net);
+    layout.flat_nodes = scene.flat.all(flat);
+  }
+  if (scene.blocks) {
+    if (auto shown = record_blocks(*scene.blocks, scene.flat, layout); !shown)
+      return tl::unexpected<Error>(shown.error());
+  }
+  return layout;
+}
+
+void put_shape(const ActuationScene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
+               const Eigen::VectorXd& K, record::Frame& frame) {
+  frame.cell_K = K;
+  frame.total_K = K.sum();
+  frame.K_bins = bins_of(scene, x, K);
+  frame.height_mm = x.row(2).leftCols(mesh.joints).maxCoeff() - scene.flat.origin.z();
+  frame.nodes = x.leftCols(mesh.rod_nodes());
+}
+
 record::Frame frame_of(const ActuationScene& scene, NestedShell& shell) {
   const NestedState& state = shell.state();
   const Measures measures = measure(scene, shell);
   record::Frame frame;
   frame.energy_bend_mJ = measures.energies.bend;
   frame.energy_stretch_mJ = measures.energies.stretch;
-  frame.cell_K = measures.K;
-  frame.total_K = measures.K.sum();
-  frame.K_bins = bins_of(scene, state.x, measures.K);
-  frame.height_mm =
-      state.x.row(2).leftCols(shell.mesh(0).joints).maxCoeff() - scene.flat.origin.z();
+  put_shape(scene, shell.mesh(shell.levels() - 1), state.x, measures.K, frame);
   frame.residual_N = state.residual_N;
   frame.negative_pivots = state.inertia.negative_pivots;
   frame.error_estimate_mm = state.error_estimate_mm;
-  frame.nodes = state.x.leftCols(shell.mesh(shell.levels() - 1).rod_nodes());
   return frame;
 }
 

@@ -7,6 +7,15 @@
 
 namespace gridshell::experiment {
 
+/// What of a run does not change: the nodes of `mesh` (ghosts are no part of it), the net, the
+/// boundaries. Errors: those of the net.
+Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mesh);
+
+/// What a shape says by itself: positions of the mesh's nodes without ghosts, K of the cells and its
+/// bins along x, height.
+void put_shape(const ActuationScene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
+               const Eigen::VectorXd& K, record::Frame& frame);
+
 /// The current state of `shell` as a frame: positions, energies, K of the cells and their bins
 /// along x, certificate, extrapolated where the plan extrapolates. Index, progress, boundary, push
 /// and event are the experiment's to add.

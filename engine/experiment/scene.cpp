@@ -6,6 +6,7 @@
 #include "engine/experiment/block_design.h"
 #include "engine/experiment/curve_design.h"
 #include "engine/experiment/net_design.h"
+#include "engine/experiment/rods.h"
 
 namespace gridshell::experiment {
 namespace {
@@ -90,18 +91,21 @@ void free_rings(ActuationScene& scene) {
   }
 }
 
-/// Holds the directions of all ends that are held at all, from the flat to the net's tangents.
-Result<void> hold_directions(const Eigen::Matrix2Xd& ends, ActuationScene& scene) {
+/// Holds the directions of all ends that are held at all, and with `clamped` their spin: from the
+/// flat to the net's tangents, or where there is no net as they are in the flat.
+Result<void> hold_directions(const Eigen::Matrix2Xd& ends, RodEnd hold, ActuationScene& scene) {
   scene.motion.begin_tangent = scene.motion.end_tangent = Eigen::Matrix3Xd::Zero(3, ends.cols());
   for (Eigen::Index k = 0; k < ends.cols(); ++k) {
     FootprintRod& rod = scene.footprint.rods[std::size_t(k / 2)];
     RodEnd& held = k % 2 == 0 ? rod.begin : rod.end;
     if (held == RodEnd::free) continue;
-    held = RodEnd::tangent;
-    const auto point = scene.net->at(ends(0, k), ends(1, k));
-    if (!point) return tl::unexpected<Error>(point.error());
+    held = hold;
     const bool u = rod.family == Family::u;
     scene.motion.begin_tangent.col(k) = scene.flat.axes.col(u ? 0 : 1);
+    scene.motion.end_tangent.col(k) = scene.motion.begin_tangent.col(k);
+    if (!scene.net) continue;
+    const auto point = scene.net->at(ends(0, k), ends(1, k));
+    if (!point) return tl::unexpected<Error>(point.error());
     scene.motion.end_tangent.col(k) = u ? point->tangent_u : point->tangent_v;
   }
   return {};
@@ -131,7 +135,6 @@ Result<void> build_net(const preset::Preset& preset, ActuationScene& scene) {
   scene.motion.begin = scene.flat.all(ends);
   scene.motion.end = *held;
   if (preset.ends.rings == preset::Rings::free) free_rings(scene);
-  if (preset.ends.kind == preset::EndKind::tangent) return hold_directions(ends, scene);
   return {};
 }
 
@@ -145,8 +148,18 @@ Result<ActuationScene> scene_of(const preset::Preset& preset) {
                                            : build_curve(preset, scene);
       !built)
     return tl::unexpected<Error>(built.error());
-  scene.rods = circular_section(preset.rod.diameter_mm, preset.rod.young_GPa);
-  scene.rod_diameter_mm = preset.rod.diameter_mm;
+  if (preset.ends.kind != preset::EndKind::pinned) {
+    const bool clamped = preset.ends.kind == preset::EndKind::clamped;
+    const auto held = hold_directions(edge_points(scene.footprint),
+                                      clamped ? RodEnd::clamped : RodEnd::tangent, scene);
+    if (!held) return tl::unexpected<Error>(held.error());
+  }
+  auto rods = scene_rods(preset, scene.footprint);
+  if (!rods) return tl::unexpected<Error>(rods.error());
+  scene.rods = std::move(rods->bend);
+  scene.twist = std::move(rods->twist);
+  scene.mass_t_per_mm = std::move(rods->mass_t_per_mm);
+  scene.rod_diameter_mm = rods->drawn_diameter_mm;
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;
   scene.levels = levels_of(preset.accuracy);

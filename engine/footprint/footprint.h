@@ -26,8 +26,12 @@ struct FootprintCell {
   std::array<int, 4> joints{};
 };
 
-/// What holds a rod's end: nothing, its position, or its position and direction (spin free).
-enum class RodEnd { free, pinned, tangent };
+/// What holds a rod's end: nothing, its position, its position and direction, or its spin too.
+enum class RodEnd { free, pinned, tangent, clamped };
+
+inline bool holds_direction(RodEnd end) {
+  return end == RodEnd::tangent || end == RodEnd::clamped;
+}
 
 /// One rod from edge point to edge point. Positions run along the rod: u on a u-rod, v on a v-rod.
 struct FootprintRod {

@@ -4,6 +4,7 @@
 
 #include "engine/gridshell/twist_model.h"
 #include "engine/rod/frame.h"
+#include "engine/rod/joint_spin.h"
 #include "engine/rod/stretch.h"
 
 namespace gridshell {
@@ -48,7 +49,7 @@ double shear_angle(const JointShear& shear, const EdgeGeometry& e, const EdgeGeo
 }
 
 double load_energy(const TwistModel& model, const TwistState& state) {
-  return -(model.load.array() * state.x.array()).sum();
+  return -state.load * (model.load.array() * state.x.array()).sum();
 }
 
 }  // namespace
@@ -74,6 +75,12 @@ TwistEnergies energies_of(const TwistModel& model, const TwistState& state) {
     const double angle = shear_angle(shear, geometry[shear.e], geometry[shear.f]);
     sum.joints += 0.5 * shear.stiffness * angle * angle;
   }
+  for (const JointTwist& joint : model.twists) {
+    const EdgeGeometry &e = geometry[joint.e], &f = geometry[joint.f];
+    const double on_e = joint_spin(1, state.angle[joint.e], e, state.director.col(joint.e), f),
+                 on_f = joint_spin(-1, state.angle[joint.f], f, state.director.col(joint.f), e);
+    sum.joints += 0.5 * joint.stiffness * (on_e * on_e + on_f * on_f);
+  }
   sum.load = load_energy(model, state);
   return sum;
 }
@@ -88,6 +95,10 @@ TwistAssembly::TwistAssembly(const TwistModel& model) : model_(model) {
     pairs.push_back(unknowns_of_pair(model, bend.e, bend.f));
   for (const JointShear& shear : model.shears)
     pairs.push_back(unknowns_of_pair(model, shear.e, shear.f));
+  for (const JointTwist& joint : model.twists) {
+    pairs.push_back(unknowns_of_pair(model, joint.e, joint.f));
+    pairs.push_back(unknowns_of_pair(model, joint.f, joint.e));
+  }
 
   // the pattern, its diagonal always there for shifts
   std::vector<Eigen::Triplet<double>> entries;
@@ -216,6 +227,20 @@ void TwistAssembly::add_shears(const TwistState& state, bool with_hessian) {
   }
 }
 
+void TwistAssembly::add_joint_twists(const TwistState& state, bool with_hessian) {
+  for (const JointTwist& joint : model_.twists) {
+    const EdgeGeometry e = geometry_of(model_, state, joint.e),
+                       f = geometry_of(model_, state, joint.f);
+    const double k = joint.stiffness;
+    PairEnergy on_e, on_f;
+    energies_.joints +=
+        add_joint_spin(k, 1, state.angle[joint.e], e, state.director.col(joint.e), f, on_e) +
+        add_joint_spin(k, -1, state.angle[joint.f], f, state.director.col(joint.f), e, on_f);
+    scatter_pair(joint.e, joint.f, on_e, with_hessian);
+    scatter_pair(joint.f, joint.e, on_f, with_hessian);
+  }
+}
+
 void TwistAssembly::assemble(const TwistState& state, bool with_hessian) {
   energies_ = {};
   gradient_.setZero(model_.unknowns());
@@ -225,9 +250,10 @@ void TwistAssembly::assemble(const TwistState& state, bool with_hessian) {
   add_links(state, with_hessian);
   add_bends(state, with_hessian);
   add_shears(state, with_hessian);
+  add_joint_twists(state, with_hessian);
   energies_.load = load_energy(model_, state);
   gradient_.head(3 * model_.nodes) -=
-      Eigen::Map<const Eigen::VectorXd>(model_.load.data(), 3 * model_.nodes);
+      state.load * Eigen::Map<const Eigen::VectorXd>(model_.load.data(), 3 * model_.nodes);
 }
 
 }  // namespace gridshell

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace gridshell {
 namespace {
@@ -30,12 +31,10 @@ Result<void> check(int index, int nodes, const TwistRod& rod) {
         "GJ = {} N mm^2, must be above 0: the twist rung needs the torsional stiffness", m.GJ));
   if (!m.curvature.allFinite() || !std::isfinite(m.twist))
     return wrong("curvature or twist at rest is not finite");
-  if (rod.closed() && (rod.begin != EndHold::free || rod.end != EndHold::free))
+  if (rod.closed() && (rod.begin != RodEnd::free || rod.end != RodEnd::free))
     return wrong("a closed rod has no ends to hold");
   return {};
 }
-
-bool has_ghost(EndHold hold) { return hold == EndHold::tangent || hold == EndHold::clamped; }
 
 /// One rod's edges and bends into the model; ghost nodes are numbered from `next_ghost`.
 class RodBuilder {
@@ -49,14 +48,14 @@ class RodBuilder {
   TwistModel::Rod build() {
     const auto& s = rod_.position;
     const int edges = int(s.size()) - 1;
-    if (has_ghost(rod_.begin)) {
+    if (holds_direction(rod_.begin)) {
       const int node = next_ghost_++;
       entry_.ghost_begin = add_edge(node, rod_.nodes.front(), s[1] - s[0], 0);
     }
     for (int k = 0; k < edges; ++k)
       add_edge(rod_.nodes[k], rod_.nodes[(k + 1) % rod_.nodes.size()], s[k + 1] - s[k],
                rod_.material.EA);
-    if (has_ghost(rod_.end)) {
+    if (holds_direction(rod_.end)) {
       const int node = next_ghost_++;
       entry_.ghost_end = add_edge(rod_.nodes.back(), node, s[edges] - s[edges - 1], 0);
     }
@@ -97,17 +96,19 @@ class RodBuilder {
 };
 
 /// fixes what the ends of one rod hold, and its spin if nothing else does
-void hold(TwistModel& model, const TwistRod& rod, const TwistModel::Rod& entry) {
+void hold(TwistModel& model, const TwistRod& rod, TwistModel::Rod& entry) {
   if (!entry.closed) {
-    if (rod.begin != EndHold::free) model.fix_node(rod.nodes.front());
-    if (rod.end != EndHold::free) model.fix_node(rod.nodes.back());
+    if (rod.begin != RodEnd::free) model.fix_node(rod.nodes.front());
+    if (rod.end != RodEnd::free) model.fix_node(rod.nodes.back());
   }
   if (entry.ghost_begin >= 0) model.fix_node(model.edges[entry.ghost_begin].from);
   if (entry.ghost_end >= 0) model.fix_node(model.edges[entry.ghost_end].to);
-  if (rod.begin == EndHold::clamped) model.fix_angle(entry.ghost_begin);
-  if (rod.end == EndHold::clamped) model.fix_angle(entry.ghost_end);
-  const bool clamped = rod.begin == EndHold::clamped || rod.end == EndHold::clamped;
-  if (!clamped && rod.material.round_and_straight()) model.fix_angle(entry.edges.front());
+  if (rod.begin == RodEnd::clamped) model.fix_angle(entry.ghost_begin);
+  if (rod.end == RodEnd::clamped) model.fix_angle(entry.ghost_end);
+  const bool clamped = rod.begin == RodEnd::clamped || rod.end == RodEnd::clamped;
+  if (clamped || !rod.material.round_and_straight()) return;
+  entry.held_spin = entry.edges.front();
+  model.fix_angle(entry.held_spin);
 }
 
 }  // namespace
@@ -137,18 +138,40 @@ void TwistModel::number() {
   }
 }
 
+namespace {
+
+/// the edges of a rod that meet at a node
+std::vector<int> edges_beside(const TwistModel& model, int rod, int node) {
+  std::vector<int> edges;
+  for (int edge : model.rods[rod].edges)
+    if (model.edges[edge].from == node || model.edges[edge].to == node) edges.push_back(edge);
+  return edges;
+}
+
+}  // namespace
+
 void add_joint_shear(TwistModel& model, int rod_a, int node_a, int rod_b, int node_b,
                      double stiffness, double rest_angle) {
-  const auto beside = [&](int rod, int node) {
-    std::vector<int> edges;
-    for (int edge : model.rods[rod].edges)
-      if (model.edges[edge].from == node || model.edges[edge].to == node) edges.push_back(edge);
-    return edges;
-  };
-  const std::vector<int> first = beside(rod_a, node_a), second = beside(rod_b, node_b);
+  const std::vector<int> first = edges_beside(model, rod_a, node_a),
+                         second = edges_beside(model, rod_b, node_b);
   const double share = stiffness / double(first.size() * second.size());
   for (int e : first)
     for (int f : second) model.shears.push_back({e, f, share, rest_angle});
+}
+
+void add_joint_twist(TwistModel& model, int rod_a, int node_a, int rod_b, int node_b,
+                     double stiffness) {
+  const std::vector<int> first = edges_beside(model, rod_a, node_a),
+                         second = edges_beside(model, rod_b, node_b);
+  const double share = stiffness / double(first.size() * second.size());
+  for (int e : first)
+    for (int f : second) model.twists.push_back({e, f, share});
+  // a spin that cost nothing and was held does now
+  for (int rod : {rod_a, rod_b}) {
+    int& held = model.rods[rod].held_spin;
+    if (held >= 0) model.fixed[model.angle_of(std::exchange(held, -1))] = 0;
+  }
+  model.number();
 }
 
 }  // namespace gridshell

@@ -9,22 +9,20 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/footprint/footprint.h"
 #include "engine/rod/bend_material.h"
 #include "engine/rod/material.h"
 
 namespace gridshell {
 
-/// What holds an end of a rod. `tangent` and `clamped` prescribe the direction at the end point
-/// itself: a ghost edge beyond it, its bend counted over half an edge, so the hold is second order.
-enum class EndHold { free, pinned, tangent, clamped };
-
 /// One rod: its nodes and their arc lengths at rest. A closed rod has one arc length more than
-/// nodes.
+/// nodes. Ends that hold a direction (`tangent`, `clamped`) hold it at the end point itself: a
+/// ghost edge beyond it, its bend counted over half an edge, so the hold is second order.
 struct TwistRod {
   std::vector<int> nodes;
   std::vector<double> position;  ///< mm, ascending
   RodMaterial material;
-  EndHold begin = EndHold::pinned, end = EndHold::pinned;
+  RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
   Eigen::Vector3d director{0, 0, 1};  ///< m1 at the begin, as near as the tangent allows
 
   bool closed() const { return position.size() == nodes.size() + 1; }
@@ -60,6 +58,14 @@ struct JointShear {
   double rest = M_PI / 2;
 };
 
+/// E = k/8 sum over the four pairs of edges at a joint of (phi_e^2 + phi_f^2), one pair each; phi
+/// is the angle about an edge's tangent from the joint's normal t_e x t_f to the rod's director m1,
+/// less that at rest: the joint passes twist from rod to rod.
+struct JointTwist {
+  int e = 0, f = 0;      ///< an edge of either rod, e x f along the normal
+  double stiffness = 0;  ///< k/4, N mm/rad
+};
+
 /// Const once built.
 struct TwistModel {
   int nodes = 0;  ///< ghosts are the last
@@ -67,6 +73,7 @@ struct TwistModel {
   std::vector<TwistBend> bends;
   std::vector<JointSpring> springs;
   std::vector<JointShear> shears;
+  std::vector<JointTwist> twists;
   Eigen::Matrix3Xd load;    ///< dead force on every node, N
   std::vector<char> fixed;  ///< per unknown: 3 a node, then 1 an edge
   std::vector<int> index;   ///< per unknown: its row among the free ones, or -1
@@ -76,6 +83,7 @@ struct TwistModel {
     std::vector<int> edges;                ///< in order, ghosts too
     int ghost_begin = -1, ghost_end = -1;  ///< their edges
     bool closed = false;
+    int held_spin = -1;  ///< edge whose angle is held as nothing resists the spin, or -1
     Eigen::Vector3d director;
   };
   std::vector<Rod> rods;
@@ -101,6 +109,11 @@ Result<TwistModel> build_twist_model(int nodes, const std::vector<TwistRod>& rod
 void add_joint_shear(TwistModel& model, int rod_a, int node_a, int rod_b, int node_b,
                      double stiffness, double rest_angle);
 
+/// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
+/// directors stay near the joint's normal, from the direction of `a` to that of `b`.
+void add_joint_twist(TwistModel& model, int rod_a, int node_a, int rod_b, int node_b,
+                     double stiffness);
+
 /// What changes. Reference directors are unit normals of their edges; reference twists are carried
 /// on continuously, so whole turns count.
 struct TwistState {
@@ -108,6 +121,7 @@ struct TwistState {
   Eigen::VectorXd angle;            ///< theta, one an edge
   Eigen::Matrix3Xd director;        ///< of the reference frames, one an edge
   Eigen::VectorXd reference_twist;  ///< m_ref, one a bend
+  double load = 1;                  ///< factor of the dead loads that act
 };
 
 /// A state with the nodes at `x` (ghosts, if x does not have them, go straight on beyond their
@@ -157,6 +171,7 @@ class TwistAssembly {
   void add_links(const TwistState& state, bool with_hessian);
   void add_bends(const TwistState& state, bool with_hessian);
   void add_shears(const TwistState& state, bool with_hessian);
+  void add_joint_twists(const TwistState& state, bool with_hessian);
   template <int N>
   void scatter(const int* unknowns, const Eigen::Matrix<double, N, 1>& gradient,
                const Eigen::Matrix<double, N, N>& hessian, bool with_hessian);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/preset/rung.h"
 #include "engine/preset/shape_consistency.h"
 
 namespace gridshell::preset {
@@ -44,11 +45,6 @@ std::vector<Conflict> conflicts(const Preset& preset) {
                               "kind = \"net\""
                             : "a curve has no net to start from, must be \"flat\", or [footprint] "
                               "kind = \"net\""});
-  if (!net && preset.ends.kind == EndKind::tangent)
-    found.push_back({"ends",
-                     "kind",
-                     {"[footprint] kind"},
-                     "only a net has tangents that could be held, must be \"pinned\""});
   if (!has_rings(preset) && preset.ends.rings == Rings::free)
     found.push_back({"ends",
                      "rings",
@@ -72,6 +68,7 @@ std::vector<Conflict> conflicts(const Preset& preset) {
     }
     last = radius;
   }
+  for (auto& conflict : physics_conflicts(preset)) found.push_back(std::move(conflict));
   if (const auto count = preset.indentation.joint.size(); count != 0 && count != 2)
     found.push_back(
         {"indentation", "joint", {}, fmt::format("a list of {}, must be [i, j] or empty", count)});

@@ -1,6 +1,7 @@
 #include "engine/preset/field_table.h"
 
 #include "engine/preset/field_makers.h"
+#include "engine/preset/physics_fields.h"
 #include "engine/preset/shape_fields.h"
 
 namespace gridshell::preset {
@@ -15,16 +16,6 @@ std::vector<Field> shell_fields() {
       {"", "source", "", text<&P::source>(), "figure or movie of the paper it follows"},
       {"", "allow_unstable", "", flag<&P::allow_unstable>(),
        "whether a run may end in an unstable state without failing"},
-      {"rod", "diameter_mm", "mm", real<&P::rod, &Rod::diameter_mm>(above(0)),
-       "diameter of the round rods"},
-      {"rod", "young_GPa", "GPa", real<&P::rod, &Rod::young_GPa>(above(0)), "Young's modulus E"},
-      {"joints", "kind", "", word<&P::joints, &Joints::kind>({"shared"}),
-       "\"shared\": crossing rods share the joint's node, shear freely and pass no twist"},
-      {"ends", "kind", "", word<&P::ends, &Ends::kind>({"pinned", "tangent"}),
-       "\"pinned\": position held, direction and spin free; \"tangent\": held along the net's "
-       "tangents, spin free"},
-      {"ends", "rings", "", word<&P::ends, &Ends::rings>({"pinned", "free"}),
-       "whether the ends on the rings of a surface of revolution are held like the others or free"},
       {"footprint", "kind", "",
        word<&P::footprint, &Footprint::kind>({"circle", "net", "curve", "blocks"}),
        "boundary that cuts the flat square grid: a circle, the one that a net maps to the boundary "
@@ -86,9 +77,11 @@ std::vector<Field> numerics_fields() {
       {"accuracy", "edges_per_segment", "",
        integer<&P::accuracy, &Accuracy::edges_per_segment>(between(0, 64)),
        "edges between two joints of a rod; 0 chooses them from the tolerance"},
-      {"accuracy", "model", "", word<&P::accuracy, &Accuracy::model>({"auto", "bend"}),
-       "\"bend\": stretching and bending, 3 unknowns a node; \"auto\" takes the least that is "
-       "exact"},
+      {"accuracy", "model", "",
+       word<&P::accuracy, &Accuracy::model>({"auto", "net", "bend", "twist"}),
+       "\"net\": the smooth net itself, nothing solved; \"bend\": stretching and bending, 3 "
+       "unknowns "
+       "a node; \"twist\": torsion too, 1 more an edge; \"auto\" takes the least that is exact"},
   };
 }
 
@@ -134,6 +127,7 @@ const std::vector<Table>& tables() {
   static const std::vector<Table> all = {
       {"", "What the preset is."},
       {"rod", "The rods' material and section."},
+      {"rod_v", "The same of the v rods, where they are others."},
       {"joints", "What holds crossing rods together."},
       {"ends", "What holds the rods' ends on the boundary."},
       {"footprint", "The flat, unloaded grid."},
@@ -143,6 +137,7 @@ const std::vector<Table>& tables() {
       {"join", "Two sides of blocks that become one seam.", true},
       {"actuation", "How the boundary moves: every edge point straight and evenly."},
       {"indentation", "The push at one joint of the actuated shell."},
+      {"loads", "What pulls on the shell beside its boundary."},
       {"limits", "Where the model stops being valid."},
       {"accuracy", "How exact the answer is to be."},
       {"movie", "The frames of `gridshell movie` and their camera."},
@@ -154,8 +149,8 @@ const std::vector<Table>& tables() {
 const std::vector<Field>& field_table() {
   static const std::vector<Field> all = [] {
     auto fields = shell_fields();
-    for (auto& more : {boundary_fields(), net_fields(), indentation_fields(), numerics_fields(),
-                       picture_fields()})
+    for (auto& more : {rod_fields(), joint_fields(), boundary_fields(), net_fields(),
+                       indentation_fields(), load_fields(), numerics_fields(), picture_fields()})
       fields.insert(fields.end(), more.begin(), more.end());
     return fields;
   }();

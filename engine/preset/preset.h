@@ -13,14 +13,30 @@ namespace gridshell::preset {
 struct Rod {
   double diameter_mm = 0.254;
   double young_GPa = 83.0;
+  double shear_GPa = 0;                   ///< 0: not given
+  double density_kg_m3 = 0;               ///< 0: not given
+  double width_mm = 0, thickness_mm = 0;  ///< of a rectangular section; 0: round
+  double curvature_per_mm = 0;            ///< at rest, upright
+  double curvature_sideways_per_mm = 0;   ///< at rest, in the flat
+  double twist_rad_per_mm = 0;            ///< at rest
+
+  bool rectangular() const { return width_mm > 0 && thickness_mm > 0; }
+  bool operator==(const Rod&) const = default;
+};
+/// The v rods, where they are others.
+struct RodV : Rod {
+  bool differs = false;
 };
 
-enum class JointKind { shared };
+enum class JointKind { shared, spring };
 struct Joints {
   JointKind kind = JointKind::shared;
+  double stiffness_N_per_mm = 0;  ///< of springs
+  double shear_Nmm = 0;           ///< per rad of shear
+  double twist_Nmm = 0;           ///< per rad of spin beside the joint's normal
 };
 
-enum class EndKind { pinned, tangent };
+enum class EndKind { pinned, tangent, clamped };
 enum class Rings { pinned, free };
 struct Ends {
   EndKind kind = EndKind::pinned;
@@ -108,11 +124,19 @@ struct Indentation {
   bool wanted() const { return depth > 0 || depth_mm > 0; }
 };
 
+struct Loads {
+  double gravity_m_s2 = 0;    ///< downwards
+  double field_N_per_mm = 0;  ///< of rod, downwards
+  Points points;              ///< (i, j, F_x, F_y, F_z), N
+
+  bool any() const { return gravity_m_s2 != 0 || field_N_per_mm != 0 || !points.empty(); }
+};
+
 struct Limits {
   double max_strain = 1e-3;
 };
 
-enum class Model { automatic, bend };  ///< "auto", "bend"
+enum class Model { automatic, net, bend, twist };  ///< "auto", "net", "bend", "twist"
 struct Accuracy {
   double tolerance = 1e-3;
   int edges_per_segment = 0;  ///< 0: chosen from the tolerance
@@ -147,6 +171,7 @@ struct Preset {
   std::string title, description, source;
   bool allow_unstable = false;
   Rod rod;
+  RodV rod_v;
   Joints joints;
   Ends ends;
   Footprint footprint;
@@ -156,6 +181,7 @@ struct Preset {
   std::vector<Join> join;    ///< [[join]]
   Actuation actuation;
   Indentation indentation;
+  Loads loads;
   Limits limits;
   Accuracy accuracy;
   Movie movie;

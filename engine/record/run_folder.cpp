@@ -48,13 +48,20 @@ std::string seams_csv(const Layout& layout) {
   return std::move(csv).text();
 }
 
+/// a number that is not known is empty; counts are never below zero
+void put(Csv& csv, int value) { value < 0 ? csv.cell("") : csv.cell(value); }
+template <class T>
+void put(Csv& csv, const T& value) {
+  csv.cell(value);
+}
+
 std::string frames_csv(const Trajectory& trajectory) {
   Csv csv;
   for (const FrameColumn& column : frame_columns) csv.cell(column.name);
   csv.end_line();
   for (const Frame& frame : trajectory.frames) {
     for (const FrameColumn& column : frame_columns)
-      std::visit([&](auto field) { csv.cell(frame.*field); }, column.field);
+      std::visit([&](auto field) { put(csv, frame.*field); }, column.field);
     csv.end_line();
   }
   return std::move(csv).text();

@@ -73,7 +73,7 @@ struct Frame {
   double height_mm = 0;  ///< highest joint above the boundary's plane
   double total_K = 0;    ///< rad
   double residual_N = 0;
-  int negative_pivots = 0;
+  int negative_pivots = 0;  ///< -1: not known
   double error_estimate_mm = unknown;
   int newton_iterations = 0;
   std::string event;       ///< a snap, a limit, a recovery; empty when nothing happened

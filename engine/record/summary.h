@@ -20,6 +20,7 @@ struct Summary {
   std::string model_reason;  ///< one sentence: why this rung is enough
   int edges_per_segment = 0;
   int rods = 0, joints = 0, cells = 0, dof = 0;
+  bool solved = true;  ///< false: the net itself; stability and residual are then null
   bool stable = false;
   int negative_pivots = 0;
   Limit limit = Limit::none;

@@ -97,6 +97,7 @@ const char* name_of(Limit limit) { return limit_names[static_cast<std::size_t>(l
 std::string to_json(const Summary& summary) {
   Json json;
   each_field(summary, [&](const char* key, const auto& value) { json[key] = json_of(value); });
+  if (!summary.solved) json["stable"] = json["negative_pivots"] = nullptr;
   // NaN becomes null; a broken UTF-8 sequence in a user's text must not stop a run
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -108,12 +109,18 @@ Result<void> write_summary(const std::filesystem::path& path, const Summary& sum
 Result<Summary> read_summary(const std::filesystem::path& path) {
   const auto text = read_whole(path);
   if (!text) return tl::unexpected(text.error());
-  const Json json = Json::parse(*text, nullptr, false);
+  Json json = Json::parse(*text, nullptr, false);
   if (!json.is_object())
     return fail(Fault::bad_input,
                 fmt::format("'{}' is no summary of a run: not a JSON object", path.string()));
   Summary summary;
   std::string fault;
+  // of a net, for which nothing was solved
+  if (json.contains("stable") && json["stable"].is_null()) {
+    summary.solved = false;
+    json["stable"] = false;
+    json["negative_pivots"] = 0;
+  }
   each_field(summary, [&](const char* key, auto& value) {
     if (!fault.empty()) return;
     const char* expected = nullptr;

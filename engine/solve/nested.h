@@ -20,6 +20,10 @@ struct BoundaryMotion {
   Eigen::Matrix3Xd begin_tangent = {}, end_tangent = {};
 };
 
+/// The motion of a mesh's pinned nodes: its edge points and, beyond those whose direction is held,
+/// their ghosts.
+PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion);
+
 /// Which meshes are solved and how they are used.
 struct LevelPlan {
   std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before

@@ -111,6 +111,28 @@ NewtonReport TwistSolver::rest(TwistState& state, const TwistOptions& options, c
   return report;
 }
 
+Eigen::VectorXd TwistSolver::velocity(const TwistState& state, const Eigen::Matrix3Xd& held,
+                                      double load) {
+  Eigen::VectorXd way = Eigen::VectorXd::Zero(model_.unknowns());
+  for (int k = 0; k < 3 * model_.nodes; ++k)
+    if (model_.fixed[k]) way[k] = held.data()[k];
+  const double largest = way.cwiseAbs().maxCoeff();
+  // how the forces change as what is held moves; central, so the step may be far above round-off
+  const double h = 1e-4 * length_ / std::max(largest, 1e-4 * length_);
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(model_.dof());
+  for (double side : {1.0, -1.0}) {
+    TwistState beside = state;
+    apply(way, side * h, beside);
+    beside.load += side * h * load;
+    assembly_.gradient_at(beside);
+    for (int k = 0; k < model_.dof(); ++k)
+      change[k] -= side / (2 * h) * assembly_.gradient()[model_.free[k]];
+  }
+  const Eigen::VectorXd found = ldl_.solve(change);
+  for (int k = 0; k < model_.dof(); ++k) way[model_.free[k]] = found[k];
+  return way;
+}
+
 Eigen::VectorXd TwistSolver::softest_mode(const TwistState& state) {
   assembly_.hessian_at(state);
   double shift = 1e-9;

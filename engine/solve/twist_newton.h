@@ -30,9 +30,17 @@ class TwistSolver {
   Inertia inertia_at(const TwistState& state);
   /// Softest mode of the Hessian at a state by inverse iteration, a unit vector over all unknowns.
   Eigen::VectorXd softest_mode(const TwistState& state);
+  /// How all unknowns follow when held nodes move with `held` (3 x nodes; of free ones ignored) and
+  /// the load factor grows by `load`, with the factorisation that rest() left; frames are carried.
+  Eigen::VectorXd velocity(const TwistState& state, const Eigen::Matrix3Xd& held, double load);
   /// Moves the free unknowns by `step` (over all unknowns).
   void apply(const Eigen::VectorXd& step, double factor, TwistState& state) const;
 
+  /// Largest force on a free unknown at a state, N (moments over the mean edge length).
+  double residual_at(const TwistState& state) {
+    assembly_.gradient_at(state);
+    return residual();
+  }
   const TwistAssembly& assembly() const { return assembly_; }
   double residual() const;  ///< largest force on a free node, N, of the last assembly
   const Effort& effort() const { return effort_; }

@@ -65,7 +65,7 @@ TEST_CASE("EA from a hundredth to ten thousand times: the same state, or a reaso
   const double reference = end_of(fig1())->trajectory.frames.back().energy_bend_mJ;
   for (double scale : {1e-2, 1e-1, 1e1, 1e2, 1e4}) {
     auto scene = fig1();
-    scene.rods.sections[0].EA *= scale;
+    for (RodSection& section : scene.rods.sections) section.EA *= scale;
     scene.max_strain = 1;
     INFO("EA x " << scale);
     const auto outcome = end_of(scene);

@@ -14,12 +14,13 @@ TwistModel sample_model() {
   const RodMaterial strip{900, 5, 12, 4, {0.02, -0.01}, 0.03};
   const RodMaterial wire{700, 6, 6, 3, {0, 0}, 0};
   TwistRod a{{0, 1, 2, 3, 4},  {0, 4, 9, 13, 18}, strip,
-             EndHold::clamped, EndHold::pinned,   {0, 0, 1}};
-  TwistRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, EndHold::tangent, EndHold::free, {0, 0, 1}};
-  TwistRod c{{9, 10, 11}, {0, 5, 10}, wire, EndHold::free, EndHold::pinned, {0, 0, 1}};
+             RodEnd::clamped, RodEnd::pinned,   {0, 0, 1}};
+  TwistRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, RodEnd::tangent, RodEnd::free, {0, 0, 1}};
+  TwistRod c{{9, 10, 11}, {0, 5, 10}, wire, RodEnd::free, RodEnd::pinned, {0, 0, 1}};
   TwistModel model = build_twist_model(12, {a, b, c}).value();
   model.springs.push_back({3, 9, 40});
   add_joint_shear(model, 0, 2, 1, 2, 7.5, 1.4);
+  add_joint_twist(model, 0, 2, 1, 2, 3.5);
   model.load.row(2).setConstant(-0.1);
   return model;
 }
@@ -30,6 +31,7 @@ TwistState sample_state(const TwistModel& model) {
       0, 0, 0, 0, 0, -9, -4, 5, 9, 0, 0, 0,      //
       0, 1, 1.5, 1, 0, 0, 1, 1, 0, 1.2, 1, 0;
   TwistState state = start_twist_state(model, x);
+  state.load = 0.7;
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   Eigen::Matrix3Xd moved = state.x;
@@ -95,7 +97,7 @@ TEST_CASE("twist assembly: no energy and no force under rigid motion") {
   const RodMaterial strip{900, 5, 12, 4, {0.02, -0.01}, 0.03};
   const TwistModel model =
       build_twist_model(
-          4, {{{0, 1, 2, 3}, {0, 4, 9, 13}, strip, EndHold::free, EndHold::free, {0, 0, 1}}})
+          4, {{{0, 1, 2, 3}, {0, 4, 9, 13}, strip, RodEnd::free, RodEnd::free, {0, 0, 1}}})
           .value();
   Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Random(3, 4);
   x.row(0) += Eigen::RowVector4d(0, 4, 9, 13);
@@ -123,7 +125,7 @@ TEST_CASE("twist model: bad rods are refused with their reason") {
     CHECK(model.error().fault == Fault::bad_input);
     return model.error().message;
   };
-  TwistRod rod{{0, 1, 2}, {0, 5, 10}, wire, EndHold::pinned, EndHold::pinned, {0, 0, 1}};
+  TwistRod rod{{0, 1, 2}, {0, 5, 10}, wire, RodEnd::pinned, RodEnd::pinned, {0, 0, 1}};
   CHECK(build_twist_model(3, {rod}));
   TwistRod bad = rod;
   bad.material.GJ = 0;

@@ -52,6 +52,8 @@ Preset all_changed() {
   // what goes with free rings and held tangents
   preset.footprint.kind = FootprintKind::net;
   preset.net.kind = NetKind::beltrami;
+  // joints are pushed on the bend rung alone
+  preset.indentation.depth = preset.indentation.depth_mm = 0;
   // only a circle has them; they are checked apart
   preset.figure.radii_mm.clear();
   return preset;

@@ -14,7 +14,7 @@ struct SingleRod {
   double length = 0;
   TwistRod rod;
 
-  SingleRod(int n, double L, const RodMaterial& material, EndHold begin, EndHold end)
+  SingleRod(int n, double L, const RodMaterial& material, RodEnd begin, RodEnd end)
       : edges(n), length(L), rod{{}, {}, material, begin, end, {0, 0, 1}} {
     for (int k = 0; k <= n; ++k) {
       rod.nodes.push_back(k);

@@ -9,7 +9,7 @@ constexpr double EI = 16.95832, EA = 4205.672, GJ = 12.667659, length = 252;
 const RodMaterial wire{EA, EI, EI, GJ, {0, 0}, 0};
 
 /// The axial force at which a straight rod between these ends buckles, over EI/L^2.
-double euler(int edges, EndHold hold) {
+double euler(int edges, RodEnd hold) {
   const SingleRod single(edges, length, wire, hold, hold);
   const TwistModel model = single.model();
   TwistSolver solver(model);
@@ -22,7 +22,7 @@ double euler(int edges, EndHold hold) {
 
 /// The moment at which a clamped rod under twist buckles, over EI/L.
 double greenhill(int edges) {
-  const SingleRod single(edges, length, wire, EndHold::clamped, EndHold::clamped);
+  const SingleRod single(edges, length, wire, RodEnd::clamped, RodEnd::clamped);
   const TwistModel model = single.model();
   TwistSolver solver(model);
   const double turn = critical(0, 20 * EI / GJ, [&](double end) {
@@ -42,7 +42,7 @@ double greenhill(int edges) {
 double michell(int edges, double ratio) {
   RodMaterial material = wire;
   material.GJ = ratio * EI;
-  TwistRod rod{{}, {}, material, EndHold::free, EndHold::free, {0, 0, 1}};
+  TwistRod rod{{}, {}, material, RodEnd::free, RodEnd::free, {0, 0, 1}};
   const double around = 2 * M_PI * 40;
   Eigen::Matrix3Xd x(3, edges);
   for (int k = 0; k <= edges; ++k) {
@@ -82,10 +82,10 @@ double michell(int edges, double ratio) {
 
 TEST_CASE("Euler: pinned and clamped rods buckle at pi^2 and 4 pi^2 EI/L^2, second order") {
   const double pinned = M_PI * M_PI, clamped = 4 * M_PI * M_PI;
-  const double p40 = euler(40, EndHold::pinned), p80 = euler(80, EndHold::pinned);
+  const double p40 = euler(40, RodEnd::pinned), p80 = euler(80, RodEnd::pinned);
   CHECK(p80 == Approx(pinned).epsilon(1e-3));
   CHECK(order(std::abs(p40 - pinned), std::abs(p80 - pinned)) == Approx(2).margin(0.15));
-  for (EndHold hold : {EndHold::tangent, EndHold::clamped}) {
+  for (RodEnd hold : {RodEnd::tangent, RodEnd::clamped}) {
     const double c40 = euler(40, hold), c80 = euler(80, hold);
     CAPTURE(c40 / clamped, c80 / clamped);
     CHECK(c80 == Approx(clamped).epsilon(1e-3));

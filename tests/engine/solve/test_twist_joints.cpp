@@ -18,7 +18,7 @@ struct Crossing {
 
   explicit Crossing(bool shared) {
     const int nodes = shared ? 2 * n + 1 : 2 * n + 2;
-    TwistRod a{{}, {}, wire, EndHold::pinned, EndHold::pinned, {0, 0, 1}}, b = a;
+    TwistRod a{{}, {}, wire, RodEnd::pinned, RodEnd::pinned, {0, 0, 1}}, b = a;
     x = Eigen::Matrix3Xd::Zero(3, nodes);
     int next = n + 1;
     for (int k = 0; k <= n; ++k) {
@@ -70,8 +70,8 @@ TEST_CASE("spring joints: the distance to the shared node falls as the stiffness
 TEST_CASE("joint shear: two rigid crossing rods turn by moment over stiffness") {
   // stiff rods, one held, the other turned about the joint by a couple at its ends
   const RodMaterial stiff{1e6, 1e7, 1e7, 1e7, {0, 0}, 0};
-  TwistRod a{{0, 1, 2}, {0, 10, 20}, stiff, EndHold::pinned, EndHold::pinned, {0, 0, 1}};
-  TwistRod b{{3, 1, 4}, {0, 10, 20}, stiff, EndHold::free, EndHold::free, {0, 0, 1}};
+  TwistRod a{{0, 1, 2}, {0, 10, 20}, stiff, RodEnd::pinned, RodEnd::pinned, {0, 0, 1}};
+  TwistRod b{{3, 1, 4}, {0, 10, 20}, stiff, RodEnd::free, RodEnd::free, {0, 0, 1}};
   TwistModel model = build_twist_model(5, {a, b}).value();
   const double stiffness = 40, couple = 2;  // N mm/rad, N mm
   add_joint_shear(model, 0, 1, 1, 1, stiffness, M_PI / 2);
@@ -95,7 +95,7 @@ TEST_CASE("joint shear: two rigid crossing rods turn by moment over stiffness") 
 TEST_CASE("gravity: a cantilever under its own weight sags by q L^4/(8 EI)") {
   const double length = 100, q = 1e-6;  // N/mm, small deflection
   const int edges = 40;
-  const SingleRod single(edges, length, wire, EndHold::clamped, EndHold::free);
+  const SingleRod single(edges, length, wire, RodEnd::clamped, RodEnd::free);
   TwistModel model = single.model();
   for (int k = 0; k <= edges; ++k)
     model.load(2, k) = -q * length / edges * (k == 0 || k == edges ? 0.5 : 1);

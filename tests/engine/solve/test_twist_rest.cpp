@@ -23,7 +23,7 @@ NewtonReport settle(TwistSolver& solver, TwistState& state, double tolerance = 1
 /// Height over L of a pinned rod whose ends come together; starts with its edges
 /// turned at random.
 double elastica_height(int edges, double shortening) {
-  const SingleRod single(edges, length, wire, EndHold::pinned, EndHold::pinned);
+  const SingleRod single(edges, length, wire, RodEnd::pinned, RodEnd::pinned);
   const TwistModel model = single.model();
   TwistSolver solver(model);
   TwistState state =
@@ -36,7 +36,7 @@ double elastica_height(int edges, double shortening) {
 
 /// Tip of a cantilever under a dead end load P = load EI/L^2, over L: (along, across).
 Eigen::Vector2d cantilever(int edges, double load) {
-  const SingleRod single(edges, length, wire, EndHold::clamped, EndHold::free);
+  const SingleRod single(edges, length, wire, RodEnd::clamped, RodEnd::free);
   TwistModel model = single.model();
   TwistSolver solver(model);
   TwistState state = start_twist_state(model, single.line());
@@ -108,7 +108,7 @@ TEST_CASE("twist rung: a rod curved and twisted at rest is the exact helix witho
   for (int edges : {60, 120}) {
     RodMaterial spring{EA, EI, 2 * EI, GJ, {r / w2, 0}, c / w2};
     const double L = 2 * M_PI * w;  // one turn
-    const SingleRod single(edges, L, spring, EndHold::free, EndHold::free);
+    const SingleRod single(edges, L, spring, RodEnd::free, RodEnd::free);
     TwistModel model = single.model();
     // six unknowns that hold it in space
     for (int unknown : {0, 1, 2, 3 * 1 + 1, 3 * 1 + 2, model.angle_of(0)}) model.fixed[unknown] = 1;
@@ -135,7 +135,7 @@ TEST_CASE("twist rung: the localised helix of a long twisted rod", "[full]") {
   const double L = 100, bending = 1.345, torsion = 0.789, slack = 3, turns = 27;
   const int edges = 400;
   const RodMaterial material{1e4, bending, bending, torsion, {0, 0}, 0};
-  const SingleRod single(edges, L, material, EndHold::clamped, EndHold::clamped);
+  const SingleRod single(edges, L, material, RodEnd::clamped, RodEnd::clamped);
   const TwistModel model = single.model();
   TwistSolver solver(model);
   // a coil of the right wave number in the middle, to choose the localised state among others

@@ -39,7 +39,7 @@ struct Shell {
 double distance_of_rungs(int edges, double& twist_before, double& seconds) {
   const Shell shell(edges);
   const TwistModel model =
-      twist_model_of(shell.mesh, circular_material(0.254, 83, 31), EndHold::pinned).value();
+      twist_model_of(shell.mesh, {{circular_material(0.254, 83, 31)}, {}, {}}).value();
   TwistState state = start_twist_state(model, shell.state.x);
   std::mt19937 random(11);
   std::uniform_real_distribution<double> radian(-1, 1);

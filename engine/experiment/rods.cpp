@@ -1,0 +1,81 @@
+#include "engine/experiment/rods.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridshell::experiment {
+namespace {
+
+double area_of(const preset::Rod& rod) {
+  return rod.rectangular() ? rod.width_mm * rod.thickness_mm
+                           : M_PI * rod.diameter_mm * rod.diameter_mm / 4;
+}
+
+RodMaterial material_of(const preset::Rod& rod) {
+  // the first director stands up: the thickness lies along it
+  RodMaterial material =
+      rod.rectangular()
+          ? rectangular_material(rod.thickness_mm, rod.width_mm, rod.young_GPa, rod.shear_GPa)
+          : circular_material(rod.diameter_mm, rod.young_GPa, rod.shear_GPa);
+  // about the second, a tangent that turns downwards turns backwards
+  material.curvature = {rod.curvature_sideways_per_mm, -rod.curvature_per_mm};
+  material.twist = rod.twist_rad_per_mm;
+  return material;
+}
+
+/// exact for round sections, else the softer of the two: a seed for the twist rung
+RodSection section_of(const preset::Rod& rod) {
+  if (!rod.rectangular()) return circular_section(rod.diameter_mm, rod.young_GPa);
+  const RodMaterial material = material_of(rod);
+  return {material.EA, std::min(material.EI1, material.EI2)};
+}
+
+Result<std::vector<PointLoad>> points_of(const preset::Loads& loads, const Footprint& footprint) {
+  std::vector<PointLoad> points;
+  for (const auto& row : loads.points) {
+    const int i = int(std::lround(row[0])), j = int(std::lround(row[1]));
+    const int joint = row[0] == i && row[1] == j ? joint_at(footprint, i, j) : -1;
+    if (joint < 0)
+      return fail(
+          Fault::bad_input,
+          fmt::format("[loads] points: the footprint has no joint [{:g}, {:g}]", row[0], row[1]));
+    points.push_back({joint, {row[2], row[3], row[4]}});
+  }
+  return points;
+}
+
+}  // namespace
+
+int joint_at(const Footprint& footprint, int i, int j) {
+  for (std::size_t k = 0; k < footprint.joints.size(); ++k)
+    if (footprint.joints[k].i == i && footprint.joints[k].j == j) return int(k);
+  return -1;
+}
+
+Result<SceneRods> scene_rods(const preset::Preset& preset, const Footprint& footprint) {
+  SceneRods rods;
+  const preset::Loads& loads = preset.loads;
+  for (const FootprintRod& one : footprint.rods) {
+    const bool other = one.family == Family::v && preset.rod_v.differs;
+    const preset::Rod& rod = other ? preset.rod_v : preset.rod;
+    const double mass = 1e-12 * rod.density_kg_m3 * area_of(rod);  // 1 kg/m^3 = 1e-12 t/mm^3
+    rods.bend.sections.push_back(section_of(rod));
+    rods.twist.materials.push_back(material_of(rod));
+    rods.mass_t_per_mm.push_back(mass);
+    if (loads.gravity_m_s2 != 0 || loads.field_N_per_mm != 0)
+      rods.bend.weight_N_per_mm.push_back(1e3 * loads.gravity_m_s2 * mass + loads.field_N_per_mm);
+  }
+  auto points = points_of(loads, footprint);
+  if (!points) return tl::unexpected<Error>(points.error());
+  rods.bend.points = std::move(*points);
+  rods.twist.loads = rods.bend;
+  const bool springs = preset.joints.kind == preset::JointKind::spring;
+  rods.twist.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,
+                       preset.joints.twist_Nmm};
+  rods.drawn_diameter_mm = 2 * std::sqrt(area_of(preset.rod) / M_PI);
+  return rods;
+}
+
+}  // namespace gridshell::experiment

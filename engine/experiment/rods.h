@@ -1,0 +1,25 @@
+// From a preset's rods, joints and loads to those of the models.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/footprint/footprint.h"
+#include "engine/gridshell/twist_shell.h"
+#include "engine/preset/preset.h"
+
+namespace gridshell::experiment {
+
+/// The rods of a footprint as a preset wants them.
+struct SceneRods {
+  ShellRods bend;                     ///< for the `bend` rung; round, straight
+  TwistRods twist;                    ///< for the `twist` rung
+  std::vector<double> mass_t_per_mm;  ///< one a rod; 0 where no density is given
+  double drawn_diameter_mm = 0;       ///< of a round section of the area of [rod]'s
+};
+
+/// Errors (bad_input): a load on a joint that the footprint does not have.
+Result<SceneRods> scene_rods(const preset::Preset& preset, const Footprint& footprint);
+
+/// The joint (i, j), or -1.
+int joint_at(const Footprint& footprint, int i, int j);
+
+}  // namespace gridshell::experiment

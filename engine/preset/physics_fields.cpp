@@ -1,0 +1,75 @@
+#include "engine/preset/physics_fields.h"
+
+#include "engine/preset/field_makers.h"
+
+namespace gridshell::preset {
+namespace {
+
+using P = Preset;
+
+// the rods of a table: all, or those of one family
+template <auto rods>
+std::vector<Field> fields_of_rods(const std::string& table) {
+  return {
+      {table, "diameter_mm", "mm", real<rods, &Rod::diameter_mm>(above(0)),
+       "diameter of round rods"},
+      {table, "young_GPa", "GPa", real<rods, &Rod::young_GPa>(above(0)), "Young's modulus E"},
+      {table, "shear_GPa", "GPa", real<rods, &Rod::shear_GPa>(at_least(0)),
+       "shear modulus G; 0: not given, which is enough where no rod is twisted"},
+      {table, "density_kg_m3", "kg/m^3", real<rods, &Rod::density_kg_m3>(at_least(0)),
+       "density; 0: not given, which is enough without gravity and motion"},
+      {table, "width_mm", "mm", real<rods, &Rod::width_mm>(at_least(0)),
+       "of a rectangular section, in the flat; 0: the rods are round"},
+      {table, "thickness_mm", "mm", real<rods, &Rod::thickness_mm>(at_least(0)),
+       "of a rectangular section, upright; 0: the rods are round"},
+      {table, "curvature_per_mm", "1/mm", real<rods, &Rod::curvature_per_mm>({}),
+       "curvature at rest in the upright plane; above 0 arches up"},
+      {table, "curvature_sideways_per_mm", "1/mm", real<rods, &Rod::curvature_sideways_per_mm>({}),
+       "curvature at rest in the flat; above 0 turns left, seen from above"},
+      {table, "twist_rad_per_mm", "rad/mm", real<rods, &Rod::twist_rad_per_mm>({}),
+       "twist at rest"},
+  };
+}
+
+}  // namespace
+
+std::vector<Field> rod_fields() {
+  auto fields = fields_of_rods<&P::rod>("rod");
+  fields.push_back(
+      {"rod_v", "differs", "", flag<&P::rod_v, &RodV::differs>(),
+       "whether the v rods are others than those of [rod]; the keys below then count"});
+  for (auto& field : fields_of_rods<&P::rod_v>("rod_v")) fields.push_back(std::move(field));
+  return fields;
+}
+
+std::vector<Field> joint_fields() {
+  return {
+      {"joints", "kind", "", word<&P::joints, &Joints::kind>({"shared", "spring"}),
+       "\"shared\": crossing rods share the joint's node; \"spring\": each has its own, held "
+       "together by a spring"},
+      {"joints", "stiffness_N_per_mm", "N/mm",
+       real<&P::joints, &Joints::stiffness_N_per_mm>(at_least(0)), "of spring joints"},
+      {"joints", "shear_Nmm", "N mm/rad", real<&P::joints, &Joints::shear_Nmm>(at_least(0)),
+       "resistance to the change of the crossing angle; 0: joints shear freely"},
+      {"joints", "twist_Nmm", "N mm/rad", real<&P::joints, &Joints::twist_Nmm>(at_least(0)),
+       "resistance to a rod's spin beside the joint's normal; 0: joints pass no twist"},
+      {"ends", "kind", "", word<&P::ends, &Ends::kind>({"pinned", "tangent", "clamped"}),
+       "\"pinned\": position held, direction and spin free; \"tangent\": direction held too, along "
+       "the net's tangents or, in a circle, as in the flat; \"clamped\": spin held too"},
+      {"ends", "rings", "", word<&P::ends, &Ends::rings>({"pinned", "free"}),
+       "whether the ends on the rings of a surface of revolution are held like the others or free"},
+  };
+}
+
+std::vector<Field> load_fields() {
+  return {
+      {"loads", "gravity_m_s2", "m/s^2", real<&P::loads, &Loads::gravity_m_s2>({}),
+       "gravity, downwards; loads come on with the actuation, in full at its end"},
+      {"loads", "field_N_per_mm", "N/mm", real<&P::loads, &Loads::field_N_per_mm>({}),
+       "artificial gravity: force on every millimetre of rod, downwards"},
+      {"loads", "points", "", points<&P::loads, &Loads::points>({"i", "j", "F_x", "F_y", "F_z"}),
+       "forces in N on joints"},
+  };
+}
+
+}  // namespace gridshell::preset

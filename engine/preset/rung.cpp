@@ -1,0 +1,210 @@
+#include "engine/preset/rung.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace gridshell::preset {
+namespace {
+
+constexpr double net_tolerance = 0.05;
+
+/// table and values of every kind of rod there is
+std::vector<std::pair<std::string, const Rod*>> kinds_of(const Preset& preset) {
+  if (preset.rod_v.differs) return {{"rod", &preset.rod}, {"rod_v", &preset.rod_v}};
+  return {{"rod", &preset.rod}};
+}
+
+std::string bracketed(const Demand& demand) {
+  return fmt::format("[{}] {}", demand.table, demand.key);
+}
+
+std::string list_of(const std::vector<Demand>& demands) {
+  std::vector<std::string> all;
+  for (const auto& demand : demands)
+    if (std::find(all.begin(), all.end(), demand.what) == all.end()) all.push_back(demand.what);
+  return fmt::format("{}", fmt::join(all, ", and "));
+}
+
+void add_rods_beyond_bend(const Preset& preset, std::vector<Demand>& found) {
+  const bool clamped = preset.ends.kind == EndKind::clamped;
+  for (const auto& [table, rod] : kinds_of(preset)) {
+    const bool two_axes = rod->rectangular() && rod->width_mm != rod->thickness_mm;
+    const bool curved = rod->curvature_per_mm != 0 || rod->curvature_sideways_per_mm != 0;
+    if (two_axes)
+      found.push_back(
+          {table, "width_mm", "rods that are not alike in all directions spin as they bend"});
+    if (rod->curvature_per_mm != 0)
+      found.push_back({table, "curvature_per_mm", "rods curved at rest spin to keep their curve"});
+    if (rod->curvature_sideways_per_mm != 0)
+      found.push_back(
+          {table, "curvature_sideways_per_mm", "rods curved at rest spin to keep their curve"});
+    // a round straight rod whose ends spin freely untwists by itself
+    if (rod->twist_rad_per_mm != 0 && (two_axes || curved || clamped))
+      found.push_back({table, "twist_rad_per_mm", "rods twisted at rest turn their axes"});
+  }
+}
+
+}  // namespace
+
+std::vector<Demand> beyond_bend(const Preset& preset) {
+  std::vector<Demand> found;
+  if (preset.ends.kind == EndKind::clamped)
+    found.push_back({"ends", "kind", "clamped ends hold the rods' spin"});
+  add_rods_beyond_bend(preset, found);
+  if (preset.joints.kind == JointKind::spring)
+    found.push_back({"joints", "kind", "spring joints give each rod a node of its own"});
+  if (preset.joints.shear_Nmm > 0)
+    found.push_back({"joints", "shear_Nmm", "the joints resist shear"});
+  if (preset.joints.twist_Nmm > 0)
+    found.push_back({"joints", "twist_Nmm", "the joints pass twist"});
+  return found;
+}
+
+std::vector<Demand> beyond_net(const Preset& preset) {
+  std::vector<Demand> found;
+  if (!preset.on_net())
+    found.push_back({"footprint", "kind", "a footprint that was not designed on a net has none"});
+  if (preset.accuracy.tolerance < net_tolerance)
+    found.push_back({"accuracy", "tolerance",
+                     fmt::format("a net is a few hundredths of its radius off, the tolerance must "
+                                 "be {} or more",
+                                 net_tolerance)});
+  if (preset.indentation.wanted())
+    found.push_back({"indentation", "depth", "a net does not answer a push"});
+  if (preset.loads.any()) found.push_back({"loads", "points", "a net does not answer loads"});
+  if (preset.accuracy.edges_per_segment > 0)
+    found.push_back({"accuracy", "edges_per_segment", "a mesh is asked for"});
+  return found;
+}
+
+Model rung_of(const Preset& preset) {
+  if (preset.accuracy.model != Model::automatic) return preset.accuracy.model;
+  const bool twist = !beyond_bend(preset).empty();
+  const bool cap = preset.footprint.kind == FootprintKind::net &&
+                   preset.net.kind == NetKind::sphere && preset.ends.kind == EndKind::pinned;
+  if (!twist && cap && beyond_net(preset).empty()) return Model::net;
+  return twist ? Model::twist : Model::bend;
+}
+
+const char* name_of(Model rung) {
+  switch (rung) {
+    case Model::net:
+      return "net";
+    case Model::twist:
+      return "twist";
+    default:
+      return "bend";
+  }
+}
+
+std::string model_reason(const Preset& preset) {
+  switch (rung_of(preset)) {
+    case Model::net:
+      return fmt::format(
+          "net: the tolerance of {:g} allows the smooth net itself, and nothing is asked that "
+          "needs "
+          "an equilibrium; none is solved for, so there is no residual and no word on stability",
+          preset.accuracy.tolerance);
+    case Model::twist: {
+      const auto demands = beyond_bend(preset);
+      return demands.empty()
+                 ? "twist, as asked: every rod's torsion is in it; `bend` would give the same "
+                   "shape, "
+                   "as nothing twists these rods"
+                 : fmt::format("twist: {}; nothing is left out, the torsion of every rod is in it",
+                               list_of(demands));
+    }
+    default:
+      return "bend: the rods are round and naturally straight, their ends spin freely and the "
+             "joints pass no twist, so the twist energy is zero at rest and leaving it out changes "
+             "nothing; joints are shared nodes, the limit of stiff springs";
+  }
+}
+
+namespace {
+
+void add_rung_conflicts(const Preset& preset, std::vector<Conflict>& found) {
+  const auto refuse = [&](const Demand& demand) {
+    found.push_back({"accuracy",
+                     "model",
+                     {bracketed(demand)},
+                     fmt::format("cannot serve {}: {}", bracketed(demand), demand.what)});
+  };
+  if (preset.accuracy.model == Model::bend)
+    for (const Demand& demand : beyond_bend(preset)) refuse(demand);
+  if (preset.accuracy.model == Model::net) {
+    for (const Demand& demand : beyond_net(preset)) refuse(demand);
+    for (const Demand& demand : beyond_bend(preset)) refuse(demand);
+  }
+  if (rung_of(preset) != Model::twist) return;
+  const auto demands = beyond_bend(preset);
+  const Demand cause =
+      demands.empty() ? Demand{"accuracy", "model", "it is asked for"} : demands.front();
+  for (const auto& [table, rod] : kinds_of(preset))
+    if (rod->shear_GPa == 0)
+      found.push_back({cause.table,
+                       cause.key,
+                       {fmt::format("[{}] shear_GPa", table)},
+                       fmt::format("twists the rods ({}), and their torsional stiffness is not "
+                                   "known: [{}] shear_GPa must be above 0",
+                                   cause.what, table)});
+  if (preset.indentation.wanted())
+    found.push_back({"indentation",
+                     preset.indentation.depth_mm > 0 ? "depth_mm" : "depth",
+                     {bracketed(cause)},
+                     fmt::format("joints are pushed on the bend rung alone, which does not serve "
+                                 "{}: must be 0",
+                                 bracketed(cause))});
+}
+
+void add_rod_conflicts(const Preset& preset, std::vector<Conflict>& found) {
+  if (!preset.rod_v.differs && static_cast<const Rod&>(preset.rod_v) != Rod())
+    found.push_back({"rod_v",
+                     "differs",
+                     {},
+                     "the other keys of [rod_v] would count for nothing, must be true"});
+  for (const auto& [table, rod] : kinds_of(preset))
+    if ((rod->width_mm > 0) != (rod->thickness_mm > 0))
+      found.push_back({table,
+                       rod->width_mm > 0 ? "width_mm" : "thickness_mm",
+                       {},
+                       fmt::format("a rectangular section has both, [{}] {} must be above 0 too",
+                                   table, rod->width_mm > 0 ? "thickness_mm" : "width_mm")});
+  if (preset.loads.gravity_m_s2 == 0) return;
+  for (const auto& [table, rod] : kinds_of(preset))
+    if (rod->density_kg_m3 == 0)
+      found.push_back(
+          {"loads",
+           "gravity_m_s2",
+           {fmt::format("[{}] density_kg_m3", table)},
+           fmt::format("gravity needs a mass, [{}] density_kg_m3 must be above 0", table)});
+}
+
+void add_joint_conflicts(const Preset& preset, std::vector<Conflict>& found) {
+  const bool springs = preset.joints.kind == JointKind::spring;
+  if (springs && preset.joints.stiffness_N_per_mm == 0)
+    found.push_back({"joints",
+                     "kind",
+                     {"[joints] stiffness_N_per_mm"},
+                     "springs without stiffness hold nothing, [joints] stiffness_N_per_mm must be "
+                     "above 0"});
+  if (!springs && preset.joints.stiffness_N_per_mm > 0)
+    found.push_back({"joints",
+                     "stiffness_N_per_mm",
+                     {"[joints] kind"},
+                     "shared joints have no stiffness, must be 0, or [joints] kind = \"spring\""});
+}
+
+}  // namespace
+
+std::vector<Conflict> physics_conflicts(const Preset& preset) {
+  std::vector<Conflict> found;
+  add_rod_conflicts(preset, found);
+  add_joint_conflicts(preset, found);
+  add_rung_conflicts(preset, found);
+  return found;
+}
+
+}  // namespace gridshell::preset
