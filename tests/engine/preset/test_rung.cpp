@@ -86,9 +86,8 @@ TEST_CASE("a rung that cannot serve the scene, and physics that lacks something,
        "bad.toml:6:9: [indentation] depth = 0.1: joints are pushed on the bend rung alone, which "
        "does not serve [joints] twist_Nmm: must be 0"},
       {"[loads]\npoints = [[0, 0, 1]]",
-       "bad.toml:2:10: [loads] points = [ [ 0, 0, 1 ] ]: is a list with a list of 3, must be a "
-       "list "
-       "of lists [i, j, F_x, F_y, F_z]"},
+       "bad.toml:2:10: [loads] points = [ [ 0, 0, 1 ] ]: holds a point of 3 coordinates, must be a "
+       "list of points [i, j, F_x, F_y, F_z]"},
   }));
   CHECK_THAT(fault(text), Catch::Contains(sentence));
 }
