@@ -23,7 +23,7 @@ Result<TwistModel> model_of(const Case& study, const Problem& problem, double st
     const double GJ = 2 * section.EI * shear_over_young;
     TwistRod rod{problem.mesh.rods[r], problem.mesh.position[r], round_material(section, GJ)};
     const auto hold = [&](int node) {
-      return problem.model.pinned[std::size_t(node)] ? EndHold::pinned : EndHold::free;
+      return problem.model.pinned[std::size_t(node)] ? RodEnd::pinned : RodEnd::free;
     };
     rod.begin = hold(rod.nodes.front());
     rod.end = hold(rod.nodes.back());
