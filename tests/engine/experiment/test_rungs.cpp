@@ -21,7 +21,7 @@ double distance_of_rungs(const preset::Preset& preset) {
   const Eigen::Matrix3Xd& rest = bend.shell->state().levels.front().x;
 
   const TwistModel model =
-      twist_model_of(mesh, circular_material(0.254, 83, 31), EndHold::pinned).value();
+      twist_model_of(mesh, {{circular_material(0.254, 83, 31)}, {}, {}}).value();
   TwistState state = start_twist_state(model, rest);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> radian(-1, 1);
