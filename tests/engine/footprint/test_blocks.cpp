@@ -175,20 +175,59 @@ TEST_CASE("blocks that cannot be joined are refused, naming their sides") {
                 {{{0, Side::east}, {1, Side::west}}}, 1e-9) == "");
 }
 
-TEST_CASE("two quarter-spheres are the hemisphere again") {
-  std::vector<Block> halves;
-  halves.push_back(quarter_sphere("a", Side::east));
-  halves.push_back(quarter_sphere("b", Side::west));
-  const auto made =
-      Assemblage::make(std::move(halves), {{{0, Side::east}, {1, Side::west}}}, 1e-9).value();
-  CHECK(made.seams().front().max_gap_mm() < 1e-12);
-  CHECK(made.seams().front().max_kink_deg() < 1e-9);
-  const auto whole = cut_footprint(*cap_of(SphereNet(rho), 0).value(), d, Placement::half).value();
-  const auto joined = cut_footprint(*made.domain(), d, Placement::half).value();
-  REQUIRE(joined.joints.size() == whole.joints.size());
-  REQUIRE(joined.rods.size() == whole.rods.size());
-  for (std::size_t r = 0; r < whole.rods.size(); ++r) {
-    CHECK(joined.rods[r].span.begin == Approx(whole.rods[r].span.begin).margin(1e-9));
-    CHECK(joined.rods[r].span.end == Approx(whole.rods[r].span.end).margin(1e-9));
+TEST_CASE("a hemisphere cut in two or four and joined again is the hemisphere") {
+  struct Pieces {
+    std::vector<Block> blocks;
+    std::vector<Join> joins;
+  };
+  const auto eighth = [](const char* name, Side a, Side b) {
+    Block block = quarter_sphere(name, a);
+    block.cut[std::size_t(b)] = 0;
+    return block;
+  };
+  std::vector<Pieces> all(3);
+  all[0] = {{quarter_sphere("a", Side::east), quarter_sphere("b", Side::west)},
+            {{{0, Side::east}, {1, Side::west}}}};
+  all[1] = {{quarter_sphere("a", Side::south), quarter_sphere("b", Side::north)},
+            {{{0, Side::south}, {1, Side::north}}}};
+  // four round a loop, that closes
+  all[2] = {{eighth("a", Side::east, Side::north), eighth("b", Side::west, Side::north),
+             eighth("c", Side::west, Side::south), eighth("e", Side::east, Side::south)},
+            {{{0, Side::east}, {1, Side::west}},
+             {{1, Side::north}, {2, Side::south}},
+             {{2, Side::west}, {3, Side::east}},
+             {{3, Side::south}, {0, Side::north}}}};
+  for (const Placement placement : {Placement::half, Placement::on_axis}) {
+    const auto whole = cut_footprint(*cap_of(SphereNet(rho), 0).value(), d, placement).value();
+    for (const Pieces& pieces : all) {
+      std::vector<Block> blocks = pieces.blocks;
+      for (Block& block : blocks) block.placement = placement;
+      const auto made = Assemblage::make(std::move(blocks), pieces.joins, 1e-9);
+      if (!made) FAIL(made.error().message);
+      for (const Seam& seam : made->seams()) {
+        CHECK(seam.max_gap_mm() < 1e-12);
+        CHECK(seam.max_kink_deg() < 1e-6);
+      }
+      const auto joined = cut_footprint(*made->domain(), d, placement).value();
+      CHECK(joined.joints.size() == whole.joints.size());
+      CHECK(joined.cells.size() == whole.cells.size());
+      REQUIRE(joined.rods.size() == whole.rods.size());
+      for (std::size_t r = 0; r < whole.rods.size(); ++r) {
+        CHECK(joined.rods[r].span.begin == Approx(whole.rods[r].span.begin).margin(1e-9));
+        CHECK(joined.rods[r].span.end == Approx(whole.rods[r].span.end).margin(1e-9));
+      }
+      CHECK(made->net()->at(0, 0)->position.z() == Approx(rho));
+    }
   }
+}
+
+TEST_CASE("joins round a loop that do not close are refused") {
+  // a straight row does not come back to its beginning
+  std::vector<Block> ring;
+  ring.push_back(cylinder(rho, 102, -4, 4));
+  ring.push_back(cylinder(rho, 102, -4, 4));
+  ring[1].name = "other";
+  CHECK_THAT(refused(std::move(ring),
+                     {{{0, Side::east}, {1, Side::west}}, {{1, Side::east}, {0, Side::west}}}),
+             Catch::Contains("round the loop leave the sides"));
 }
