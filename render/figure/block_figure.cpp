@@ -160,7 +160,7 @@ Result<void> write_block_footprints(const std::filesystem::path& stem,
 Plot seam_plot(const record::Trajectory& run) {
   constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
   Plot plot;
-  plot.x.label = "distance from the seam's middle, in the footprint (mm)";
+  plot.x.label = "place along the seam (mm)";
   plot.y.label = "gap (mm), kink (°)";
   plot.y.low = 0;
   std::map<std::string, std::array<Series, 2>> seams;
@@ -187,7 +187,8 @@ Plot seam_plot(const record::Trajectory& run) {
       series.colour = series_colour(index);
       series.line_width = 0;
       series.marker = markers[index % std::size(markers)];
-      series.marker_size = 3.4;
+      // seams may be mirror images: the later ones lie inside
+      series.marker_size = std::max(2.2, 5.4 - 2.0 * double(index));
       series.hollow = k == 1;
       plot.series.push_back(series);
     }
