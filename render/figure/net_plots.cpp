@@ -188,15 +188,17 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   shell.colour = ink;
   shell.marker = Marker::circle;
   shell.marker_size = 2.6;
-  plot.series = {net, shell};
+  plot.series = {net};
   if (scan.cols() > 0) {
     Series measured = by_latitude("joints, scanned", scan, rho);
     measured.colour = {0.80f, 0.16f, 0.12f, 1};
     measured.marker = Marker::circle;
-    measured.marker_size = 3.4;
+    // wider and below, so that a computed joint shows inside the one scanned
+    measured.marker_size = 4.2;
     measured.hollow = true;
     plot.series.push_back(std::move(measured));
   }
+  plot.series.push_back(std::move(shell));
   return plot;
 }
 

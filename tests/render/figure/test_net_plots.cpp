@@ -70,8 +70,8 @@ TEST_CASE("scanned joints are one more series of the latitude plot") {
   scan << 0, 60, 0, 0, 101, 80;
   const Plot plot = latitude_plot({&run, "shell"}, scan);
   REQUIRE(plot.series.size() == 3);
-  CHECK(plot.series[2].x[0] == Approx(90));
-  CHECK(plot.series[2].y == std::vector<double>{1.01, 1.0});
+  CHECK(plot.series[1].x[0] == Approx(90));
+  CHECK(plot.series[1].y == std::vector<double>{1.01, 1.0});
 }
 
 TEST_CASE("quantiles of the deviation run from the nearest joint to the farthest") {
