@@ -16,7 +16,7 @@ std::string comment_of(const Field& field) {
 // a pipe would end a Markdown cell
 std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
-    text.insert(at, "\\");
+    text.insert(at, 1, '\\');
   return text;
 }
 
