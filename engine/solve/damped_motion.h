@@ -1,0 +1,58 @@
+// Motion in time that is meant to come to rest: a snap.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "engine/core/result.h"
+#include "engine/solve/dynamics.h"
+#include "engine/solve/newton.h"
+
+namespace gridshell {
+
+/// When a motion has come to rest, and how long it may take.
+struct RestOptions {
+  double still_N = 1e-5;    ///< largest force of the shell, inertia not counted
+  double still_mJ = 1e-10;  ///< kinetic energy
+  double longest_s = 60;
+};
+
+/// TR-BDF2 with mass-proportional damping [Bank et al. 1985]: the trapezoidal rule over gamma h,
+/// the two-step backward formula over the rest, gamma = 2 - sqrt 2 (both parts then have the same
+/// matrix dE''/dx^2 + m (1/w^2 + c/w), w = (1 - 1/sqrt 2) h). Second order and L-stable: what
+/// vibrates faster than the step sees dies out at once, which the midpoint rule would keep.
+class DampedMotion {
+ public:
+  /// `prescription` as in Linearisation: its components are held, by a mass a million times the
+  /// shell's. `load` is the factor of the model's dead loads.
+  DampedMotion(const Model& model, Eigen::VectorXd mass, const DynamicsOptions& options,
+               const Prescription& prescription = {}, double load = 1);
+
+  /// One step; on failure (false) the motion is unchanged.
+  bool step(Motion& motion);
+
+  /// Steps to rest; one that fails is halved, good ones grow again. `seen` is called after each.
+  /// Errors: no_equilibrium (not at rest in time, or a step too small), cancelled.
+  Result<void> settle(Motion& motion, const RestOptions& rest,
+                      const std::function<void(const Motion&)>& seen, const Watch& watch);
+
+  double step_s() const { return options_.step_s; }
+  /// Largest force of the shell at a state, inertia not counted, N.
+  double residual(const Eigen::Matrix3Xd& x);
+
+ private:
+  bool implicit(const Eigen::Matrix3Xd& aim, const Eigen::Matrix3Xd& force, double stiffness,
+                Eigen::Matrix3Xd& x);
+  Eigen::Matrix3Xd forces(const Eigen::Matrix3Xd& x);
+
+  const Model& model_;
+  Eigen::VectorXd mass_;
+  double whole_mass_ = 0;
+  DynamicsOptions options_;
+  Prescription prescription_;
+  double load_ = 1;
+  std::unique_ptr<LinearSolver> solver_;
+  Assembly assembly_;
+};
+
+}  // namespace gridshell

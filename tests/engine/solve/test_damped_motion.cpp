@@ -1,0 +1,144 @@
+// Damped motion to rest: order, damping, and the snap of a shallow arch of two crossing rods.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/solve/damped_motion.h"
+#include "engine/solve/minimise.h"
+#include "tests/engine/solve/single_rod.h"
+
+using namespace gridshell;
+
+namespace {
+
+constexpr double diameter = 0.254, density = 6450;
+
+/// Two rods of 100 mm that cross in the middle; node 0 is their joint, 1 to 4 are edge points.
+RodMesh crossing_rods(int edges_per_half) {
+  RodMesh mesh;
+  mesh.joints = 1;
+  mesh.edge_points = 4;
+  const int n = 2 * edges_per_half;
+  mesh.flat = Eigen::Matrix2Xd::Zero(2, 5 + 2 * (n - 2));
+  int next = 5;
+  for (int r = 0; r < 2; ++r) {
+    std::vector<int> nodes;
+    std::vector<double> at;
+    for (int k = 0; k <= n; ++k) {
+      const int node = k == 0 ? 1 + 2 * r : k == n ? 2 + 2 * r : k == n / 2 ? 0 : next++;
+      nodes.push_back(node);
+      at.push_back(100.0 * k / n - 50);
+      mesh.flat(r, node) = at.back();
+    }
+    mesh.rods.push_back(nodes);
+    mesh.position.push_back(at);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "damped motion: second order in the step, and a slow vibration dies as its damping says") {
+  const double length = 100;
+  RodSection section = circular_section(diameter, 83);
+  section.EA = 5;  // its waves are resolved too
+  const Model model = build_model(single_rod(12, length), section);
+  const Eigen::VectorXd mass = lumped_masses(model, density, diameter).value();
+  const double period = 2 * length * length / M_PI * std::sqrt(mass.sum() / length / section.EI);
+  Motion start;
+  start.x = Eigen::Matrix3Xd::Zero(3, model.nodes);
+  start.x.row(0) = model.flat.row(0);
+  for (int k = 0; k < model.nodes; ++k)
+    start.x(2, k) = 0.1 * std::sin(M_PI * model.flat(0, k) / length);
+  start.velocity = Eigen::Matrix3Xd::Zero(3, model.nodes);
+  const auto after = [&](double periods, int steps, double damping) {
+    Motion motion = start;
+    DynamicsOptions options;
+    options.step_s = periods * period / steps;
+    options.damping_per_s = damping;
+    options.tolerance_mm = 1e-11;
+    DampedMotion moving(model, mass, options);
+    for (int n = 0; n < steps; ++n) REQUIRE(moving.step(motion));
+    return motion.x;
+  };
+  // off the turning point, where an error of phase shows
+  const Eigen::Matrix3Xd exact = after(0.7, 640, 0);
+  const double coarse = largest_column(after(0.7, 40, 0) - exact),
+               fine = largest_column(after(0.7, 80, 0) - exact);
+  CAPTURE(coarse, fine);
+  CHECK(std::log2(coarse / fine) == Approx(2).margin(0.2));
+  // a period on it stands where it began, smaller by exp(-c T/2)
+  const double c = 0.4 / period;
+  const int middle = 7;
+  REQUIRE(model.flat(0, middle) == Approx(length / 2));
+  CHECK(after(1, 320, c)(2, middle) / after(1, 320, 0)(2, middle) ==
+        Approx(std::exp(-0.2)).epsilon(5e-3));
+}
+
+TEST_CASE("a shallow arch of two crossing rods snaps in time and ends at a certified rest") {
+  const RodMesh mesh = crossing_rods(6);  // their ends come 2 % together
+  const Model model = build_model(mesh, circular_section(diameter, 83));
+  Linearisation system(model);
+  State state;
+  state.x = Eigen::Matrix3Xd::Zero(3, model.nodes);
+  state.force.setZero(Eigen::Index(model.edges.size()));
+  for (int node = 0; node < model.nodes; ++node) {
+    const Eigen::Vector2d p = model.flat.col(node);
+    state.x.col(node) << 0.98 * p, 7 * std::cos(M_PI * p.norm() / 100);
+    if (model.pinned[std::size_t(node)]) state.x(2, node) = 0;
+  }
+  REQUIRE(minimise(system, state, {}, Watch()).outcome == NewtonOutcome::converged);
+  const double height = state.x(2, 0);
+  REQUIRE(height > 5);
+
+  // down by displacement of the joint until the equilibrium is not stable any more
+  for (const bool lateral_free : {true, false}) {
+    CAPTURE(lateral_free);
+    Prescription held{0, Eigen::Matrix3Xd::Identity(3, 3)};
+    if (lateral_free) held.directions = Eigen::Vector3d::UnitZ();
+    system.prescribe(held);
+    State pushed = state;
+    bool flagged = false;
+    while (!flagged && pushed.x(2, 0) > -height) {
+      pushed.x(2, 0) -= height / 40;
+      NewtonOptions options;
+      options.tolerance_mm = 1e-8;
+      REQUIRE(newton(system, pushed, options).last_move_mm < 1e-4);
+      flagged = !system.at(pushed, false).positive_definite();
+    }
+    REQUIRE(flagged);
+    REQUIRE(pushed.x(2, 0) > 0);
+
+    // from there in time, the joint held where it is
+    const Eigen::VectorXd mass = lumped_masses(model, density, diameter).value();
+    DynamicsOptions options;
+    options.step_s = 1e-3;
+    options.damping_per_s = 40;
+    DampedMotion moving(model, mass, options, held);
+    Motion motion{pushed.x, Eigen::Matrix3Xd::Zero(3, model.nodes), 0};
+    for (int node : model.free_nodes)  // a breath: an unstable equilibrium could stand for ever
+      if (node != 0)
+        motion.velocity.col(node) << std::sin(1.3 * node), std::cos(2.1 * node),
+            std::sin(0.7 * node);
+    const double before = energies_of(model, pushed.x).total();
+    int steps = 0;
+    const auto settled = moving.settle(
+        motion, {}, [&](const Motion&) { ++steps; }, Watch());
+    INFO((settled ? std::string() : settled.error().message));
+    REQUIRE(settled);
+    CHECK(steps > 10);
+    CHECK(held.part(motion.x.col(0) - pushed.x.col(0)).norm() < 1e-9);
+    CHECK(energies_of(model, motion.x).total() < 0.999 * before);
+    CHECK(largest_column(motion.x - pushed.x) > 0.5);
+
+    // the static solver has next to nothing to correct there, and certifies it
+    State rest{motion.x, {}};
+    system.gradient_at(rest);
+    rest.force = system.assembly().force;
+    const NewtonReport report = newton(system, rest, {});
+    REQUIRE(report.outcome == NewtonOutcome::converged);
+    CHECK(report.first_move_mm < 1e-2);
+    CHECK(system.at(rest, false).positive_definite());
+    system.prescribe({});
+  }
+}
