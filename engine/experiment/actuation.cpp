@@ -9,6 +9,7 @@
 #include "engine/core/clock.h"
 #include "engine/experiment/frames.h"
 #include "engine/experiment/net_design.h"
+#include "engine/experiment/snap.h"
 #include "engine/solve/minimise.h"
 
 namespace gridshell::experiment {
@@ -32,7 +33,10 @@ class Actuation {
     outcome_.trajectory.layout = std::move(*layout);
     outcome_.levels = shell_->plan();
     outcome_.dof = shell_->model(shell_->levels() - 1).dof();
-    for (auto& [t, frame] : frames_) outcome_.trajectory.frames.push_back(std::move(frame));
+    for (auto& [t, frame] : frames_) {
+      if (scene_.snap.wanted) frame.index = int(outcome_.trajectory.frames.size());
+      outcome_.trajectory.frames.push_back(std::move(frame));
+    }
     outcome_.effort += shell_->effort();
     outcome_.shell = std::move(shell_);
     outcome_.seconds_setup = seconds_setup_;
@@ -186,8 +190,10 @@ class Actuation {
       if (watch_.cancelled()) return Error{Fault::cancelled, "stopped"};
       std::string event;
       if (lost_branch(report)) {
+        moving_.clear();
         event = snap(t, report);
         if (event.empty()) return std::nullopt;
+        add_motion(t);
       } else if (report.end != NestedEnd::reached) {
         stop(report);
         return std::nullopt;
@@ -207,6 +213,29 @@ class Actuation {
     return report.end == NestedEnd::unstable || report.end == NestedEnd::lost;
   }
 
+  /// In time where that is asked for, else down the energy.
+  Result<State> leave(double beyond) {
+    if (scene_.snap.wanted) {
+      const std::size_t before = moving_.size();
+      auto rest = snap_in_time(scene_, *shell_, beyond, watch_, moving_);
+      for (std::size_t k = before; k < moving_.size(); ++k) {
+        place(moving_[k], 0, beyond * beyond);
+        moving_[k].progress = moving_[k].actuation = std::min(1.0, beyond * beyond);
+      }
+      if (rest || watch_.cancelled()) return rest;
+    }
+    return leave_branch(shell_->system(0), shell_->motion(0), shell_->followed(), beyond, watch_);
+  }
+
+  /// Frames of a snap stand between the samples around it.
+  void add_motion(double t) {
+    const double last = frames_.empty() ? 0 : std::prev(frames_.lower_bound(t))->first;
+    for (std::size_t k = 0; k < moving_.size(); ++k)
+      frames_.emplace(last + (t - last) * double(k + 1) / double(moving_.size() + 1),
+                      std::move(moving_[k]));
+    moving_.clear();
+  }
+
   /// The path lost its stability before t: come to rest again from there, and go on to t.
   std::string snap(double t, NestedReport report) {
     std::string snaps;
@@ -214,8 +243,7 @@ class Actuation {
       const double lost = report.t;
       snaps += fmt::format("{}{:.4f}", snaps.empty() ? "" : " and ", lost * lost);
       const double beyond = std::min(t, lost + 1e-3);
-      auto rest =
-          leave_branch(shell_->system(0), shell_->motion(0), shell_->followed(), beyond, watch_);
+      auto rest = leave(beyond);
       if (!rest) break;
       report = shell_->start(beyond, *rest, watch_);
       if (report.end == NestedEnd::reached) report = shell_->advance(t, watch_);
@@ -293,6 +321,7 @@ class Actuation {
   Watch& watch_;
   std::unique_ptr<NestedShell> shell_;
   std::map<double, record::Frame> frames_;
+  std::vector<record::Frame> moving_;  // of a snap in time
   ActuationOutcome outcome_;
   int count_ = 0;
   double seconds_setup_ = 0;

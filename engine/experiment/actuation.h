@@ -19,6 +19,12 @@
 
 namespace gridshell::experiment {
 
+/// Whether and how a snap is followed in time.
+struct SnapDynamics {
+  bool wanted = false;
+  double step_s = 0, damping_per_s = 0;
+};
+
 /// Everything that an actuation needs to know.
 struct ActuationScene {
   Footprint footprint;
@@ -41,6 +47,7 @@ struct ActuationScene {
   bool levels_fixed = false;  ///< the mesh was asked for
   double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
   double max_strain = 1e-3;
+  SnapDynamics snap;
 };
 
 /// What came out; `limit` says why the path ended before the last sample, if it did.

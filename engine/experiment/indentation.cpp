@@ -8,6 +8,7 @@
 #include "engine/core/clock.h"
 #include "engine/experiment/frames.h"
 #include "engine/experiment/net_design.h"
+#include "engine/experiment/snap.h"
 #include "engine/measure/displacement.h"
 #include "engine/measure/gauss.h"
 
@@ -163,6 +164,29 @@ class Push {
     return false;
   }
 
+  /// In time where that is asked for, else down the energy.
+  Result<State> leave(const PathPoint& last, double there) {
+    moving_.clear();
+    if (scene_.snap.wanted) {
+      auto rest = snap_in_time(scene_, shell_, there, watch_, moving_);
+      for (record::Frame& frame : moving_) frame.depth_mm = there * full_depth_;
+      if (rest || watch_.cancelled()) return rest;
+    }
+    return leave_branch(shell_.system(0), shell_.motion(0), last, there, watch_);
+  }
+
+  /// Frames of a snap stand before the one that it ends in.
+  void add_motion(double progress) {
+    for (record::Frame& frame : moving_) {
+      frame.index = int(outcome_.trajectory.frames.size());
+      frame.progress = progress;
+      frame.actuation = 1;
+      frame.boundary_radius_mm = scene_.radius_end_mm;
+      outcome_.trajectory.frames.push_back(std::move(frame));
+    }
+    moving_.clear();
+  }
+
   /// The branch ended: comes to rest again a little further on. The meshes lose it at slightly
   /// different depths; beyond the last of them all find the new state.
   bool snap(double way, NestedEnd lost) {
@@ -171,7 +195,7 @@ class Push {
     for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
       const double there = last.t + way * beyond * scene_.length_scale_mm / full_depth_;
       if (there < 0 || there > 1) break;
-      const auto rest = leave_branch(shell_.system(0), shell_.motion(0), last, there, watch_);
+      const auto rest = leave(last, there);
       if (watch_.cancelled()) return false;
       if (!rest || shell_.start(there, *rest, watch_).end != NestedEnd::reached) continue;
       event_ = fmt::format("snap at depth {:.2f} mm", at);
@@ -190,8 +214,9 @@ class Push {
   }
 
   void add(int index, double progress) {
+    add_motion(progress);
     record::Frame frame = frame_of(scene_, shell_);
-    frame.index = index;
+    frame.index = scene_.snap.wanted ? int(outcome_.trajectory.frames.size()) : index;
     frame.progress = progress;
     frame.actuation = 1;
     frame.boundary_radius_mm = scene_.radius_end_mm;
@@ -222,6 +247,7 @@ class Push {
   double good_t_ = 0;
   bool at_limit_ = false;
   std::string event_;
+  std::vector<record::Frame> moving_;  // of a snap in time
   int count_ = 0;
 };
 

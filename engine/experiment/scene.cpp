@@ -166,6 +166,7 @@ Result<ActuationScene> scene_of(const preset::Preset& preset) {
   scene.levels_fixed = preset.accuracy.edges_per_segment > 0;
   scene.tolerance = preset.accuracy.tolerance;
   scene.max_strain = preset.limits.max_strain;
+  scene.snap = {preset.dynamics.snap, preset.dynamics.step_s, preset.dynamics.damping_per_s};
   return scene;
 }
 

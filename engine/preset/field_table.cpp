@@ -138,6 +138,7 @@ const std::vector<Table>& tables() {
       {"actuation", "How the boundary moves: every edge point straight and evenly."},
       {"indentation", "The push at one joint of the actuated shell."},
       {"loads", "What pulls on the shell beside its boundary."},
+      {"dynamics", "How a shell moves that has lost its stability."},
       {"limits", "Where the model stops being valid."},
       {"accuracy", "How exact the answer is to be."},
       {"movie", "The frames of `gridshell movie` and their camera."},

@@ -69,6 +69,11 @@ std::vector<Field> load_fields() {
        "artificial gravity: force on every millimetre of rod, downwards"},
       {"loads", "points", "", points<&P::loads, &Loads::points>({"i", "j", "F_x", "F_y", "F_z"}),
        "forces in N on joints"},
+      {"dynamics", "snap", "", flag<&P::dynamics, &Dynamics::snap>(),
+       "whether a loss of stability is followed in time to the next rest, with frames of its own"},
+      {"dynamics", "step_s", "s", real<&P::dynamics, &Dynamics::step_s>(above(0)), "time step"},
+      {"dynamics", "damping_per_s", "1/s", real<&P::dynamics, &Dynamics::damping_per_s>(above(0)),
+       "damping, in proportion to the mass: a velocity falls to 1/e in the inverse of it"},
   };
 }
 

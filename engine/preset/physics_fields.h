@@ -9,6 +9,6 @@ namespace gridshell::preset {
 
 std::vector<Field> rod_fields();    ///< [rod], [rod_v]
 std::vector<Field> joint_fields();  ///< [joints], [ends]
-std::vector<Field> load_fields();   ///< [loads]
+std::vector<Field> load_fields();   ///< [loads], [dynamics]
 
 }  // namespace gridshell::preset

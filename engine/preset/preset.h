@@ -132,6 +132,13 @@ struct Loads {
   bool any() const { return gravity_m_s2 != 0 || field_N_per_mm != 0 || !points.empty(); }
 };
 
+/// Of a snap in time.
+struct Dynamics {
+  bool snap = false;
+  double step_s = 0.002;
+  double damping_per_s = 20;
+};
+
 struct Limits {
   double max_strain = 1e-3;
 };
@@ -182,6 +189,7 @@ struct Preset {
   Actuation actuation;
   Indentation indentation;
   Loads loads;
+  Dynamics dynamics;
   Limits limits;
   Accuracy accuracy;
   Movie movie;

@@ -150,6 +150,13 @@ void add_rung_conflicts(const Preset& preset, std::vector<Conflict>& found) {
                        fmt::format("twists the rods ({}), and their torsional stiffness is not "
                                    "known: [{}] shear_GPa must be above 0",
                                    cause.what, table)});
+  if (preset.dynamics.snap)
+    found.push_back({"dynamics",
+                     "snap",
+                     {bracketed(cause)},
+                     fmt::format("snaps are followed in time on the bend rung alone, which does "
+                                 "not serve {}: must be false",
+                                 bracketed(cause))});
   if (preset.indentation.wanted())
     found.push_back({"indentation",
                      preset.indentation.depth_mm > 0 ? "depth_mm" : "depth",
@@ -172,9 +179,15 @@ void add_rod_conflicts(const Preset& preset, std::vector<Conflict>& found) {
                        {},
                        fmt::format("a rectangular section has both, [{}] {} must be above 0 too",
                                    table, rod->width_mm > 0 ? "thickness_mm" : "width_mm")});
-  if (preset.loads.gravity_m_s2 == 0) return;
   for (const auto& [table, rod] : kinds_of(preset))
-    if (rod->density_kg_m3 == 0)
+    if (preset.dynamics.snap && rod->density_kg_m3 == 0)
+      found.push_back(
+          {"dynamics",
+           "snap",
+           {fmt::format("[{}] density_kg_m3", table)},
+           fmt::format("motion needs a mass, [{}] density_kg_m3 must be above 0", table)});
+  for (const auto& [table, rod] : kinds_of(preset))
+    if (preset.loads.gravity_m_s2 != 0 && rod->density_kg_m3 == 0)
       found.push_back(
           {"loads",
            "gravity_m_s2",

@@ -17,7 +17,7 @@ struct FrameColumn {
   std::variant<int Frame::*, double Frame::*, std::string Frame::*> field;
 };
 
-inline const std::array<FrameColumn, 18> frame_columns{{
+inline const std::array<FrameColumn, 19> frame_columns{{
     {"frame", "1", &Frame::index},
     {"progress", "1", &Frame::progress},
     {"boundary_radius_mm", "mm", &Frame::boundary_radius_mm},
@@ -36,6 +36,7 @@ inline const std::array<FrameColumn, 18> frame_columns{{
     {"reach_above_tenth", "1", &Frame::reach_above_tenth},
     {"reach_above_half", "1", &Frame::reach_above_half},
     {"lowest_latitude_deg", "deg", &Frame::lowest_latitude_deg},
+    {"time_s", "s", &Frame::time_s},
 }};
 
 /// Stored in trajectory.h5 beside the columns above, to draw the boundary of a frame.

@@ -76,6 +76,7 @@ struct Frame {
   int negative_pivots = 0;  ///< -1: not known
   double error_estimate_mm = unknown;
   int newton_iterations = 0;
+  double time_s = unknown;  ///< of a snap in time, since its begin
   std::string event;       ///< a snap, a limit, a recovery; empty when nothing happened
   Eigen::Matrix3Xd nodes;  ///< positions, mm
   Eigen::VectorXd cell_K;  ///< integrated Gauss curvature of each cell, rad

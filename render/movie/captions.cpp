@@ -23,6 +23,7 @@ std::string frame_caption(int index, int frames) {
 }
 
 std::string equilibrium_caption(const record::Frame& frame) {
+  if (std::isfinite(frame.time_s)) return "in motion, t = " + fixed(1e3 * frame.time_s, 0) + " ms";
   if (!std::isfinite(frame.residual_N)) return frame.event;  // a net, nothing was solved for
   // its order alone: the digits of what round-off leaves differ from processor to processor
   const double order = std::ceil(std::log10(std::max(frame.residual_N, 1e-9)) - 1e-9);

@@ -172,3 +172,37 @@ TEST_CASE("the net rung says that nothing was solved for") {
   p.actuation.start = preset::Start::net;
   CHECK(distance(net, run(p)) < 0.05 * p.net.radius_mm);
 }
+
+TEST_CASE("a push that snaps is followed in time to the rest that ends it") {
+  preset::Preset p;
+  p.rod.density_kg_m3 = 6450;
+  p.accuracy.edges_per_segment = 4;
+  p.indentation.at = preset::IndentationPlace::highest;
+  p.indentation.depth_mm = 36;
+  p.dynamics.snap = true;
+  p.movie.frames = 10;
+  const experiment::Outcome outcome = run(p);
+  CHECK(outcome.summary.limit == record::Limit::snap);
+  CHECK(outcome.summary.stable);
+  CHECK(outcome.summary.residual_N < 1e-6);
+  double time = 0;
+  int moving = 0, at = 0;
+  for (const record::Frame& frame : outcome.trajectory.frames) {
+    CHECK(frame.index == at++);
+    if (std::isnan(frame.time_s)) {
+      CHECK(frame.negative_pivots == 0);
+      continue;
+    }
+    ++moving;
+    CHECK(frame.event == "in motion");
+    CHECK(frame.negative_pivots == -1);
+    CHECK(frame.time_s > time);
+    CHECK(frame.residual_N > 1e-6);
+    time = frame.time_s;
+  }
+  CHECK(moving > 5);
+  CHECK(moving <= 24);
+  // without it there is the same rest
+  p.dynamics.snap = false;
+  CHECK(distance(outcome, run(p)) < 1e-3);
+}

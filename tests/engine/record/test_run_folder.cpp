@@ -116,7 +116,7 @@ TEST_CASE("CSV files have the columns that others read") {
   CHECK(first_line(frames_csv(run)) ==
         "frame,progress,boundary_radius_mm,depth_mm,force_N,energy_bend_mJ,energy_stretch_mJ,"
         "energy_twist_mJ,height_mm,total_K,residual_N,negative_pivots,error_estimate_mm,"
-        "newton_iterations,event,reach_above_tenth,reach_above_half,lowest_latitude_deg");
+        "newton_iterations,event,reach_above_tenth,reach_above_half,lowest_latitude_deg,time_s");
 }
 
 TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what is unknown") {
