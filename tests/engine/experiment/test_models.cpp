@@ -173,7 +173,7 @@ TEST_CASE("the net rung says that nothing was solved for") {
   CHECK(distance(net, run(p)) < 0.05 * p.net.radius_mm);
 }
 
-TEST_CASE("a push that snaps is followed in time to the rest that ends it") {
+TEST_CASE("a push that snaps is followed in time to the rest that ends it", "[full]") {
   preset::Preset p;
   p.rod.density_kg_m3 = 6450;
   p.accuracy.edges_per_segment = 4;

@@ -52,7 +52,8 @@ Preset all_changed() {
   // what goes with free rings and held tangents
   preset.footprint.kind = FootprintKind::net;
   preset.net.kind = NetKind::beltrami;
-  // joints are pushed on the bend rung alone; checked apart too
+  // joints are pushed, and snap in time, on the bend rung alone; checked apart too
+  preset.dynamics.snap = false;
   preset.indentation.depth = preset.indentation.depth_mm = 0;
   // only a circle has them; they are checked apart
   preset.figure.radii_mm.clear();
@@ -67,6 +68,8 @@ TEST_CASE("a written preset reads back as the same preset") {
   CHECK(values_of(read_back(to_toml(changed)).base) == values_of(changed));
   Preset circle;
   circle.figure.radii_mm = {120.1, 1e2};
+  circle.rod.density_kg_m3 = 6450;
+  circle.dynamics.snap = true;
   circle.indentation.depth = 0.07;
   circle.indentation.depth_mm = 1.25;
   CHECK(values_of(read_back(to_toml(circle)).base) == values_of(circle));
@@ -75,7 +78,7 @@ TEST_CASE("a written preset reads back as the same preset") {
   for (std::size_t k = 0; k < a.size(); ++k) {
     const auto* word = std::get_if<Word>(&field_table()[k].kind);
     const std::set<std::string> apart{"[figure] radii_mm", "[indentation] depth",
-                                      "[indentation] depth_mm"};
+                                      "[indentation] depth_mm", "[dynamics] snap"};
     if (apart.contains(name_of(field_table()[k]))) continue;
     if (!word || word->words.size() > 1) {
       INFO(name_of(field_table()[k]));
