@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "app/console.h"
@@ -10,7 +12,9 @@
 #include "engine/core/atomic_file.h"
 #include "engine/preset/writer.h"
 #include "engine/study/accuracy_study.h"
+#include "engine/study/stability_study.h"
 #include "render/figure/accuracy_chart.h"
+#include "render/figure/outcome_map.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
@@ -29,7 +33,7 @@ constexpr double wide_mm = 178, high_mm = 105, low_mm = 80;
 Result<Findings> draw_accuracy(const preset::Preset& preset, const ChartOptions& options,
                                const fs::path& folder, Watch& watch) {
   study::AccuracyOptions how;
-  how.seconds = options.limit_s;
+  if (options.limit_s > 0) how.seconds = options.limit_s;
   how.most_edges = options.edges;
   how.finest = 4 * options.edges;
   if (options.common.threads > 0) how.threads = options.common.threads;
@@ -76,13 +80,55 @@ Result<Findings> draw_accuracy(const preset::Preset& preset, const ChartOptions&
   return findings;
 }
 
+/// "shifted: 40 cells, 36 right, 4 silently wrong (4 other_state)", a line a method.
+void count_silent(const std::vector<record::StabilityRow>& rows, Findings& findings) {
+  std::vector<std::string> methods;
+  for (const auto& row : rows)
+    if (std::find(methods.begin(), methods.end(), row.method) == methods.end())
+      methods.push_back(row.method);
+  for (const auto& method : methods) {
+    std::map<std::string, int> count;
+    int cells = 0, silent = 0;
+    for (const auto& row : rows) {
+      if (row.method != method) continue;
+      ++cells;
+      silent += record::silently_wrong(row.outcome);
+      ++count[record::name_of(row.outcome)];
+    }
+    std::string kinds;
+    for (const auto& [name, n] : count)
+      kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", n, name);
+    findings.text +=
+        fmt::format("{}: {} cells, {} silently wrong ({})\n", method, cells, silent, kinds);
+    findings.summary["silently_wrong"][method] = silent;
+  }
+}
+
+Result<Findings> draw_stability(const preset::Preset& preset, const ChartOptions& options,
+                                const fs::path& folder, Watch& watch) {
+  study::StabilityOptions how;
+  if (options.limit_s > 0) how.seconds = options.limit_s;
+  if (options.common.threads > 0) how.threads = options.common.threads;
+  const auto rows = study::stability_study(preset, how, watch);
+  if (!rows) return tl::unexpected(rows.error());
+  const auto written =
+      write_atomically(folder / "stability.csv", record::stability_csv(*rows)).and_then([&] {
+        return render::write_outcome_maps(folder / "stability", *rows, render::plain(preset.title));
+      });
+  if (!written) return tl::unexpected(written.error());
+  Findings findings;
+  count_silent(*rows, findings);
+  return findings;
+}
+
 Result<void> draw(const preset::Case& run, const ChartOptions& options, const fs::path& folder,
                   Progress& progress, Json& summary, std::string& text) {
   Watch& watch = progress.next_phase();
   auto made = make_folder(folder).and_then(
       [&] { return write_atomically(folder / "preset.toml", preset::to_toml(run.preset)); });
   if (!made) return made;
-  auto findings = draw_accuracy(run.preset, options, folder, watch);
+  auto findings = options.kind == "accuracy" ? draw_accuracy(run.preset, options, folder, watch)
+                                             : draw_stability(run.preset, options, folder, watch);
   if (!findings) {
     findings.error().message = run.preset.name + ": " + findings.error().message;
     return tl::unexpected(findings.error());

@@ -27,6 +27,8 @@ function(gridshell_tests folder)
 endfunction()
 
 gridshell_tests(engine gridshell_engine)
+# where methods hold and fail: tests/stability -> test_stability
+gridshell_tests(stability gridshell_engine)
 if(GRIDSHELL_PICTURES)
   gridshell_tests(render gridshell_render gridshell_engine)
   gridshell_tests(app gridshell_app gridshell_render gridshell_engine)

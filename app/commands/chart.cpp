@@ -13,11 +13,14 @@ void add_chart(CLI::App& program, Action& action) {
       program.add_subcommand("chart", "speed against accuracy; where methods hold and fail");
   command->add_option("KIND", options->kind, "accuracy or stability")
       ->required()
-      ->check(CLI::IsMember({"accuracy"}));
+      ->check(CLI::IsMember({"accuracy", "stability"}));
   add_preset_options(*command, options->common);
   add_work_options(*command, options->common,
                    "folder to write, by default out/<preset>_<accuracy or stability>");
-  command->add_option("--limit", options->limit_s, "seconds after which a run is too slow")
+  command
+      ->add_option(
+          "--limit", options->limit_s,
+          "seconds after which a run is too slow: by default 30 for accuracy, 4 for stability")
       ->check(CLI::Range(0.01, 1e6));
   command
       ->add_option("--edges", options->edges,

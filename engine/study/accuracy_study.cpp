@@ -200,6 +200,7 @@ std::vector<record::ScalingRow> scaling_of(const preset::Preset& preset,
 
 Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const AccuracyOptions& options,
                                      Watch& watch) {
+  keep_blas_on_one_thread();
   auto made = Case::create(preset, options.finest, watch);
   if (!made) return tl::unexpected<Error>(made.error());
   Case& study = **made;

@@ -65,9 +65,11 @@ Error lost(const NestedReport& report, const char* where) {
 
 }  // namespace
 
-Result<std::unique_ptr<Case>> Case::create(const preset::Preset& preset, int finest, Watch& watch) {
+Result<std::unique_ptr<Case>> Case::create(const preset::Preset& preset, int finest, Watch& watch,
+                                           double EA_scale) {
   std::unique_ptr<Case> made(new Case);
   if (auto ready = made->set_up(preset); !ready) return tl::unexpected<Error>(ready.error());
+  for (RodSection& section : made->scene_.rods.sections) section.EA *= EA_scale;
   if (auto followed = made->follow(finest, watch); !followed)
     return tl::unexpected<Error>(followed.error());
   return made;

@@ -38,8 +38,9 @@ class Case {
  public:
   /// Errors: bad_input (scene), no_equilibrium (the path is lost or snaps on the way: there is
   /// nothing to compare with), cancelled.
+  /// `EA_scale` multiplies the rods' EA.
   static Result<std::unique_ptr<Case>> create(const preset::Preset& preset, int finest,
-                                              Watch& watch);
+                                              Watch& watch, double EA_scale = 1);
 
   /// Made once a mesh, from any thread. Errors: no_equilibrium where the mesh has no state near the
   /// reference's.

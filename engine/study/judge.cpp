@@ -20,6 +20,11 @@ RunOutcome kind_of(const Case& study, const Problem& problem, const Eigen::Matri
                    double near_mm) {
   if (height_of(study, x) < flat && height_of(study, problem.end.x) > 10 * flat)
     return RunOutcome::planar_saddle;
+  // an equilibrium of another boundary is none of this one
+  for (int node = 0; node < problem.model.nodes; ++node)
+    if (problem.model.pinned[std::size_t(node)] &&
+        (x.col(node) - problem.end.x.col(node)).norm() > near_mm)
+      return RunOutcome::silent_wrong;
   Linearisation system(problem.model);
   const State state{x, Eigen::VectorXd::Zero(Eigen::Index(problem.model.edges.size()))};
   if (!system.at(state, false).positive_definite()) return RunOutcome::silent_wrong;
@@ -42,12 +47,17 @@ RunOutcome judge(Case& study, const Arrival& arrival, double claimed, double all
     return height_of(study, arrival.x) < flat && arrival.edges > 0 ? RunOutcome::planar_saddle
                                                                    : RunOutcome::silent_wrong;
   }
+  return judge_end(study, **problem, arrival.x, claimed);
+}
+
+RunOutcome judge_end(const Case& study, const Problem& problem, const Eigen::Matrix3Xd& x,
+                     double claimed) {
+  if (!x.allFinite()) return RunOutcome::silent_wrong;
   const Eigen::Index joints = study.joints();
-  const double off =
-      largest_column(arrival.x.leftCols(joints) - (*problem)->end.x.leftCols(joints));
+  const double off = largest_column(x.leftCols(joints) - problem.end.x.leftCols(joints));
   const double near = 10 * claimed * study.scale_mm();
   if (off <= near) return RunOutcome::right;
-  return kind_of(study, **problem, arrival.x, near);
+  return kind_of(study, problem, x, near);
 }
 
 }  // namespace gridshell::study

@@ -15,4 +15,8 @@ namespace gridshell::study {
 record::RunOutcome judge(Case& study, const Arrival& arrival, double claimed, double allowed,
                          const Watch& watch);
 
+/// The same for positions on the mesh of a problem, by the problem's own end.
+record::RunOutcome judge_end(const Case& study, const Problem& problem, const Eigen::Matrix3Xd& x,
+                             double claimed);
+
 }  // namespace gridshell::study

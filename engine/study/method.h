@@ -20,6 +20,7 @@ struct Arrival {
   /// on the problem's mesh where the claim can be checked there: negative pivots, residual
   bool whole_mesh = false;
   int edges = 0, dof = 0;
+  int negative_pivots = 0;  ///< of the last factorisation, where the method has one
 };
 
 /// One method on one mesh. `run` starts the stopwatch for what the method is charged for, its
@@ -72,6 +73,7 @@ struct TwistMarch {
   int load_steps = 10;
   double stiffness_N_per_mm = 0;  ///< 0: shared nodes
   double tolerance_mm = 1e-6;
+  bool saddles = false;  ///< plain Newton: full steps to whatever equilibrium is near
 };
 Arrival march_twist(const Case& study, const Problem& problem, const TwistMarch& options,
                     Stopwatch& stopwatch, const Watch& watch);

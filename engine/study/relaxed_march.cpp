@@ -132,7 +132,7 @@ Method relaxed_method(Relaxation kind, int edges) {
   return {name_of(kind), edges,
           [kind, edges](Case& study, Stopwatch& stopwatch, const Watch& watch) -> Arrival {
             const auto problem = study.problem(edges, watch);
-            if (!problem) return {RunOutcome::refused, {}, false, 0, 0};
+            if (!problem) return {RunOutcome::refused, {}, false, 0, 0, 0};
             RelaxMarch how{.kind = kind};
             if (kind == Relaxation::implicit_euler) how.step = 0.1;
             return march_relaxed(**problem, how, stopwatch, watch);

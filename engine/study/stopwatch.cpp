@@ -4,7 +4,14 @@
 
 #include <chrono>
 
+// there only where OpenBLAS is what is linked
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
 namespace gridshell::study {
+
+void keep_blas_on_one_thread() {
+  if (openblas_set_num_threads) openblas_set_num_threads(1);
+}
 
 TimeLimit::TimeLimit(double seconds, const Watch& outer) : outer_(outer) {
   clockid_t clock = CLOCK_THREAD_CPUTIME_ID;

@@ -21,6 +21,10 @@ class Stopwatch {
   double since_ = 0, seconds_ = 0;
 };
 
+/// From here on BLAS works on the calling thread alone, where the library can be told so
+/// (OpenBLAS): its helpers would not be charged, and sums would depend on how many there are.
+void keep_blas_on_one_thread();
+
 /// A Watch of its own that is cancelled once the thread that made it has worked for `seconds` more,
 /// or with `outer`.
 class TimeLimit {

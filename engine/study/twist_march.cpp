@@ -90,6 +90,8 @@ Arrival march_twist(const Case& study, const Problem& problem, const TwistMarch&
   Walk walk{problem, *model, start, start, problem.t, problem.t};
   const int steps = problem.motion.come(problem.t) == 1 ? 1 : options.load_steps;
   TwistOptions how;
+  how.saddles = options.saddles;
+  if (options.saddles) how.most_iterations = 100;
   for (int k = 1; k <= steps; ++k) {
     if (steps > 1) walk.predict(load_parameter(problem, k, steps));
     how.tolerance_mm = k == steps ? options.tolerance_mm : 1e-3;
@@ -99,6 +101,7 @@ Arrival march_twist(const Case& study, const Problem& problem, const TwistMarch&
                     : watch.cancelled()                        ? RunOutcome::too_slow
                     : finite                                   ? RunOutcome::not_converged
                                                                : RunOutcome::blow_up;
+    arrival.negative_pivots = report.inertia.negative_pivots;
     if (arrival.claim != RunOutcome::right) break;
   }
   stopwatch.stop();
@@ -116,7 +119,7 @@ Method twist_or_spring(const std::string& name, int edges, double stiffness) {
   return {name, edges,
           [edges, stiffness](Case& study, Stopwatch& stopwatch, const Watch& watch) -> Arrival {
             const auto problem = study.problem(edges, watch);
-            if (!problem) return {RunOutcome::refused, {}, false, 0, 0};
+            if (!problem) return {RunOutcome::refused, {}, false, 0, 0, 0};
             return march_twist(study, **problem, {.stiffness_N_per_mm = stiffness}, stopwatch,
                                watch);
           }};

@@ -297,7 +297,13 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
                                  "scaling.csv", "scaling.png", "scaling.svg", "summary.json",
                                  "unknowns.png", "unknowns.svg"});
   CHECK(json_of(folder / "summary.json")["chart"] == "accuracy");
-  // the folder may be replaced by the next chart
+  // maps go beside it, and the next chart takes their place
+  const auto maps = bench.good({"chart", "stability", "small.toml", "--limit", "0.05"});
+  CHECK_THAT(maps.out, Catch::Contains("default: ") && Catch::Contains(" 0 silently wrong"));
+  CHECK(names_in(bench.at / "out/small_stability") ==
+        std::vector<std::string>{"preset.toml", "stability.csv", "stability.png", "stability.svg",
+                                 "summary.json"});
+  bench.good({"chart", "stability", "small.toml", "--limit", "0.01", "--quiet"});
   CHECK(bench.run({"chart", "accuracy", "small.toml", "--limit", "0"}).code == 2);
   CHECK(bench.run({"chart", "speed", "small.toml"}).code == 2);
 }

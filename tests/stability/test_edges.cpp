@@ -1,0 +1,146 @@
+// Every method on either side of the edge of its stability, as the maps draw it, on a shell small
+// enough for every build.
+#include <catch2/catch.hpp>
+
+#include "engine/study/judge.h"
+#include "engine/study/stability_study.h"
+#include "tests/engine/study/small_scene.h"
+
+using namespace gridshell;
+using namespace gridshell::study;
+using record::RunOutcome;
+
+namespace {
+
+std::shared_ptr<Case> small_case() {
+  static const std::shared_ptr<Case> made = [] {
+    Watch watch;
+    return std::shared_ptr<Case>(Case::create(small_scene(), 64, watch).value());
+  }();
+  return made;
+}
+
+/// Runs a map; "method x y outcome" of every cell.
+std::vector<record::StabilityRow> outcomes_of(Cells cells, double seconds = 10) {
+  Watch watch;
+  StabilityOptions options;
+  options.seconds = seconds;
+  options.threads = 1;
+  run_cells(cells, options, watch);
+  std::vector<record::StabilityRow> rows;
+  for (Cell& cell : cells) rows.push_back(cell.row);
+  for (const auto& row : rows)
+    UNSCOPED_INFO(row.map << " " << row.method << " " << row.x_name << " " << row.x << " "
+                          << row.y_name << " " << row.y << " " << record::name_of(row.outcome));
+  return rows;
+}
+
+RunOutcome at(const std::vector<record::StabilityRow>& rows, const std::string& method, double x,
+              double y) {
+  for (const auto& row : rows)
+    if (row.method == method && row.x == x && row.y == y) return row.outcome;
+  FAIL("no such cell");
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("stability: the explicit integrator holds below l_min/c and blows up above") {
+  const auto rows = outcomes_of(explicit_map(small_case(), {0.5, 0.8, 1.2, 1.8}, {4}));
+  CHECK(at(rows, "explicit", 0.5, 4) == RunOutcome::right);
+  CHECK(at(rows, "explicit", 0.8, 4) == RunOutcome::right);
+  CHECK(at(rows, "explicit", 1.2, 4) == RunOutcome::blow_up);
+  CHECK(at(rows, "explicit", 1.8, 4) == RunOutcome::blow_up);
+}
+
+TEST_CASE("stability: dynamic relaxation holds to its limit step") {
+  const auto rows = outcomes_of(relaxation_map(small_case(), {0.95, 1.2, 1.8}, {1, 2}));
+  for (double edges : {1.0, 2.0}) {
+    CHECK(at(rows, "dynamic relaxation", 0.95, edges) == RunOutcome::right);
+    CHECK(at(rows, "dynamic relaxation", 1.8, edges) == RunOutcome::blow_up);
+  }
+  CHECK(at(rows, "dynamic relaxation", 1.2, 2) == RunOutcome::blow_up);
+}
+
+TEST_CASE("stability: Newton's full steps need many load steps, a shift fewer, the default none") {
+  const auto rows = outcomes_of(newton_map(small_case(), {1, 3, 30}, {2, 4}));
+  for (double edges : {2.0, 4.0}) {
+    for (double steps : {1.0, 3.0, 30.0})
+      CHECK(at(rows, default_solver, steps, edges) == RunOutcome::right);
+    // in one step both come to rest elsewhere, and say nothing
+    CHECK(record::silently_wrong(at(rows, "full steps", 1, edges)));
+    CHECK(record::silently_wrong(at(rows, "shifted", 1, edges)));
+    CHECK(at(rows, "full steps", 3, edges) != RunOutcome::right);
+    CHECK(at(rows, "shifted", 3, edges) == RunOutcome::right);
+    for (const char* method : {"full steps", "line search", "shifted"})
+      CHECK(at(rows, method, 30, edges) == RunOutcome::right);
+  }
+}
+
+TEST_CASE(
+    "stability: without a seed Newton's method finds the planar saddle and calls it success") {
+  const auto rows = outcomes_of(seed_map(small_case(), {0, 1e-12, 10}, {2}));
+  for (double seed : {0.0, 1e-12}) {
+    CHECK(at(rows, "full steps", seed, 2) == RunOutcome::planar_saddle);
+    CHECK(at(rows, "line search", seed, 2) == RunOutcome::planar_saddle);
+    CHECK(at(rows, "shifted", seed, 2) != RunOutcome::planar_saddle);
+    CHECK(at(rows, default_solver, seed, 2) == RunOutcome::right);
+  }
+}
+
+TEST_CASE("stability: stiff rods stop full steps, not the default") {
+  const auto rows = outcomes_of(stiffness_map(small_scene(), {1, 1e4}, {3}, 2));
+  CHECK(at(rows, default_solver, 1, 3) == RunOutcome::right);
+  CHECK(at(rows, default_solver, 1e4, 3) == RunOutcome::right);
+  CHECK(at(rows, "shifted", 1, 3) == RunOutcome::right);
+  CHECK(at(rows, "full steps", 1e4, 3) != RunOutcome::right);
+}
+
+TEST_CASE("stability: legs of a hundredth of a cell stop full steps, not the default") {
+  const auto rows = outcomes_of(leg_map(small_scene(), {1e-2}, {10}, 4));
+  CHECK(at(rows, default_solver, 1e-2, 10) == RunOutcome::right);
+  CHECK(at(rows, "shifted", 1e-2, 10) == RunOutcome::right);
+  CHECK(at(rows, "full steps", 1e-2, 10) != RunOutcome::right);
+}
+
+TEST_CASE("stability: the default promises the tolerance of the joints, and keeps it") {
+  const auto rows = outcomes_of(tolerance_map(small_case(), {1e-4, 1e-2, 1}, {3}, 2));
+  for (double tolerance : {1e-4, 1e-2, 1.0})
+    CHECK(at(rows, default_solver, tolerance, 3) == RunOutcome::right);
+  CHECK(at(rows, "full steps", 1e-4, 3) != RunOutcome::right);
+}
+
+TEST_CASE("stability: with spring joints full steps find another state, stiff ones more often") {
+  const auto rows = outcomes_of(joint_map(small_case(), {1, 1e6}, {1, 3, 5}, 1));
+  for (double stiffness : {1.0, 1e6}) {
+    CHECK(record::silently_wrong(at(rows, "full steps", stiffness, 1)));
+    CHECK(at(rows, "full steps", stiffness, 5) == RunOutcome::right);
+    CHECK(at(rows, "shifted", stiffness, 5) == RunOutcome::right);
+  }
+  CHECK(at(rows, "full steps", 1, 3) == RunOutcome::right);
+  CHECK(record::silently_wrong(at(rows, "full steps", 1e6, 3)));
+}
+
+TEST_CASE("stability: the judge tells states apart, whatever a method says") {
+  const auto study = small_case();
+  const Problem& problem = *study->problem(4, Watch()).value();
+  const double near = 1e-4;
+  CHECK(judge_end(*study, problem, problem.end.x, near) == RunOutcome::right);
+  // the mirror image is stable too
+  Eigen::Matrix3Xd mirrored = problem.end.x;
+  mirrored.row(2) *= -1;
+  CHECK(judge_end(*study, problem, mirrored, near) == RunOutcome::other_state);
+  Eigen::Matrix3Xd planar = problem.end.x;
+  planar.row(2).setZero();
+  CHECK(judge_end(*study, problem, planar, near) == RunOutcome::planar_saddle);
+  // the start is an equilibrium of another boundary
+  CHECK(judge_end(*study, problem, problem.start.x, near) == RunOutcome::silent_wrong);
+  Eigen::Matrix3Xd broken = problem.end.x;
+  broken(0, 0) = NAN;
+  CHECK(judge_end(*study, problem, broken, near) == RunOutcome::silent_wrong);
+  // what a method admits is believed
+  Arrival admitted;
+  admitted.claim = RunOutcome::blow_up;
+  admitted.x = problem.end.x;
+  CHECK(judge(*study, admitted, near, near, Watch()) == RunOutcome::blow_up);
+}
