@@ -9,6 +9,7 @@
 #include "engine/experiment/net_design.h"
 #include "engine/experiment/scene.h"
 #include "engine/measure/gauss.h"
+#include "engine/preset/rung.h"
 #include "engine/solve/buckle.h"
 #include "engine/solve/minimise.h"
 
@@ -79,6 +80,11 @@ Result<void> Case::set_up(const preset::Preset& preset) {
   auto scene = experiment::scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
   scene_ = std::move(*scene);
+  if (preset::rung_of(preset) == preset::Model::twist)
+    return fail(Fault::bad_input,
+                "a study compares methods on rods for which the bend rung is "
+                "exact: " +
+                    preset::model_reason(preset));
   if (scene_.rods.loaded())
     return fail(Fault::bad_input, "[loads]: a study compares methods on shells without dead loads");
   pushed_ = preset.indentation;

@@ -178,7 +178,7 @@ Cells explicit_map(const Study& study, const std::vector<double>& steps,
     for (double step : steps)
       cells.push_back(cell({"explicit step",
                             "explicit",
-                            "step over l_min/c",
+                            "step over l/c",
                             step,
                             "edges_per_segment",
                             double(k),

@@ -15,8 +15,9 @@ using record::RunOutcome;
 using record::StabilityRow;
 
 constexpr double points_per_mm = 72 / 25.4, size = 7.5;
-constexpr double cell_width = 26, cell_height = 13, label_room = 34, gap = 10;
-constexpr double head_room = 12, foot_room = 24, map_room = 15, title_room = 18, legend_room = 34;
+constexpr double cell_width = 19.5, cell_height = 12, label_room = 21, gap = 4;
+constexpr double head_room = 12, foot_room = 24, map_room = 15, heading_gap = 30, title_room = 18,
+                 legend_room = 34;
 constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
 
 constexpr RunOutcome outcomes[] = {RunOutcome::right,         RunOutcome::refused,
@@ -82,7 +83,7 @@ std::vector<Place> places_of(const std::vector<Panel>& panels, double width, dou
     const Panel& panel = panels[k];
     const bool first = k == 0 || panels[k - 1].map != panel.map;
     // a map of one panel may stand beside the one before
-    const bool fits = k > 0 && x + panel.width() <= width;
+    const bool fits = k > 0 && x + panel.width() + (first ? heading_gap : 0) <= width;
     const auto alone = [&](const std::string& map) {
       return std::count_if(panels.begin(), panels.end(),
                            [&](const Panel& other) { return other.map == map; }) == 1;
@@ -92,6 +93,7 @@ std::vector<Place> places_of(const std::vector<Panel>& panels, double width, dou
       y += row;
       x = row = 0;
     }
+    if (joins && first) x += heading_gap;
     places.push_back({&panel, {x, y}, first});
     x += panel.width() + gap;
     row = std::max(row, panel.height() + map_room);
@@ -130,9 +132,16 @@ void draw_panel(Canvas& canvas, const Panel& panel, Point at) {
               cell->outcome);
   }
   canvas.rectangle({left, top, width, height}, {0, 0, 0, 0}, {ink, 0.6});
+  // where theory puts the edge of a step over its limit
+  const auto beyond = std::upper_bound(panel.x.begin(), panel.x.end(), 1.0);
+  if (panel.x_name.starts_with("step over") && beyond != panel.x.begin() &&
+      beyond != panel.x.end()) {
+    const double x = left + cell_width * double(beyond - panel.x.begin());
+    canvas.line({x, top - 1}, {x, top + height + 1}, {ink, 1.4, {3, 2}});
+  }
   for (std::size_t k = 0; k < panel.x.size(); ++k)
     canvas.text(number(panel.x[k]), {left + cell_width * (double(k) + 0.5), top + height + 2},
-                {.size = size - 1, .align_x = AlignX::centre, .align_y = AlignY::top});
+                {.size = size - 1.5, .align_x = AlignX::centre, .align_y = AlignY::top});
   for (std::size_t k = 0; k < panel.y.size(); ++k)
     canvas.text(number(panel.y[k]), {left - 3, row_of(k) + cell_height / 2},
                 {.size = size - 1, .align_x = AlignX::right, .align_y = AlignY::middle});

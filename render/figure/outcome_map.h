@@ -19,7 +19,8 @@ std::string outcome_label(record::RunOutcome outcome);
 double outcome_maps_height(const std::vector<record::StabilityRow>& rows, double width);
 
 /// One row of panels a map, one panel a method: x along the columns, y along the rows, a legend
-/// below. Panels are as wide as their columns; what does not fit goes on in the next row.
+/// below; a dashed line where a "step over" its limit passes 1. Panels are as wide as their
+/// columns; what does not fit goes on in the next row.
 void draw_outcome_maps(Canvas& canvas, const Box& box,
                        const std::vector<record::StabilityRow>& rows, const std::string& title);
 
