@@ -33,7 +33,7 @@ std::string name_of(const preset::Preset& preset) {
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
 
 /// Of one assemblage: its blocks apart, their footprints, and how they meet.
-Result<void> draw_block_pictures(const NetRecord& one, const render::MovieStyle& style,
+Result<void> draw_block_pictures(const CaseRecord& one, const render::MovieStyle& style,
                                  render::Renderer& renderer, const fs::path& stem, Watch& watch) {
   return render::draw_blocks(one.run, style, renderer, watch)
       .and_then([&](const render::Image& image) {
@@ -49,7 +49,7 @@ Result<void> draw_block_pictures(const NetRecord& one, const render::MovieStyle&
 
 }  // namespace
 
-Result<void> draw_net_pictures(const std::vector<NetRecord>& records, render::Renderer& renderer,
+Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::Renderer& renderer,
                                const fs::path& stem, Watch& watch) {
   const auto style = style_of(records.front().preset, Pictures::stills);
   Eigen::Matrix3Xd scan(3, records.front().preset.figure.scan.size());
@@ -58,7 +58,7 @@ Result<void> draw_net_pictures(const std::vector<NetRecord>& records, render::Re
       scan(axis, k) = records.front().preset.figure.scan[std::size_t(k)].at(std::size_t(axis));
   std::vector<render::NetRun> shells, shades;
   std::vector<render::NamedRun> named;
-  for (const NetRecord& one : records) {
+  for (const CaseRecord& one : records) {
     const std::string name = name_of(one.preset);
     const double largest =
         render::deviation_of_nodes(one.run).head(long(one.run.layout.joints.size())).maxCoeff();

@@ -68,8 +68,9 @@ double expected_seconds(Pictures pictures, const preset::Preset& preset) {
   const double megapixel_seconds = movie.quality == preset::Quality::draft   ? 0.1
                                    : movie.quality == preset::Quality::movie ? 0.35
                                                                              : 15;
-  const double count =
-      pictures == Pictures::movie ? movie.frames : std::max(1.0, double(preset.figure.radii_mm.size()));
+  const double count = pictures == Pictures::movie
+                           ? movie.frames
+                           : std::max(1.0, double(preset.figure.radii_mm.size()));
   return count * 1e-6 * movie.size[0] * movie.size[1] * megapixel_seconds;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "app/case_pictures.h"
 #include "app/console.h"
 #include "app/delivery.h"
 #include "app/loading.h"
@@ -52,8 +53,13 @@ Result<std::vector<Job>> jobs_of(const preset::Presets& presets, Pictures pictur
 // the first equilibrium and some milliseconds a frame, where the engine does not say
 double simulation_guess(const Job& job) { return 0.5 + 0.01 * job.preset.movie.frames; }
 
-// a shell that was designed on a net and is shown beside it; a pushed one is shown by itself
-bool has_net(const Job& job) { return job.preset.on_net() && !job.preset.indentation.wanted(); }
+bool has_net(const Job& job) { return shown_on_net(job.preset); }
+bool is_pushed(const Job& job) { return job.preset.indentation.wanted(); }
+
+// what is drawn once all cases have run
+bool drawn_beside(const Job& job, Pictures pictures) {
+  return pictures == Pictures::movie && beside_one_another(job.preset, job.name);
+}
 
 std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
   std::vector<Phase> phases;
@@ -61,19 +67,24 @@ std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
     const double guess = job.plan.expected_seconds;
     const auto of_case = job.name.empty() ? "" : " " + job.name;
     phases.push_back({"simulating" + of_case, std::isnan(guess) ? simulation_guess(job) : guess});
-    if (pictures != Pictures::none)
+    if (pictures != Pictures::none && !drawn_beside(job, pictures))
       phases.push_back({"drawing" + of_case, expected_seconds(pictures, job.preset)});
   }
+  if (drawn_beside(jobs.front(), pictures))
+    phases.push_back({"drawing", expected_seconds(pictures, jobs.front().preset)});
   const bool stills = pictures == Pictures::stills;
   if (stills && std::any_of(jobs.begin(), jobs.end(), has_net))
     phases.push_back({"drawing shells over nets",
                       2 * double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
+  if (stills && std::any_of(jobs.begin(), jobs.end(), is_pushed))
+    phases.push_back({"drawing point loads",
+                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
   return phases;
 }
 
 // the run is safe on disk before a picture of it is drawn
 Result<void> do_job(Job& job, Pictures pictures, const fs::path& folder, Artist* artist,
-                    Progress& progress, std::vector<NetRecord>& nets) {
+                    Progress& progress, std::vector<CaseRecord>& records) {
   auto outcome = experiment::run(job.preset, pictures == Pictures::stills, progress.next_phase());
   if (!outcome) return tl::unexpected(outcome.error());
   job.summary = outcome->summary;
@@ -84,19 +95,33 @@ Result<void> do_job(Job& job, Pictures pictures, const fs::path& folder, Artist*
               [&] { return write_atomically(folder / "preset.toml", preset::to_toml(job.preset)); })
           .and_then([&] { return record::write_run(folder, outcome->trajectory, job.summary); });
   if (!written || !artist) return written;
+  if (drawn_beside(job, pictures)) {
+    records.push_back({job.preset, std::move(outcome->trajectory)});
+    return {};
+  }
   const auto start = std::chrono::steady_clock::now();
+  const bool curve = pictures == Pictures::stills && is_pushed(job);
+  const auto& run = outcome->trajectory;
   auto drawn =
-      artist->draw(pictures, job.preset, outcome->trajectory, folder, progress.next_phase());
+      artist->draw(pictures, job.preset, curve ? ends_of(run) : run, folder, progress.next_phase());
   if (!drawn) return drawn;
-  if (pictures == Pictures::stills && has_net(job) &&
-      outcome->trajectory.layout.net_nodes.size() > 0)
-    nets.push_back({job.preset, std::move(outcome->trajectory)});
+  if (pictures == Pictures::stills) records.push_back({job.preset, std::move(outcome->trajectory)});
   job.summary.seconds_render =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record::write_summary(folder / "summary.json", job.summary);
 }
 
-Result<void> do_jobs(std::vector<Job>& jobs, const std::string& name, Pictures pictures,
+// what shows several runs: movies and shells beside one another
+Result<void> draw_together(const std::vector<Job>& jobs, const preset::Preset& base,
+                           Pictures pictures, const std::vector<CaseRecord>& records,
+                           Artist& artist, const fs::path& partial, Progress& progress) {
+  if (drawn_beside(jobs.front(), pictures))
+    return draw_beside(records, base.title, artist.renderer(), partial, progress.next_phase());
+  return draw_case_figures(records, artist.renderer(), partial / fs::path(base.name).filename(),
+                           [&]() -> Watch& { return progress.next_phase(); });
+}
+
+Result<void> do_jobs(std::vector<Job>& jobs, const preset::Preset& base, Pictures pictures,
                      const Options& options, const fs::path& partial, Progress& progress) {
   std::optional<Artist> artist;
   if (pictures != Pictures::none) {
@@ -106,23 +131,20 @@ Result<void> do_jobs(std::vector<Job>& jobs, const std::string& name, Pictures p
   }
   std::vector<std::string> names;
   std::vector<record::Summary> summaries;
-  std::vector<NetRecord> nets;
+  std::vector<CaseRecord> records;
   for (auto& job : jobs) {
     auto ended = do_job(job, pictures, folder_of(partial, job.name), artist ? &*artist : nullptr,
-                        progress, nets);
+                        progress, records);
     if (!ended) return ended;
     names.push_back(job.name);
     summaries.push_back(job.summary);
   }
-  // shells on nets are shown beside one another
-  if (!nets.empty()) {
-    const auto stem = partial / fs::path(name).filename();
-    if (auto drawn = draw_net_pictures(nets, artist->renderer(), stem, progress.next_phase());
+  if (!records.empty())
+    if (auto drawn = draw_together(jobs, base, pictures, records, *artist, partial, progress);
         !drawn)
       return drawn;
-  }
   if (jobs.front().name.empty()) return {};
-  return write_atomically(partial / "summary.json", summary_of_cases(name, names, summaries));
+  return write_atomically(partial / "summary.json", summary_of_cases(base.name, names, summaries));
 }
 
 std::string state_text(const record::Summary& at) {
@@ -189,10 +211,11 @@ int produce(const Options& options, Pictures pictures) {
   if (!jobs) return report(jobs.error());
   const auto& name = presets->base.name;
   const auto folder = options.output.empty() ? fs::path("out") / name : options.output;
-  const int code = deliver(folder, phases_of(*jobs, pictures), options.quiet,
-                           [&](const fs::path& partial, Progress& progress) {
-                             return do_jobs(*jobs, name, pictures, options, partial, progress);
-                           });
+  const int code =
+      deliver(folder, phases_of(*jobs, pictures), options.quiet,
+              [&](const fs::path& partial, Progress& progress) {
+                return do_jobs(*jobs, presets->base, pictures, options, partial, progress);
+              });
   if (code != ExitCode::done) return code;
   bool whole = true;
   for (const auto& job : *jobs) {

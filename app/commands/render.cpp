@@ -9,11 +9,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/case_pictures.h"
 #include "app/commands/commands.h"
 #include "app/console.h"
 #include "app/delivery.h"
 #include "app/loading.h"
-#include "app/net_pictures.h"
 #include "app/options.h"
 #include "app/pictures.h"
 #include "engine/core/atomic_file.h"
@@ -67,7 +67,12 @@ Result<std::vector<preset::Override>> picture_overrides(const Options& options) 
 }
 
 // a run sampled at the stills' radii, or of a net's end alone, came from `figure`
-Pictures pictures_of(const preset::Preset& preset, const record::Trajectory& trajectory) {
+Pictures pictures_of(const preset::Preset& preset, const record::Trajectory& trajectory,
+                     const fs::path& folder) {
+  // a push is sampled alike for both
+  const auto still = fs::path(preset.name).filename().string() + ".png";
+  if (preset.indentation.wanted())
+    return fs::exists(folder / still) ? Pictures::stills : Pictures::movie;
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
   if (!circle) return trajectory.frames.size() == 1 ? Pictures::stills : Pictures::movie;
   const auto& radii = preset.figure.radii_mm;
@@ -91,15 +96,16 @@ Result<FinishedRun> read_run(const fs::path& folder, const std::string& name,
   run.preset.name = summary->preset;
   run.summary = std::move(*summary);
   run.trajectory = std::move(*trajectory);
-  run.pictures = pictures_of(run.preset, run.trajectory);
+  run.pictures = pictures_of(run.preset, run.trajectory, folder);
   run.preset.movie.frames = int(run.trajectory.frames.size());
   return run;
 }
 
-// as `figure` decides it: a pushed shell is shown by itself
-bool shows_net(const FinishedRun& run) {
-  return run.pictures == Pictures::stills && run.preset.on_net() &&
-         !run.preset.indentation.wanted() && run.trajectory.layout.net_nodes.size() > 0;
+bool is_still(const FinishedRun& run) { return run.pictures == Pictures::stills; }
+bool shows_net(const FinishedRun& run) { return is_still(run) && shown_on_net(run.preset); }
+bool shows_push(const FinishedRun& run) { return is_still(run) && run.preset.indentation.wanted(); }
+bool drawn_beside(const FinishedRun& run) {
+  return run.pictures == Pictures::movie && beside_one_another(run.preset, run.name);
 }
 
 bool is_picture(const fs::path& path) {
@@ -122,17 +128,20 @@ Result<void> copy_data(const fs::path& from, const fs::path& to) {
   return {};
 }
 
-// shells on nets that `figure` made are shown beside one another again
-Result<void> draw_nets(std::vector<FinishedRun>& runs, const fs::path& from, Artist& artist,
-                       const fs::path& to, Progress& progress) {
-  std::vector<NetRecord> nets;
+// what shows several runs, as it was made
+Result<void> draw_together(std::vector<FinishedRun>& runs, const fs::path& from, Artist& artist,
+                           const fs::path& to, Progress& progress) {
+  std::vector<CaseRecord> records;
   for (auto& run : runs)
-    if (shows_net(run)) nets.push_back({run.preset, run.trajectory});
-  if (nets.empty()) return {};
+    if (is_still(run) || drawn_beside(run)) records.push_back({run.preset, run.trajectory});
+  if (records.empty()) return {};
   const auto name = fs::path(runs.front().summary.preset);
-  const auto stem = runs.front().name.empty() ? name.filename() : name.parent_path().filename();
-  return draw_net_pictures(nets, artist.renderer(), to / (stem.empty() ? from.filename() : stem),
-                           progress.next_phase());
+  auto stem = runs.front().name.empty() ? name.filename() : name.parent_path().filename();
+  if (stem.empty()) stem = from.filename();
+  if (drawn_beside(runs.front()))
+    return draw_beside(records, stem.string(), artist.renderer(), to, progress.next_phase());
+  return draw_case_figures(records, artist.renderer(), to / stem,
+                           [&]() -> Watch& { return progress.next_phase(); });
 }
 
 Result<void> draw_run(FinishedRun& run, Artist& artist, const fs::path& from, const fs::path& to,
@@ -140,7 +149,11 @@ Result<void> draw_run(FinishedRun& run, Artist& artist, const fs::path& from, co
   const auto start = std::chrono::steady_clock::now();
   return make_folder(to)
       .and_then([&] {
-        return artist.draw(run.pictures, run.preset, run.trajectory, to, progress.next_phase());
+        if (drawn_beside(run)) return Result<void>{};
+        const bool curve = shows_push(run);
+        return artist.draw(run.pictures, run.preset,
+                           curve ? ends_of(run.trajectory) : run.trajectory, to,
+                           progress.next_phase());
       })
       .and_then([&] { return copy_data(from, to); })
       .and_then([&] {
@@ -176,12 +189,19 @@ int render(const Options& options) {
   const auto folder = options.output.empty() ? from : options.output;
   std::vector<Phase> phases;
   for (const auto& run : *runs)
-    phases.push_back({"drawing" + (run.name.empty() ? "" : " " + run.name),
-                      expected_seconds(run.pictures, run.preset)});
+    if (!drawn_beside(run))
+      phases.push_back({"drawing" + (run.name.empty() ? "" : " " + run.name),
+                        expected_seconds(run.pictures, run.preset)});
   if (std::any_of(runs->begin(), runs->end(), shows_net))
     phases.push_back({"drawing shells over nets",
                       2 * double(runs->size()) *
                           expected_seconds(runs->front().pictures, runs->front().preset)});
+  if (drawn_beside(runs->front()))
+    phases.push_back({"drawing", expected_seconds(Pictures::movie, runs->front().preset)});
+  if (std::any_of(runs->begin(), runs->end(), shows_push))
+    phases.push_back(
+        {"drawing point loads",
+         double(runs->size()) * expected_seconds(Pictures::stills, runs->front().preset)});
   const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
     auto artist = Artist::create(options.context, options.threads);
     if (!artist) return tl::unexpected(artist.error());
@@ -190,7 +210,7 @@ int render(const Options& options) {
           draw_run(run, *artist, folder_of(from, run.name), folder_of(partial, run.name), progress);
       if (!drawn) return drawn;
     }
-    if (auto drawn = draw_nets(*runs, from, *artist, partial, progress); !drawn) return drawn;
+    if (auto drawn = draw_together(*runs, from, *artist, partial, progress); !drawn) return drawn;
     return runs->front().name.empty() ? Result<void>{} : copy_data(from, partial);
   };
   const int code = deliver(folder, phases, options.quiet, work);

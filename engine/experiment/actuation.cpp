@@ -300,6 +300,7 @@ class Actuation {
     frame.error_estimate_mm = 0;  // straight rods are exact on any mesh
     frame.nodes = flat.x.leftCols(mesh.rod_nodes());
     frame.cell_K = Eigen::VectorXd::Zero(Eigen::Index(scene_.footprint.cells.size()));
+    frame.K_bins = bins_of(scene_, flat.x, frame.cell_K);
     frames_.emplace(0.0, std::move(frame));
   }
 

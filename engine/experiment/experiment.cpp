@@ -32,10 +32,9 @@ std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
   return progress;
 }
 
-/// Of a push: all frames of a movie, or the unloaded shell and the end.
+/// Of a push: all frames of a movie, or enough for the curve of its force.
 std::vector<double> even_samples(const preset::Preset& preset, bool stills) {
-  if (stills) return {0.0, 1.0};
-  const int frames = std::max(2, preset.movie.frames);
+  const int frames = stills ? 11 : std::max(2, preset.movie.frames);
   std::vector<double> progress;
   for (int k = 0; k < frames; ++k) progress.push_back(double(k) / (frames - 1));
   return progress;

@@ -33,7 +33,8 @@ Measures measure(const ActuationScene& scene, const NestedShell& shell) {
   return fine;
 }
 
-/// Rows: bins of x/L, L the half-span of the actuated boundary; columns: mean, deviation, cells.
+}  // namespace
+
 Eigen::MatrixX3d bins_of(const ActuationScene& scene, const Eigen::Matrix3Xd& x,
                          const Eigen::VectorXd& K) {
   const double L = scene.actuated_boundary.row(0).cwiseAbs().maxCoeff();
@@ -47,8 +48,6 @@ Eigen::MatrixX3d bins_of(const ActuationScene& scene, const Eigen::Matrix3Xd& x,
   rows << bins.mean, bins.deviation, bins.cells.cast<double>();
   return rows;
 }
-
-}  // namespace
 
 Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mesh) {
   record::Layout layout;

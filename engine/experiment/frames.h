@@ -21,4 +21,9 @@ void put_shape(const ActuationScene& scene, const RodMesh& mesh, const Eigen::Ma
 /// and event are the experiment's to add.
 record::Frame frame_of(const ActuationScene& scene, NestedShell& shell);
 
+/// K of the cells in bins of x/L, L the half-span of the actuated boundary, at the nodes x; rows:
+/// bins, columns: mean, deviation, cells.
+Eigen::MatrixX3d bins_of(const ActuationScene& scene, const Eigen::Matrix3Xd& x,
+                         const Eigen::VectorXd& K);
+
 }  // namespace gridshell::experiment

@@ -112,6 +112,8 @@ std::vector<Field> picture_fields() {
        "whether to plot K of the cells in bins along x beside the shell, in wide pictures"},
       {"movie", "captions", "", flag<&P::movie, &Movie::captions>(),
        "whether to write radius, height and frame"},
+      {"movie", "beside", "", flag<&P::movie, &Movie::beside>(),
+       "whether a movie shows the cases of a preset beside one another; else each has its own"},
       {"figure", "radii_mm", "mm", list<&P::figure, &Figure::radii_mm>(above(0)),
        "boundary radii of the stills, falling from R_o to R_a; empty: the final state alone"},
       {"figure", "scale_bar_mm", "mm", real<&P::figure, &Figure::scale_bar_mm>(at_least(0)),

@@ -165,6 +165,7 @@ struct Movie {
   bool inset = true;  ///< the small top view
   bool bins = false;  ///< the plot of K in bins
   bool captions = true;
+  bool beside = true;  ///< cases beside one another in each frame
 };
 
 struct Figure {

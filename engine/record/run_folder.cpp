@@ -55,6 +55,19 @@ void put(Csv& csv, const T& value) {
   csv.cell(value);
 }
 
+std::string bins_csv(const Trajectory& trajectory) {
+  Csv csv;
+  csv.line("frame", "x_low", "x_high", "K_mean", "K_deviation", "cells");
+  for (const Frame& frame : trajectory.frames) {
+    const Eigen::Index bins = frame.K_bins.rows();
+    for (Eigen::Index k = 0; k < bins; ++k)
+      csv.line(frame.index, -1 + 2.0 * double(k) / double(bins),
+               -1 + 2.0 * double(k + 1) / double(bins), frame.K_bins(k, 0), frame.K_bins(k, 1),
+               int(frame.K_bins(k, 2)));
+  }
+  return std::move(csv).text();
+}
+
 std::string frames_csv(const Trajectory& trajectory) {
   Csv csv;
   for (const FrameColumn& column : frame_columns) csv.cell(column.name);
@@ -78,6 +91,7 @@ Result<void> write_run(const std::filesystem::path& folder, const Trajectory& tr
         if (trajectory.layout.seam_rods.empty()) return {};
         return write_atomically(folder / "seams.csv", seams_csv(trajectory.layout));
       })
+      .and_then([&] { return write_atomically(folder / "bins.csv", bins_csv(trajectory)); })
       .and_then([&] { return write_trajectory(folder / "trajectory.h5", trajectory); })
       .and_then([&] { return write_summary(folder / "summary.json", summary); });
 }

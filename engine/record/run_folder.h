@@ -1,4 +1,4 @@
-// A run's folder: summary.json, joints.csv, cells.csv, frames.csv, trajectory.h5 and, of
+// A run's folder: summary.json, joints.csv, cells.csv, frames.csv, bins.csv, trajectory.h5 and, of
 // building blocks, seams.csv.
 #pragma once
 
@@ -21,12 +21,15 @@ std::string cells_csv(const Trajectory& trajectory);
 
 /// The text of frames.csv: a line a frame.
 std::string frames_csv(const Trajectory& trajectory);
+/// The text of bins.csv: K of the cells in bins of x/L, a line a bin and frame.
+std::string bins_csv(const Trajectory& trajectory);
 /// A rod across the seam of two building blocks a line, with gap and kink.
 std::string seams_csv(const Layout& layout);
 
-/// Writes these files, seams.csv only where there are seams, into `folder`, which is made if missing; each is whole or absent, and
-/// summary.json, written last, says that the others are there. Errors: Fault::io with path and
-/// reason; Fault::bad_input when the trajectory's parts do not fit each other.
+/// Writes these files, seams.csv only where there are seams, into `folder`, which is made if
+/// missing; each is whole or absent, and summary.json, written last, says that the others are
+/// there. Errors: Fault::io with path and reason; Fault::bad_input when the trajectory's parts do
+/// not fit each other.
 Result<void> write_run(const std::filesystem::path& folder, const Trajectory& trajectory,
                        const Summary& summary);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -138,6 +139,20 @@ void write_column(hdf5::Writer& file, const FrameColumn& column, const std::vect
       column.field);
 }
 
+/// A frame without bins has unknown ones.
+void write_bins(hdf5::Writer& file, const std::vector<Frame>& frames) {
+  Eigen::Index bins = 0;
+  for (const Frame& frame : frames) bins = std::max(bins, frame.K_bins.rows());
+  if (bins == 0) return;
+  std::vector<double> values;
+  for (const Frame& frame : frames)
+    for (Eigen::Index k = 0; k < bins; ++k)
+      for (Eigen::Index column = 0; column < 3; ++column)
+        values.push_back(k < frame.K_bins.rows() ? frame.K_bins(k, column) : unknown);
+  file.dataset("/K_bins", H5T_NATIVE_DOUBLE, {frames.size(), static_cast<hsize_t>(bins), 3},
+               values.data(), "rad, rad, cells");
+}
+
 void write_frames(hdf5::Writer& file, const std::vector<Frame>& frames, hsize_t cells) {
   const hsize_t count = frames.size();
   const hsize_t nodes = frames.empty() ? 0 : frames.front().nodes.cols();
@@ -147,6 +162,7 @@ void write_frames(hdf5::Writer& file, const std::vector<Frame>& frames, hsize_t 
     file.write_slice("/nodes", H5T_NATIVE_DOUBLE, k, frames[k].nodes.data());
     file.write_slice("/cell_K", H5T_NATIVE_DOUBLE, k, frames[k].cell_K.data());
   }
+  write_bins(file, frames);
   file.group("/frames");
   for (const FrameColumn& column : frame_columns) write_column(file, column, frames);
   write_column(file, actuation_column, frames);
@@ -214,6 +230,21 @@ void read_column(hdf5::Reader& file, const FrameColumn& column, std::vector<Fram
       column.field);
 }
 
+void read_bins(hdf5::Reader& file, std::vector<Frame>& frames) {
+  if (!file.has("/K_bins")) return;
+  const Dims dims = file.dims("/K_bins", 3);
+  if (!file.good()) return;
+  if (dims[0] != frames.size() || dims[2] != 3)
+    return file.fail_because(fmt::format("/K_bins is {} x {} x {} for {} frames", dims[0], dims[1],
+                                         dims[2], frames.size()));
+  std::vector<double> values(dims[0] * dims[1] * dims[2]);
+  file.read("/K_bins", H5T_NATIVE_DOUBLE, values.data());
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  const Eigen::Index bins = static_cast<Eigen::Index>(dims[1]);
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    frames[k].K_bins = Eigen::Map<const Rows>(values.data() + 3 * dims[1] * k, bins, 3);
+}
+
 std::vector<Frame> read_frames(hdf5::Reader& file) {
   const Dims nodes = file.dims("/nodes", 3), cells = file.dims("/cell_K", 2);
   if (!file.good()) return {};
@@ -228,6 +259,7 @@ std::vector<Frame> read_frames(hdf5::Reader& file) {
     file.read_slice("/nodes", H5T_NATIVE_DOUBLE, k, frames[k].nodes.data());
     file.read_slice("/cell_K", H5T_NATIVE_DOUBLE, k, frames[k].cell_K.data());
   }
+  read_bins(file, frames);
   for (const FrameColumn& column : frame_columns) read_column(file, column, frames);
   read_column(file, actuation_column, frames);
   return frames;

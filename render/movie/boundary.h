@@ -1,6 +1,8 @@
 // The boundary on its way.
 #pragma once
 
+#include <cmath>
+
 #include "engine/record/snapshot.h"
 
 namespace gridshell::render {
@@ -11,5 +13,8 @@ inline Eigen::Matrix3Xd boundary_at(const record::Layout& layout, double actuati
   return layout.original_boundary +
          actuation * (layout.actuated_boundary - layout.original_boundary);
 }
+
+/// Whether the original boundary says anything: not where an actuated shell is pushed.
+inline bool shows_original(const record::Frame& frame) { return !std::isfinite(frame.depth_mm); }
 
 }  // namespace gridshell::render

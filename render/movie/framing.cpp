@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "render/draw/camera.h"
+#include "render/movie/boundary.h"
 
 namespace gridshell::render {
 namespace {
@@ -41,9 +42,10 @@ Eigen::Matrix3Xd extreme_points(const record::Trajectory& run) {
     }
   }
   const record::Layout& layout = run.layout;
-  Eigen::Matrix3Xd all(
-      3, points.cols() + layout.original_boundary.cols() + layout.actuated_boundary.cols());
-  all << points, layout.original_boundary, layout.actuated_boundary;
+  const bool shown = run.frames.empty() || shows_original(run.frames.front());
+  const Eigen::Matrix3Xd& original = shown ? layout.original_boundary : layout.actuated_boundary;
+  Eigen::Matrix3Xd all(3, points.cols() + original.cols() + layout.actuated_boundary.cols());
+  all << points, original, layout.actuated_boundary;
   return all;
 }
 

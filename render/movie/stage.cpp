@@ -30,6 +30,7 @@ std::optional<ColourBar> bar_of(const record::Trajectory& run, const MovieStyle&
   }
   const Eigen::ArrayXd most = high.max(-low);
   ColourBar bar{"*K*_{□} (rad)", symmetric_scale({most.begin(), most.end()}, 0.9)};
+  if (style.K_limit > 0) bar.scale.low = -(bar.scale.high = style.K_limit);
   bar.beyond_low = low.minCoeff() < bar.scale.low;
   bar.beyond_high = high.maxCoeff() > bar.scale.high;
   return bar;
@@ -61,7 +62,7 @@ double lowest_z(const record::Trajectory& run) {
     lowest = any ? std::min(lowest, z) : z;
     any = true;
   };
-  take(run.layout.original_boundary);
+  if (!run.frames.empty() && shows_original(run.frames.front())) take(run.layout.original_boundary);
   take(run.layout.actuated_boundary);
   for (const record::Frame& frame : run.frames) take(frame.nodes);
   return lowest;
@@ -114,7 +115,7 @@ Stage::Stage(const record::Trajectory& run, const MovieStyle& style)
     : run_(run),
       style_(style),
       bar_(bar_of(run, style)),
-      layout_(lay_out_frame(style, bar_ ? &*bar_ : nullptr)),
+      layout_(lay_out_frame(style, bar_ && style.legends ? &*bar_ : nullptr)),
       framing_(extreme_points(run), style, layout_.view),
       top_(top_extent(extreme_points(run))),
       depth_mm_(deepest(run)),
@@ -157,10 +158,12 @@ Drawing Stage::drawing(int index) const {
   // colours need some width to be seen
   if (!drawing.node_colours.empty()) drawing.rod_diameter_mm *= 1.8;
   // where both boundaries coincide the stronger one hides the fainter
-  drawing.rings = {{run_.layout.original_boundary, std::max(0.6, thin), {0.66f, 0.67f, 0.7f, 1}},
-                   {boundary_at(run_.layout, frame.actuation),
-                    std::max(1.4, 1.6 * thin),
-                    {0.3f, 0.33f, 0.38f, 1}}};
+  if (shows_original(frame))
+    drawing.rings.push_back(
+        {run_.layout.original_boundary, std::max(0.6, thin), {0.66f, 0.67f, 0.7f, 1}});
+  drawing.rings.push_back({boundary_at(run_.layout, frame.actuation),
+                           std::max(1.4, 1.6 * thin),
+                           {0.3f, 0.33f, 0.38f, 1}});
   drawing.ground_z_mm = ground_z_mm_;
   return drawing;
 }

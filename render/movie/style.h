@@ -21,6 +21,8 @@ struct MovieStyle {
   bool inset = true;                            ///< the small top view
   bool bins = false;                            ///< K of the cells in bins along x, as a plot
   bool captions = true;                         ///< title, radius, height, frame, events
+  bool legends = true;                          ///< the colour bar
+  double K_limit = 0;                           ///< end of the colours of K, rad; 0: the run's own
   double scale_bar_mm = 0;                      ///< 0: none
   std::string title;                            ///< shown as it is
 };

@@ -36,8 +36,9 @@ void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
   const ToBox place{box.inset(radius + hair), extent};
   canvas.rectangle(box, {1, 1, 1, 0.6f}, {{}, 0}, 2 * radius);
 
-  canvas.polyline(closed_line(layout.original_boundary, place), {{0.6f, 0.6f, 0.62f, 1}, hair},
-                  true);
+  if (shows_original(frame))
+    canvas.polyline(closed_line(layout.original_boundary, place), {{0.6f, 0.6f, 0.62f, 1}, hair},
+                    true);
   canvas.polyline(closed_line(boundary_at(layout, frame.actuation), place),
                   {{0.25f, 0.27f, 0.3f, 1}, 1.5 * hair}, true);
   for (std::size_t c = 0; c < std::min(cell_colours.size(), layout.cells.size()); ++c) {

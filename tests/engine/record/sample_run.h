@@ -47,6 +47,7 @@ inline Trajectory sample_trajectory() {
     frame.actuation = k / 7.0;
     frame.nodes = Eigen::Matrix3Xd::Random(3, 12) * 100;
     frame.cell_K = Eigen::VectorXd::Constant(1, 0.01 * k);
+    frame.K_bins = Eigen::MatrixX3d::Constant(5, 3, 0.5 * k);
     run.frames.push_back(frame);
   }
   // a NaN that carries bits of its own

@@ -58,6 +58,7 @@ bool same(const std::string& a, const std::string& b) { return a == b; }
 void check_same_frame(const Frame& a, const Frame& b) {
   CHECK(same_bits(a.nodes, b.nodes));
   CHECK(same_bits(a.cell_K, b.cell_K));
+  CHECK(same_bits(a.K_bins, b.K_bins));
   CHECK(same_bits(a.actuation, b.actuation));
   for (const FrameColumn& column : frame_columns) {
     INFO(column.name);

@@ -1,0 +1,71 @@
+#include "app/case_pictures.h"
+
+#include "app/net_pictures.h"
+#include "app/pictures.h"
+#include "render/figure/push_figure.h"
+#include "render/image/png.h"
+#include "render/movie/beside.h"
+#include "render/movie/encode.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+
+bool beside_one_another(const preset::Preset& preset, const std::string& case_name) {
+  return preset.movie.beside && !case_name.empty();
+}
+
+Result<void> draw_beside(const std::vector<CaseRecord>& records, const std::string& title,
+                         render::Renderer& renderer, const fs::path& folder, Watch& watch) {
+  auto style = style_of(records.front().preset, Pictures::movie);
+  style.title = title;
+  std::vector<render::BesideRun> runs;
+  for (const CaseRecord& one : records) runs.push_back({&one.run, one.preset.title});
+  return render::write_beside(runs, style, renderer, folder / "frames", watch)
+      .and_then([&](const auto&) {
+        return render::encode_movie(folder / "frames", style.fps, folder / "movie.mp4", watch);
+      })
+      .map([](const auto&) {});
+}
+
+Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, render::Renderer& renderer,
+                                const fs::path& stem, Watch& watch) {
+  const auto style = style_of(records.front().preset, Pictures::stills);
+  std::vector<render::NetRun> shells;
+  std::vector<render::NamedRun> named;
+  for (const CaseRecord& one : records) {
+    shells.push_back({&one.run, one.preset.title});
+    named.push_back({&one.run, one.preset.title});
+  }
+  const auto with = [&](const char* suffix) { return fs::path(stem) += suffix; };
+  return render::draw_pushes(shells, style, renderer, watch)
+      .and_then(
+          [&](const render::Image& image) { return render::write_png(image, with("_loads.png")); })
+      .and_then([&] { return render::write_plot(with("_force"), render::force_plot(named)); })
+      .and_then([&] { return render::write_push_bins(with("_bins"), named); });
+}
+
+bool shown_on_net(const preset::Preset& preset) {
+  return preset.on_net() && !preset.indentation.wanted();
+}
+
+Result<void> draw_case_figures(const std::vector<CaseRecord>& records, render::Renderer& renderer,
+                               const fs::path& stem, const std::function<Watch&()>& next_phase) {
+  std::vector<CaseRecord> nets, pushes;
+  for (const CaseRecord& one : records) {
+    if (shown_on_net(one.preset) && one.run.layout.net_nodes.size() > 0) nets.push_back(one);
+    if (one.preset.indentation.wanted()) pushes.push_back(one);
+  }
+  if (!nets.empty())
+    if (auto drawn = draw_net_pictures(nets, renderer, stem, next_phase()); !drawn) return drawn;
+  if (pushes.empty()) return {};
+  return draw_push_pictures(pushes, renderer, stem, next_phase());
+}
+
+record::Trajectory ends_of(const record::Trajectory& run) {
+  record::Trajectory ends;
+  ends.layout = run.layout;
+  ends.frames = {run.frames.front(), run.frames.back()};
+  return ends;
+}
+
+}  // namespace gridshell::app

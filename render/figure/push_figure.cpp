@@ -1,0 +1,95 @@
+#include "render/figure/push_figure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/movie/bins_plot.h"
+#include "render/movie/stage.h"
+#include "render/plot/panels.h"
+
+namespace gridshell::render {
+namespace {
+
+MovieStyle panel_style(MovieStyle style) {
+  style.captions = style.inset = style.bins = style.legends = false;
+  style.turn_deg = 0;
+  style.colour_by = ColourBy::displacement;
+  // round shells, three to a row
+  style.width = style.height;
+  return style;
+}
+
+}  // namespace
+
+Result<Image> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
+                          Renderer& renderer, Watch& watch) {
+  const MovieStyle style = panel_style(movie_style);
+  PanelFigure figure;
+  figure.columns = std::min(3, int(runs.size()));
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
+    if (auto showable = check_showable(*runs[k].run, style); !showable)
+      return tl::unexpected(showable.error());
+    const Stage stage(*runs[k].run, style);
+    const int last = stage.frames() - 1;
+    Drawing drawing = stage.drawing(last);
+    drawing.ground = false;
+    // the colours are the rods': nothing hides them
+    drawing.rod_diameter_mm *= 1.5;
+    drawing.joint_diameter_mm = 0;
+    auto picture = renderer.draw(drawing, stage.camera(last), draw_quality(style.quality),
+                                 style.width, style.height);
+    if (!picture) return tl::unexpected(picture.error());
+    figure.panels.push_back(
+        {std::move(*picture), std::string(1, char('a' + k % 26)), runs[k].caption});
+    figure.colour_bar = stage.colour_bar();
+    watch.report(double(k + 1) / double(runs.size()));
+  }
+  return draw_panels(figure);
+}
+
+Plot force_plot(const std::vector<NamedRun>& runs) {
+  constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+  Plot plot;
+  plot.x = {.label = "depth *δ* (mm)", .low = 0};
+  plot.y = {.label = "force (N)"};
+  plot.legend = LegendPlace::upper_left;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    Series series;
+    series.name = runs[k].name;
+    series.colour = series_colour(k);
+    series.marker = markers[k % 4];
+    for (const record::Frame& frame : runs[k].run->frames) {
+      series.x.push_back(frame.depth_mm);
+      series.y.push_back(frame.force_N);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs) {
+  constexpr double font = 7.5, column = 168, height = 180;  // points
+  std::vector<Plot> plots;
+  double low = 0, high = 0;
+  for (const NamedRun& one : runs) {
+    if (one.run->frames.back().K_bins.rows() == 0) return {};
+    plots.push_back(bins_plot(*one.run, int(one.run->frames.size()) - 1, font));
+    plots.back().title = one.name + ": total " + fixed(one.run->frames.back().total_K, 3) + " rad";
+    low = std::min(low, plots.back().y.low.value_or(0));
+    high = std::max(high, plots.back().y.high.value_or(0));
+  }
+  for (Plot& plot : plots) {
+    plot.y = {.label = "", .low = low, .high = 1.15 * high};
+    plot.legend = LegendPlace::none;
+  }
+  plots.front().y.label = "*K* of a cell (rad)";
+  plots.front().legend = LegendPlace::upper_left;
+  const double width = column * double(plots.size());
+  return write_figure(stem, width, height, "K of the cells in bins of x/L", [&](Canvas& canvas) {
+    for (std::size_t k = 0; k < plots.size(); ++k)
+      draw_plot(canvas, {column * double(k) + 3, 3, column - 6, height - 6}, plots[k]);
+  });
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,23 @@
+// Shells under point loads, beside one another [Baek 2018, Fig. 4C-D].
+#pragma once
+
+#include <filesystem>
+
+#include "render/figure/net_figure.h"
+#include "render/figure/net_plots.h"
+
+namespace gridshell::render {
+
+/// The shells at their last frame, seen from the style's camera, rods coloured by |u|/delta_0 under
+/// one colour bar. Progress and errors as write_stills.
+Result<Image> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& style,
+                          Renderer& renderer, Watch& watch);
+
+/// Force against depth over all frames, N and mm: how each shell resists.
+Plot force_plot(const std::vector<NamedRun>& runs);
+
+/// K of the cells in bins of x/L at the last frame over the grey ones of the first, a plot a run on
+/// one scale. Writes `<stem>.png` and `<stem>.svg`.
+Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs);
+
+}  // namespace gridshell::render

@@ -1,0 +1,160 @@
+#include "render/movie/beside.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "engine/core/atomic_file.h"
+#include "render/image/png.h"
+#include "render/movie/captions.h"
+#include "render/movie/stage.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, event_ink{0.70f, 0.10f, 0.08f, 1};
+
+// a run's part of the frame has no text of its own
+MovieStyle bare(MovieStyle style) {
+  style.captions = style.inset = style.bins = style.legends = false;
+  style.scale_bar_mm = 0;
+  return style;
+}
+
+class Beside {
+ public:
+  Beside(const std::vector<BesideRun>& runs, const MovieStyle& style) : runs_(runs), style_(style) {
+    em_ = std::max(7.5, 0.024 * std::min<double>(style.height, 0.72 * style.width));
+    MovieStyle part = bare(style);
+    share_colours(part);
+    const double legend = bar_ ? legend_width() : 0;
+    const int count = int(runs.size());
+    part.width = std::max(16, int((style.width - legend - 2 * em_) / count));
+    part.height = std::max(16, int(style.height - top() - foot()));
+    for (const BesideRun& one : runs) stages_.push_back(std::make_unique<Stage>(*one.run, part));
+  }
+
+  int frames() const {
+    int most = 0;
+    for (const auto& stage : stages_) most = std::max(most, stage->frames());
+    return most;
+  }
+
+  Result<Image> draw(int index, Renderer& renderer) const {
+    std::vector<Image> parts;
+    for (const auto& stage : stages_) {
+      const int k = at(*stage, index);
+      auto part = renderer.draw(stage->drawing(k), stage->camera(k), draw_quality(style_.quality),
+                                stage->style().width, stage->style().height);
+      if (!part) return part;
+      parts.push_back(std::move(*part));
+    }
+    return draw_picture(style_.width, style_.height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+      for (std::size_t k = 0; k < parts.size(); ++k) draw_part(canvas, k, parts[k], index);
+      draw_text(canvas, index);
+    });
+  }
+
+ private:
+  double top() const { return style_.captions ? 6.2 * em_ : 0; }
+  double foot() const { return style_.captions ? 2 * em_ : 0; }
+  static int at(const Stage& stage, int index) { return std::min(index, stage.frames() - 1); }
+
+  // the widest scale that any run has by itself
+  void share_colours(MovieStyle& part) {
+    for (const BesideRun& one : runs_) {
+      const Stage alone(*one.run, part);
+      if (!alone.colour_bar()) return;
+      if (!bar_ || alone.colour_bar()->scale.high > bar_->scale.high) bar_ = alone.colour_bar();
+    }
+    if (bar_) part.K_limit = bar_->scale.high;
+  }
+
+  double legend_width() const {
+    double width = 0;
+    draw_picture(1, 1, 1, {},
+                 [&](Canvas& canvas) { width = colour_bar_width(canvas, *bar_, 0.95 * em_); });
+    return width + em_;
+  }
+
+  void draw_part(Canvas& canvas, std::size_t k, const Image& part, int index) const {
+    const Box box{em_ + double(k) * part.width, top(), double(part.width), double(part.height)};
+    canvas.picture(part, box);
+    if (!style_.captions) return;
+    const record::Frame& frame = runs_[k].run->frames[std::size_t(at(*stages_[k], index))];
+    TextStyle text{.size = em_, .colour = ink, .bold = true, .align_x = AlignX::centre};
+    text.align_y = AlignY::middle;
+    const double x = box.middle().x, width = box.width - em_;
+    canvas.text(plain(canvas.shortened(runs_[k].name, width, text)), {x, 3.3 * em_}, text);
+    text.bold = false;
+    std::string state;
+    for (const std::string& caption : state_captions(frame)) {
+      // the height is that of the whole shell: of a push the two before say more
+      const std::string longer = state.empty() ? caption : state + "    " + caption;
+      if (canvas.measure(longer, text).width <= width) state = longer;
+    }
+    canvas.text(state, {x, 4.8 * em_}, text);
+    if (frame.event.empty()) return;
+    text.colour = event_ink;
+    canvas.text(plain(canvas.shortened(frame.event, width, text)), {x, box.bottom() - em_}, text);
+  }
+
+  void draw_text(Canvas& canvas, int index) const {
+    if (bar_) {
+      const double width = legend_width() - em_, height = std::min(20 * em_, 0.6 * style_.height);
+      draw_colour_bar(canvas, {style_.width - em_ - width, top(), width, height}, *bar_,
+                      0.95 * em_);
+    }
+    if (!style_.captions) return;
+    TextStyle title{.size = 1.15 * em_, .colour = ink, .bold = true, .align_y = AlignY::middle};
+    canvas.text(plain(canvas.shortened(style_.title, style_.width - 2 * em_, title)),
+                {em_, 1.5 * em_}, title);
+    canvas.text(frame_caption(index, frames()), {em_, style_.height - 1.2 * em_},
+                {.size = em_, .colour = ink, .align_y = AlignY::middle});
+  }
+
+  const std::vector<BesideRun>& runs_;
+  MovieStyle style_;
+  double em_ = 0;
+  std::optional<ColourBar> bar_;
+  std::vector<std::unique_ptr<Stage>> stages_;
+};
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Result<MovieReport> write_beside(const std::vector<BesideRun>& runs, const MovieStyle& style,
+                                 Renderer& renderer, const std::filesystem::path& folder,
+                                 Watch& watch) {
+  if (runs.empty()) return fail(Fault::bad_input, "there is no run to show");
+  for (const BesideRun& one : runs)
+    if (auto showable = check_showable(*one.run, style); !showable)
+      return tl::unexpected(showable.error());
+  if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
+  const Beside beside(runs, style);
+  MovieReport report;
+  for (int k = 0; k < beside.frames(); ++k) {
+    if (watch.cancelled())
+      return fail(Fault::cancelled,
+                  fmt::format("stopped after {} of {} frames", k, beside.frames()));
+    const double begin = seconds();
+    const auto picture = beside.draw(k, renderer);
+    if (!picture) return tl::unexpected(picture.error());
+    const double drawn = seconds();
+    if (auto written = write_png(*picture, folder / frame_name(k)); !written)
+      return tl::unexpected(written.error());
+    report.seconds_draw += drawn - begin;
+    report.seconds_write += seconds() - drawn;
+    ++report.frames;
+    watch.report(double(k + 1) / beside.frames());
+  }
+  return report;
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,51 @@
+#include <catch2/catch.hpp>
+
+#include "render/figure/push_figure.h"
+#include "tests/render/movie/fake_renderer.h"
+#include "tests/render/synthetic.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+namespace {
+
+record::Trajectory pushed() {
+  record::Trajectory run = synthetic::dome(3, 2);
+  for (int k = 0; k < 3; ++k) {
+    record::Frame& frame = run.frames[std::size_t(k)];
+    frame.depth_mm = 2 * k;
+    frame.force_N = 0.1 * k * k;
+    frame.K_bins.resize(2, 3);
+    frame.K_bins << 0.01 * k, 0.002, 8, 0.02, 0.004, 9;
+  }
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("the force of a push is plotted over all its frames, N over mm") {
+  const record::Trajectory run = pushed();
+  const Plot plot = force_plot({{&run, "inward"}});
+  REQUIRE(plot.series.size() == 1);
+  CHECK(plot.series[0].x == std::vector<double>{0, 2, 4});
+  CHECK(plot.series[0].y[2] == Approx(0.4));
+  CHECK(plot.x.label.find("mm") != std::string::npos);
+  CHECK(plot.y.label.find("N") != std::string::npos);
+}
+
+TEST_CASE("pushed shells stand beside one another; their bins are written where they are known") {
+  const TemporaryFolder folder;
+  const record::Trajectory run = pushed();
+  test::FakeRenderer renderer;
+  Watch watch;
+  MovieStyle style;
+  style.width = 160;
+  style.height = 120;
+  const auto image = draw_pushes({{&run, "a"}, {&run, "b"}}, style, renderer, watch);
+  REQUIRE(image);
+  CHECK(image->width > 240);
+  REQUIRE(write_push_bins(folder.path() / "bins", {{&run, "a"}, {&run, "b"}}));
+  CHECK(std::filesystem::exists(folder.path() / "bins.png"));
+  CHECK(std::filesystem::exists(folder.path() / "bins.svg"));
+}
