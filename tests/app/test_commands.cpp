@@ -29,8 +29,9 @@ size = [160, 120]
 quality = "draft"
 )";
 
-const std::vector<std::string> data_files{"cells.csv",   "frames.csv",   "joints.csv",
-                                          "preset.toml", "summary.json", "trajectory.h5"};
+const std::vector<std::string> data_files{"bins.csv",     "cells.csv",   "frames.csv",
+                                          "joints.csv",   "preset.toml", "summary.json",
+                                          "trajectory.h5"};
 
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
@@ -210,7 +211,7 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
   const std::string cases =
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
-  bench.good({"movie", "small.toml", "-o", "run"});
+  bench.good({"movie", "small.toml", "-o", "run", "--set", "movie.beside=false"});
   CHECK(names_in(bench.at / "run") == std::vector<std::string>{"far", "near", "summary.json"});
   for (const char* name : {"near", "far"}) {
     CHECK(names_in(bench.at / "run" / name).size() == data_files.size() + 1);
@@ -224,6 +225,22 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
   CHECK(top["cases"][1]["height_mm"] == json_of(bench.at / "run/far/summary.json")["height_mm"]);
   bench.good({"render", "run", "--size", "80x60"});
   CHECK(width_of(bench.at / "run/near/frames/frame_00000.png") == 80);
+}
+
+TEST_CASE("cases are shown beside one another in one movie, drawn again by render") {
+  const Bench bench;
+  const std::string cases =
+      "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
+  REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
+  bench.good({"movie", "small.toml", "-o", "run"});
+  CHECK(names_in(bench.at / "run") ==
+        std::vector<std::string>{"far", "frames", "near", "summary.json"});
+  CHECK(names_in(bench.at / "run/near") == data_files);
+  CHECK(files_under(bench.at / "run/frames", ".png").size() == 3);
+  bench.good({"render", "run", "--size", "120x90"});
+  CHECK(files_under(bench.at / "run/frames", ".png").size() == 3);
+  CHECK(width_of(bench.at / "run/frames/frame_00000.png") == 120);
+  CHECK(names_in(bench.at / "run/near") == data_files);
 }
 
 TEST_CASE("a path that ends early is written as far as it is certified, and exits with 1") {
@@ -289,13 +306,14 @@ TEST_CASE("usage errors exit with 2, help with 0") {
 
 TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", "[full]") {
   const Bench bench;
-  const auto said = bench.good({"chart", "accuracy", "small.toml", "--limit", "0.05", "--edges", "4"});
+  const auto said =
+      bench.good({"chart", "accuracy", "small.toml", "--limit", "0.05", "--edges", "4"});
   CHECK_THAT(said.out, Catch::Contains("auto at 1e-06: error"));
   const auto folder = bench.at / "out/small_accuracy";
-  CHECK(names_in(folder) ==
-        std::vector<std::string>{"accuracy.csv", "accuracy.png", "accuracy.svg", "preset.toml",
-                                 "scaling.csv", "scaling.png", "scaling.svg", "summary.json",
-                                 "unknowns.png", "unknowns.svg"});
+  CHECK(names_in(folder) == std::vector<std::string>{"accuracy.csv", "accuracy.png", "accuracy.svg",
+                                                     "preset.toml", "scaling.csv", "scaling.png",
+                                                     "scaling.svg", "summary.json", "unknowns.png",
+                                                     "unknowns.svg"});
   CHECK(json_of(folder / "summary.json")["chart"] == "accuracy");
   // maps go beside it, and the next chart takes their place
   const auto maps = bench.good({"chart", "stability", "small.toml", "--limit", "0.05"});

@@ -161,8 +161,8 @@ TEST_CASE("a run's folder holds its files and nothing else, seams.csv only where
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(run)) names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
-  CHECK(names == std::vector<std::string>{"cells.csv", "frames.csv", "joints.csv", "seams.csv",
-                                          "summary.json", "trajectory.h5"});
+  CHECK(names == std::vector<std::string>{"bins.csv", "cells.csv", "frames.csv", "joints.csv",
+                                          "seams.csv", "summary.json", "trajectory.h5"});
   CHECK(seams_csv(sample_trajectory().layout) ==
         "seam,family,line_mm,gap_mm,kink_deg\n"
         "left.east - right.west,u,-10,0.3333333333333333,7\n"

@@ -34,7 +34,8 @@ TEST_CASE("the force of a push is plotted over all its frames, N over mm") {
   CHECK(plot.y.label.find("N") != std::string::npos);
 }
 
-TEST_CASE("pushed shells stand beside one another; their bins are written where they are known") {
+TEST_CASE(
+    "pushed shells stand beside one another, and their bins are written where they are known") {
   const TemporaryFolder folder;
   const record::Trajectory run = pushed();
   test::FakeRenderer renderer;
