@@ -11,6 +11,7 @@
 #include "engine/experiment/snap.h"
 #include "engine/measure/displacement.h"
 #include "engine/measure/gauss.h"
+#include "engine/solve/arc.h"
 
 namespace gridshell::experiment {
 namespace {
@@ -187,11 +188,21 @@ class Push {
     moving_.clear();
   }
 
+  /// Whether the branch goes on back from where it was lost, as the arc length says.
+  std::string turning_back(double way) {
+    const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = full_depth_};
+    const auto turn =
+        turning_point(shell_.system(0), shell_.motion(0), {good_t_, good_, {}}, way, fine);
+    return turn ? fmt::format(" (its path turns back at {:.3f} mm)", *turn * full_depth_)
+                : std::string();
+  }
+
   /// The branch ended: comes to rest again a little further on. The meshes lose it at slightly
   /// different depths; beyond the last of them all find the new state.
   bool snap(double way, NestedEnd lost) {
     const PathPoint last = shell_.followed();
     const double at = last.t * full_depth_;
+    const std::string turned = turning_back(way);
     for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
       const double there = last.t + way * beyond * scene_.length_scale_mm / full_depth_;
       if (there < 0 || there > 1) break;
@@ -202,9 +213,9 @@ class Push {
       if (outcome_.limit == record::Limit::none) {
         outcome_.limit = record::Limit::snap;
         outcome_.limit_reason = fmt::format(
-            "held at the joint, the shell lost its {} at depth {:.3f} mm and came to rest in "
+            "held at the joint, the shell lost its {} at depth {:.3f} mm{} and came to rest in "
             "another state",
-            lost == NestedEnd::unstable ? "stability" : "equilibrium", at);
+            lost == NestedEnd::unstable ? "stability" : "equilibrium", at, turned);
       }
       return true;
     }

@@ -4,6 +4,7 @@
 
 #include "engine/solve/damped_motion.h"
 #include "engine/solve/minimise.h"
+#include "tests/engine/solve/crossing_rods.h"
 #include "tests/engine/solve/single_rod.h"
 
 using namespace gridshell;
@@ -11,29 +12,6 @@ using namespace gridshell;
 namespace {
 
 constexpr double diameter = 0.254, density = 6450;
-
-/// Two rods of 100 mm that cross in the middle; node 0 is their joint, 1 to 4 are edge points.
-RodMesh crossing_rods(int edges_per_half) {
-  RodMesh mesh;
-  mesh.joints = 1;
-  mesh.edge_points = 4;
-  const int n = 2 * edges_per_half;
-  mesh.flat = Eigen::Matrix2Xd::Zero(2, 5 + 2 * (n - 2));
-  int next = 5;
-  for (int r = 0; r < 2; ++r) {
-    std::vector<int> nodes;
-    std::vector<double> at;
-    for (int k = 0; k <= n; ++k) {
-      const int node = k == 0 ? 1 + 2 * r : k == n ? 2 + 2 * r : k == n / 2 ? 0 : next++;
-      nodes.push_back(node);
-      at.push_back(100.0 * k / n - 50);
-      mesh.flat(r, node) = at.back();
-    }
-    mesh.rods.push_back(nodes);
-    mesh.position.push_back(at);
-  }
-  return mesh;
-}
 
 }  // namespace
 
@@ -76,17 +54,9 @@ TEST_CASE(
 }
 
 TEST_CASE("a shallow arch of two crossing rods snaps in time and ends at a certified rest") {
-  const RodMesh mesh = crossing_rods(6);  // their ends come 2 % together
-  const Model model = build_model(mesh, circular_section(diameter, 83));
+  const Model model = build_model(crossing_rods(6), circular_section(diameter, 83));
   Linearisation system(model);
-  State state;
-  state.x = Eigen::Matrix3Xd::Zero(3, model.nodes);
-  state.force.setZero(Eigen::Index(model.edges.size()));
-  for (int node = 0; node < model.nodes; ++node) {
-    const Eigen::Vector2d p = model.flat.col(node);
-    state.x.col(node) << 0.98 * p, 7 * std::cos(M_PI * p.norm() / 100);
-    if (model.pinned[std::size_t(node)]) state.x(2, node) = 0;
-  }
+  State state = crossing_arch(model);  // its ends come 2 % together
   REQUIRE(minimise(system, state, {}, Watch()).outcome == NewtonOutcome::converged);
   const double height = state.x(2, 0);
   REQUIRE(height > 5);

@@ -1,0 +1,103 @@
+#include "engine/solve/arc.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gridshell {
+namespace {
+
+constexpr int most_corrections = 8;
+
+}  // namespace
+
+double ArcFollower::product(const State& a, double at, const State& b, double bt) const {
+  return (a.x.array() * b.x.array()).sum() / double(a.x.cols()) +
+         options_.parameter_mm * options_.parameter_mm * at * bt;
+}
+
+/// Unit tangent at a point that was just factorised, on along `before`.
+void ArcFollower::take_tangent(ArcPoint& at, const State* before, double before_t) {
+  PathPoint& point = at.point;
+  system_.tangent(motion_.velocity(point.t), point.velocity.x, motion_.load_velocity(point.t));
+  double length = std::sqrt(product(point.velocity, 1, point.velocity, 1));
+  const double along = before ? product(point.velocity, 1, *before, before_t) : before_t;
+  if (along < 0) length = -length;
+  point.velocity.x /= length;
+  point.velocity.force = system_.force_change(point.velocity.x);
+  turn_t_ = 1 / length;
+}
+
+NewtonOutcome ArcFollower::start(double t, State state, double direction) {
+  now_.point.t = t;
+  now_.point.state = std::move(state);
+  motion_.impose(system_, t, now_.point.state.x);
+  NewtonOptions options;
+  options.tolerance_mm = options_.tolerance_mm;
+  const NewtonReport report = newton(system_, now_.point.state, options);
+  if (report.outcome != NewtonOutcome::converged) return report.outcome;
+  now_.inertia = system_.at(now_.point.state);
+  if (!now_.inertia.usable) return NewtonOutcome::not_finite;
+  take_tangent(now_, nullptr, direction);
+  return NewtonOutcome::converged;
+}
+
+/// Newton on positions and parameter, at right angles to the tangent of the point before.
+bool ArcFollower::corrected(ArcPoint& next, int& iterations) {
+  PathPoint& point = next.point;
+  const State& tangent = now_.point.velocity;
+  Eigen::Matrix3Xd dx;
+  State with_t;
+  for (iterations = 1; iterations <= most_corrections; ++iterations) {
+    motion_.impose(system_, point.t, point.state.x);
+    next.inertia = system_.at(point.state);
+    if (!next.inertia.usable) return false;
+    system_.correction(dx);
+    system_.tangent(motion_.velocity(point.t), with_t.x, motion_.load_velocity(point.t));
+    const State held{dx, {}};
+    const double dt = -product(held, 0, tangent, turn_t_) / product(with_t, 1, tangent, turn_t_);
+    dx += dt * with_t.x;
+    const double move = largest_column(dx);
+    if (!std::isfinite(move) || move > 4 * options_.largest_mm) return false;
+    system_.apply(dx, point.state);
+    point.t += dt;
+    if (move <= options_.tolerance_mm) return true;
+  }
+  return false;
+}
+
+NewtonOutcome ArcFollower::step() {
+  for (; step_mm_ >= options_.smallest_mm; step_mm_ /= 2) {
+    ArcPoint next;
+    next.point.t = now_.point.t + step_mm_ * turn_t_;
+    next.point.state.x = now_.point.state.x + step_mm_ * now_.point.velocity.x;
+    next.point.state.force = now_.point.state.force + step_mm_ * now_.point.velocity.force;
+    int iterations = 0;
+    if (!corrected(next, iterations)) continue;
+    const State before = std::move(now_.point.velocity);
+    const double before_t = turn_t_;
+    take_tangent(next, &before, before_t);
+    now_ = std::move(next);
+    // four corrections are what a good step takes
+    step_mm_ = std::min(options_.largest_mm, step_mm_ * std::clamp(4.0 / iterations, 0.5, 1.5));
+    return NewtonOutcome::converged;
+  }
+  return NewtonOutcome::not_converged;
+}
+
+std::optional<double> turning_point(Linearisation& system, const PinnedMotion& motion,
+                                    const PathPoint& begin, double direction,
+                                    const ArcOptions& options) {
+  constexpr int most_steps = 40;
+  ArcFollower path(system, motion, options);
+  if (path.start(begin.t, begin.state, direction) != NewtonOutcome::converged) return std::nullopt;
+  double farthest = begin.t;
+  for (int k = 0; k < most_steps; ++k) {
+    if (path.step() != NewtonOutcome::converged) return std::nullopt;
+    const double t = path.at().point.t;
+    if (direction * (t - farthest) < 0) return farthest;
+    farthest = t;
+  }
+  return std::nullopt;
+}
+
+}  // namespace gridshell

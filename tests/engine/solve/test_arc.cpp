@@ -1,0 +1,80 @@
+// Arc length through the limit points of an arch under a dead load.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/solve/arc.h"
+#include "engine/solve/minimise.h"
+#include "tests/engine/solve/crossing_rods.h"
+
+using namespace gridshell;
+
+namespace {
+
+/// The force that a displacement takes which lowers the joint from `state` to `height`.
+double force_at(const Model& unloaded, State state, double height) {
+  Linearisation system(unloaded);
+  const Prescription held{0, Eigen::Vector3d::UnitZ()};
+  system.prescribe(held);
+  const double begin = state.x(2, 0);
+  constexpr int steps = 60;
+  for (int k = 1; k <= steps; ++k) {
+    state.x(2, 0) = begin + (height - begin) * k / steps;
+    NewtonOptions options;
+    options.tolerance_mm = 1e-9;
+    REQUIRE(newton(system, state, options).last_move_mm < 1e-6);
+  }
+  system.gradient_at(state);
+  return -system.reaction().z();
+}
+
+}  // namespace
+
+TEST_CASE("by arc length an arch is followed over the limit of its load and back to no load") {
+  const Model unloaded = build_model(crossing_rods(6), circular_section(0.254, 83));
+  Model model = unloaded;
+  model.load = Eigen::Matrix3Xd::Zero(3, model.nodes);
+  model.load(2, 0) = -1;  // N: the parameter is the force
+  Linearisation system(model);
+  State arch = crossing_arch(model);
+  system.set_load(0);
+  REQUIRE(minimise(system, arch, {}, Watch()).outcome == NewtonOutcome::converged);
+  const double height = arch.x(2, 0);
+  const PinnedMotion motion{arch.x, Eigen::Matrix3Xd::Zero(3, model.nodes), Pace::even};
+  ArcFollower path(system, motion, {.step_mm = 0.1, .largest_mm = 0.2, .parameter_mm = 20});
+  const PathPoint begin{0, arch, {}};
+  const auto turn = turning_point(system, motion, begin, 1, {.step_mm = 0.5, .parameter_mm = 20});
+  REQUIRE(path.start(0, arch) == NewtonOutcome::converged);
+  CHECK(path.at().inertia.positive_definite());
+
+  double most = 0;
+  int checked = 0, unstable = 0;
+  bool unloaded_again = false;
+  for (int k = 0; k < 80 && !unloaded_again; ++k) {
+    REQUIRE(path.step() == NewtonOutcome::converged);
+    const PathPoint& point = path.at().point;
+    most = std::max(most, point.t);
+    unstable += !path.at().inertia.positive_definite();
+    // the same curve by displacement control, before the limit and beyond it
+    const double z = point.state.x(2, 0);
+    if ((checked < 1 && z < 0.8 * height) || (checked < 2 && z < 0.3 * height)) {
+      ++checked;
+      CHECK(point.t == Approx(force_at(unloaded, arch, z)).epsilon(1e-6));
+    }
+    unloaded_again = point.t < 0;
+  }
+  CHECK(checked == 2);
+  CHECK(most > 0.05);
+  REQUIRE(turn);
+  CHECK(*turn == Approx(most).epsilon(0.02));
+  CHECK(unstable > 0);
+  // beyond the limit the load falls to nothing: another equilibrium of the unloaded arch, with its
+  // middle below the pins and not stable
+  REQUIRE(unloaded_again);
+  State rest = path.at().point.state;
+  const Eigen::Matrix3Xd there = rest.x;
+  system.set_load(0);
+  REQUIRE(newton(system, rest, {}).outcome == NewtonOutcome::converged);
+  CHECK(largest_column(rest.x - there) < 0.3);
+  CHECK(rest.x(2, 0) < 0);
+  CHECK_FALSE(system.at(rest, false).positive_definite());
+}
