@@ -48,12 +48,14 @@ bool shown_on_net(const preset::Preset& preset) {
   return preset.on_net() && !preset.indentation.wanted();
 }
 
-Result<void> draw_case_figures(const std::vector<CaseRecord>& records, render::Renderer& renderer,
+Result<void> draw_case_figures(std::vector<CaseRecord> records, render::Renderer& renderer,
                                const fs::path& stem, const std::function<Watch&()>& next_phase) {
   std::vector<CaseRecord> nets, pushes;
-  for (const CaseRecord& one : records) {
-    if (shown_on_net(one.preset) && one.run.layout.net_nodes.size() > 0) nets.push_back(one);
-    if (one.preset.indentation.wanted()) pushes.push_back(one);
+  for (CaseRecord& one : records) {
+    if (one.preset.indentation.wanted())
+      pushes.push_back(std::move(one));
+    else if (one.preset.on_net() && one.run.layout.net_nodes.size() > 0)
+      nets.push_back(std::move(one));
   }
   if (!nets.empty())
     if (auto drawn = draw_net_pictures(nets, renderer, stem, next_phase()); !drawn) return drawn;

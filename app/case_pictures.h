@@ -32,7 +32,7 @@ bool shown_on_net(const preset::Preset& preset);
 
 /// The figures that `figure` adds to the stills of each case: of shells on nets and of pushed ones,
 /// each with a phase of the progress bar of its own.
-Result<void> draw_case_figures(const std::vector<CaseRecord>& records, render::Renderer& renderer,
+Result<void> draw_case_figures(std::vector<CaseRecord> records, render::Renderer& renderer,
                                const std::filesystem::path& stem,
                                const std::function<Watch&()>& next_phase);
 

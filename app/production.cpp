@@ -113,11 +113,12 @@ Result<void> do_job(Job& job, Pictures pictures, const fs::path& folder, Artist*
 
 // what shows several runs: movies and shells beside one another
 Result<void> draw_together(const std::vector<Job>& jobs, const preset::Preset& base,
-                           Pictures pictures, const std::vector<CaseRecord>& records,
-                           Artist& artist, const fs::path& partial, Progress& progress) {
+                           Pictures pictures, std::vector<CaseRecord> records, Artist& artist,
+                           const fs::path& partial, Progress& progress) {
   if (drawn_beside(jobs.front(), pictures))
     return draw_beside(records, base.title, artist.renderer(), partial, progress.next_phase());
-  return draw_case_figures(records, artist.renderer(), partial / fs::path(base.name).filename(),
+  return draw_case_figures(std::move(records), artist.renderer(),
+                           partial / fs::path(base.name).filename(),
                            [&]() -> Watch& { return progress.next_phase(); });
 }
 
@@ -140,7 +141,8 @@ Result<void> do_jobs(std::vector<Job>& jobs, const preset::Preset& base, Picture
     summaries.push_back(job.summary);
   }
   if (!records.empty())
-    if (auto drawn = draw_together(jobs, base, pictures, records, *artist, partial, progress);
+    if (auto drawn =
+            draw_together(jobs, base, pictures, std::move(records), *artist, partial, progress);
         !drawn)
       return drawn;
   if (jobs.front().name.empty()) return {};

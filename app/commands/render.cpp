@@ -140,7 +140,7 @@ Result<void> draw_together(std::vector<FinishedRun>& runs, const fs::path& from,
   if (stem.empty()) stem = from.filename();
   if (drawn_beside(runs.front()))
     return draw_beside(records, stem.string(), artist.renderer(), to, progress.next_phase());
-  return draw_case_figures(records, artist.renderer(), to / stem,
+  return draw_case_figures(std::move(records), artist.renderer(), to / stem,
                            [&]() -> Watch& { return progress.next_phase(); });
 }
 

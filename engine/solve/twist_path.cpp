@@ -38,6 +38,11 @@ bool TwistPath::start(double t, const Eigen::Matrix3Xd& flat, const Eigen::Matri
     if (model_.fixed[3 * node]) there.col(node) = held.col(node);
   move_to(model_, there, state.angle, state);
   state.load = motion_.load(t);
+  return rest(t, std::move(state), watch);
+}
+
+/// Comes to rest at t, a path that begins anew there.
+bool TwistPath::rest(double t, TwistState state, const Watch& watch) {
   TwistOptions options;
   options.tolerance_mm = options_.tolerance_mm;
   options.widest_turn = options_.widest_turn;
@@ -107,13 +112,7 @@ bool TwistPath::resume(double t, const Watch& watch) {
   // off the path along its softest mode: an unstable equilibrium could stand
   const Eigen::VectorXd mode = solver_.softest_mode(state_);
   solver_.apply(mode, 0.1 / mode.head(3 * model_.nodes).cwiseAbs().maxCoeff(), state);
-  TwistOptions options;
-  options.tolerance_mm = options_.tolerance_mm;
-  options.widest_turn = options_.widest_turn;
-  const NewtonReport report = solver_.rest(state, options, watch);
-  if (report.outcome != NewtonOutcome::converged) return false;
-  velocity_.resize(0);
-  accept(there, std::move(state), report);
+  if (!rest(there, std::move(state), watch)) return false;
   step_ = 1e-3;
   return true;
 }

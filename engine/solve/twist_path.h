@@ -41,6 +41,7 @@ class TwistPath {
  private:
   bool step(double t);
   TwistState predicted(double t) const;
+  bool rest(double t, TwistState state, const Watch& watch);
   void accept(double t, TwistState state, const NewtonReport& report);
 
   const TwistModel& model_;

@@ -30,9 +30,9 @@ class Beside {
     em_ = std::max(7.5, 0.024 * std::min<double>(style.height, 0.72 * style.width));
     MovieStyle part = bare(style);
     share_colours(part);
-    const double legend = bar_ ? legend_width() : 0;
+    legend_ = bar_ ? legend_width() : 0;
     const int count = int(runs.size());
-    part.width = std::max(16, int((style.width - legend - 2 * em_) / count));
+    part.width = std::max(16, int((style.width - legend_ - 2 * em_) / count));
     part.height = std::max(16, int(style.height - top() - foot()));
     for (const BesideRun& one : runs) stages_.push_back(std::make_unique<Stage>(*one.run, part));
   }
@@ -104,7 +104,7 @@ class Beside {
 
   void draw_text(Canvas& canvas, int index) const {
     if (bar_) {
-      const double width = legend_width() - em_, height = std::min(20 * em_, 0.6 * style_.height);
+      const double width = legend_ - em_, height = std::min(20 * em_, 0.6 * style_.height);
       draw_colour_bar(canvas, {style_.width - em_ - width, top(), width, height}, *bar_,
                       0.95 * em_);
     }
@@ -118,7 +118,7 @@ class Beside {
 
   const std::vector<BesideRun>& runs_;
   MovieStyle style_;
-  double em_ = 0;
+  double em_ = 0, legend_ = 0;  // of the font; of the colour bar's column
   std::optional<ColourBar> bar_;
   std::vector<std::unique_ptr<Stage>> stages_;
 };
