@@ -16,11 +16,7 @@ constexpr int boundary_points = 256;
 LevelPlan levels_of(const preset::Accuracy& accuracy) {
   const int fixed = accuracy.edges_per_segment;
   if (fixed == 0) return plan_levels(accuracy.tolerance);
-  // a mesh that is asked for is the last of those that nest in it; alone, its error is not known
-  LevelPlan plan{{fixed}, false};
-  for (int k = fixed; k % 2 == 0 && k / 2 >= 4; k /= 2)
-    plan.edges_per_segment.insert(plan.edges_per_segment.begin(), k / 2);
-  return plan;
+  return plan_of_mesh(fixed);
 }
 
 Placement placement_of(const preset::Preset& preset) {
@@ -139,6 +135,13 @@ Result<void> build_net(const preset::Preset& preset, ActuationScene& scene) {
 }
 
 }  // namespace
+
+LevelPlan plan_of_mesh(int edges) {
+  LevelPlan plan{{edges}, false};
+  for (int k = edges; k % 2 == 0 && k / 2 >= 4; k /= 2)
+    plan.edges_per_segment.insert(plan.edges_per_segment.begin(), k / 2);
+  return plan;
+}
 
 Result<ActuationScene> scene_of(const preset::Preset& preset) {
   ActuationScene scene;

@@ -11,4 +11,8 @@ namespace gridshell::experiment {
 /// values do not make a footprint.
 Result<ActuationScene> scene_of(const preset::Preset& preset);
 
+/// The meshes that nest in one of `edges` a segment, down to four edges, itself the last: alone, its
+/// error is not known.
+LevelPlan plan_of_mesh(int edges);
+
 }  // namespace gridshell::experiment

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <optional>
 
+#include "engine/experiment/scene.h"
 #include "engine/study/judge.h"
 #include "engine/study/map_runs.h"
 #include "engine/study/stability_study.h"
@@ -26,14 +27,6 @@ Cell cell(StabilityRow row, const Study& study, int edges, Run run, double promi
             if (!problem) return RunOutcome::refused;
             return judge(*study, run(**problem, watch), promised, promised, patient);
           }};
-}
-
-/// The meshes of `accuracy.edges_per_segment`.
-LevelPlan plan_of(int edges) {
-  LevelPlan plan{{edges}, false};
-  for (int k = edges; k % 2 == 0 && k / 2 >= 4; k /= 2)
-    plan.edges_per_segment.insert(plan.edges_per_segment.begin(), k / 2);
-  return plan;
 }
 
 /// The default solver in a cell: with a tolerance it is judged by what that promises.
@@ -159,7 +152,8 @@ Cells newton_map(const Study& study, const std::vector<double>& load_steps,
       for (Globalisation how : globalisations)
         cells.push_back(cell(row(name_of(how)), study, k,
                              marching({.load_steps = int(steps), .globalisation = how})));
-      cells.push_back(default_cell(row(default_solver), study, plan_of(k), 0, steps));
+      cells.push_back(
+          default_cell(row(default_solver), study, experiment::plan_of_mesh(k), 0, steps));
     }
   return cells;
 }
