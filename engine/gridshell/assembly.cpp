@@ -1,9 +1,11 @@
-// Assembly runs rod by rod over edges and bends; it is the hot loop beside the factorisation.
+// Edges and bends run rod by rod, the hot loop beside the factorisation; what else stores energy is
+// added after them, list by list.
+#include "engine/gridshell/assembly.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "engine/core/clones.h"
-#include "engine/gridshell/model.h"
 #include "engine/rod/bend.h"
 #include "engine/rod/stretch.h"
 
@@ -28,10 +30,10 @@ inline void keep_smallest(double& smallest, double value) {
 
 inline void reset(const Model& model, Assembly& out) {
   out.energies = {};
-  out.gradient.setZero(3, model.nodes);
+  out.gradient.setZero(3, model.columns());
   out.force.resize(Eigen::Index(model.edges.size()));
   out.tangents.resize(3, Eigen::Index(model.edges.size()));
-  out.largest_turn = 1;
+  out.smallest_cosine = 1;
   out.largest_strain = 0;
 }
 
@@ -60,32 +62,170 @@ inline void add_bend_gradient(const ModelEdge& e, const ModelEdge& f, const Bend
 }
 
 /// H of the edge vectors becomes H of the nodes: e = b - a, f = c - b.
-inline void add_bend_hessian(const Model& model, int k, const BendEnergy& bend, ChainHessian& h) {
-  const int e = model.bends[k].edge, f = e + 1;
-  const int a = model.edges[e].from, b = model.edges[e].to, c = model.edges[f].to;
-  h.diagonal[a] += bend.hessian_ee;
-  h.diagonal[c] += bend.hessian_ff;
+inline void add_bend_hessian(const ModelEdge& e, const ModelEdge& f, BlockSlot second,
+                             const BendEnergy& bend, BlockHessian& h) {
+  h.diagonal[std::size_t(e.from)] += bend.hessian_ee;
+  h.diagonal[std::size_t(f.to)] += bend.hessian_ff;
   const Eigen::Matrix3d ab = bend.hessian_ef - bend.hessian_ee;
   const Eigen::Matrix3d bc = bend.hessian_ef - bend.hessian_ff;
-  h.diagonal[b] -= ab + bc.transpose();
-  h.next[e] += ab;
-  h.next[f] += bc;
-  h.second[k] = -bend.hessian_ef;
+  h.diagonal[std::size_t(e.to)] -= ab + bc.transpose();
+  h.add(e.slot, ab);
+  h.add(f.slot, bc);
+  h.add(second, -bend.hessian_ef);
 }
 
-}  // namespace
-
-Energies energies_of(const Model& model, const Eigen::Matrix3Xd& x) {
-  Energies sum;
-  for (const ModelEdge& edge : model.edges)
-    sum[Term::stretch] += stretch(edge.EA, edge.rest_length, geometry_of(x, edge).length).value;
-  for (const ModelBend& bend : model.bends)
-    sum[Term::bend] += bend_value(bend.stiffness, geometry_of(x, model.edges[bend.edge]),
-                                  geometry_of(x, model.edges[bend.edge + 1]));
-  return sum;
+/// Edges one after another, and every bend with its two edges: on_edge(k, edge, geometry),
+/// on_bend(bend, geometry of e, geometry of f).
+template <class OnEdge, class OnBend>
+inline __attribute__((always_inline)) void along_rods(const Model& model,
+                                                      const Eigen::Matrix3Xd& x, OnEdge on_edge,
+                                                      OnBend on_bend) {
+  EdgeGeometry before, here;
+  std::size_t next = 0;
+  const std::size_t bends = model.bends.size();
+  for (int k = 0; k < int(model.edges.size()); ++k) {
+    const ModelEdge& edge = model.edges[std::size_t(k)];
+    here = geometry_of(x, edge);
+    on_edge(k, edge, here);
+    if (next < bends && model.bends[next].f == k) on_bend(model.bends[next++], before, here);
+    before = here;
+  }
+  // where rings close
+  for (; next < bends; ++next) {
+    const ModelBend& bend = model.bends[next];
+    on_bend(bend, geometry_of(x, model.edges[std::size_t(bend.e)]),
+            geometry_of(x, model.edges[std::size_t(bend.f)]));
+  }
 }
 
-namespace {
+template <class Law>
+PairGeometry pair_geometry(const Model& model, const State& state, const Pair<Law>& pair) {
+  PairGeometry at;
+  at.e = geometry_of(state.x, model.edges[std::size_t(pair.e)]);
+  at.f = geometry_of(state.x, model.edges[std::size_t(pair.f)]);
+  if (!model.has_spins()) return at;
+  at.angle_e = model.angle(state.x, pair.e);
+  at.angle_f = model.angle(state.x, pair.f);
+  at.director_e = state.director.col(pair.e);
+  at.director_f = state.director.col(pair.f);
+  if (pair.bend >= 0) at.reference_twist = state.reference_twist[pair.bend];
+  return at;
+}
+
+template <class Visit>
+void each_pair_list(const Model& model, Visit visit) {
+  std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
+}
+
+Eigen::Vector3d gap_of(const State& state, const JointSpring& spring) {
+  return state.x.col(spring.b) - state.x.col(spring.a);
+}
+
+/// visit(action, factor) for all that acts from outside
+template <class Visit>
+void each_action(const Model& model, const Outside& outside, Visit visit) {
+  for (const NodeAction& action : model.loads) visit(action, outside.load);
+  for (const NodeAction& action : model.ground) visit(action, 1.0);
+  if (outside.field && outside.field_factor != 0)
+    for (const NodeAction& action : *outside.field) visit(action, outside.field_factor);
+}
+
+template <class Law>
+void add_pair_gradient(const Model& model, const Pair<Law>& pair, const PairEnergy& energy,
+                       Assembly& out) {
+  add_pull(model.edges[std::size_t(pair.e)], energy.gradient.head<3>(), out);
+  add_pull(model.edges[std::size_t(pair.f)], energy.gradient.segment<3>(3), out);
+  if (!model.has_spins()) return;
+  out.gradient.data()[model.spin[std::size_t(pair.e)]] += energy.gradient[6] / model.spin_length;
+  out.gradient.data()[model.spin[std::size_t(pair.f)]] += energy.gradient[7] / model.spin_length;
+}
+
+/// m stands at (a, b) and transposed at (b, a)
+void add_block(int a, int b, BlockSlot slot, const Eigen::Matrix3d& m, BlockHessian& h) {
+  if (a == b)
+    h.diagonal[std::size_t(a)] += m + m.transpose();
+  else
+    h.add(slot, m);
+}
+
+/// An edge vector's own stiffness at its two nodes.
+void add_edge_block(const ModelEdge& edge, const Eigen::Matrix3d& m, BlockHessian& h) {
+  h.diagonal[std::size_t(edge.from)] += m;
+  h.diagonal[std::size_t(edge.to)] += m;
+  h.add(edge.slot, -m);
+}
+
+template <class Law>
+void add_spin_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
+                      BlockHessian& h) {
+  const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
+  const int ends[4] = {e.from, e.to, f.from, f.to};
+  const int place[2] = {model.spin[std::size_t(pair.e)], model.spin[std::size_t(pair.f)]};
+  const double scale = 1 / model.spin_length;
+  for (int k = 0; k < 2; ++k)
+    for (int end = 0; end < 4; ++end) {
+      const double side = end % 2 == 0 ? -scale : scale;
+      Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+      block.col(place[k] % 3) = side * H.block<3, 1>(end < 2 ? 0 : 3, 6 + k);
+      h.add(pair.slots.spin[end][k], block);
+    }
+  for (int k = 0; k < 2; ++k)
+    h.diagonal[std::size_t(place[k] / 3)](place[k] % 3, place[k] % 3) +=
+        scale * scale * H(6 + k, 6 + k);
+  const double across = scale * scale * H(6, 7);
+  if (place[0] / 3 == place[1] / 3) {
+    Eigen::Matrix3d& own = h.diagonal[std::size_t(place[0] / 3)];
+    own(place[0] % 3, place[1] % 3) += across;
+    own(place[1] % 3, place[0] % 3) += across;
+  } else {
+    h.add_entry(pair.slots.spins, place[0] % 3, place[1] % 3, across);
+  }
+}
+
+template <class Law>
+void add_pair_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
+                      BlockHessian& h) {
+  const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
+  add_edge_block(e, H.block<3, 3>(0, 0), h);
+  add_edge_block(f, H.block<3, 3>(3, 3), h);
+  const Eigen::Matrix3d ef = H.block<3, 3>(0, 3);
+  const int of_e[2] = {e.from, e.to}, of_f[2] = {f.from, f.to};
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b < 2; ++b)
+      add_block(of_e[a], of_f[b], pair.slots.across[a][b], a == b ? ef : Eigen::Matrix3d(-ef), h);
+  if (model.has_spins()) add_spin_hessian(model, pair, H, h);
+}
+
+/// What stores energy beside edges and bends.
+void add_others(const Model& model, const State& state, const Outside& outside, bool with_hessian,
+                Assembly& out) {
+  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
+    for (const Pair<Law>& pair : list) {
+      PairEnergy energy;
+      out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
+      add_pair_gradient(model, pair, energy, out);
+      if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
+    }
+  });
+  for (const ModelSpring& spring : model.springs) {
+    const Eigen::Vector3d gap = gap_of(state, spring.law), pull = spring.law.gradient(gap);
+    out.energies[Term::joint] += spring.law.value(gap);
+    out.gradient.col(spring.law.a) -= pull;
+    out.gradient.col(spring.law.b) += pull;
+    if (!with_hessian) continue;
+    const Eigen::Matrix3d m = spring.law.stiffness * Eigen::Matrix3d::Identity();
+    out.hessian.diagonal[std::size_t(spring.law.a)] += m;
+    out.hessian.diagonal[std::size_t(spring.law.b)] += m;
+    out.hessian.add(spring.slot, -m);
+  }
+  each_action(model, outside, [&](const NodeAction& action, double factor) {
+    const Eigen::Vector3d x = state.x.col(action.node);
+    out.energies[action.term] += factor * action.value(x);
+    out.gradient.col(action.node) += factor * action.gradient(x);
+    if (with_hessian)
+      out.hessian.diagonal[std::size_t(action.node)].diagonal() += factor * action.stiffness;
+  });
+}
 
 /// Energies, forces and gradient, the pull of edge k being pull_of(k, its geometry).
 template <class Pull>
@@ -93,93 +233,137 @@ inline __attribute__((always_inline)) void assemble_forces(const Model& model,
                                                            const Eigen::Matrix3Xd& x, Assembly& out,
                                                            Pull pull_of) {
   reset(model, out);
-  EdgeGeometry before, here;
-  BendEnergy bend;
-  std::size_t next_bend = 0;
-  for (int k = 0; k < int(model.edges.size()); ++k) {
-    const ModelEdge& edge = model.edges[k];
-    here = geometry_of(x, edge);
-    add_stretch(edge, k, edge.EA, here, out);
-    add_pull(edge, pull_of(k, here), out);
-    if (next_bend < model.bends.size() && model.bends[next_bend].edge + 1 == k) {
-      keep_smallest(out.largest_turn, before.tangent.dot(here.tangent));
-      bend_gradient(model.bends[next_bend].stiffness, before, here, bend);
-      add_bend_gradient(model.edges[k - 1], edge, bend, out);
-      ++next_bend;
-    }
-    before = here;
-  }
+  BendEnergy energy;
+  along_rods(
+      model, x,
+      [&](int k, const ModelEdge& edge, const EdgeGeometry& g) {
+        add_stretch(edge, k, edge.EA, g, out);
+        add_pull(edge, pull_of(k, g), out);
+      },
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        keep_smallest(out.smallest_cosine, e.tangent.dot(f.tangent));
+        bend_gradient(bend.stiffness, e, f, energy);
+        add_bend_gradient(model.edges[std::size_t(bend.e)], model.edges[std::size_t(bend.f)],
+                          energy, out);
+      });
 }
 
-}  // namespace
-
 GRIDSHELL_CLONES
-void assemble_gradient(const Model& model, const Eigen::Matrix3Xd& x, Assembly& out) {
+void rod_gradient(const Model& model, const Eigen::Matrix3Xd& x, Assembly& out) {
   assemble_forces(model, x, out, [&](int k, const EdgeGeometry& g) -> Eigen::Vector3d {
     return out.force[k] * g.tangent;
   });
 }
 
 GRIDSHELL_CLONES
-void assemble_mixed_residual(const Model& model, const Eigen::Matrix3Xd& x,
-                             const Eigen::VectorXd& axial_force, const Eigen::Matrix3Xd& tangents,
-                             Assembly& out) {
-  assemble_forces(model, x, out, [&](int k, const EdgeGeometry& g) -> Eigen::Vector3d {
-    return axial_force[k] * g.tangent + (out.force[k] - axial_force[k]) * tangents.col(k);
+void rod_mixed_residual(const Model& model, const State& state, const Eigen::Matrix3Xd& tangents,
+                        Assembly& out) {
+  assemble_forces(model, state.x, out, [&](int k, const EdgeGeometry& g) -> Eigen::Vector3d {
+    return state.force[k] * g.tangent + (out.force[k] - state.force[k]) * tangents.col(k);
   });
 }
 
 GRIDSHELL_CLONES
-void assemble_hessian(const Model& model, const Eigen::Matrix3Xd& x,
-                      const Eigen::VectorXd* axial_force, double EA_scale, Assembly& out) {
+void rod_hessian(const Model& model, const State& state, const Stiffness& how, Assembly& out) {
   reset(model, out);
-  ChainHessian& h = out.hessian;
-  h.diagonal.assign(model.nodes, Eigen::Matrix3d::Zero());
-  h.next.resize(model.edges.size());
-  h.second.resize(model.bends.size());
-  EdgeGeometry before, here;
-  BendEnergy bend;
-  std::size_t next_bend = 0;
-  for (int k = 0; k < int(model.edges.size()); ++k) {
-    const ModelEdge& edge = model.edges[k];
-    const double EA = EA_scale * edge.EA;
-    here = geometry_of(x, edge);
-    add_stretch(edge, k, EA, here, out);
-    add_pull(edge, out.force[k] * here.tangent, out);
-    const double geometric = (axial_force ? (*axial_force)[k] : out.force[k]) / here.length;
-    Eigen::Matrix3d stiffness =
-        here.tangent * ((EA / edge.rest_length - geometric) * here.tangent).transpose();
-    stiffness.diagonal().array() += geometric;
-    h.diagonal[edge.from] += stiffness;
-    h.diagonal[edge.to] += stiffness;
-    h.next[k] = -stiffness;
-    if (next_bend < model.bends.size() && model.bends[next_bend].edge + 1 == k) {
-      keep_smallest(out.largest_turn, before.tangent.dot(here.tangent));
-      bend_hessian(model.bends[next_bend].stiffness, before, here, bend);
-      add_bend_gradient(model.edges[k - 1], edge, bend, out);
-      add_bend_hessian(model, int(next_bend), bend, h);
-      ++next_bend;
-    }
-    before = here;
+  BlockHessian& h = out.hessian;
+  h.reset(std::size_t(model.columns()), model.pattern.pairs().size());
+  BendEnergy energy;
+  along_rods(
+      model, state.x,
+      [&](int k, const ModelEdge& edge, const EdgeGeometry& g) {
+        const double EA = how.EA_scale * edge.EA;
+        add_stretch(edge, k, EA, g, out);
+        add_pull(edge, out.force[k] * g.tangent, out);
+        const double geometric = (how.mixed ? state.force[k] : out.force[k]) / g.length;
+        Eigen::Matrix3d stiffness =
+            g.tangent * ((EA / edge.rest_length - geometric) * g.tangent).transpose();
+        stiffness.diagonal().array() += geometric;
+        h.diagonal[std::size_t(edge.from)] += stiffness;
+        h.diagonal[std::size_t(edge.to)] += stiffness;
+        h.add(edge.slot, -stiffness);
+      },
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        const ModelEdge &edge_e = model.edges[std::size_t(bend.e)],
+                        &edge_f = model.edges[std::size_t(bend.f)];
+        keep_smallest(out.smallest_cosine, e.tangent.dot(f.tangent));
+        bend_hessian(bend.stiffness, e, f, energy);
+        add_bend_gradient(edge_e, edge_f, energy, out);
+        add_bend_hessian(edge_e, edge_f, bend.slot, energy, h);
+      });
+}
+
+}  // namespace
+
+Energies energies_of(const Model& model, const State& state, const Outside& outside) {
+  Energies sum;
+  along_rods(
+      model, state.x,
+      [&](int, const ModelEdge& edge, const EdgeGeometry& g) {
+        sum[Term::stretch] += stretch(edge.EA, edge.rest_length, g.length).value;
+      },
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        sum[Term::bend] += bend_value(bend.stiffness, e, f);
+      });
+  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
+    for (const Pair<Law>& pair : list)
+      sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
+  });
+  for (const ModelSpring& spring : model.springs)
+    sum[Term::joint] += spring.law.value(gap_of(state, spring.law));
+  each_action(model, outside, [&](const NodeAction& action, double factor) {
+    sum[action.term] += factor * action.value(state.x.col(action.node));
+  });
+  return sum;
+}
+
+void assemble_gradient(const Model& model, const State& state, const Outside& outside,
+                       Assembly& out) {
+  rod_gradient(model, state.x, out);
+  add_others(model, state, outside, false, out);
+}
+
+void assemble_mixed_residual(const Model& model, const State& state, const Outside& outside,
+                             const Eigen::Matrix3Xd& tangents, Assembly& out) {
+  rod_mixed_residual(model, state, tangents, out);
+  add_others(model, state, outside, false, out);
+}
+
+void assemble_hessian(const Model& model, const State& state, const Outside& outside,
+                      const Stiffness& stiffness, Assembly& out) {
+  rod_hessian(model, state, stiffness, out);
+  add_others(model, state, outside, true, out);
+}
+
+void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matrix3Xd& x,
+              Eigen::Matrix3Xd& y) {
+  y.resize(3, model.columns());
+  for (int column = 0; column < model.columns(); ++column)
+    y.col(column).noalias() = hessian.diagonal[std::size_t(column)] * x.col(column);
+  const auto& pairs = model.pattern.pairs();
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [row, column] = pairs[k];
+    y.col(row).noalias() += hessian.pair[k] * x.col(column);
+    y.col(column).noalias() += hessian.pair[k].transpose() * x.col(row);
   }
 }
 
-void multiply(const Model& model, const ChainHessian& hessian, const Eigen::Matrix3Xd& x,
-              Eigen::Matrix3Xd& y) {
-  y.resize(3, model.nodes);
-  for (int node = 0; node < model.nodes; ++node)
-    y.col(node).noalias() = hessian.diagonal[node] * x.col(node);
-  for (std::size_t k = 0; k < model.edges.size(); ++k) {
-    const ModelEdge& edge = model.edges[k];
-    y.col(edge.from).noalias() += hessian.next[k] * x.col(edge.to);
-    y.col(edge.to).noalias() += hessian.next[k].transpose() * x.col(edge.from);
+void clear_held(const Model& model, Eigen::Matrix3Xd& x) {
+  for (int column = 0; column < model.columns(); ++column)
+    for (int row = 0; row < 3; ++row)
+      if (model.held[std::size_t(column)] >> row & 1) x(row, column) = 0;
+}
+
+double residual_of(const Model& model, const Eigen::Matrix3Xd& gradient) {
+  double largest = 0;
+  for (int column : model.free_columns) {
+    Eigen::Vector3d force = gradient.col(column);
+    const unsigned char held = model.held[std::size_t(column)];
+    for (int row = 0; row < 3 && held; ++row)
+      if (held >> row & 1) force[row] = 0;
+    if (!(force.norm() <= largest)) largest = force.norm();  // a nan is kept, not hidden
   }
-  for (std::size_t k = 0; k < model.bends.size(); ++k) {
-    const int first = model.edges[model.bends[k].edge].from,
-              third = model.edges[model.bends[k].edge + 1].to;
-    y.col(first).noalias() += hessian.second[k] * x.col(third);
-    y.col(third).noalias() += hessian.second[k].transpose() * x.col(first);
-  }
+  return largest;
 }
 
 }  // namespace gridshell

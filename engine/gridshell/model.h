@@ -1,102 +1,160 @@
-// The mechanical model of a gridshell on the `bend` rung: stretch and bend of rods that share a
-// node at each joint, and spin freely at their ends. Three degrees of freedom a node. Exact for
-// isotropic, naturally straight rods whose joints pass no twist: their twist energy is zero at
-// rest.
+// The mechanical model of a gridshell: its nodes, what stores energy between them, and what is
+// held. Const once built; a state changes beside it.
 #pragma once
 
 #include <Eigen/Core>
+#include <tuple>
 #include <vector>
 
-#include "engine/footprint/mesh.h"
-#include "engine/gridshell/shell_rods.h"
+#include "engine/core/result.h"
+#include "engine/footprint/footprint.h"
+#include "engine/gridshell/block_hessian.h"
+#include "engine/rod/bend_material.h"
 #include "engine/rod/energies.h"
+#include "engine/rod/joint_shear.h"
+#include "engine/rod/joint_spin.h"
+#include "engine/rod/joint_spring.h"
+#include "engine/rod/material.h"
+#include "engine/rod/node_action.h"
+#include "engine/rod/twist.h"
 
 namespace gridshell {
 
-/// Edge k of the model joins nodes `from` and `to`; edges of a rod follow one another.
+/// How much of a rod is modelled: stretch and bend of rods whose spin stores no energy (three
+/// unknowns a node), or torsion too, full discrete elastic rods (one angle an edge more, frames
+/// carried in time) [Bergou 2008, 2010].
+enum class Rung { bend, twist };
+
+/// Edge k joins nodes `from` and `to`; edges of a rod follow one another. A ghost has no EA.
 struct ModelEdge {
   int from = 0, to = 0;
   double rest_length = 0;  ///< mm
   double EA = 0;           ///< N
+  BlockSlot slot = 0;
 };
 
-/// Bending at the node between edges `edge` and `edge + 1`.
+/// Bending at the node between edges e and f: f = e + 1, but where a ring closes.
 struct ModelBend {
-  int edge = 0;
-  double stiffness = 0;  ///< 2 EI / l, l the mean rest length of the two edges (mJ)
+  int e = 0, f = 0;
+  double stiffness = 0;  ///< 2 EI/l, l the mean rest length of the two edges (mJ); 0: SectionBending
+  BlockSlot slot = 0;
 };
 
-/// Const once built; a state (positions) changes beside it.
+/// Two nodes joined by a spring.
+struct ModelSpring {
+  JointSpring law;
+  BlockSlot slot = 0;
+};
+
+/// Blocks between the nodes of two edges and the columns of their angles; -1: none.
+struct PairSlots {
+  BlockSlot e = -1, f = -1;                 ///< between the ends of an edge
+  BlockSlot across[2][2] = {{-1, -1}, {-1, -1}};  ///< an end of e, an end of f
+  BlockSlot spin[4][2] = {{-1, -1}, {-1, -1}, {-1, -1}, {-1, -1}};  ///< end (e's, f's), angle
+  BlockSlot spins = -1;                     ///< between the angles
+};
+
+/// An energy of two edges of one kind.
+template <class Law>
+struct Pair {
+  int e = 0, f = 0;
+  int bend = -1;  ///< of edges that follow one another: whose reference twist it is
+  Law law;
+  PairSlots slots = {};
+};
+
+/// All energies of two edges beside plain bending: an energy more is one list more.
+using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<SectionBending>>,
+                             std::vector<Pair<JointShear>>, std::vector<Pair<JointSpin>>>;
+
+/// A rod: its nodes and their arc lengths at rest. A closed rod has one arc length more than nodes.
+/// Ends that hold a direction (`tangent`, `clamped`) hold it at the end point itself, by a ghost
+/// edge beyond it: its bend counts over half an edge, so the hold is second order [the symmetric
+/// ghost of beam theory].
+struct ModelRod {
+  std::vector<int> nodes;
+  std::vector<double> position;  ///< mm, ascending
+  RodMaterial material;
+  RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
+  Eigen::Vector3d director{0, 0, 1};        ///< m1 at the begin, as near as the tangent allows
+  int ghost_begin = -1, ghost_end = -1;     ///< nodes of the ghosts; -1: numbered after the others
+
+  bool closed() const { return position.size() == nodes.size() + 1; }
+};
+
+/// The unknowns stand in columns of three: one a node (mm), then, on the twist rung, the angles of
+/// edges, three a column and times `spin_length`, so that every unknown is a length, every force a
+/// force and every stiffness N/mm.
 struct Model {
-  int nodes = 0;
+  int nodes = 0;           ///< ghosts too
+  double spin_length = 1;  ///< mm; the mean edge
   std::vector<ModelEdge> edges;
-  std::vector<ModelBend> bends;
-  std::vector<char> pinned;     ///< per node: position prescribed
-  std::vector<int> free_index;  ///< per node: index among the free ones, or -1
-  std::vector<int> free_nodes;  ///< its inverse
-  Eigen::Matrix2Xd flat;        ///< (u, v) of every node, for seeds and orderings
-  Eigen::Matrix3Xd load;        ///< dead force on every node, N; empty: none
+  std::vector<ModelBend> bends;  ///< in the order of their edges, those that close a ring last
+  std::vector<ModelSpring> springs;
+  PairLists pairs;
+  std::vector<NodeAction> loads;   ///< dead; they count times a load factor
+  std::vector<NodeAction> ground;  ///< what the shell stands on
+  std::vector<int> spin;  ///< per edge: its angle's place, 3 column + row; empty: bend rung
 
-  int free() const { return int(free_nodes.size()); }
-  int dof() const { return 3 * free(); }
+  /// An edge list a rod, for frames and for what turns a held end.
+  struct Rod {
+    std::vector<int> edges;                ///< in order, ghosts too
+    int ghost_begin = -1, ghost_end = -1;  ///< their edges
+    bool closed = false;
+    int first_bend = 0;  ///< of those that follow one another along it
+    int held_spin = -1;  ///< edge whose angle is held as nothing resists the spin, or -1
+    Eigen::Vector3d director;
+    double gyration_mm2 = 0;  ///< of the section about the rod's axis, squared: (I1 + I2)/A
+  };
+  std::vector<Rod> rods;
+
+  /// per column: a bit set for each of its three unknowns that is prescribed or does not exist
+  std::vector<unsigned char> held;
+  static constexpr unsigned char all_held = 7;
+
+  // worked out by finish()
+  BlockPattern pattern;
+  std::vector<int> free_index;  ///< per column: index among those not wholly held, or -1
+  std::vector<int> free_columns;  ///< its inverse
+  Eigen::Matrix2Xd flat;          ///< (u, v) of every column, for seeds and orderings
+  std::vector<int> segment;       ///< per column: the segment of a rod it is inside of, or -1
+  std::vector<int> inside;        ///< columns inside segments, in order along the rods
+
+  int columns() const { return int(held.size()); }
+  int free() const { return int(free_columns.size()); }
+  int dof() const;
+  bool pinned(int column) const { return held[std::size_t(column)] == all_held; }
+  void pin(int node) { held[std::size_t(node)] = all_held; }
+  void hold(int column, int row) { held[std::size_t(column)] |= (unsigned char)(1 << row); }
+  bool has_spins() const { return !spin.empty(); }
+  /// Holds the angle of an edge.
+  void hold_spin(int edge) { hold(spin[std::size_t(edge)] / 3, spin[std::size_t(edge)] % 3); }
+  /// The angle of an edge in a state, rad.
+  double angle(const Eigen::Matrix3Xd& x, int edge) const {
+    return x.data()[spin[std::size_t(edge)]] / spin_length;
+  }
 };
 
-/// Rods of `mesh` with their sections and loads; edge points are pinned but for free ends, ghosts
-/// too. A held direction costs EI/l |kb|^2, l the length of the edge at the end: half an edge bends
-/// there [the symmetric ghost of beam theory, second order]. The edge to a ghost has no EA.
-Model build_model(const RodMesh& mesh, const ShellRods& rods);
+/// Puts rods together; nodes that rods share are shared joints. `crossings` marks more nodes at
+/// which rods hold on to one another (spring joints). On the twist rung the spin of a rod that
+/// nothing resists (round and straight, no end clamped) costs no energy: one of its angles is held.
+/// On the bend rung a section with axes bends as its softer one (a seed for the other rung).
+/// Errors (bad_input): stiffness that is not positive, a torsional stiffness that is missing on the
+/// twist rung, arc lengths that do not ascend, a node that does not exist.
+Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, Rung rung,
+                          const std::vector<char>& crossings = {});
 
-/// The symmetric Hessian of a net of chains in 3x3 blocks: `diagonal` per node, `next` per edge
-/// (row: its `from`, column: its `to`), `second` per bend (row: first node, column: third node).
-/// Rows and columns of pinned nodes are there too. N/mm.
-struct ChainHessian {
-  std::vector<Eigen::Matrix3d> diagonal, next, second;
-};
+/// Adds the resistance to shear `stiffness` (N mm/rad) where rods `a` and `b` of the model cross
+/// at a node (or at two nodes that a spring joins): the edges before and after it on each rod.
+/// finish() afterwards; so for the two below.
+void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
+                     double rest_angle);
 
-/// Working memory and results of one assembly; reused from call to call.
-struct Assembly {
-  Energies energies;
-  Eigen::Matrix3Xd gradient;  ///< dE/dx at every node, pinned ones too (their reaction), N
-  Eigen::Matrix3Xd tangents;  ///< unit tangent of every edge
-  Eigen::VectorXd force;      ///< axial force EA (|e|/l - 1) of every edge, N
-  ChainHessian hessian;
-  double largest_turn =
-      0;  ///< smallest t_e . t_f over all bends: below 0 edges turn over 90 degrees
-  double largest_strain = 0;  ///< over all edges, absolute
-};
+/// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
+/// directors stay near the joint's normal, from the direction of `a` to that of `b`.
+void add_joint_spin(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness);
 
-/// Energies of the rods alone, without the loads.
-Energies energies_of(const Model& model, const Eigen::Matrix3Xd& x);
-
-/// Energies, gradient and axial forces at x.
-void assemble_gradient(const Model& model, const Eigen::Matrix3Xd& x, Assembly& out);
-
-/// The residual of the mixed form at x with axial forces N, its condition N = EA strain eliminated
-/// with the edges' directions t0 of an earlier linearisation: dE_bend/dx + sum over edges of N t +
-/// (EA strain - N) t0. Where N = EA strain it is the gradient.
-void assemble_mixed_residual(const Model& model, const Eigen::Matrix3Xd& x,
-                             const Eigen::VectorXd& axial_force, const Eigen::Matrix3Xd& tangents,
-                             Assembly& out);
-
-/// All of the above and the Hessian. `axial_force` (one an edge), where given, takes the place of
-/// EA (|e|/l - 1) in the geometric stiffness N/|e| (I - t t^T) only: the mixed form, whose axial
-/// forces are unknowns of their own, eliminated on the edge. Null: the Hessian of the energy.
-/// `EA_scale` multiplies EA (continuation in stiffness).
-void assemble_hessian(const Model& model, const Eigen::Matrix3Xd& x,
-                      const Eigen::VectorXd* axial_force, double EA_scale, Assembly& out);
-
-/// Adds `factor` times the dead loads to the energies and the gradient of an assembly at x; the
-/// assemblies above are those of the unloaded rods.
-void add_loads(const Model& model, const Eigen::Matrix3Xd& x, double factor, Assembly& out);
-
-/// Minus the work of `factor` times the dead loads, mJ.
-double load_energy(const Model& model, const Eigen::Matrix3Xd& x, double factor);
-
-/// y = H x over all nodes (3 x nodes).
-void multiply(const Model& model, const ChainHessian& hessian, const Eigen::Matrix3Xd& x,
-              Eigen::Matrix3Xd& y);
-
-/// Largest residual force on a free node, N.
-double residual_of(const Model& model, const Eigen::Matrix3Xd& gradient);
+/// Works out pattern and numbering after elements were added or unknowns held.
+void finish(Model& model);
 
 }  // namespace gridshell

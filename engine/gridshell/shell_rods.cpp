@@ -1,6 +1,76 @@
 #include "engine/gridshell/shell_rods.h"
 
+#include <array>
+#include <cmath>
+
 namespace gridshell {
+namespace {
+
+bool along_u(const RodMesh& mesh, std::size_t rod) {
+  const Eigen::Vector2d way =
+      mesh.flat.col(mesh.rods[rod].back()) - mesh.flat.col(mesh.rods[rod].front());
+  return std::abs(way.x()) > std::abs(way.y());
+}
+
+/// the rod without its ghosts, and what holds its ends
+ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material) {
+  ModelRod rod;
+  rod.material = material;
+  for (std::size_t k = 0; k < mesh.rods[r].size(); ++k) {
+    const int node = mesh.rods[r][k];
+    if (mesh.is_ghost(node)) {
+      (k == 0 ? rod.ghost_begin : rod.ghost_end) = node;
+      continue;
+    }
+    rod.nodes.push_back(node);
+    rod.position.push_back(mesh.position[r][k]);
+  }
+  if (mesh.ends.empty()) return rod;
+  rod.begin = mesh.ends[2 * r];
+  rod.end = mesh.ends[2 * r + 1];
+  return rod;
+}
+
+/// u rod and v rod of every joint
+std::vector<std::array<int, 2>> crossings_of(const RodMesh& mesh) {
+  std::vector<std::array<int, 2>> rods(std::size_t(mesh.joints), {-1, -1});
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r)
+    for (int node : mesh.rods[r])
+      if (node < mesh.joints) rods[std::size_t(node)][along_u(mesh, r) ? 0 : 1] = int(r);
+  return rods;
+}
+
+void add_joints(const RodMesh& mesh, const JointLaw& law, Model& model) {
+  const auto crossings = crossings_of(mesh);
+  const bool springs = law.spring_N_per_mm > 0;
+  for (int joint = 0; joint < mesh.joints; ++joint) {
+    const int other = springs ? mesh.nodes() + joint : joint;
+    const auto [u, v] = crossings[std::size_t(joint)];
+    if (springs) model.springs.push_back({{joint, other, law.spring_N_per_mm}});
+    if (law.shear_Nmm > 0) add_joint_shear(model, u, joint, v, other, law.shear_Nmm, M_PI / 2);
+    if (law.twist_Nmm > 0) add_joint_spin(model, u, joint, v, other, law.twist_Nmm);
+  }
+}
+
+/// (u, v) of the model's columns: the mesh's nodes and their twins, and angles where their edges are
+void lay_flat(const RodMesh& mesh, Model& model) {
+  model.flat.leftCols(mesh.nodes()) = mesh.flat;
+  if (model.nodes > mesh.nodes())
+    model.flat.middleCols(mesh.nodes(), mesh.joints) = mesh.flat.leftCols(mesh.joints);
+  if (!model.has_spins()) return;
+  model.flat.rightCols(model.columns() - model.nodes).setZero();
+  std::vector<int> edges(std::size_t(model.columns()), 0);
+  for (std::size_t k = 0; k < model.edges.size(); ++k) {
+    const int column = model.spin[k] / 3;
+    model.flat.col(column) +=
+        0.5 * (model.flat.col(model.edges[k].from) + model.flat.col(model.edges[k].to));
+    ++edges[std::size_t(column)];
+  }
+  for (int column = model.nodes; column < model.columns(); ++column)
+    model.flat.col(column) /= edges[std::size_t(column)];
+}
+
+}  // namespace
 
 Eigen::VectorXd lumped(const RodMesh& mesh, const std::vector<double>& per_mm) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(mesh.nodes());
@@ -16,12 +86,57 @@ Eigen::VectorXd lumped(const RodMesh& mesh, const std::vector<double>& per_mm) {
   return sum;
 }
 
-Eigen::Matrix3Xd dead_loads(const RodMesh& mesh, const ShellRods& rods) {
-  if (!rods.loaded()) return {};
-  Eigen::Matrix3Xd load = Eigen::Matrix3Xd::Zero(3, mesh.nodes());
-  if (!rods.weight_N_per_mm.empty()) load.row(2) = -lumped(mesh, rods.weight_N_per_mm).transpose();
-  for (const PointLoad& point : rods.points) load.col(point.joint) += point.force;
-  return load;
+std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
+  std::vector<NodeAction> loads;
+  if (!rods.weight_N_per_mm.empty()) {
+    const Eigen::VectorXd weight = lumped(mesh, rods.weight_N_per_mm);
+    for (int node = 0; node < mesh.rod_nodes(); ++node)
+      loads.push_back({node, -weight[node] * Eigen::Vector3d::UnitZ()});
+  }
+  for (const PointLoad& point : rods.points) loads.push_back({point.joint, point.force});
+  return loads;
+}
+
+Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, Rung rung) {
+  const bool springs = rung == Rung::twist && shell.joints.spring_N_per_mm > 0;
+  std::vector<ModelRod> rods;
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
+    rods.push_back(rod_of(mesh, r, shell.material(r)));
+    if (!springs || along_u(mesh, r)) continue;
+    for (int& node : rods.back().nodes)
+      if (node < mesh.joints) node += mesh.nodes();
+  }
+  const int nodes = mesh.nodes() + (springs ? mesh.joints : 0);
+  std::vector<char> crossings(std::size_t(nodes), 0);
+  for (int joint = 0; joint < mesh.joints; ++joint) {
+    crossings[std::size_t(joint)] = 1;
+    if (springs) crossings[std::size_t(mesh.nodes() + joint)] = 1;
+  }
+  auto model = build_model(nodes, rods, rung, crossings);
+  if (!model) return model;
+  if (rung == Rung::twist) add_joints(mesh, shell.joints, *model);
+  model->loads = dead_loads(mesh, shell);
+  finish(*model);
+  lay_flat(mesh, *model);
+  return model;
+}
+
+Eigen::Matrix3Xd columns_of(const RodMesh& mesh, const Model& model,
+                            const Eigen::Matrix3Xd& nodes) {
+  Eigen::Matrix3Xd columns = Eigen::Matrix3Xd::Zero(3, model.columns());
+  columns.leftCols(mesh.nodes()) = nodes;
+  if (model.nodes > mesh.nodes())
+    columns.middleCols(mesh.nodes(), mesh.joints) = nodes.leftCols(mesh.joints);
+  return columns;
+}
+
+Eigen::Matrix3Xd nodes_of(const RodMesh& mesh, const Model& model,
+                          const Eigen::Matrix3Xd& columns) {
+  Eigen::Matrix3Xd nodes = columns.leftCols(mesh.nodes());
+  if (model.nodes > mesh.nodes())
+    nodes.leftCols(mesh.joints) =
+        0.5 * (nodes.leftCols(mesh.joints) + columns.middleCols(mesh.nodes(), mesh.joints));
+  return nodes;
 }
 
 }  // namespace gridshell

@@ -1,10 +1,11 @@
-// The rods of a shell and what they carry, the same on every mesh of its footprint.
+// The rods of a shell, how they cross and what they carry, the same on every mesh of its footprint.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
 #include "engine/footprint/mesh.h"
+#include "engine/gridshell/model.h"
 #include "engine/rod/section.h"
 
 namespace gridshell {
@@ -15,26 +16,46 @@ struct PointLoad {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
 };
 
-/// Sections and dead loads of the rods of a footprint.
+/// How crossing rods hold on to each other.
+struct JointLaw {
+  double spring_N_per_mm = 0;  ///< of spring joints; 0: the rods share a node
+  double shear_Nmm = 0;        ///< per rad; 0: they shear freely
+  double twist_Nmm = 0;        ///< per rad; 0: they pass no twist
+};
+
+/// Sections, joints and dead loads of the rods of a footprint.
 struct ShellRods {
-  std::vector<RodSection> sections;     ///< one a rod, or one for all
+  std::vector<RodMaterial> materials;   ///< one a rod, or one for all
+  JointLaw joints;                      ///< on the twist rung; on the bend rung rods share nodes
   std::vector<double> weight_N_per_mm;  ///< one a rod, downwards; empty: none
   std::vector<PointLoad> points;
 
   ShellRods() = default;
-  ShellRods(const RodSection& section) : sections{section} {}  // NOLINT: rods all alike
+  ShellRods(const RodMaterial& material) : materials{material} {}  // NOLINT: rods all alike
+  ShellRods(const RodSection& section) : materials{round_material(section, 0)} {}  // NOLINT
 
-  const RodSection& section(std::size_t rod) const {
-    return sections.size() == 1 ? sections.front() : sections[rod];
+  const RodMaterial& material(std::size_t rod) const {
+    return materials.size() == 1 ? materials.front() : materials[rod];
   }
   bool loaded() const { return !weight_N_per_mm.empty() || !points.empty(); }
 };
 
-/// What `per_mm` of each rod puts on every node: half of each edge that meets there, none from the
-/// edges to ghosts.
+/// What `per_mm` of each rod puts on every node of a mesh: half of each edge that meets there, none
+/// from the edges to ghosts.
 Eigen::VectorXd lumped(const RodMesh& mesh, const std::vector<double>& per_mm);
 
-/// Dead force on every node (3 x nodes, N), or an empty matrix when nothing is loaded.
-Eigen::Matrix3Xd dead_loads(const RodMesh& mesh, const ShellRods& rods);
+/// Dead forces on the nodes of a mesh.
+std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods);
+
+/// The model of a meshed footprint; edge points are pinned but for free ends, ghosts too. Node
+/// numbers are the mesh's; with spring joints the v rod's own node of a joint comes after them, in
+/// the order of the joints. First directors stand up from the flat (+z). Errors as build_model().
+Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods, Rung rung = Rung::bend);
+
+/// Columns of a model's state from positions of the mesh's nodes: twins of joints where these are,
+/// angles zero.
+Eigen::Matrix3Xd columns_of(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& nodes);
+/// Positions of the mesh's nodes from a state: a joint is half way between its two rods' nodes.
+Eigen::Matrix3Xd nodes_of(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns);
 
 }  // namespace gridshell

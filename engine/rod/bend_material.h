@@ -81,4 +81,29 @@ inline double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu
   return material_bend_value(bend, w);
 }
 
+/// Bending of a section with axes, or of a rod curved at rest, between two edges that follow one
+/// another.
+struct SectionBending {
+  static constexpr Term term = Term::bend;
+  MaterialBend bend;
+
+  double value(const PairGeometry& at) const {
+    return material_bend_value(
+        bend, frame(at).transpose() * curvature_binormal(at.e.tangent, at.f.tangent));
+  }
+  double add(const PairGeometry& at, PairEnergy& out) const {
+    PairEnergy here;
+    const double value = add_material_bend(
+        bend, frame(at), binormal_with_derivatives(at.e.tangent, at.f.tangent), here);
+    scale_to_edges(at.e.length, at.f.length, here);
+    out += here;
+    return value;
+  }
+
+ private:
+  static HalfwayFrame frame(const PairGeometry& at) {
+    return halfway_frame(at.e.tangent, at.director_e, at.angle_e + at.twist() / 2);
+  }
+};
+
 }  // namespace gridshell

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include "engine/rod/energies.h"
 #include "engine/rod/pair.h"
 
 namespace gridshell {
@@ -61,5 +62,21 @@ inline double add_joint_spin(double stiffness, int side, double theta, const Edg
   out.hessian += here.hessian;
   return 0.5 * stiffness * phi * phi;
 }
+
+/// The joint's resistance to the spin of the first of two edges beside the normal: of four pairs of
+/// edges at a joint each holds both rods, k/8 phi^2 a rod and pair, so that k is the joint's.
+struct JointSpin {
+  static constexpr Term term = Term::joint;
+  double stiffness = 0;  ///< k/4, N mm/rad
+  int side = 1;          ///< +1: the normal is t_e x t_f; -1: t_f x t_e
+
+  double value(const PairGeometry& at) const {
+    const double phi = joint_spin(side, at.angle_e, at.e, at.director_e, at.f);
+    return 0.5 * stiffness * phi * phi;
+  }
+  double add(const PairGeometry& at, PairEnergy& out) const {
+    return add_joint_spin(stiffness, side, at.angle_e, at.e, at.director_e, at.f, out);
+  }
+};
 
 }  // namespace gridshell

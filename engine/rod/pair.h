@@ -9,6 +9,17 @@
 
 namespace gridshell {
 
+/// What an energy of two edges e, f may read of a state.
+struct PairGeometry {
+  EdgeGeometry e, f;
+  double angle_e = 0, angle_f = 0;         ///< theta of each edge, rad
+  Eigen::Vector3d director_e, director_f;  ///< of their reference frames
+  double reference_twist = 0;              ///< m_ref from e to f, of edges that follow one another
+
+  /// tau = theta_f - theta_e + m_ref
+  double twist() const { return angle_f - angle_e + reference_twist; }
+};
+
 using PairVector = Eigen::Matrix<double, 8, 1>;
 using PairMatrix = Eigen::Matrix<double, 8, 8>;
 
@@ -18,6 +29,12 @@ using PairMatrix = Eigen::Matrix<double, 8, 8>;
 struct PairEnergy {
   PairVector gradient = PairVector::Zero();
   PairMatrix hessian = PairMatrix::Zero();
+
+  PairEnergy& operator+=(const PairEnergy& other) {
+    gradient += other.gradient;
+    hessian += other.hessian;
+    return *this;
+  }
 };
 
 inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {

@@ -1,6 +1,7 @@
 // Twisting of a rod at a node between two edges [Bergou 2008, 2010].
 #pragma once
 
+#include "engine/rod/energies.h"
 #include "engine/rod/pair.h"
 
 namespace gridshell {
@@ -35,5 +36,22 @@ inline void add_twist(double stiffness, double excess, const CurvatureBinormal& 
   out.hessian.noalias() += stiffness * slope * slope.transpose();
   add_twist_curvature(stiffness * excess, b, out.hessian);
 }
+
+/// Torsion between two edges that follow one another on a rod.
+struct Torsion {
+  static constexpr Term term = Term::twist;
+  double stiffness = 0;  ///< GJ/l, mJ
+  double rest = 0;       ///< tau_0, rad
+
+  double excess(const PairGeometry& at) const { return at.twist() - rest; }
+  double value(const PairGeometry& at) const { return 0.5 * stiffness * excess(at) * excess(at); }
+  double add(const PairGeometry& at, PairEnergy& out) const {
+    PairEnergy here;
+    add_twist(stiffness, excess(at), binormal_with_derivatives(at.e.tangent, at.f.tangent), here);
+    scale_to_edges(at.e.length, at.f.length, here);
+    out += here;
+    return value(at);
+  }
+};
 
 }  // namespace gridshell

@@ -18,27 +18,27 @@ double ArcFollower::product(const State& a, double at, const State& b, double bt
 /// Unit tangent at a point that was just factorised, on along `before`.
 void ArcFollower::take_tangent(ArcPoint& at, const State* before, double before_t) {
   PathPoint& point = at.point;
-  system_.tangent(motion_.velocity(point.t), point.velocity.x, motion_.load_velocity(point.t));
+  motion_.velocity(system_, point.t, point.state, point.velocity);
   double length = std::sqrt(product(point.velocity, 1, point.velocity, 1));
   const double along = before ? product(point.velocity, 1, *before, before_t) : before_t;
   if (along < 0) length = -length;
   point.velocity.x /= length;
-  point.velocity.force = system_.force_change(point.velocity.x);
+  point.velocity.force /= length;
   turn_t_ = 1 / length;
 }
 
-NewtonOutcome ArcFollower::start(double t, State state, double direction) {
+Outcome ArcFollower::start(double t, State state, double direction) {
   now_.point.t = t;
   now_.point.state = std::move(state);
-  motion_.impose(system_, t, now_.point.state.x);
+  motion_.impose(system_, t, now_.point.state);
   NewtonOptions options;
   options.tolerance_mm = options_.tolerance_mm;
   const NewtonReport report = newton(system_, now_.point.state, options);
-  if (report.outcome != NewtonOutcome::converged) return report.outcome;
+  if (report.outcome != Outcome::reached) return report.outcome;
   now_.inertia = system_.at(now_.point.state);
-  if (!now_.inertia.usable) return NewtonOutcome::not_finite;
+  if (!now_.inertia.usable) return Outcome::not_finite;
   take_tangent(now_, nullptr, direction);
-  return NewtonOutcome::converged;
+  return Outcome::reached;
 }
 
 /// Newton on positions and parameter, at right angles to the tangent of the point before.
@@ -48,11 +48,11 @@ bool ArcFollower::corrected(ArcPoint& next, int& iterations) {
   Eigen::Matrix3Xd dx;
   State with_t;
   for (iterations = 1; iterations <= most_corrections; ++iterations) {
-    motion_.impose(system_, point.t, point.state.x);
+    motion_.impose(system_, point.t, point.state);
     next.inertia = system_.at(point.state);
     if (!next.inertia.usable) return false;
     system_.correction(dx);
-    system_.tangent(motion_.velocity(point.t), with_t.x, motion_.load_velocity(point.t));
+    motion_.velocity(system_, point.t, point.state, with_t);
     const State held{dx, {}};
     const double dt = -product(held, 0, tangent, turn_t_) / product(with_t, 1, tangent, turn_t_);
     dx += dt * with_t.x;
@@ -65,12 +65,14 @@ bool ArcFollower::corrected(ArcPoint& next, int& iterations) {
   return false;
 }
 
-NewtonOutcome ArcFollower::step() {
+Outcome ArcFollower::step() {
   for (; step_mm_ >= options_.smallest_mm; step_mm_ /= 2) {
     ArcPoint next;
     next.point.t = now_.point.t + step_mm_ * turn_t_;
-    next.point.state.x = now_.point.state.x + step_mm_ * now_.point.velocity.x;
-    next.point.state.force = now_.point.state.force + step_mm_ * now_.point.velocity.force;
+    next.point.state = now_.point.state;
+    next.point.state.force += step_mm_ * now_.point.velocity.force;
+    move_to(system_.model(), now_.point.state.x + step_mm_ * now_.point.velocity.x,
+            next.point.state);
     int iterations = 0;
     if (!corrected(next, iterations)) continue;
     const State before = std::move(now_.point.velocity);
@@ -79,9 +81,9 @@ NewtonOutcome ArcFollower::step() {
     now_ = std::move(next);
     // four corrections are what a good step takes
     step_mm_ = std::min(options_.largest_mm, step_mm_ * std::clamp(4.0 / iterations, 0.5, 1.5));
-    return NewtonOutcome::converged;
+    return Outcome::reached;
   }
-  return NewtonOutcome::not_converged;
+  return Outcome::lost;
 }
 
 std::optional<double> turning_point(Linearisation& system, const PinnedMotion& motion,
@@ -89,10 +91,10 @@ std::optional<double> turning_point(Linearisation& system, const PinnedMotion& m
                                     const ArcOptions& options) {
   constexpr int most_steps = 40;
   ArcFollower path(system, motion, options);
-  if (path.start(begin.t, begin.state, direction) != NewtonOutcome::converged) return std::nullopt;
+  if (path.start(begin.t, begin.state, direction) != Outcome::reached) return std::nullopt;
   double farthest = begin.t;
   for (int k = 0; k < most_steps; ++k) {
-    if (path.step() != NewtonOutcome::converged) return std::nullopt;
+    if (path.step() != Outcome::reached) return std::nullopt;
     const double t = path.at().point.t;
     if (direction * (t - farthest) < 0) return farthest;
     farthest = t;

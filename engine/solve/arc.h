@@ -33,11 +33,11 @@ class ArcFollower {
 
   /// Takes an equilibrium at t; the path goes on with t growing (direction 1) or falling (-1).
   /// Outcomes as newton().
-  NewtonOutcome start(double t, State state, double direction = 1);
+  Outcome start(double t, State state, double direction = 1);
 
-  /// One step, halved until it succeeds; not_converged where that ends in steps that are too small:
-  /// the point is then the last good one.
-  NewtonOutcome step();
+  /// One step, halved until it succeeds; lost where that ends in steps that are too small: the
+  /// point is then the last good one.
+  Outcome step();
 
   const ArcPoint& at() const { return now_; }
 

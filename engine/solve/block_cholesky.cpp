@@ -131,14 +131,17 @@ class BlockCholesky final : public LinearSolver {
     const auto graph = hessian_graph(model);
     order_ = nested_dissection(model, graph);
     place_.resize(order_.size());
-    for (std::size_t k = 0; k < order_.size(); ++k) place_[order_[k]] = int(k);
+    for (std::size_t k = 0; k < order_.size(); ++k) {
+      place_[order_[k]] = int(k);
+      column_.push_back(model.free_columns[std::size_t(order_[k])]);
+    }
     const auto structure = eliminate(graph);
     lay_out(structure);
     plan_updates(structure);
     plan_scatter();
   }
 
-  Inertia factor(const ChainHessian& hessian, double shift) override {
+  Inertia factor(const BlockHessian& hessian, double shift) override {
     scatter(hessian, shift);
     Inertia inertia;
     inertia.smallest_pivot = 1e300;
@@ -150,13 +153,15 @@ class BlockCholesky final : public LinearSolver {
     work_.resize(order_.size());
     std::vector<Entry>& x = work_;
     for (std::size_t k = 0; k < order_.size(); ++k) {
-      const auto v = b.col(model_.free_nodes[order_[k]]);
+      const auto v = b.col(column_[k]);
       x[k].value = Column{v[0], v[1], v[2], 0};
+      for (int c = 0; partly_[k] && c < 3; ++c)
+        if (model_.held[std::size_t(column_[k])] >> c & 1) x[k].value[c] = 0;
     }
     solve_numbers(factor_, x.data());
     b.setZero();
     for (std::size_t k = 0; k < order_.size(); ++k)
-      b.col(model_.free_nodes[order_[k]]) << x[k].value[0], x[k].value[1], x[k].value[2];
+      b.col(column_[k]) << x[k].value[0], x[k].value[1], x[k].value[2];
   }
 
   long long blocks() const override {
@@ -228,9 +233,9 @@ class BlockCholesky final : public LinearSolver {
       // the block's row is `first`; it is stored below the diagonal with the later node as row
       return ka > kb ? Scatter{slot(ka, kb), false} : Scatter{slot(kb, ka), true};
     };
-    for (const ModelEdge& edge : model_.edges) next_.push_back(plan(edge.from, edge.to));
-    for (const ModelBend& bend : model_.bends)
-      second_.push_back(plan(model_.edges[bend.edge].from, model_.edges[bend.edge + 1].to));
+    for (const auto& [row, column] : model_.pattern.pairs())
+      pairs_.push_back(plan(row, column));
+    for (int column : column_) partly_.push_back(model_.held[std::size_t(column)] != 0);
   }
 
   struct Scatter {
@@ -244,24 +249,33 @@ class BlockCholesky final : public LinearSolver {
           transposed ? Column{m(c, 0), m(c, 1), m(c, 2), 0} : Column{m(0, c), m(1, c), m(2, c), 0};
   }
 
-  void scatter(const ChainHessian& hessian, double shift) {
+  bool partly_held(int column) const { return model_.held[std::size_t(column)] != 0; }
+
+  void scatter(const BlockHessian& hessian, double shift) {
     std::memset(static_cast<void*>(factor_.below.data()), 0, factor_.below.size() * sizeof(Block));
-    for (std::size_t k = 0; k < order_.size(); ++k) {
+    for (std::size_t k = 0; k < column_.size(); ++k) {
       Block& d = factor_.diagonal[k];
-      put(hessian.diagonal[model_.free_nodes[order_[k]]], false, d);
+      const int column = column_[k];
+      const Eigen::Matrix3d& own = hessian.diagonal[std::size_t(column)];
+      put(partly_[k] ? without_held(model_, column, column, own) : own, false, d);
       for (int c = 0; c < 3; ++c) d.column[c][c] += shift;
     }
-    for (std::size_t k = 0; k < next_.size(); ++k)
-      if (next_[k].slot >= 0)
-        put(hessian.next[k], next_[k].transposed, factor_.below[next_[k].slot]);
-    for (std::size_t k = 0; k < second_.size(); ++k)
-      if (second_[k].slot >= 0)
-        put(hessian.second[k], second_[k].transposed, factor_.below[second_[k].slot]);
+    const auto& pattern = model_.pattern.pairs();
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      if (pairs_[k].slot < 0) continue;
+      const auto [row, column] = pattern[k];
+      const Eigen::Matrix3d& own = hessian.pair[k];
+      const bool partly = partly_held(row) || partly_held(column);
+      put(partly ? without_held(model_, row, column, own) : own, pairs_[k].transposed,
+          factor_.below[std::size_t(pairs_[k].slot)]);
+    }
   }
 
   const Model& model_;
-  std::vector<int> order_, place_;  // elimination order of free nodes, and its inverse
-  std::vector<Scatter> next_, second_;
+  std::vector<int> order_, place_;  // elimination order of free columns, and its inverse
+  std::vector<int> column_;         // of the model, in elimination order
+  std::vector<char> partly_;        // whether some of it is held
+  std::vector<Scatter> pairs_;      // where each pair's block goes
   Factor factor_;
   mutable std::vector<Entry> work_;  // of solve()
 };

@@ -1,9 +1,11 @@
-// The first buckled equilibrium out of the flat, and the next one after a loss of stability.
+// The first buckled equilibrium out of the flat.
 #pragma once
 
 #include "engine/core/result.h"
+#include "engine/core/watch.h"
 #include "engine/footprint/flat_frame.h"
 #include "engine/footprint/mesh.h"
+#include "engine/gridshell/shell_rods.h"
 #include "engine/solve/path.h"
 
 namespace gridshell {
@@ -29,18 +31,9 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
                             double t, const BuckleSeed& seed, const FlatFrame& flat,
                             const Watch& watch);
 
-/// From a state that is not stable, pushed along `mode` (its softest) to either side, to rest; the
-/// one of lower energy. Errors: no_equilibrium, cancelled.
-Result<State> settle(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& mode,
-                     const Watch& watch);
-
-/// From the last point of a path that lost its stability or turned back: with the motion a little
-/// further, at `beyond`, along the mode that went soft. Errors as settle().
-Result<State> leave_branch(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
-                           double beyond, const Watch& watch);
-
-/// Softest mode of the Hessian last assembled in `system` by inverse iteration: unit vector over
-/// all nodes, zero at pinned ones.
-Eigen::Matrix3Xd softest_mode(Linearisation& system);
+/// The flat footprint as a state, at the begin of a motion: no rod is bent, every first director
+/// stands up; ghosts are where the motion begins.
+State flat_state(const Model& model, const RodMesh& mesh, const PinnedMotion& motion,
+                 const FlatFrame& flat);
 
 }  // namespace gridshell

@@ -38,7 +38,7 @@ class CholmodSolver final : public LinearSolver {
   CholmodSolver(const CholmodSolver&) = delete;
   CholmodSolver& operator=(const CholmodSolver&) = delete;
 
-  Inertia factor(const ChainHessian& hessian, double shift) override {
+  Inertia factor(const BlockHessian& hessian, double shift) override {
     fill(hessian, shift);
     current_ = factor_;
     cholmod_factorize(matrix_, factor_, &common_);
@@ -67,14 +67,15 @@ class CholmodSolver final : public LinearSolver {
     cholmod_dense* rhs =
         cholmod_allocate_dense(matrix_->nrow, 1, matrix_->nrow, CHOLMOD_REAL, &common_);
     auto* values = static_cast<double*>(rhs->x);
+    clear_held_rows(b);
     for (int k = 0; k < model_.free(); ++k)
-      Eigen::Map<Eigen::Vector3d>(values + 3 * k) = b.col(model_.free_nodes[k]);
+      Eigen::Map<Eigen::Vector3d>(values + 3 * k) = b.col(model_.free_columns[std::size_t(k)]);
     cholmod_dense* x = cholmod_solve(CHOLMOD_A, current_, rhs, &common_);
     b.setZero();
     if (x) {
       const auto* found = static_cast<const double*>(x->x);
       for (int k = 0; k < model_.free(); ++k)
-        b.col(model_.free_nodes[k]) = Eigen::Map<const Eigen::Vector3d>(found + 3 * k);
+        b.col(model_.free_columns[std::size_t(k)]) = Eigen::Map<const Eigen::Vector3d>(found + 3 * k);
     }
     cholmod_free_dense(&x, &common_);
     cholmod_free_dense(&rhs, &common_);
@@ -116,9 +117,8 @@ class CholmodSolver final : public LinearSolver {
       return Place{column, int(std::lower_bound(list.begin(), list.end(), other) - list.begin()),
                    a < b};
     };
-    for (const ModelEdge& edge : model_.edges) next_.push_back(place(edge.from, edge.to));
-    for (const ModelBend& bend : model_.bends)
-      second_.push_back(place(model_.edges[bend.edge].from, model_.edges[bend.edge + 1].to));
+    for (const auto& [row, column] : model_.pattern.pairs())
+      pairs_.push_back(place(row, column));
   }
 
   /// the `rank`-th block below the diagonal block of a block column
@@ -137,37 +137,38 @@ class CholmodSolver final : public LinearSolver {
             place.transposed ? m(c, r) : m(r, c);
   }
 
-  void fill(const ChainHessian& hessian, double shift) {
+  void fill(const BlockHessian& hessian, double shift) {
     const auto* start = static_cast<const int*>(matrix_->p);
     auto* value = static_cast<double*>(matrix_->x);
     for (int k = 0; k < model_.free(); ++k) {
-      const Eigen::Matrix3d& d = hessian.diagonal[model_.free_nodes[k]];
+      const int column = model_.free_columns[std::size_t(k)];
+      const Eigen::Matrix3d d =
+          without_held(model_, column, column, hessian.diagonal[std::size_t(column)]);
       for (int c = 0; c < 3; ++c)
         for (int r = c; r < 3; ++r)
           value[start[3 * k + c] + r - c] = d(r, c) + (r == c ? shift : 0);
     }
-    for (std::size_t k = 0; k < next_.size(); ++k) put(hessian.next[k], next_[k]);
-    for (std::size_t k = 0; k < second_.size(); ++k) put(hessian.second[k], second_[k]);
+    const auto& pattern = model_.pattern.pairs();
+    for (std::size_t k = 0; k < pairs_.size(); ++k)
+      put(without_held(model_, pattern[k][0], pattern[k][1], hessian.pair[k]), pairs_[k]);
   }
 
-  static void take(Inertia& inertia, double pivot) {
-    const double size = std::abs(pivot);
-    if (!(size > 1e-300 && size < 1e300)) inertia.usable = false;
-    inertia.negative_pivots += pivot < 0;
-    inertia.smallest_pivot = std::min(inertia.smallest_pivot, size);
-    inertia.largest_pivot = std::max(inertia.largest_pivot, size);
+  void clear_held_rows(Eigen::Matrix3Xd& b) const {
+    for (int column : model_.free_columns)
+      for (int c = 0; c < 3; ++c)
+        if (model_.held[std::size_t(column)] >> c & 1) b(c, column) = 0;
   }
 
   static Inertia read_simplicial(const cholmod_factor* f) {
-    Inertia inertia{0, true, 1e300, 0};
+    Inertia inertia = Inertia::of_nothing();
     const auto* start = static_cast<const int*>(f->p);
     const auto* value = static_cast<const double*>(f->x);
-    for (std::size_t k = 0; k < f->n; ++k) take(inertia, value[start[k]]);
+    for (std::size_t k = 0; k < f->n; ++k) inertia.take(value[start[k]]);
     return inertia;
   }
 
   Inertia read_supernodal() const {
-    Inertia inertia{0, true, 1e300, 0};
+    Inertia inertia = Inertia::of_nothing();
     const auto *super = static_cast<const int*>(factor_->super),
                *pi = static_cast<const int*>(factor_->pi),
                *px = static_cast<const int*>(factor_->px);
@@ -176,7 +177,7 @@ class CholmodSolver final : public LinearSolver {
       const int rows = pi[s + 1] - pi[s];
       for (int c = 0; c < super[s + 1] - super[s]; ++c) {
         const double root = value[px[s] + c + c * rows];
-        take(inertia, root * root);
+        inertia.take(root * root);
       }
     }
     return inertia;
@@ -188,7 +189,7 @@ class CholmodSolver final : public LinearSolver {
   cholmod_factor* factor_ = nullptr;
   cholmod_factor* indefinite_ = nullptr;  // made when first needed
   cholmod_factor* current_ = nullptr;     // whichever factor() left usable
-  std::vector<Place> next_, second_;
+  std::vector<Place> pairs_;
 };
 
 }  // namespace

@@ -6,7 +6,8 @@
 
 #include "engine/core/result.h"
 #include "engine/solve/dynamics.h"
-#include "engine/solve/newton.h"
+#include "engine/core/watch.h"
+#include "engine/solve/linearisation.h"
 
 namespace gridshell {
 
@@ -23,34 +24,34 @@ struct RestOptions {
 /// vibrates faster than the step sees dies out at once, which the midpoint rule would keep.
 class DampedMotion {
  public:
-  /// `prescription` as in Linearisation: its components are held, by a mass a million times the
-  /// shell's. `load` is the factor of the model's dead loads.
-  DampedMotion(const Model& model, Eigen::VectorXd mass, const DynamicsOptions& options,
-               const Prescription& prescription = {}, double load = 1);
+  /// `holds` as in Linearisation: their components are held, by a mass a million times the shell's.
+  DampedMotion(const Model& model, Eigen::Matrix3Xd mass, const DynamicsOptions& options,
+               const Outside& outside = {}, std::vector<Hold> holds = {});
 
   /// One step; on failure (false) the motion is unchanged.
-  bool step(Motion& motion);
+  bool step(MovingState& moving);
 
   /// Steps to rest; one that fails is halved, good ones grow again. `seen` is called after each.
   /// Errors: no_equilibrium (not at rest in time, or a step too small), cancelled.
-  Result<void> settle(Motion& motion, const RestOptions& rest,
-                      const std::function<void(const Motion&)>& seen, const Watch& watch);
+  Result<void> settle(MovingState& moving, const RestOptions& rest,
+                      const std::function<void(const MovingState&)>& seen, const Watch& watch);
 
   double step_s() const { return options_.step_s; }
   /// Largest force of the shell at a state, inertia not counted, N.
-  double residual(const Eigen::Matrix3Xd& x);
+  double residual(const State& state);
 
  private:
   bool implicit(const Eigen::Matrix3Xd& aim, const Eigen::Matrix3Xd& force, double stiffness,
-                Eigen::Matrix3Xd& x);
-  Eigen::Matrix3Xd forces(const Eigen::Matrix3Xd& x);
+                State& state);
+  Eigen::Matrix3Xd forces(const State& state);
+  void clear_prescribed(Eigen::Matrix3Xd& v) const;
 
   const Model& model_;
-  Eigen::VectorXd mass_;
+  Eigen::Matrix3Xd mass_;
   double whole_mass_ = 0;
   DynamicsOptions options_;
-  Prescription prescription_;
-  double load_ = 1;
+  Outside outside_;
+  std::vector<Hold> holds_;
   std::unique_ptr<LinearSolver> solver_;
   Assembly assembly_;
 };

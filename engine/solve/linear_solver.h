@@ -1,4 +1,4 @@
-// Direct factorisation of the Hessian of the free nodes, with its inertia.
+// Direct factorisation of the Hessian of the free columns, with its inertia.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,6 +15,15 @@ struct Inertia {
   double smallest_pivot = 0, largest_pivot = 0;  ///< in absolute value
 
   bool positive_definite() const { return usable && negative_pivots == 0; }
+  /// Takes one pivot into account.
+  void take(double pivot) {
+    const double size = pivot < 0 ? -pivot : pivot;
+    if (!(size > 1e-300 && size < 1e300)) usable = false;
+    negative_pivots += pivot < 0;
+    smallest_pivot = size < smallest_pivot ? size : smallest_pivot;
+    largest_pivot = size > largest_pivot ? size : largest_pivot;
+  }
+  static Inertia of_nothing() { return {0, true, 1e300, 0}; }
 };
 
 /// Symbolic analysis once (constructor), numbers as often as needed. Not thread-safe; one a thread.
@@ -22,11 +31,11 @@ class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
 
-  /// Factorises the rows and columns of the free nodes of `hessian` + `shift` I.
-  virtual Inertia factor(const ChainHessian& hessian, double shift) = 0;
+  /// Factorises the rows and columns of what is free of `hessian` + `shift` I.
+  virtual Inertia factor(const BlockHessian& hessian, double shift) = 0;
 
-  /// Solves for the right-hand sides at the free nodes, in place; columns of pinned nodes come back
-  /// as zero. Needs a factor() that was usable.
+  /// Solves for the right-hand sides at the free columns, in place; what is held comes back as
+  /// zero. Needs a factor() that was usable.
   virtual void solve(Eigen::Matrix3Xd& right_hand_side) const = 0;
 
   /// 3x3 blocks in the factor.
@@ -49,5 +58,18 @@ struct CholmodOptions {
 
 /// CHOLMOD [Chen, Davis, Hager, Rajamanickam 2008].
 std::unique_ptr<LinearSolver> make_cholmod(const Model& model, const CholmodOptions& options = {});
+
+/// Rows and columns of `block`, whose row is column `row` of the model and whose column is
+/// `column`, that are held: zero, and one on the diagonal.
+inline Eigen::Matrix3d without_held(const Model& model, int row, int column,
+                                    const Eigen::Matrix3d& block) {
+  Eigen::Matrix3d m = block;
+  for (int k = 0; k < 3; ++k) {
+    if (model.held[std::size_t(row)] >> k & 1) m.row(k).setZero();
+    if (model.held[std::size_t(column)] >> k & 1) m.col(k).setZero();
+    if (row == column && model.held[std::size_t(row)] >> k & 1) m(k, k) = 1;
+  }
+  return m;
+}
 
 }  // namespace gridshell

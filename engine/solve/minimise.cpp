@@ -40,7 +40,7 @@ class Descent {
 
   /// As far along dx as the energy falls.
   void go(const Eigen::Matrix3Xd& dx) {
-    const double begin = energy_at(state_.x),
+    const double begin = energy_at(state_),
                  slope = (system_.assembly().gradient.array() * dx.array()).sum();
     const Eigen::VectorXd force = system_.assembly().force, change = system_.force_change(dx);
     const auto falls = [&](double step) {
@@ -48,26 +48,27 @@ class Descent {
     };
     double step = 1;
     for (; step > 1e-10; step /= 2) {
-      trial_ = state_.x + step * dx;
+      trial_ = state_;
+      move_to(system_.model(), state_.x + step * dx, trial_);
       if (falls(step)) break;
       system_.restore_lengths(force + step * change, trial_);
       if (falls(step)) break;
     }
+    std::swap(state_, trial_);
     state_.force = force + step * change;
-    state_.x.swap(trial_);
   }
 
  private:
-  double energy_at(const Eigen::Matrix3Xd& x) const {
-    const Energies energies = energies_of(system_.model(), x);
-    return energies[Term::bend] + options_.EA_scale * energies[Term::stretch] +
-           load_energy(system_.model(), x, system_.load_factor());
+  double energy_at(const State& state) const {
+    Energies energies = energies_of(system_.model(), state, system_.outside);
+    energies[Term::stretch] *= options_.EA_scale;
+    return energies.total();
   }
 
   Linearisation& system_;
   State& state_;
   const MinimiseOptions& options_;
-  Eigen::Matrix3Xd trial_;
+  State trial_;
   double weakening_ = 0, shift_ = 0;
 };
 
@@ -87,13 +88,16 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
   Eigen::Matrix3Xd dx;
   Descent descent(system, state, options);
   for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
-    if (watch.cancelled()) return report;
+    if (watch.cancelled()) {
+      report.outcome = Outcome::cancelled;
+      return report;
+    }
     report.inertia = descent.factorise();
     ++system.effort().newton_iterations;
     system.correction(dx);
     const double move = largest_column(dx);
     if (!report.inertia.positive_definite() || !std::isfinite(move)) {
-      report.outcome = NewtonOutcome::not_finite;
+      report.outcome = Outcome::not_finite;
       return report;
     }
     if (report.iterations == 1) report.first_move_mm = move;
@@ -104,7 +108,7 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
     }
     system.apply(dx, state);
     if (descent.exact() || is_minimum(system, state, options.EA_scale))
-      report.outcome = NewtonOutcome::converged;
+      report.outcome = Outcome::reached;
     return report;
   }
   return report;

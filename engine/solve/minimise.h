@@ -1,6 +1,7 @@
 // Down the energy to a minimum from far away, where full Newton steps lead elsewhere.
 #pragma once
 
+#include "engine/core/watch.h"
 #include "engine/solve/newton.h"
 
 namespace gridshell {
@@ -17,8 +18,8 @@ struct MinimiseOptions {
 /// only where that is not enough it is shifted. A step that would stretch the rods is followed by
 /// one that gives them their lengths back, so that soft modes may go far. At a saddle where nothing
 /// moves the outcome is not_converged; settle() leads on. `state.force` is where
-/// the mixed form starts (zero serves), and is set at the end. Outcomes: converged, not_converged,
-/// not_finite.
+/// the mixed form starts (zero serves), and is set at the end. Outcomes: reached, not_converged,
+/// not_finite, cancelled.
 NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions& options,
                       const Watch& watch);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/solve/minimise.h"
 
@@ -14,24 +15,6 @@ namespace {
 // of the error, the extrapolated one falls short by up to 1.7 where the meshes are not quite in the
 // asymptotic range
 constexpr double margin = 1.25, margin_extrapolated = 2.2;
-
-NestedEnd end_of(PathEnd end) {
-  switch (end) {
-    case PathEnd::reached:
-      return NestedEnd::reached;
-    case PathEnd::unstable:
-      return NestedEnd::unstable;
-    case PathEnd::folded:
-      return NestedEnd::folded;
-    case PathEnd::not_finite:
-      return NestedEnd::not_finite;
-    case PathEnd::cancelled:
-      return NestedEnd::cancelled;
-    case PathEnd::lost:
-      break;
-  }
-  return NestedEnd::lost;
-}
 
 }  // namespace
 
@@ -81,22 +64,33 @@ std::optional<LevelPlan> finer(const LevelPlan& plan) {
   return next;
 }
 
-NestedShell::NestedShell(const Footprint& footprint, const ShellRods& rods,
-                         const BoundaryMotion& motion, const LevelPlan& plan,
-                         const PathOptions& options)
-    : plan_(plan), options_(options) {
+Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRods& rods, Rung rung,
+                                      const BoundaryMotion& motion, const LevelPlan& plan,
+                                      const PathOptions& options) {
+  NestedShell shell(plan, options);
+  shell.boundary_ = motion;
   for (int edges : plan.edges_per_segment) {
     auto level = std::make_unique<Level>();
     level->mesh = mesh_rods(footprint, edges);
-    level->model = build_model(level->mesh, rods);
+    auto model = build_model(level->mesh, rods, rung);
+    if (!model) return tl::unexpected<Error>(model.error());
+    level->model = std::move(*model);
     level->motion = pinned_motion(level->mesh, motion);
     level->system = std::make_unique<Linearisation>(level->model);
-    if (!levels_.empty()) {
-      level->from_coarser.emplace(levels_.back()->mesh, level->mesh);
-      level->to_coarser.emplace(level->mesh, levels_.back()->mesh);
+    level->system->outside.field = &level->field;
+    if (!shell.levels_.empty()) {
+      const Level& coarser = *shell.levels_.back();
+      level->from_coarser = std::make_unique<StateTransfer>(coarser.mesh, coarser.model,
+                                                            level->mesh, level->model);
+      level->to_coarser.emplace(level->mesh, coarser.mesh);
     }
-    levels_.push_back(std::move(level));
+    shell.levels_.push_back(std::move(level));
   }
+  shell.follow_anew();
+  return shell;
+}
+
+void NestedShell::follow_anew() {
   path_ = std::make_unique<PathFollower>(*levels_[0]->system, levels_[0]->motion, options_);
 }
 
@@ -106,52 +100,89 @@ Effort NestedShell::effort() const {
   return sum;
 }
 
+Energies NestedShell::energies(int level) const {
+  const Level& one = *levels_[std::size_t(level)];
+  return energies_of(one.model, state_.levels[std::size_t(level)], one.system->outside);
+}
+
+State NestedShell::from(const NestedShell& other) const {
+  const Level& theirs = *other.levels_.back();
+  return StateTransfer(theirs.mesh, theirs.model, levels_[0]->mesh, levels_[0]->model)
+      .carry(other.state_.levels.back());
+}
+
+void NestedShell::set_field(const std::vector<NodeAction>& actions) {
+  for (auto& level : levels_) level->field = actions;
+}
+
+void NestedShell::forget() {
+  for (auto& level : levels_) level->added.clear();
+}
+
 NestedReport NestedShell::place(double t, const State& coarse) {
-  for (auto& level : levels_) level->added.clear(), level->added_t.clear();
+  forget();
   path_->allow_unstable(options_.allow_unstable);
-  return {end_of(path_->start(t, coarse).end), t};
+  return {path_->start(t, coarse).end, t};
 }
 
 NestedReport NestedShell::start(double t, const State& coarse, const Watch& watch) {
   const NestedReport report = place(t, coarse);
-  return report.end == NestedEnd::reached ? certify(t, watch) : report;
+  if (report.end != Outcome::reached) return report;
+  return certify(t, path_->point(), path_->last(), watch);
 }
 
 NestedReport NestedShell::advance(double t, const Watch& watch) {
   path_->allow_unstable(options_.allow_unstable);
   const PathReport report = path_->advance(t, watch);
-  if (report.end != PathEnd::reached) return {end_of(report.end), report.t};
-  return certify(t, watch);
+  if (report.end != Outcome::reached) return {report.end, report.t};
+  return certify(t, path_->point(), path_->last(), watch);
 }
 
-void NestedShell::push_joint(const Prescription& prescription,
-                             const Eigen::Vector3d& displacement) {
+NestedReport NestedShell::sample(double t, const PathPoint& beside, const Watch& watch) {
+  PathFollower path(*levels_[0]->system, levels_[0]->motion, options_);
+  path.allow_unstable(options_.allow_unstable);
+  path.resume(beside);
+  const PathReport report = path.advance(t, watch);
+  if (report.end != Outcome::reached) return {report.end, report.t};
+  return certify(t, path.point(), path.last(), watch);
+}
+
+void NestedShell::drive(const Drive& drive) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = *levels_[k];
-    const double load = level.system->load_factor();
-    level.motion = {state_.levels[k].x, Eigen::Matrix3Xd::Zero(3, level.model.nodes), Pace::even,
-                    load, 0};
-    level.motion.change.col(prescription.node) = displacement;
-    level.system->prescribe(prescription);
+    const Eigen::Matrix3Xd& x = state_.levels[k].x;
+    level.motion = {x, Eigen::Matrix3Xd::Zero(3, x.cols()), Pace::even, drive.load, drive.field};
+    if (drive.boundary) {
+      const Eigen::Matrix3Xd there = pinned_motion(level.mesh, *drive.boundary).at(1);
+      for (int node = 0; node < level.mesh.nodes(); ++node)
+        if (level.model.pinned(node)) level.motion.change.col(node) = there.col(node) - x.col(node);
+    }
+    for (std::size_t h = 0; h < drive.displacements.size(); ++h)
+      level.motion.change.col(drive.holds[h].node) = drive.displacements[h];
+    level.system->hold(drive.holds);
   }
-  path_ = std::make_unique<PathFollower>(*levels_[0]->system, levels_[0]->motion, options_);
+  forget();
+  follow_anew();
 }
 
-State NestedShell::carried(const Level& level, const State& coarser) const {
-  State state;
-  level.from_coarser->nodes(coarser.x, state.x);
-  level.from_coarser->edges(coarser.force, state.force);
-  return state;
+void NestedShell::actuate(double t, const std::vector<Hold>& holds) {
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    Level& level = *levels_[k];
+    level.motion = pinned_motion(level.mesh, boundary_);
+    for (const Hold& hold : holds) level.motion.begin.col(hold.node) = state_.levels[k].x.col(hold.node);
+    level.system->hold(holds);
+  }
+  state_.t = t;
+  forget();
+  follow_anew();
 }
 
 void NestedShell::remember(Level& level, double t, const State& base, const State& state) {
-  State added{state.x - base.x, state.force - base.force};
+  // angles are counted from frames that each carry makes anew: only nodes are remembered
+  Level::Added added{t, state.x - base.x, state.force - base.force};
+  added.x.rightCols(level.model.columns() - level.model.nodes).setZero();
   level.added.push_back(std::move(added));
-  level.added_t.push_back(t);
-  if (level.added.size() > 2) {
-    level.added.erase(level.added.begin());
-    level.added_t.erase(level.added_t.begin());
-  }
+  if (level.added.size() > 2) level.added.erase(level.added.begin());
 }
 
 bool NestedShell::correct(Level& level, const State& coarser, State& state, NewtonReport& report) {
@@ -159,136 +190,168 @@ bool NestedShell::correct(Level& level, const State& coarser, State& state, Newt
   options.tolerance_mm = options_.tolerance_mm;
   options.widest_turn = options_.widest_turn;
   report = newton(*level.system, state, options);
-  if (report.outcome != NewtonOutcome::converged) return false;
+  if (report.outcome != Outcome::reached) return false;
   // a finer mesh moves the joints by less than a cell, or it went to another state
   const int joints = level.mesh.joints;
   return largest_column(state.x.leftCols(joints) - coarser.x.leftCols(joints)) <
          0.5 * options_.spacing_mm;
 }
 
-NestedReport NestedShell::certify(double t, const Watch& watch) {
+/// What the finer mesh added at the last states carries on along the path; for the first one it is
+/// a quarter of what the level below added, the error being of second order.
+State NestedShell::guess(const Level& level, std::size_t k, double t, const State& base) const {
+  State state = base;
+  Eigen::Matrix3Xd x = base.x;
+  if (level.added.empty() && k > 1) {
+    const Level::Added& below = levels_[k - 1]->added.back();
+    Eigen::Matrix3Xd quarter;
+    Eigen::VectorXd force;
+    level.from_coarser->meshes().nodes(below.x.leftCols(levels_[k - 1]->mesh.nodes()), quarter);
+    level.from_coarser->meshes().edges(below.force, force);
+    x.leftCols(quarter.cols()) += quarter / 4;
+    state.force += force / 4;
+  }
+  if (!level.added.empty()) {
+    const Level::Added &last = level.added.back(), &before = level.added.front();
+    const double ahead = level.added.size() < 2 ? 0 : (t - last.t) / (last.t - before.t);
+    x += last.x;
+    state.force += last.force;
+    if (std::abs(ahead) > 0 && std::abs(ahead) < 3) {
+      x += ahead * (last.x - before.x);
+      state.force += ahead * (last.force - before.force);
+    }
+  }
+  move_to(level.model, x, state);
+  return state;
+}
+
+/// A level's state beside that of the coarser one: from what is remembered, without it, and where
+/// full steps lead away down the energy from there, as long as that stays nearby.
+bool NestedShell::refine(std::size_t k, double t, const State& coarser, State& state,
+                         NewtonReport& report, const Watch& watch) {
+  Level& level = *levels_[k];
+  const State base = level.from_coarser->carry(coarser);
+  state = guess(level, k, t, base);
+  level.motion.impose(*level.system, t, state);
+  bool found = correct(level, coarser, state, report);
+  for (bool down : {false, true}) {
+    if (found || watch.cancelled()) break;
+    state = base;
+    level.motion.impose(*level.system, t, state);
+    if (down) minimise(*level.system, state, {.most_iterations = 60}, watch);
+    found = correct(level, coarser, state, report);
+  }
+  if (found) remember(level, t, base, state);
+  return found;
+}
+
+NestedReport NestedShell::certify(double t, const PathPoint& coarse, const NewtonReport& last,
+                                  const Watch& watch) {
   NestedState next;
   next.t = t;
-  next.levels.push_back(path_->point().state);
-  NewtonReport report = path_->last();
+  next.levels.push_back(coarse.state);
+  NewtonReport report = last;
   for (std::size_t k = 1; k < levels_.size(); ++k) {
-    if (watch.cancelled()) return {NestedEnd::cancelled, state_.t};
-    Level& level = *levels_[k];
-    const State& coarser = next.levels.back();
-    const State base = carried(level, coarser);
-    State guess = base;
-    // what the finer mesh added at the last states carries on along the path; for the first one it
-    // is a quarter of what the level below added, the error being of second order
-    const std::size_t known = level.added.size();
-    if (known == 0 && k > 1) {
-      const State quarter = carried(level, levels_[k - 1]->added.back());
-      guess.x += quarter.x / 4;
-      guess.force += quarter.force / 4;
-    }
-    if (known > 0) {
-      const double ahead =
-          known < 2 ? 0 : (t - level.added_t[1]) / (level.added_t[1] - level.added_t[0]);
-      const State& last = level.added.back();
-      guess.x += last.x;
-      guess.force += last.force;
-      if (std::abs(ahead) > 0 && std::abs(ahead) < 3) {
-        guess.x += ahead * (last.x - level.added[0].x);
-        guess.force += ahead * (last.force - level.added[0].force);
-      }
-    }
-    level.motion.impose(*level.system, t, guess.x);
-    if (!correct(level, coarser, guess, report)) {
-      // without the memory of other states
-      guess = base;
-      level.motion.impose(*level.system, t, guess.x);
-      if (!correct(level, coarser, guess, report)) {
-        // full steps lead away: down the energy from there, as long as that stays nearby
-        guess = base;
-        level.motion.impose(*level.system, t, guess.x);
-        minimise(*level.system, guess, {.most_iterations = 60}, watch);
-        if (!correct(level, coarser, guess, report)) return {NestedEnd::levels_disagree, state_.t};
-      }
-    }
-    remember(level, t, base, guess);
-    next.levels.push_back(std::move(guess));
+    State state;
+    const bool found = refine(k, t, next.levels.back(), state, report, watch);
+    if (watch.cancelled()) return {Outcome::cancelled, state_.t};
+    if (!found) return {Outcome::meshes_disagree, state_.t};
+    next.levels.push_back(std::move(state));
   }
   state_ = std::move(next);
   finish(report);
-  if (!state_.inertia.usable) return {NestedEnd::not_finite, t};
+  if (!state_.inertia.usable) return {Outcome::not_finite, t};
   if (!options_.allow_unstable && !state_.inertia.positive_definite())
-    return {NestedEnd::unstable, t};
-  return {NestedEnd::reached, t};
+    return {Outcome::unstable, t};
+  return {Outcome::reached, t};
+}
+
+/// At the end of a path, and where a force is measured, the residual goes down to what round-off
+/// leaves: corrections are cheap. The assembly ends at the state found.
+void NestedShell::polish(Level& finest, State& found) {
+  Linearisation& system = *finest.system;
+  system.gradient_at(found);
+  if (state_.t < 1 && system.holds().empty()) return;
+  Eigen::Matrix3Xd dx;
+  for (int k = 0; k < 4 && state_.inertia.usable; ++k) {
+    const double residual = system.residual();
+    if (residual < 1e-9) return;
+    State trial = found;
+    if (k < 2)
+      system.residual_at(trial);
+    else
+      system.at(trial);
+    system.correction(dx);
+    system.apply(dx, trial);
+    system.gradient_at(trial);
+    if (!(system.residual() < residual)) {
+      system.gradient_at(found);
+      return;
+    }
+    found = std::move(trial);
+  }
 }
 
 /// Certificate of the finest level, error estimate, extrapolation.
 void NestedShell::finish(const NewtonReport& report) {
-  const std::size_t last = levels_.size() - 1;
-  Level& finest = *levels_[last];
+  Level& finest = *levels_.back();
   // the factorisation of the last correction is the state's own but for that correction; where it
   // moved the state too far to vouch for it, the energy's Hessian there is factorised anew
   constexpr double same_state = 1e-3;  // of d
-  State& found = state_.levels[last];
+  State& found = state_.levels.back();
   state_.inertia = report.inertia;
   if (report.factored_move_mm > same_state * options_.spacing_mm ||
       !report.inertia.positive_definite())
     state_.inertia = finest.system->at(found, false);
-  finest.system->gradient_at(found);
-  // at the end of a path, and where a force is measured, the residual goes down to what round-off
-  // leaves: corrections are cheap
-  const bool polished = state_.t >= 1 || finest.system->prescription().active();
-  Eigen::Matrix3Xd polish;
-  for (int k = 0; k < 4 && polished && state_.inertia.usable; ++k) {
-    const double residual = finest.system->residual();
-    if (residual < 1e-9) break;
-    State trial = found;
-    if (k < 2)
-      finest.system->residual_at(trial);
-    else
-      finest.system->at(trial);
-    finest.system->correction(polish);
-    finest.system->apply(polish, trial);
-    finest.system->gradient_at(trial);
-    if (!(finest.system->residual() < residual)) {
-      finest.system->gradient_at(found);
-      break;
-    }
-    found = std::move(trial);
-  }
+  polish(finest, found);
   state_.residual_N = finest.system->residual();
   state_.largest_strain = finest.system->assembly().largest_strain;
-  if (finest.system->prescription().active()) take_reaction();
-  state_.x = state_.levels[last].x;
+  if (!finest.system->holds().empty()) take_reactions();
+  estimate();
+}
+
+void NestedShell::estimate() {
+  const std::size_t last = levels_.size() - 1;
+  const Level& finest = *levels_[last];
+  const auto nodes = [&](std::size_t k) {
+    return nodes_of(levels_[k]->mesh, levels_[k]->model, state_.levels[k].x);
+  };
+  state_.x = nodes(last);
   state_.error_estimate_mm = std::numeric_limits<double>::quiet_NaN();
   if (last == 0) return;
 
+  const Eigen::Matrix3Xd coarser = nodes(last - 1);
   const int joints = finest.mesh.joints;
-  const auto joints_of = [&](std::size_t k) { return state_.levels[k].x.leftCols(joints); };
+  const Eigen::Matrix3Xd step = state_.x.leftCols(joints) - coarser.leftCols(joints);
   if (!plan_.extrapolate || last < 2) {
-    state_.error_estimate_mm = margin * largest_column(joints_of(last) - joints_of(last - 1)) / 3;
+    state_.error_estimate_mm = margin * largest_column(step) / 3;
     return;
   }
-  const auto extrapolated = [&](std::size_t k) -> Eigen::Matrix3Xd {
-    return (4 * joints_of(k) - joints_of(k - 1)) / 3;
-  };
+  // (4 fine - coarse)/3 of these two meshes less that of the two before
+  const Eigen::Matrix3Xd before = coarser.leftCols(joints) - nodes(last - 2).leftCols(joints);
   state_.error_estimate_mm =
-      margin_extrapolated * largest_column(extrapolated(last) - extrapolated(last - 1)) / 15;
+      margin_extrapolated * largest_column((4 * step - before) / 3) / 15;
   // the correction is known at the coarser nodes; between them it is interpolated
   Eigen::Matrix3Xd on_coarser, correction;
   finest.to_coarser->nodes(state_.x, on_coarser);
-  finest.from_coarser->nodes((on_coarser - state_.levels[last - 1].x) / 3, correction);
+  finest.from_coarser->meshes().nodes((on_coarser - coarser) / 3, correction);
   state_.x += correction;
 }
 
-void NestedShell::take_reaction() {
+void NestedShell::take_reactions() {
   const std::size_t last = levels_.size() - 1;
-  state_.reaction = levels_[last]->system->reaction();
-  const Eigen::Matrix3Xd& held = levels_[last]->system->prescription().directions;
-  state_.push_stiffness = held * levels_[last]->system->prescribed_stiffness() * held.transpose();
-  if (!plan_.extrapolate) return;
+  Linearisation& finest = *levels_[last]->system;
+  state_.held_stiffness = finest.held_stiffness();
+  state_.reactions.clear();
+  for (const Hold& hold : finest.holds()) state_.reactions.push_back(finest.reaction(hold));
+  if (!plan_.extrapolate || last == 0) return;
   Linearisation& coarser = *levels_[last - 1]->system;
-  coarser.set_load(levels_[last]->system->load_factor());
+  coarser.outside = finest.outside;
+  coarser.outside.field = &levels_[last - 1]->field;
   coarser.gradient_at(state_.levels[last - 1]);
-  state_.reaction = (4 * state_.reaction - coarser.reaction()) / 3;
+  for (std::size_t h = 0; h < state_.reactions.size(); ++h)
+    state_.reactions[h] =
+        (4 * state_.reactions[h] - coarser.reaction(finest.holds()[h])) / 3;
 }
 
 }  // namespace gridshell

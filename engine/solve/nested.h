@@ -8,6 +8,7 @@
 
 #include "engine/core/result.h"
 #include "engine/footprint/mesh.h"
+#include "engine/gridshell/state_transfer.h"
 #include "engine/solve/path.h"
 
 namespace gridshell {
@@ -48,29 +49,40 @@ std::optional<LevelPlan> finer(const LevelPlan& plan);
 struct NestedState {
   double t = 0;
   std::vector<State> levels;     ///< coarse to fine
-  Eigen::Matrix3Xd x;            ///< on the finest mesh, extrapolated where planned
+  Eigen::Matrix3Xd x;            ///< nodes of the finest mesh, extrapolated where planned
   double error_estimate_mm = 0;  ///< of the joints of x; NaN when only one level is solved
   double residual_N = 0;         ///< of the finest level's equilibrium
   Inertia inertia;               ///< of the finest level's Hessian
   double largest_strain = 0;
-  Eigen::Vector3d reaction = Eigen::Vector3d::Zero();  ///< on a pushed joint, extrapolated as x, N
-  /// how the reaction grows with the prescribed components (zero in the others), N/mm
-  Eigen::Matrix3d push_stiffness = Eigen::Matrix3d::Zero();
+  std::vector<Eigen::Vector3d> reactions;  ///< on held joints, extrapolated as x, N
+  /// how the reactions' held components grow with these, in the order of holds and their
+  /// directions, N/mm
+  Eigen::MatrixXd held_stiffness;
 };
 
-/// Why a state could not be certified.
-enum class NestedEnd { reached, unstable, folded, lost, not_finite, levels_disagree, cancelled };
-
+/// How far a shell came, and why it ended there: reached, unstable, folded, lost, not_finite,
+/// meshes_disagree, cancelled.
 struct NestedReport {
-  NestedEnd end = NestedEnd::reached;
+  Outcome end = Outcome::reached;
   double t = 0;
+};
+
+/// What moves from a state on, evenly from t = 0 to 1, on every level from where that level is.
+struct Drive {
+  std::vector<Hold> holds;                    ///< joints that are held from here on, all of them
+  std::vector<Eigen::Vector3d> displacements = {};  ///< of the held components, one a hold
+  std::optional<BoundaryMotion> boundary = {};  ///< where the edge points go (its end); else they stay
+  Growth load{1, 0};                          ///< of the dead loads
+  Growth field{0, 0};                         ///< and of the field
 };
 
 /// A footprint meshed on several levels with one motion of its boundary.
 class NestedShell {
  public:
-  NestedShell(const Footprint& footprint, const ShellRods& rods, const BoundaryMotion& motion,
-              const LevelPlan& plan, const PathOptions& options);
+  /// Errors (bad_input): rods that the rung cannot take.
+  static Result<NestedShell> make(const Footprint& footprint, const ShellRods& rods, Rung rung,
+                                  const BoundaryMotion& motion, const LevelPlan& plan,
+                                  const PathOptions& options);
 
   /// From a state of the coarsest level at t, an equilibrium or near one: certifies it on all
   /// levels.
@@ -81,21 +93,35 @@ class NestedShell {
   /// Follows the path to t and certifies there. The current state stays the last good one on
   /// failure.
   NestedReport advance(double t, const Watch& watch);
+  /// Certifies the state at t, between points of the path that are known, and leaves the path
+  /// itself as it is: `beside` is the nearest of them.
+  NestedReport sample(double t, const PathPoint& beside, const Watch& watch);
 
-  /// From the current state on the boundary stays and a joint is pushed: t = 0 is the current
-  /// state, at t = 1 its prescribed components have moved by `displacement`, on every level from
-  /// where that level's joint is. A start() at t = 0 follows.
-  void push_joint(const Prescription& prescription, const Eigen::Vector3d& displacement);
+  /// From the current state on the shell is driven so, t = 0 being the current state. A start() at
+  /// t = 0 from the coarsest level's state follows.
+  void drive(const Drive& drive);
+  /// Back to the motion of the boundary that it was made with, joints held where they are; the
+  /// current state stands at t there.
+  void actuate(double t, const std::vector<Hold>& holds);
+  /// What the field of drives is, from now on.
+  void set_field(const std::vector<NodeAction>& actions);
 
   const NestedState& state() const { return state_; }
+  /// Goes back to a state that it had.
+  void restore(const NestedState& state) { state_ = state; }
   /// How far the coarsest mesh came: beyond the current state where an advance() failed.
   const PathPoint& followed() const { return path_->point(); }
   const LevelPlan& plan() const { return plan_; }
   int levels() const { return int(levels_.size()); }
-  const RodMesh& mesh(int level) const { return levels_[level]->mesh; }
-  const Model& model(int level) const { return levels_[level]->model; }
-  Linearisation& system(int level) { return *levels_[level]->system; }
-  const PinnedMotion& motion(int level) const { return levels_[level]->motion; }
+  const RodMesh& mesh(int level) const { return levels_[std::size_t(level)]->mesh; }
+  const RodMesh& finest() const { return levels_.back()->mesh; }
+  const Model& model(int level) const { return levels_[std::size_t(level)]->model; }
+  Linearisation& system(int level) { return *levels_[std::size_t(level)]->system; }
+  const PinnedMotion& motion(int level) const { return levels_[std::size_t(level)]->motion; }
+  /// Energies of a level's state under what acts now.
+  Energies energies(int level) const;
+  /// A state of another shell of the same footprint on the coarsest mesh of this one.
+  State from(const NestedShell& other) const;
   Effort effort() const;
   /// Whether the path may go on through states with negative pivots (they stay in the report).
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
@@ -106,20 +132,35 @@ class NestedShell {
     Model model;
     PinnedMotion motion;
     std::unique_ptr<Linearisation> system;
-    std::optional<MeshTransfer> from_coarser, to_coarser;
-    // what this level adds to the interpolated coarser one, at the last states
-    std::vector<double> added_t;
-    std::vector<State> added;
+    std::unique_ptr<StateTransfer> from_coarser;
+    std::optional<MeshTransfer> to_coarser;
+    std::vector<NodeAction> field;
+    // what this level adds to the interpolated coarser one, at the last states: nodes and forces
+    struct Added {
+      double t;
+      Eigen::Matrix3Xd x;
+      Eigen::VectorXd force;
+    };
+    std::vector<Added> added;
   };
-  NestedReport certify(double t, const Watch& watch);
+  NestedShell(const LevelPlan& plan, const PathOptions& options) : plan_(plan), options_(options) {}
+  void forget();
+  void follow_anew();
+  NestedReport certify(double t, const PathPoint& coarse, const NewtonReport& last,
+                       const Watch& watch);
+  State guess(const Level& level, std::size_t k, double t, const State& base) const;
+  bool refine(std::size_t k, double t, const State& coarser, State& state, NewtonReport& report,
+              const Watch& watch);
   bool correct(Level& level, const State& coarser, State& state, NewtonReport& report);
   void remember(Level& level, double t, const State& base, const State& state);
-  State carried(const Level& level, const State& coarser) const;
   void finish(const NewtonReport& report);
-  void take_reaction();
+  void polish(Level& finest, State& found);
+  void take_reactions();
+  void estimate();
 
   LevelPlan plan_;
   PathOptions options_;
+  BoundaryMotion boundary_;
   std::vector<std::unique_ptr<Level>> levels_;
   std::unique_ptr<PathFollower> path_;
   NestedState state_;

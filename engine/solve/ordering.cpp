@@ -32,19 +32,25 @@ class Dissection {
     double at = 0, cost = 0;
   };
 
-  /// Nodes inside a segment that touch nothing but their own segment go first, one after the other:
-  /// each has four neighbours then. What is left of a segment are its two joints and the nodes next
+  /// Columns inside a segment that touch nothing but it and its two joints go first, one after the
+  /// other: each has few neighbours then. What is left of a segment are its joints and what is next
   /// to them, so the rest of the work does not grow with the number of edges a segment.
   void condense() {
-    std::vector<char> rods_through(model_.nodes, 0);
-    for (const ModelBend& bend : model_.bends) ++rods_through[model_.edges[bend.edge].to];
-    for (const ModelBend& bend : model_.bends) {
-      const ModelEdge &before = model_.edges[bend.edge], &after = model_.edges[bend.edge + 1];
-      const int node = model_.free_index[before.to];
-      if (node >= 0 && rods_through[before.from] < 2 && rods_through[before.to] < 2 &&
-          rods_through[after.to] < 2)
-        eliminate(node);
+    const auto segment = [&](int free) {
+      return model_.segment[std::size_t(model_.free_columns[std::size_t(free)])];
+    };
+    // judged on the graph as it is before anything is eliminated
+    std::vector<int> first;
+    for (int column : model_.inside) {
+      const int node = model_.free_index[std::size_t(column)];
+      if (node < 0) continue;
+      const auto& around = graph_[std::size_t(node)];
+      const bool within = std::all_of(around.begin(), around.end(), [&](int other) {
+        return segment(other) < 0 || segment(other) == segment(node);
+      });
+      if (within) first.push_back(node);
     }
+    for (int node : first) eliminate(node);
   }
 
   /// neighbours of an eliminated node become neighbours of one another
@@ -63,7 +69,7 @@ class Dissection {
     graph_[node].clear();
   }
 
-  double coordinate(int node, int axis) const { return model_.flat(axis, model_.free_nodes[node]); }
+  double coordinate(int node, int axis) const { return model_.flat(axis, model_.free_columns[std::size_t(node)]); }
 
   /// best cut along one axis: left is coordinate <= at; its nodes with a neighbour right separate
   Cut best_cut(std::vector<int>& nodes, int axis) const {
@@ -149,16 +155,13 @@ class Dissection {
 }  // namespace
 
 std::vector<std::vector<int>> hessian_graph(const Model& model) {
-  std::vector<std::vector<int>> graph(model.free());
-  const auto link = [&](int a, int b) {
-    const int fa = model.free_index[a], fb = model.free_index[b];
-    if (fa < 0 || fb < 0) return;
-    graph[fa].push_back(fb);
-    graph[fb].push_back(fa);
-  };
-  for (const ModelEdge& edge : model.edges) link(edge.from, edge.to);
-  for (const ModelBend& bend : model.bends)
-    link(model.edges[bend.edge].from, model.edges[bend.edge + 1].to);
+  std::vector<std::vector<int>> graph(std::size_t(model.free()));
+  for (const auto& [row, column] : model.pattern.pairs()) {
+    const int a = model.free_index[std::size_t(row)], b = model.free_index[std::size_t(column)];
+    if (a < 0 || b < 0) continue;
+    graph[std::size_t(a)].push_back(b);
+    graph[std::size_t(b)].push_back(a);
+  }
   return graph;
 }
 

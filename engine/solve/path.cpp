@@ -5,20 +5,8 @@
 
 namespace gridshell {
 
-void PinnedMotion::impose(Linearisation& system, double t, Eigen::Matrix3Xd& x) const {
-  system.set_load(load(t));
-  const Model& model = system.model();
-  for (int node = 0; node < model.nodes; ++node)
-    if (model.pinned[node]) x.col(node) = begin.col(node) + come(t) * change.col(node);
-  const Prescription& held = system.prescription();
-  if (!held.active()) return;
-  const Eigen::Vector3d there = begin.col(held.node) + come(t) * change.col(held.node);
-  x.col(held.node) += held.part(there - x.col(held.node));
-}
-
-void PathFollower::take_velocity(PathPoint& point) const {
-  system_.tangent(motion_.velocity(point.t), point.velocity.x, motion_.load_velocity(point.t));
-  point.velocity.force = system_.force_change(point.velocity.x);
+void PathFollower::take_velocity(PathPoint& point) {
+  motion_.velocity(system_, point.t, point.state, point.velocity);
 }
 
 PathReport PathFollower::start(double t, State state) {
@@ -31,18 +19,16 @@ PathReport PathFollower::start(double t, State state) {
   NewtonOptions options;
   options.tolerance_mm = options_.tolerance_mm;
   options.widest_turn = options_.widest_turn;
-  system_.set_load(motion_.load(t));
+  motion_.load_up(system_, t);
   report.last = newton(system_, now_.state, options);
   report.t = t;
   last_ = report.last;
-  if (report.last.outcome == NewtonOutcome::folded)
-    report.end = PathEnd::folded;
-  else if (report.last.outcome != NewtonOutcome::converged)
-    report.end = PathEnd::lost;
-  else if (!options_.allow_unstable && !report.last.inertia.positive_definite())
-    report.end = PathEnd::unstable;
-  else
-    take_velocity(now_);
+  report.end = report.last.outcome;
+  if (report.end == Outcome::not_converged) report.end = Outcome::lost;
+  if (report.end == Outcome::reached && !options_.allow_unstable &&
+      !report.last.inertia.positive_definite())
+    report.end = Outcome::unstable;
+  if (report.end == Outcome::reached) take_velocity(now_);
   return report;
 }
 
@@ -50,18 +36,19 @@ State PathFollower::predict(double t) const {
   const double h = t - now_.t;
   // the change of the tangent since the point before gives the curvature of the path
   const double bend = has_before_ ? 0.5 * h * h / (now_.t - before_.t) : 0.0;
-  State guess;
-  guess.x = now_.state.x + h * now_.velocity.x;
-  guess.force = now_.state.force + h * now_.velocity.force;
+  State guess = now_.state;
+  guess.force += h * now_.velocity.force;
+  Eigen::Matrix3Xd x = guess.x + h * now_.velocity.x;
   if (has_before_) {
-    guess.x += bend * (now_.velocity.x - before_.velocity.x);
+    x += bend * (now_.velocity.x - before_.velocity.x);
     guess.force += bend * (now_.velocity.force - before_.velocity.force);
   }
-  motion_.impose(system_, t, guess.x);
+  move_to(system_.model(), x, guess);
+  motion_.impose(system_, t, guess);
   return guess;
 }
 
-PathFollower::StepOutcome PathFollower::step(double t, bool converge, NewtonReport& report) {
+Outcome PathFollower::step(double t, bool converge, NewtonReport& report) {
   PathPoint next;
   next.t = t;
   next.state = predict(t);
@@ -76,24 +63,16 @@ PathFollower::StepOutcome PathFollower::step(double t, bool converge, NewtonRepo
   newton_options.trust_quadratic = true;
   newton_options.widest_turn = options_.widest_turn;
   report = newton(system_, next.state, newton_options);
-  switch (report.outcome) {
-    case NewtonOutcome::converged:
-      break;
-    case NewtonOutcome::folded:
-      return StepOutcome::refused_folded;
-    case NewtonOutcome::not_finite:
-      return StepOutcome::not_finite;
-    default:
-      return StepOutcome::refused_move;
-  }
+  if (report.outcome != Outcome::reached)
+    return report.outcome == Outcome::not_converged ? Outcome::lost : report.outcome;
   if (!options_.allow_unstable && !report.inertia.positive_definite())
-    return StepOutcome::refused_unstable;
+    return Outcome::unstable;
   take_velocity(next);
   last_ = report;
   before_ = std::move(now_);
   has_before_ = true;
   now_ = std::move(next);
-  return StepOutcome::accepted;
+  return Outcome::reached;
 }
 
 PathReport PathFollower::advance(double t, const Watch& watch) {
@@ -101,7 +80,7 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
   report.t = now_.t;
   while (now_.t != t) {
     if (watch.cancelled()) {
-      report.end = PathEnd::cancelled;
+      report.end = Outcome::cancelled;
       return report;
     }
     const double left = t - now_.t;
@@ -109,9 +88,9 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     double h = std::min({step_, options_.largest_step, std::abs(left)});
     if (h < std::abs(left) && 2 * h > std::abs(left)) h = std::abs(left) / 2;
     const double target = h == std::abs(left) ? t : now_.t + std::copysign(h, left);
-    const StepOutcome outcome = step(target, target == t, report.last);
+    const Outcome outcome = step(target, target == t, report.last);
     ++report.steps;
-    if (outcome == StepOutcome::accepted) {
+    if (outcome == Outcome::reached) {
       report.t = now_.t;
       // the prediction is off by a term of third order in h
       const double aim = options_.target_move * options_.spacing_mm;
@@ -122,19 +101,7 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     ++report.halvings;
     step_ = h / 2;
     if (step_ >= options_.smallest_step) continue;
-    switch (outcome) {
-      case StepOutcome::refused_unstable:
-        report.end = PathEnd::unstable;
-        break;
-      case StepOutcome::refused_folded:
-        report.end = PathEnd::folded;
-        break;
-      case StepOutcome::not_finite:
-        report.end = PathEnd::not_finite;
-        break;
-      default:
-        report.end = PathEnd::lost;
-    }
+    report.end = outcome;
     return report;
   }
   return report;

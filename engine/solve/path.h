@@ -2,47 +2,17 @@
 // factorisation a step, steps chosen by how well the prediction did.
 #pragma once
 
-#include <functional>
-#include <string>
-
+#include "engine/core/watch.h"
+#include "engine/solve/motion.h"
 #include "engine/solve/newton.h"
 
 namespace gridshell {
-
-/// How far a motion has come at path parameter t.
-enum class Pace {
-  square,  ///< t^2: a shell that buckles out of the flat rises as the square root of how far its
-           ///< boundary came, so positions are smooth in t = sqrt(progress) down to the flat
-  even     ///< t
-};
-
-/// Where the pinned nodes, and of a prescribed node the prescribed components, are at path
-/// parameter t, and how fast they move; and how much of the dead loads acts, which come on in
-/// proportion: the flat shell carries none.
-struct PinnedMotion {
-  Eigen::Matrix3Xd begin;   ///< 3 x nodes at t = 0 (what is free is ignored)
-  Eigen::Matrix3Xd change;  ///< to t = 1
-  Pace pace = Pace::square;
-  double load_begin = 0, load_change = 1;  ///< factor of the dead loads, as the positions
-
-  double come(double t) const { return pace == Pace::square ? t * t : t; }
-  Eigen::Matrix3Xd at(double t) const { return begin + come(t) * change; }
-  Eigen::Matrix3Xd velocity(double t) const {
-    return (pace == Pace::square ? 2 * t : 1.0) * change;
-  }
-  double load(double t) const { return load_begin + come(t) * load_change; }
-  double load_velocity(double t) const {
-    return (pace == Pace::square ? 2 * t : 1.0) * load_change;
-  }
-  /// Puts the nodes that `system` does not leave free where they belong at t, and the loads on.
-  void impose(Linearisation& system, double t, Eigen::Matrix3Xd& x) const;
-};
 
 /// A state on the path with its derivative by t.
 struct PathPoint {
   double t = 0;
   State state;
-  State velocity;
+  State velocity;  ///< by t; it has no frames
 };
 
 struct PathOptions {
@@ -57,11 +27,8 @@ struct PathOptions {
   bool allow_unstable = false;  ///< go on through states with negative pivots
 };
 
-/// Why a path stopped.
-enum class PathEnd { reached, unstable, folded, lost, not_finite, cancelled };
-
 struct PathReport {
-  PathEnd end = PathEnd::reached;
+  Outcome end = Outcome::reached;  ///< reached, unstable, folded, lost, not_finite, cancelled
   double t = 0;  ///< how far the path is certified
   int steps = 0, halvings = 0;
   NewtonReport last;  ///< of the last point that was converged
@@ -82,6 +49,12 @@ class PathFollower {
   /// Follows the path to t and converges there. On failure the current point is the last good one.
   PathReport advance(double t, const Watch& watch);
 
+  /// Goes on from a point that was followed before, with the step that served there.
+  void resume(const PathPoint& point) {
+    now_ = point;
+    has_before_ = false;
+  }
+
   /// Predicted state at t from the current point (Hermite between the last two, else Taylor).
   State predict(double t) const;
 
@@ -91,9 +64,8 @@ class PathFollower {
   const PinnedMotion& motion() const { return motion_; }
 
  private:
-  enum class StepOutcome { accepted, refused_unstable, refused_folded, refused_move, not_finite };
-  StepOutcome step(double t, bool converge, NewtonReport& report);
-  void take_velocity(PathPoint& point) const;
+  Outcome step(double t, bool converge, NewtonReport& report);
+  void take_velocity(PathPoint& point);
 
   Linearisation& system_;
   PinnedMotion motion_;

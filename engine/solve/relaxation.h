@@ -1,17 +1,15 @@
 // Baselines that charts compare with, never a default: the explicit integrator and kinetic dynamic
-// relaxation.
+// relaxation, on the bend rung.
 #pragma once
 
+#include "engine/core/outcome.h"
 #include "engine/core/watch.h"
 #include "engine/solve/dynamics.h"
 
 namespace gridshell {
 
-/// How a baseline ended: at rest, out of steps, or grown without bound.
-enum class BaselineEnd { at_rest, too_slow, blow_up, cancelled };
-
 struct BaselineReport {
-  BaselineEnd end = BaselineEnd::too_slow;
+  Outcome end = Outcome::not_converged;  ///< reached, not_converged, not_finite (grown), cancelled
   int steps = 0;
   double residual_N = 0;
 };
@@ -27,22 +25,22 @@ struct BaselineOptions {
 
 /// The largest stable step of the explicit integrator, s: l_min/c, c = sqrt(EA/(mass per length)),
 /// over the edges [Courant, Friedrichs, Lewy 1928].
-double courant_step(const Model& model, const Eigen::VectorXd& mass);
+double courant_step(const Model& model, const Eigen::Matrix3Xd& mass);
 
 /// Symplectic Euler with mass-proportional damping, v += h F/m, x += h v, to rest.
-BaselineReport explicit_to_rest(const Model& model, const Eigen::VectorXd& mass, Motion& motion,
+BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass, MovingState& moving,
                                 const BaselineOptions& options, const Watch& watch);
 
 /// Kinetic dynamic relaxation [Barnes 1999]: fictitious masses from each node's stiffness, no
 /// damping; at each peak of the kinetic energy positions go back to it, velocities to zero, and the
 /// next kick is half a one.
-BaselineReport dynamic_relaxation(const Model& model, Eigen::Matrix3Xd& x,
+BaselineReport dynamic_relaxation(const Model& model, State& state,
                                   const BaselineOptions& options, const Watch& watch);
 
 /// Implicit Euler, m (v1 - v0)/h = F(x1) - c m v1, x1 = x0 + h v1, a whole Newton solve a step, to
 /// rest: large steps damp by themselves. `options.step` is h in seconds. A step that Newton's method
-/// does not solve ends it as `too_slow` with the steps so far.
-BaselineReport implicit_to_rest(const Model& model, const Eigen::VectorXd& mass, Motion& motion,
+/// does not solve ends it as `not_converged` with the steps so far.
+BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass, MovingState& moving,
                                 const BaselineOptions& options, const Watch& watch);
 
 }  // namespace gridshell

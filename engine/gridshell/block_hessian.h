@@ -1,0 +1,51 @@
+// The symmetric Hessian in 3x3 blocks over pairs of columns, and where each block stands.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace gridshell {
+
+/// A block's place: its pair's index, twice, plus one where the block is the pair's transposed.
+/// Below zero: there is no such block.
+using BlockSlot = int;
+
+/// The pairs of columns between which there is a block, each once.
+class BlockPattern {
+ public:
+  explicit BlockPattern(int columns = 0) : pairs_of_(std::size_t(columns)) {}
+
+  /// The place of block (row, column); a pair that is new becomes the last. Row and column differ.
+  BlockSlot slot(int row, int column);
+
+  const std::vector<std::array<int, 2>>& pairs() const { return pairs_; }
+
+ private:
+  std::vector<std::array<int, 2>> pairs_;                  // row and column of the block stored
+  std::vector<std::vector<std::pair<int, int>>> pairs_of_;  // per smaller column: larger, index
+};
+
+/// Blocks on the diagonal, one a column, and beside it, one a pair of the pattern. N/mm.
+struct BlockHessian {
+  std::vector<Eigen::Matrix3d> diagonal, pair;
+
+  void reset(std::size_t columns, std::size_t pairs) {
+    diagonal.assign(columns, Eigen::Matrix3d::Zero());
+    pair.assign(pairs, Eigen::Matrix3d::Zero());
+  }
+  template <class Block>
+  void add(BlockSlot slot, const Block& block) {
+    if (slot & 1)
+      pair[std::size_t(slot >> 1)] += block.transpose();
+    else
+      pair[std::size_t(slot >> 1)] += block;
+  }
+  void add_entry(BlockSlot slot, int row, int column, double value) {
+    if (slot & 1) std::swap(row, column);
+    pair[std::size_t(slot >> 1)](row, column) += value;
+  }
+};
+
+}  // namespace gridshell

@@ -1,0 +1,99 @@
+#include "engine/gridshell/state.h"
+
+#include "engine/rod/frame.h"
+
+namespace gridshell {
+namespace {
+
+Eigen::Vector3d tangent_of(const Model& model, const Eigen::Matrix3Xd& x, int edge) {
+  const ModelEdge& e = model.edges[std::size_t(edge)];
+  return (x.col(e.to) - x.col(e.from)).normalized();
+}
+
+/// the ghost's node `length` beyond the end
+void put_ghost(const Model& model, int ghost, bool at_end, const Eigen::Vector3d& direction,
+               Eigen::Matrix3Xd& x) {
+  const ModelEdge& edge = model.edges[std::size_t(ghost)];
+  const Eigen::Vector3d step = edge.rest_length * direction;
+  if (at_end)
+    x.col(edge.to) = x.col(edge.from) + step;
+  else
+    x.col(edge.from) = x.col(edge.to) - step;
+}
+
+void put_ghosts(const Model& model, Eigen::Matrix3Xd& x) {
+  for (const Model::Rod& rod : model.rods) {
+    if (rod.ghost_begin >= 0)
+      put_ghost(model, rod.ghost_begin, false, tangent_of(model, x, rod.edges[1]), x);
+    if (rod.ghost_end >= 0)
+      put_ghost(model, rod.ghost_end, true,
+                tangent_of(model, x, rod.edges[rod.edges.size() - 2]), x);
+  }
+}
+
+void carry_reference_twist(const Model& model, State& state) {
+  for (std::size_t k = 0; k < model.bends.size(); ++k) {
+    const auto [e, f] = std::pair(model.bends[k].e, model.bends[k].f);
+    const double now = reference_twist(state.director.col(e), tangent_of(model, state.x, e),
+                                       state.director.col(f), tangent_of(model, state.x, f));
+    double& known = state.reference_twist[Eigen::Index(k)];
+    known = unwrapped(now, known);
+  }
+}
+
+}  // namespace
+
+State start_state(const Model& model, const Eigen::Matrix3Xd& x) {
+  const Eigen::Index edges = Eigen::Index(model.edges.size());
+  State state{Eigen::Matrix3Xd::Zero(3, model.columns()), Eigen::VectorXd::Zero(edges)};
+  state.x.leftCols(x.cols()) = x;
+  if (x.cols() < model.nodes) put_ghosts(model, state.x);
+  if (!model.has_spins()) return state;
+  state.director.resize(3, edges);
+  state.reference_twist = Eigen::VectorXd::Zero(Eigen::Index(model.bends.size()));
+  for (const Model::Rod& rod : model.rods) {
+    Eigen::Vector3d before = tangent_of(model, state.x, rod.edges.front());
+    Eigen::Vector3d director = normal_near(rod.director, before);
+    for (int edge : rod.edges) {
+      const Eigen::Vector3d here = tangent_of(model, state.x, edge);
+      director = carried_director(director, before, here);
+      state.director.col(edge) = director;
+      before = here;
+    }
+  }
+  carry_reference_twist(model, state);
+  return state;
+}
+
+void move_to(const Model& model, const Eigen::Matrix3Xd& x, State& state) {
+  if (!model.has_spins()) {
+    state.x = x;
+    return;
+  }
+  for (int edge = 0; edge < int(model.edges.size()); ++edge)
+    state.director.col(edge) = carried_director(
+        state.director.col(edge), tangent_of(model, state.x, edge), tangent_of(model, x, edge));
+  state.x = x;
+  carry_reference_twist(model, state);
+}
+
+void set_end_direction(const Model& model, int rod, bool at_end, const Eigen::Vector3d& direction,
+                       State& state) {
+  const Model::Rod& r = model.rods[std::size_t(rod)];
+  Eigen::Matrix3Xd x = state.x;
+  put_ghost(model, at_end ? r.ghost_end : r.ghost_begin, at_end, direction.normalized(), x);
+  move_to(model, x, state);
+}
+
+Eigen::Vector3d material_director(const Model& model, const State& state, int edge) {
+  return halfway_frame(tangent_of(model, state.x, edge), state.director.col(edge),
+                       model.angle(state.x, edge))
+      .col(0);
+}
+
+double twist_at(const Model& model, const State& state, int bend) {
+  const ModelBend& b = model.bends[std::size_t(bend)];
+  return model.angle(state.x, b.f) - model.angle(state.x, b.e) + state.reference_twist[bend];
+}
+
+}  // namespace gridshell

@@ -1,0 +1,162 @@
+#include "engine/solve/linearisation.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace gridshell {
+namespace {
+
+// of the order of a shell's own stiffness, so that neither swamps the other
+constexpr double border_stiffness = 1;  // g, N/mm
+
+}  // namespace
+
+Linearisation::Linearisation(const Model& model, std::unique_ptr<LinearSolver> solver)
+    : model_(model), solver_(solver ? std::move(solver) : make_linear_solver(model)) {}
+
+Inertia Linearisation::at(const State& state, bool mixed, double shift, double EA_scale) {
+  EA_scale_ = EA_scale;
+  assemble_hessian(model_, state, outside, {mixed, EA_scale}, assembly_);
+  tangents_ = assembly_.tangents;
+  for (const Hold& hold : holds_)
+    assembly_.hessian.diagonal[std::size_t(hold.node)] +=
+        border_stiffness * hold.directions * hold.directions.transpose();
+  return shifted(shift);
+}
+
+Inertia Linearisation::shifted(double shift) {
+  ++effort_.factorizations;
+  Inertia inertia = solver_->factor(assembly_.hessian, shift);
+  if (!holds_.empty() && inertia.usable) border(inertia);
+  return inertia;
+}
+
+Eigen::VectorXd Linearisation::held_part(const Eigen::Matrix3Xd& x) const {
+  Eigen::VectorXd part(compliance_.rows());
+  Eigen::Index at = 0;
+  for (const Hold& hold : holds_) {
+    part.segment(at, hold.directions.cols()) = hold.directions.transpose() * x.col(hold.node);
+    at += hold.directions.cols();
+  }
+  return part;
+}
+
+/// Inertia of the bordered matrix [K B; B^T 0]: that of K and of the Schur complement -C; the
+/// border itself brings m positive and m negative ones [Haynsworth 1968].
+void Linearisation::border(Inertia& inertia) {
+  border_.clear();
+  for (const Hold& hold : holds_)
+    for (Eigen::Index k = 0; k < hold.directions.cols(); ++k) {
+      border_.push_back(Eigen::Matrix3Xd::Zero(3, model_.columns()));
+      border_.back().col(hold.node) = hold.directions.col(k);
+      solver_->solve(border_.back());
+    }
+  const Eigen::Index m = Eigen::Index(border_.size());
+  compliance_.resize(m, m);
+  for (Eigen::Index k = 0; k < m; ++k)
+    compliance_.col(k) = held_part(border_[std::size_t(k)]);
+  compliance_ = (0.5 * (compliance_ + compliance_.transpose())).eval();
+  const Eigen::VectorXd own =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(compliance_, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  inertia.usable = own.allFinite() && (own.array() != 0).all();
+  inertia.negative_pivots += int((own.array() > 0).count()) - int(m);
+}
+
+void Linearisation::solve(Eigen::Matrix3Xd& right_hand_side) const {
+  solver_->solve(right_hand_side);
+  if (holds_.empty()) return;
+  const Eigen::VectorXd force = compliance_.partialPivLu().solve(held_part(right_hand_side));
+  for (std::size_t k = 0; k < border_.size(); ++k)
+    right_hand_side -= force[Eigen::Index(k)] * border_[k];
+}
+
+Eigen::MatrixXd Linearisation::held_stiffness() const {
+  Eigen::MatrixXd stiffness = compliance_.inverse();
+  stiffness.diagonal().array() -= border_stiffness;
+  return stiffness;
+}
+
+double Linearisation::residual() const {
+  if (holds_.empty()) return residual_of(model_, assembly_.gradient);
+  Eigen::Matrix3Xd unheld = assembly_.gradient;
+  for (const Hold& hold : holds_) unheld.col(hold.node) -= hold.part(reaction(hold));
+  return residual_of(model_, unheld);
+}
+
+void Linearisation::residual_at(const State& state) {
+  assemble_mixed_residual(model_, state, outside, tangents_, assembly_);
+}
+
+void Linearisation::gradient_at(const State& state) {
+  assemble_gradient(model_, state, outside, assembly_);
+}
+
+void Linearisation::correction(Eigen::Matrix3Xd& dx) const {
+  dx = -assembly_.gradient;
+  solve(dx);
+}
+
+void Linearisation::tangent(const Eigen::Matrix3Xd& prescribed, const Outside& outside_velocity,
+                            const State& state, Eigen::Matrix3Xd& velocity) const {
+  Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, model_.columns());
+  for (int column = 0; column < model_.nodes; ++column)
+    if (model_.pinned(column)) moved.col(column) = prescribed.col(column);
+  for (const Hold& hold : holds_)
+    moved.col(hold.node) = hold.part(prescribed.col(hold.node));
+  multiply(model_, assembly_.hessian, moved, velocity);
+  velocity *= -1;
+  const auto grow = [&](const std::vector<NodeAction>& actions, double factor) {
+    for (const NodeAction& action : actions)
+      velocity.col(action.node) -= factor * action.gradient(state.x.col(action.node));
+  };
+  if (outside_velocity.load != 0) grow(model_.loads, outside_velocity.load);
+  if (outside_velocity.field && outside_velocity.field_factor != 0)
+    grow(*outside_velocity.field, outside_velocity.field_factor);
+  solve(velocity);
+  velocity += moved;
+}
+
+Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx) const {
+  Eigen::VectorXd change(Eigen::Index(model_.edges.size()));
+  for (std::size_t k = 0; k < model_.edges.size(); ++k) {
+    const ModelEdge& edge = model_.edges[k];
+    change[Eigen::Index(k)] = EA_scale_ * edge.EA / edge.rest_length *
+                              tangents_.col(Eigen::Index(k)).dot(dx.col(edge.to) - dx.col(edge.from));
+  }
+  return change;
+}
+
+void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state) const {
+  state.force = assembly_.force + force_change(dx);
+  if (model_.has_spins())
+    move_to(model_, state.x + dx, state);
+  else
+    state.x += dx;
+}
+
+void Linearisation::restore_lengths(const Eigen::VectorXd& force, State& state) const {
+  Eigen::Matrix3Xd pull = Eigen::Matrix3Xd::Zero(3, model_.columns());
+  for (std::size_t k = 0; k < model_.edges.size(); ++k) {
+    const ModelEdge& edge = model_.edges[k];
+    const double strain =
+        (state.x.col(edge.to) - state.x.col(edge.from)).norm() / edge.rest_length - 1;
+    const double excess = EA_scale_ * edge.EA * strain - force[Eigen::Index(k)];
+    pull.col(edge.from) += excess * tangents_.col(Eigen::Index(k));
+    pull.col(edge.to) -= excess * tangents_.col(Eigen::Index(k));
+  }
+  solve(pull);
+  move_to(model_, state.x + pull, state);
+}
+
+double largest_column(const Eigen::Matrix3Xd& dx) {
+  double largest = 0;
+  for (Eigen::Index k = 0; k < dx.cols(); ++k) {
+    const double size = dx.col(k).squaredNorm();
+    if (!(size <= largest)) largest = size;  // a nan is kept, not hidden
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace gridshell

@@ -1,0 +1,45 @@
+// How what is prescribed moves along a path: pinned nodes, held joints, loads.
+#pragma once
+
+#include "engine/solve/linearisation.h"
+
+namespace gridshell {
+
+/// How far a motion has come at path parameter t.
+enum class Pace {
+  square,  ///< t^2: a shell that buckles out of the flat rises as the square root of how far its
+           ///< boundary came, so positions are smooth in t = sqrt(progress) down to the flat
+  even     ///< t
+};
+
+/// A factor that grows with the motion.
+struct Growth {
+  double begin = 0, change = 0;
+};
+
+/// Where the pinned nodes, and of held nodes the held components, are at path parameter t, how fast
+/// they move, and how much of the dead loads and of a field acts. By default loads come on in
+/// proportion: the flat shell carries none.
+struct PinnedMotion {
+  Eigen::Matrix3Xd begin;   ///< 3 x nodes at t = 0 (what is free is ignored)
+  Eigen::Matrix3Xd change;  ///< to t = 1
+  Pace pace = Pace::square;
+  Growth load{0, 1};
+  Growth field{0, 0};
+
+  double come(double t) const { return pace == Pace::square ? t * t : t; }
+  double speed(double t) const { return pace == Pace::square ? 2 * t : 1.0; }
+  Eigen::Matrix3Xd at(double t) const { return begin + come(t) * change; }
+  Eigen::Vector3d at(double t, int node) const { return begin.col(node) + come(t) * change.col(node); }
+  double grown(const Growth& growth, double t) const {
+    return growth.begin + come(t) * growth.change;
+  }
+  /// Sets the loads of `system` to those at t.
+  void load_up(Linearisation& system, double t) const;
+  /// Puts what is prescribed where it belongs at t, and the loads on.
+  void impose(Linearisation& system, double t, State& state) const;
+  /// How all columns follow at a state just factorised, and the axial forces with them; by t.
+  void velocity(Linearisation& system, double t, const State& state, State& velocity) const;
+};
+
+}  // namespace gridshell

@@ -1,0 +1,84 @@
+#include "engine/solve/rest.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/solve/minimise.h"
+
+namespace gridshell {
+
+Eigen::Matrix3Xd softest_mode(Linearisation& system) {
+  const Model& model = system.model();
+  double shift = 1e-6;
+  while (!system.shifted(shift).positive_definite() && shift < 1e6) shift *= 4;
+  // a start with a part along any mode: no symmetry of the net leaves it unchanged
+  Eigen::Matrix3Xd mode(3, model.columns());
+  for (int column = 0; column < model.columns(); ++column)
+    mode.col(column) << std::sin(0.7 + 1.3 * column), std::sin(1.9 + 2.1 * column),
+        1 + std::sin(2.3 + 0.9 * column);
+  for (int k = 0; k < 20; ++k) {
+    system.solve(mode);
+    mode /= mode.norm();
+  }
+  return mode;
+}
+
+Result<State> rest_below(Linearisation& system, State state, const Watch& watch) {
+  const NewtonReport down = minimise(system, state, {}, watch);
+  if (down.outcome == Outcome::reached) return state;
+  if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for an equilibrium");
+  // nothing moves any more, but a mode without stiffness keeps it from being a minimum
+  if (down.outcome == Outcome::not_converged && down.last_move_mm < 1e-3) {
+    system.at(state, false);
+    return settle(system, state, softest_mode(system), watch);
+  }
+  return fail(Fault::no_equilibrium,
+              fmt::format("no equilibrium after {} iterations; the last moved a node by {:.2g} mm",
+                          down.iterations, down.last_move_mm));
+}
+
+Result<State> rest_near(Linearisation& system, const State& state, double farthest_mm,
+                        const Watch& watch) {
+  State found = state;
+  NewtonOptions options;
+  options.farthest_mm = farthest_mm;
+  options.tolerance_mm = 1e-7;
+  const NewtonReport report = newton(system, found, options);
+  if (report.outcome == Outcome::reached && system.at(found, false).positive_definite())
+    return found;
+  return rest_below(system, state, watch);
+}
+
+Result<State> settle(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& mode,
+                     const Watch& watch, Side side) {
+  const double push = 0.5 / largest_column(mode);  // mm: far above round-off, far below a cell
+  Result<State> best = fail(Fault::no_equilibrium, "no rest found beside an unstable state");
+  double lowest = 0;
+  for (double way : {1.0, -1.0}) {
+    if (side == (way > 0 ? Side::minus : Side::plus)) continue;
+    State state = unstable;
+    move_to(system.model(), unstable.x + way * push * mode, state);
+    const NewtonReport report = minimise(system, state, {}, watch);
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for a rest");
+    if (report.outcome != Outcome::reached) continue;
+    // of two mirror images it is always the same one, whatever round-off says
+    const double found = system.energy_at(state);
+    if (best && found > lowest - 1e-6 * std::abs(lowest)) continue;
+    lowest = found;
+    best = std::move(state);
+  }
+  return best;
+}
+
+Result<State> leave_branch(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
+                           double beyond, const Watch& watch) {
+  motion.load_up(system, last.t);
+  system.at(last.state, false);
+  const Eigen::Matrix3Xd mode = softest_mode(system);
+  State state = last.state;
+  motion.impose(system, beyond, state);
+  return settle(system, state, mode, watch);
+}
+
+}  // namespace gridshell

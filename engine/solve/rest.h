@@ -1,0 +1,37 @@
+// Coming to rest: beside a state that is not stable, and after a path lost its branch.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/solve/path.h"
+
+namespace gridshell {
+
+/// Softest mode of the Hessian last assembled in `system` by inverse iteration: unit vector over
+/// all columns, zero at what is held.
+Eigen::Matrix3Xd softest_mode(Linearisation& system);
+
+/// From `state` to rest near it: full Newton steps that move no node further than `farthest_mm` and
+/// end in a minimum, else down the energy, else off a saddle along its softest mode. Errors:
+/// no_equilibrium with what was tried, cancelled.
+Result<State> rest_near(Linearisation& system, const State& state, double farthest_mm,
+                        const Watch& watch);
+
+/// Down the energy to a minimum; where that ends at a saddle, off it along its softest mode.
+/// Errors as rest_near().
+Result<State> rest_below(Linearisation& system, State state, const Watch& watch);
+
+/// Which side of an unstable state to leave it on.
+enum class Side { lower, plus, minus };
+
+/// From a state that is not stable, pushed along `mode` (its softest) to either side, to rest; the
+/// one of lower energy, or that on the side asked for. Errors: no_equilibrium, cancelled.
+Result<State> settle(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& mode,
+                     const Watch& watch, Side side = Side::lower);
+
+/// From the last point of a path that lost its stability or turned back: with the motion a little
+/// further, at `beyond`, along the mode that went soft. Errors as settle().
+Result<State> leave_branch(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
+                           double beyond, const Watch& watch);
+
+}  // namespace gridshell
