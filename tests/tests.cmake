@@ -38,6 +38,14 @@ if(GRIDSHELL_PICTURES)
   endif()
 endif()
 
+# The program on processors older and newer than this one, by qemu-user where it is installed.
+if(GRIDSHELL_PICTURES)
+  add_test(NAME "old and new processors run the program and come to the same states"
+    COMMAND ${PROJECT_SOURCE_DIR}/tests/processors.sh $<TARGET_FILE:gridshell>)
+  set_tests_properties("old and new processors run the program and come to the same states"
+    PROPERTIES LABELS full TIMEOUT 600 SKIP_RETURN_CODE 77)
+endif()
+
 # Benches are programs of their own, built on demand: `cmake --build build --target benches`.
 add_custom_target(benches)
 file(GLOB bench_sources CONFIGURE_DEPENDS tests/bench/bench_*.cpp)
