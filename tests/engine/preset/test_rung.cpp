@@ -50,7 +50,7 @@ TEST_CASE("auto takes the lowest rung that is exact") {
   }));
   CAPTURE(text);
   const Preset preset = good(text);
-  CHECK(name_of(rung_of(preset)) == rung);
+  CHECK(word_of(rung_of(preset)) == rung);
   CHECK(model_reason(preset).starts_with(rung));
 }
 
