@@ -25,9 +25,11 @@ std::string name_of(const preset::Preset& preset) {
       return "surface of revolution";
     case preset::NetKind::translation:
       return "translation net";
-    default:
-      return "saddle";
+    case preset::NetKind::spool:
+    case preset::NetKind::beltrami:
+      break;
   }
+  return "saddle";
 }
 
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }

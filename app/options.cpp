@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <regex>
 
+#include "render/context/context.h"
+
 namespace gridshell::app {
 
 namespace {
@@ -43,7 +45,7 @@ void add_work_options(CLI::App& command, Options& options, const std::string& ou
 
 void add_picture_options(CLI::App& command, Options& options) {
   command.add_option("--context", options.context, "auto, osmesa, egl or window")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl", "window"}));
+      ->check(CLI::IsMember(all_words<render::ContextKind>()));
 }
 
 Result<std::vector<preset::Override>> overrides_of(const Options& options) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <map>
 
 #include "render/movie/encode.h"
 #include "render/movie/movie_writer.h"
@@ -17,9 +16,8 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures) {
   style.width = movie.size[0];
   style.height = movie.size[1];
   style.fps = movie.fps;
-  // the two enums are the same words
-  style.quality = static_cast<render::Quality>(movie.quality);
-  style.colour_by = static_cast<render::ColourBy>(movie.colour_by);
+  style.quality = same_word<render::Quality>(movie.quality);
+  style.colour_by = same_word<render::ColourBy>(movie.colour_by);
   style.azimuth_deg = movie.azimuth_deg;
   style.elevation_deg = movie.elevation_deg;
   style.turn_deg = movie.turn_deg;
@@ -33,14 +31,11 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures) {
 }
 
 Result<Artist> Artist::create(const std::string& context, int threads) {
-  using Kind = render::ContextKind;
-  static const std::map<std::string, Kind> kinds{{"auto", Kind::automatic},
-                                                 {"osmesa", Kind::osmesa},
-                                                 {"egl", Kind::egl},
-                                                 {"window", Kind::window}};
+  const auto kind = find_word<render::ContextKind>(context);
+  if (!kind) return fail(Fault::bad_input, "--context " + context + ": no such context");
   // the software rasteriser reads this when its context is made
   if (threads > 0) setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
-  auto made = render::Context::create(kinds.at(context));
+  auto made = render::Context::create(*kind);
   if (!made) return tl::unexpected(made.error());
   auto renderer = render::Renderer::create(**made);
   if (!renderer) return tl::unexpected(renderer.error());

@@ -1,6 +1,6 @@
 #!/bin/sh
 # tests/run.sh [CTEST ARGUMENTS]: installs what is missing, builds everything, and runs the tests,
-# quick and full; `tests/run.sh -L quick` runs the quick ones.
+# quick, full and those of style; `tests/run.sh -L quick` runs the quick ones.
 set -e
 cd "$(dirname "$0")/.."
 . app/setup.sh

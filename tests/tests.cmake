@@ -38,6 +38,23 @@ if(GRIDSHELL_PICTURES)
   endif()
 endif()
 
+# The program on processors older and newer than this one, by qemu-user where it is installed.
+if(GRIDSHELL_PICTURES)
+  add_test(NAME "old and new processors run the program and come to the same states"
+    COMMAND ${PROJECT_SOURCE_DIR}/tests/processors.sh $<TARGET_FILE:gridshell>)
+  set_tests_properties("old and new processors run the program and come to the same states"
+    PROPERTIES LABELS full TIMEOUT 600 SKIP_RETURN_CODE 77)
+endif()
+
+# How the source stands: format, clang-tidy on what changed, warnings as errors (tests/style.sh).
+foreach(check format tidy warnings)
+  add_test(NAME "style: ${check}" COMMAND ${PROJECT_SOURCE_DIR}/tests/style.sh ${check})
+  set_tests_properties("style: ${check}" PROPERTIES LABELS style TIMEOUT 600 SKIP_RETURN_CODE 77
+    ENVIRONMENT BUILD=${PROJECT_BINARY_DIR})
+endforeach()
+# it keeps all cores busy
+set_tests_properties("style: tidy" PROPERTIES RUN_SERIAL ON)
+
 # Benches are programs of their own, built on demand: `cmake --build build --target benches`.
 add_custom_target(benches)
 file(GLOB bench_sources CONFIGURE_DEPENDS tests/bench/bench_*.cpp)

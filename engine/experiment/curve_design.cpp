@@ -23,9 +23,10 @@ Result<ClosedCurve> curve_of(const preset::Curve& wanted, double radius, double 
       return ClosedCurve::superellipse(x, y, wanted.exponent);
     case preset::CurveKind::polygon:
       return ClosedCurve::polygon(matrix_of(wanted.points, scale));
-    default:
-      return ClosedCurve::spline(matrix_of(wanted.points, scale));
+    case preset::CurveKind::spline:
+      break;
   }
+  return ClosedCurve::spline(matrix_of(wanted.points, scale));
 }
 
 tl::unexpected<Error> refuse(const char* which, const Error& error) {
@@ -48,9 +49,7 @@ Result<CurveDesign> curve_design(const preset::Preset& preset) {
   auto actuated = to.scale > 0 ? curve_of(footprint.boundary, footprint.radius_mm, to.scale)
                                : curve_of(to.boundary, to.radius_mm, 1);
   if (!actuated) return refuse("[actuation] boundary: ", actuated.error());
-  // the two enums are the same words
-  auto map =
-      BoundaryMap::make(*original, *actuated, static_cast<Correspondence>(to.correspondence));
+  auto map = BoundaryMap::make(*original, *actuated, same_word<Correspondence>(to.correspondence));
   if (!map) return tl::unexpected(map.error());
   auto domain = std::make_unique<CurveDomain>(*original);
   const Eigen::Matrix2Xd ring = domain->boundary(1024);

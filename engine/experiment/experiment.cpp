@@ -45,9 +45,9 @@ record::Summary summary_of(const preset::Preset& preset, const ActuationScene& s
   const record::Frame& last = outcome.trajectory.frames.back();
   record::Summary s;
   s.preset = preset.name;
-  s.model = preset::name_of(preset::rung_of(preset));
+  s.model = word_of(preset::rung_of(preset));
   s.model_reason = preset::model_reason(preset);
-  s.solved = preset::rung_of(preset) != preset::Model::net;
+  s.solved = preset::rung_of(preset) != preset::Rung::net;
   s.edges_per_segment = outcome.levels.edges_per_segment.back();
   s.rods = int(scene.footprint.rods.size());
   s.joints = int(scene.footprint.joints.size());
@@ -87,10 +87,10 @@ record::Summary summary_of(const preset::Preset& preset, const ActuationScene& s
   return s;
 }
 
-int dof_of(const ActuationScene& scene, preset::Model rung, int edges_per_segment) {
-  if (rung == preset::Model::net) return 0;
+int dof_of(const ActuationScene& scene, preset::Rung rung, int edges_per_segment) {
+  if (rung == preset::Rung::net) return 0;
   const RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
-  if (rung == preset::Model::bend) return build_model(mesh, scene.rods).dof();
+  if (rung == preset::Rung::bend) return build_model(mesh, scene.rods).dof();
   const auto model = twist_model_of(mesh, scene.twist);
   return model ? model->dof() : 0;
 }
@@ -98,10 +98,10 @@ int dof_of(const ActuationScene& scene, preset::Model rung, int edges_per_segmen
 /// About how long a run takes on one core: bringing the coarsest mesh to rest, then two corrections
 /// a frame on each mesh. Measured on shells of 500 to 40 000 unknowns; good within a factor of
 /// three.
-double seconds_for(const ActuationScene& scene, preset::Model rung, const preset::Preset& preset) {
+double seconds_for(const ActuationScene& scene, preset::Rung rung, const preset::Preset& preset) {
   constexpr double to_rest = 1.5e-5, a_frame = 4e-7, a_twist_frame = 1e-5;  // seconds an unknown
-  if (rung == preset::Model::net) return 0.01;
-  const bool twist = rung == preset::Model::twist;
+  if (rung == preset::Rung::net) return 0.01;
+  const bool twist = rung == preset::Rung::twist;
   double seconds = 0;
   for (int edges : scene.levels.edges_per_segment) {
     const double dof = dof_of(scene, rung, edges);
@@ -111,12 +111,12 @@ double seconds_for(const ActuationScene& scene, preset::Model rung, const preset
   return seconds;
 }
 
-Result<ActuationOutcome> actuate(const ActuationScene& scene, preset::Model rung,
+Result<ActuationOutcome> actuate(const ActuationScene& scene, preset::Rung rung,
                                  const std::vector<double>& progress, Watch& watch) {
   switch (rung) {
-    case preset::Model::net:
+    case preset::Rung::net:
       return sample_net(scene, progress, watch);
-    case preset::Model::twist:
+    case preset::Rung::twist:
       return run_twist_actuation(scene, progress, watch);
     default:
       return run_actuation(scene, progress, watch);
@@ -129,8 +129,8 @@ Result<Plan> plan(const preset::Preset& preset) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
   Plan plan;
-  const preset::Model rung = preset::rung_of(preset);
-  plan.model = preset::name_of(rung);
+  const preset::Rung rung = preset::rung_of(preset);
+  plan.model = word_of(rung);
   plan.model_reason = preset::model_reason(preset);
   plan.levels = scene->levels.edges_per_segment;
   plan.edges_per_segment = plan.levels.back();
@@ -139,7 +139,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.joints = int(scene->footprint.joints.size());
   plan.cells = int(scene->footprint.cells.size());
   plan.dof = dof_of(*scene, rung, plan.edges_per_segment);
-  plan.expected_error_mm = rung == preset::Model::net
+  plan.expected_error_mm = rung == preset::Rung::net
                                ? net_error * scene->length_scale_mm
                                : expected_error(scene->levels) * scene->length_scale_mm;
   plan.expected_seconds = seconds_for(*scene, rung, preset);

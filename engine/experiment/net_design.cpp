@@ -1,5 +1,7 @@
 #include "engine/experiment/net_design.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -30,18 +32,24 @@ Result<NetDesign> cap(const preset::Net& wanted) {
   return design;
 }
 
+/// Of the surfaces of revolution.
 Result<Profile> profile_of(const preset::Net& wanted) {
   switch (wanted.kind) {
+    case preset::NetKind::cylinder:
+      // longer than asked for, so that the ends lie on it whatever the rounding
+      return cylinder_profile(wanted.radius_mm, wanted.length_mm);
     case preset::NetKind::spool:
       return spool_profile(wanted.radius_mm, wanted.waist);
     case preset::NetKind::beltrami:
       return beltrami_profile(wanted.radius_mm, wanted.waist);
     case preset::NetKind::profile:
       return tabulated_profile(matrix_of<2>(wanted.profile));
-    default:
-      // longer than asked for, so that the ends lie on it whatever the rounding
-      return cylinder_profile(wanted.radius_mm, wanted.length_mm);
+    case preset::NetKind::sphere:
+    case preset::NetKind::translation:
+      break;
   }
+  return fail(Fault::bad_input,
+              fmt::format("[net] kind = \"{}\": no surface of revolution", word_of(wanted.kind)));
 }
 
 Result<NetDesign> half_revolution(const preset::Net& wanted) {
@@ -96,8 +104,17 @@ Result<NetDesign> translation(const preset::Net& wanted) {
 }  // namespace
 
 Result<NetDesign> net_design(const preset::Net& net) {
-  if (net.kind == preset::NetKind::sphere) return cap(net);
-  if (net.kind == preset::NetKind::translation) return translation(net);
+  switch (net.kind) {
+    case preset::NetKind::sphere:
+      return cap(net);
+    case preset::NetKind::translation:
+      return translation(net);
+    case preset::NetKind::cylinder:
+    case preset::NetKind::spool:
+    case preset::NetKind::beltrami:
+    case preset::NetKind::profile:
+      break;
+  }
   return half_revolution(net);
 }
 

@@ -12,9 +12,7 @@ struct FlatFrame {
   Eigen::Matrix<double, 3, 2> axes = Eigen::Matrix<double, 3, 2>::Identity();
 
   Eigen::Vector3d at(const Eigen::Vector2d& uv) const { return origin + axes * uv; }
-  Eigen::Matrix3Xd all(const Eigen::Matrix2Xd& uv) const {
-    return (axes * uv).colwise() + origin;
-  }
+  Eigen::Matrix3Xd all(const Eigen::Matrix2Xd& uv) const { return (axes * uv).colwise() + origin; }
 };
 
 }  // namespace gridshell

@@ -29,9 +29,7 @@ struct FootprintCell {
 /// What holds a rod's end: nothing, its position, its position and direction, or its spin too.
 enum class RodEnd { free, pinned, tangent, clamped };
 
-inline bool holds_direction(RodEnd end) {
-  return end == RodEnd::tangent || end == RodEnd::clamped;
-}
+inline bool holds_direction(RodEnd end) { return end == RodEnd::tangent || end == RodEnd::clamped; }
 
 /// One rod from edge point to edge point. Positions run along the rod: u on a u-rod, v on a v-rod.
 struct FootprintRod {

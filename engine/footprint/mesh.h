@@ -18,7 +18,7 @@ struct RodMesh {
   int edges_per_segment = 0;
   int joints = 0;
   int edge_points = 0;
-  std::vector<RodEnd> ends;                   ///< of every edge point; empty: all pinned
+  std::vector<RodEnd> ends;  ///< of every edge point; empty: all pinned
   int ghosts = 0;
   double ghost_length = 0;                    ///< mm
   std::vector<std::vector<int>> rods;         ///< nodes of each rod from edge point to edge point

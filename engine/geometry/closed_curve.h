@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/core/words.h"
 #include "engine/geometry/antiderivative.h"
 
 namespace gridshell {
@@ -56,6 +57,10 @@ enum class Correspondence {
   arc_length,  ///< the same fraction of the length, both counted from the positive x-axis
   angle,       ///< the same polar angle about the origin
 };
+constexpr auto words(Correspondence) {
+  return word_table<Correspondence>(
+      {{Correspondence::arc_length, "arc_length"}, {Correspondence::angle, "angle"}});
+}
 
 /// Maps points of the original boundary to the actuated one.
 class BoundaryMap {

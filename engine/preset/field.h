@@ -43,7 +43,7 @@ struct Flag {
 struct Text {
   std::string& (*in)(Preset&);
 };
-/// One word of a few; the index of the word is the value of the enum.
+/// One word of a few, those of an enum; the index of a word is the enumerator's value.
 struct Word {
   int (*get)(const Preset&);
   void (*set)(Preset&, int);

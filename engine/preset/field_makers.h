@@ -47,13 +47,13 @@ Text text() {
   return {reach<path...>};
 }
 template <auto... path>
-Word word(std::vector<std::string> words) {
+Word word() {
   using Enum = std::remove_reference_t<decltype(reach<path...>(std::declval<Preset&>()))>;
   return {[](const Preset& preset) {
             return static_cast<int>(reach<path...>(const_cast<Preset&>(preset)));
           },
           [](Preset& preset, int index) { reach<path...>(preset) = static_cast<Enum>(index); },
-          std::move(words)};
+          all_words<Enum>()};
 }
 template <auto... path>
 IntegerPair pair(Range range) {

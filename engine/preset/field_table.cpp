@@ -16,8 +16,7 @@ std::vector<Field> shell_fields() {
       {"", "source", "", text<&P::source>(), "figure or movie of the paper it follows"},
       {"", "allow_unstable", "", flag<&P::allow_unstable>(),
        "whether a run may end in an unstable state without failing"},
-      {"footprint", "kind", "",
-       word<&P::footprint, &Footprint::kind>({"circle", "net", "curve", "blocks"}),
+      {"footprint", "kind", "", word<&P::footprint, &Footprint::kind>(),
        "boundary that cuts the flat square grid: a circle, the one that a net maps to the boundary "
        "wanted, a curve of your own, or that of blocks joined"},
       {"footprint", "rods", "", integer<&P::footprint, &Footprint::rods>(between(1, 500)),
@@ -26,18 +25,16 @@ std::vector<Field> shell_fields() {
        "radius of a circle, R_o"},
       {"footprint", "spacing_mm", "mm", real<&P::footprint, &Footprint::spacing_mm>(above(0)),
        "distance between neighbouring rods, d"},
-      {"footprint", "placement", "",
-       word<&P::footprint, &Footprint::placement>({"half", "on_axis"}),
+      {"footprint", "placement", "", word<&P::footprint, &Footprint::placement>(),
        "rods at u = (i + 1/2) d, or at u = i d with one on each axis"},
       {"actuation", "radius_mm", "mm", real<&P::actuation, &Actuation::radius_mm>(above(0)),
        "radius of the actuated boundary of a circle, R_a, at most R_o"},
-      {"actuation", "start", "", word<&P::actuation, &Actuation::start>({"flat", "net"}),
+      {"actuation", "start", "", word<&P::actuation, &Actuation::start>(),
        "\"flat\": patiently from the flat footprint; \"net\": at once to the equilibrium next to "
        "the net"},
-      {"actuation", "seed", "", word<&P::actuation, &Actuation::seed>({"up", "down"}),
+      {"actuation", "seed", "", word<&P::actuation, &Actuation::seed>(),
        "side to which the flat shell buckles"},
-      {"actuation", "seed_diagonal", "",
-       word<&P::actuation, &Actuation::seed_diagonal>({"y=x", "y=-x"}),
+      {"actuation", "seed_diagonal", "", word<&P::actuation, &Actuation::seed_diagonal>(),
        "of the corner pairs on the two diagonals, the one whose joints lie lower"},
   };
 }
@@ -45,7 +42,7 @@ std::vector<Field> shell_fields() {
 std::vector<Field> indentation_fields() {
   using I = Indentation;
   return {
-      {"indentation", "at", "", word<&P::indentation, &I::at>({"pole", "highest"}),
+      {"indentation", "at", "", word<&P::indentation, &I::at>(),
        "joint that is pushed: the one nearest to the pole, or the highest"},
       {"indentation", "latitude_deg", "deg",
        real<&P::indentation, &I::latitude_deg>(between(-90, 90)),
@@ -54,14 +51,14 @@ std::vector<Field> indentation_fields() {
        real<&P::indentation, &I::longitude_deg>(between(-360, 360)), "from +x towards +y"},
       {"indentation", "joint", "", integers<&P::indentation, &I::joint>(between(-500, 500)),
        "[i, j] of the joint pushed, in the place of all of these; empty: not by its indices"},
-      {"indentation", "direction", "", word<&P::indentation, &I::direction>({"inward", "outward"}),
+      {"indentation", "direction", "", word<&P::indentation, &I::direction>(),
        "against or along the normal of the net, or of the unloaded shell, at the joint; fixed in "
        "space"},
       {"indentation", "depth", "", real<&P::indentation, &I::depth>(between(0, 10)),
        "depth of the push over rho of a net or R_o of a circle; 0: nothing is pushed"},
       {"indentation", "depth_mm", "mm", real<&P::indentation, &I::depth_mm>(at_least(0)),
        "the same in millimetres, in the place of `depth`"},
-      {"indentation", "lateral", "", word<&P::indentation, &I::lateral>({"free", "held"}),
+      {"indentation", "lateral", "", word<&P::indentation, &I::lateral>(),
        "whether the joint pushed may move across the push"},
       {"indentation", "unload", "", flag<&P::indentation, &I::unload>(),
        "whether the push is taken back at the end, in the second half of the frames"},
@@ -77,8 +74,7 @@ std::vector<Field> numerics_fields() {
       {"accuracy", "edges_per_segment", "",
        integer<&P::accuracy, &Accuracy::edges_per_segment>(between(0, 64)),
        "edges between two joints of a rod; 0 chooses them from the tolerance"},
-      {"accuracy", "model", "",
-       word<&P::accuracy, &Accuracy::model>({"auto", "net", "bend", "twist"}),
+      {"accuracy", "model", "", word<&P::accuracy, &Accuracy::model>(),
        "\"net\": the smooth net itself, nothing solved; \"bend\": stretching and bending, 3 "
        "unknowns "
        "a node; \"twist\": torsion too, 1 more an edge; \"auto\" takes the least that is exact"},
@@ -93,9 +89,9 @@ std::vector<Field> picture_fields() {
        "width and height of a frame"},
       {"movie", "fps", "1/s", integer<&P::movie, &Movie::fps>(between(1, 240)),
        "frames a second of movie.mp4"},
-      {"movie", "quality", "", word<&P::movie, &Movie::quality>({"draft", "movie", "figure"}),
+      {"movie", "quality", "", word<&P::movie, &Movie::quality>(),
        "draft: plain; movie: 2x2 supersampling and shadow; figure: many jittered passes"},
-      {"movie", "colour_by", "", word<&P::movie, &Movie::colour_by>({"none", "K", "displacement"}),
+      {"movie", "colour_by", "", word<&P::movie, &Movie::colour_by>(),
        "none; the cells by their integrated Gauss curvature K; or the rods by how far they moved "
        "over the depth of the push"},
       {"movie", "azimuth_deg", "deg", real<&P::movie, &Movie::azimuth_deg>(between(-360, 360)),

@@ -44,7 +44,7 @@ std::vector<Field> rod_fields() {
 
 std::vector<Field> joint_fields() {
   return {
-      {"joints", "kind", "", word<&P::joints, &Joints::kind>({"shared", "spring"}),
+      {"joints", "kind", "", word<&P::joints, &Joints::kind>(),
        "\"shared\": crossing rods share the joint's node; \"spring\": each has its own, held "
        "together by a spring"},
       {"joints", "stiffness_N_per_mm", "N/mm",
@@ -53,10 +53,10 @@ std::vector<Field> joint_fields() {
        "resistance to the change of the crossing angle; 0: joints shear freely"},
       {"joints", "twist_Nmm", "N mm/rad", real<&P::joints, &Joints::twist_Nmm>(at_least(0)),
        "resistance to a rod's spin beside the joint's normal; 0: joints pass no twist"},
-      {"ends", "kind", "", word<&P::ends, &Ends::kind>({"pinned", "tangent", "clamped"}),
+      {"ends", "kind", "", word<&P::ends, &Ends::kind>(),
        "\"pinned\": position held, direction and spin free; \"tangent\": direction held too, along "
        "the net's tangents or, in a circle, as in the flat; \"clamped\": spin held too"},
-      {"ends", "rings", "", word<&P::ends, &Ends::rings>({"pinned", "free"}),
+      {"ends", "rings", "", word<&P::ends, &Ends::rings>(),
        "whether the ends on the rings of a surface of revolution are held like the others or free"},
   };
 }

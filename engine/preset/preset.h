@@ -1,12 +1,15 @@
 // A preset: everything an experiment and its pictures need, as plain values with defaults. The
 // names are those of the TOML keys: `[rod] diameter_mm` is `preset.rod.diameter_mm`. What each key
-// means, its unit, range and default stand once, in the field table (field_table.h).
+// means, its unit, range and default stand once, in the field table (field_table.h); the words of
+// an enum stand beside it.
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "engine/core/words.h"
 
 namespace gridshell::preset {
 
@@ -29,6 +32,9 @@ struct RodV : Rod {
 };
 
 enum class JointKind { shared, spring };
+constexpr auto words(JointKind) {
+  return word_table<JointKind>({{JointKind::shared, "shared"}, {JointKind::spring, "spring"}});
+}
 struct Joints {
   JointKind kind = JointKind::shared;
   double stiffness_N_per_mm = 0;  ///< of springs
@@ -37,7 +43,14 @@ struct Joints {
 };
 
 enum class EndKind { pinned, tangent, clamped };
+constexpr auto words(EndKind) {
+  return word_table<EndKind>(
+      {{EndKind::pinned, "pinned"}, {EndKind::tangent, "tangent"}, {EndKind::clamped, "clamped"}});
+}
 enum class Rings { pinned, free };
+constexpr auto words(Rings) {
+  return word_table<Rings>({{Rings::pinned, "pinned"}, {Rings::free, "free"}});
+}
 struct Ends {
   EndKind kind = EndKind::pinned;
   Rings rings = Rings::pinned;
@@ -47,6 +60,13 @@ struct Ends {
 using Points = std::vector<std::vector<double>>;
 
 enum class CurveKind { circle, ellipse, superellipse, polygon, spline };
+constexpr auto words(CurveKind) {
+  return word_table<CurveKind>({{CurveKind::circle, "circle"},
+                                {CurveKind::ellipse, "ellipse"},
+                                {CurveKind::superellipse, "superellipse"},
+                                {CurveKind::polygon, "polygon"},
+                                {CurveKind::spline, "spline"}});
+}
 /// A closed curve in the plane; the radius of a circle stands beside it.
 struct Curve {
   CurveKind kind = CurveKind::circle;
@@ -56,7 +76,16 @@ struct Curve {
 };
 
 enum class FootprintKind { circle, net, curve, blocks };
+constexpr auto words(FootprintKind) {
+  return word_table<FootprintKind>({{FootprintKind::circle, "circle"},
+                                    {FootprintKind::net, "net"},
+                                    {FootprintKind::curve, "curve"},
+                                    {FootprintKind::blocks, "blocks"}});
+}
 enum class Placement { half, on_axis };
+constexpr auto words(Placement) {
+  return word_table<Placement>({{Placement::half, "half"}, {Placement::on_axis, "on_axis"}});
+}
 struct Footprint {
   FootprintKind kind = FootprintKind::circle;
   Curve boundary;
@@ -67,6 +96,14 @@ struct Footprint {
 };
 
 enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation };
+constexpr auto words(NetKind) {
+  return word_table<NetKind>({{NetKind::sphere, "sphere"},
+                              {NetKind::cylinder, "cylinder"},
+                              {NetKind::spool, "spool"},
+                              {NetKind::beltrami, "beltrami"},
+                              {NetKind::profile, "profile"},
+                              {NetKind::translation, "translation"}});
+}
 struct Net {
   NetKind kind = NetKind::sphere;
   double radius_mm = 120.0;  ///< rho, the deviation's scale
@@ -95,9 +132,21 @@ struct Blocks {
 };
 
 enum class Correspondence { arc_length, angle };
+constexpr auto words(Correspondence) {
+  return word_table<Correspondence>(
+      {{Correspondence::arc_length, "arc_length"}, {Correspondence::angle, "angle"}});
+}
 enum class Start { flat, net };
+constexpr auto words(Start) {
+  return word_table<Start>({{Start::flat, "flat"}, {Start::net, "net"}});
+}
 enum class Seed { up, down };
-enum class SeedDiagonal { y_eq_x, y_eq_minus_x };  ///< "y=x", "y=-x"
+constexpr auto words(Seed) { return word_table<Seed>({{Seed::up, "up"}, {Seed::down, "down"}}); }
+enum class SeedDiagonal { y_eq_x, y_eq_minus_x };
+constexpr auto words(SeedDiagonal) {
+  return word_table<SeedDiagonal>(
+      {{SeedDiagonal::y_eq_x, "y=x"}, {SeedDiagonal::y_eq_minus_x, "y=-x"}});
+}
 struct Actuation {
   double radius_mm = 94.5;  ///< R_a
   double scale = 0;         ///< of the original boundary; 0: `boundary` is given by itself
@@ -109,8 +158,18 @@ struct Actuation {
 };
 
 enum class IndentationPlace { pole, highest };
+constexpr auto words(IndentationPlace) {
+  return word_table<IndentationPlace>(
+      {{IndentationPlace::pole, "pole"}, {IndentationPlace::highest, "highest"}});
+}
 enum class Direction { inward, outward };
+constexpr auto words(Direction) {
+  return word_table<Direction>({{Direction::inward, "inward"}, {Direction::outward, "outward"}});
+}
 enum class Lateral { free, held };
+constexpr auto words(Lateral) {
+  return word_table<Lateral>({{Lateral::free, "free"}, {Lateral::held, "held"}});
+}
 struct Indentation {
   IndentationPlace at = IndentationPlace::pole;
   double latitude_deg = 90, longitude_deg = 0;
@@ -143,15 +202,30 @@ struct Limits {
   double max_strain = 1e-3;
 };
 
-enum class Model { automatic, net, bend, twist };  ///< "auto", "net", "bend", "twist"
+/// Of the model ladder.
+enum class Rung { automatic, net, bend, twist };
+constexpr auto words(Rung) {
+  return word_table<Rung>({{Rung::automatic, "auto"},
+                           {Rung::net, "net"},
+                           {Rung::bend, "bend"},
+                           {Rung::twist, "twist"}});
+}
 struct Accuracy {
   double tolerance = 1e-3;
   int edges_per_segment = 0;  ///< 0: chosen from the tolerance
-  Model model = Model::automatic;
+  Rung model = Rung::automatic;
 };
 
 enum class Quality { draft, movie, figure };
+constexpr auto words(Quality) {
+  return word_table<Quality>(
+      {{Quality::draft, "draft"}, {Quality::movie, "movie"}, {Quality::figure, "figure"}});
+}
 enum class ColourBy { none, K, displacement };
+constexpr auto words(ColourBy) {
+  return word_table<ColourBy>(
+      {{ColourBy::none, "none"}, {ColourBy::K, "K"}, {ColourBy::displacement, "displacement"}});
+}
 struct Movie {
   int frames = 240;
   std::array<int, 2> size{1280, 720};

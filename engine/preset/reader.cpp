@@ -15,14 +15,19 @@
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
 #include "engine/preset/suggest.h"
+#include "engine/preset/use.h"
 
 namespace gridshell::preset {
 namespace {
+
+// what is laid over what
+enum class Layer { file, one_case, command_line };
 
 // where a value came from: a place in a file, or an option of the command line
 struct Place {
   std::string source;
   unsigned line = 0, column = 0;
+  Layer layer = Layer::file;
 
   std::string text() const {
     return line == 0 ? source : fmt::format("{}:{}:{}", source, line, column);
@@ -80,14 +85,15 @@ class Reading {
 
   Place place_of(const toml::source_region& region) const {
     // values of an override have no place in the file
-    if (!override_.empty()) return {override_};
-    return {source_, unsigned(region.begin.line), unsigned(region.begin.column)};
+    if (!override_.empty()) return {override_, 0, 0, Layer::command_line};
+    return {source_, unsigned(region.begin.line), unsigned(region.begin.column), layer_};
   }
 
   void fault(const Place& place, std::string text) { faults_.push_back({place, std::move(text)}); }
 
   // the keys of a file, or of one of its cases, over a draft; `apart` is read by someone else
   void lay(const toml::table& root, const std::string& apart, Draft& draft) {
+    layer_ = apart == "case" ? Layer::file : Layer::one_case;
     for (const auto& [key, value] : root) {
       const std::string name(key.str());
       if (name == apart) continue;
@@ -132,6 +138,23 @@ class Reading {
             fmt::format("{} = {}: {}", name, value_text(*field, up_to(draft.preset, conflict.item)),
                         conflict.what));
     }
+  }
+
+  // keys that count for nothing in any of the runs of a file, because of what others are set to
+  void check_use(const std::vector<Draft>& runs) {
+    std::map<std::string, std::size_t> idle_in;
+    for (const Draft& draft : runs)
+      for (const IdleKey& idle : idle_keys(draft.preset))
+        ++idle_in[bracketed(idle.table, idle.key, idle.item)];
+    for (const Draft& draft : runs)
+      for (const IdleKey& idle : idle_keys(draft.preset)) {
+        const auto name = bracketed(idle.table, idle.key, idle.item);
+        const auto set = draft.set_at.find(name);
+        if (set == draft.set_at.end() || draft.faulty.contains(name)) continue;
+        // what the base says may be for another case
+        if (set->second.layer != Layer::one_case && idle_in[name] < runs.size()) continue;
+        if (!set_aside_above(draft, idle.deciders, set->second.layer)) refuse_idle(draft, idle);
+      }
   }
 
   // all faults, in the order of the file and each once; those of the command line come last
@@ -227,6 +250,31 @@ class Reading {
     }
   }
 
+  // whether a decider was laid over the layer in which a key stands: the key was of use below
+  static bool set_aside_above(const Draft& draft, const std::vector<std::string>& deciders,
+                              Layer layer) {
+    return std::ranges::any_of(deciders, [&](const std::string& decider) {
+      const auto set = draft.set_at.find(decider);
+      return set != draft.set_at.end() && set->second.layer > layer;
+    });
+  }
+
+  // a key that says its default asks for nothing
+  void refuse_idle(const Draft& draft, const IdleKey& idle) {
+    const auto name = bracketed(idle.table, idle.key, idle.item);
+    const auto& field = *find_field(idle.table, idle.key);
+    Preset defaults;
+    defaults.block.emplace_back();
+    defaults.join.emplace_back();
+    const auto value = value_text(field, up_to(draft.preset, idle.item));
+    if (value == value_text(field, defaults)) return;
+    const auto refused = [&](const std::string& key) { return draft.faulty.contains(key); };
+    if (std::ranges::any_of(idle.deciders, refused)) return;
+    fault(draft.set_at.at(name),
+          fmt::format("{} = {}: counts for nothing here, must be left out: {}", name, value,
+                      idle.why));
+  }
+
   // what a mistyped key may have been: a near one of its table, the same one of another table, or
   // else the list of what there is
   static std::string hint(const std::string& table, const std::string& name) {
@@ -242,6 +290,7 @@ class Reading {
   std::string source_;
   std::filesystem::path folder_;  // of the file
   std::string override_;          // while an override is laid: its option
+  Layer layer_ = Layer::file;     // of what is laid of the file
   std::vector<PlacedFault> faults_;
 };
 
@@ -294,6 +343,7 @@ Presets read_presets(const toml::table& root, const std::string& name,
     return presets;
   }
   std::set<std::string> taken;
+  std::vector<Draft> runs;
   const toml::array none;  // a copy of the list would not know its places
   for (const auto& item : node ? *node->as_array() : none) {
     const auto& table = *item.as_table();
@@ -303,10 +353,12 @@ Presets read_presets(const toml::table& root, const std::string& name,
     const auto own = case_name(table, taken, reading);
     taken.insert(own);
     draft.preset.name = name + "/" + own;
-    reading.check(draft);
+    runs.push_back(draft);
     presets.cases.push_back({own, std::move(draft.preset)});
   }
-  if (presets.cases.empty()) reading.check(whole);
+  if (runs.empty()) runs.push_back(whole);
+  for (const Draft& draft : runs) reading.check(draft);
+  reading.check_use(runs);
   return presets;
 }
 

@@ -79,35 +79,24 @@ std::vector<Demand> beyond_net(const Preset& preset) {
   return found;
 }
 
-Model rung_of(const Preset& preset) {
-  if (preset.accuracy.model != Model::automatic) return preset.accuracy.model;
+Rung rung_of(const Preset& preset) {
+  if (preset.accuracy.model != Rung::automatic) return preset.accuracy.model;
   const bool twist = !beyond_bend(preset).empty();
   const bool cap = preset.footprint.kind == FootprintKind::net &&
                    preset.net.kind == NetKind::sphere && preset.ends.kind == EndKind::pinned;
-  if (!twist && cap && beyond_net(preset).empty()) return Model::net;
-  return twist ? Model::twist : Model::bend;
-}
-
-const char* name_of(Model rung) {
-  switch (rung) {
-    case Model::net:
-      return "net";
-    case Model::twist:
-      return "twist";
-    default:
-      return "bend";
-  }
+  if (!twist && cap && beyond_net(preset).empty()) return Rung::net;
+  return twist ? Rung::twist : Rung::bend;
 }
 
 std::string model_reason(const Preset& preset) {
   switch (rung_of(preset)) {
-    case Model::net:
+    case Rung::net:
       return fmt::format(
           "net: the tolerance of {:g} allows the smooth net itself, and nothing is asked that "
           "needs "
           "an equilibrium; none is solved for, so there is no residual and no word on stability",
           preset.accuracy.tolerance);
-    case Model::twist: {
+    case Rung::twist: {
       const auto demands = beyond_bend(preset);
       return demands.empty()
                  ? "twist, as asked: every rod's torsion is in it; `bend` would give the same "
@@ -116,11 +105,13 @@ std::string model_reason(const Preset& preset) {
                  : fmt::format("twist: {}; nothing is left out, the torsion of every rod is in it",
                                list_of(demands));
     }
-    default:
-      return "bend: the rods are round and naturally straight, their ends spin freely and the "
-             "joints pass no twist, so the twist energy is zero at rest and leaving it out changes "
-             "nothing; joints are shared nodes, the limit of stiff springs";
+    case Rung::automatic:  // the rung is a choice made
+    case Rung::bend:
+      break;
   }
+  return "bend: the rods are round and naturally straight, their ends spin freely and the "
+         "joints pass no twist, so the twist energy is zero at rest and leaving it out changes "
+         "nothing; joints are shared nodes, the limit of stiff springs";
 }
 
 namespace {
@@ -132,13 +123,13 @@ void add_rung_conflicts(const Preset& preset, std::vector<Conflict>& found) {
                      {bracketed(demand)},
                      fmt::format("cannot serve {}: {}", bracketed(demand), demand.what)});
   };
-  if (preset.accuracy.model == Model::bend)
+  if (preset.accuracy.model == Rung::bend)
     for (const Demand& demand : beyond_bend(preset)) refuse(demand);
-  if (preset.accuracy.model == Model::net) {
+  if (preset.accuracy.model == Rung::net) {
     for (const Demand& demand : beyond_net(preset)) refuse(demand);
     for (const Demand& demand : beyond_bend(preset)) refuse(demand);
   }
-  if (rung_of(preset) != Model::twist) return;
+  if (rung_of(preset) != Rung::twist) return;
   const auto demands = beyond_bend(preset);
   const Demand cause =
       demands.empty() ? Demand{"accuracy", "model", "it is asked for"} : demands.front();

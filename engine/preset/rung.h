@@ -26,10 +26,7 @@ std::vector<Demand> beyond_net(const Preset& preset);
 /// The rung that a preset runs on: the one it asks for, else the lowest that is exact; `net` only
 /// where a tolerance of 0.05 or more is asked for a cap of a sphere, of which it is known that
 /// shells lie within 0.03 of their net.
-Model rung_of(const Preset& preset);
-
-/// "net", "bend" or "twist".
-const char* name_of(Model rung);
+Rung rung_of(const Preset& preset);
 
 /// One sentence: which rung, what was left out, and why nothing is lost.
 std::string model_reason(const Preset& preset);

@@ -11,9 +11,7 @@ using P = Preset;
 template <auto... path>
 std::vector<Field> curve_fields(const std::string& table, const std::string& meaning) {
   return {
-      {table, "boundary", "",
-       word<path..., &Curve::kind>({"circle", "ellipse", "superellipse", "polygon", "spline"}),
-       meaning},
+      {table, "boundary", "", word<path..., &Curve::kind>(), meaning},
       {table, "half_x_mm", "mm", real<path..., &Curve::half_x_mm>(above(0)),
        "half axis of an ellipse or superellipse along x"},
       {table, "half_y_mm", "mm", real<path..., &Curve::half_y_mm>(above(0)), "and along y"},
@@ -28,9 +26,7 @@ std::vector<Field> curve_fields(const std::string& table, const std::string& mea
 template <auto... path>
 std::vector<Field> fields_of_net(const std::string& table) {
   return {
-      {table, "kind", "",
-       word<path..., &Net::kind>(
-           {"sphere", "cylinder", "spool", "beltrami", "profile", "translation"}),
+      {table, "kind", "", word<path..., &Net::kind>(),
        "\"sphere\": a cap of Chebyshev's net; \"translation\": the sum of two curves; the others: "
        "the upper half of a surface of revolution about the x-axis, \"spool\" and \"beltrami\" of "
        "constant K = -1/rho^2"},
@@ -71,10 +67,10 @@ std::vector<Field> boundary_fields() {
                    "times this; 0: it is given by `boundary`"}});
   append(fields, curve_fields<&P::actuation, &Actuation::boundary>(
                      "actuation", "actuated boundary of a footprint of kind \"curve\""));
-  append(fields, {{"actuation", "correspondence", "",
-                   word<&P::actuation, &Actuation::correspondence>({"arc_length", "angle"}),
-                   "which point of it an edge point moves to: the one at the same fraction of the "
-                   "length from +x, or at the same polar angle"}});
+  append(fields,
+         {{"actuation", "correspondence", "", word<&P::actuation, &Actuation::correspondence>(),
+           "which point of it an edge point moves to: the one at the same fraction of the "
+           "length from +x, or at the same polar angle"}});
   return fields;
 }
 

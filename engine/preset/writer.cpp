@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 #include "engine/preset/field_table.h"
+#include "engine/preset/use.h"
 
 namespace gridshell::preset {
 namespace {
@@ -20,12 +23,26 @@ std::string cell(std::string text) {
   return text;
 }
 
-// the last item of a list of tables
-std::string item_text(const std::string& table, const Preset& preset) {
+// names of the keys that count for something, or do not
+class Used {
+ public:
+  explicit Used(const Preset& preset) {
+    for (const IdleKey& idle : idle_keys(preset)) idle_.insert({idle.table, idle.key, idle.item});
+  }
+  bool operator()(const Field& field, int item = -1) const {
+    return !idle_.contains({field.table, field.key, item});
+  }
+
+ private:
+  std::set<std::tuple<std::string, std::string, int>> idle_;
+};
+
+// one item of a list of tables, the last of `one`
+std::string item_text(const std::string& table, const Preset& one, const Used& used, int item) {
   auto text = fmt::format("\n[[{}]]\n", table);
   for (const auto& field : field_table())
-    if (field.table == table)
-      text += fmt::format("{} = {}\n", field.key, value_text(field, preset));
+    if (field.table == table && used(field, item))
+      text += fmt::format("{} = {}\n", field.key, value_text(field, one));
   return text;
 }
 
@@ -37,36 +54,44 @@ bool is_list(const std::string& name) {
 }  // namespace
 
 std::string to_toml(const Preset& preset) {
+  const Used used(preset);
   std::string text;
   for (const auto& table : tables()) {
     if (table.list) continue;
-    if (!table.name.empty()) text += fmt::format("\n[{}]  # {}\n", table.name, table.meaning);
+    std::string keys;
     for (const auto& field : field_table())
-      if (field.table == table.name)
-        text +=
+      if (field.table == table.name && used(field))
+        keys +=
             fmt::format("{} = {}  # {}\n", field.key, value_text(field, preset), comment_of(field));
+    if (!table.name.empty() && !keys.empty())
+      text += fmt::format("\n[{}]  # {}\n", table.name, table.meaning);
+    text += keys;
   }
-  for (const Block& block : preset.block) {
+  for (int k = 0; k < int(preset.block.size()); ++k) {
     Preset one;
-    one.block = {block};
-    text += item_text("block", one);
+    one.block = {preset.block[k]};
+    text += item_text("block", one, used, k);
   }
-  for (const Join& join : preset.join) {
+  for (int k = 0; k < int(preset.join.size()); ++k) {
     Preset one;
-    one.join = {join};
-    text += item_text("join", one);
+    one.join = {preset.join[k]};
+    text += item_text("join", one, used, k);
   }
   return text;
 }
 
 std::string to_toml(const Presets& presets) {
   auto text = to_toml(presets.base);
+  const Used in_base(presets.base);
+  const Preset defaults;
   for (const auto& one : presets.cases) {
+    const Used in_case(one.preset);
     text += fmt::format("\n[[case]]\nname = \"{}\"\n", one.name);
     for (const auto& field : field_table()) {
-      if (is_list(field.table)) continue;
+      if (is_list(field.table) || !in_case(field)) continue;
       const auto value = value_text(field, one.preset);
-      if (value == value_text(field, presets.base)) continue;
+      // what stands above, or where nothing does the default
+      if (value == value_text(field, in_base(field) ? presets.base : defaults)) continue;
       text += fmt::format("{}{}{} = {}\n", field.table, field.table.empty() ? "" : ".", field.key,
                           value);
     }

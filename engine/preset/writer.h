@@ -7,7 +7,8 @@
 
 namespace gridshell::preset {
 
-/// Every key with its value, unit and meaning: reading it back gives the same preset.
+/// Every key that counts for something in this preset, with value, unit and meaning: what it reads
+/// back as does the same.
 std::string to_toml(const Preset& preset);
 
 /// The base as above, then a [[case]] each with the keys in which it differs from the base.

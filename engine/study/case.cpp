@@ -80,7 +80,7 @@ Result<void> Case::set_up(const preset::Preset& preset) {
   auto scene = experiment::scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
   scene_ = std::move(*scene);
-  if (preset::rung_of(preset) == preset::Model::twist)
+  if (preset::rung_of(preset) == preset::Rung::twist)
     return fail(Fault::bad_input,
                 "a study compares methods on rods for which the bend rung is "
                 "exact: " +

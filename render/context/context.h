@@ -7,10 +7,17 @@
 #include <string>
 
 #include "engine/core/result.h"
+#include "engine/core/words.h"
 
 namespace gridshell::render {
 
 enum class ContextKind { automatic, osmesa, egl, window };
+constexpr auto words(ContextKind) {
+  return word_table<ContextKind>({{ContextKind::automatic, "auto"},
+                                  {ContextKind::osmesa, "osmesa"},
+                                  {ContextKind::egl, "egl"},
+                                  {ContextKind::window, "window"}});
+}
 
 /// Current from creation to destruction, on the thread that made it.
 class Context {

@@ -3,12 +3,21 @@
 
 #include <string>
 
+#include "engine/core/words.h"
 #include "render/draw/drawing.h"
 
 namespace gridshell::render {
 
 enum class Quality { draft, movie, figure };
+constexpr auto words(Quality) {
+  return word_table<Quality>(
+      {{Quality::draft, "draft"}, {Quality::movie, "movie"}, {Quality::figure, "figure"}});
+}
 enum class ColourBy { none, K, displacement };
+constexpr auto words(ColourBy) {
+  return word_table<ColourBy>(
+      {{ColourBy::none, "none"}, {ColourBy::K, "K"}, {ColourBy::displacement, "displacement"}});
+}
 
 struct MovieStyle {
   int width = 1280, height = 720;  ///< pixels
@@ -25,6 +34,8 @@ struct MovieStyle {
   double K_limit = 0;                           ///< end of the colours of K, rad; 0: the run's own
   double scale_bar_mm = 0;                      ///< 0: none
   std::string title;                            ///< shown as it is
+
+  bool operator==(const MovieStyle&) const = default;
 };
 
 /// Draft: one sample a pixel and no shadow; movie: 2 x 2 with soft shadow; figure: 64 passes with

@@ -1,4 +1,5 @@
-// What the README says is what the program does.
+// What the READMEs say is what the program does.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -7,46 +8,72 @@
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
+namespace fs = std::filesystem;
+
 namespace {
 
-std::string readme() {
-  return gridshell::read_whole(std::filesystem::path(GRIDSHELL_SOURCE_DIR) / "README.md").value();
+const fs::path root = GRIDSHELL_SOURCE_DIR;
+
+std::string text_of(const fs::path& file) { return gridshell::read_whole(root / file).value(); }
+
+// those at the top and one a folder that has one
+std::vector<fs::path> documents() {
+  std::vector<fs::path> found{"README.md", "CONTRIBUTING.md", "CHANGELOG.md"};
+  for (const auto& entry : fs::directory_iterator(root))
+    if (fs::exists(entry.path() / "README.md"))
+      found.push_back(entry.path().filename() / "README.md");
+  return found;
+}
+
+// the commands in the rows of a table, "| `gridshell COMMAND"
+std::set<std::string> commands_in(const std::string& text) {
+  std::set<std::string> found;
+  const std::string begin = "| `gridshell ";
+  for (auto at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    const auto word = at + begin.size();
+    found.insert(text.substr(word, text.find_first_of(" `", word) - word));
+  }
+  return found;
 }
 
 }  // namespace
 
-TEST_CASE("the README holds the reference of all keys, word for word") {
+TEST_CASE("presets/README.md holds the reference of all keys, word for word") {
   const TemporaryFolder folder;
   const auto printed = gridshell_program({"list", "--keys", "markdown"}, folder.path()).out;
   CHECK(printed == gridshell::preset::reference_markdown());
   // to mend it: paste what 'gridshell list --keys markdown' prints
-  CHECK_THAT(readme(), Catch::Contains(printed));
+  CHECK_THAT(text_of("presets/README.md"), Catch::Contains(printed));
 }
 
-TEST_CASE("the README names every command of the program, and no other") {
+TEST_CASE("the READMEs name every command of the program, and no other") {
   const TemporaryFolder folder;
-  const auto text = readme();
   const auto help = gridshell_program({"--help"}, folder.path()).out;
-  std::set<std::string> in_help, in_readme;
+  std::set<std::string> in_help;
   std::istringstream lines(help.substr(help.find("Subcommands:") + 13));
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("  ") && line[2] != ' ')
       in_help.insert(line.substr(2, line.find(' ', 2) - 2));
-  const std::string begin = "| `gridshell ";
-  for (auto at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
-    const auto word = at + begin.size();
-    in_readme.insert(text.substr(word, text.find_first_of(" `", word) - word));
-  }
   CHECK(in_help.size() >= 7);
-  CHECK(in_readme == in_help);
+  CHECK(commands_in(text_of("README.md")) == in_help);
+  CHECK(commands_in(text_of("app/README.md")) == in_help);
 }
 
-TEST_CASE("the README's pictures exist") {
-  const auto text = readme();
-  for (auto at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
-    const auto target = text.substr(at + 2, text.find(')', at) - at - 2);
-    if (target.starts_with("http")) continue;
-    INFO(target);
-    CHECK(std::filesystem::exists(std::filesystem::path(GRIDSHELL_SOURCE_DIR) / target));
+TEST_CASE("the README names every preset, and is short") {
+  const auto text = text_of("README.md");
+  for (const auto& file : files_under(root / "presets", ".toml"))
+    CHECK_THAT(text, Catch::Contains("`" + file.stem().string() + "`"));
+  CHECK(std::count(text.begin(), text.end(), '\n') < 200);
+}
+
+TEST_CASE("pictures and pages that the READMEs point to exist") {
+  for (const auto& document : documents()) {
+    const auto text = text_of(document);
+    for (auto at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
+      const auto target = text.substr(at + 2, text.find_first_of(")#", at) - at - 2);
+      if (target.starts_with("http")) continue;
+      INFO(document << " points to " << target);
+      CHECK(fs::exists((root / document).parent_path() / target));
+    }
   }
 }

@@ -133,7 +133,8 @@ void paper_shell(int runs) {
 
   NestedShell coarse = shell_of(c, plan_levels(1e-3), 1e-3);
   const double flat = median(runs, [&] {
-    first_buckled(coarse.system(0), coarse.mesh(0), coarse.motion(0), parameter(0.98), {}, {}, watch)
+    first_buckled(coarse.system(0), coarse.mesh(0), coarse.motion(0), parameter(0.98), {}, {},
+                  watch)
         .value();
   });
   fmt::print("first buckled equilibrium, 4 edges {:6.2f} F (goal 20)\n", flat / F);
@@ -167,8 +168,8 @@ void sizes() {
     shell.system(0).at(state, false);
     const double factor = median(3, [&] { shell.system(0).shifted(0); });
     double start = cpu_now();
-    const auto first =
-        first_buckled(shell.system(0), shell.mesh(0), shell.motion(0), parameter(0.98), {}, {}, watch);
+    const auto first = first_buckled(shell.system(0), shell.mesh(0), shell.motion(0),
+                                     parameter(0.98), {}, {}, watch);
     const double buckle = cpu_now() - start;
     start = cpu_now();
     bool reached = first.has_value();

@@ -43,7 +43,7 @@ TEST_CASE("a circle on the twist rung ends where it does on the bend rung, witho
   preset::Preset p = circle(4, 4);
   p.accuracy.tolerance = 1e-6;
   const experiment::Outcome bend = run(p);
-  p.accuracy.model = preset::Model::twist;
+  p.accuracy.model = preset::Rung::twist;
   const experiment::Outcome twist = run(p);
   CHECK(bend.summary.model == "bend");
   CHECK(twist.summary.model == "twist");
@@ -71,7 +71,7 @@ TEST_CASE("loads on the bend rung are those of the twist rung, and lower the she
   };
   CHECK(lowered(bend) < lowered(unloaded) - 0.5);
   CHECK(bend.trajectory.frames.front().residual_N < 1e-9);  // no load on the flat
-  p.accuracy.model = preset::Model::twist;
+  p.accuracy.model = preset::Rung::twist;
   CHECK(distance(bend, run(p)) < 1e-6 * p.footprint.radius_mm);
   p.loads.points = {{7, 0, 0, 0, 1}};
   Watch watch;

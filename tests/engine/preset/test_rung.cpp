@@ -50,7 +50,7 @@ TEST_CASE("auto takes the lowest rung that is exact") {
   }));
   CAPTURE(text);
   const Preset preset = good(text);
-  CHECK(name_of(rung_of(preset)) == rung);
+  CHECK(word_of(rung_of(preset)) == rung);
   CHECK(model_reason(preset).starts_with(rung));
 }
 
@@ -73,7 +73,8 @@ TEST_CASE("a rung that cannot serve the scene, and physics that lacks something,
        "bad.toml:2:16: [loads] gravity_m_s2 = 9.81: gravity needs a mass, [rod] density_kg_m3 must "
        "be above 0"},
       {"[dynamics]\nsnap = true",
-       "bad.toml:2:8: [dynamics] snap = true: motion needs a mass, [rod] density_kg_m3 must be above "
+       "bad.toml:2:8: [dynamics] snap = true: motion needs a mass, [rod] density_kg_m3 must be "
+       "above "
        "0"},
       {"[rod]\nyoung_GPa = -83",
        "bad.toml:2:13: [rod] young_GPa = -83: out of range, must be a number > 0"},

@@ -1,0 +1,201 @@
+#include "engine/preset/use.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/preset/field_table.h"
+
+namespace gridshell::preset {
+namespace {
+
+/// A key and the kinds that use it.
+template <class Kind>
+struct Use {
+  const char* key;
+  std::vector<Kind> by;
+};
+
+const std::vector<Use<NetKind>>& uses_of_net() {
+  using K = NetKind;
+  static const std::vector<Use<K>> uses = {
+      {"radius_mm", {K::sphere, K::cylinder, K::spool, K::beltrami}},
+      {"cut_height", {K::sphere}},
+      {"length_mm", {K::cylinder, K::spool, K::beltrami, K::profile}},
+      {"waist", {K::spool, K::beltrami}},
+      {"crossing_deg", {K::cylinder, K::spool, K::beltrami, K::profile}},
+      {"profile", {K::profile}},
+      {"curve_u", {K::translation}},
+      {"curve_v", {K::translation}},
+  };
+  return uses;
+}
+
+/// `radius_mm` stands beside the curve, for a circle.
+const std::vector<Use<CurveKind>>& uses_of_curve() {
+  using K = CurveKind;
+  static const std::vector<Use<K>> uses = {
+      {"radius_mm", {K::circle}},
+      {"half_x_mm", {K::ellipse, K::superellipse}},
+      {"half_y_mm", {K::ellipse, K::superellipse}},
+      {"exponent", {K::superellipse}},
+      {"points_mm", {K::polygon, K::spline}},
+  };
+  return uses;
+}
+
+template <class Kind>
+std::string names_of(const std::vector<Kind>& kinds) {
+  std::string text;
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    text += fmt::format("{}\"{}\"",
+                        k == 0                  ? ""
+                        : k + 1 == kinds.size() ? " or "
+                                                : ", ",
+                        word_of(kinds[k]));
+  return text;
+}
+
+std::string bracketed(const std::string& table, const char* key, int item) {
+  return item < 0 ? fmt::format("[{}] {}", table, key)
+                  : fmt::format("[[{}]] {} {}", table, item + 1, key);
+}
+
+/// Gathers the keys that count for nothing.
+class Idle {
+ public:
+  explicit Idle(const Preset& preset) : preset_(preset) {}
+
+  std::vector<IdleKey> take() {
+    shapes();
+    boundaries();
+    rods("rod", preset_.rod);
+    if (preset_.rod_v.differs) rods("rod_v", preset_.rod_v);
+    push();
+    motion();
+    return std::move(found_);
+  }
+
+ private:
+  void add(const char* table, const char* key, std::vector<std::string> deciders, std::string why,
+           int item = -1) {
+    found_.push_back({table, key, item, std::move(deciders), std::move(why)});
+  }
+
+  void add_all(const char* table, const std::vector<std::string>& deciders, const std::string& why,
+               int item = -1) {
+    for (const Field& field : field_table())
+      if (field.table == table) add(table, field.key.c_str(), deciders, why, item);
+  }
+
+  /// keys that other values of `decider` use
+  template <class Kind>
+  void add_unused(const char* table, const std::vector<Use<Kind>>& uses, Kind kind,
+                  const char* decider, int item = -1) {
+    const auto name = bracketed(table, decider, item);
+    for (const auto& use : uses)
+      if (std::ranges::find(use.by, kind) == use.by.end())
+        add(table, use.key, {name},
+            fmt::format("{} = \"{}\" does not use it, only {}", name, word_of(kind),
+                        names_of(use.by)),
+            item);
+  }
+
+  void shapes() {
+    using K = FootprintKind;
+    const K kind = preset_.footprint.kind;
+    const std::vector<std::string> decider{"[footprint] kind"};
+    const auto of = [&](K user) {
+      return fmt::format("[footprint] kind = \"{}\" does not use it, only \"{}\"", word_of(kind),
+                         word_of(user));
+    };
+    if (kind != K::circle) add("footprint", "rods", decider, of(K::circle));
+    if (kind == K::net)
+      add_unused("net", uses_of_net(), preset_.net.kind, "kind");
+    else
+      add_all("net", decider, of(K::net));
+    if (kind != K::blocks) add_all("blocks", decider, of(K::blocks));
+    for (int k = 0; k < int(preset_.block.size()); ++k)
+      if (kind == K::blocks)
+        add_unused("block", uses_of_net(), preset_.block[k].net.kind, "kind", k);
+      else
+        add_all("block", decider, of(K::blocks), k);
+    for (int k = 0; k < int(preset_.join.size()) && kind != K::blocks; ++k)
+      add_all("join", decider, of(K::blocks), k);
+  }
+
+  void boundaries() {
+    const std::vector<std::string> decider{"[footprint] kind"};
+    const bool curve = preset_.footprint.kind == FootprintKind::curve;
+    const bool circle = preset_.footprint.kind == FootprintKind::circle;
+    const Actuation& to = preset_.actuation;
+    const std::string by_kind = fmt::format("[footprint] kind = \"{}\" does not use it, only ",
+                                            word_of(preset_.footprint.kind));
+    if (curve) {
+      add_unused("footprint", uses_of_curve(), preset_.footprint.boundary.kind, "boundary");
+    } else {
+      for (const char* key : {"boundary", "half_x_mm", "half_y_mm", "exponent", "points_mm"})
+        add("footprint", key, decider, by_kind + "\"curve\"");
+      for (const char* key : {"scale", "boundary", "half_x_mm", "half_y_mm", "exponent",
+                              "points_mm", "correspondence"})
+        add("actuation", key, decider, by_kind + "\"curve\"");
+    }
+    if (!curve && !circle)
+      for (const char* table : {"footprint", "actuation"})
+        add(table, "radius_mm", decider, by_kind + "\"circle\" or \"curve\"");
+    if (curve && to.scale == 0)
+      add_unused("actuation", uses_of_curve(), to.boundary.kind, "boundary");
+    if (curve && to.scale > 0)
+      for (const char* key :
+           {"radius_mm", "boundary", "half_x_mm", "half_y_mm", "exponent", "points_mm"})
+        add("actuation", key, {"[actuation] scale"},
+            "the actuated boundary is the original one times [actuation] scale");
+  }
+
+  void rods(const char* table, const Rod& rod) {
+    if (rod.rectangular())
+      add(table, "diameter_mm",
+          {fmt::format("[{}] width_mm", table), fmt::format("[{}] thickness_mm", table)},
+          fmt::format("[{}] width_mm and thickness_mm make the rods rectangular", table));
+  }
+
+  void push() {
+    const Indentation& push = preset_.indentation;
+    const std::string depth = "[indentation] depth", depth_mm = "[indentation] depth_mm";
+    if (!push.wanted()) {
+      for (const char* key :
+           {"at", "latitude_deg", "longitude_deg", "joint", "direction", "lateral", "unload"})
+        add("indentation", key, {depth, depth_mm},
+            "nothing is pushed: [indentation] depth and depth_mm are 0");
+      return;
+    }
+    if (push.depth_mm > 0)
+      add("indentation", "depth", {depth_mm}, "[indentation] depth_mm takes its place");
+    if (!push.joint.empty()) {
+      for (const char* key : {"at", "latitude_deg", "longitude_deg"})
+        add("indentation", key, {"[indentation] joint"},
+            "[indentation] joint names the joint that is pushed");
+    } else if (push.latitude_deg < 90) {
+      add("indentation", "at", {"[indentation] latitude_deg"},
+          "[indentation] latitude_deg takes its place");
+    } else {
+      add("indentation", "longitude_deg", {"[indentation] latitude_deg"},
+          "at a latitude of 90 degrees there is no longitude");
+    }
+  }
+
+  void motion() {
+    if (!preset_.dynamics.snap)
+      for (const char* key : {"step_s", "damping_per_s"})
+        add("dynamics", key, {"[dynamics] snap"}, "no snap is followed in time without it");
+  }
+
+  const Preset& preset_;
+  std::vector<IdleKey> found_;
+};
+
+}  // namespace
+
+std::vector<IdleKey> idle_keys(const Preset& preset) { return Idle(preset).take(); }
+
+}  // namespace gridshell::preset

@@ -1,0 +1,78 @@
+// Every key of the field table is read by something: a key that does nothing is a lie to its user.
+#include <catch2/catch.hpp>
+#include <map>
+#include <regex>
+#include <set>
+
+#include "app/pictures.h"
+#include "engine/core/atomic_file.h"
+#include "engine/preset/field_table.h"
+#include "tests/app/program.h"
+
+namespace fs = std::filesystem;
+using namespace gridshell;
+using namespace gridshell::preset;
+
+namespace {
+
+// what a person reads in the file itself
+const std::set<std::string> for_people{"description"};
+
+// where the member has another name than the key
+const std::map<std::string, std::string> member_names{{"points_mm", "points"}};
+
+// the members that are reached for in sources that work with presets, but for those that read,
+// check and write the keys themselves
+std::set<std::string> members_read() {
+  static const std::regex member("(?:\\.|->)([A-Za-z_]\\w*)");
+  std::set<std::string> found;
+  for (const char* folder : {"engine", "app"})
+    for (const auto& file : files_under(fs::path(GRIDSHELL_SOURCE_DIR) / folder, ".cpp")) {
+      const auto text = read_whole(file).value();
+      if (file.string().find("/engine/preset/") != std::string::npos ||
+          text.find("preset::") == std::string::npos)
+        continue;
+      for (std::sregex_iterator at(text.begin(), text.end(), member), end; at != end; ++at)
+        found.insert((*at)[1]);
+    }
+  return found;
+}
+
+// another value than the default
+void change(const Field& field, Preset& preset) {
+  auto kind = field.kind;
+  if (auto* k = std::get_if<Real>(&kind)) k->in(preset) += 1;
+  if (auto* k = std::get_if<Integer>(&kind)) k->in(preset) += 1;
+  if (auto* k = std::get_if<Flag>(&kind)) k->in(preset) = !k->in(preset);
+  if (auto* k = std::get_if<Word>(&kind)) k->set(preset, k->get(preset) == 0 ? 1 : 0);
+  if (auto* k = std::get_if<IntegerPair>(&kind)) k->in(preset)[1] += 1;
+}
+
+}  // namespace
+
+TEST_CASE("something reads the member of every key") {
+  const auto read = members_read();
+  CHECK(read.size() > 100);
+  CHECK_FALSE(read.contains("a_key_that_nothing_reads"));
+  for (const auto& field : field_table()) {
+    if (field.table.empty() && for_people.contains(field.key)) continue;
+    const auto other = member_names.find(field.key);
+    INFO(name_of(field));
+    CHECK(read.contains(other == member_names.end() ? field.key : other->second));
+  }
+}
+
+TEST_CASE("every key of [movie] changes how a movie looks, and the scale bar a still") {
+  // the number of frames and whether cases stand together are the movie's, not its style's
+  const std::set<std::string> elsewhere{"frames", "beside"};
+  for (const auto& field : field_table()) {
+    const bool movie = field.table == "movie" && !elsewhere.contains(field.key);
+    if (!movie && !(field.table == "figure" && field.key == "scale_bar_mm")) continue;
+    const auto pictures = movie ? app::Pictures::movie : app::Pictures::stills;
+    Preset preset;
+    const auto before = app::style_of(preset, pictures);
+    change(field, preset);
+    INFO(name_of(field));
+    CHECK_FALSE(app::style_of(preset, pictures) == before);
+  }
+}

@@ -1,0 +1,121 @@
+#!/bin/sh
+# tests/style.sh format [--fix]  every source file stands as .clang-format says; --fix makes it so
+# tests/style.sh tidy [--all]    clang-tidy with the checks of .clang-tidy, on what changed or on all
+# tests/style.sh warnings        every source file is built with warnings as errors, none silenced
+#
+# BUILD (default build) is a folder that cmake has configured. `tidy` takes the files that differ
+# from the merge base with the main branch (BASE, default main), where that is this commit itself
+# those of the last commit, and those not committed; of them the ten with the most changed lines
+# (LIMIT), a header by the source of its name. Without git or without a commit to compare with it
+# takes the files below, one of each kind of code there is.
+# Leaves with 77 (skipped) where the tool is missing.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+build=${BUILD:-build}
+limit=${LIMIT:-10}
+without_git="engine/core/atomic_file.cpp engine/footprint/mesh.cpp engine/preset/assign.cpp
+  render/image/png.cpp app/staging.cpp"
+
+need() {
+  command -v "$1" >/dev/null && return
+  echo "skipped: $1 is missing (package $1)"
+  exit 77
+}
+
+sources() {  # names that end so, in the folders of sources
+  find engine render app tests -name "$1" | sort
+}
+
+format() {
+  need clang-format
+  files="$(sources '*.h') $(sources '*.cpp')"
+  if [ "${1:-}" = --fix ]; then
+    clang-format -i $files
+  else
+    clang-format --dry-run -Werror $files
+  fi
+}
+
+# lines of "CHANGED FILE"; fails where there is nothing to compare with
+changes() {
+  git rev-parse -q --verify HEAD >/dev/null 2>&1 || return 1
+  head=$(git rev-parse HEAD)
+  base=""
+  for name in ${BASE:-origin/main main}; do
+    base=$(git merge-base HEAD "$name" 2>/dev/null) && break
+  done
+  if [ -z "$base" ] || [ "$base" = "$head" ]; then
+    base=$(git rev-parse -q --verify HEAD~1) || return 1
+  fi
+  git diff --numstat --diff-filter=d "$base" -- engine render app tests |
+    awk '{ print $1 + $2, $3 }'
+}
+
+# sources of the changed files, those with the most changed lines first
+changed_sources() {
+  changes >"$scratch/changes" || return 1
+  sort -rn "$scratch/changes" | while read -r _ file; do
+    case $file in
+      *.cpp) echo "$file" ;;
+      *.h) [ -f "${file%.h}.cpp" ] && echo "${file%.h}.cpp" ;;
+    esac
+  done | awk '!seen[$0]++'
+}
+
+tidy() {
+  need clang-tidy
+  scratch=$(mktemp -d)
+  trap 'rm -rf "$scratch"' EXIT
+  if [ "${1:-}" = --all ]; then
+    sources '*.cpp' >"$scratch/files"
+  elif changed_sources >"$scratch/all"; then
+    head -n "$limit" "$scratch/all" >"$scratch/files"
+    left=$(($(wc -l <"$scratch/all") - limit))
+    [ "$left" -gt 0 ] && echo "$left more changed files are left to 'tests/style.sh tidy --all'"
+  else
+    echo "no commit to compare with: a few files of each kind"
+    printf '%s\n' $without_git >"$scratch/files"
+  fi
+  # a file that this build leaves out has no command to look at
+  while read -r file; do
+    grep -q "\"file\": \"$PWD/$file\"" "$build/compile_commands.json" && echo "$file"
+  done <"$scratch/files" >"$scratch/built"
+  echo "clang-tidy on $(wc -l <"$scratch/built") files"
+  xargs -r -P "$(nproc)" -n 1 clang-tidy --quiet -p "$build" <"$scratch/built" 2>"$scratch/said"
+  status=$?
+  # counts of what was left out of the headers of libraries say nothing
+  grep -vE '^[0-9]+ warnings? (generated|treated)|^Suppressed|^Use -header' "$scratch/said"
+  return $status
+}
+
+warnings() {
+  result=0
+  if ! awk '/"command":/ && / -Werror( |$)/ { ++with } /"command":/ { ++all }
+            END { printf "%d of %d files are built with -Werror\n", with, all
+                  exit !(all > 0 && with == all) }' "$build/compile_commands.json"; then
+    echo "configure with -DGRIDSHELL_WERROR=ON"
+    result=1
+  fi
+  if grep -nE ' -(w|Wno-[a-z-]+) ' "$build/compile_commands.json" | head -3 | grep .; then
+    echo "a warning is switched off on the command line"
+    result=1
+  fi
+  if grep -rnE '#pragma +(GCC|clang) +(diagnostic +ignored|system_header)' --include='*.h' \
+    --include='*.cpp' engine render app tests; then
+    echo "a warning is switched off in the source"
+    result=1
+  fi
+  # an enumerator that is forgotten must not fall through a default
+  if grep -nE '^ *default *:' $(sources '*.h' | grep -v ^tests) $(sources '*.cpp' | grep -v ^tests); then
+    echo "a switch over an enum names every enumerator: no default"
+    result=1
+  fi
+  return $result
+}
+
+case ${1:-} in
+  format) format "${2:-}" ;;
+  tidy) tidy "${2:-}" ;;
+  warnings) warnings ;;
+  *) sed -n '2,4p' "$0"; exit 2 ;;
+esac
