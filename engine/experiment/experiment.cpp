@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "engine/core/clock.h"
 #include "engine/experiment/actuation.h"
 #include "engine/experiment/indentation.h"
 #include "engine/experiment/net_sample.h"
-#include "engine/experiment/scene.h"
-#include "engine/experiment/twist_actuation.h"
 #include "engine/measure/deviation.h"
 #include "engine/preset/rung.h"
+#include "engine/scene/scene.h"
 
 namespace gridshell::experiment {
 namespace {
@@ -40,87 +41,116 @@ std::vector<double> even_samples(const preset::Preset& preset, bool stills) {
   return progress;
 }
 
-record::Summary summary_of(const preset::Preset& preset, const ActuationScene& scene,
-                           const ActuationOutcome& outcome) {
-  const record::Frame& last = outcome.trajectory.frames.back();
-  record::Summary s;
-  s.preset = preset.name;
-  s.model = word_of(preset::rung_of(preset));
-  s.model_reason = preset::model_reason(preset);
-  s.solved = preset::rung_of(preset) != preset::Rung::net;
-  s.edges_per_segment = outcome.levels.edges_per_segment.back();
-  s.rods = int(scene.footprint.rods.size());
-  s.joints = int(scene.footprint.joints.size());
-  s.cells = int(scene.footprint.cells.size());
-  s.dof = outcome.dof;
+/// Passes frames on, and keeps the layout and the last frame for the summary.
+class LastFrame final : public record::Sink {
+ public:
+  explicit LastFrame(record::Sink& next) : next_(next) {}
+  Result<void> begin(record::Layout layout) override {
+    net_joints_ = layout.net_nodes.leftCols(
+        std::min(layout.net_nodes.cols(), Eigen::Index(layout.joints.size())));
+    scale_mm_ = layout.length_scale_mm;
+    frame_.reset();
+    return next_.begin(std::move(layout));
+  }
+  Result<void> take(record::Frame frame) override {
+    if (!frame_ || frame.index >= frame_->index) frame_ = frame;
+    return next_.take(std::move(frame));
+  }
+  const std::optional<record::Frame>& frame() const { return frame_; }
+  const Eigen::Matrix3Xd& net_joints() const { return net_joints_; }
+  double scale_mm() const { return scale_mm_; }
+
+ private:
+  record::Sink& next_;
+  std::optional<record::Frame> frame_;
+  Eigen::Matrix3Xd net_joints_;
+  double scale_mm_ = 1;
+};
+
+void put_state(const record::Frame& last, record::Summary& s) {
   s.negative_pivots = std::max(last.negative_pivots, 0);
   s.stable = last.negative_pivots == 0;
-  s.limit = outcome.limit;
-  s.limit_reason = outcome.limit_reason;
   s.residual_N = last.residual_N;
   s.error_estimate_mm = last.error_estimate_mm;
   s.energies = last.energies;
   s.height_mm = last.height_mm;
   s.total_K = last.total_K;
-  const record::Layout& layout = outcome.trajectory.layout;
-  if (layout.net_nodes.size() > 0) {
-    // joints are the first nodes
-    const Eigen::Index joints = s.joints;
-    const Deviation deviation(last.nodes.leftCols(joints), layout.net_nodes.leftCols(joints),
-                              layout.length_scale_mm);
-    s.max_deviation = deviation.largest();
-    s.mean_deviation = deviation.mean();
-    s.median_deviation = deviation.quantile(0.5);
-    s.deviation_p90 = deviation.quantile(0.9);
+}
+
+void put_deviation(const LastFrame& seen, record::Summary& s) {
+  if (seen.net_joints().size() == 0) return;
+  const Deviation deviation(seen.frame()->nodes.leftCols(seen.net_joints().cols()),
+                            seen.net_joints(), seen.scale_mm());
+  s.max_deviation = deviation.largest();
+  s.mean_deviation = deviation.mean();
+  s.median_deviation = deviation.quantile(0.5);
+  s.deviation_p90 = deviation.quantile(0.9);
+}
+
+void put_seams(const Scene& scene, record::Summary& s) {
+  if (!scene.blocks || scene.blocks->seams().empty()) return;
+  s.max_seam_gap_mm = s.max_seam_kink_deg = 0;
+  for (const Seam& seam : scene.blocks->seams()) {
+    s.max_seam_gap_mm = std::max(s.max_seam_gap_mm, seam.max_gap_mm());
+    s.max_seam_kink_deg = std::max(s.max_seam_kink_deg, seam.max_kink_deg());
   }
-  if (scene.blocks && !scene.blocks->seams().empty()) {
-    s.max_seam_gap_mm = s.max_seam_kink_deg = 0;
-    for (const Seam& seam : scene.blocks->seams()) {
-      s.max_seam_gap_mm = std::max(s.max_seam_gap_mm, seam.max_gap_mm());
-      s.max_seam_kink_deg = std::max(s.max_seam_kink_deg, seam.max_kink_deg());
-    }
-  }
-  s.newton_iterations = outcome.effort.newton_iterations;
-  s.factorizations = outcome.effort.factorizations;
-  s.seconds_setup = outcome.seconds_setup;
-  s.seconds_simulation = outcome.seconds_simulation;
+}
+
+/// What was followed, and on which meshes.
+void put_course(const Course& course, record::Summary& s) {
+  const NestedShell& shell = course.session.shell();
+  s.edges_per_segment = shell.plan().edges_per_segment.back();
+  s.dof = shell.model(shell.levels() - 1).dof();
+  s.limit = course.limit;
+  s.limit_reason = course.limit_reason;
+  const Effort effort = course.session.effort();
+  s.newton_iterations = effort.newton_iterations;
+  s.factorizations = effort.factorizations;
+  s.seconds_setup = course.seconds_setup;
+}
+
+record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
+                           const LastFrame& seen) {
+  record::Summary s;
+  s.preset = preset.name;
+  s.model = word_of(scene.rung);
+  s.model_reason = preset::model_reason(preset);
+  s.solved = scene.rung != preset::Rung::net;
+  s.rods = int(scene.footprint.rods.size());
+  s.joints = int(scene.footprint.joints.size());
+  s.cells = int(scene.footprint.cells.size());
+  put_state(*seen.frame(), s);
+  put_deviation(seen, s);
+  put_seams(scene, s);
   return s;
 }
 
-int dof_of(const ActuationScene& scene, preset::Rung rung, int edges_per_segment) {
-  if (rung == preset::Rung::net) return 0;
-  const RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
-  if (rung == preset::Rung::bend) return build_model(mesh, scene.rods).dof();
-  const auto model = twist_model_of(mesh, scene.twist);
+int dof_of(const Scene& scene, int edges_per_segment) {
+  if (scene.rung == preset::Rung::net) return 0;
+  const auto model = build_model(mesh_rods(scene.footprint, edges_per_segment), scene.rods,
+                                 scene.mechanics());
   return model ? model->dof() : 0;
+}
+
+LevelPlan levels_of(const Scene& scene) {
+  return scene.edges_per_segment > 0 ? plan_of_mesh(scene.edges_per_segment)
+                                     : plan_levels(scene.tolerance);
 }
 
 /// About how long a run takes on one core: bringing the coarsest mesh to rest, then two corrections
 /// a frame on each mesh. Measured on shells of 500 to 40 000 unknowns; good within a factor of
 /// three.
-double seconds_for(const ActuationScene& scene, preset::Rung rung, const preset::Preset& preset) {
-  constexpr double to_rest = 1.5e-5, a_frame = 4e-7, a_twist_frame = 1e-5;  // seconds an unknown
-  if (rung == preset::Rung::net) return 0.01;
-  const bool twist = rung == preset::Rung::twist;
+double seconds_for(const Scene& scene, const preset::Preset& preset) {
+  constexpr double to_rest = 1.5e-5, a_frame = 4e-7, a_twist_frame = 1.5e-6;  // seconds an unknown
+  if (scene.rung == preset::Rung::net) return 0.01;
+  const bool twist = scene.rung == preset::Rung::twist;
   double seconds = 0;
-  for (int edges : scene.levels.edges_per_segment) {
-    const double dof = dof_of(scene, rung, edges);
+  for (int edges : levels_of(scene).edges_per_segment) {
+    const double dof = dof_of(scene, edges);
     if (seconds == 0) seconds = to_rest * dof;
     seconds += (twist ? a_twist_frame : a_frame) * dof * preset.movie.frames;
   }
   return seconds;
-}
-
-Result<ActuationOutcome> actuate(const ActuationScene& scene, preset::Rung rung,
-                                 const std::vector<double>& progress, Watch& watch) {
-  switch (rung) {
-    case preset::Rung::net:
-      return sample_net(scene, progress, watch);
-    case preset::Rung::twist:
-      return run_twist_actuation(scene, progress, watch);
-    default:
-      return run_actuation(scene, progress, watch);
-  }
 }
 
 }  // namespace
@@ -129,20 +159,20 @@ Result<Plan> plan(const preset::Preset& preset) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
   Plan plan;
-  const preset::Rung rung = preset::rung_of(preset);
-  plan.model = word_of(rung);
+  const LevelPlan levels = levels_of(*scene);
+  plan.model = word_of(scene->rung);
   plan.model_reason = preset::model_reason(preset);
-  plan.levels = scene->levels.edges_per_segment;
+  plan.levels = levels.edges_per_segment;
   plan.edges_per_segment = plan.levels.back();
-  plan.extrapolated = scene->levels.extrapolate;
+  plan.extrapolated = levels.extrapolate;
   plan.rods = int(scene->footprint.rods.size());
   plan.joints = int(scene->footprint.joints.size());
   plan.cells = int(scene->footprint.cells.size());
-  plan.dof = dof_of(*scene, rung, plan.edges_per_segment);
-  plan.expected_error_mm = rung == preset::Rung::net
-                               ? net_error * scene->length_scale_mm
-                               : expected_error(scene->levels) * scene->length_scale_mm;
-  plan.expected_seconds = seconds_for(*scene, rung, preset);
+  plan.dof = dof_of(*scene, plan.edges_per_segment);
+  plan.expected_error_mm =
+      (scene->rung == preset::Rung::net ? net_error : expected_error(levels)) *
+      scene->length_scale_mm;
+  plan.expected_seconds = seconds_for(*scene, preset);
   plan.footprint = fmt::format(
       "{} rods, {} joints, {} cells; longest leg {:.2f} d, shortest {:.2f} d", plan.rods,
       plan.joints, plan.cells, scene->footprint.longest_leg() / scene->footprint.spacing,
@@ -157,32 +187,44 @@ Result<Plan> plan(const preset::Preset& preset) {
 
 namespace {
 
-Result<Outcome> run_whole(const preset::Preset& preset, bool stills, Watch& watch) {
-  const auto scene = scene_of(preset);
-  if (!scene) return tl::unexpected<Error>(scene.error());
-  const bool pushed = preset.indentation.wanted();
-  auto outcome =
-      pushed ? run_indentation(*scene, preset.indentation, even_samples(preset, stills), watch)
-             : actuate(*scene, preset::rung_of(preset), samples_of(preset, stills), watch);
-  if (!outcome) return tl::unexpected<Error>(outcome.error());
-  if (outcome->trajectory.frames.empty())
-    return fail(Fault::no_equilibrium, "no frame was certified: " + outcome->limit_reason);
-  record::Summary summary = summary_of(preset, *scene, *outcome);
-  return Outcome{std::move(outcome->trajectory), std::move(summary)};
+/// Runs a scene on a rung that solves, and says what was followed.
+Result<void> follow(const preset::Preset& preset, std::shared_ptr<const Scene> scene, bool stills,
+                    LastFrame& sink, Watch& watch, record::Summary& summary) {
+  const double begin = seconds_now();
+  auto course =
+      preset.indentation.wanted()
+          ? run_indentation(scene, preset.indentation, even_samples(preset, stills), sink, watch)
+          : run_actuation(scene, samples_of(preset, stills), sink, watch);
+  if (!course) return tl::unexpected<Error>(course.error());
+  if (!sink.frame())
+    return fail(Fault::no_equilibrium, "no frame was certified: " + course->limit_reason);
+  summary = summary_of(preset, *scene, sink);
+  put_course(*course, summary);
+  summary.seconds_simulation = seconds_now() - begin - summary.seconds_setup;
+  return {};
 }
 
 }  // namespace
 
 Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
                             Watch& watch) {
-  auto outcome = run_whole(preset, stills, watch);
-  if (!outcome) return tl::unexpected<Error>(outcome.error());
-  if (auto begun = sink.begin(std::move(outcome->trajectory.layout)); !begun)
-    return tl::unexpected<Error>(begun.error());
-  for (record::Frame& frame : outcome->trajectory.frames)
-    if (auto taken = sink.take(std::move(frame)); !taken)
-      return tl::unexpected<Error>(taken.error());
-  return std::move(outcome->summary);
+  auto built = scene_of(preset);
+  if (!built) return tl::unexpected<Error>(built.error());
+  const auto scene = std::make_shared<const Scene>(std::move(*built));
+  LastFrame seen(sink);
+  record::Summary summary;
+  if (scene->rung != preset::Rung::net) {
+    const auto followed = follow(preset, scene, stills, seen, watch, summary);
+    if (!followed) return tl::unexpected<Error>(followed.error());
+    return summary;
+  }
+  const double begin = seconds_now();
+  const auto mesh = sample_net(*scene, samples_of(preset, stills), seen, watch);
+  if (!mesh) return tl::unexpected<Error>(mesh.error());
+  summary = summary_of(preset, *scene, seen);
+  summary.edges_per_segment = mesh->edges_per_segment;
+  summary.seconds_simulation = seconds_now() - begin;
+  return summary;
 }
 
 Result<Outcome> run(const preset::Preset& preset, bool stills, Watch& watch) {

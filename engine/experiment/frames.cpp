@@ -1,40 +1,27 @@
 #include "engine/experiment/frames.h"
 
-#include "engine/experiment/block_design.h"
-#include "engine/experiment/net_design.h"
 #include "engine/measure/bins.h"
 #include "engine/measure/gauss.h"
+#include "engine/scene/net_design.h"
 
 namespace gridshell::experiment {
 namespace {
 
-/// Measures that are extrapolated like the positions.
-struct Measures {
-  Eigen::VectorXd K;
-  Energies energies;
-};
+constexpr int most_frames_in_motion = 24;
+constexpr double still_move = 0.01;  // of d: nearer to the rest nothing is seen to move
 
-Measures measure(const ActuationScene& scene, const RodMesh& mesh, const Model& model,
-                 const Eigen::Matrix3Xd& x) {
-  return {cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, x)),
-          energies_of(model, x)};
+Eigen::VectorXd curvature(const Session& session, int level) {
+  const NestedShell& shell = session.shell();
+  const RodMesh& mesh = shell.mesh(level);
+  const Eigen::Matrix3Xd nodes =
+      nodes_of(mesh, shell.model(level), shell.state().levels[std::size_t(level)].x);
+  const Footprint& footprint = session.scene().footprint;
+  return cell_curvature(footprint, joint_tangents(footprint, mesh, nodes));
 }
 
-Measures measure(const ActuationScene& scene, const NestedShell& shell) {
-  const int last = shell.levels() - 1;
-  const NestedState& state = shell.state();
-  Measures fine = measure(scene, shell.mesh(last), shell.model(last), state.levels[last].x);
-  if (!shell.plan().extrapolate) return fine;
-  const Measures coarse =
-      measure(scene, shell.mesh(last - 1), shell.model(last - 1), state.levels[last - 1].x);
-  fine.K = (4 * fine.K - coarse.K) / 3;
-  fine.energies = (4 * fine.energies - coarse.energies) / 3;
-  return fine;
-}
-
-}  // namespace
-
-Eigen::MatrixX3d bins_of(const ActuationScene& scene, const Eigen::Matrix3Xd& x,
+/// K of the cells in bins of x/L, L the half-span of the actuated boundary, at the nodes x; rows:
+/// bins, columns: mean, deviation, cells.
+Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x,
                          const Eigen::VectorXd& K) {
   const double L = scene.actuated_boundary.row(0).cwiseAbs().maxCoeff();
   Eigen::VectorXd along(K.size());
@@ -48,7 +35,38 @@ Eigen::MatrixX3d bins_of(const ActuationScene& scene, const Eigen::Matrix3Xd& x,
   return rows;
 }
 
-Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mesh) {
+/// Adds the blocks on their own nets and the rods across their seams to a layout.
+Result<void> record_blocks(const Assemblage& blocks, const FlatFrame& flat,
+                           record::Layout& layout) {
+  for (int k = 0; k < blocks.blocks(); ++k) {
+    const auto rods = blocks.rods(k, blocks.block(k).spacing / 8);
+    if (!rods) return tl::unexpected(rods.error());
+    record::Part part;
+    part.name = blocks.block(k).name;
+    Eigen::Index points = 0;
+    for (const BlockRod& rod : *rods) points += rod.net.cols();
+    part.net.resize(3, points);
+    part.flat.resize(3, points);
+    int next = 0;
+    for (const BlockRod& rod : *rods) {
+      part.net.middleCols(next, rod.net.cols()) = rod.net;
+      part.flat.middleCols(next, rod.net.cols()) = flat.all(rod.flat);
+      part.rods.emplace_back();
+      for (Eigen::Index n = 0; n < rod.net.cols(); ++n) part.rods.back().push_back(next++);
+    }
+    layout.parts.push_back(std::move(part));
+  }
+  for (const Seam& seam : blocks.seams())
+    for (const SeamRod& rod : seam.rods)
+      layout.seam_rods.push_back(
+          {seam.name, rod.family == Family::u ? 'u' : 'v', rod.line_mm, rod.gap_mm, rod.kink_deg});
+  return {};
+}
+
+
+}  // namespace
+
+Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
   record::Layout layout;
   layout.spacing_mm = scene.footprint.spacing;
   layout.rod_diameter_mm = scene.rod_diameter_mm;
@@ -72,7 +90,7 @@ Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mes
   layout.actuated_boundary = scene.actuated_boundary;
   if (scene.net) {
     const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
-    auto net = sample(*scene.net, flat);
+    auto net = points_on(*scene.net, flat);
     if (!net) return tl::unexpected<Error>(net.error());
     layout.net_nodes = std::move(*net);
     layout.flat_nodes = scene.flat.all(flat);
@@ -84,7 +102,7 @@ Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mes
   return layout;
 }
 
-void put_shape(const ActuationScene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
+void put_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
                const Eigen::VectorXd& K, record::Frame& frame) {
   frame.cell_K = K;
   frame.total_K = K.sum();
@@ -93,16 +111,80 @@ void put_shape(const ActuationScene& scene, const RodMesh& mesh, const Eigen::Ma
   frame.nodes = x.leftCols(mesh.rod_nodes());
 }
 
-record::Frame frame_of(const ActuationScene& scene, NestedShell& shell) {
-  const NestedState& state = shell.state();
-  const Measures measures = measure(scene, shell);
+record::Frame frame_of(const Session& session) {
+  const NestedShell& shell = session.shell();
+  const int last = shell.levels() - 1;
+  Eigen::VectorXd K = curvature(session, last);
+  if (shell.plan().extrapolate && last > 0) K = ((4 * K - curvature(session, last - 1)) / 3).eval();
   record::Frame frame;
-  frame.energies = measures.energies;
-  put_shape(scene, shell.mesh(shell.levels() - 1), state.x, measures.K, frame);
-  frame.residual_N = state.residual_N;
-  frame.negative_pivots = state.inertia.negative_pivots;
-  frame.error_estimate_mm = state.error_estimate_mm;
+  put_shape(session.scene(), shell.finest(), session.nodes(), K, frame);
+  frame.energies = session.energies();
+  const Certificate certificate = session.certificate();
+  frame.residual_N = certificate.residual_N;
+  frame.negative_pivots = certificate.negative_pivots;
+  frame.error_estimate_mm = certificate.error_estimate_mm;
   return frame;
+}
+
+record::Frame flat_frame(Session& session) {
+  const Checkpoint before = session.save();
+  const Report flat = session.begin_flat();
+  record::Frame frame;
+  const Scene& scene = session.scene();
+  put_shape(scene, session.shell().finest(), session.nodes(),
+            Eigen::VectorXd::Zero(Eigen::Index(scene.footprint.cells.size())), frame);
+  frame.energies = session.shell().energies(session.shell().levels() - 1);
+  frame.negative_pivots = flat.certificate.negative_pivots;
+  frame.residual_N = flat.certificate.residual_N;
+  frame.error_estimate_mm = 0;
+  frame.boundary_radius_mm = scene.radius_begin_mm;
+  session.restore(before);
+  return frame;
+}
+
+namespace {
+
+/// the moments to show
+std::vector<const Moment*> shown(const std::vector<Moment>& all, double spacing) {
+  std::size_t end = all.size();
+  while (end > 1 &&
+         largest_column(all[end - 1].state.x - all.back().state.x) < still_move * spacing)
+    --end;
+  std::vector<const Moment*> few;
+  const double until = all[end - 1].time;
+  for (std::size_t k = 0; k < end; ++k)
+    if (all[k].time >= until * double(few.size() + 1) / most_frames_in_motion)
+      few.push_back(&all[k]);
+  return few;
+}
+
+}  // namespace
+
+std::vector<record::Frame> frames_in_motion(Session& session, const std::vector<Moment>& moments) {
+  std::vector<record::Frame> frames;
+  if (moments.empty()) return frames;
+  const Scene& scene = session.scene();
+  NestedShell& shell = session.shell();
+  const RodMesh& mesh = shell.mesh(0);
+  const MeshTransfer to_finest(mesh, shell.finest());
+  Linearisation& system = shell.system(0);
+  for (const Moment* moment : shown(moments, scene.footprint.spacing)) {
+    const Eigen::Matrix3Xd nodes = nodes_of(mesh, shell.model(0), moment->state.x);
+    Eigen::Matrix3Xd x;
+    to_finest.nodes(nodes, x);
+    record::Frame frame;
+    put_shape(scene, shell.finest(), x,
+              cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)),
+              frame);
+    system.gradient_at(moment->state);
+    frame.energies = system.assembly().energies;
+    frame.residual_N = system.residual();
+    frame.negative_pivots = -1;
+    frame.time_s = moment->time;
+    frame.event = "in motion";
+    frames.push_back(std::move(frame));
+  }
+  return frames;
 }
 
 }  // namespace gridshell::experiment

@@ -1,29 +1,31 @@
 // What a certified state leaves in the record.
 #pragma once
 
-#include "engine/experiment/actuation.h"
 #include "engine/record/snapshot.h"
-#include "engine/solve/nested.h"
+#include "engine/session/session.h"
 
 namespace gridshell::experiment {
 
 /// What of a run does not change: the nodes of `mesh` (ghosts are no part of it), the net, the
 /// boundaries. Errors: those of the net.
-Result<record::Layout> layout_of(const ActuationScene& scene, const RodMesh& mesh);
+Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh);
 
 /// What a shape says by itself: positions of the mesh's nodes without ghosts, K of the cells and its
 /// bins along x, height.
-void put_shape(const ActuationScene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
+void put_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
                const Eigen::VectorXd& K, record::Frame& frame);
 
-/// The current state of `shell` as a frame: positions, energies, K of the cells and their bins
-/// along x, certificate, extrapolated where the plan extrapolates. Index, progress, boundary, push
-/// and event are the experiment's to add.
-record::Frame frame_of(const ActuationScene& scene, NestedShell& shell);
+/// The state that a session stands in as a frame: positions, energies, K of the cells and their
+/// bins along x, certificate, extrapolated where the plan extrapolates. Index, progress, boundary,
+/// push and event are the experiment's to add.
+record::Frame frame_of(const Session& session);
 
-/// K of the cells in bins of x/L, L the half-span of the actuated boundary, at the nodes x; rows:
-/// bins, columns: mean, deviation, cells.
-Eigen::MatrixX3d bins_of(const ActuationScene& scene, const Eigen::Matrix3Xd& x,
-                         const Eigen::VectorXd& K);
+/// The flat footprint as a frame at progress 0; straight rods are exact on any mesh.
+record::Frame flat_frame(Session& session);
+
+/// Frames of what moved in time during a snap, evenly in time until nothing is seen to move, at
+/// most 24: positions, energies, K and the unbalanced force; pivots and error are not known,
+/// `event` says "in motion".
+std::vector<record::Frame> frames_in_motion(Session& session, const std::vector<Moment>& moments);
 
 }  // namespace gridshell::experiment

@@ -2,12 +2,10 @@
 // normal [Baek 2018, 'Nonlocal Response to Point Loading'].
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "engine/core/result.h"
-#include "engine/core/watch.h"
-#include "engine/experiment/actuation.h"
-#include "engine/preset/preset.h"
+#include "engine/experiment/course.h"
 
 namespace gridshell::experiment {
 
@@ -17,17 +15,26 @@ namespace gridshell::experiment {
 Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
                          const Eigen::Matrix3Xd& joints);
 
+/// What a preset pushes, and where to: the joint, and its whole displacement along the normal, the
+/// net's or that of the unloaded shell.
+struct PushOf {
+  int joint = 0;
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< mm
+};
+
+/// For the unloaded shell with the nodes of `mesh` at `nodes`. Errors (bad_input) as
+/// pushed_joint().
+Result<PushOf> push_of(const preset::Indentation& indentation, const Scene& scene,
+                       const RodMesh& mesh, const Eigen::Matrix3Xd& nodes);
+
 /// Actuates, then pushes. Frames sample the push at `progress` in [0, 1] (of the depth; with
 /// `unload` of the way there and back), the first being the unloaded shell; the solver takes load
 /// steps of its own in between. Every frame is certified: the residual is that of all forces but
-/// the push, the pivots are those of the shell with the joint held where it is.
-///
-/// The run stops with limit "locking" where a strain passes the scene's max_strain or the push
-/// meets 100 times its first stiffness, with a last frame right there; it goes on in another state
-/// (event and limit "snap") where the shell held at the joint loses its stability or its
-/// equilibrium; it stops with "branch_lost" where no rest is found then. Errors: as run_actuation.
-Result<ActuationOutcome> run_indentation(const ActuationScene& scene,
-                                         const preset::Indentation& indentation,
-                                         const std::vector<double>& progress, Watch& watch);
+/// the one on the joint. Errors: bad_input, no_equilibrium (no shell to push), cancelled, the
+/// sink's.
+Result<Course> run_indentation(std::shared_ptr<const Scene> scene,
+                               const preset::Indentation& indentation,
+                               const std::vector<double>& progress, record::Sink& sink,
+                               Watch& watch);
 
 }  // namespace gridshell::experiment

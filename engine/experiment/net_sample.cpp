@@ -1,8 +1,6 @@
 #include "engine/experiment/net_sample.h"
 
-#include "engine/core/clock.h"
 #include "engine/experiment/frames.h"
-#include "engine/experiment/net_design.h"
 #include "engine/measure/gauss.h"
 
 namespace gridshell::experiment {
@@ -10,7 +8,7 @@ namespace {
 
 constexpr int edges_per_segment = 4;  // for the pictures of the rods between joints
 
-record::Frame frame_at(const ActuationScene& scene, const RodMesh& mesh, int index, double progress,
+record::Frame frame_at(const Scene& scene, const RodMesh& mesh, int index, double progress,
                        const Eigen::Matrix3Xd& x, const Eigen::VectorXd& K) {
   record::Frame frame;
   put_shape(scene, mesh, x, K, frame);
@@ -24,7 +22,7 @@ record::Frame frame_at(const ActuationScene& scene, const RodMesh& mesh, int ind
 }
 
 /// from the net's own tangents
-Result<Eigen::VectorXd> curvature_of(const ActuationScene& scene) {
+Result<Eigen::VectorXd> curvature_of(const Scene& scene) {
   JointTangents tangents;
   const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
   tangents.u.resize(3, joints);
@@ -41,27 +39,26 @@ Result<Eigen::VectorXd> curvature_of(const ActuationScene& scene) {
 
 }  // namespace
 
-Result<ActuationOutcome> sample_net(const ActuationScene& scene,
-                                    const std::vector<double>& progress, Watch& watch) {
-  const double begin = seconds_now();
-  const RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
+Result<RodMesh> sample_net(const Scene& scene, const std::vector<double>& progress,
+                           record::Sink& sink, Watch& watch) {
+  RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
   auto layout = layout_of(scene, mesh);
   if (!layout) return tl::unexpected<Error>(layout.error());
   const auto K = curvature_of(scene);
   if (!K) return tl::unexpected<Error>(K.error());
-  ActuationOutcome outcome;
-  auto& frames = outcome.trajectory.frames;
+  const Eigen::Matrix3Xd net = layout->net_nodes;
+  if (auto begun = sink.begin(std::move(*layout)); !begun)
+    return tl::unexpected<Error>(begun.error());
   for (std::size_t k = 0; k < progress.size(); ++k) {
+    Result<void> taken;
     if (progress[k] == 0)
-      frames.push_back(frame_at(scene, mesh, int(k), 0, scene.flat.all(mesh.flat),
-                                Eigen::VectorXd::Zero(K->size())));
-    if (progress[k] == 1) frames.push_back(frame_at(scene, mesh, int(k), 1, layout->net_nodes, *K));
+      taken = sink.take(frame_at(scene, mesh, int(k), 0, scene.flat.all(mesh.flat),
+                                 Eigen::VectorXd::Zero(K->size())));
+    if (progress[k] == 1) taken = sink.take(frame_at(scene, mesh, int(k), 1, net, *K));
+    if (!taken) return tl::unexpected<Error>(taken.error());
   }
-  outcome.trajectory.layout = std::move(*layout);
-  outcome.levels = {{edges_per_segment}, false};
-  outcome.seconds_simulation = seconds_now() - begin;
   watch.report(1);
-  return outcome;
+  return mesh;
 }
 
 }  // namespace gridshell::experiment

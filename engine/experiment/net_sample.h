@@ -1,7 +1,9 @@
 // The `net` rung: the smooth Chebyshev net itself, sampled at the rods.
 #pragma once
 
-#include "engine/experiment/actuation.h"
+#include "engine/record/sink.h"
+#include "engine/scene/scene.h"
+#include "engine/core/watch.h"
 
 namespace gridshell::experiment {
 
@@ -10,9 +12,9 @@ namespace gridshell::experiment {
 constexpr double net_error = 0.032;
 
 /// The flat footprint and the net, where `progress` has 0 and 1; nothing in between, as no
-/// equilibrium is solved for. Residual, energies, pivots and error estimate are not known. Errors
-/// (bad_input): those of the net.
-Result<ActuationOutcome> sample_net(const ActuationScene& scene,
-                                    const std::vector<double>& progress, Watch& watch);
+/// equilibrium is solved for. Residual, energies, pivots and error estimate are not known. Returns
+/// the mesh that was drawn. Errors (bad_input): those of the net; the sink's.
+Result<RodMesh> sample_net(const Scene& scene, const std::vector<double>& progress,
+                           record::Sink& sink, Watch& watch);
 
 }  // namespace gridshell::experiment

@@ -126,6 +126,8 @@ template <class Visit>
 void each_action(const Model& model, const Outside& outside, Visit visit) {
   for (const NodeAction& action : model.loads) visit(action, outside.load);
   for (const NodeAction& action : model.ground) visit(action, 1.0);
+  if (outside.steady)
+    for (const NodeAction& action : *outside.steady) visit(action, 1.0);
   if (outside.field && outside.field_factor != 0)
     for (const NodeAction& action : *outside.field) visit(action, outside.field_factor);
 }
@@ -159,7 +161,6 @@ template <class Law>
 void add_spin_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
                       BlockHessian& h) {
   const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
-  const int ends[4] = {e.from, e.to, f.from, f.to};
   const int place[2] = {model.spin[std::size_t(pair.e)], model.spin[std::size_t(pair.f)]};
   const double scale = 1 / model.spin_length;
   for (int k = 0; k < 2; ++k)

@@ -18,10 +18,11 @@ struct Assembly {
   double largest_strain = 0;   ///< over all edges, absolute
 };
 
-/// What acts on a model from outside beside its ground: its dead loads times a factor, and a field
-/// of somebody else's times another.
+/// What acts on a model from outside beside its ground: its dead loads times a factor, a field that
+/// is there, and one that comes or goes.
 struct Outside {
   double load = 1;
+  const std::vector<NodeAction>* steady = nullptr;
   const std::vector<NodeAction>* field = nullptr;
   double field_factor = 0;
 };

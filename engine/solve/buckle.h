@@ -3,18 +3,13 @@
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
+#include "engine/footprint/boundary_motion.h"
 #include "engine/footprint/flat_frame.h"
 #include "engine/footprint/mesh.h"
 #include "engine/gridshell/shell_rods.h"
 #include "engine/solve/path.h"
 
 namespace gridshell {
-
-/// Which of the many buckled shapes a flat footprint is pushed towards.
-struct BuckleSeed {
-  double up = 1;        ///< +1 or -1
-  double diagonal = 1;  ///< +1: the corners on y = x end up lower, -1: those on y = -x
-};
 
 /// Mean shortening of the rods with their ends at the motion's t: 1 - sum |chord| / sum length.
 double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t);

@@ -33,6 +33,7 @@ struct Effort {
     factorizations += other.factorizations;
     return *this;
   }
+  friend Effort operator+(Effort a, const Effort& b) { return a += b; }
   friend Effort operator-(Effort a, const Effort& b) {
     return {a.newton_iterations - b.newton_iterations, a.factorizations - b.factorizations};
   }

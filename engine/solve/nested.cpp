@@ -55,6 +55,13 @@ LevelPlan plan_levels(double tolerance) {
   return plan;
 }
 
+LevelPlan plan_of_mesh(int edges) {
+  LevelPlan plan{{edges}, false};
+  for (int k = edges; k % 2 == 0 && k / 2 >= 4; k /= 2)
+    plan.edges_per_segment.insert(plan.edges_per_segment.begin(), k / 2);
+  return plan;
+}
+
 std::optional<LevelPlan> finer(const LevelPlan& plan) {
   LevelPlan next = plan;
   const int finest = 2 * plan.edges_per_segment.back();
@@ -77,6 +84,7 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
     level->model = std::move(*model);
     level->motion = pinned_motion(level->mesh, motion);
     level->system = std::make_unique<Linearisation>(level->model);
+    level->system->outside.steady = &level->steady;
     level->system->outside.field = &level->field;
     if (!shell.levels_.empty()) {
       const Level& coarser = *shell.levels_.back();
@@ -111,8 +119,48 @@ State NestedShell::from(const NestedShell& other) const {
       .carry(other.state_.levels.back());
 }
 
-void NestedShell::set_field(const std::vector<NodeAction>& actions) {
-  for (auto& level : levels_) level->field = actions;
+State NestedShell::stay(const NestedShell& other, const std::vector<Hold>& holds) {
+  const Level& theirs = *other.levels_.back();
+  State first;
+  for (auto& level : levels_) {
+    State state = StateTransfer(theirs.mesh, theirs.model, level->mesh, level->model)
+                      .carry(other.state_.levels.back());
+    level->motion = {state.x, Eigen::Matrix3Xd::Zero(3, state.x.cols()), Pace::even,
+                     {theirs.system->outside.load, 0}};
+    level->system->hold(holds);
+    if (first.x.size() == 0) first = std::move(state);
+  }
+  state_.t = 0;
+  forget();
+  follow_anew();
+  return first;
+}
+
+void NestedShell::set_fields(const std::vector<NodeAction>& steady,
+                             const std::vector<NodeAction>& field) {
+  for (auto& level : levels_) level->steady = steady, level->field = field;
+}
+
+void NestedShell::load_up() {
+  for (auto& level : levels_) level->motion.load_up(*level->system, state_.t);
+}
+
+void NestedShell::back_to(const NestedState& state) {
+  state_ = state;
+  place(state.t, state.levels[0]);
+  load_up();
+}
+
+void NestedShell::restore(const NestedState& state, const std::vector<PinnedMotion>& motions,
+                          const std::vector<Hold>& holds) {
+  state_ = state;
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    levels_[k]->motion = motions[k];
+    levels_[k]->system->hold(holds);
+  }
+  forget();
+  follow_anew();
+  load_up();
 }
 
 void NestedShell::forget() {
@@ -139,6 +187,16 @@ NestedReport NestedShell::advance(double t, const Watch& watch) {
 }
 
 NestedReport NestedShell::sample(double t, const PathPoint& beside, const Watch& watch) {
+  struct Memory {  // what finer meshes added stays that of the path
+    std::vector<std::unique_ptr<Level>>& levels;
+    std::vector<std::vector<Level::Added>> added;
+    explicit Memory(std::vector<std::unique_ptr<Level>>& all) : levels(all) {
+      for (const auto& level : all) added.push_back(level->added);
+    }
+    ~Memory() {
+      for (std::size_t k = 0; k < levels.size(); ++k) levels[k]->added = std::move(added[k]);
+    }
+  } memory(levels_);
   PathFollower path(*levels_[0]->system, levels_[0]->motion, options_);
   path.allow_unstable(options_.allow_unstable);
   path.resume(beside);
@@ -165,10 +223,11 @@ void NestedShell::drive(const Drive& drive) {
   follow_anew();
 }
 
-void NestedShell::actuate(double t, const std::vector<Hold>& holds) {
+void NestedShell::actuate(double t, const std::vector<Hold>& holds, double load_scale) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = *levels_[k];
     level.motion = pinned_motion(level.mesh, boundary_);
+    level.motion.load.change = load_scale;
     for (const Hold& hold : holds) level.motion.begin.col(hold.node) = state_.levels[k].x.col(hold.node);
     level.system->hold(holds);
   }
@@ -258,12 +317,14 @@ NestedReport NestedShell::certify(double t, const PathPoint& coarse, const Newto
     if (!found) return {Outcome::meshes_disagree, state_.t};
     next.levels.push_back(std::move(state));
   }
-  state_ = std::move(next);
+  NestedState before = std::exchange(state_, std::move(next));
   finish(report);
-  if (!state_.inertia.usable) return {Outcome::not_finite, t};
-  if (!options_.allow_unstable && !state_.inertia.positive_definite())
-    return {Outcome::unstable, t};
-  return {Outcome::reached, t};
+  if (state_.inertia.positive_definite()) return {Outcome::reached, t};
+  if (state_.inertia.usable && options_.allow_unstable) return {Outcome::reached, t};
+  // what is not certified takes no certified state's place
+  const Outcome end = state_.inertia.usable ? Outcome::unstable : Outcome::not_finite;
+  state_ = std::move(before);
+  return {end, state_.t};
 }
 
 /// At the end of a path, and where a force is measured, the residual goes down to what round-off
@@ -346,8 +407,8 @@ void NestedShell::take_reactions() {
   for (const Hold& hold : finest.holds()) state_.reactions.push_back(finest.reaction(hold));
   if (!plan_.extrapolate || last == 0) return;
   Linearisation& coarser = *levels_[last - 1]->system;
-  coarser.outside = finest.outside;
-  coarser.outside.field = &levels_[last - 1]->field;
+  coarser.outside.load = finest.outside.load;
+  coarser.outside.field_factor = finest.outside.field_factor;
   coarser.gradient_at(state_.levels[last - 1]);
   for (std::size_t h = 0; h < state_.reactions.size(); ++h)
     state_.reactions[h] =

@@ -7,19 +7,12 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/footprint/boundary_motion.h"
 #include "engine/footprint/mesh.h"
 #include "engine/gridshell/state_transfer.h"
 #include "engine/solve/path.h"
 
 namespace gridshell {
-
-/// Where the edge points are as the boundary moves, straight and evenly: column 2r is the begin, 2r
-/// + 1 the end of rod r.
-struct BoundaryMotion {
-  Eigen::Matrix3Xd begin, end;  ///< 3 x edge points, mm
-  /// unit tangents there, along the rod as its positions grow; needed where a direction is held
-  Eigen::Matrix3Xd begin_tangent = {}, end_tangent = {};
-};
 
 /// The motion of a mesh's pinned nodes: its edge points and, beyond those whose direction is held,
 /// their ghosts.
@@ -36,6 +29,10 @@ struct LevelPlan {
 /// four edges for shells of the paper's kind. The estimate says afterwards whether it held; `finer`
 /// is what to try then.
 LevelPlan plan_levels(double tolerance);
+
+/// The meshes that nest in one of `edges` a segment, down to four edges, itself the last: alone, its
+/// error is not known.
+LevelPlan plan_of_mesh(int edges);
 
 /// What a plan leaves of the largest joint error, over the length scale, as a rule: for plans
 /// before a run.
@@ -102,13 +99,19 @@ class NestedShell {
   void drive(const Drive& drive);
   /// Back to the motion of the boundary that it was made with, joints held where they are; the
   /// current state stands at t there.
-  void actuate(double t, const std::vector<Hold>& holds);
-  /// What the field of drives is, from now on.
-  void set_field(const std::vector<NodeAction>& actions);
+  void actuate(double t, const std::vector<Hold>& holds, double load_scale);
+  /// Stands where another shell of the same footprint stands, everything prescribed held there: no
+  /// motion. A start() at t = 0 from the state returned, of the coarsest mesh, follows.
+  State stay(const NestedShell& other, const std::vector<Hold>& holds);
+  /// The field that is there, and the one that comes on with the field's growth in a drive.
+  void set_fields(const std::vector<NodeAction>& steady, const std::vector<NodeAction>& field);
 
   const NestedState& state() const { return state_; }
-  /// Goes back to a state that it had.
-  void restore(const NestedState& state) { state_ = state; }
+  /// Goes back to a state that it had, on the motion that it is on.
+  void back_to(const NestedState& state);
+  /// The same with the motions and holds that it had then.
+  void restore(const NestedState& state, const std::vector<PinnedMotion>& motions,
+               const std::vector<Hold>& holds);
   /// How far the coarsest mesh came: beyond the current state where an advance() failed.
   const PathPoint& followed() const { return path_->point(); }
   const LevelPlan& plan() const { return plan_; }
@@ -118,8 +121,12 @@ class NestedShell {
   const Model& model(int level) const { return levels_[std::size_t(level)]->model; }
   Linearisation& system(int level) { return *levels_[std::size_t(level)]->system; }
   const PinnedMotion& motion(int level) const { return levels_[std::size_t(level)]->motion; }
-  /// Energies of a level's state under what acts now.
+  /// Puts the loads of the current state on all levels.
+  void load_up();
+  /// Energies of a level's state under what acts there.
   Energies energies(int level) const;
+  /// Largest prescribed move, mm, while the motion comes all the way.
+  double reach_mm() const { return largest_column(levels_[0]->motion.change); }
   /// A state of another shell of the same footprint on the coarsest mesh of this one.
   State from(const NestedShell& other) const;
   Effort effort() const;
@@ -134,7 +141,7 @@ class NestedShell {
     std::unique_ptr<Linearisation> system;
     std::unique_ptr<StateTransfer> from_coarser;
     std::optional<MeshTransfer> to_coarser;
-    std::vector<NodeAction> field;
+    std::vector<NodeAction> steady, field;
     // what this level adds to the interpolated coarser one, at the last states: nodes and forces
     struct Added {
       double t;

@@ -51,12 +51,12 @@ Result<State> rest_near(Linearisation& system, const State& state, double farthe
 }
 
 Result<State> settle(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& mode,
-                     const Watch& watch, Side side) {
+                     const Watch& watch, Leave leave) {
   const double push = 0.5 / largest_column(mode);  // mm: far above round-off, far below a cell
   Result<State> best = fail(Fault::no_equilibrium, "no rest found beside an unstable state");
   double lowest = 0;
   for (double way : {1.0, -1.0}) {
-    if (side == (way > 0 ? Side::minus : Side::plus)) continue;
+    if (leave == (way > 0 ? Leave::against : Leave::along)) continue;
     State state = unstable;
     move_to(system.model(), unstable.x + way * push * mode, state);
     const NewtonReport report = minimise(system, state, {}, watch);

@@ -21,13 +21,14 @@ Result<State> rest_near(Linearisation& system, const State& state, double farthe
 /// Errors as rest_near().
 Result<State> rest_below(Linearisation& system, State state, const Watch& watch);
 
-/// Which side of an unstable state to leave it on.
-enum class Side { lower, plus, minus };
+/// On which side of an unstable state to leave it: where the energy ends lower, along a mode, or
+/// against it.
+enum class Leave { lower, along, against };
 
 /// From a state that is not stable, pushed along `mode` (its softest) to either side, to rest; the
 /// one of lower energy, or that on the side asked for. Errors: no_equilibrium, cancelled.
 Result<State> settle(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& mode,
-                     const Watch& watch, Side side = Side::lower);
+                     const Watch& watch, Leave leave = Leave::lower);
 
 /// From the last point of a path that lost its stability or turned back: with the motion a little
 /// further, at `beyond`, along the mode that went soft. Errors as settle().

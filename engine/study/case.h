@@ -7,15 +7,21 @@
 #include <mutex>
 
 #include "engine/core/result.h"
-#include "engine/experiment/actuation.h"
-#include "engine/gridshell/model.h"
+#include "engine/gridshell/shell_rods.h"
 #include "engine/preset/preset.h"
+#include "engine/scene/scene.h"
 #include "engine/solve/nested.h"
 
 namespace gridshell::study {
 
 /// What is to be done: move the boundary, come to rest beside the net, or push a joint.
 enum class Task { actuation, beside_net, push };
+
+/// On which rung a method solves, and with which joints.
+struct OnRung {
+  Rung rung = Rung::bend;
+  double spring_N_per_mm = 0;  ///< of spring joints; 0: shared nodes
+};
 
 /// The task on one mesh. Pinned nodes move from t to 1; of a push the joint is one of them.
 struct Problem {
@@ -49,14 +55,16 @@ class Case {
   /// Largest distance of a joint from the reference's end over the length scale; `x` has the joints
   /// in its first columns.
   double error_of(const Eigen::Matrix3Xd& x) const;
-  double scale_mm() const { return scene_.length_scale_mm; }
-  int joints() const { return int(scene_.footprint.joints.size()); }
-  const experiment::ActuationScene& scene() const { return scene_; }
+  double scale_mm() const { return scene_->length_scale_mm; }
+  int joints() const { return int(scene_->footprint.joints.size()); }
+  const Scene& scene() const { return *scene_; }
+  /// The same problem on another rung or with other joints; its end is the bend rung's.
+  Problem on_rung(const Problem& problem, const OnRung& on) const;
   Task task() const { return task_; }
   double reference_error() const { return reference_error_; }  ///< estimated, over the scale
 
   /// A nested shell as an experiment makes it for a tolerance.
-  NestedShell shell(const LevelPlan& plan, double tolerance) const;
+  NestedShell shell(const LevelPlan& plan, double tolerance, const OnRung& on = {}) const;
   /// Brings the shell to the start, as far as that is given and not the method's own work.
   NestedReport begin(NestedShell& shell, const Watch& watch);
   /// From there to the end, in load steps as the experiments choose them.
@@ -66,12 +74,13 @@ class Case {
   Case() = default;
   Result<void> set_up(const preset::Preset& preset);
   Result<void> follow(int finest, Watch& watch);
-  Result<void> find_push(const preset::Indentation& asked, const NestedShell& shell);
-  Result<State> rest_near(const Problem& problem, const Eigen::Matrix3Xd& wanted, double t,
-                          const Watch& watch) const;
+  Result<void> find_push(const NestedShell& shell);
+  Result<State> rest_beside(const Problem& problem, const Eigen::Matrix3Xd& wanted, double t,
+                            const Watch& watch) const;
+  ShellRods rods_on(const OnRung& on) const;
   void push(NestedShell& shell) const;
 
-  experiment::ActuationScene scene_;
+  std::shared_ptr<const Scene> scene_;
   preset::Indentation pushed_;
   Task task_ = Task::actuation;
   double t_ = 0;    // where the actuation starts

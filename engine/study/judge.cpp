@@ -22,11 +22,11 @@ RunOutcome kind_of(const Case& study, const Problem& problem, const Eigen::Matri
     return RunOutcome::planar_saddle;
   // an equilibrium of another boundary is none of this one
   for (int node = 0; node < problem.model.nodes; ++node)
-    if (problem.model.pinned[std::size_t(node)] &&
+    if (problem.model.pinned(node) &&
         (x.col(node) - problem.end.x.col(node)).norm() > near_mm)
       return RunOutcome::silent_wrong;
   Linearisation system(problem.model);
-  const State state{x, Eigen::VectorXd::Zero(Eigen::Index(problem.model.edges.size()))};
+  const State state = start_state(problem.model, x);
   if (!system.at(state, false).positive_definite()) return RunOutcome::silent_wrong;
   Eigen::Matrix3Xd dx;
   system.correction(dx);

@@ -68,15 +68,7 @@ Arrival march(const Problem& problem, const MarchOptions& options, Stopwatch& st
               const Watch& watch);
 Method textbook_method(int edges);
 
-/// Rods on the twist rung, joints shared or held together by springs of `stiffness_N_per_mm`.
-struct TwistMarch {
-  int load_steps = 10;
-  double stiffness_N_per_mm = 0;  ///< 0: shared nodes
-  double tolerance_mm = 1e-6;
-  bool saddles = false;  ///< plain Newton: full steps to whatever equilibrium is near
-};
-Arrival march_twist(const Case& study, const Problem& problem, const TwistMarch& options,
-                    Stopwatch& stopwatch, const Watch& watch);
+/// The path follower on the twist rung, joints shared or held together by springs.
 Method twist_method(int edges);
 Method spring_method(int edges, double stiffness_N_per_mm);
 

@@ -1,7 +1,7 @@
 // The engine's own solvers as methods of a study.
 #include <fmt/format.h>
 
-#include "engine/experiment/net_design.h"
+#include "engine/scene/net_design.h"
 #include "engine/study/method.h"
 
 namespace gridshell::study {
@@ -11,13 +11,20 @@ using record::RunOutcome;
 
 RunOutcome claim_of(const NestedReport& report) {
   switch (report.end) {
-    case NestedEnd::reached:
+    case Outcome::reached:
       return RunOutcome::right;
-    case NestedEnd::cancelled:
+    case Outcome::cancelled:
       return RunOutcome::too_slow;
-    default:
-      return RunOutcome::refused;  // the report names the reason
+    case Outcome::unstable:
+    case Outcome::lost:
+    case Outcome::folded:
+    case Outcome::not_finite:
+    case Outcome::not_converged:
+    case Outcome::meshes_disagree:
+    case Outcome::locked:
+      break;
   }
+  return RunOutcome::refused;  // the report names the reason
 }
 
 Arrival arrive(const NestedShell& shell, const NestedReport& report, bool extrapolated) {
@@ -31,18 +38,18 @@ Arrival arrive(const NestedShell& shell, const NestedReport& report, bool extrap
 }
 
 Arrival follow(Case& study, const LevelPlan& plan, double tolerance, Stopwatch& stopwatch,
-               const Watch& watch, double* estimate) {
+               const Watch& watch, double* estimate, const OnRung& on = {}) {
   stopwatch.start();
-  NestedShell shell = study.shell(plan, tolerance);
+  NestedShell shell = study.shell(plan, tolerance, on);
   stopwatch.stop();
   NestedReport report = study.begin(shell, watch);
-  if (report.end == NestedEnd::reached) {
+  if (report.end == Outcome::reached) {
     stopwatch.start();
     report = study.go(shell, watch);
     stopwatch.stop();
   }
   if (estimate) *estimate = shell.state().error_estimate_mm / study.scale_mm();
-  return arrive(shell, report, plan.extrapolate);
+  return arrive(shell, report, plan.extrapolate || on.spring_N_per_mm > 0);
 }
 
 }  // namespace
@@ -64,7 +71,7 @@ Method net_method() {
             for (int k = 0; k < study.joints(); ++k)
               uv.col(k) << scene.footprint.joints[std::size_t(k)].u,
                   scene.footprint.joints[std::size_t(k)].v;
-            auto net = experiment::sample(*scene.net, uv);
+            auto net = points_on(*scene.net, uv);
             stopwatch.stop();
             if (!net) return arrival;
             arrival.claim = RunOutcome::right;
@@ -79,6 +86,24 @@ Method bend_method(int edges) {
             const LevelPlan plan{{edges}, false};
             return follow(study, plan, expected_error(plan), stopwatch, watch, nullptr);
           }};
+}
+
+namespace {
+
+Method on_rung(const std::string& name, int edges, const OnRung& on) {
+  return {name, edges, [edges, on](Case& study, Stopwatch& stopwatch, const Watch& watch) {
+            const LevelPlan plan{{edges}, false};
+            return follow(study, plan, expected_error(plan), stopwatch, watch, nullptr, on);
+          }};
+}
+
+}  // namespace
+
+Method twist_method(int edges) { return on_rung("twist", edges, {Rung::twist}); }
+
+Method spring_method(int edges, double stiffness_N_per_mm) {
+  return on_rung(fmt::format("springs {:g} N/mm", stiffness_N_per_mm), edges,
+                 {Rung::twist, stiffness_N_per_mm});
 }
 
 Method nested_method(const std::vector<int>& edges) {

@@ -12,7 +12,8 @@ using record::RunOutcome;
 /// Full or shortened Newton steps on the energy's Hessian, whatever its inertia.
 RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOptions& options,
                           const Watch& watch) {
-  Eigen::Matrix3Xd dx, trial;
+  Eigen::Matrix3Xd dx;
+  State trial;
   Assembly there;
   for (int k = 0; k < options.most_iterations; ++k) {
     if (watch.cancelled()) return RunOutcome::too_slow;
@@ -24,16 +25,20 @@ RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOption
     double factor = 1;
     if (options.globalisation == Globalisation::line_search) {
       // the residual falls along Newton's direction, whatever the inertia
-      const double before =
-          system.assembly().gradient(Eigen::all, system.model().free_nodes).norm();
+      const auto unbalanced = [&](Eigen::Matrix3Xd gradient) {
+        clear_held(system.model(), gradient);
+        return gradient.norm();
+      };
+      const double before = unbalanced(system.assembly().gradient);
       for (; factor > 1e-6; factor /= 2) {
-        trial = state.x + factor * dx;
-        assemble_gradient(system.model(), trial, there);
-        const double after = there.gradient(Eigen::all, system.model().free_nodes).norm();
+        trial = state;
+        move_to(system.model(), state.x + factor * dx, trial);
+        assemble_gradient(system.model(), trial, system.outside, there);
+        const double after = unbalanced(there.gradient);
         if (after <= (1 - 1e-4 * factor) * before) break;
       }
     }
-    state.x += factor * dx;
+    move_to(system.model(), state.x + factor * dx, state);
     if (move <= options.tolerance_mm) return RunOutcome::right;
     if (move > 1e6) return RunOutcome::blow_up;
   }
@@ -43,11 +48,13 @@ RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOption
 /// The Hessian shifted until it is positive definite, the step shortened until the energy falls.
 RunOutcome rest_shifted(Linearisation& system, State& state, const MarchOptions& options,
                         const Watch& watch) {
-  const auto energy_at = [&](const Eigen::Matrix3Xd& x) {
-    const Energies energies = energies_of(system.model(), x);
-    return energies[Term::bend] + options.EA_scale * energies[Term::stretch];
+  const auto energy_at = [&](const State& at) {
+    Energies energies = energies_of(system.model(), at, system.outside);
+    energies[Term::stretch] *= options.EA_scale;
+    return energies.total();
   };
-  Eigen::Matrix3Xd dx, trial;
+  Eigen::Matrix3Xd dx;
+  State trial;
   double shift = 0;
   for (int k = 0; k < options.most_iterations; ++k) {
     if (watch.cancelled()) return RunOutcome::too_slow;
@@ -62,17 +69,18 @@ RunOutcome rest_shifted(Linearisation& system, State& state, const MarchOptions&
     const double move = largest_column(dx);
     if (!std::isfinite(move)) return RunOutcome::blow_up;
     if (move <= options.tolerance_mm && shift == 0) {
-      state.x += dx;
+      move_to(system.model(), state.x + dx, state);
       return RunOutcome::right;
     }
-    const double start = energy_at(state.x),
+    const double start = energy_at(state),
                  slope = (system.assembly().gradient.array() * dx.array()).sum();
     double step = 1;
     for (; step > 1e-10; step /= 2) {
-      trial = state.x + step * dx;
+      trial = state;
+      move_to(system.model(), state.x + step * dx, trial);
       if (energy_at(trial) <= start + 1e-4 * step * slope + 1e-14 * std::abs(start)) break;
     }
-    state.x.swap(trial);
+    std::swap(state, trial);
     shift = step == 1 && first == shift ? (shift < 1e-5 ? 0 : shift / 4) : shift;
   }
   return RunOutcome::not_converged;
@@ -111,12 +119,13 @@ Arrival march(const Problem& problem, const MarchOptions& options, Stopwatch& st
   State state = problem.start;
   const int steps = problem.motion.come(problem.t) == 1 ? 1 : options.load_steps;
   for (int k = 1; k <= steps; ++k) {
-    problem.motion.impose(system, load_parameter(problem, k, steps), state.x);
+    problem.motion.impose(system, load_parameter(problem, k, steps), state);
     arrival.claim = rest(system, state, options, watch);
     if (arrival.claim != RunOutcome::right) break;
   }
   stopwatch.stop();
-  arrival.x = std::move(state.x);
+  arrival.negative_pivots = system.at(state, false).negative_pivots;
+  arrival.x = nodes_of(problem.mesh, problem.model, state.x);
   return arrival;
 }
 

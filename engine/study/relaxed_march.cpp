@@ -10,17 +10,9 @@ namespace {
 using record::RunOutcome;
 
 RunOutcome claim_of(const BaselineReport& report) {
-  switch (report.end) {
-    case BaselineEnd::at_rest:
-      return RunOutcome::right;
-    case BaselineEnd::blow_up:
-      return RunOutcome::blow_up;
-    case BaselineEnd::cancelled:
-      return RunOutcome::too_slow;
-    case BaselineEnd::too_slow:
-      break;
-  }
-  return RunOutcome::not_converged;
+  if (report.end == Outcome::reached) return RunOutcome::right;
+  if (report.end == Outcome::not_finite) return RunOutcome::blow_up;
+  return report.end == Outcome::cancelled ? RunOutcome::too_slow : RunOutcome::not_converged;
 }
 
 const char* name_of(Relaxation kind) {
@@ -38,17 +30,17 @@ const char* name_of(Relaxation kind) {
 constexpr double density_kg_m3 = 6450, diameter_mm = 0.254;  // Nitinol wire
 
 /// Of the slowest mode at the problem's end, 1/s.
-double slowest_frequency(const Problem& problem, const Eigen::VectorXd& mass) {
+double slowest_frequency(const Problem& problem, const Eigen::Matrix3Xd& mass) {
   Linearisation system(problem.model);
   system.at(problem.end, false);
   Eigen::Matrix3Xd mode = Eigen::Matrix3Xd::Random(3, problem.model.nodes);
   double frequency2 = 0;
   for (int k = 0; k < 30; ++k) {
-    mode = mode * mass.asDiagonal();
+    mode = mode.cwiseProduct(mass).eval();
     const double before =
-        std::sqrt((mode * mass.cwiseInverse().asDiagonal()).cwiseProduct(mode).sum());
+        std::sqrt((mode.array().square() / mass.array()).sum());
     system.solve(mode);
-    const double after = std::sqrt((mode * mass.asDiagonal()).cwiseProduct(mode).sum());
+    const double after = std::sqrt((mode.array().square() * mass.array()).sum());
     frequency2 = before / after;
     mode /= after;
   }
@@ -58,15 +50,15 @@ double slowest_frequency(const Problem& problem, const Eigen::VectorXd& mass) {
 /// A baseline on its way through a problem.
 struct Walk {
   const Problem& problem;
-  const Eigen::VectorXd& mass;
+  const Eigen::Matrix3Xd& mass;
   const RelaxMarch& options;
-  Motion motion;
+  MovingState moving;
   BaselineOptions how;
 
   void place(double t) {
     const Eigen::Matrix3Xd there = problem.motion.at(t);
     for (int node = 0; node < problem.model.nodes; ++node)
-      if (problem.model.pinned[std::size_t(node)]) motion.x.col(node) = there.col(node);
+      if (problem.model.pinned(node)) moving.state.x.col(node) = there.col(node);
   }
 
   /// Load steps, at rest after each.
@@ -77,8 +69,8 @@ struct Walk {
       place(load_parameter(problem, k, count));
       how.tolerance_N = k == count ? options.tolerance_N : options.loose_N;
       claim = claim_of(options.kind == Relaxation::kinetic
-                           ? dynamic_relaxation(problem.model, motion.x, how, watch)
-                           : implicit_to_rest(problem.model, mass, motion, how, watch));
+                           ? dynamic_relaxation(problem.model, moving.state, how, watch)
+                           : implicit_to_rest(problem.model, mass, moving, how, watch));
     }
     return claim;
   }
@@ -95,12 +87,12 @@ struct Walk {
     how.most_steps = chunk;
     for (int k = 1; k <= count; ++k) {
       place(load_parameter(problem, k, count));
-      const BaselineReport report = explicit_to_rest(problem.model, mass, motion, how, watch);
-      if (report.end == BaselineEnd::blow_up || report.end == BaselineEnd::cancelled)
+      const BaselineReport report = explicit_to_rest(problem.model, mass, moving, how, watch);
+      if (report.end == Outcome::not_finite || report.end == Outcome::cancelled)
         return claim_of(report);
     }
     how.most_steps = 1 << 30;
-    return claim_of(explicit_to_rest(problem.model, mass, motion, how, watch));
+    return claim_of(explicit_to_rest(problem.model, mass, moving, how, watch));
   }
 };
 
@@ -112,10 +104,10 @@ Arrival march_relaxed(const Problem& problem, const RelaxMarch& options, Stopwat
   arrival.edges = problem.edges;
   arrival.dof = problem.model.dof();
   arrival.whole_mesh = true;
-  const auto mass = lumped_masses(problem.model, density_kg_m3, diameter_mm);
+  const auto mass = lumped_mass(problem.model, {round_mass_t_per_mm(density_kg_m3, diameter_mm)});
   if (!mass) return arrival;
   Walk walk{problem, *mass, options, {}, {}};
-  walk.motion = {problem.start.x, Eigen::Matrix3Xd::Zero(3, problem.model.nodes), 0};
+  walk.moving = MovingState::at_rest(problem.start);
   walk.how.step = options.step;
   const bool moves = problem.motion.come(problem.t) < 1;
   stopwatch.start();
@@ -124,7 +116,7 @@ Arrival march_relaxed(const Problem& problem, const RelaxMarch& options, Stopwat
   else
     arrival.claim = walk.steps(moves ? options.load_steps : 1, watch);
   stopwatch.stop();
-  arrival.x = std::move(walk.motion.x);
+  arrival.x = std::move(walk.moving.state.x);
   return arrival;
 }
 

@@ -3,7 +3,6 @@
 #include <mutex>
 #include <optional>
 
-#include "engine/experiment/scene.h"
 #include "engine/study/judge.h"
 #include "engine/study/map_runs.h"
 #include "engine/study/stability_study.h"
@@ -153,7 +152,7 @@ Cells newton_map(const Study& study, const std::vector<double>& load_steps,
         cells.push_back(cell(row(name_of(how)), study, k,
                              marching({.load_steps = int(steps), .globalisation = how})));
       cells.push_back(
-          default_cell(row(default_solver), study, experiment::plan_of_mesh(k), 0, steps));
+          default_cell(row(default_solver), study, plan_of_mesh(k), 0, steps));
     }
   return cells;
 }
@@ -284,14 +283,14 @@ Cells joint_map(const Study& study, const std::vector<double>& stiffnesses,
                const auto problem = study->problem(edges, patient);
                if (!problem) return RunOutcome::refused;
                Stopwatch unused;
+               const Problem joined =
+                   study->on_rung(**problem, {Rung::twist, stiffness});
                std::call_once(truth->once, [&] {
-                 truth->arrival = march_twist(*study, **problem,
-                                              {.load_steps = 60, .stiffness_N_per_mm = stiffness},
-                                              unused, patient);
+                 truth->arrival = march(joined, {.load_steps = 60}, unused, patient);
                });
-               const TwistMarch how{
-                   .load_steps = int(steps), .stiffness_N_per_mm = stiffness, .saddles = !shifted};
-               const Arrival found = march_twist(*study, **problem, how, unused, watch);
+               const auto how = shifted ? Globalisation::shifted : Globalisation::none;
+               const Arrival found = march(
+                   joined, {.load_steps = int(steps), .globalisation = how}, unused, watch);
                if (found.claim != RunOutcome::right) return found.claim;
                if (truth->arrival.claim != RunOutcome::right) return RunOutcome::refused;
                const double off = largest_column(found.x.leftCols(study->joints()) -

@@ -70,8 +70,9 @@ PathOptions options_for(double tolerance, double radius) {
 }
 
 NestedShell shell_of(const Case& c, const LevelPlan& plan, double tolerance) {
-  return NestedShell(c.footprint, circular_section(0.254, 83), c.motion, plan,
-                     options_for(tolerance, c.radius));
+  return NestedShell::make(c.footprint, circular_section(0.254, 83), Rung::bend, c.motion, plan,
+                           options_for(tolerance, c.radius))
+      .value();
 }
 
 double largest_joint_error(const NestedShell& shell, const NestedShell& reference) {
@@ -116,7 +117,7 @@ void paper_shell(int runs) {
           for (int k = 1; k <= frames; ++k) {
             const double ratio = 0.98 - 0.23 * k / frames;
             reached &=
-                shell->advance(k == frames ? 1 : parameter(ratio), watch).end == NestedEnd::reached;
+                shell->advance(k == frames ? 1 : parameter(ratio), watch).end == Outcome::reached;
           }
         },
         [&] { shell->place(begin, first); });
@@ -162,9 +163,9 @@ void sizes() {
     Assembly assembly;
     Eigen::Matrix3Xd flat = Eigen::Matrix3Xd::Zero(3, shell.model(0).nodes);
     flat.topRows(2) = shell.model(0).flat;
+    State state = start_state(shell.model(0), flat);
     const double assemble =
-        median(5, [&] { assemble_hessian(shell.model(0), flat, nullptr, 1, assembly); });
-    State state{flat, Eigen::VectorXd::Zero(Eigen::Index(shell.model(0).edges.size()))};
+        median(5, [&] { assemble_hessian(shell.model(0), state, {}, {}, assembly); });
     shell.system(0).at(state, false);
     const double factor = median(3, [&] { shell.system(0).shifted(0); });
     double start = cpu_now();
@@ -175,7 +176,7 @@ void sizes() {
     bool reached = first.has_value();
     if (first) {
       shell.place(parameter(0.98), *first);
-      reached = shell.advance(1, watch).end == NestedEnd::reached;
+      reached = shell.advance(1, watch).end == Outcome::reached;
     }
     const double path = cpu_now() - start;
     fmt::print("{:4} {:8} {:10.4f} {:10.4f} {:10.4f} {:10.4f} {:10.4f}{}\n", n,

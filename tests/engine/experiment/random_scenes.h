@@ -9,8 +9,7 @@
 #include <random>
 #include <string>
 
-#include "engine/experiment/actuation.h"
-#include "engine/experiment/scene.h"
+#include "engine/experiment/experiment.h"
 
 namespace gridshell {
 
@@ -46,25 +45,22 @@ inline EstimateTrial try_estimate(const preset::Preset& preset) {
                   preset.footprint.radius_mm,
                   preset.actuation.radius_mm / preset.footprint.radius_mm, trial.tolerance);
   Watch watch;
-  auto scene = experiment::scene_of(preset);
-  if (!scene) {
-    trial.refused = scene.error().message;
+  const auto run = [&](const preset::Preset& p) { return experiment::run(p, true, watch); };
+  const auto asked = run(preset);
+  if (!asked) {
+    trial.refused = asked.error().message;
     return trial;
   }
-  const auto asked = experiment::run_actuation(*scene, {1.0}, watch);
-  if (!asked || asked->trajectory.frames.empty()) {
-    trial.refused = asked ? asked->limit_reason : asked.error().message;
+  if (asked->summary.limit != record::Limit::none && asked->summary.limit != record::Limit::snap) {
+    trial.refused = asked->summary.limit_reason;
     return trial;
   }
-  scene->levels = asked->levels;
-  for (int more = 0; more < 2; ++more)
-    scene->levels.edges_per_segment.push_back(2 * scene->levels.edges_per_segment.back());
-  scene->levels.extrapolate = true;
-  scene->levels_fixed = true;
-  scene->tolerance = std::min(scene->tolerance, 1e-6);
-  const auto finer = experiment::run_actuation(*scene, {1.0}, watch);
-  if (!finer || finer->trajectory.frames.empty()) {
-    trial.refused = "reference: " + (finer ? finer->limit_reason : finer.error().message);
+  preset::Preset fine = preset;
+  fine.accuracy.tolerance = std::min(preset.accuracy.tolerance, 1e-6);
+  fine.accuracy.edges_per_segment = std::min(128, 4 * asked->summary.edges_per_segment);
+  const auto finer = run(fine);
+  if (!finer || finer->summary.limit != asked->summary.limit) {
+    trial.refused = "reference: " + (finer ? finer->summary.limit_reason : finer.error().message);
     return trial;
   }
   const auto &a = asked->trajectory, &b = finer->trajectory;

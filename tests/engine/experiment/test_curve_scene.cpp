@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/experiment/experiment.h"
-#include "engine/experiment/scene.h"
+#include "engine/scene/scene.h"
 
 using namespace gridshell;
 
@@ -18,7 +18,7 @@ preset::Preset curve(preset::CurveKind kind, double scale) {
 }
 
 std::string refused(const preset::Preset& p) {
-  const auto scene = experiment::scene_of(p);
+  const auto scene = scene_of(p);
   if (scene) return "";
   CHECK(scene.error().fault == Fault::bad_input);
   return scene.error().message;
@@ -36,12 +36,12 @@ record::Summary run(const preset::Preset& p) {
 TEST_CASE("a circle given as a curve is the circle of Fig. 1") {
   preset::Preset p = curve(preset::CurveKind::circle, 0.75);
   p.footprint.radius_mm = 126;
-  const auto scene = experiment::scene_of(p);
+  const auto scene = scene_of(p);
   REQUIRE(scene);
   preset::Preset circle;
   circle.footprint.radius_mm = 126;
   circle.actuation.radius_mm = 0.75 * 126;
-  const auto same = experiment::scene_of(circle);
+  const auto same = scene_of(circle);
   REQUIRE(scene->footprint.rods.size() == same->footprint.rods.size());
   CHECK(scene->footprint.joints.size() == same->footprint.joints.size());
   CHECK((scene->motion.begin - same->motion.begin).cwiseAbs().maxCoeff() < 1e-9);
@@ -58,7 +58,7 @@ TEST_CASE("edge points go to the same angle, or to the same share of the length"
   p.actuation.boundary.half_x_mm = p.actuation.boundary.half_y_mm = 75;
   for (const auto how : {preset::Correspondence::angle, preset::Correspondence::arc_length}) {
     p.actuation.correspondence = how;
-    const auto scene = experiment::scene_of(p);
+    const auto scene = scene_of(p);
     REQUIRE(scene);
     double most = 0;
     for (Eigen::Index k = 0; k < scene->motion.begin.cols(); ++k) {
@@ -135,7 +135,7 @@ TEST_CASE("a translation net from two arches: on both, certified, near the net")
     p.net.curve_u.push_back({s, 0, z});
     p.net.curve_v.push_back({0, s, z});
   }
-  const auto scene = experiment::scene_of(p);
+  const auto scene = scene_of(p);
   REQUIRE(scene);
   // the flat footprint lies square to the curves
   CHECK(scene->flat.axes.col(0).x() == Approx(1));

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/experiment/experiment.h"
-#include "engine/experiment/scene.h"
+#include "engine/scene/scene.h"
 #include "engine/measure/gauss.h"
 #include "engine/measure/symmetry.h"
 
@@ -79,7 +79,7 @@ TEST_CASE("total K equals the sum over the corner joints in every frame") {
     for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
       const preset::Preset p = hemisphere(which, 120, placement, 0.1, 4);
       const experiment::Outcome outcome = run(p);
-      const Footprint footprint = experiment::scene_of(p)->footprint;
+      const Footprint footprint = scene_of(p)->footprint;
       const RodMesh mesh = mesh_rods(footprint, outcome.summary.edges_per_segment);
       for (const record::Frame& frame : outcome.trajectory.frames)
         CHECK(

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/experiment/experiment.h"
-#include "engine/experiment/scene.h"
+#include "engine/scene/scene.h"
 
 using namespace gridshell;
 
@@ -38,7 +38,7 @@ experiment::Outcome run(const preset::Preset& p, bool stills = true) {
 }  // namespace
 
 TEST_CASE("the scene of a cap: its boundary maps to the circle at z*, edge points with it") {
-  const auto scene = experiment::scene_of(cap(0.3, preset::Placement::half, preset::Start::net));
+  const auto scene = scene_of(cap(0.3, preset::Placement::half, preset::Start::net));
   REQUIRE(scene.has_value());
   const double z = 0.3 * 120, r = 120 * std::sqrt(1 - 0.09);
   for (const Eigen::Matrix3Xd* points : {&scene->motion.end, &scene->actuated_boundary}) {
@@ -133,7 +133,7 @@ TEST_CASE("a saddle's cells are negative over most of the arch, a cylinder's nea
 TEST_CASE("end rings let go: their ends are free, the others still held, the state stable") {
   preset::Preset p = surface(preset::NetKind::cylinder, 80, 200);
   p.ends.rings = preset::Rings::free;
-  const auto scene = experiment::scene_of(p);
+  const auto scene = scene_of(p);
   REQUIRE(scene.has_value());
   int free = 0;
   for (std::size_t r = 0; r < scene->footprint.rods.size(); ++r) {
@@ -155,7 +155,7 @@ TEST_CASE("a net that does not exist, and a circle asked to start from one, are 
   preset::Preset p = cap(0, preset::Placement::on_axis, preset::Start::net);
   p.net.kind = preset::NetKind::beltrami;
   p.net.waist = 1.5;
-  const auto scene = experiment::scene_of(p);
+  const auto scene = scene_of(p);
   REQUIRE_FALSE(scene.has_value());
   CHECK(scene.error().fault == Fault::bad_input);
 }

@@ -3,34 +3,44 @@
 #include <cmath>
 
 #include "engine/experiment/actuation.h"
-#include "engine/experiment/scene.h"
+#include "engine/scene/scene.h"
 
 using namespace gridshell;
 
 namespace {
 
-experiment::ActuationScene fig1(double tolerance = 1e-4) {
+std::shared_ptr<const Scene> fig1(double tolerance = 1e-4) {
   preset::Preset p;
   p.accuracy.tolerance = tolerance;
-  return experiment::scene_of(p).value();
+  return std::make_shared<const Scene>(scene_of(p).value());
 }
 
-Result<experiment::ActuationOutcome> end_of(const experiment::ActuationScene& scene) {
+/// A course with the frames that were sampled of it.
+struct Run {
+  experiment::Course course;
+  record::Trajectory trajectory;
+};
+
+Result<Run> run(std::shared_ptr<const Scene> scene, const std::vector<double>& progress) {
   Watch watch;
-  return experiment::run_actuation(scene, {1.0}, watch);
+  record::MemorySink sink;
+  auto course = experiment::run_actuation(std::move(scene), progress, sink, watch);
+  if (!course) return tl::unexpected<Error>(course.error());
+  return Run{std::move(*course), std::move(sink.trajectory())};
 }
+
+Result<Run> end_of(std::shared_ptr<const Scene> scene) { return run(std::move(scene), {1.0}); }
 
 /// Certified, or a reason; returns whether it was certified.
-bool certified_or_named(const Result<experiment::ActuationOutcome>& outcome,
-                        double residual_N = 1e-8) {
+bool certified_or_named(const Result<Run>& outcome, double residual_N = 1e-8) {
   if (!outcome) {
     CHECK(outcome.error().fault == Fault::no_equilibrium);
     CHECK_FALSE(outcome.error().message.empty());
     return false;
   }
   if (outcome->trajectory.frames.empty()) {
-    CHECK(outcome->limit != record::Limit::none);
-    CHECK_FALSE(outcome->limit_reason.empty());
+    CHECK(outcome->course.limit != record::Limit::none);
+    CHECK_FALSE(outcome->course.limit_reason.empty());
     return false;
   }
   const record::Frame& frame = outcome->trajectory.frames.back();
@@ -44,13 +54,12 @@ bool certified_or_named(const Result<experiment::ActuationOutcome>& outcome,
 }  // namespace
 
 TEST_CASE("one single step asked for, and many, end in one state") {
-  Watch watch;
   const auto scene = fig1();
   const auto one = end_of(scene);
   REQUIRE(certified_or_named(one));
   std::vector<double> many;
   for (int k = 1; k <= 50; ++k) many.push_back(k / 50.0);
-  const auto steps = experiment::run_actuation(scene, many, watch);
+  const auto steps = run(scene, many);
   REQUIRE(steps);
   CHECK(steps->trajectory.frames.back().nodes == one->trajectory.frames.back().nodes);
   // no joint jumps between frames
@@ -64,11 +73,11 @@ TEST_CASE("one single step asked for, and many, end in one state") {
 TEST_CASE("EA from a hundredth to ten thousand times: the same state, or a reason") {
   const double reference = end_of(fig1())->trajectory.frames.back().energies[Term::bend];
   for (double scale : {1e-2, 1e-1, 1e1, 1e2, 1e4}) {
-    auto scene = fig1();
-    for (RodSection& section : scene.rods.sections) section.EA *= scale;
+    Scene scene = *fig1();
+    for (RodMaterial& material : scene.rods.materials) material.EA *= scale;
     scene.max_strain = 1;
     INFO("EA x " << scale);
-    const auto outcome = end_of(scene);
+    const auto outcome = end_of(std::make_shared<const Scene>(scene));
     // round-off in EA x strain
     if (!certified_or_named(outcome, std::max(1e-8, 1e-9 * scale))) continue;
     // stretch shares the work: with N of about 1e-3 EA x scale the energies differ by as much
@@ -85,8 +94,8 @@ TEST_CASE("legs down to a ten-thousandth of a cell: certified, or a reason") {
     p.footprint.radius_mm = std::hypot(110 + 20 * leg, 10);
     p.actuation.radius_mm = 0.9 * p.footprint.radius_mm;
     p.accuracy.tolerance = 1e-3;
-    const auto scene = experiment::scene_of(p).value();
-    CHECK(scene.footprint.shortest_leg() < 1.2 * 20 * leg);
+    const auto scene = std::make_shared<const Scene>(scene_of(p).value());
+    CHECK(scene->footprint.shortest_leg() < 1.2 * 20 * leg);
     const auto outcome = end_of(scene);
     INFO("leg " << leg << " d");
     certified += certified_or_named(outcome);
@@ -112,14 +121,13 @@ TEST_CASE("tolerances from 1e-2 to 1e-7 give one state") {
 }
 
 TEST_CASE("down to half the radius: certified states, each on the one before") {
-  Watch watch;
   preset::Preset p;
   p.actuation.radius_mm = 63;
   p.accuracy.tolerance = 1e-3;
-  const auto scene = experiment::scene_of(p).value();
+  const auto scene = std::make_shared<const Scene>(scene_of(p).value());
   std::vector<double> samples;
   for (int k = 1; k <= 20; ++k) samples.push_back(k / 20.0);
-  const auto outcome = experiment::run_actuation(scene, samples, watch);
+  const auto outcome = run(scene, samples);
   // a path that ends before has converged there to its tolerance of 1e-4 mm, not to round-off
   certified_or_named(outcome, 1e-4);
   REQUIRE(outcome);
@@ -134,10 +142,10 @@ TEST_CASE("down to half the radius: certified states, each on the one before") {
 }
 
 TEST_CASE("rods that reach their length end as locking, with nothing beyond") {
-  auto scene = fig1(1e-3);
+  Scene scene = *fig1(1e-3);
   scene.max_strain = 1e-7;
-  const auto outcome = end_of(scene);
+  const auto outcome = end_of(std::make_shared<const Scene>(scene));
   REQUIRE(outcome);
-  CHECK(outcome->limit == record::Limit::locking);
+  CHECK(outcome->course.limit == record::Limit::locking);
   CHECK(outcome->trajectory.frames.empty());
 }

@@ -39,7 +39,7 @@ inline State crossing_arch(const Model& model) {
   for (int node = 0; node < model.nodes; ++node) {
     const Eigen::Vector2d p = model.flat.col(node);
     state.x.col(node) << 0.98 * p, 7 * std::cos(M_PI * p.norm() / 100);
-    if (model.pinned[std::size_t(node)]) state.x(2, node) = 0;
+    if (model.pinned(node)) state.x(2, node) = 0;
   }
   return state;
 }

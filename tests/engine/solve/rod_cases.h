@@ -3,8 +3,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
-#include "engine/solve/twist_newton.h"
+#include "engine/solve/minimise.h"
+#include "engine/solve/rest.h"
 
 namespace gridshell {
 
@@ -12,16 +14,16 @@ namespace gridshell {
 struct SingleRod {
   int edges = 0;
   double length = 0;
-  TwistRod rod;
+  ModelRod rod;
 
   SingleRod(int n, double L, const RodMaterial& material, RodEnd begin, RodEnd end)
-      : edges(n), length(L), rod{{}, {}, material, begin, end, {0, 0, 1}} {
+      : edges(n), length(L), rod{{}, {}, material, begin, end} {
     for (int k = 0; k <= n; ++k) {
       rod.nodes.push_back(k);
       rod.position.push_back(L * k / n);
     }
   }
-  TwistModel model() const { return build_twist_model(edges + 1, {rod}).value(); }
+  Model model() const { return build_model(edges + 1, {rod}, Rung::twist).value(); }
   /// nodes on the straight line, `stretch` times the rest length, with a bump of this height in z
   Eigen::Matrix3Xd line(double stretch = 1, double bump = 0) const {
     Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, edges + 1);
@@ -43,6 +45,31 @@ double critical(double low, double high, Stable stable) {
     (stable(middle) ? low : high) = middle;
   }
   return high;
+}
+
+/// The angle of an edge, rad.
+inline void set_angle(const Model& model, State& state, int edge, double angle) {
+  state.x.data()[model.spin[std::size_t(edge)]] = angle * model.spin_length;
+}
+
+/// Turns every edge at random, by up to one radian.
+template <class Random>
+void turn_edges(const Model& model, Random& random, State& state) {
+  std::uniform_real_distribution<double> radian(-1, 1);
+  for (int k = 0; k < int(model.edges.size()); ++k) set_angle(model, state, k, radian(random));
+}
+
+/// At rest, or the test fails.
+inline void settle(Linearisation& system, State& state, double tolerance = 1e-7) {
+  MinimiseOptions options;
+  options.tolerance_mm = tolerance;
+  options.most_iterations = 3000;
+  const NewtonReport report = minimise(system, state, options, Watch());
+  CAPTURE(int(report.outcome), report.iterations, report.last_move_mm);
+  REQUIRE(report.outcome == Outcome::reached);
+  newton(system, state, {.tolerance_mm = tolerance});
+  REQUIRE(system.at(state, false).positive_definite());
+  system.gradient_at(state);
 }
 
 /// log2 of how an error falls when edges are halved

@@ -1,7 +1,7 @@
 // One rod without joints, pinned at its ends.
 #pragma once
 
-#include "engine/footprint/mesh.h"
+#include "engine/gridshell/shell_rods.h"
 
 namespace gridshell {
 

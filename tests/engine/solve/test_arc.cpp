@@ -13,8 +13,8 @@ namespace {
 /// The force that a displacement takes which lowers the joint from `state` to `height`.
 double force_at(const Model& unloaded, State state, double height) {
   Linearisation system(unloaded);
-  const Prescription held{0, Eigen::Vector3d::UnitZ()};
-  system.prescribe(held);
+  const Hold held{0, Eigen::Vector3d::UnitZ()};
+  system.hold({held});
   const double begin = state.x(2, 0);
   constexpr int steps = 60;
   for (int k = 1; k <= steps; ++k) {
@@ -24,33 +24,32 @@ double force_at(const Model& unloaded, State state, double height) {
     REQUIRE(newton(system, state, options).last_move_mm < 1e-6);
   }
   system.gradient_at(state);
-  return -system.reaction().z();
+  return -system.reaction(held).z();
 }
 
 }  // namespace
 
 TEST_CASE("by arc length an arch is followed over the limit of its load and back to no load") {
-  const Model unloaded = build_model(crossing_rods(6), circular_section(0.254, 83));
+  const Model unloaded = build_model(crossing_rods(6), circular_section(0.254, 83)).value();
   Model model = unloaded;
-  model.load = Eigen::Matrix3Xd::Zero(3, model.nodes);
-  model.load(2, 0) = -1;  // N: the parameter is the force
+  model.loads.push_back({0, {0, 0, -1}});  // N: the parameter is the force
   Linearisation system(model);
   State arch = crossing_arch(model);
-  system.set_load(0);
-  REQUIRE(minimise(system, arch, {}, Watch()).outcome == NewtonOutcome::converged);
+  system.outside.load = 0;
+  REQUIRE(minimise(system, arch, {}, Watch()).outcome == Outcome::reached);
   const double height = arch.x(2, 0);
   const PinnedMotion motion{arch.x, Eigen::Matrix3Xd::Zero(3, model.nodes), Pace::even};
   ArcFollower path(system, motion, {.step_mm = 0.1, .largest_mm = 0.2, .parameter_mm = 20});
   const PathPoint begin{0, arch, {}};
   const auto turn = turning_point(system, motion, begin, 1, {.step_mm = 0.5, .parameter_mm = 20});
-  REQUIRE(path.start(0, arch) == NewtonOutcome::converged);
+  REQUIRE(path.start(0, arch) == Outcome::reached);
   CHECK(path.at().inertia.positive_definite());
 
   double most = 0;
   int checked = 0, unstable = 0;
   bool unloaded_again = false;
   for (int k = 0; k < 80 && !unloaded_again; ++k) {
-    REQUIRE(path.step() == NewtonOutcome::converged);
+    REQUIRE(path.step() == Outcome::reached);
     const PathPoint& point = path.at().point;
     most = std::max(most, point.t);
     unstable += !path.at().inertia.positive_definite();
@@ -72,8 +71,8 @@ TEST_CASE("by arc length an arch is followed over the limit of its load and back
   REQUIRE(unloaded_again);
   State rest = path.at().point.state;
   const Eigen::Matrix3Xd there = rest.x;
-  system.set_load(0);
-  REQUIRE(newton(system, rest, {}).outcome == NewtonOutcome::converged);
+  system.outside.load = 0;
+  REQUIRE(newton(system, rest, {}).outcome == Outcome::reached);
   CHECK(largest_column(rest.x - there) < 0.3);
   CHECK(rest.x(2, 0) < 0);
   CHECK_FALSE(system.at(rest, false).positive_definite());

@@ -20,7 +20,7 @@ Found elastica(int edges, double shortening, double stretch_scale) {
   RodSection section = circular_section(0.254, 83);
   section.EA *= stretch_scale;
   const RodMesh mesh = single_rod(edges, length);
-  const Model model = build_model(mesh, section);
+  const Model model = build_model(mesh, section).value();
   Linearisation system(model);
   State state;
   state.x = Eigen::Matrix3Xd::Zero(3, model.nodes);
@@ -34,7 +34,7 @@ Found elastica(int edges, double shortening, double stretch_scale) {
   MinimiseOptions options;
   options.tolerance_mm = 1e-5;  // what round-off in EA x strain leaves
   const NewtonReport report = minimise(system, state, options, watch);
-  REQUIRE(report.outcome == NewtonOutcome::converged);
+  REQUIRE(report.outcome == Outcome::reached);
   system.gradient_at(state);
   return {state.x.row(2).maxCoeff(), std::abs(system.assembly().gradient(0, 0))};
 }

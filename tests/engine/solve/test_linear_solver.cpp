@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "engine/gridshell/assembly.h"
+#include "engine/gridshell/shell_rods.h"
 #include "engine/solve/linear_solver.h"
 #include "engine/solve/ordering.h"
 
@@ -17,26 +19,26 @@ struct System {
 System bent(double radius, int rods, int edges) {
   const auto placement = rods % 2 ? Placement::on_axis : Placement::half;
   const Footprint net = circular_footprint(radius, rods, 20.0, placement).value();
-  System system{build_model(mesh_rods(net, edges), circular_section(0.254, 83)), {}};
+  System system{build_model(mesh_rods(net, edges), circular_section(0.254, 83)).value(), {}};
   Eigen::Matrix3Xd x(3, system.model.nodes);
   for (int k = 0; k < system.model.nodes; ++k) {
     const Eigen::Vector2d p = system.model.flat.col(k);
     x.col(k) << 0.99 * p, 15 * (1 - p.squaredNorm() / (radius * radius)) + 1e-3 * p.x() * p.y();
   }
-  assemble_hessian(system.model, x, nullptr, 1, system.assembly);
+  assemble_hessian(system.model, start_state(system.model, x), {}, {}, system.assembly);
   return system;
 }
 
 double residual(const System& system, const LinearSolver& solver, double shift) {
   Eigen::Matrix3Xd b = system.assembly.gradient;
   for (int k = 0; k < system.model.nodes; ++k)
-    if (system.model.pinned[k]) b.col(k).setZero();
+    if (system.model.pinned(k)) b.col(k).setZero();
   Eigen::Matrix3Xd x = b, y;
   solver.solve(x);
   multiply(system.model, system.assembly.hessian, x, y);
   y += shift * x;
   for (int k = 0; k < system.model.nodes; ++k)
-    if (system.model.pinned[k]) y.col(k).setZero();
+    if (system.model.pinned(k)) y.col(k).setZero();
   return (y - b).norm() / b.norm();
 }
 
@@ -49,9 +51,9 @@ TEST_CASE("factorisations: solve, and count negative pivots as dense eigenvalues
   Eigen::Matrix3Xd unit = Eigen::Matrix3Xd::Zero(3, system.model.nodes), column;
   for (int k = 0; k < n; ++k) {
     unit.setZero();
-    unit(k % 3, system.model.free_nodes[k / 3]) = 1;
+    unit(k % 3, system.model.free_columns[k / 3]) = 1;
     multiply(system.model, system.assembly.hessian, unit, column);
-    for (int r = 0; r < n; ++r) dense(r, k) = column(r % 3, system.model.free_nodes[r / 3]);
+    for (int r = 0; r < n; ++r) dense(r, k) = column(r % 3, system.model.free_columns[r / 3]);
   }
   CHECK((dense - dense.transpose()).norm() <= 1e-12 * dense.norm());
   const Eigen::VectorXd eigenvalues =
@@ -76,8 +78,7 @@ TEST_CASE("factorisations: a singular or infinite matrix is not usable") {
   const auto solver = make_block_cholesky(system.model);
   for (double bad : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
     for (auto& block : system.assembly.hessian.diagonal) block.setConstant(bad);
-    for (auto& block : system.assembly.hessian.next) block.setConstant(bad);
-    for (auto& block : system.assembly.hessian.second) block.setConstant(bad);
+    for (auto& block : system.assembly.hessian.pair) block.setConstant(bad);
     CHECK_FALSE(solver->factor(system.assembly.hessian, 0).usable);
   }
 }

@@ -11,11 +11,10 @@ const RodMaterial wire{EA, EI, EI, GJ, {0, 0}, 0};
 /// The axial force at which a straight rod between these ends buckles, over EI/L^2.
 double euler(int edges, RodEnd hold) {
   const SingleRod single(edges, length, wire, hold, hold);
-  const TwistModel model = single.model();
-  TwistSolver solver(model);
+  const Model model = single.model();
+  Linearisation system(model);
   const double strain = critical(0, 60 * EI / (length * length) / EA, [&](double compression) {
-    return solver.inertia_at(start_twist_state(model, single.line(1 - compression)))
-        .positive_definite();
+    return system.at(start_state(model, single.line(1 - compression)), false).positive_definite();
   });
   return EA * strain * length * length / EI;
 }
@@ -23,16 +22,16 @@ double euler(int edges, RodEnd hold) {
 /// The moment at which a clamped rod under twist buckles, over EI/L.
 double greenhill(int edges) {
   const SingleRod single(edges, length, wire, RodEnd::clamped, RodEnd::clamped);
-  const TwistModel model = single.model();
-  TwistSolver solver(model);
+  const Model model = single.model();
+  Linearisation system(model);
   const double turn = critical(0, 20 * EI / GJ, [&](double end) {
-    TwistState state = start_twist_state(model, single.line());
+    State state = start_state(model, single.line());
     // the twist spreads evenly over the rod; half an edge at either end
     for (int k = 0; k < edges; ++k)
-      state.angle[model.rods[0].edges[k + 1]] = end * (k + 0.5) / edges;
-    state.angle[model.rods[0].ghost_end] = end;
-    Inertia inertia = solver.inertia_at(state);
-    CHECK(solver.residual() < 1e-9);  // round-off in EA strain; the buckling force is 1e-2
+      set_angle(model, state, model.rods[0].edges[std::size_t(k + 1)], end * (k + 0.5) / edges);
+    set_angle(model, state, model.rods[0].ghost_end, end);
+    const Inertia inertia = system.at(state, false);
+    CHECK(system.residual() < 1e-9);  // round-off in EA strain; the buckling force is 1e-2
     return inertia.positive_definite();
   });
   return turn * GJ / EI;
@@ -42,7 +41,7 @@ double greenhill(int edges) {
 double michell(int edges, double ratio) {
   RodMaterial material = wire;
   material.GJ = ratio * EI;
-  TwistRod rod{{}, {}, material, RodEnd::free, RodEnd::free, {0, 0, 1}};
+  ModelRod rod{{}, {}, material, RodEnd::free, RodEnd::free};
   const double around = 2 * M_PI * 40;
   Eigen::Matrix3Xd x(3, edges);
   for (int k = 0; k <= edges; ++k) {
@@ -52,29 +51,29 @@ double michell(int edges, double ratio) {
     const double a = 2 * M_PI * k / edges, r = around / edges / (2 * std::sin(M_PI / edges));
     x.col(k) << r * std::cos(a), r * std::sin(a), 0;
   }
-  TwistModel model = build_twist_model(edges, {rod}).value();
+  Model model = build_model(edges, {rod}, Rung::twist).value();
   // six unknowns that hold the ring in space and do no more
   const int third = edges / 3;
-  for (int unknown : {0, 1, 2, 3 * third, 3 * third + 2, 3 * (2 * third) + 2})
-    model.fixed[unknown] = 1;
-  model.number();
-  TwistSolver solver(model);
-  TwistState flat = start_twist_state(model, x);
+  model.pin(0);
+  model.hold(third, 0);
+  model.hold(third, 2);
+  model.hold(2 * third, 2);
+  finish(model);
+  Linearisation system(model);
+  const State flat = start_state(model, x);
   const double expected = 2 * M_PI * std::sqrt(3) / ratio;
-  return critical(
-             0.5 * expected, 1.5 * expected,
-             [&](double twist) {
-               TwistState state = flat;
-               // cut, turned and closed again: the last bend rests turned, all share it
-               model.bends.back().rest_twist = -twist;
-               for (int k = 0; k < edges; ++k) state.angle[k] = twist * k / edges;
-               TwistOptions options;
-               options.saddles = true;
-               options.tolerance_mm = 1e-6;
-               REQUIRE(solver.rest(state, options, Watch()).outcome == NewtonOutcome::converged);
-               REQUIRE(state.x.row(2).cwiseAbs().maxCoeff() < 1e-4);  // of 40 mm: still plane
-               return solver.inertia_at(state).positive_definite();
-             }) /
+  return critical(0.5 * expected, 1.5 * expected,
+                  [&](double twist) {
+                    State state = flat;
+                    // cut, turned and closed again: the last bend rests turned, all share it
+                    std::get<std::vector<Pair<Torsion>>>(model.pairs).back().law.rest = -twist;
+                    for (int k = 0; k < edges; ++k) set_angle(model, state, k, twist * k / edges);
+                    REQUIRE(newton(system, state, {.tolerance_mm = 1e-6}).outcome ==
+                            Outcome::reached);
+                    // of 40 mm: still plane
+                    REQUIRE(state.x.row(2).leftCols(edges).cwiseAbs().maxCoeff() < 1e-4);
+                    return system.at(state, false).positive_definite();
+                  }) /
          expected;
 }
 

@@ -9,27 +9,16 @@ namespace {
 constexpr double EI = 16.95832, EA = 4205.672, GJ = 12.667659, length = 252;
 const RodMaterial wire{10 * EA, EI, EI, GJ, {0, 0}, 0};
 
-/// at rest, or the test fails
-NewtonReport settle(TwistSolver& solver, TwistState& state, double tolerance = 1e-7) {
-  TwistOptions options;
-  options.tolerance_mm = tolerance;
-  const NewtonReport report = solver.rest(state, options, Watch());
-  CAPTURE(int(report.outcome), report.iterations, report.last_move_mm, report.residual_N);
-  REQUIRE(report.outcome == NewtonOutcome::converged);
-  REQUIRE(report.inertia.positive_definite());
-  return report;
-}
-
 /// Height over L of a pinned rod whose ends come together; starts with its edges
 /// turned at random.
 double elastica_height(int edges, double shortening) {
   const SingleRod single(edges, length, wire, RodEnd::pinned, RodEnd::pinned);
-  const TwistModel model = single.model();
-  TwistSolver solver(model);
-  TwistState state =
-      start_twist_state(model, single.line(1 - shortening, 0.6 * std::sqrt(shortening) * length));
-  for (int k = 0; k < edges; ++k) state.angle[k] = std::sin(12.9898 * (k + 1));
-  settle(solver, state);
+  const Model model = single.model();
+  Linearisation system(model);
+  State state =
+      start_state(model, single.line(1 - shortening, 0.6 * std::sqrt(shortening) * length));
+  for (int k = 0; k < edges; ++k) set_angle(model, state, k, std::sin(12.9898 * (k + 1)));
+  settle(system, state);
   CHECK(energies_of(model, state)[Term::twist] < 1e-12);
   return state.x.row(2).maxCoeff() / length;
 }
@@ -37,13 +26,14 @@ double elastica_height(int edges, double shortening) {
 /// Tip of a cantilever under a dead end load P = load EI/L^2, over L: (along, across).
 Eigen::Vector2d cantilever(int edges, double load) {
   const SingleRod single(edges, length, wire, RodEnd::clamped, RodEnd::free);
-  TwistModel model = single.model();
-  TwistSolver solver(model);
-  TwistState state = start_twist_state(model, single.line());
+  Model model = single.model();
+  model.loads.push_back({edges, {0, 0, -EI / (length * length)}});
+  Linearisation system(model);
+  State state = start_state(model, single.line());
   const double step = 0.25;
   for (double P = step; P <= load + 1e-9; P += step) {
-    model.load(2, edges) = -P * EI / (length * length);
-    settle(solver, state);
+    system.outside.load = P;
+    settle(system, state);
   }
   return {state.x(0, edges) / length, -state.x(2, edges) / length};
 }
@@ -109,15 +99,18 @@ TEST_CASE("twist rung: a rod curved and twisted at rest is the exact helix witho
     RodMaterial spring{EA, EI, 2 * EI, GJ, {r / w2, 0}, c / w2};
     const double L = 2 * M_PI * w;  // one turn
     const SingleRod single(edges, L, spring, RodEnd::free, RodEnd::free);
-    TwistModel model = single.model();
+    Model model = single.model();
     // six unknowns that hold it in space
-    for (int unknown : {0, 1, 2, 3 * 1 + 1, 3 * 1 + 2, model.angle_of(0)}) model.fixed[unknown] = 1;
-    model.number();
-    TwistSolver solver(model);
-    TwistState state = start_twist_state(model, single.line());
-    settle(solver, state, 1e-7);
+    model.pin(0);
+    model.hold(1, 1);
+    model.hold(1, 2);
+    model.hold_spin(0);
+    finish(model);
+    Linearisation system(model);
+    State state = start_state(model, single.line());
+    settle(system, state, 1e-7);
     CHECK(energies_of(model, state).total() < 1e-13 * EI);
-    CHECK(solver.residual() < 1e-9);
+    CHECK(system.residual() < 1e-9);
     // chord of the whole turn: the pitch
     const double pitch = (state.x.col(edges) - state.x.col(0)).norm();
     const double off = std::abs(pitch - 2 * M_PI * c) / L;
@@ -136,8 +129,8 @@ TEST_CASE("twist rung: the localised helix of a long twisted rod", "[full]") {
   const int edges = 400;
   const RodMaterial material{1e4, bending, bending, torsion, {0, 0}, 0};
   const SingleRod single(edges, L, material, RodEnd::clamped, RodEnd::clamped);
-  const TwistModel model = single.model();
-  TwistSolver solver(model);
+  const Model model = single.model();
+  Linearisation system(model);
   // a coil of the right wave number in the middle, to choose the localised state among others
   const double M = 2 * bending * 0.49, k = M / (2 * bending);
   Eigen::Matrix3Xd x = single.line((L - slack) / L);
@@ -146,21 +139,14 @@ TEST_CASE("twist rung: the localised helix of a long twisted rod", "[full]") {
     x(1, node) = a * std::cos(k * s) * (1 - 4 * s * s / (L * L));
     x(2, node) = a * std::sin(k * s) * (1 - 4 * s * s / (L * L));
   }
-  Eigen::Matrix3Xd held(3, model.nodes);
-  held.leftCols(edges + 1) = x;
-  TwistState state = start_twist_state(model, x);
+  State state = start_state(model, x);
   set_end_direction(model, 0, false, Eigen::Vector3d::UnitX(), state);
   set_end_direction(model, 0, true, Eigen::Vector3d::UnitX(), state);
   const double turn = 2 * M_PI * turns;
   for (int e = 0; e < edges; ++e)
-    state.angle[model.rods[0].edges[e + 1]] = turn * (e + 0.5) / edges;
-  state.angle[model.rods[0].ghost_end] = turn;
-  TwistOptions options;
-  options.most_iterations = 3000;
-  options.tolerance_mm = 1e-6;
-  const NewtonReport report = solver.rest(state, options, Watch());
-  CAPTURE(int(report.outcome), report.iterations, report.last_move_mm, report.residual_N);
-  REQUIRE(report.outcome == NewtonOutcome::converged);
+    set_angle(model, state, model.rods[0].edges[std::size_t(e + 1)], turn * (e + 0.5) / edges);
+  set_angle(model, state, model.rods[0].ghost_end, turn);
+  settle(system, state, 1e-6);
 
   const double exact = 47.6515 * M_PI / 180, width = 4.59613;
   double widest = 0;

@@ -9,7 +9,7 @@
 #include "engine/geometry/closed_curve.h"
 #include "engine/preset/preset.h"
 
-namespace gridshell::experiment {
+namespace gridshell {
 
 struct CurveDesign {
   std::unique_ptr<Domain> domain;
@@ -23,4 +23,4 @@ struct CurveDesign {
 /// Errors (bad_input): those of the curves and of the map between them, saying which.
 Result<CurveDesign> curve_design(const preset::Preset& preset);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell

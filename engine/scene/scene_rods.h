@@ -3,15 +3,14 @@
 
 #include "engine/core/result.h"
 #include "engine/footprint/footprint.h"
-#include "engine/gridshell/twist_shell.h"
+#include "engine/gridshell/shell_rods.h"
 #include "engine/preset/preset.h"
 
-namespace gridshell::experiment {
+namespace gridshell {
 
 /// The rods of a footprint as a preset wants them.
 struct SceneRods {
-  ShellRods bend;                     ///< for the `bend` rung; round, straight
-  TwistRods twist;                    ///< for the `twist` rung
+  ShellRods shell;
   std::vector<double> mass_t_per_mm;  ///< one a rod; 0 where no density is given
   double drawn_diameter_mm = 0;       ///< of a round section of the area of [rod]'s
 };
@@ -22,4 +21,4 @@ Result<SceneRods> scene_rods(const preset::Preset& preset, const Footprint& foot
 /// The joint (i, j), or -1.
 int joint_at(const Footprint& footprint, int i, int j);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell

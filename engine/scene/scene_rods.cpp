@@ -1,11 +1,11 @@
-#include "engine/experiment/rods.h"
+#include "engine/scene/scene_rods.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace gridshell::experiment {
+namespace gridshell {
 namespace {
 
 double area_of(const preset::Rod& rod) {
@@ -23,13 +23,6 @@ RodMaterial material_of(const preset::Rod& rod) {
   material.curvature = {rod.curvature_sideways_per_mm, -rod.curvature_per_mm};
   material.twist = rod.twist_rad_per_mm;
   return material;
-}
-
-/// exact for round sections, else the softer of the two: a seed for the twist rung
-RodSection section_of(const preset::Rod& rod) {
-  if (!rod.rectangular()) return circular_section(rod.diameter_mm, rod.young_GPa);
-  const RodMaterial material = material_of(rod);
-  return {material.EA, std::min(material.EI1, material.EI2)};
 }
 
 Result<std::vector<PointLoad>> points_of(const preset::Loads& loads, const Footprint& footprint) {
@@ -61,21 +54,19 @@ Result<SceneRods> scene_rods(const preset::Preset& preset, const Footprint& foot
     const bool other = one.family == Family::v && preset.rod_v.differs;
     const preset::Rod& rod = other ? preset.rod_v : preset.rod;
     const double mass = 1e-12 * rod.density_kg_m3 * area_of(rod);  // 1 kg/m^3 = 1e-12 t/mm^3
-    rods.bend.sections.push_back(section_of(rod));
-    rods.twist.materials.push_back(material_of(rod));
+    rods.shell.materials.push_back(material_of(rod));
     rods.mass_t_per_mm.push_back(mass);
     if (loads.gravity_m_s2 != 0 || loads.field_N_per_mm != 0)
-      rods.bend.weight_N_per_mm.push_back(1e3 * loads.gravity_m_s2 * mass + loads.field_N_per_mm);
+      rods.shell.weight_N_per_mm.push_back(1e3 * loads.gravity_m_s2 * mass + loads.field_N_per_mm);
   }
   auto points = points_of(loads, footprint);
   if (!points) return tl::unexpected<Error>(points.error());
-  rods.bend.points = std::move(*points);
-  rods.twist.loads = rods.bend;
+  rods.shell.points = std::move(*points);
   const bool springs = preset.joints.kind == preset::JointKind::spring;
-  rods.twist.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,
+  rods.shell.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,
                        preset.joints.twist_Nmm};
   rods.drawn_diameter_mm = 2 * std::sqrt(area_of(preset.rod) / M_PI);
   return rods;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell

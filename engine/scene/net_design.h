@@ -10,7 +10,7 @@
 #include "engine/geometry/chebyshev_net.h"
 #include "engine/preset/preset.h"
 
-namespace gridshell::experiment {
+namespace gridshell {
 
 /// A viable ansatz [Baek 2018]: a net C, the original boundary b with C(b) = a, and the flat
 /// footprint's place in the plane of a, turned as the net is.
@@ -26,6 +26,6 @@ struct NetDesign {
 Result<NetDesign> net_design(const preset::Net& net);
 
 /// C at every column of `uv`. Errors (bad_input): those of the net.
-Result<Eigen::Matrix3Xd> sample(const ChebyshevNet& net, const Eigen::Matrix2Xd& uv);
+Result<Eigen::Matrix3Xd> points_on(const ChebyshevNet& net, const Eigen::Matrix2Xd& uv);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell

@@ -1,4 +1,4 @@
-#include "engine/experiment/net_design.h"
+#include "engine/scene/net_design.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "engine/footprint/net_domain.h"
 
-namespace gridshell::experiment {
+namespace gridshell {
 namespace {
 
 /// Points of a preset as columns.
@@ -93,7 +93,7 @@ Result<NetDesign> translation(const preset::Net& wanted) {
   const Eigen::Vector2d left(-diagonal.y(), diagonal.x());
   design.flat.axes.col(0).head<2>() = M_SQRT1_2 * (diagonal - left);
   design.flat.axes.col(1).head<2>() = M_SQRT1_2 * (diagonal + left);
-  const auto ring = sample(*net, design.domain->boundary(256));
+  const auto ring = points_on(*net, design.domain->boundary(256));
   if (!ring) return tl::unexpected(ring.error());
   design.flat.origin = ring->rowwise().mean();
   design.scale_mm = Eigen::Vector2d(net->half_u(), net->half_v()).norm();
@@ -118,7 +118,7 @@ Result<NetDesign> net_design(const preset::Net& net) {
   return half_revolution(net);
 }
 
-Result<Eigen::Matrix3Xd> sample(const ChebyshevNet& net, const Eigen::Matrix2Xd& uv) {
+Result<Eigen::Matrix3Xd> points_on(const ChebyshevNet& net, const Eigen::Matrix2Xd& uv) {
   Eigen::Matrix3Xd points(3, uv.cols());
   for (Eigen::Index k = 0; k < uv.cols(); ++k) {
     const auto point = net.at(uv(0, k), uv(1, k));
@@ -128,4 +128,4 @@ Result<Eigen::Matrix3Xd> sample(const ChebyshevNet& net, const Eigen::Matrix2Xd&
   return points;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell

@@ -1,23 +1,18 @@
-#include "engine/experiment/scene.h"
+#include "engine/scene/scene.h"
 
 #include <cmath>
 #include <utility>
 
-#include "engine/experiment/block_design.h"
-#include "engine/experiment/curve_design.h"
-#include "engine/experiment/net_design.h"
-#include "engine/experiment/rods.h"
+#include "engine/scene/block_design.h"
+#include "engine/scene/curve_design.h"
+#include "engine/scene/net_design.h"
+#include "engine/preset/rung.h"
+#include "engine/scene/scene_rods.h"
 
-namespace gridshell::experiment {
+namespace gridshell {
 namespace {
 
 constexpr int boundary_points = 256;
-
-LevelPlan levels_of(const preset::Accuracy& accuracy) {
-  const int fixed = accuracy.edges_per_segment;
-  if (fixed == 0) return plan_levels(accuracy.tolerance);
-  return plan_of_mesh(fixed);
-}
 
 Placement placement_of(const preset::Preset& preset) {
   return preset.footprint.placement == preset::Placement::half ? Placement::half
@@ -39,7 +34,7 @@ Eigen::Matrix2Xd edge_points(const Footprint& footprint) {
   return points;
 }
 
-Result<void> build_circle(const preset::Preset& preset, ActuationScene& scene) {
+Result<void> build_circle(const preset::Preset& preset, Scene& scene) {
   auto footprint = circular_footprint(preset.footprint.radius_mm, preset.footprint.rods,
                                       preset.footprint.spacing_mm, placement_of(preset));
   if (!footprint) return tl::unexpected<Error>(footprint.error());
@@ -54,7 +49,7 @@ Result<void> build_circle(const preset::Preset& preset, ActuationScene& scene) {
   return {};
 }
 
-Result<void> build_curve(const preset::Preset& preset, ActuationScene& scene) {
+Result<void> build_curve(const preset::Preset& preset, Scene& scene) {
   auto design = curve_design(preset);
   if (!design) return tl::unexpected<Error>(design.error());
   auto footprint =
@@ -73,7 +68,7 @@ Result<void> build_curve(const preset::Preset& preset, ActuationScene& scene) {
 
 /// Lets go of the ends on the end rings of a surface of revolution, but for those on its long
 /// edges.
-void free_rings(ActuationScene& scene) {
+void free_rings(Scene& scene) {
   const double ring = scene.actuated_boundary.row(0).cwiseAbs().maxCoeff();
   const double near = 1e-9 * scene.length_scale_mm;
   for (std::size_t r = 0; r < scene.footprint.rods.size(); ++r) {
@@ -89,7 +84,7 @@ void free_rings(ActuationScene& scene) {
 
 /// Holds the directions of all ends that are held at all, and with `clamped` their spin: from the
 /// flat to the net's tangents, or where there is no net as they are in the flat.
-Result<void> hold_directions(const Eigen::Matrix2Xd& ends, RodEnd hold, ActuationScene& scene) {
+Result<void> hold_directions(const Eigen::Matrix2Xd& ends, RodEnd hold, Scene& scene) {
   scene.motion.begin_tangent = scene.motion.end_tangent = Eigen::Matrix3Xd::Zero(3, ends.cols());
   for (Eigen::Index k = 0; k < ends.cols(); ++k) {
     FootprintRod& rod = scene.footprint.rods[std::size_t(k / 2)];
@@ -107,7 +102,7 @@ Result<void> hold_directions(const Eigen::Matrix2Xd& ends, RodEnd hold, Actuatio
   return {};
 }
 
-Result<void> build_net(const preset::Preset& preset, ActuationScene& scene) {
+Result<void> build_net(const preset::Preset& preset, Scene& scene) {
   auto design = preset.footprint.kind == preset::FootprintKind::blocks ? block_design(preset)
                                                                        : net_design(preset.net);
   if (!design) return tl::unexpected<Error>(design.error());
@@ -123,7 +118,7 @@ Result<void> build_net(const preset::Preset& preset, ActuationScene& scene) {
   const Eigen::Matrix2Xd ring = design->domain->boundary(boundary_points);
   const Eigen::Matrix2Xd ends = edge_points(scene.footprint);
   // C maps the original boundary to the actuated one, the edge points too
-  const auto actuated = sample(*scene.net, ring), held = sample(*scene.net, ends);
+  const auto actuated = points_on(*scene.net, ring), held = points_on(*scene.net, ends);
   for (const auto* sampled : {&actuated, &held})
     if (!*sampled) return tl::unexpected<Error>(sampled->error());
   scene.original_boundary = scene.flat.all(ring);
@@ -136,15 +131,8 @@ Result<void> build_net(const preset::Preset& preset, ActuationScene& scene) {
 
 }  // namespace
 
-LevelPlan plan_of_mesh(int edges) {
-  LevelPlan plan{{edges}, false};
-  for (int k = edges; k % 2 == 0 && k / 2 >= 4; k /= 2)
-    plan.edges_per_segment.insert(plan.edges_per_segment.begin(), k / 2);
-  return plan;
-}
-
-Result<ActuationScene> scene_of(const preset::Preset& preset) {
-  ActuationScene scene;
+Result<Scene> scene_of(const preset::Preset& preset) {
+  Scene scene;
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
   if (const auto built = circle            ? build_circle(preset, scene)
                          : preset.on_net() ? build_net(preset, scene)
@@ -159,18 +147,17 @@ Result<ActuationScene> scene_of(const preset::Preset& preset) {
   }
   auto rods = scene_rods(preset, scene.footprint);
   if (!rods) return tl::unexpected<Error>(rods.error());
-  scene.rods = std::move(rods->bend);
-  scene.twist = std::move(rods->twist);
+  scene.rods = std::move(rods->shell);
   scene.mass_t_per_mm = std::move(rods->mass_t_per_mm);
   scene.rod_diameter_mm = rods->drawn_diameter_mm;
+  scene.rung = preset::rung_of(preset);
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;
-  scene.levels = levels_of(preset.accuracy);
-  scene.levels_fixed = preset.accuracy.edges_per_segment > 0;
+  scene.edges_per_segment = preset.accuracy.edges_per_segment;
   scene.tolerance = preset.accuracy.tolerance;
   scene.max_strain = preset.limits.max_strain;
   scene.snap = {preset.dynamics.snap, preset.dynamics.step_s, preset.dynamics.damping_per_s};
   return scene;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell

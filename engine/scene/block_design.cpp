@@ -1,4 +1,4 @@
-#include "engine/experiment/block_design.h"
+#include "engine/scene/block_design.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "engine/preset/shape_consistency.h"
 
-namespace gridshell::experiment {
+namespace gridshell {
 namespace {
 
 /// u + v along x, v - u along y: where rods of a surface of revolution lie on both sides of its
@@ -76,31 +76,4 @@ Result<NetDesign> block_design(const preset::Preset& preset) {
   return design;
 }
 
-Result<void> record_blocks(const Assemblage& blocks, const FlatFrame& flat,
-                           record::Layout& layout) {
-  for (int k = 0; k < blocks.blocks(); ++k) {
-    const auto rods = blocks.rods(k, blocks.block(k).spacing / 8);
-    if (!rods) return tl::unexpected(rods.error());
-    record::Part part;
-    part.name = blocks.block(k).name;
-    Eigen::Index points = 0;
-    for (const BlockRod& rod : *rods) points += rod.net.cols();
-    part.net.resize(3, points);
-    part.flat.resize(3, points);
-    int next = 0;
-    for (const BlockRod& rod : *rods) {
-      part.net.middleCols(next, rod.net.cols()) = rod.net;
-      part.flat.middleCols(next, rod.net.cols()) = flat.all(rod.flat);
-      part.rods.emplace_back();
-      for (Eigen::Index n = 0; n < rod.net.cols(); ++n) part.rods.back().push_back(next++);
-    }
-    layout.parts.push_back(std::move(part));
-  }
-  for (const Seam& seam : blocks.seams())
-    for (const SeamRod& rod : seam.rods)
-      layout.seam_rods.push_back(
-          {seam.name, rod.family == Family::u ? 'u' : 'v', rod.line_mm, rod.gap_mm, rod.kink_deg});
-  return {};
-}
-
-}  // namespace gridshell::experiment
+}  // namespace gridshell

@@ -1,8 +1,8 @@
-#include "engine/experiment/curve_design.h"
+#include "engine/scene/curve_design.h"
 
 #include "engine/footprint/curve_domain.h"
 
-namespace gridshell::experiment {
+namespace gridshell {
 namespace {
 
 Eigen::Matrix2Xd matrix_of(const preset::Points& points, double scale) {
@@ -57,4 +57,4 @@ Result<CurveDesign> curve_design(const preset::Preset& preset) {
   return CurveDesign{std::move(domain), std::move(*map), scale};
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell

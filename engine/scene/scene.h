@@ -1,0 +1,60 @@
+// From a preset's values to what will be formed: footprint, rods, ends and the motion of the
+// boundary. Knows no solver.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/footprint/blocks.h"
+#include "engine/footprint/boundary_motion.h"
+#include "engine/footprint/flat_frame.h"
+#include "engine/footprint/footprint.h"
+#include "engine/geometry/chebyshev_net.h"
+#include "engine/gridshell/shell_rods.h"
+#include "engine/preset/preset.h"
+
+namespace gridshell {
+
+/// Whether and how a snap is followed in time.
+struct SnapDynamics {
+  bool wanted = false;
+  double step_s = 0, damping_per_s = 0;
+};
+
+/// What will be formed, and how exactly.
+struct Scene {
+  Footprint footprint;
+  ShellRods rods;
+  preset::Rung rung = preset::Rung::bend;  ///< chosen: net, bend or twist
+  std::vector<double> mass_t_per_mm;       ///< one a rod; 0: not known
+  double rod_diameter_mm = 0;              ///< as it is drawn
+  BoundaryMotion motion;
+  double length_scale_mm = 0;                ///< R_o, rho or half a diagonal: what errors are over
+  FlatFrame flat;                            ///< where the flat footprint lies
+  std::shared_ptr<const ChebyshevNet> net;   ///< that it was designed on, if it was
+  std::shared_ptr<const Assemblage> blocks;  ///< that the net is made of, if it is
+  bool from_net = false;                     ///< the path starts at the net, where progress is 1
+  Eigen::Matrix3Xd original_boundary;        ///< closed polylines in correspondence, for pictures
+  Eigen::Matrix3Xd actuated_boundary;
+  double radius_begin_mm = std::numeric_limits<double>::quiet_NaN();  ///< of a circular boundary
+  double radius_end_mm = std::numeric_limits<double>::quiet_NaN();
+  BuckleSeed seed;
+  int edges_per_segment = 0;  ///< the mesh asked for; 0: as the tolerance asks
+  double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
+  double max_strain = 1e-3;
+  SnapDynamics snap;
+
+  /// The rung of the mechanics, where there is one.
+  Rung mechanics() const { return rung == preset::Rung::twist ? Rung::twist : Rung::bend; }
+  double radius_at(double progress) const {
+    return radius_begin_mm + progress * (radius_end_mm - radius_begin_mm);
+  }
+};
+
+/// Builds the scene of a preset. Errors: Fault::bad_input with the reason when the preset's values
+/// do not make a footprint.
+Result<Scene> scene_of(const preset::Preset& preset);
+
+}  // namespace gridshell
