@@ -119,8 +119,8 @@ BaselineReport dynamic_relaxation(const Model& model, Eigen::Matrix3Xd& x,
       // the peak lies a step and a half back; without the way back the fast modes' peaks would stop
       // the slow ones again and again
       for (int node : model.free_nodes)
-        x.col(node) -= 1.5 * h * velocity.col(node) +
-                       0.5 * h * h / mass[node] * assembly.gradient.col(node);
+        x.col(node) -=
+            1.5 * h * velocity.col(node) + 0.5 * h * h / mass[node] * assembly.gradient.col(node);
       velocity.setZero();
     }
     before = from_rest ? 0 : kinetic;

@@ -40,8 +40,8 @@ BaselineReport dynamic_relaxation(const Model& model, Eigen::Matrix3Xd& x,
                                   const BaselineOptions& options, const Watch& watch);
 
 /// Implicit Euler, m (v1 - v0)/h = F(x1) - c m v1, x1 = x0 + h v1, a whole Newton solve a step, to
-/// rest: large steps damp by themselves. `options.step` is h in seconds. A step that Newton's method
-/// does not solve ends it as `too_slow` with the steps so far.
+/// rest: large steps damp by themselves. `options.step` is h in seconds. A step that Newton's
+/// method does not solve ends it as `too_slow` with the steps so far.
 BaselineReport implicit_to_rest(const Model& model, const Eigen::VectorXd& mass, Motion& motion,
                                 const BaselineOptions& options, const Watch& watch);
 

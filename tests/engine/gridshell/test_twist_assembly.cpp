@@ -13,8 +13,7 @@ namespace {
 TwistModel sample_model() {
   const RodMaterial strip{900, 5, 12, 4, {0.02, -0.01}, 0.03};
   const RodMaterial wire{700, 6, 6, 3, {0, 0}, 0};
-  TwistRod a{{0, 1, 2, 3, 4},  {0, 4, 9, 13, 18}, strip,
-             RodEnd::clamped, RodEnd::pinned,   {0, 0, 1}};
+  TwistRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 13, 18}, strip, RodEnd::clamped, RodEnd::pinned, {0, 0, 1}};
   TwistRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, RodEnd::tangent, RodEnd::free, {0, 0, 1}};
   TwistRod c{{9, 10, 11}, {0, 5, 10}, wire, RodEnd::free, RodEnd::pinned, {0, 0, 1}};
   TwistModel model = build_twist_model(12, {a, b, c}).value();
