@@ -17,17 +17,21 @@ struct EnumWord {
   std::string_view word;
 };
 
-/// Whether `value` is an enumerator: the compiler writes the others as "(Enum)7".
+/// Whether `value` is an enumerator: the compiler writes others as a cast number, "(Enum)7".
 template <auto value>
 consteval bool is_enumerator() {
-  constexpr std::string_view name = __PRETTY_FUNCTION__;
-  return name[name.find("value = ") + 8] != '(';
+  constexpr std::string_view text = __PRETTY_FUNCTION__;
+  constexpr std::string_view name = text.substr(text.find("value = "));
+  constexpr auto cast = name.rfind(')');
+  return cast == name.npos ||
+         !(name[cast + 1] == '-' || (name[cast + 1] >= '0' && name[cast + 1] <= '9'));
 }
 
 /// The table of an enum, for a function `words(Enum)` beside the enum itself:
 ///   enum class Seed { up, down };
-///   constexpr auto words(Seed) { return word_table<Seed>({{Seed::up, "up"}, {Seed::down,
-///   "down"}}); }
+///   constexpr auto words(Seed) {
+///     return word_table<Seed>({{Seed::up, "up"}, {Seed::down, "down"}});
+///   }
 /// Enumerators count from 0. One that is forgotten, named twice or out of order does not compile;
 /// nor does a word used twice.
 template <class Enum, std::size_t size>

@@ -370,7 +370,7 @@ Result<Override> parse_override(const std::string& argument) {
     return fail(Fault::bad_input, fmt::format("--set {}: must be table.key=value, for example "
                                               "--set footprint.radius_mm=126",
                                               argument));
-  const auto trimmed = [](std::string text) {
+  const auto trimmed = [](const std::string& text) {
     const auto first = text.find_first_not_of(' ');
     return first == std::string::npos ? ""
                                       : text.substr(first, text.find_last_not_of(' ') + 1 - first);

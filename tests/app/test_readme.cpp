@@ -61,9 +61,28 @@ TEST_CASE("the READMEs name every command of the program, and no other") {
 
 TEST_CASE("the README names every preset, and is short") {
   const auto text = text_of("README.md");
-  for (const auto& file : files_under(root / "presets", ".toml"))
-    CHECK_THAT(text, Catch::Contains("`" + file.stem().string() + "`"));
+  for (const auto& file : files_under(root / "presets", ".toml")) {
+    std::string quoted = "`";
+    quoted.append(file.stem().string()).append("`");
+    CHECK_THAT(text, Catch::Contains(quoted));
+  }
   CHECK(std::count(text.begin(), text.end(), '\n') < 200);
+}
+
+TEST_CASE("the presets shown in the READMEs run") {
+  for (const char* document : {"README.md", "presets/README.md"}) {
+    const TemporaryFolder folder;
+    const auto text = text_of(document);
+    // an indented block from its title to the first line that is not indented
+    std::istringstream lines(text.substr(text.find("    title = ")));
+    std::string preset;
+    for (std::string line; std::getline(lines, line) && (line.empty() || line[0] == ' ');)
+      preset += line.empty() ? "\n" : line.substr(4) + "\n";
+    REQUIRE(gridshell::write_atomically(folder.path() / "shown.toml", preset));
+    const auto ended = gridshell_program({"run", "shown.toml", "--quiet"}, folder.path());
+    INFO(document << ":\n" << preset << ended.err);
+    CHECK(ended.code == 0);
+  }
 }
 
 TEST_CASE("pictures and pages that the READMEs point to exist") {

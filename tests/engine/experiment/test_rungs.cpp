@@ -1,4 +1,5 @@
-// Rung against rung on nets: what the bend rung leaves out changes nothing on hemisphere and saddle.
+// Rung against rung on nets: what the bend rung leaves out changes nothing on hemisphere and
+// saddle.
 #include <catch2/catch.hpp>
 #include <random>
 
