@@ -160,7 +160,6 @@ void add_edge_block(const ModelEdge& edge, const Eigen::Matrix3d& m, BlockHessia
 template <class Law>
 void add_spin_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
                       BlockHessian& h) {
-  const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
   const int place[2] = {model.spin[std::size_t(pair.e)], model.spin[std::size_t(pair.f)]};
   const double scale = 1 / model.spin_length;
   for (int k = 0; k < 2; ++k)
