@@ -16,12 +16,5 @@ target_link_libraries(gridshell_engine PUBLIC fmt::fmt
   PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY} ${HDF5_HL_LIBRARY} PkgConfig::HDF5)
 # the two hot loops may contract a*b+c; everything else rounds each operation
 set_source_files_properties(engine/solve/block_cholesky.cpp engine/gridshell/assembly.cpp
-  PROPERTIES COMPILE_OPTIONS -ffp-contract=fast)
-
-# What nearly every file of the engine reads, read once. ccache keeps nothing of a file with a
-# precompiled header, so with it there is none.
-if(NOT "${CMAKE_CXX_COMPILER}${CMAKE_CXX_COMPILER_LAUNCHER}" MATCHES "ccache")
-  target_precompile_headers(gridshell_engine PRIVATE <Eigen/Core> <Eigen/Geometry> <fmt/format.h>
-    <tl/expected.hpp> <algorithm> <cmath> <filesystem> <functional> <memory> <optional> <string>
-    <vector>)
-endif()
+  PROPERTIES COMPILE_OPTIONS -ffp-contract=fast SKIP_PRECOMPILE_HEADERS ON)
+gridshell_read_once(gridshell_engine)

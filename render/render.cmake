@@ -24,3 +24,4 @@ target_include_directories(gridshell_render SYSTEM PRIVATE
   ${GLFW_INCLUDE_DIR})
 target_link_libraries(gridshell_render PUBLIC gridshell_engine
   PRIVATE PNG::PNG PkgConfig::PANGOCAIRO ${CMAKE_DL_LIBS})
+gridshell_read_once(gridshell_render)
