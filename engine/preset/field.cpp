@@ -15,7 +15,7 @@ struct Overloaded : F... {
   using F::operator()...;
 };
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::ostringstream out;
   const toml::value<std::string> value(text);
   out << toml::toml_formatter{value, toml::format_flags::none};
@@ -91,8 +91,8 @@ std::string value_text(const Field& field, const Preset& preset) {
           [&](const Real& k) { return real_text(k.in(from)); },
           [&](const Integer& k) { return std::to_string(k.in(from)); },
           [&](const Flag& k) { return std::string(k.in(from) ? "true" : "false"); },
-          [&](const Text& k) { return quoted(k.in(from)); },
-          [&](const Word& k) { return quoted(k.words.at(k.get(preset))); },
+          [&](const Text& k) { return in_quotes(k.in(from)); },
+          [&](const Word& k) { return in_quotes(k.words.at(k.get(preset))); },
           [&](const IntegerPair& k) {
             return fmt::format("[{}, {}]", k.in(from)[0], k.in(from)[1]);
           },

@@ -158,8 +158,8 @@ void NestedShell::restore(const NestedState& state, const std::vector<PinnedMoti
     levels_[k]->motion = motions[k];
     levels_[k]->system->hold(holds);
   }
-  forget();
   follow_anew();
+  place(state.t, state.levels[0]);
   load_up();
 }
 

@@ -25,14 +25,23 @@ const std::map<std::string, Folders> may_see{
     {"engine/measure", {"engine/core", "engine/geometry", "engine/footprint"}},
     {"engine/preset", {"engine/core"}},
     {"engine/record", {"engine/core", "engine/rod"}},
+    // what will be formed, and no solver
+    {"engine/scene",
+     {"engine/core", "engine/geometry", "engine/footprint", "engine/rod", "engine/gridshell",
+      "engine/preset"}},
+    // a shell in hand
+    {"engine/session",
+     {"engine/core", "engine/footprint", "engine/rod", "engine/gridshell", "engine/solve",
+      "engine/scene", "engine/preset"}},
     // the one entry point of the engine joins the rest
     {"engine/experiment",
      {"engine/core", "engine/geometry", "engine/footprint", "engine/rod", "engine/gridshell",
-      "engine/solve", "engine/measure", "engine/preset", "engine/record"}},
+      "engine/solve", "engine/measure", "engine/preset", "engine/record", "engine/scene",
+      "engine/session"}},
     // methods compared, the engine's own among them, on the scenes of experiments
     {"engine/study",
      {"engine/core", "engine/footprint", "engine/rod", "engine/gridshell", "engine/solve",
-      "engine/measure", "engine/preset", "engine/record", "engine/experiment"}},
+      "engine/measure", "engine/preset", "engine/record", "engine/scene", "engine/experiment"}},
     // the renderer knows pictures of a run, not how it came to be
     {"render", {"engine/core", "engine/record"}},
     {"app",

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "engine/gridshell/shell_rods.h"
 #include "engine/solve/minimise.h"
 
 using namespace gridshell;
