@@ -62,7 +62,11 @@ void check_same_frame(const Frame& a, const Frame& b) {
   CHECK(same_bits(a.actuation, b.actuation));
   for (const FrameColumn& column : frame_columns) {
     INFO(column.name);
-    CHECK(std::visit([&](auto field) { return same(a.*field, b.*field); }, column.field));
+    visit_column(column, a, [&]<class T>(const T& x) {
+      visit_column(column, b, [&]<class U>(const U& y) {
+        if constexpr (std::is_same_v<T, U>) CHECK(same(x, y));
+      });
+    });
   }
 }
 
