@@ -1,6 +1,7 @@
 #include "app/console.h"
 
 #include <cstdio>
+#include <new>
 
 namespace gridshell::app {
 
@@ -20,6 +21,14 @@ int exit_code(Fault fault) {
 int report(const Error& error) {
   std::fprintf(stderr, "%s\n", error.message.c_str());
   return exit_code(error.fault);
+}
+
+Error error_of(const std::exception& thrown) {
+  if (!dynamic_cast<const std::bad_alloc*>(&thrown)) return {Fault::io, thrown.what()};
+  // few bytes: there may be none left
+  return {Fault::io,
+          "memory ran out; 'gridshell check' says what a preset's meshes take, and fewer [accuracy] "
+          "edges_per_segment, a larger tolerance or a smaller [movie] size take less"};
 }
 
 }  // namespace gridshell::app

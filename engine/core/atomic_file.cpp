@@ -1,12 +1,15 @@
 #include "engine/core/atomic_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <memory>
 #include <system_error>
+#include <vector>
 
 namespace gridshell {
 namespace {
@@ -15,6 +18,17 @@ struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 using File = std::unique_ptr<std::FILE, Close>;
+
+// a descriptor that closes itself
+struct Descriptor {
+  explicit Descriptor(int number) : number(number) {}
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number;
+};
 
 tl::unexpected<Error> fail_io(const char* what, const std::filesystem::path& path, int code) {
   return fail(Fault::io, fmt::format("cannot {} '{}': {}", what, path.string(),
@@ -53,16 +67,34 @@ Result<void> write_atomically(const std::filesystem::path& path, std::string_vie
   return target.commit();
 }
 
-Result<std::string> read_whole(const std::filesystem::path& path) {
-  File file(std::fopen(path.c_str(), "rb"));
-  if (!file) return fail_io("read", path, errno);
+Result<std::string> read_whole(const std::filesystem::path& path, std::uintmax_t limit) {
+  // without waiting: opening a pipe that nobody writes to would never end
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+  if (file.number < 0) return fail_io("read", path, errno);
+  struct stat about {};
+  if (::fstat(file.number, &about) != 0) return fail_io("read", path, errno);
+  if (S_ISDIR(about.st_mode)) return fail_io("read", path, EISDIR);
+  const auto refuse = [&](const std::string& reason) {
+    return fail(Fault::io, fmt::format("cannot read '{}': {}", path.string(), reason));
+  };
+  if (!S_ISREG(about.st_mode))
+    return refuse("it is a pipe or a device, must be a regular file");
+  // some files of the system say that they are empty, so the count is what decides
   std::string bytes;
-  char block[1 << 16];
-  while (const std::size_t got = std::fread(block, 1, sizeof block, file.get()))
-    bytes.append(block, got);
-  // a folder opens, but does not read
-  if (std::ferror(file.get())) return fail_io("read", path, errno);
-  return bytes;
+  const auto too_large = [&] {
+    return refuse(fmt::format("it is larger than {} MB", limit >> 20));
+  };
+  if (std::uintmax_t(about.st_size) > limit) return too_large();
+  bytes.reserve(std::size_t(about.st_size));
+  std::vector<char> block(1 << 16);
+  for (;;) {
+    const ssize_t got = ::read(file.number, block.data(), block.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return fail_io("read", path, errno);
+    if (got == 0) return bytes;
+    bytes.append(block.data(), std::size_t(got));
+    if (bytes.size() > limit) return too_large();
+  }
 }
 
 Result<void> make_folder(const std::filesystem::path& folder) {
