@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "engine/rod/energies.h"
+
 namespace gridshell::record {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -19,7 +21,7 @@ struct Frame {
   /// of a push: share of the joints that moved more than 0.1 and 0.5 of the depth, and the lowest
   /// latitude among the first
   double reach_above_tenth = unknown, reach_above_half = unknown, lowest_latitude_deg = unknown;
-  double energy_bend_mJ = 0, energy_stretch_mJ = 0, energy_twist_mJ = 0;
+  Energies energies;     ///< by term, mJ
   double height_mm = 0;  ///< highest joint above the boundary's plane
   double total_K = 0;    ///< rad
   double residual_N = 0;

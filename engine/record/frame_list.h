@@ -69,6 +69,9 @@ class FrameList {
   auto begin() { return in_memory().begin(); }
   auto end() { return in_memory().end(); }
   void push_back(Frame frame) { in_memory().push_back(std::move(frame)); }
+  void insert(std::vector<Frame>::iterator before, Frame frame) {
+    in_memory().insert(before, std::move(frame));
+  }
   void pop_back() { in_memory().pop_back(); }
   void resize(std::size_t size) { in_memory().resize(size); }
   void clear() { *this = FrameList(); }

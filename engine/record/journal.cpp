@@ -114,11 +114,15 @@ void each_column(Visit visit) {
   visit(actuation_column);
 }
 
+std::uint8_t kind_of(int) { return 0; }
+std::uint8_t kind_of(double) { return 1; }
+std::uint8_t kind_of(const std::string&) { return 2; }
+
 std::string packed_head(const std::string& preset, const Layout& layout) {
   Packer out;
   out.text(preset);
   std::vector<std::string> names;
-  each_column([&](const FrameColumn& column) { names.emplace_back(column.name); });
+  each_column([&](const FrameColumn& column) { names.push_back(column.name); });
   out.number(std::uint64_t(names.size()));
   for (const auto& name : names) out.text(name);
   out.text(image_of(layout));
@@ -130,8 +134,10 @@ std::string packed_frame(const Frame& frame) {
   out.put(frame.index);
   each_column([&](const FrameColumn& column) {
     // its kind goes with a value, for whoever does not know the column
-    out.number(std::uint8_t(column.field.index()));
-    std::visit([&](auto field) { out.put(frame.*field); }, column.field);
+    visit_column(column, frame, [&](const auto& value) {
+      out.number(kind_of(value));
+      out.put(value);
+    });
   });
   out.matrix(frame.nodes);
   out.matrix(frame.cell_K);
@@ -140,9 +146,9 @@ std::string packed_frame(const Frame& frame) {
 }
 
 void skip(Unpacker& in, std::uint8_t kind) {
-  if (kind == 0) in.number<std::int32_t>();
-  if (kind == 1) in.number<double>();
-  if (kind == 2) in.text();
+  if (kind == kind_of(0)) in.number<std::int32_t>();
+  if (kind == kind_of(0.0)) in.number<double>();
+  if (kind == kind_of(std::string())) in.text();
 }
 
 /// A frame whose columns are named so; those without a name here are left out.
@@ -154,9 +160,12 @@ Result<Frame> unpacked_frame(std::string_view bytes, const std::vector<std::stri
     const auto kind = in.number<std::uint8_t>();
     bool taken = false;
     each_column([&](const FrameColumn& column) {
-      if (taken || name != column.name || kind != column.field.index()) return;
-      taken = true;
-      std::visit([&](auto field) { in.get(frame.*field); }, column.field);
+      if (taken || name != column.name) return;
+      visit_column(column, frame, [&](auto& value) {
+        if (kind != kind_of(value)) return;
+        taken = true;
+        in.get(value);
+      });
     });
     if (!taken) skip(in, kind);
   }

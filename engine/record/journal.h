@@ -6,10 +6,12 @@
 // killed leaves a journal that reads up to its last whole record. Numbers are those of the machine.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/record/snapshot.h"

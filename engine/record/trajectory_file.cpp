@@ -77,24 +77,30 @@ std::string distrust(const std::filesystem::path& path, bool unsealed) {
 hid_t memory_type(int) { return H5T_NATIVE_INT; }
 hid_t memory_type(double) { return H5T_NATIVE_DOUBLE; }
 
-std::string dataset_of(const FrameColumn& column) {
-  return std::string("/frames/") + column.name;
+std::string dataset_of(const FrameColumn& column) { return "/frames/" + column.name; }
+
+/// A column's values over all frames.
+template <class T, class Frames, class Visit>
+void each_value(const FrameColumn& column, Frames& frames, Visit visit) {
+  for (auto& frame : frames)
+    visit_column(column, frame, [&]<class U>(U& value) {
+      if constexpr (std::is_same_v<T, std::remove_const_t<U>>) visit(value);
+    });
 }
 
 /// All columns of a run, of frames without their nodes.
 void write_columns(hdf5::Writer& file, const std::vector<Frame>& heads) {
+  const Frame any;
   const auto write = [&](const FrameColumn& column) {
     const std::string name = dataset_of(column);
-    std::visit(
-        [&]<class T>(T Frame::*field) {
-          std::vector<T> values;
-          for (const Frame& frame : heads) values.push_back(frame.*field);
-          if constexpr (std::is_same_v<T, std::string>)
-            file.strings(name, values);
-          else
-            file.dataset(name, memory_type(T{}), {values.size()}, values.data(), column.unit);
-        },
-        column.field);
+    visit_column(column, any, [&]<class T>(const T&) {
+      std::vector<T> values;
+      each_value<T>(column, heads, [&](const T& value) { values.push_back(value); });
+      if constexpr (std::is_same_v<T, std::string>)
+        file.strings(name, values);
+      else
+        file.dataset(name, memory_type(T{}), {values.size()}, values.data(), column.unit);
+    });
   };
   file.group("/frames");
   for (const FrameColumn& column : frame_columns) write(column);
@@ -183,25 +189,22 @@ void forget(std::string& value) { value.clear(); }
 
 void read_column(hdf5::Reader& file, const FrameColumn& column, std::vector<Frame>& heads) {
   const std::string name = dataset_of(column);
-  std::visit(
-      [&]<class T>(T Frame::*field) {
-        // an older version did not know it
-        if (!file.has(name)) {
-          for (Frame& frame : heads) forget(frame.*field);
-          return;
-        }
-        std::vector<T> values;
-        if constexpr (std::is_same_v<T, std::string>)
-          values = file.strings(name);
-        else
-          values = file.vector<T>(name, memory_type(T{}));
-        if (values.size() != heads.size())
-          file.fail_because(
-              fmt::format("{} has {} values for {} frames", name, values.size(), heads.size()));
-        if (!file.good()) return;
-        for (std::size_t k = 0; k < heads.size(); ++k) heads[k].*field = std::move(values[k]);
-      },
-      column.field);
+  const Frame any;
+  visit_column(column, any, [&]<class T>(const T&) {
+    // an older version did not know it
+    if (!file.has(name)) return each_value<T>(column, heads, [](T& value) { forget(value); });
+    std::vector<T> values;
+    if constexpr (std::is_same_v<T, std::string>)
+      values = file.strings(name);
+    else
+      values = file.vector<T>(name, memory_type(T{}));
+    if (values.size() != heads.size())
+      file.fail_because(
+          fmt::format("{} has {} values for {} frames", name, values.size(), heads.size()));
+    if (!file.good()) return;
+    auto at = values.begin();
+    each_value<T>(column, heads, [&](T& value) { value = std::move(*at++); });
+  });
 }
 
 void read_bins(hdf5::Reader& file, std::vector<Frame>& heads) {
