@@ -83,8 +83,8 @@ std::string dataset_of(const FrameColumn& column) { return "/frames/" + column.n
 template <class T, class Frames, class Visit>
 void each_value(const FrameColumn& column, Frames& frames, Visit visit) {
   for (auto& frame : frames)
-    visit_column(column, frame, [&]<class U>(U& value) {
-      if constexpr (std::is_same_v<T, std::remove_const_t<U>>) visit(value);
+    visit_column(column, frame, [&]<class U>(U&& value) {
+      if constexpr (std::is_same_v<T, std::remove_cvref_t<U>>) visit(value);
     });
 }
 
