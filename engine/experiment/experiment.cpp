@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/experiment/actuation.h"
+#include "engine/experiment/budget.h"
 #include "engine/experiment/indentation.h"
 #include "engine/experiment/net_sample.h"
 #include "engine/experiment/scene.h"
@@ -128,7 +129,10 @@ Result<ActuationOutcome> actuate(const ActuationScene& scene, preset::Model rung
 Result<Plan> plan(const preset::Preset& preset) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
+  if (auto fits = fits_memory(scene->footprint, preset, scene->levels); !fits)
+    return tl::unexpected<Error>(fits.error());
   Plan plan;
+  plan.memory_GB = memory_GB(scene->footprint, preset::rung_of(preset), scene->levels);
   const preset::Model rung = preset::rung_of(preset);
   plan.model = preset::name_of(rung);
   plan.model_reason = preset::model_reason(preset);
@@ -160,6 +164,8 @@ namespace {
 Result<Outcome> run_whole(const preset::Preset& preset, bool stills, Watch& watch) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
+  if (auto fits = fits_memory(scene->footprint, preset, scene->levels); !fits)
+    return tl::unexpected<Error>(fits.error());
   const bool pushed = preset.indentation.wanted();
   auto outcome =
       pushed ? run_indentation(*scene, preset.indentation, even_samples(preset, stills), watch)

@@ -148,6 +148,7 @@ struct Accuracy {
   double tolerance = 1e-3;
   int edges_per_segment = 0;  ///< 0: chosen from the tolerance
   Model model = Model::automatic;
+  double memory_GB = 0;  ///< 0: half of the machine's
 };
 
 enum class Quality { draft, movie, figure };

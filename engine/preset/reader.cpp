@@ -247,22 +247,6 @@ class Reading {
 
 constexpr std::size_t longest_name = 100;
 
-// why a name cannot be a folder among a run's files; empty when it can
-std::string name_fault(const std::string& name) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("._-", c); };
-  if (name.empty() || !std::isalnum((unsigned char)name.front()) ||
-      !std::all_of(name.begin(), name.end(), plain))
-    return "names a folder, must be letters, digits, '.', '_' or '-' and begin with a letter or "
-           "digit";
-  if (name.size() > longest_name)
-    return fmt::format("is {} letters long, must be at most {}", name.size(), longest_name);
-  const auto kind = std::filesystem::path(name).extension().string();
-  for (const char* taken : {".csv", ".h5", ".journal", ".json", ".mp4", ".png", ".svg", ".toml"})
-    if (kind == taken) return fmt::format("must not end in {}, as the files of a run do", kind);
-  if (name == "frames") return "is the folder of a movie's pictures, must be another name";
-  return "";
-}
-
 // the name of a case, or empty with a fault
 std::string case_name(const toml::table& table, const std::set<std::string>& taken,
                       Reading& reading) {
@@ -273,7 +257,7 @@ std::string case_name(const toml::table& table, const std::set<std::string>& tak
     return "";
   }
   const auto name = node->value<std::string>();
-  if (const auto wrong = name_fault(name.value_or("")); !wrong.empty()) {
+  if (const auto wrong = case_name_fault(name.value_or("")); !wrong.empty()) {
     reading.fault(place, fmt::format("[[case]] name = {}: {}", shown(*node), wrong));
     return "";
   }
@@ -320,6 +304,21 @@ Presets read_presets(const toml::table& root, const std::string& name,
 }
 
 }  // namespace
+
+std::string case_name_fault(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("._-", c); };
+  if (name.empty() || !std::isalnum((unsigned char)name.front()) ||
+      !std::all_of(name.begin(), name.end(), plain))
+    return "names a folder, must be letters, digits, '.', '_' or '-' and begin with a letter or "
+           "digit";
+  if (name.size() > longest_name)
+    return fmt::format("is {} letters long, must be at most {}", name.size(), longest_name);
+  const auto kind = std::filesystem::path(name).extension().string();
+  for (const char* taken : {".csv", ".h5", ".journal", ".json", ".mp4", ".png", ".svg", ".toml"})
+    if (kind == taken) return fmt::format("must not end in {}, as the files of a run do", kind);
+  if (name == "frames") return "is the folder of a movie's pictures, must be another name";
+  return "";
+}
 
 Result<Override> parse_override(const std::string& argument) {
   const auto equals = argument.find('=');

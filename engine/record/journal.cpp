@@ -26,7 +26,7 @@ namespace {
 
 const std::string first_line = "gridshell journal 1\n";
 
-enum Kind : std::uint32_t { head = 1, frame = 2 };
+enum RecordKind : std::uint32_t { head_record = 1, frame_record = 2 };
 constexpr std::size_t before_payload = 12, after_payload = 8;
 // of a record: beyond any shell, and little enough to be asked for
 constexpr std::uint64_t largest_record = std::uint64_t(1) << 31;
@@ -118,9 +118,10 @@ std::uint8_t kind_of(int) { return 0; }
 std::uint8_t kind_of(double) { return 1; }
 std::uint8_t kind_of(const std::string&) { return 2; }
 
-std::string packed_head(const std::string& preset, const Layout& layout) {
+std::string packed_head(const RunName& name, const Layout& layout) {
   Packer out;
-  out.text(preset);
+  out.text(name.preset);
+  out.put(int(name.kind));
   std::vector<std::string> names;
   each_column([&](const FrameColumn& column) { names.push_back(column.name); });
   out.number(std::uint64_t(names.size()));
@@ -248,7 +249,8 @@ std::optional<Record> record_at(const File& file, std::uint64_t at) {
 }
 
 struct Head {
-  std::string preset, layout;
+  RunName name;
+  std::string layout;
   std::vector<std::string> columns;
   std::uint64_t next = 0;
 };
@@ -258,10 +260,12 @@ Result<Head> head_of(const File& file) {
   if (file.failure() == EINVAL) return refuse("it is a pipe or a device");
   if (file.read(0, first_line.size()) != first_line) return refuse("it is no journal of a run");
   const auto first = record_at(file, first_line.size());
-  if (!first || first->kind != Kind::head) return refuse("its beginning is damaged");
+  if (!first || first->kind != head_record) return refuse("its beginning is damaged");
   Unpacker in(first->payload);
   Head found;
-  found.preset = in.text();
+  found.name.preset = in.text();
+  const int kind = in.number<std::int32_t>();
+  if (kind >= 0 && kind <= int(Kind::movie)) found.name.kind = static_cast<Kind>(kind);
   const auto count = in.number<std::uint64_t>();
   for (std::uint64_t k = 0; k < count && in.good(); ++k) found.columns.push_back(in.text());
   found.layout = in.text();
@@ -275,7 +279,7 @@ std::map<int, std::pair<std::uint64_t, std::uint64_t>> frames_of(const File& fil
                                                                 std::uint64_t at) {
   std::map<int, std::pair<std::uint64_t, std::uint64_t>> found;
   while (const auto record = record_at(file, at)) {
-    if (record->kind == Kind::frame && record->payload.size() >= sizeof(std::int32_t)) {
+    if (record->kind == frame_record && record->payload.size() >= sizeof(std::int32_t)) {
       const int index = Unpacker(record->payload).number<std::int32_t>();
       found[index] = {record->at, record->payload.size()};
     }
@@ -305,7 +309,7 @@ class JournalFrames : public FrameSource {
 
 }  // namespace
 
-Result<JournalWriter> JournalWriter::create(const fs::path& path, const std::string& preset,
+Result<JournalWriter> JournalWriter::create(const fs::path& path, const RunName& name,
                                             const Layout& layout) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   JournalWriter journal(path, descriptor);
@@ -317,7 +321,7 @@ Result<JournalWriter> JournalWriter::create(const fs::path& path, const std::str
   const ssize_t put = ::write(descriptor, first_line.data(), first_line.size());
   if (put != ssize_t(first_line.size())) return refuse(put < 0 ? errno : ENOSPC);
   journal.end_ = first_line.size();
-  if (auto headed = journal.put(Kind::head, packed_head(preset, layout)); !headed)
+  if (auto headed = journal.put(head_record, packed_head(name, layout)); !headed)
     return tl::unexpected(headed.error());
   return journal;
 }
@@ -340,7 +344,7 @@ JournalWriter::~JournalWriter() {
 Result<void> JournalWriter::append(const Frame& frame) {
   if (frame.index < 0 || frame.index > largest_index)
     return fail(Fault::bad_input, fmt::format("frame {} has no place in a journal", frame.index));
-  if (auto written = put(Kind::frame, packed_frame(frame)); !written) return written;
+  if (auto written = put(frame_record, packed_frame(frame)); !written) return written;
   const auto index = std::size_t(frame.index);
   if (seen_.size() <= index) seen_.resize(index + 1);
   if (!seen_[index]) ++indices_;
@@ -399,7 +403,7 @@ Result<Journal> read_journal(const fs::path& path, bool trial) {
     if (nodes < 0 && check_layout(*layout, one->nodes.cols())) nodes = one->nodes.cols();
     if (nodes >= 0 && check_frame(*layout, *one, 0, nodes)) frames->add(place.first, place.second);
   }
-  return Journal{head->preset, {std::move(*layout), FrameList(frames)}};
+  return Journal{head->name, {std::move(*layout), FrameList(frames)}};
 }
 
 Result<Journal> read_journal_of(const fs::path& folder) {
@@ -416,7 +420,7 @@ std::optional<std::string> preset_of_journal(const fs::path& folder) {
   for (const char* name : {journal_name, coarser_journal_name}) {
     const File file(folder / name);
     if (file.failure()) continue;
-    if (const auto head = head_of(file)) return head->preset;
+    if (const auto head = head_of(file)) return head->name.preset;
   }
   return std::nullopt;
 }

@@ -15,6 +15,7 @@
 
 #include "engine/core/result.h"
 #include "engine/record/snapshot.h"
+#include "engine/record/summary.h"
 
 namespace gridshell::record {
 
@@ -23,11 +24,17 @@ namespace gridshell::record {
 inline constexpr const char *journal_name = "frames.journal",
                             *coarser_journal_name = "frames.coarser.journal";
 
+/// Whose frames they are.
+struct RunName {
+  std::string preset;
+  Kind kind = Kind::unknown;
+};
+
 /// A journal as it grows. Every record goes to the system at once.
 class JournalWriter {
  public:
   /// A new journal, in the place of one that stood there. Errors: io with path and reason.
-  static Result<JournalWriter> create(const std::filesystem::path& path, const std::string& preset,
+  static Result<JournalWriter> create(const std::filesystem::path& path, const RunName& name,
                                       const Layout& layout);
   JournalWriter(JournalWriter&& other) noexcept;
   JournalWriter& operator=(JournalWriter&& other) noexcept;
@@ -53,7 +60,7 @@ class JournalWriter {
 
 /// What a journal holds: frames in order of their index, read one at a time.
 struct Journal {
-  std::string preset;  ///< its name
+  RunName name;
   Trajectory trajectory;
 };
 

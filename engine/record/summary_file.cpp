@@ -107,9 +107,9 @@ void forget(double& value) { value = unknown; }
 template <class T>
 void forget(T&) {}  // the default is what it was then
 
-/// Whether every version wrote the key.
+/// Whether version 0.1 wrote the key.
 bool always_written(const std::string& key) {
-  return key == "preset" || key == "model" || key == "limit" || key == "negative_pivots";
+  return !key.starts_with("energy_") && key != "kind" && key != "finished";
 }
 
 }  // namespace
