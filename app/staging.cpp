@@ -55,7 +55,7 @@ fs::path outermost_missing(fs::path folder) {
 }
 
 // removes folders that are empty, from `folder` up to `outermost`
-void remove_empty(fs::path folder, const fs::path& outermost) noexcept {
+void remove_empty(fs::path folder, const fs::path& outermost) {
   if (outermost.empty()) return;
   for (;;) {
     if (::rmdir(folder.c_str()) != 0 || folder == outermost) return;
@@ -152,9 +152,13 @@ StagedFolder::~StagedFolder() {
 }
 
 void StagedFolder::remove() noexcept {
-  std::error_code error;
-  fs::remove_all(partial_, error);
-  remove_empty(partial_.parent_path(), first_made_);
+  try {
+    std::error_code error;
+    fs::remove_all(partial_, error);
+    remove_empty(partial_.parent_path(), first_made_);
+  } catch (const std::exception&) {
+    // what stays bears a partial name
+  }
 }
 
 Result<std::string> StagedFolder::commit() {
@@ -222,7 +226,7 @@ std::vector<fs::path> left_behind(const fs::path& final_folder) {
   return found;
 }
 
-void remove_unfinished(const fs::path& folder) noexcept {
+void remove_unfinished(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> hidden;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;

@@ -52,6 +52,6 @@ std::string refusal_to_write(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> left_behind(const std::filesystem::path& final_folder);
 
 /// Removes what writers had not finished (hidden temporaries) under `folder`.
-void remove_unfinished(const std::filesystem::path& folder) noexcept;
+void remove_unfinished(const std::filesystem::path& folder);
 
 }  // namespace gridshell::app

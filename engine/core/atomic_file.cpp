@@ -6,18 +6,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
-#include <memory>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace gridshell {
 namespace {
-
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
 
 // a descriptor that closes itself
 struct Descriptor {
@@ -58,12 +52,17 @@ Result<void> AtomicFile::commit() {
 
 Result<void> write_atomically(const std::filesystem::path& path, std::string_view bytes) {
   AtomicFile target(path);
-  File file(std::fopen(target.temporary().c_str(), "wb"));
-  if (!file) return fail_io("write", path, errno);
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
-    return fail_io("write", path, errno);
-  // what is still buffered may meet the full disk only now
-  if (std::fclose(file.release()) != 0) return fail_io("write", path, errno);
+  Descriptor file(
+      ::open(target.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (file.number < 0) return fail_io("write", path, errno);
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(file.number, bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) return fail_io("write", path, put < 0 ? errno : ENOSPC);
+    bytes.remove_prefix(std::size_t(put));
+  }
+  // what is still on its way may meet the full disk only now
+  if (::close(std::exchange(file.number, -1)) != 0) return fail_io("write", path, errno);
   return target.commit();
 }
 

@@ -131,6 +131,10 @@ Result<Plan> plan(const preset::Preset& preset) {
   if (!scene) return tl::unexpected<Error>(scene.error());
   if (auto fits = fits_memory(scene->footprint, preset, scene->levels); !fits)
     return tl::unexpected<Error>(fits.error());
+  // what the run would only find out later
+  if (preset.indentation.wanted() && preset.indentation.joint.size() == 2)
+    if (auto joint = pushed_joint(preset.indentation, scene->footprint, {}); !joint)
+      return tl::unexpected<Error>(joint.error());
   Plan plan;
   plan.memory_GB = memory_GB(scene->footprint, preset::rung_of(preset), scene->levels);
   const preset::Model rung = preset::rung_of(preset);

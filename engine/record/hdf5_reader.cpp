@@ -1,7 +1,6 @@
 #include "engine/record/hdf5_reader.h"
 
 #include <fmt/format.h>
-#include <hdf5_hl.h>
 
 namespace gridshell::record::hdf5 {
 namespace {
@@ -47,10 +46,12 @@ bool fits(hid_t found, hid_t wanted) {
 }  // namespace
 
 Reader::Reader(std::string_view bytes) : file_bytes_(bytes.size()) {
-  // read where it lies: neither copied, written to nor released
-  file_ = Handle(H5LTopen_file_image(const_cast<char*>(bytes.data()), bytes.size(),
-                                     H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE),
-                 H5Fclose);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access, 65536, false);
+  H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size());
+  // no file, but files of one name are taken for one
+  const std::string name = fmt::format("image {}", static_cast<const void*>(this));
+  file_ = Handle(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   check(file_, "file");
 }
 

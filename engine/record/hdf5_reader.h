@@ -18,7 +18,7 @@ namespace gridshell::record::hdf5 {
 /// damaged ones can crash it: read in a process of its own first (trial.h).
 class Reader : public File {
  public:
-  /// The bytes must outlive the reader.
+  /// A copy of these bytes.
   explicit Reader(std::string_view bytes);
   explicit Reader(const std::filesystem::path& file);
   bool has(const std::string& name);

@@ -132,7 +132,7 @@ Layout read_layout(hdf5::Reader& file) {
 }
 
 std::string image_of(const Layout& layout) {
-  hdf5::Writer file("layout");
+  hdf5::Writer file(fmt::format("layout {}", static_cast<const void*>(&layout)));
   write_layout(file, layout);
   return file.bytes();
 }

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 Frame frame_of(int index) {
-  Frame frame = std::as_const(sample_trajectory().frames)[2];
+  Frame frame = sample_trajectory().frames[2];
   frame.index = index;
   frame.progress = index / 100.0;
   return frame;
