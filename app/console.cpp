@@ -1,6 +1,10 @@
 #include "app/console.h"
 
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstring>
+#include <exception>
 #include <new>
 
 namespace gridshell::app {
@@ -29,6 +33,20 @@ Error error_of(const std::exception& thrown) {
   return {Fault::io,
           "memory ran out; 'gridshell check' says what a preset's meshes take, and fewer [accuracy] "
           "edges_per_segment, a larger tolerance or a smaller [movie] size take less"};
+}
+
+void answer_the_unexpected() {
+  std::set_terminate([] {
+    const char* words = "ended by an error that nothing expected\n";
+    try {
+      if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+      words = "memory ran out; what was finished stays under its partial name\n";
+    } catch (...) {
+    }
+    if (::write(STDERR_FILENO, words, std::strlen(words)) < 0) _exit(ExitCode::failed);
+    _exit(ExitCode::failed);
+  });
 }
 
 }  // namespace gridshell::app

@@ -25,6 +25,10 @@ int report(const Error& error);
 Error error_of(const std::exception& thrown);
 inline int report_exception(const std::exception& thrown) { return report(error_of(thrown)); }
 
+/// From now on an exception that nothing catches (memory that runs out where the standard library
+/// promises not to throw) ends the program with a sentence and the exit code of a failure.
+void answer_the_unexpected();
+
 /// A path of the user's that cannot be read is bad input, whatever the system's reason.
 template <class T>
 Result<T> as_input(Result<T> result) {

@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   gridshell::app::catch_interrupts();
+  gridshell::app::answer_the_unexpected();
   gridshell::app::open_standard_streams();
   int code = gridshell::app::ExitCode::failed;
   try {
