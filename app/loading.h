@@ -24,4 +24,9 @@ inline std::filesystem::path folder_of(const std::filesystem::path& folder,
   return name.empty() ? folder : folder / name;
 }
 
+/// The folder that a command writes: the one asked for, or out/<preset>.
+inline std::filesystem::path output_of(const Options& options, const preset::Preset& base) {
+  return options.output.empty() ? std::filesystem::path("out") / base.name : options.output;
+}
+
 }  // namespace gridshell::app

@@ -44,9 +44,16 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   gridshell::app::catch_interrupts();
+  gridshell::app::answer_the_unexpected();
+  gridshell::app::open_standard_streams();
+  int code = gridshell::app::ExitCode::failed;
   try {
-    return run(argc, argv);
+    code = run(argc, argv);
   } catch (const std::exception& error) {
-    return gridshell::app::report({gridshell::Fault::io, error.what()});
+    code = gridshell::app::report_exception(error);
   }
+  // what could not be printed was not done
+  if (!gridshell::app::stdout_arrived() && code == gridshell::app::ExitCode::done)
+    code = gridshell::app::ExitCode::failed;
+  return code;
 }

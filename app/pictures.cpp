@@ -44,6 +44,16 @@ Result<Artist> Artist::create(const std::string& context, int threads) {
 
 Result<void> Artist::draw(Pictures pictures, const preset::Preset& preset,
                           const record::Trajectory& run, const fs::path& folder, Watch& watch) {
+  return draw_pictures(pictures, preset, run, folder, watch).and_then([&]() -> Result<void> {
+    // a frame that could not be read was drawn empty
+    if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
+    return {};
+  });
+}
+
+Result<void> Artist::draw_pictures(Pictures pictures, const preset::Preset& preset,
+                                   const record::Trajectory& run, const fs::path& folder,
+                                   Watch& watch) {
   const auto style = style_of(preset, pictures);
   if (pictures == Pictures::stills) {
     const auto stem = folder / fs::path(preset.name).filename();

@@ -40,6 +40,9 @@ class Artist {
  private:
   Artist(std::unique_ptr<render::Context> context, std::unique_ptr<render::Renderer> renderer)
       : context_(std::move(context)), renderer_(std::move(renderer)) {}
+  Result<void> draw_pictures(Pictures pictures, const preset::Preset& preset,
+                             const record::Trajectory& run, const std::filesystem::path& folder,
+                             Watch& watch);
 
   std::unique_ptr<render::Context> context_;  // outlives the renderer
   std::unique_ptr<render::Renderer> renderer_;

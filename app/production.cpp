@@ -16,7 +16,7 @@
 #include "app/net_pictures.h"
 #include "engine/core/atomic_file.h"
 #include "engine/preset/writer.h"
-#include "engine/record/run_folder.h"
+#include "engine/record/folder_sink.h"
 #include "engine/record/summary_file.h"
 
 namespace gridshell::app {
@@ -82,30 +82,49 @@ std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
   return phases;
 }
 
-// the run is safe on disk before a picture of it is drawn
+record::Kind kind_of(Pictures pictures) {
+  switch (pictures) {
+    case Pictures::none:
+      return record::Kind::run;
+    case Pictures::movie:
+      return record::Kind::movie;
+    case Pictures::stills:
+      return record::Kind::figure;
+  }
+  return record::Kind::unknown;
+}
+
+// every frame is on the disk as soon as it is found, and the run before a picture of it is drawn
+Result<record::Trajectory> simulate(Job& job, Pictures pictures, const fs::path& folder,
+                                    Watch& watch) {
+  auto made = make_folder(folder).and_then(
+      [&] { return write_atomically(folder / "preset.toml", preset::to_toml(job.preset)); });
+  if (!made) return tl::unexpected(made.error());
+  record::FolderSink sink(folder, {job.preset.name, kind_of(pictures)});
+  auto summary = experiment::run(job.preset, pictures == Pictures::stills, sink, watch);
+  if (!summary) return tl::unexpected(summary.error());
+  job.summary = *summary;
+  job.summary.kind = kind_of(pictures);
+  return sink.finish(job.summary);
+}
+
 Result<void> do_job(Job& job, Pictures pictures, const fs::path& folder, Artist* artist,
                     Progress& progress, std::vector<CaseRecord>& records) {
-  auto outcome = experiment::run(job.preset, pictures == Pictures::stills, progress.next_phase());
-  if (!outcome) return tl::unexpected(outcome.error());
-  job.summary = outcome->summary;
-  job.length_scale_mm = outcome->trajectory.layout.length_scale_mm;
-  auto written =
-      make_folder(folder)
-          .and_then(
-              [&] { return write_atomically(folder / "preset.toml", preset::to_toml(job.preset)); })
-          .and_then([&] { return record::write_run(folder, outcome->trajectory, job.summary); });
-  if (!written || !artist) return written;
+  auto simulated = simulate(job, pictures, folder, progress.next_phase());
+  if (!simulated) return tl::unexpected(simulated.error());
+  job.length_scale_mm = simulated->layout.length_scale_mm;
+  if (!artist) return {};
   if (drawn_beside(job, pictures)) {
-    records.push_back({job.preset, std::move(outcome->trajectory)});
+    records.push_back({job.preset, std::move(*simulated)});
     return {};
   }
   const auto start = std::chrono::steady_clock::now();
   const bool curve = pictures == Pictures::stills && is_pushed(job);
-  const auto& run = outcome->trajectory;
+  const record::Trajectory& run = *simulated;
   auto drawn =
       artist->draw(pictures, job.preset, curve ? ends_of(run) : run, folder, progress.next_phase());
   if (!drawn) return drawn;
-  if (pictures == Pictures::stills) records.push_back({job.preset, std::move(outcome->trajectory)});
+  if (pictures == Pictures::stills) records.push_back({job.preset, std::move(*simulated)});
   job.summary.seconds_render =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record::write_summary(folder / "summary.json", job.summary);
@@ -122,8 +141,14 @@ Result<void> draw_together(const std::vector<Job>& jobs, const preset::Preset& b
                            [&]() -> Watch& { return progress.next_phase(); });
 }
 
-Result<void> do_jobs(std::vector<Job>& jobs, const preset::Preset& base, Pictures pictures,
+Result<void> do_jobs(std::vector<Job>& jobs, const preset::Presets& presets, Pictures pictures,
                      const Options& options, const fs::path& partial, Progress& progress) {
+  const preset::Preset& base = presets.base;
+  const bool cases = !jobs.front().name.empty();
+  // of a run that is cut short it says which cases there are
+  if (cases)
+    if (auto said = write_atomically(partial / "preset.toml", preset::to_toml(presets)); !said)
+      return said;
   std::optional<Artist> artist;
   if (pictures != Pictures::none) {
     auto made = Artist::create(options.context, options.threads);
@@ -145,7 +170,7 @@ Result<void> do_jobs(std::vector<Job>& jobs, const preset::Preset& base, Picture
             draw_together(jobs, base, pictures, std::move(records), *artist, partial, progress);
         !drawn)
       return drawn;
-  if (jobs.front().name.empty()) return {};
+  if (!cases) return {};
   return write_atomically(partial / "summary.json", summary_of_cases(base.name, names, summaries));
 }
 
@@ -211,12 +236,11 @@ int produce(const Options& options, Pictures pictures) {
   }
   auto jobs = jobs_of(*presets, pictures);
   if (!jobs) return report(jobs.error());
-  const auto& name = presets->base.name;
-  const auto folder = options.output.empty() ? fs::path("out") / name : options.output;
+  const auto folder = output_of(options, presets->base);
   const int code =
       deliver(folder, phases_of(*jobs, pictures), options.quiet,
               [&](const fs::path& partial, Progress& progress) {
-                return do_jobs(*jobs, presets->base, pictures, options, partial, progress);
+                return do_jobs(*jobs, *presets, pictures, options, partial, progress);
               });
   if (code != ExitCode::done) return code;
   bool whole = true;

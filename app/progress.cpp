@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <limits>
 
 #include "app/console.h"
@@ -92,7 +93,11 @@ void Progress::loop() {
   std::unique_lock lock(mutex_);
   while (!finished_) {
     stop_if_asked();
-    if (!watches_.empty() && !interrupted_) show_now();
+    try {
+      if (!watches_.empty() && !interrupted_) show_now();
+    } catch (const std::exception&) {
+      // a line that does not fit into memory is not worth the work
+    }
     wake_.wait_for(lock, std::chrono::milliseconds(50));
   }
 }
@@ -106,7 +111,11 @@ void Progress::stop_if_asked() {
   // a long frame does not listen: what is finished is whole, so the program may end
   if (interrupted_ && seconds_since(interrupted_at_) > 0.7) {
     if (bar_open_) std::fputs("\r\033[K", stderr);
-    last_words_();
+    try {
+      last_words_();
+    } catch (const std::exception&) {
+      // the folder says by itself what it holds
+    }
     _exit(ExitCode::interrupted);
   }
 }

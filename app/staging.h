@@ -3,16 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "engine/core/result.h"
 
 namespace gridshell::app {
 
-/// The folder `DIR.partial-<pid>`, which becomes DIR on commit().
+/// The folder `DIR.partial-<pid>`, of no other program's, which becomes DIR on commit(). Where DIR is
+/// a link to a folder, that folder is what is written. Locked while it lives.
 class StagedFolder {
  public:
-  /// Errors: bad_input when DIR exists and is neither a run (summary.json) nor empty, or cannot be
-  /// written.
+  /// Errors: bad_input when DIR exists and is neither a run without foreign files nor empty, or
+  /// cannot be written.
   static Result<StagedFolder> create(const std::filesystem::path& final_folder);
 
   StagedFolder(StagedFolder&& other) noexcept;
@@ -22,23 +25,33 @@ class StagedFolder {
 
   const std::filesystem::path& path() const { return partial_; }
 
-  /// Takes the final name; a run that stood there is removed after that. Errors: io.
-  Result<void> commit();
+  /// Lists its files and takes the final name at once; a run that stood there is removed after that.
+  /// Returns a sentence where that cannot be, naming what stayed behind; else nothing. Errors: io,
+  /// also when something that is no run has appeared under the final name meanwhile.
+  Result<std::string> commit();
 
   /// Leaves the folder under its partial name, without half-written files.
   void keep();
 
  private:
   StagedFolder(std::filesystem::path final_folder, std::filesystem::path partial,
-               std::filesystem::path first_made);
+               std::filesystem::path first_made, int lock);
   void remove() noexcept;
+  Result<std::string> remove_old(const std::filesystem::path& old);
 
   std::filesystem::path final_, partial_;
   std::filesystem::path first_made_;  // the outermost parent that was made, or empty
+  int lock_ = -1;                     // descriptor of the folder, locked
   bool settled_ = false;              // committed, kept or moved from
 };
 
+/// Why a command must not write to this folder; empty when it may.
+std::string refusal_to_write(const std::filesystem::path& folder);
+
+/// Folders that unfinished runs to `final_folder` left behind and nobody is working in, sorted.
+std::vector<std::filesystem::path> left_behind(const std::filesystem::path& final_folder);
+
 /// Removes what writers had not finished (hidden temporaries) under `folder`.
-void remove_unfinished(const std::filesystem::path& folder) noexcept;
+void remove_unfinished(const std::filesystem::path& folder);
 
 }  // namespace gridshell::app

@@ -11,6 +11,7 @@
 #include "app/console.h"
 #include "app/loading.h"
 #include "app/pictures.h"
+#include "app/staging.h"
 #include "engine/preset/writer.h"
 
 namespace gridshell::app {
@@ -32,6 +33,7 @@ void print_plan(const preset::Preset& preset, const experiment::Plan& plan) {
              plan.extrapolated ? ", extrapolated" : "");
   fmt::print("  size            {} rods, {} joints, {} cells, {} unknowns\n", plan.rods,
              plan.joints, plan.cells, plan.dof);
+  fmt::print("  memory          about {:.1g} GB\n", plan.memory_GB);
   fmt::print("  expected error  {}\n", or_unknown(plan.expected_error_mm, "mm"));
   fmt::print("  expected time   {} to simulate, {} to draw the movie\n",
              or_unknown(plan.expected_seconds, "s"),
@@ -45,6 +47,11 @@ Result<void> check(const Options& options) {
     fmt::print("{}", preset::to_toml(*presets));
     return {};
   }
+  // what `run` would say after it
+  const auto folder = output_of(options, presets->base);
+  if (const auto because = refusal_to_write(folder); !because.empty())
+    return fail(Fault::bad_input,
+                fmt::format("cannot write the folder '{}': {}", folder.string(), because));
   for (const auto& run : runs_of(*presets)) {
     const auto plan = plan_of(run.preset);
     if (!plan) return tl::unexpected(plan.error());

@@ -7,49 +7,23 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/case_pictures.h"
 #include "app/commands/commands.h"
 #include "app/console.h"
 #include "app/delivery.h"
+#include "app/finished_run.h"
 #include "app/loading.h"
+#include "app/manifest.h"
 #include "app/options.h"
 #include "app/pictures.h"
 #include "engine/core/atomic_file.h"
+#include "engine/record/run_folder.h"
 #include "engine/record/summary_file.h"
-#include "engine/record/trajectory_file.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
-
-// one run folder, read back
-struct FinishedRun {
-  std::string name;  // of the case, empty without cases
-  preset::Preset preset;
-  record::Trajectory trajectory;
-  record::Summary summary;
-  Pictures pictures = Pictures::movie;
-};
-
-// the folders of the cases, or the run itself as one case without a name
-Result<std::vector<std::string>> case_names(const fs::path& run) {
-  const auto text = as_input(read_whole(run / "summary.json"));
-  if (!text)
-    return fail(Fault::bad_input,
-                fmt::format("'{}' is no run: {}", run.string(), text.error().message));
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
-  if (!json.is_object() || !json.contains("cases")) return std::vector<std::string>{""};
-  std::vector<std::string> names;
-  for (const auto& one : json["cases"])
-    if (one.is_object() && one.contains("name") && one["name"].is_string())
-      names.push_back(one["name"]);
-  if (names.empty())
-    return fail(Fault::bad_input,
-                fmt::format("'{}' is no run: its summary.json lists no cases", run.string()));
-  return names;
-}
 
 // only how it is shown may change once a run is finished
 Result<std::vector<preset::Override>> picture_overrides(const Options& options) {
@@ -64,41 +38,6 @@ Result<std::vector<preset::Override>> picture_overrides(const Options& options) 
                               change.source, change.key));
   }
   return overrides;
-}
-
-// a run sampled at the stills' radii, or of a net's end alone, came from `figure`
-Pictures pictures_of(const preset::Preset& preset, const record::Trajectory& trajectory,
-                     const fs::path& folder) {
-  // a push is sampled alike for both
-  const auto still = fs::path(preset.name).filename().string() + ".png";
-  if (preset.indentation.wanted())
-    return fs::exists(folder / still) ? Pictures::stills : Pictures::movie;
-  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
-  if (!circle) return trajectory.frames.size() == 1 ? Pictures::stills : Pictures::movie;
-  const auto& radii = preset.figure.radii_mm;
-  if (radii.size() != trajectory.frames.size()) return Pictures::movie;
-  for (std::size_t k = 0; k < radii.size(); ++k)
-    if (!(std::abs(radii[k] - trajectory.frames[k].boundary_radius_mm) < 1e-6 * radii[k]))
-      return Pictures::movie;
-  return Pictures::stills;
-}
-
-Result<FinishedRun> read_run(const fs::path& folder, const std::string& name,
-                             const std::vector<preset::Override>& overrides) {
-  FinishedRun run{name, {}, {}, {}, Pictures::movie};
-  auto presets = preset::read_preset_file(folder / "preset.toml", overrides);
-  if (!presets) return tl::unexpected(presets.error());
-  auto summary = as_input(record::read_summary(folder / "summary.json"));
-  if (!summary) return tl::unexpected(summary.error());
-  auto trajectory = as_input(record::read_trajectory(folder / "trajectory.h5"));
-  if (!trajectory) return tl::unexpected(trajectory.error());
-  run.preset = std::move(presets->base);
-  run.preset.name = summary->preset;
-  run.summary = std::move(*summary);
-  run.trajectory = std::move(*trajectory);
-  run.pictures = pictures_of(run.preset, run.trajectory, folder);
-  run.preset.movie.frames = int(run.trajectory.frames.size());
-  return run;
 }
 
 bool is_still(const FinishedRun& run) { return run.pictures == Pictures::stills; }
@@ -116,9 +55,12 @@ bool is_picture(const fs::path& path) {
 // everything of a run but its pictures; hidden files are someone's half-written ones
 Result<void> copy_data(const fs::path& from, const fs::path& to) {
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(from, error)) {
+  for (fs::directory_iterator at(from, error), end; !error && at != end; at.increment(error)) {
+    const auto& entry = *at;
     const auto name = entry.path().filename();
-    if (entry.is_directory() || is_picture(name) || name.string().starts_with('.')) continue;
+    if (!entry.is_regular_file(error) || entry.is_symlink(error) || is_picture(name) ||
+        name.string().starts_with('.') || name == manifest_name)
+      continue;
     fs::copy_file(entry.path(), to / name, fs::copy_options::overwrite_existing, error);
     if (error) break;
   }
@@ -151,30 +93,25 @@ Result<void> draw_run(FinishedRun& run, Artist& artist, const fs::path& from, co
       .and_then([&] {
         if (drawn_beside(run)) return Result<void>{};
         const bool curve = shows_push(run);
-        return artist.draw(run.pictures, run.preset,
-                           curve ? ends_of(run.trajectory) : run.trajectory, to,
+        const record::Trajectory& all = run.trajectory;
+        return artist.draw(run.pictures, run.preset, curve ? ends_of(all) : all, to,
                            progress.next_phase());
       })
-      .and_then([&] { return copy_data(from, to); })
       .and_then([&] {
+        if (!run.in_journal) return copy_data(from, to);
+        return read_whole(from / "preset.toml")
+            .and_then([&](const std::string& text) {
+              return write_atomically(to / "preset.toml", text);
+            })
+            .and_then([&] { return record::write_run(to, run.trajectory, run.summary); });
+      })
+      .and_then([&] {
+        run.summary.kind = run.pictures == Pictures::stills ? record::Kind::figure
+                                                            : record::Kind::movie;
         run.summary.seconds_render =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return record::write_summary(to / "summary.json", run.summary);
       });
-}
-
-Result<std::vector<FinishedRun>> read_runs(const Options& options) {
-  const auto overrides = picture_overrides(options);
-  if (!overrides) return tl::unexpected(overrides.error());
-  const auto names = case_names(options.input);
-  if (!names) return tl::unexpected(names.error());
-  std::vector<FinishedRun> runs;
-  for (const auto& name : *names) {
-    auto run = read_run(folder_of(options.input, name), name, *overrides);
-    if (!run) return tl::unexpected(run.error());
-    runs.push_back(std::move(*run));
-  }
-  return runs;
 }
 
 void print_drawn(const FinishedRun& run, const fs::path& folder) {
@@ -182,9 +119,15 @@ void print_drawn(const FinishedRun& run, const fs::path& folder) {
   fmt::print("{}", how_to_make_movie(folder, run.preset));
 }
 
-int render(const Options& options) {
-  auto runs = read_runs(options);
+int render(const Options& options, bool unsealed) {
+  const auto overrides = picture_overrides(options);
+  if (!overrides) return report(overrides.error());
+  auto runs = read_runs(options.input, *overrides, unsealed);
   if (!runs) return report(runs.error());
+  for (const auto& run : *runs)
+    if (!run.summary.finished)
+      std::fprintf(stderr, "'%s' is not finished: %s\n",
+                   folder_of(options.input, run.name).c_str(), how_far(run).c_str());
   const fs::path from = options.input;
   const auto folder = options.output.empty() ? from : options.output;
   std::vector<Phase> phases;
@@ -223,12 +166,15 @@ int render(const Options& options) {
 
 void add_render(CLI::App& program, Action& action) {
   const auto options = std::make_shared<Options>();
+  const auto unsealed = std::make_shared<bool>(false);
   auto* command =
       program.add_subcommand("render", "pictures of a finished run, without simulating again");
   add_run_options(*command, *options);
   add_work_options(*command, *options, "folder to write, by default RUN itself");
   add_picture_options(*command, *options);
-  command->callback([&action, options] { action = [options] { return render(*options); }; });
+  command->add_flag("--unsealed", *unsealed,
+                    "take a trajectory.h5 that another program wrote or changed");
+  command->callback([&action, options, unsealed] { action = [options, unsealed] { return render(*options, *unsealed); }; });
 }
 
 }  // namespace gridshell::app

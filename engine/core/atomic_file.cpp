@@ -1,20 +1,28 @@
 #include "engine/core/atomic_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
-#include <memory>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 namespace gridshell {
 namespace {
 
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
+// a descriptor that closes itself
+struct Descriptor {
+  explicit Descriptor(int number) : number(number) {}
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number;
 };
-using File = std::unique_ptr<std::FILE, Close>;
 
 tl::unexpected<Error> fail_io(const char* what, const std::filesystem::path& path, int code) {
   return fail(Fault::io, fmt::format("cannot {} '{}': {}", what, path.string(),
@@ -44,25 +52,48 @@ Result<void> AtomicFile::commit() {
 
 Result<void> write_atomically(const std::filesystem::path& path, std::string_view bytes) {
   AtomicFile target(path);
-  File file(std::fopen(target.temporary().c_str(), "wb"));
-  if (!file) return fail_io("write", path, errno);
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
-    return fail_io("write", path, errno);
-  // what is still buffered may meet the full disk only now
-  if (std::fclose(file.release()) != 0) return fail_io("write", path, errno);
+  Descriptor file(
+      ::open(target.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (file.number < 0) return fail_io("write", path, errno);
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(file.number, bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) return fail_io("write", path, put < 0 ? errno : ENOSPC);
+    bytes.remove_prefix(std::size_t(put));
+  }
+  // what is still on its way may meet the full disk only now
+  if (::close(std::exchange(file.number, -1)) != 0) return fail_io("write", path, errno);
   return target.commit();
 }
 
-Result<std::string> read_whole(const std::filesystem::path& path) {
-  File file(std::fopen(path.c_str(), "rb"));
-  if (!file) return fail_io("read", path, errno);
+Result<std::string> read_whole(const std::filesystem::path& path, std::uintmax_t limit) {
+  // without waiting: opening a pipe that nobody writes to would never end
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+  if (file.number < 0) return fail_io("read", path, errno);
+  struct stat about {};
+  if (::fstat(file.number, &about) != 0) return fail_io("read", path, errno);
+  if (S_ISDIR(about.st_mode)) return fail_io("read", path, EISDIR);
+  const auto refuse = [&](const std::string& reason) {
+    return fail(Fault::io, fmt::format("cannot read '{}': {}", path.string(), reason));
+  };
+  if (!S_ISREG(about.st_mode))
+    return refuse("it is a pipe or a device, must be a regular file");
+  // some files of the system say that they are empty, so the count is what decides
   std::string bytes;
-  char block[1 << 16];
-  while (const std::size_t got = std::fread(block, 1, sizeof block, file.get()))
-    bytes.append(block, got);
-  // a folder opens, but does not read
-  if (std::ferror(file.get())) return fail_io("read", path, errno);
-  return bytes;
+  const auto too_large = [&] {
+    return refuse(fmt::format("it is larger than {} MB", limit >> 20));
+  };
+  if (std::uintmax_t(about.st_size) > limit) return too_large();
+  bytes.reserve(std::size_t(about.st_size));
+  std::vector<char> block(1 << 16);
+  for (;;) {
+    const ssize_t got = ::read(file.number, block.data(), block.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return fail_io("read", path, errno);
+    if (got == 0) return bytes;
+    bytes.append(block.data(), std::size_t(got));
+    if (bytes.size() > limit) return too_large();
+  }
 }
 
 Result<void> make_folder(const std::filesystem::path& folder) {

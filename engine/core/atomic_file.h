@@ -2,6 +2,7 @@
 // renamed. A killed or failed run leaves what stood there before.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -40,8 +41,14 @@ class AtomicFile {
 /// Errors: Fault::io, "cannot write 'path': reason".
 Result<void> write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// The whole of a file. Errors: Fault::io, "cannot read 'path': reason".
-Result<std::string> read_whole(const std::filesystem::path& path);
+/// What a text may come to at most, and what a picture or a table may.
+inline constexpr std::uintmax_t largest_text = std::uintmax_t(16) << 20,
+                                largest_file = std::uintmax_t(1) << 30;
+
+/// The whole of a regular file of at most `limit` bytes: a pipe or a device, which may never end, is
+/// refused. Errors: Fault::io, "cannot read 'path': reason".
+Result<std::string> read_whole(const std::filesystem::path& path,
+                               std::uintmax_t limit = largest_file);
 
 /// Makes a folder and its parents; one that exists is fine. Errors: Fault::io, path and reason.
 Result<void> make_folder(const std::filesystem::path& folder);

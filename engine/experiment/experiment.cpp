@@ -8,6 +8,7 @@
 
 #include "engine/core/clock.h"
 #include "engine/experiment/actuation.h"
+#include "engine/experiment/budget.h"
 #include "engine/experiment/indentation.h"
 #include "engine/experiment/net_sample.h"
 #include "engine/measure/deviation.h"
@@ -158,9 +159,16 @@ double seconds_for(const Scene& scene, const preset::Preset& preset) {
 Result<Plan> plan(const preset::Preset& preset) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
+  if (auto fits = fits_memory(scene->footprint, preset, levels_of(*scene)); !fits)
+    return tl::unexpected<Error>(fits.error());
+  // what the run would only find out later
+  if (preset.indentation.wanted() && preset.indentation.joint.size() == 2)
+    if (auto joint = pushed_joint(preset.indentation, scene->footprint, {}); !joint)
+      return tl::unexpected<Error>(joint.error());
   Plan plan;
   const LevelPlan levels = levels_of(*scene);
   plan.model = word_of(scene->rung);
+  plan.memory_GB = memory_GB(scene->footprint, scene->rung, levels);
   plan.model_reason = preset::model_reason(preset);
   plan.levels = levels.edges_per_segment;
   plan.edges_per_segment = plan.levels.back();

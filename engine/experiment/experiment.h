@@ -30,6 +30,7 @@ struct Plan {
   int rods = 0, joints = 0, cells = 0, dof = 0;
   double expected_error_mm = record::unknown;
   double expected_seconds = record::unknown;
+  double memory_GB = record::unknown;  ///< that its meshes take, at most
   std::vector<std::string> seams;  ///< of building blocks, a sentence each
   std::string footprint;           ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
 };

@@ -121,6 +121,9 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
   return cross(std::move(net));
 }
 
+// of d: a leg that a user may be advised to take
+constexpr double short_leg = 1e-3;
+
 Result<Footprint> circular_footprint(double radius, int rods, double spacing, Placement placement) {
   if (rods < 2)
     return fail(Fault::bad_input,
@@ -138,10 +141,11 @@ Result<Footprint> circular_footprint(double radius, int rods, double spacing, Pl
     return fail(
         Fault::bad_input,
         fmt::format("{} rods a direction at d = {:g} mm reach {:g} mm, beyond the boundary: the "
-                    "longest leg R_o/d - (n-1)/2 = {:.4g} must be above 0; take R_o > {:g} mm or "
-                    "n <= {}",
-                    rods, spacing, (rods - 1) / 2.0 * spacing, longest, (rods - 1) / 2.0 * spacing,
-                    rods - 2 * int(std::ceil(-longest + 1e-9))));
+                    "longest leg R_o/d - (n-1)/2 = {:.4g} must be above 0; take R_o >= {:.7g} mm "
+                    "or n <= {}",
+                    rods, spacing, (rods - 1) / 2.0 * spacing, longest,
+                    ((rods - 1) / 2.0 + short_leg) * spacing,
+                    rods - 2 * std::max(1, int(std::ceil(-longest)))));
   Footprint net{spacing, placement, {}, {}, {}};
   const int first = even ? -rods / 2 : -(rods - 1) / 2;
   const Disk disk(radius);

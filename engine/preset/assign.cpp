@@ -19,6 +19,31 @@ std::optional<double> real_of(const toml::node& value) {
   return std::nullopt;
 }
 
+// products of values as they stand in the energies must stay within the range of double
+constexpr double least_magnitude = 1e-9, largest_magnitude = 1e9;
+
+// why a number cannot be computed with, or empty
+std::string magnitude_fault(double value) {
+  const double size = std::abs(value);
+  if (size == 0 || (size >= least_magnitude && size <= largest_magnitude)) return "";
+  return std::string(size > 1 ? "too large" : "too small") +
+         " to compute with (0, or a magnitude of 1e-9 to 1e9)";
+}
+
+constexpr std::size_t most_points = 100000;
+
+// of coordinates only the size counts: what should be zero is often a little beside it
+std::string points_fault(const Points& points) {
+  if (points.size() > most_points)
+    return "holds " + std::to_string(points.size()) + " points, must be at most " +
+           std::to_string(most_points);
+  for (const auto& point : points)
+    for (const double value : point)
+      if (!(std::abs(value) <= largest_magnitude))
+        return "holds a number too large to compute with (at most 1e9)";
+  return "";
+}
+
 bool is_finite_number(const toml::node& value) { return real_of(value).has_value(); }
 
 std::string type_text(const toml::node& value) {
@@ -35,6 +60,7 @@ std::string put(const Real& kind, const toml::node& value, Preset& preset) {
   const auto real = real_of(value);
   if (!real) return "is " + type_text(value);
   if (!kind.range.holds(*real)) return "out of range";
+  if (auto wrong = magnitude_fault(*real); !wrong.empty()) return wrong;
   kind.in(preset) = *real;
   return "";
 }
@@ -107,6 +133,7 @@ std::string put(const RealList& kind, const toml::node& value, Preset& preset) {
     const auto real = real_of(item);
     if (!real) return "is a list with " + type_text(item);
     if (!kind.range.holds(*real)) return "out of range";
+    if (auto wrong = magnitude_fault(*real); !wrong.empty()) return wrong;
     numbers.push_back(*real);
   }
   kind.in(preset) = std::move(numbers);
@@ -141,6 +168,7 @@ std::string put(const PointList& kind, const toml::node& value, Preset& preset) 
       points.back().push_back(*real);
     }
   }
+  if (auto wrong = points_fault(points); !wrong.empty()) return wrong;
   kind.in(preset) = std::move(points);
   return "";
 }
@@ -149,6 +177,7 @@ std::string put(const PointList& kind, const toml::node& value, Preset& preset) 
 std::string put_file(const PointList& kind, const std::filesystem::path& file, Preset& preset) {
   auto points = read_points(file, kind.coordinates);
   if (!points) return points.error().message;
+  if (const auto wrong = points_fault(*points); !wrong.empty()) return file.string() + ": " + wrong;
   kind.in(preset) = std::move(*points);
   return "";
 }

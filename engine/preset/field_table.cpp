@@ -69,7 +69,7 @@ std::vector<Field> numerics_fields() {
   return {
       {"limits", "max_strain", "", real<&P::limits, &Limits::max_strain>(above(0)),
        "axial strain of an edge at which the run stops with limit \"locking\""},
-      {"accuracy", "tolerance", "", real<&P::accuracy, &Accuracy::tolerance>({0, 1, true}),
+      {"accuracy", "tolerance", "", real<&P::accuracy, &Accuracy::tolerance>(between(1e-9, 1)),
        "largest joint error allowed, over R_o of a circle or rho of a net"},
       {"accuracy", "edges_per_segment", "",
        integer<&P::accuracy, &Accuracy::edges_per_segment>(between(0, 64)),
@@ -78,6 +78,8 @@ std::vector<Field> numerics_fields() {
        "\"net\": the smooth net itself, nothing solved; \"bend\": stretching and bending, 3 "
        "unknowns "
        "a node; \"twist\": torsion too, 1 more an edge; \"auto\" takes the least that is exact"},
+      {"accuracy", "memory_GB", "GB", real<&P::accuracy, &Accuracy::memory_GB>(between(0, 1e6)),
+       "memory that the meshes may take; 0: half of the machine's"},
   };
 }
 

@@ -35,7 +35,7 @@ std::optional<double> number_of(const std::string& word) {
 
 Result<Points> read_points(const std::filesystem::path& file,
                            const std::vector<std::string>& coordinates) {
-  const auto text = read_whole(file);
+  const auto text = read_whole(file, largest_text);
   if (!text) return fail(Fault::bad_input, text.error().message);
   const auto wanted =
       fmt::format("{} numbers: {}", coordinates.size(), fmt::join(coordinates, ", "));

@@ -214,6 +214,7 @@ struct Accuracy {
   double tolerance = 1e-3;
   int edges_per_segment = 0;  ///< 0: chosen from the tolerance
   Rung model = Rung::automatic;
+  double memory_GB = 0;  ///< 0: half of the machine's
 };
 
 enum class Quality { draft, movie, figure };

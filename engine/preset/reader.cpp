@@ -294,12 +294,7 @@ class Reading {
   std::vector<PlacedFault> faults_;
 };
 
-// a name that can be a folder beside summary.json
-bool is_safe_name(const std::string& name) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("._-", c); };
-  return !name.empty() && name != "summary.json" && std::isalnum((unsigned char)name.front()) &&
-         std::all_of(name.begin(), name.end(), plain);
-}
+constexpr std::size_t longest_name = 100;
 
 // the name of a case, or empty with a fault
 std::string case_name(const toml::table& table, const std::set<std::string>& taken,
@@ -311,10 +306,8 @@ std::string case_name(const toml::table& table, const std::set<std::string>& tak
     return "";
   }
   const auto name = node->value<std::string>();
-  if (!name || !is_safe_name(*name)) {
-    reading.fault(place, fmt::format("[[case]] name = {}: names a folder, must be letters, digits, "
-                                     "'.', '_' or '-' and begin with a letter or digit",
-                                     shown(*node)));
+  if (const auto wrong = case_name_fault(name.value_or("")); !wrong.empty()) {
+    reading.fault(place, fmt::format("[[case]] name = {}: {}", shown(*node), wrong));
     return "";
   }
   if (taken.contains(*name)) {
@@ -364,6 +357,21 @@ Presets read_presets(const toml::table& root, const std::string& name,
 
 }  // namespace
 
+std::string case_name_fault(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("._-", c); };
+  if (name.empty() || !std::isalnum((unsigned char)name.front()) ||
+      !std::all_of(name.begin(), name.end(), plain))
+    return "names a folder, must be letters, digits, '.', '_' or '-' and begin with a letter or "
+           "digit";
+  if (name.size() > longest_name)
+    return fmt::format("is {} letters long, must be at most {}", name.size(), longest_name);
+  const auto kind = std::filesystem::path(name).extension().string();
+  for (const char* taken : {".csv", ".h5", ".journal", ".json", ".mp4", ".png", ".svg", ".toml"})
+    if (kind == taken) return fmt::format("must not end in {}, as the files of a run do", kind);
+  if (name == "frames") return "is the folder of a movie's pictures, must be another name";
+  return "";
+}
+
 Result<Override> parse_override(const std::string& argument) {
   const auto equals = argument.find('=');
   if (equals == std::string::npos || equals == 0)
@@ -396,7 +404,7 @@ Result<Presets> read_preset_text(const std::string& text, const std::string& sou
 
 Result<Presets> read_preset_file(const std::filesystem::path& file,
                                  const std::vector<Override>& overrides) {
-  auto text = read_whole(file);
+  auto text = read_whole(file, largest_text);
   if (!text) return fail(Fault::bad_input, text.error().message);
   return read_preset_text(*text, file.string(), file.stem().string(), overrides);
 }

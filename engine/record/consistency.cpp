@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace gridshell::record {
 namespace {
 
@@ -41,27 +44,82 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
   return {};
 }
 
+// what coordinates may come to: their products must stay numbers
+constexpr double largest_mm = 1e9;
+
+bool computable(const Eigen::Matrix3Xd& points) {
+  return points.size() == 0 || points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= largest_mm;
+}
+
+Result<void> check_numbers(const Layout& layout) {
+  const auto refuse = [](const char* what) {
+    return fail(Fault::bad_input, fmt::format("{} holds a number that is no length in mm", what));
+  };
+  for (const double length :
+       {layout.spacing_mm, layout.rod_diameter_mm, layout.length_scale_mm})
+    if (!(length >= 0 && length <= largest_mm)) return refuse("/layout");
+  if (!computable(layout.original_boundary) || !computable(layout.actuated_boundary))
+    return refuse("a boundary");
+  if (!computable(layout.net_nodes) || !computable(layout.flat_nodes)) return refuse("the net");
+  for (const Part& part : layout.parts)
+    if (!computable(part.net) || !computable(part.flat)) return refuse("a block");
+  for (const Joint& joint : layout.joints)
+    if (!(std::max(std::abs(joint.u_mm), std::abs(joint.v_mm)) <= largest_mm))
+      return refuse("a joint");
+  return {};
+}
+
+// rods are paths over the nodes, a joint being on two: longer lists are nobody's shell
+Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
+  Eigen::Index named = 0, most = 0;
+  for (const auto& rod : layout.rods) {
+    named += Eigen::Index(rod.size());
+    for (const int node : rod) most = std::max<Eigen::Index>(most, node + 1);
+  }
+  if (named > 4 * nodes)
+    return fail(Fault::bad_input, fmt::format("the rods name {} nodes of {}", named, nodes));
+  most = std::max<Eigen::Index>(most, Eigen::Index(layout.joints.size()));
+  for (const auto* net : {&layout.net_nodes, &layout.flat_nodes})
+    if (net->cols() > 0 && net->cols() < most)
+      return fail(Fault::bad_input,
+                  fmt::format("the net has {} nodes, the shell {}", net->cols(), most));
+  return {};
+}
+
 }  // namespace
 
-Result<void> check_consistency(const Trajectory& trajectory) {
-  const Layout& layout = trajectory.layout;
+Result<void> check_layout(const Layout& layout, Eigen::Index nodes) {
   if (layout.original_boundary.cols() != layout.actuated_boundary.cols())
     return fail(Fault::bad_input,
                 fmt::format("the original boundary has {} points, the actuated one {}",
                             layout.original_boundary.cols(), layout.actuated_boundary.cols()));
-  if (trajectory.frames.empty()) return {};
-  const Eigen::Index nodes = trajectory.frames.front().nodes.cols();
+  return check_indices(layout, nodes)
+      .and_then([&] { return check_sizes(layout, nodes); })
+      .and_then([&] { return check_numbers(layout); });
+}
+
+Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k,
+                         Eigen::Index nodes) {
   const auto cells = static_cast<Eigen::Index>(layout.cells.size());
-  for (std::size_t k = 0; k < trajectory.frames.size(); ++k) {
-    const Frame& frame = trajectory.frames[k];
-    if (frame.nodes.cols() != nodes)
-      return fail(Fault::bad_input, fmt::format("frame {} has {} nodes, the first one {}", k,
-                                                frame.nodes.cols(), nodes));
-    if (frame.cell_K.size() != cells)
-      return fail(Fault::bad_input, fmt::format("frame {} has {} values of cell_K for {} cells", k,
-                                                frame.cell_K.size(), cells));
-  }
-  return check_indices(layout, nodes);
+  if (frame.nodes.cols() != nodes)
+    return fail(Fault::bad_input, fmt::format("frame {} has {} nodes, the first one {}", k,
+                                              frame.nodes.cols(), nodes));
+  if (frame.cell_K.size() != cells)
+    return fail(Fault::bad_input, fmt::format("frame {} has {} values of cell_K for {} cells", k,
+                                              frame.cell_K.size(), cells));
+  return {};
+}
+
+Result<void> check_consistency(const Trajectory& trajectory) {
+  const Layout& layout = trajectory.layout;
+  const FrameList& frames = trajectory.frames;
+  // without a frame nobody knows how many nodes there are
+  const Eigen::Index nodes = frames.empty() ? 0 : frames.front().nodes.cols();
+  if (!frames.empty() || layout.original_boundary.cols() != layout.actuated_boundary.cols())
+    if (auto fits = check_layout(layout, nodes); !fits) return fits;
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    if (auto fits = check_frame(layout, frames[k], k, nodes); !fits) return fits;
+  return {};
 }
 
 }  // namespace gridshell::record

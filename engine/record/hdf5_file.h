@@ -1,13 +1,12 @@
-// A thin layer over the HDF5 C library for trajectory_file.cpp: handles that close themselves, and
-// a writer and a reader that stop at the first failure and remember why, so that a caller checks
-// once at the end.
+// A thin layer over the HDF5 C library: handles that close themselves, and what its writer and its
+// reader share. Both stop at the first failure and remember why, so that a caller checks once at the
+// end.
 #pragma once
 
 #include <hdf5.h>
 
 #include <Eigen/Core>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -66,6 +65,8 @@ class File {
  protected:
   /// notes a failure unless `result` is a success
   bool check(hid_t result, const std::string& at);
+  /// closes the file now, for whoever must know that all was written
+  void close() { file_ = Handle(); }
 
   Quiet quiet_;
   Handle file_;
@@ -74,51 +75,11 @@ class File {
   std::string reason_;
 };
 
-/// Makes a file in memory: on a full disk the library (1.10) loses track of what it holds and may
-/// crash, so its bytes go to the disk by write_atomically. Every call after a failure does nothing.
-class Writer : public File {
- public:
-  /// `name` tells apart the files that threads make at a time; `expected_bytes` are reserved at
-  /// once
-  Writer(const std::string& name, std::size_t expected_bytes);
-  void group(const std::string& name);
-  void attribute(const std::string& object, const char* name, double value);
-  void attribute(const std::string& object, const char* name, const std::string& value);
-  /// `data` of `type` in memory; null only makes the dataset, to be filled by write_slice
-  void dataset(const std::string& name, hid_t type, const Dims& dims, const void* data,
-               const char* unit);
-  /// the k-th of the first dimension
-  void write_slice(const std::string& name, hid_t type, hsize_t k, const void* data);
-  void strings(const std::string& name, const std::vector<std::string>& values);
-  void lists(const std::string& name, const Lists& values);
-  /// the whole file; empty when anything failed, now or before
-  std::string bytes();
-
- private:
-  Handle no_times_, no_group_times_;
-};
-
-/// Reads the bytes of a file, which must outlive it. Every call after a failure does nothing and
-/// returns empty values. Damaged bytes can crash the library: check them before.
-class Reader : public File {
- public:
-  explicit Reader(std::string_view bytes);
-  bool has(const std::string& name);
-  /// extents of a dataset; a failure when it has another number of dimensions
-  Dims dims(const std::string& name, std::size_t rank);
-  void read(const std::string& name, hid_t type, void* data);
-  void read_slice(const std::string& name, hid_t type, hsize_t k, void* data);
-  template <class T>
-  std::vector<T> vector(const std::string& name, hid_t type) {
-    const Dims extents = dims(name, 1);
-    std::vector<T> values(good() ? extents[0] : 0);
-    read(name, type, values.data());
-    return values;
-  }
-  double attribute(const std::string& object, const char* name);
-  std::string text_attribute(const std::string& object, const char* name);
-  std::vector<std::string> strings(const std::string& name);
-  Lists lists(const std::string& name);
-};
+/// Variable-length UTF-8 text, and variable-length lists of int, in memory.
+Handle string_type();
+Handle list_type();
+Handle space_of(const Dims& dims);
+/// The part of a dataset that the k-th of its first dimension fills, and the same in memory.
+std::pair<Handle, Handle> slice_spaces(hid_t dataset, hsize_t k);
 
 }  // namespace gridshell::record::hdf5

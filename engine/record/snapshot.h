@@ -4,15 +4,12 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "engine/rod/energies.h"
+#include "engine/record/frame_list.h"
 
 namespace gridshell::record {
-
-inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A crossing of a u-rod and a v-rod at grid position (u, v) of the flat footprint.
 struct Joint {
@@ -61,40 +58,10 @@ struct Layout {
   std::vector<SeamRod> seam_rods;      ///< and how they meet
 };
 
-/// One sampled state. A quantity that does not apply or is not known is NaN (`unknown`).
-struct Frame {
-  int index = 0;
-  double progress = 0;  ///< 0 at the original boundary, 1 at the end of the experiment
-  double boundary_radius_mm = unknown;
-  double depth_mm = unknown;
-  double force_N = unknown;  ///< positive when the shell resists
-  /// of a push: share of the joints that moved more than 0.1 and 0.5 of the depth, and the lowest
-  /// latitude among the first
-  double reach_above_tenth = unknown, reach_above_half = unknown, lowest_latitude_deg = unknown;
-  Energies energies;     ///< by term, mJ
-  double height_mm = 0;  ///< highest joint above the boundary's plane
-  double total_K = 0;    ///< rad
-  double residual_N = 0;
-  int negative_pivots = 0;  ///< -1: not known
-  double error_estimate_mm = unknown;
-  int newton_iterations = 0;
-  double time_s = unknown;  ///< of a snap in time, since its begin
-  std::string event;        ///< a snap, a limit, a recovery; empty when nothing happened
-  Eigen::Matrix3Xd nodes;   ///< positions, mm
-  Eigen::VectorXd cell_K;   ///< integrated Gauss curvature of each cell, rad
-  /// K of the cells by their centroid's x/L, L the half-span of the actuated boundary, in bins of
-  /// equal width from -1 to 1, one a row: mean (rad), standard deviation (rad), number of cells
-  Eigen::MatrixX3d K_bins;
-
-  /// The boundary at this frame: every point moves straight and evenly, so it is linear in how far
-  /// the actuation (not an indentation) has come.
-  double actuation = 0;  ///< in [0, 1]
-};
-
 /// All frames of a run over one layout.
 struct Trajectory {
   Layout layout;
-  std::vector<Frame> frames;
+  FrameList frames;
 };
 
 }  // namespace gridshell::record

@@ -13,6 +13,12 @@ enum class Limit { none, locking, snap, branch_lost, no_equilibrium };
 /// "none", "locking", "snap", "branch_lost", "no_equilibrium"
 const char* name_of(Limit limit);
 
+/// What a folder was made for, and so what its frames sample: a movie, or the stills of a figure.
+enum class Kind { unknown, run, figure, movie };
+
+/// "run", "figure", "movie"; empty for an unknown one (version 0.1 did not say)
+const char* name_of(Kind kind);
+
 /// What a run came to, in its last frame unless said otherwise.
 struct Summary {
   std::string preset;
@@ -38,6 +44,8 @@ struct Summary {
   double max_seam_kink_deg = unknown;             ///< and of the rods' tangents across
   int newton_iterations = 0, factorizations = 0;  ///< of the whole run
   double seconds_setup = 0, seconds_simulation = 0, seconds_render = 0;
+  Kind kind = Kind::unknown;
+  bool finished = true;  ///< false: it was cut short, and the folder holds the frames found so far
 };
 
 }  // namespace gridshell::record

@@ -16,6 +16,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<const char*, 5> limit_names{"none", "locking", "snap", "branch_lost",
                                                  "no_equilibrium"};
 
+constexpr std::array<const char*, 4> kind_names{"", "run", "figure", "movie"};
+
 /// visit(key, field) for every key of summary.json, in order
 template <class SummaryType, class Visit>
 void each_field(SummaryType& summary, Visit visit) {
@@ -48,6 +50,8 @@ void each_field(SummaryType& summary, Visit visit) {
   visit("seconds_setup", summary.seconds_setup);
   visit("seconds_simulation", summary.seconds_simulation);
   visit("seconds_render", summary.seconds_render);
+  visit("kind", summary.kind);
+  visit("finished", summary.finished);
 }
 
 template <class T>
@@ -55,6 +59,7 @@ Json json_of(const T& value) {
   return value;
 }
 Json json_of(const Limit& limit) { return name_of(limit); }
+Json json_of(const Kind& kind) { return name_of(kind); }
 
 /// takes the value if it is of the right kind; `expected` then says which kind is
 bool take(const Json& json, std::string& value, const char*& expected) {
@@ -79,17 +84,37 @@ bool take(const Json& json, double& value, const char*& expected) {
   value = json.is_number() ? json.get<double>() : unknown;
   return json.is_number() || json.is_null();
 }
-bool take(const Json& json, Limit& value, const char*& expected) {
-  expected = "one of \"none\", \"locking\", \"snap\", \"branch_lost\", \"no_equilibrium\"";
-  for (std::size_t k = 0; k < limit_names.size(); ++k)
-    if (json == limit_names[k]) {
-      value = static_cast<Limit>(k);
+template <class Enum, class Names>
+bool take_word(const Json& json, Enum& value, const Names& names) {
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (json == names[k]) {
+      value = static_cast<Enum>(k);
       return true;
     }
   return false;
 }
+bool take(const Json& json, Limit& value, const char*& expected) {
+  expected = "one of \"none\", \"locking\", \"snap\", \"branch_lost\", \"no_equilibrium\"";
+  return take_word(json, value, limit_names);
+}
+bool take(const Json& json, Kind& value, const char*& expected) {
+  expected = "one of \"run\", \"figure\", \"movie\"";
+  return take_word(json, value, kind_names);
+}
+
+/// What a key comes to that an older version did not write.
+void forget(double& value) { value = unknown; }
+template <class T>
+void forget(T&) {}  // the default is what it was then
+
+/// Whether version 0.1 wrote the key.
+bool always_written(const std::string& key) {
+  return !key.starts_with("energy_") && key != "kind" && key != "finished";
+}
 
 }  // namespace
+
+const char* name_of(Kind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
 
 const char* name_of(Limit limit) { return limit_names[static_cast<std::size_t>(limit)]; }
 
@@ -106,7 +131,7 @@ Result<void> write_summary(const std::filesystem::path& path, const Summary& sum
 }
 
 Result<Summary> read_summary(const std::filesystem::path& path) {
-  const auto text = read_whole(path);
+  const auto text = read_whole(path, largest_text);
   if (!text) return tl::unexpected(text.error());
   Json json = Json::parse(*text, nullptr, false);
   if (!json.is_object())
@@ -123,8 +148,10 @@ Result<Summary> read_summary(const std::filesystem::path& path) {
   each_field(summary, [&](const char* key, auto& value) {
     if (!fault.empty()) return;
     const char* expected = nullptr;
-    if (!json.contains(key))
+    if (!json.contains(key) && always_written(key))
       fault = fmt::format("has no \"{}\"", key);
+    else if (!json.contains(key))
+      forget(value);
     else if (!take(json[key], value, expected))
       fault = fmt::format("\"{}\" is {}, expected {}", key, json[key].dump(), expected);
   });

@@ -10,7 +10,8 @@
 //                   original_boundary, actuated_boundary (points x 3, mm)
 //
 // Before the HDF5 part stand 512 bytes with its size and checksum, which HDF5 programs skip.
-// Datasets bear their unit in the attribute `unit`. Equal trajectories give equal bytes.
+// Datasets bear their unit in the attribute `unit`. Equal trajectories give equal bytes. Frames go
+// to the file and come from it one at a time.
 #pragma once
 
 #include <filesystem>
@@ -24,9 +25,16 @@ namespace gridshell::record {
 /// Fault::bad_input when the trajectory's parts do not fit each other.
 Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory);
 
-/// Reads a file of write_trajectory. Errors: Fault::io when it cannot be read; Fault::bad_input,
-/// in a sentence naming the path, when it is no HDF5 file, is cut short or damaged, is not a
-/// trajectory, or when its parts do not fit each other.
-Result<Trajectory> read_trajectory(const std::filesystem::path& path);
+struct TrajectoryReading {
+  bool unsealed = false;  ///< take a file without size and checksum, which another program wrote
+  bool trial = true;      ///< read it in a process of its own first
+};
+
+/// Opens a file of write_trajectory; its frames are read as they are asked for. A column that an
+/// older version did not write is unknown. Errors: Fault::io when it cannot be read;
+/// Fault::bad_input, in a sentence naming the path, when it is no HDF5 file, is cut short or
+/// damaged, is not a trajectory, or when its parts do not fit each other.
+Result<Trajectory> read_trajectory(const std::filesystem::path& path,
+                                   const TrajectoryReading& how = {});
 
 }  // namespace gridshell::record

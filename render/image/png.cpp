@@ -26,6 +26,9 @@ void on_error(png_structp png, png_const_charp message) {
   png_longjmp(png, 1);
 }
 
+// 16384 x 16384, the largest that is written, and a text or profile in it
+constexpr std::size_t largest_pixels = std::size_t(1) << 28, largest_chunk = 8000000;
+
 void on_warning(png_structp, png_const_charp) {}
 
 void append(png_structp png, png_bytep data, png_size_t size) {
@@ -86,7 +89,15 @@ bool decode_rows(std::string_view& bytes, Image& image, std::vector<png_bytep>& 
     return false;
   }
   png_set_read_fn(png, &bytes, take);
+  png_set_chunk_malloc_max(png, largest_chunk);
   png_read_info(png, info);
+  const std::size_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
+  if (width * height > largest_pixels) {
+    std::snprintf(failure.message, sizeof failure.message,
+                  "it has %zu x %zu pixels, more than the %zu million that are read", width, height,
+                  largest_pixels / 1000000);
+    png_longjmp(png, 1);
+  }
   // palettes and grey to RGB, 1-4 bits up and 16 bits down to 8, no alpha to opaque
   png_set_expand(png);
   png_set_scale_16(png);

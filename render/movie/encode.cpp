@@ -73,7 +73,15 @@ Result<Encoding> encode_movie(const std::filesystem::path& frames, int fps,
   AtomicFile file(movie);
   std::vector<std::string> arguments = encode_arguments(frames, fps, file.temporary());
   arguments[0] = program.string();
-  if (auto run = run_child(arguments, watch); !run) return tl::unexpected(run.error());
+  if (auto run = run_child(arguments, watch); !run) {
+    auto error = run.error();
+    if (error.fault == Fault::io)
+      error.message = fmt::format(
+          "cannot make '{}' of the frames in '{}', which are whole: {} (ffmpeg takes pictures of "
+          "less than 16384 x 16384 pixels; a smaller --size needs less memory too)",
+          movie.string(), frames.string(), error.message);
+    return tl::unexpected(error);
+  }
   if (auto placed = file.commit(); !placed) return tl::unexpected(placed.error());
   encoding.made = true;
   return encoding;

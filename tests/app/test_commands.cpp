@@ -5,7 +5,6 @@
 #include "engine/core/atomic_file.h"
 #include "engine/record/trajectory_file.h"
 #include "render/image/png.h"
-#include "render/movie/encode.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
@@ -34,17 +33,18 @@ const std::vector<std::string> data_files{"bins.csv",     "cells.csv",   "frames
                                           "joints.csv",   "preset.toml", "summary.json",
                                           "trajectory.h5"};
 
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder))
-    names.push_back(entry.path().filename().string());
+// with a manifest, as the folder of a command has it
+std::vector<std::string> listed(std::vector<std::string> names) {
+  names.push_back("manifest.txt");
   std::sort(names.begin(), names.end());
   return names;
 }
 
-// these names, and movie.mp4 among them where the program finds ffmpeg
-std::vector<std::string> with_movie(std::vector<std::string> names) {
-  if (!gridshell::render::find_program("ffmpeg").empty()) names.push_back("movie.mp4");
+// but for movie.mp4, which is there where ffmpeg is
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename() != "movie.mp4") names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -54,7 +54,7 @@ std::string text_of(const fs::path& file) { return read_whole(file).value(); }
 nlohmann::json json_of(const fs::path& file) { return nlohmann::json::parse(text_of(file)); }
 
 // the frames of a run, read back
-std::vector<gridshell::record::Frame> frames_of(const fs::path& run) {
+gridshell::record::FrameList frames_of(const fs::path& run) {
   const auto trajectory = gridshell::record::read_trajectory(run / "trajectory.h5");
   if (!trajectory) FAIL(trajectory.error().message);
   return trajectory->frames;
@@ -91,14 +91,18 @@ TEST_CASE("run writes a whole run folder and replaces the one before") {
   const Bench bench;
   bench.good({"run", "small.toml"});
   const auto run = bench.at / "out/small";
-  CHECK(names_in(run) == data_files);
+  CHECK(names_in(run) == listed(data_files));
   CHECK(names_in(bench.at / "out") == std::vector<std::string>{"small"});
   CHECK(json_of(run / "summary.json")["preset"] == "small");
   CHECK(frames_of(run).size() == 3);
+  CHECK(json_of(run / "summary.json")["kind"] == "run");
+  CHECK(json_of(run / "summary.json")["finished"] == true);
   // what is not of the new run does not stay
-  REQUIRE(write_atomically(run / "old.png", "x"));
+  bench.good({"movie", "small.toml"});
+  CHECK(json_of(run / "summary.json")["kind"] == "movie");
+  CHECK(fs::exists(run / "frames"));
   bench.good({"run", "small.toml", "--frames", "4"});
-  CHECK(names_in(run) == data_files);
+  CHECK(names_in(run) == listed(data_files));
   CHECK(frames_of(run).size() == 4);
   CHECK(names_in(bench.at / "out") == std::vector<std::string>{"small"});
 }
@@ -220,11 +224,13 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
   bench.good({"movie", "small.toml", "-o", "run", "--set", "movie.beside=false"});
-  CHECK(names_in(bench.at / "run") == std::vector<std::string>{"far", "near", "summary.json"});
+  CHECK(names_in(bench.at / "run") ==
+        listed({"far", "near", "preset.toml", "summary.json"}));
   auto movie_files = data_files;
   movie_files.push_back("frames");
+  std::sort(movie_files.begin(), movie_files.end());
   for (const char* name : {"near", "far"}) {
-    CHECK(names_in(bench.at / "run" / name) == with_movie(movie_files));
+    CHECK(names_in(bench.at / "run" / name) == movie_files);
     CHECK(files_under(bench.at / "run" / name / "frames", ".png").size() == 3);
   }
   const auto top = json_of(bench.at / "run/summary.json");
@@ -243,7 +249,8 @@ TEST_CASE("cases are shown beside one another in one movie, drawn again by rende
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
   bench.good({"movie", "small.toml", "-o", "run"});
-  CHECK(names_in(bench.at / "run") == with_movie({"far", "frames", "near", "summary.json"}));
+  CHECK(names_in(bench.at / "run") ==
+        listed({"far", "frames", "near", "preset.toml", "summary.json"}));
   CHECK(names_in(bench.at / "run/near") == data_files);
   CHECK(files_under(bench.at / "run/frames", ".png").size() == 3);
   bench.good({"render", "run", "--size", "120x90"});
@@ -319,17 +326,15 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
       bench.good({"chart", "accuracy", "small.toml", "--limit", "0.05", "--edges", "4"});
   CHECK_THAT(said.out, Catch::Contains("auto at 1e-06: error"));
   const auto folder = bench.at / "out/small_accuracy";
-  CHECK(names_in(folder) == std::vector<std::string>{"accuracy.csv", "accuracy.png", "accuracy.svg",
-                                                     "preset.toml", "scaling.csv", "scaling.png",
-                                                     "scaling.svg", "summary.json", "unknowns.png",
-                                                     "unknowns.svg"});
+  CHECK(names_in(folder) ==
+        listed({"accuracy.csv", "accuracy.png", "accuracy.svg", "preset.toml", "scaling.csv",
+                "scaling.png", "scaling.svg", "summary.json", "unknowns.png", "unknowns.svg"}));
   CHECK(json_of(folder / "summary.json")["chart"] == "accuracy");
   // maps go beside it, and the next chart takes their place
   const auto maps = bench.good({"chart", "stability", "small.toml", "--limit", "0.05"});
   CHECK_THAT(maps.out, Catch::Contains("default: ") && Catch::Contains(" 0 silently wrong"));
   CHECK(names_in(bench.at / "out/small_stability") ==
-        std::vector<std::string>{"preset.toml", "stability.csv", "stability.png", "stability.svg",
-                                 "summary.json"});
+        listed({"preset.toml", "stability.csv", "stability.png", "stability.svg", "summary.json"}));
   bench.good({"chart", "stability", "small.toml", "--limit", "0.01", "--quiet"});
   CHECK(bench.run({"chart", "accuracy", "small.toml", "--limit", "0"}).code == 2);
   CHECK(bench.run({"chart", "speed", "small.toml"}).code == 2);

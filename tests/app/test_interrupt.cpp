@@ -102,12 +102,26 @@ TEST_CASE("a full disk fails with 1 and leaves nothing half-written under a fina
   const TemporaryFolder folder;
   Ended ended;
   {
-    // the program inherits it: trajectory.h5 does not fit
+    // the program inherits it: not one frame fits
     const FileSizeLimit disk(100000);
     ended = gridshell_program({"run", "s1_actuation"}, folder.path());
   }
   CHECK(ended.code == 1);
   CHECK_THAT(ended.err, Catch::Contains("cannot write '") &&
-                            Catch::Contains("trajectory.h5': File too large\n"));
+                            Catch::Contains("frames.journal': File too large\n") &&
+                            Catch::EndsWith("nothing was finished, so nothing is left behind\n"));
   CHECK(files_under(folder.path(), "").empty());
+}
+
+TEST_CASE("a disk that fills up late leaves the frames found before") {
+  const TemporaryFolder folder;
+  Ended ended;
+  {
+    const FileSizeLimit disk(2000000);
+    ended = gridshell_program({"run", "s1_actuation", "--frames", "40"}, folder.path());
+  }
+  CHECK(ended.code == 1);
+  CHECK_THAT(ended.err, Catch::Contains(" frames of an unfinished run, each whole, are in '") &&
+                            Catch::Contains("\n  gridshell render out/s1_actuation.partial-"));
+  CHECK(files_under(folder.path(), "frames.journal").size() == 1);
 }

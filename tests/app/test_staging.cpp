@@ -1,5 +1,8 @@
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
+#include "app/manifest.h"
 #include "app/staging.h"
 #include "engine/core/atomic_file.h"
 #include "tests/temporary_folder.h"
@@ -22,12 +25,29 @@ TEST_CASE("a staged folder takes its final name only on commit") {
   CHECK_FALSE(fs::exists(staged->path()));
 }
 
+namespace {
+
+// what a finished run leaves: its files, and the list of them
+void make_run(const fs::path& run) {
+  REQUIRE(make_folder(run / "frames"));
+  REQUIRE(write_atomically(run / "summary.json", "old"));
+  REQUIRE(write_atomically(run / "frames/old.png", "old"));
+  REQUIRE(app::write_manifest(run));
+}
+
+// the names beside `run` that are not its own
+std::vector<std::string> beside(const TemporaryFolder& folder) {
+  auto names = folder.entries();
+  std::erase(names, "run");
+  return names;
+}
+
+}  // namespace
+
 TEST_CASE("a run folder is replaced as a whole") {
   const TemporaryFolder folder;
   const auto run = folder.path() / "run";
-  REQUIRE(make_folder(run));
-  REQUIRE(write_atomically(run / "summary.json", "old"));
-  REQUIRE(write_atomically(run / "old.png", "old"));
+  make_run(run);
   {
     auto staged = StagedFolder::create(run);
     REQUIRE(staged);
@@ -36,7 +56,7 @@ TEST_CASE("a run folder is replaced as a whole") {
     REQUIRE(staged->commit());
   }
   CHECK(read_whole(run / "summary.json").value() == "new");
-  CHECK_FALSE(fs::exists(run / "old.png"));
+  CHECK_FALSE(fs::exists(run / "frames/old.png"));
   CHECK(folder.entries() == std::vector<std::string>{"run"});
 }
 
@@ -87,5 +107,138 @@ TEST_CASE("only a run or an empty folder may be replaced") {
   SECTION("a file may not") {
     REQUIRE(write_atomically(target, "mine"));
     CHECK_FALSE(StagedFolder::create(target));
+  }
+}
+
+TEST_CASE("a run with a foreign file in it is not replaced, and the file is named") {
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  make_run(run);
+  const auto foreign = GENERATE(as<std::string>{}, "notes.txt", "old.png", "frames/mine.png",
+                                ".hidden", "deep/er/thesis.tex", "empty/");
+  if (foreign.back() == '/') {
+    REQUIRE(make_folder(run / foreign));
+  } else {
+    REQUIRE(make_folder((run / foreign).parent_path()));
+    REQUIRE(write_atomically(run / foreign, "mine"));
+  }
+  const auto staged = StagedFolder::create(run);
+  REQUIRE_FALSE(staged);
+  CHECK(staged.error().fault == Fault::bad_input);
+  const auto name = foreign.back() == '/' ? foreign.substr(0, foreign.size() - 1) : foreign;
+  CHECK_THAT(staged.error().message,
+             Catch::Contains("it holds what no run wrote there: '" + name + "'"));
+  CHECK(beside(folder).empty());
+}
+
+TEST_CASE("something called summary.json makes no run") {
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  REQUIRE(make_folder(run));
+  SECTION("of another program") {
+    REQUIRE(write_atomically(run / "summary.json", R"({"webpack": 1})"));
+  }
+  SECTION("a folder") { REQUIRE(make_folder(run / "summary.json")); }
+  SECTION("of a run, beside a thesis") {
+    REQUIRE(write_atomically(run / "summary.json", R"({"preset": "x", "negative_pivots": 0})"));
+    REQUIRE(write_atomically(run / "thesis.tex", "years of work"));
+  }
+  SECTION("of a run, beside pictures of something else") {
+    REQUIRE(write_atomically(run / "summary.json", R"({"preset": "x", "negative_pivots": 0})"));
+    REQUIRE(write_atomically(run / "holiday.png", "sun"));
+  }
+  CHECK_FALSE(StagedFolder::create(run));
+}
+
+TEST_CASE("a run of version 0.1, which has no list of its files, may be replaced") {
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  REQUIRE(make_folder(run / "frames"));
+  REQUIRE(write_atomically(run / "summary.json", R"({"preset": "a/x", "negative_pivots": 0})"));
+  for (const char* name : {"frames.csv", "trajectory.h5", "movie.mp4", "x_1.png", "x_K.svg",
+                           "frames/frame_00000.png", ".partial-77-frames.csv"})
+    REQUIRE(write_atomically(run / name, "old"));
+  CHECK(StagedFolder::create(run));
+}
+
+TEST_CASE("what appears under the final name meanwhile is not destroyed") {
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  auto staged = StagedFolder::create(run);
+  REQUIRE(staged);
+  REQUIRE(write_atomically(staged->path() / "summary.json", "new"));
+  SECTION("a folder of somebody's") {
+    REQUIRE(make_folder(run));
+    REQUIRE(write_atomically(run / "thesis.tex", "years of work"));
+    const auto committed = staged->commit();
+    REQUIRE_FALSE(committed);
+    CHECK(committed.error().fault == Fault::io);
+    CHECK_THAT(committed.error().message, Catch::Contains("it exists and is no run"));
+    CHECK(read_whole(run / "thesis.tex").value() == "years of work");
+    CHECK(read_whole(staged->path() / "summary.json").value() == "new");
+  }
+  SECTION("a file") {
+    REQUIRE(write_atomically(run, "mine"));
+    REQUIRE_FALSE(staged->commit());
+    CHECK(read_whole(run).value() == "mine");
+  }
+  SECTION("a foreign file in the run that stood there") {
+    make_run(run);
+    REQUIRE(write_atomically(run / "notes.txt", "mine"));
+    REQUIRE_FALSE(staged->commit());
+    CHECK(read_whole(run / "notes.txt").value() == "mine");
+  }
+  SECTION("another run, which is replaced") {
+    make_run(run);
+    REQUIRE(staged->commit());
+    CHECK(read_whole(run / "summary.json").value() == "new");
+    CHECK(beside(folder).empty());
+  }
+  SECTION("an empty folder, which is replaced") {
+    REQUIRE(make_folder(run));
+    REQUIRE(staged->commit());
+    CHECK(read_whole(run / "summary.json").value() == "new");
+    CHECK(beside(folder).empty());
+  }
+}
+
+TEST_CASE("a folder that was left behind is neither taken over nor lost") {
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  // process ids come again
+  auto before = run;
+  before += ".partial-" + std::to_string(getpid());
+  REQUIRE(make_folder(before / "frames"));
+  REQUIRE(write_atomically(before / "frames/frame_00099.png", "stale"));
+  auto staged = StagedFolder::create(run);
+  REQUIRE(staged);
+  CHECK(staged->path() != before);
+  CHECK(fs::is_empty(staged->path()));
+  // its own is being written, so it is not one of those left behind
+  CHECK(app::left_behind(run) == std::vector<fs::path>{before});
+  REQUIRE(staged->commit());
+  CHECK_FALSE(fs::exists(run / "frames"));
+  CHECK(fs::exists(before / "frames/frame_00099.png"));
+}
+
+TEST_CASE("a link to a folder is written through") {
+  const TemporaryFolder folder;
+  const auto disk = folder.path() / "disk", run = folder.path() / "run";
+  REQUIRE(make_folder(disk / "real"));
+  fs::create_directory_symlink(disk / "real", run);
+  {
+    auto staged = StagedFolder::create(run);
+    REQUIRE(staged);
+    CHECK(staged->path().parent_path() == fs::canonical(disk));
+    REQUIRE(write_atomically(staged->path() / "summary.json", "new"));
+    REQUIRE(staged->commit());
+  }
+  CHECK(fs::is_symlink(run));
+  CHECK(read_whole(disk / "real/summary.json").value() == "new");
+  SECTION("one that leads nowhere is refused") {
+    fs::remove_all(disk);
+    const auto staged = StagedFolder::create(run);
+    REQUIRE_FALSE(staged);
+    CHECK_THAT(staged.error().message, Catch::Contains("it is a link that leads nowhere"));
   }
 }

@@ -96,7 +96,7 @@ TEST_CASE("a fault names its place, key, value, what is wrong and what is right"
        "bad.toml:2:13: [footprint] placement = \"haf\": unknown word, must be \"half\" or "
        "\"on_axis\"; did you mean 'half'?"},
       {"[accuracy]\ntolerance = 0",
-       "bad.toml:2:13: [accuracy] tolerance = 0: out of range, must be a number > 0 and <= 1"},
+       "bad.toml:2:13: [accuracy] tolerance = 0: out of range, must be a number from 1e-09 to 1"},
       {"[movie]\nframes = 0",
        "bad.toml:2:10: [movie] frames = 0: out of range, must be an integer from 2 to 100000"},
       {"[movie]\nsize = [1280]",

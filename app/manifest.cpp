@@ -1,0 +1,157 @@
+#include "app/manifest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/journal.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+const std::string first_line = "gridshell run 1";
+
+// all files and empty folders under a folder, relative to it, sorted
+std::vector<std::string> contents(const fs::path& folder, std::error_code& error) {
+  std::vector<std::string> found;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error)) {
+    const bool inner = at->is_directory() && !at->is_symlink() && !fs::is_empty(at->path(), error);
+    if (!inner) found.push_back(at->path().lexically_relative(folder).generic_string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// the files that a manifest lists, or nothing where there is none
+std::optional<std::set<std::string>> listed(const fs::path& folder) {
+  const auto text = read_whole(folder / manifest_name, largest_text);
+  if (!text) return std::nullopt;
+  std::istringstream lines(*text);
+  std::string line;
+  if (!std::getline(lines, line) || line != first_line) return std::nullopt;
+  std::set<std::string> names{manifest_name};
+  while (std::getline(lines, line)) names.insert(line);
+  return names;
+}
+
+// a run or chart without a manifest: which names its files may have
+struct Unlisted {
+  std::set<std::string> stems;  // that names of pictures begin with
+  std::set<std::string> cases;  // folders, each a run
+};
+
+// what the journal or the summary of a folder says that it is
+std::optional<Unlisted> unlisted(const fs::path& folder) {
+  Unlisted run;
+  const auto name_pictures = [&](const fs::path& preset) {
+    run.stems = {preset.filename().string(), "accuracy", "unknowns", "scaling", "stability"};
+    if (run.stems.contains("")) run.stems.erase("");
+  };
+  const auto text = read_whole(folder / "summary.json", largest_text);
+  const auto json = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
+  const auto holds = [&](const char* key) { return json.is_object() && json.contains(key); };
+  if (holds("preset") && json["preset"].is_string() &&
+      (holds("negative_pivots") || holds("cases") || holds("chart"))) {
+    name_pictures(json["preset"].get<std::string>());
+    if (holds("cases") && json["cases"].is_array())
+      for (const auto& one : json["cases"])
+        for (const char* key : {"name", "preset"})
+          if (one.is_object() && one.contains(key) && one[key].is_string())
+            run.cases.insert(fs::path(one[key].get<std::string>()).filename().string());
+    return run;
+  }
+  if (const auto preset = record::preset_of_journal(folder)) {
+    name_pictures(*preset);
+    return run;
+  }
+  // of several cases none of which was finished: the folders in it are the runs
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.is_directory(error) && unlisted(entry.path()))
+      run.cases.insert(entry.path().filename().string());
+  if (run.cases.empty()) return std::nullopt;
+  return run;
+}
+
+bool is_temporary(const std::string& name) { return name.starts_with(".partial-"); }
+
+bool may_be_of(const Unlisted& run, const std::string& name) {
+  static const std::set<std::string> data{
+      "summary.json", "preset.toml",    "joints.csv",   "cells.csv",   "frames.csv",
+      "bins.csv",     "seams.csv",      "trajectory.h5", "movie.mp4",  "accuracy.csv",
+      "scaling.csv",  "stability.csv",  record::journal_name, record::coarser_journal_name};
+  static const std::regex frame("frames(/frame_[0-9]{5,}\\.png)?");
+  if (data.contains(name) || is_temporary(fs::path(name).filename().string()) ||
+      std::regex_match(name, frame))
+    return true;
+  const auto kind = fs::path(name).extension();
+  if (name.find('/') != std::string::npos || (kind != ".png" && kind != ".svg")) return false;
+  return std::ranges::any_of(run.stems, [&](const auto& stem) { return name.starts_with(stem); });
+}
+
+// the names in a folder without a manifest that no run gives
+void gather_foreign(const fs::path& folder, const Unlisted& run, const std::string& before,
+                    std::vector<std::string>& foreign) {
+  std::error_code error;
+  for (const auto& name : contents(folder, error)) {
+    const auto slash = name.find('/');
+    const auto inner = name.substr(0, slash);
+    if (run.cases.contains(inner) && fs::is_directory(folder / inner, error)) continue;
+    if (!may_be_of(run, name)) foreign.push_back(before + name);
+  }
+  for (const auto& name : run.cases) {
+    if (!fs::is_directory(folder / name, error)) continue;
+    if (const auto inner = unlisted(folder / name))
+      gather_foreign(folder / name, *inner, before + name + "/", foreign);
+    else if (!fs::is_empty(folder / name, error))
+      foreign.push_back(before + name);
+  }
+}
+
+std::string foreign_text(const std::vector<std::string>& foreign) {
+  if (foreign.empty()) return "";
+  const auto more = foreign.size() - 1;
+  return fmt::format("it holds what no run wrote there: '{}'{}", foreign.front(),
+                     more ? fmt::format(" and {} more", more) : "");
+}
+
+}  // namespace
+
+Result<void> write_manifest(const fs::path& folder) {
+  std::error_code error;
+  std::string text = first_line + "\n";
+  for (const auto& name : contents(folder, error))
+    if (name != manifest_name) text += name + "\n";
+  if (error)
+    return fail(Fault::io, fmt::format("cannot list '{}': {}", folder.string(), error.message()));
+  return write_atomically(folder / manifest_name, text);
+}
+
+std::string no_run_because(const fs::path& folder) {
+  std::error_code error;
+  std::vector<std::string> foreign;
+  if (const auto names = listed(folder)) {
+    for (const auto& name : contents(folder, error))
+      if (!names->contains(name) && !is_temporary(fs::path(name).filename().string()))
+        foreign.push_back(name);
+  } else if (const auto run = unlisted(folder)) {
+    gather_foreign(folder, *run, "", foreign);
+  } else if (fs::exists(folder / "summary.json", error)) {
+    return "it exists and is no run (its summary.json is not one of a run)";
+  } else {
+    return "it exists and is no run (it has no summary.json)";
+  }
+  if (error) return "it cannot be read: " + error.message();
+  return foreign_text(foreign);
+}
+
+}  // namespace gridshell::app

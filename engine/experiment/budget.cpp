@@ -1,0 +1,53 @@
+#include "engine/experiment/budget.h"
+
+#include <fmt/format.h>
+
+#include "engine/core/memory.h"
+#include "engine/preset/rung.h"
+
+namespace gridshell::experiment {
+namespace {
+
+// measured on circles of 12 to 100 rods at 8 to 64 edges, all meshes of a run together
+constexpr double bytes_an_unknown = 2500, bytes_a_twist_unknown = 5000;
+
+}  // namespace
+
+double unknowns_of(const Footprint& footprint, preset::Rung rung, int edges_per_segment) {
+  double segments = 0;
+  for (const FootprintRod& rod : footprint.rods) segments += double(rod.joints.size()) + 1;
+  const double edges = segments * edges_per_segment;
+  if (rung == preset::Rung::net) return 0;
+  // an edge brings a node, and joints, which two rods share, are counted twice
+  const double nodes = edges - double(footprint.joints.size());
+  return 3 * nodes + (rung == preset::Rung::twist ? edges : 0);
+}
+
+double memory_GB(const Footprint& footprint, preset::Rung rung, const LevelPlan& plan) {
+  double unknowns = 0;
+  for (const int edges : plan.edges_per_segment) unknowns += unknowns_of(footprint, rung, edges);
+  return 1e-9 * unknowns *
+         (rung == preset::Rung::twist ? bytes_a_twist_unknown : bytes_an_unknown);
+}
+
+Result<void> fits_memory(const Footprint& footprint, const preset::Preset& preset,
+                         const LevelPlan& plan) {
+  const preset::Rung rung = preset::rung_of(preset);
+  const double asked = preset.accuracy.memory_GB;
+  const double given = asked > 0 ? asked : default_memory_GB();
+  const double wanted = memory_GB(footprint, rung, plan);
+  if (given == 0 || wanted <= given) return {};
+  const int edges = plan.edges_per_segment.back();
+  return fail(
+      Fault::bad_input,
+      fmt::format("{} edges a segment, {:.3g} unknowns, take about {:.2g} GB, more than the {:.2g} "
+                  "GB of {}; {} needs less",
+                  edges, unknowns_of(footprint, rung, edges), wanted, given,
+                  asked > 0 ? "[accuracy] memory_GB" : "half of the machine's memory ([accuracy] "
+                                                       "memory_GB changes that)",
+                  preset.accuracy.edges_per_segment > 0
+                      ? "a smaller [accuracy] edges_per_segment"
+                      : "a larger [accuracy] tolerance"));
+}
+
+}  // namespace gridshell::experiment

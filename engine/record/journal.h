@@ -1,0 +1,80 @@
+// frames.journal: the frames of a run that is not finished, each on the disk as soon as it is found.
+//
+// A line that names the file, then records: kind (4 bytes), length (8), payload, checksum (8) of all
+// of these. The first record is the head (preset, names of the columns, layout), every other one a
+// frame, in the order in which they were found; of two with one index the later counts. A run that is
+// killed leaves a journal that reads up to its last whole record. Numbers are those of the machine.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/record/snapshot.h"
+#include "engine/record/summary.h"
+
+namespace gridshell::record {
+
+/// The journal of a run's folder; and of the coarser meshes before, while the finer ones have found
+/// fewer frames.
+inline constexpr const char *journal_name = "frames.journal",
+                            *coarser_journal_name = "frames.coarser.journal";
+
+/// Whose frames they are.
+struct RunName {
+  std::string preset;
+  Kind kind = Kind::unknown;
+};
+
+/// A journal as it grows. Every record goes to the system at once.
+class JournalWriter {
+ public:
+  /// A new journal, in the place of one that stood there. Errors: io with path and reason.
+  static Result<JournalWriter> create(const std::filesystem::path& path, const RunName& name,
+                                      const Layout& layout);
+  JournalWriter(JournalWriter&& other) noexcept;
+  JournalWriter& operator=(JournalWriter&& other) noexcept;
+  ~JournalWriter();
+
+  /// Errors: io with path and reason; what was cut short is taken back.
+  Result<void> append(const Frame& frame);
+
+  /// how many different frames it holds
+  std::size_t frames() const { return indices_; }
+
+ private:
+  JournalWriter(std::filesystem::path path, int descriptor)
+      : path_(std::move(path)), descriptor_(descriptor) {}
+  Result<void> put(std::uint32_t kind, const std::string& payload);
+
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::uint64_t end_ = 0;
+  std::size_t indices_ = 0;
+  std::vector<bool> seen_;  // by index
+};
+
+/// What a journal holds: frames in order of their index, read one at a time.
+struct Journal {
+  RunName name;
+  Trajectory trajectory;
+};
+
+/// Opens a journal. Errors: io when it cannot be read; bad_input when it is none, or its head is
+/// damaged. What follows a damaged record is left out.
+Result<Journal> read_journal(const std::filesystem::path& path, bool trial = true);
+
+/// The journal of a run's folder that holds the most frames. Errors: as above.
+Result<Journal> read_journal_of(const std::filesystem::path& folder);
+
+/// The name of the preset in a folder's journal; nothing where there is no journal with a whole head.
+std::optional<std::string> preset_of_journal(const std::filesystem::path& folder);
+
+/// How many frames a folder's journals hold; 0 without any. Nothing of them is trusted.
+std::size_t frames_in_journal(const std::filesystem::path& folder);
+
+}  // namespace gridshell::record

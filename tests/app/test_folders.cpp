@@ -1,0 +1,317 @@
+// What a user would lose: folders that are no runs, links, closed streams, runs cut short.
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/journal.h"
+#include "engine/record/trajectory_file.h"
+#include "render/image/png.h"
+#include "tests/app/program.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using gridshell::read_whole;
+using gridshell::write_atomically;
+using Catch::Contains;
+
+namespace {
+
+// four rods a direction
+const std::string small = R"(title = "small"
+[footprint]
+rods = 4
+radius_mm = 45.0
+[actuation]
+radius_mm = 40.0
+[accuracy]
+edges_per_segment = 2
+[movie]
+frames = 4
+size = [160, 120]
+quality = "draft"
+)";
+
+struct Bench {
+  TemporaryFolder folder;
+  fs::path at = folder.path();
+  Bench() { REQUIRE(write_atomically(at / "small.toml", small)); }
+  Ended run(const std::vector<std::string>& arguments) const {
+    return gridshell_program(arguments, at);
+  }
+  Ended good(const std::vector<std::string>& arguments) const {
+    const auto ended = run(arguments);
+    INFO(ended.err);
+    REQUIRE(ended.code == 0);
+    return ended;
+  }
+};
+
+// runs a line of the shell, `gridshell` standing for the program
+int shell(const Bench& bench, const std::string& line) {
+  const auto whole = "cd '" + bench.at.string() + "' && gridshell() { '" + GRIDSHELL_PROGRAM +
+                     "' \"$@\"; } && " + line;
+  const int status = std::system(whole.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+// the journal that a run would have left when it was killed after `count` frames
+void cut_short(const fs::path& whole, const fs::path& partial, std::size_t count,
+               gridshell::record::Kind kind = gridshell::record::Kind::run) {
+  const auto run = gridshell::record::read_trajectory(whole / "trajectory.h5");
+  REQUIRE(run);
+  fs::create_directories(partial);
+  fs::copy_file(whole / "preset.toml", partial / "preset.toml");
+  auto journal = gridshell::record::JournalWriter::create(
+      partial / gridshell::record::journal_name, {"small", kind}, run->layout);
+  REQUIRE(journal);
+  for (std::size_t k = 0; k < count; ++k)
+    REQUIRE(journal->append(std::as_const(run->frames)[k]));
+}
+
+}  // namespace
+
+TEST_CASE("a folder with somebody's summary.json is not replaced") {
+  const Bench bench;
+  fs::create_directory(bench.at / "proj");
+  REQUIRE(write_atomically(bench.at / "proj/summary.json", "{\"webpack\":1}"));
+  REQUIRE(write_atomically(bench.at / "proj/thesis.tex", "thesis"));
+  const auto ended = bench.run({"run", "small.toml", "-o", "proj"});
+  CHECK(ended.code == 2);
+  CHECK(ended.err ==
+        "cannot write the folder 'proj': it exists and is no run (its summary.json is not one of a "
+        "run); choose another folder with -o\n");
+  CHECK(read_whole(bench.at / "proj/thesis.tex").value() == "thesis");
+  // and `check` says the same beforehand
+  CHECK(bench.run({"check", "small.toml", "-o", "proj"}).code == 2);
+}
+
+TEST_CASE("a file put into a run keeps it from being replaced or drawn over") {
+  const Bench bench;
+  bench.good({"run", "small.toml", "-o", "r"});
+  REQUIRE(write_atomically(bench.at / "r/notes.txt", "mine"));
+  for (const auto& arguments : {std::vector<std::string>{"run", "small.toml", "-o", "r"},
+                                {"render", "r"}}) {
+    const auto ended = bench.run(arguments);
+    CHECK(ended.code == 2);
+    CHECK(ended.err ==
+          "cannot write the folder 'r': it holds what no run wrote there: 'notes.txt'; choose "
+          "another folder with -o\n");
+  }
+  CHECK(read_whole(bench.at / "r/notes.txt").value() == "mine");
+}
+
+TEST_CASE("a run is written through a link, which stays") {
+  const Bench bench;
+  fs::create_directories(bench.at / "disk/real");
+  fs::create_directory_symlink("disk/real", bench.at / "link");
+  bench.good({"run", "small.toml", "-o", "link"});
+  bench.good({"run", "small.toml", "-o", "link/"});
+  CHECK(fs::is_symlink(bench.at / "link"));
+  CHECK(fs::exists(bench.at / "disk/real/summary.json"));
+  CHECK(files_under(bench.at / "disk", "").size() > 5);
+  fs::create_directory_symlink("nowhere", bench.at / "broken");
+  CHECK(bench.run({"run", "small.toml", "-o", "broken"}).code == 2);
+}
+
+TEST_CASE("closed streams do not become files of results") {
+  const Bench bench;
+  bench.good({"run", "small.toml", "-o", "open"});
+  for (const std::string closed : {"2>&-", ">&-", "<&- >&- 2>&-"}) {
+    INFO(closed);
+    CHECK(shell(bench, "gridshell run small.toml -o closed " + closed) == 0);
+    for (const char* name : {"preset.toml", "frames.csv", "joints.csv", "trajectory.h5"})
+      CHECK(read_whole(bench.at / "open" / name).value() ==
+            read_whole(bench.at / "closed" / name).value());
+  }
+}
+
+TEST_CASE("what stdout does not take is noticed") {
+  const Bench bench;
+  CHECK(shell(bench, "gridshell list > /dev/full 2> err") == 1);
+  CHECK(read_whole(bench.at / "err").value() ==
+        "cannot write to standard output: No space left on device\n");
+  CHECK(shell(bench, "gridshell check small.toml > /dev/full 2> err") == 1);
+  CHECK(shell(bench, "gridshell list --keys markdown > /dev/full 2> err") == 1);
+}
+
+TEST_CASE("inputs that are no regular files, or too large, are refused at once") {
+  const Bench bench;
+  REQUIRE(mkfifo((bench.at / "fifo").c_str(), 0600) == 0);
+  const std::string curve = "[footprint]\nkind = \"curve\"\nboundary = \"polygon\"\npoints_mm = ";
+  REQUIRE(write_atomically(bench.at / "pipe.toml", curve + "\"fifo\"\n"));
+  REQUIRE(write_atomically(bench.at / "zero.toml", curve + "\"/dev/zero\"\n"));
+  REQUIRE(write_atomically(bench.at / "large.toml", curve + "\"large.csv\"\n"));
+  REQUIRE(write_atomically(bench.at / "large.csv", std::string(17 << 20, '1')));
+  const char* pipe = "it is a pipe or a device, must be a regular file";
+  for (const auto& [arguments, sentence] :
+       std::vector<std::pair<std::vector<std::string>, const char*>>{
+           {{"check", "pipe.toml"}, pipe},
+           {{"check", "zero.toml"}, pipe},
+           {{"check", "large.toml"}, "it is larger than 16 MB"},
+           {{"check", "/dev/zero"}, pipe},
+           {{"check", "./fifo"}, pipe},
+           {{"compare", "/dev/zero", "fifo"}, pipe},
+       }) {
+    INFO(arguments[1]);
+    const auto ended = bench.run(arguments);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains(sentence));
+  }
+}
+
+TEST_CASE("frames of a run that was cut short are drawn, and it says that it is unfinished") {
+  const Bench bench;
+  bench.good({"movie", "small.toml", "-o", "whole"});
+  cut_short(bench.at / "whole", bench.at / "r.partial-7", 3);
+  const auto drawn = bench.good({"render", "r.partial-7"});
+  CHECK(drawn.err.starts_with("'r.partial-7' is not finished: 3 frames, up to progress 0.667\n"));
+  const auto pictures = files_under(bench.at / "r.partial-7/frames", ".png");
+  REQUIRE(pictures.size() == 3);
+  const auto summary = nlohmann::json::parse(
+      read_whole(bench.at / "r.partial-7/summary.json").value());
+  CHECK(summary["finished"] == false);
+  CHECK(summary["kind"] == "movie");
+  CHECK(summary["preset"] == "small");
+  CHECK(summary["energy_bend_mJ"] > 0);
+  // all of a run's files are there now, of the frames found
+  const auto frames = read_whole(bench.at / "r.partial-7/frames.csv").value();
+  CHECK(std::count(frames.begin(), frames.end(), '\n') == 4);
+  CHECK_FALSE(fs::exists(bench.at / "r.partial-7/frames.journal"));
+  const auto again = bench.good({"render", "r.partial-7", "-o", "elsewhere"});
+  CHECK_THAT(again.err, Contains("'r.partial-7' is not finished"));
+  CHECK(files_under(bench.at / "elsewhere/frames", ".png").size() == 3);
+  // a whole one is not told so
+  CHECK_THAT(bench.good({"render", "whole"}).err, !Contains("finished"));
+}
+
+TEST_CASE("cases of a run that was cut short are drawn as far as they came") {
+  const Bench bench;
+  const std::string cases =
+      "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
+  REQUIRE(write_atomically(bench.at / "cases.toml", small + cases));
+  bench.good({"run", "cases.toml", "-o", "whole"});
+  const auto partial = bench.at / "r.partial-7";
+  fs::create_directories(partial);
+  fs::copy(bench.at / "whole/near", partial / "near");
+  fs::copy_file(bench.at / "whole/preset.toml", partial / "preset.toml");
+  cut_short(bench.at / "whole/far", partial / "far", 2);
+  const auto drawn = bench.good({"render", "r.partial-7", "--set", "movie.beside=false"});
+  CHECK_THAT(drawn.err, Contains("'r.partial-7/far' is not finished: 2 frames"));
+  CHECK(files_under(partial / "near/frames", ".png").size() == 4);
+  CHECK(files_under(partial / "far/frames", ".png").size() == 2);
+}
+
+TEST_CASE("an interrupted run says how to draw what it found, and the next run names it") {
+  const Bench bench;
+  bench.good({"run", "small.toml", "-o", "whole"});
+  cut_short(bench.at / "whole", bench.at / "out/small.partial-7", 3);
+  const auto next = bench.good({"run", "small.toml"});
+  CHECK_THAT(next.err,
+             Contains("'out/small.partial-7' is left of a run that was not finished:\n  gridshell "
+                      "render out/small.partial-7    draws it\n  rm -r out/small.partial-7    "
+                      "removes it\n"));
+  CHECK(fs::exists(bench.at / "out/small.partial-7/frames.journal"));
+  CHECK_THAT(bench.good({"run", "small.toml", "--quiet"}).err, !Contains("left of"));
+}
+
+TEST_CASE("a run folder of somebody else cannot write outside of -o") {
+  const Bench bench;
+  const std::string cases = "[[case]]\nname = \"near\"\n[[case]]\nname = \"far\"\n";
+  REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
+  bench.good({"run", "small.toml", "-o", "r"});
+  for (const std::string name : {"../victim/r", "/tmp/victim", "..", ".", "frames", ""}) {
+    auto json = nlohmann::json::parse(read_whole(bench.at / "r/summary.json").value());
+    json["cases"][1]["name"] = name;
+    REQUIRE(write_atomically(bench.at / "r/summary.json", json.dump()));
+    const auto ended = bench.run({"render", "r", "-o", "drawn"});
+    INFO(name);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains("'r/summary.json': case "));
+    CHECK_FALSE(fs::exists(bench.at / "victim"));
+    CHECK_FALSE(fs::exists(bench.at / "drawn"));
+  }
+}
+
+TEST_CASE("names of cases that would meet a run's files are refused") {
+  const Bench bench;
+  for (const auto& [name, sentence] : std::vector<std::pair<std::string, std::string>>{
+           {"frames", "is the folder of a movie's pictures"},
+           {"movie.mp4", "must not end in .mp4"},
+           {"frames.journal", "must not end in .journal"},
+           {"a.json", "must not end in .json"},
+           {std::string(300, 'x'), "is 300 letters long, must be at most 100"},
+       }) {
+    REQUIRE(write_atomically(bench.at / "bad.toml", small + "[[case]]\nname = \"" + name + "\"\n"));
+    const auto ended = bench.run({"check", "bad.toml"});
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains(sentence));
+  }
+}
+
+TEST_CASE("values whose products leave the numbers are refused by their key") {
+  const Bench bench;
+  for (const std::string key : {"footprint.radius_mm", "footprint.spacing_mm", "rod.diameter_mm",
+                                "rod.young_GPa", "rod.curvature_per_mm", "dynamics.step_s",
+                                "loads.field_N_per_mm", "net.radius_mm"})
+    for (const std::string value : {"1e160", "1e-160", "1e300"}) {
+      const auto ended = bench.run({"check", "small.toml", "--set", key + "=" + value});
+      INFO(key << " = " << value);
+      CHECK(ended.code == 2);
+      CHECK_THAT(ended.err, Contains("] " + key.substr(key.find('.') + 1) + " = "));
+    }
+}
+
+TEST_CASE("meshes that do not fit into memory are refused with what they would take") {
+  const Bench bench;
+  for (const char* command : {"check", "run"}) {
+    const auto ended = bench.run({command, "small.toml", "--set", "accuracy.memory_GB=0.0001"});
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains("2 edges a segment") && Contains("unknowns, take about") &&
+                              Contains("more than the 0.0001 GB of [accuracy] memory_GB"));
+  }
+  const auto fine = bench.run({"check", "small.toml", "--set", "accuracy.edges_per_segment=0",
+                               "--set", "accuracy.tolerance=1e-300"});
+  CHECK(fine.code == 2);
+}
+
+TEST_CASE("a picture larger than any of ours is not read") {
+  const Bench bench;
+  // a header of 1000000 x 1000000 pixels, with its checksum
+  const unsigned char header[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13, 'I', 'H', 'D',
+                                  'R', 0, 0x0f, 0x42, 0x40, 0, 0x0f, 0x42, 0x40, 8, 6, 0, 0, 0};
+  std::string bytes(reinterpret_cast<const char*>(header), sizeof header);
+  std::uint32_t sum = 0xffffffffu;
+  for (std::size_t k = 12; k < bytes.size(); ++k) {
+    sum ^= static_cast<unsigned char>(bytes[k]);
+    for (int bit = 0; bit < 8; ++bit) sum = (sum >> 1) ^ (sum & 1 ? 0xedb88320u : 0);
+  }
+  sum = ~sum;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += char(sum >> shift);
+  // and the beginning of its pixels, at which a header ends
+  bytes += std::string("\0\0\0\4IDAT", 8);
+  REQUIRE(write_atomically(bench.at / "bomb.png", bytes));
+  const auto ended = bench.run({"compare", "bomb.png", "bomb.png"});
+  CHECK(ended.code == 2);
+  CHECK_THAT(ended.err, Contains("it has 1000000 x 1000000 pixels, more than the 268 million"));
+}
+
+TEST_CASE("a signal ends commands that draw no progress, at once") {
+  const Bench bench;
+  const int number = GENERATE(SIGINT, SIGTERM, SIGHUP);
+  // a net of a thousand rods takes seconds to plan
+  const Running running({"check", "fig3_hemisphere", "--set", "footprint.spacing_mm=0.3", "--set",
+                         "accuracy.memory_GB=1000"},
+                        bench.at);
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  running.signal(number);
+  const auto asked = std::chrono::steady_clock::now();
+  const auto ended = running.wait();
+  CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(1));
+  if (ended.code != 2) {  // unless it was refused before
+    CHECK(ended.code == 130);
+    CHECK(ended.err == "stopped\n");
+  }
+}

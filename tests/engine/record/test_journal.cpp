@@ -1,0 +1,231 @@
+// Frames on the disk as soon as they are found: what a killed run leaves can be read.
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <filesystem>
+#include <random>
+#include <utility>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/folder_sink.h"
+#include "engine/record/run_folder.h"
+#include "engine/record/summary_file.h"
+#include "engine/record/trajectory_file.h"
+#include "tests/engine/record/sample_run.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::record;
+namespace fs = std::filesystem;
+
+namespace {
+
+Frame frame_of(int index) {
+  Frame frame = sample_trajectory().frames[2];
+  frame.index = index;
+  frame.progress = index / 100.0;
+  return frame;
+}
+
+/// a journal of frames 0 ... count - 1 of the sample
+std::string journal_of(int count) {
+  const TemporaryFolder folder;
+  auto journal = JournalWriter::create(folder.path() / "j", {"s1_actuation", Kind::movie},
+                                       sample_trajectory().layout);
+  REQUIRE(journal);
+  for (int k = 0; k < count; ++k) REQUIRE(journal->append(frame_of(k)));
+  return read_whole(folder.path() / "j").value();
+}
+
+Result<Journal> read_bytes(const std::string& bytes) {
+  const TemporaryFolder folder;
+  REQUIRE(write_atomically(folder.path() / "j", bytes));
+  return read_journal(folder.path() / "j", false);
+}
+
+}  // namespace
+
+TEST_CASE("frames come back from a journal in order of their index, bit for bit") {
+  const TemporaryFolder folder;
+  const Trajectory run = sample_trajectory();
+  auto journal =
+      JournalWriter::create(folder.path() / "j", {"s1_actuation", Kind::figure}, run.layout);
+  REQUIRE(journal);
+  for (const std::size_t k : {2, 0, 1}) REQUIRE(journal->append(run.frames[k]));
+  // found again: the later one counts
+  Frame again = run.frames[1];
+  again.event = "again";
+  REQUIRE(journal->append(again));
+  CHECK(journal->frames() == 3);
+  const auto back = read_journal(folder.path() / "j");
+  REQUIRE(back);
+  CHECK(back->name.preset == "s1_actuation");
+  CHECK(back->name.kind == Kind::figure);
+  CHECK(back->trajectory.layout.rods == run.layout.rods);
+  const FrameList& frames = back->trajectory.frames;
+  REQUIRE(frames.size() == 3);
+  for (int k = 0; k < 3; ++k) {
+    CHECK(frames[k].index == k);
+    CHECK(same_bits(frames[k].nodes, run.frames[k].nodes));
+    CHECK(same_bits(frames[k].cell_K, run.frames[k].cell_K));
+    CHECK(same_bits(frames[k].K_bins, run.frames[k].K_bins));
+    CHECK(same_bits(frames[k].energies[Term::stretch], run.frames[k].energies[Term::stretch]));
+    CHECK(same_bits(frames[k].actuation, run.frames[k].actuation));
+  }
+  CHECK(frames[1].event == "again");
+  CHECK(frames[2].event == run.frames[2].event);
+}
+
+TEST_CASE("a journal cut anywhere reads up to its last whole frame") {
+  const std::string whole = journal_of(4), three = journal_of(3), none = journal_of(0);
+  const std::size_t a_frame = whole.size() - three.size();
+  REQUIRE(three.size() == none.size() + 3 * a_frame);
+  for (std::size_t size = 0; size <= whole.size(); size += 7) {
+    const auto read = read_bytes(whole.substr(0, size));
+    INFO(size);
+    REQUIRE(bool(read) == (size >= none.size()));
+    if (read) CHECK(read->trajectory.frames.size() == (size - none.size()) / a_frame);
+  }
+}
+
+TEST_CASE("a journal with a changed bit reads up to the frame before it") {
+  const std::string whole = journal_of(4), none = journal_of(0);
+  const std::size_t a_frame = (whole.size() - none.size()) / 4;
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const std::size_t at = random() % whole.size();
+    std::string wrong = whole;
+    wrong[at] = char(wrong[at] ^ (1 << random() % 8));
+    const auto read = read_bytes(wrong);
+    INFO(at);
+    REQUIRE(bool(read) == (at >= none.size()));
+    if (read) CHECK(read->trajectory.frames.size() == (at - none.size()) / a_frame);
+  }
+}
+
+TEST_CASE("frames of another shell are left out of a journal") {
+  const TemporaryFolder folder;
+  const Trajectory run = sample_trajectory();
+  auto journal = JournalWriter::create(folder.path() / "j", {"x", Kind::run}, run.layout);
+  REQUIRE(journal);
+  REQUIRE(journal->append(run.frames[0]));
+  Frame other = run.frames[1];
+  other.nodes.conservativeResize(3, 11);
+  REQUIRE(journal->append(other));
+  REQUIRE(journal->append(run.frames[2]));
+  const auto back = read_journal(folder.path() / "j");
+  REQUIRE(back);
+  CHECK(back->trajectory.frames.size() == 2);
+}
+
+TEST_CASE("a run that is killed keeps every frame found so far") {
+  const TemporaryFolder folder;
+  constexpr int all = 200, killed_at = 180;
+  const pid_t child = fork();
+  if (child == 0) {
+    FolderSink sink(folder.path(), {"s1_actuation", Kind::run});
+    if (!sink.begin(sample_trajectory().layout)) _exit(1);
+    for (int k = 0; k < all; ++k) {
+      if (k == killed_at) kill(getpid(), SIGKILL);
+      if (!sink.take(frame_of(k))) _exit(1);
+    }
+    _exit(0);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE(WIFSIGNALED(status));
+  CHECK(frames_in_journal(folder.path()) == killed_at);
+  const auto read = read_journal_of(folder.path());
+  REQUIRE(read);
+  CHECK(read->trajectory.frames.size() == killed_at);
+  CHECK(std::as_const(read->trajectory.frames).back().index == killed_at - 1);
+}
+
+TEST_CASE("a sink becomes the files of a run, whatever the order of the frames") {
+  const TemporaryFolder folder;
+  const Trajectory run = sample_trajectory();
+  REQUIRE(write_run(folder.path() / "at once", run, sample_summary()));
+  FolderSink sink(folder.path() / "found", {"s1_actuation", Kind::run});
+  REQUIRE(sink.begin(run.layout));
+  for (const std::size_t k : {1, 2, 0}) REQUIRE(sink.take(run.frames[k]));
+  const auto finished = sink.finish(sample_summary());
+  REQUIRE(finished);
+  // its frames are read from a journal that has no name any more
+  CHECK(same_bits(std::as_const(finished->frames)[1].nodes, run.frames[1].nodes));
+  for (const char* name : {"frames.csv", "joints.csv", "cells.csv", "bins.csv", "seams.csv",
+                           "trajectory.h5", "summary.json"}) {
+    INFO(name);
+    CHECK(read_whole(folder.path() / "at once" / name).value() ==
+          read_whole(folder.path() / "found" / name).value());
+  }
+  CHECK_FALSE(fs::exists(folder.path() / "found" / journal_name));
+}
+
+TEST_CASE("frames of a coarser mesh are kept until the finer one has as many") {
+  const TemporaryFolder folder;
+  const Layout layout = sample_trajectory().layout;
+  const auto found = [&] { return read_journal_of(folder.path())->trajectory.frames.size(); };
+  FolderSink sink(folder.path(), {"s1_actuation", Kind::run});
+  REQUIRE(sink.begin(layout));
+  for (int k = 0; k < 5; ++k) REQUIRE(sink.take(frame_of(k)));
+  REQUIRE(sink.begin(layout));
+  CHECK(found() == 5);
+  for (int k = 0; k < 4; ++k) REQUIRE(sink.take(frame_of(k)));
+  CHECK(found() == 5);
+  CHECK(fs::exists(folder.path() / coarser_journal_name));
+  for (int k = 4; k < 6; ++k) REQUIRE(sink.take(frame_of(k)));
+  CHECK(found() == 6);
+  CHECK_FALSE(fs::exists(folder.path() / coarser_journal_name));
+}
+
+TEST_CASE("a disk that fills up leaves a journal of whole frames") {
+  const TemporaryFolder folder;
+  const std::size_t some = journal_of(3).size();
+  FolderSink sink(folder.path(), {"s1_actuation", Kind::run});
+  REQUIRE(sink.begin(sample_trajectory().layout));
+  {
+    const FileSizeLimit full_disk(some + 100);
+    for (int k = 0; k < 3; ++k) REQUIRE(sink.take(frame_of(k)));
+    const auto fourth = sink.take(frame_of(3));
+    REQUIRE_FALSE(fourth);
+    CHECK(fourth.error().message ==
+          "cannot write '" + (folder.path() / journal_name).string() + "': File too large");
+  }
+  CHECK(fs::file_size(folder.path() / journal_name) == some);
+  // and goes on once there is room
+  REQUIRE(sink.take(frame_of(3)));
+  CHECK(frames_in_journal(folder.path()) == 4);
+}
+
+TEST_CASE("a list of frames on the disk keeps few of them and reads like one in memory") {
+  struct Counted : FrameSource {
+    std::size_t size() const override { return 1000; }
+    Result<Frame> read(std::size_t k) const override {
+      ++reads;
+      if (k == 500) return fail(Fault::io, "cannot read a frame");
+      Frame frame;
+      frame.index = int(k);
+      frame.nodes = Eigen::Matrix3Xd::Zero(3, 100000);
+      return frame;
+    }
+    mutable int reads = 0;
+  };
+  const auto source = std::make_shared<Counted>();
+  const FrameList frames(source);
+  CHECK(frames.size() == 1000);
+  CHECK(frames.front().index == 0);
+  CHECK(frames.back().index == 999);
+  const Frame& first = frames.front();
+  int sum = 0;
+  for (const Frame& frame : frames) sum += frame.index;
+  CHECK(sum == 999 * 1000 / 2 - 500);
+  CHECK(source->reads == 1000);
+  CHECK(first.index == 0);
+  // those asked for last are still there
+  CHECK(frames[998].index == 998);
+  CHECK(source->reads == 1000);
+  REQUIRE(frames.fault());
+  CHECK(frames.fault()->message == "cannot read a frame");
+}

@@ -1,0 +1,81 @@
+#include "tests/faults/faults.h"
+
+#include <dlfcn.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::atomic<int> watched{-1};
+std::atomic<long> count{0}, fatal{0};
+
+bool fails(Call kind) {
+  if (watched.load(std::memory_order_relaxed) != int(kind)) return false;
+  return ++count == fatal.load(std::memory_order_relaxed);
+}
+
+template <class Function>
+Function next(const char* name) {
+  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+bool is_file(int descriptor) {
+  struct stat about {};
+  return fstat(descriptor, &about) == 0 && S_ISREG(about.st_mode);
+}
+
+}  // namespace
+
+void fail_call(Call kind, long k) {
+  count = 0;
+  fatal = k;
+  watched = int(kind);
+}
+
+long calls_counted() { return count; }
+
+// what stands in the program itself comes before the library's
+
+extern "C" ssize_t write(int descriptor, const void* data, size_t size) {
+  static const auto real = next<ssize_t (*)(int, const void*, size_t)>("write");
+  if (is_file(descriptor) && fails(Call::write)) return errno = ENOSPC, -1;
+  return real(descriptor, data, size);
+}
+
+extern "C" ssize_t pwrite(int descriptor, const void* data, size_t size, off_t at) {
+  static const auto real = next<ssize_t (*)(int, const void*, size_t, off_t)>("pwrite");
+  if (fails(Call::write)) return errno = ENOSPC, -1;
+  return real(descriptor, data, size, at);
+}
+
+extern "C" int rename(const char* from, const char* to) {
+  static const auto real = next<int (*)(const char*, const char*)>("rename");
+  if (fails(Call::rename)) return errno = EIO, -1;
+  return real(from, to);
+}
+
+extern "C" int renameat2(int a, const char* from, int b, const char* to, unsigned flags) {
+  static const auto real = next<int (*)(int, const char*, int, const char*, unsigned)>("renameat2");
+  if (fails(Call::rename)) return errno = EIO, -1;
+  return real(a, from, b, to, flags);
+}
+
+extern "C" int mkdir(const char* path, mode_t mode) {
+  static const auto real = next<int (*)(const char*, mode_t)>("mkdir");
+  if (fails(Call::mkdir)) return errno = EIO, -1;
+  return real(path, mode);
+}
+
+void* operator new(std::size_t size) {
+  void* memory = fails(Call::allocation) ? nullptr : std::malloc(size);
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }

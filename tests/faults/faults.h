@@ -1,0 +1,14 @@
+// Calls of the system and allocations that fail on order, in this program alone.
+#pragma once
+
+#include <string>
+
+/// What can be made to fail.
+enum class Call { write, rename, mkdir, allocation };
+
+/// From now on counts calls of this kind, and fails the k-th of them (from 1): a write as on a full
+/// disk, the others as they fail. The calls after it succeed again; 0 fails none.
+void fail_call(Call kind, long k);
+
+/// How many calls of the kind there were since fail_call.
+long calls_counted();

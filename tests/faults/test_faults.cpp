@@ -1,0 +1,184 @@
+// Every write, rename, mkdir and allocation of a small run fails once: the old run is left whole, or
+// the new one stands, and whatever is left beside it is whole too.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <random>
+#include <sstream>
+
+#include "app/console.h"
+#include "app/manifest.h"
+#include "app/production.h"
+#include "engine/core/atomic_file.h"
+#include "engine/record/journal.h"
+#include "engine/record/summary_file.h"
+#include "engine/record/trajectory_file.h"
+#include "render/image/png.h"
+#include "tests/faults/faults.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using namespace gridshell;
+
+namespace {
+
+const std::string small = R"([footprint]
+rods = 2
+radius_mm = 25.0
+[actuation]
+radius_mm = 22.0
+[accuracy]
+edges_per_segment = 2
+[movie]
+frames = 2
+size = [48, 32]
+quality = "draft"
+)";
+
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file())
+      files[entry.path().lexically_relative(folder)] = read_whole(entry.path()).value();
+  return files;
+}
+
+/// what the program does, in a process of its own; its exit code, or 128 + the signal that ended it,
+/// and how many calls it made
+struct Outcome {
+  int code = 0;
+  long calls = 0;
+};
+
+Outcome produce_failing(const fs::path& folder, app::Pictures pictures, Call kind, long k) {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0) {
+    if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr) ||
+        chdir(folder.c_str()) != 0)
+      _exit(99);
+    app::Options options;
+    options.input = "small.toml";
+    options.output = "run";
+    options.threads = 1;
+    int code = 99;
+    // as the program does first of all
+    app::answer_the_unexpected();
+    fail_call(kind, k);
+    try {
+      code = app::produce(options, pictures);
+    } catch (const std::exception& error) {
+      code = app::report_exception(error);
+    }
+    const long calls = calls_counted();
+    fail_call(kind, 0);
+    if (::write(ends[1], &calls, sizeof calls) < 0) code = 99;
+    _exit(code);
+  }
+  close(ends[1]);
+  Outcome outcome;
+  if (read(ends[0], &outcome.calls, sizeof outcome.calls) < 0) outcome.calls = 0;
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return outcome;
+}
+
+/// no file under a final name is half-written
+void check_whole(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const auto& path = entry.path();
+    INFO(path);
+    if (path.filename().string().starts_with('.')) continue;
+    if (path.extension() == ".png") CHECK(render::read_png(path));
+    if (path.extension() == ".h5") CHECK(record::read_trajectory(path, {.trial = false}));
+    if (path.filename() == "summary.json") CHECK(record::read_summary(path));
+    if (path.extension() == ".csv") CHECK(read_whole(path).value().ends_with('\n'));
+  }
+}
+
+class Bench {
+ public:
+  explicit Bench(app::Pictures pictures) : pictures_(pictures) {
+    REQUIRE(write_atomically(at_ / "small.toml", small));
+    const auto first = produce_failing(at_, pictures, Call::mkdir, 0);
+    REQUIRE(first.code == 0);
+    before_ = contents(at_ / "run");
+  }
+
+  /// how many calls of a kind a run makes
+  long count(Call kind) const {
+    const auto all = produce_failing(at_, pictures_, kind, 0);
+    REQUIRE(all.code == 0);
+    return all.calls;
+  }
+
+  /// fails the k-th, and looks at what is left
+  void try_out(Call kind, long k) const {
+    INFO("call " << k);
+    // the old run is one of another title, so that the two can be told apart
+    REQUIRE(write_atomically(at_ / "run/preset.toml", "old"));
+    const auto old = contents(at_ / "run");
+    const auto outcome = produce_failing(at_, pictures_, kind, k);
+    CHECK(outcome.code >= 0);
+    CHECK(outcome.code <= 2);
+    const auto now = contents(at_ / "run");
+    CHECK(app::no_run_because(at_ / "run").empty());
+    if (outcome.code == 0)
+      CHECK(now.at("preset.toml") == before_.at("preset.toml"));
+    else
+      CHECK((now == old || now.at("preset.toml") == before_.at("preset.toml")));
+    check_whole(at_ / "run");
+    for (const auto& entry : fs::directory_iterator(at_)) {
+      const auto name = entry.path().filename().string();
+      if (name == "run" || name == "small.toml") continue;
+      INFO(name);
+      REQUIRE((name.starts_with("run.partial-") || name.starts_with("run.old-")));
+      if (name.starts_with("run.partial-")) check_whole(entry.path());
+      fs::remove_all(entry.path());
+    }
+  }
+
+ private:
+  TemporaryFolder folder_;
+  fs::path at_ = folder_.path();
+  app::Pictures pictures_;
+  std::map<std::string, std::string> before_;
+};
+
+}  // namespace
+
+TEST_CASE("every write, rename and mkdir of a run fails once, and nothing is lost", "[full]") {
+  const Bench bench(app::Pictures::none);
+  for (const Call kind : {Call::write, Call::rename, Call::mkdir}) {
+    const long calls = bench.count(kind);
+    CHECK(calls > 0);
+    for (long k = 1; k <= calls; ++k) bench.try_out(kind, k);
+  }
+}
+
+TEST_CASE("every write, rename and mkdir of a movie fails once, and nothing is lost", "[full]") {
+  const Bench bench(app::Pictures::movie);
+  for (const Call kind : {Call::write, Call::rename, Call::mkdir}) {
+    const long calls = bench.count(kind);
+    CHECK(calls > 0);
+    for (long k = 1; k <= calls; ++k) bench.try_out(kind, k);
+  }
+}
+
+TEST_CASE("allocations of a run fail, and nothing is lost", "[full]") {
+  const Bench bench(app::Pictures::none);
+  const long calls = bench.count(Call::allocation);
+  CHECK(calls > 1000);
+  for (long k = 1; k <= 500; ++k) bench.try_out(Call::allocation, k);
+  std::mt19937 random(13);
+  std::uniform_int_distribution<long> beyond(501, calls);
+  for (int trial = 0; trial < 500; ++trial) bench.try_out(Call::allocation, beyond(random));
+}

@@ -1,0 +1,37 @@
+// What is fuzzed: each reads bytes as if they came from a stranger, and must neither crash nor take
+// more than little memory and time. Built two ways: with libFuzzer (`cmake --preset fuzz`), and as
+// tests that replay the corpus kept in tests/fuzz/corpus/<name>.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace gridshell::fuzz {
+
+/// One input; what it is called in the corpus.
+struct Target {
+  const char* name;
+  void (*read)(std::string_view bytes);
+};
+
+/// A preset; where the first line begins with "--set " the rest of that line is laid over it. What is
+/// read must read again from its own text.
+void preset(std::string_view bytes);
+/// A file of points.
+void points(std::string_view bytes);
+/// summary.json
+void summary(std::string_view bytes);
+/// frames.journal, all of its frames
+void journal(std::string_view bytes);
+/// Directions for changing a trajectory.h5 object by object, then read. The library's own parser is
+/// not for us to harden: damaged structures are tried in a process of their own.
+void trajectory(std::string_view bytes);
+/// A picture for `compare`.
+void png(std::string_view bytes);
+
+inline constexpr Target targets[] = {{"preset", preset},   {"points", points},
+                                     {"summary", summary}, {"journal", journal},
+                                     {"trajectory", trajectory}, {"png", png}};
+
+}  // namespace gridshell::fuzz
