@@ -32,14 +32,11 @@ inline constexpr std::array outcomes{
     OutcomeWords{Outcome::folded, "folded", "two edges folded onto one another"},
     OutcomeWords{Outcome::not_finite, "not_finite", "a pivot or a position was not finite"},
     OutcomeWords{Outcome::not_converged, "not_converged", "the iterations did not come to rest"},
-    OutcomeWords{Outcome::meshes_disagree, "meshes_disagree",
-                 "a finer mesh went to another state"},
+    OutcomeWords{Outcome::meshes_disagree, "meshes_disagree", "a finer mesh went to another state"},
     OutcomeWords{Outcome::locked, "locked", "the rods came to their length"},
     OutcomeWords{Outcome::cancelled, "cancelled", "it was stopped"},
 };
 
-constexpr const OutcomeWords& words_of(Outcome outcome) {
-  return outcomes[std::size_t(outcome)];
-}
+constexpr const OutcomeWords& words_of(Outcome outcome) { return outcomes[std::size_t(outcome)]; }
 
 }  // namespace gridshell

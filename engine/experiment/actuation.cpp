@@ -32,8 +32,7 @@ Error stopped() { return {Fault::cancelled, "stopped"}; }
 /// not be stable all the way: its frames say so.
 bool follow_back(Course& course, const Watch& watch) {
   const NestedShell& shell = course.session.shell();
-  const auto nearly_flat =
-      parameter_of_shortening(shell.mesh(0), shell.motion(0), flat_shortening);
+  const auto nearly_flat = parameter_of_shortening(shell.mesh(0), shell.motion(0), flat_shortening);
   const double t = shell.state().t;
   const Leg& back = follow_leg(course, nearly_flat ? std::min(*nearly_flat, t) : 0,
                                {.wanted = false, .through_unstable = true}, watch);
@@ -82,8 +81,9 @@ Result<Course> follow_actuation(std::shared_ptr<const Scene> scene, const LevelP
     const auto first = course.session.begin_on_net(watch);
     if (!first) return tl::unexpected<Error>(first.error());
     if (first->end != Outcome::reached)
-      return fail(Fault::no_equilibrium, fmt::format("the state beside the net is not certified: {}",
-                                                     words_of(first->end).what));
+      return fail(
+          Fault::no_equilibrium,
+          fmt::format("the state beside the net is not certified: {}", words_of(first->end).what));
     const Checkpoint start = course.session.save();
     if (inner) {
       follow_back(course, watch);
@@ -122,7 +122,8 @@ class Frames {
     if (report.end != Outcome::reached) {
       if (course_.limit == record::Limit::none || course_.limit == record::Limit::snap) {
         course_.limit = record::Limit::branch_lost;
-        course_.limit_reason = fmt::format("{} {}", words_of(report.end).what, at_progress(sample.t));
+        course_.limit_reason =
+            fmt::format("{} {}", words_of(report.end).what, at_progress(sample.t));
       }
       return false;
     }
@@ -200,8 +201,8 @@ std::optional<std::size_t> leg_at(const Course& course, double t) {
 Result<Course> run_actuation(std::shared_ptr<const Scene> scene,
                              const std::vector<double>& progress, record::Sink& sink,
                              Watch& watch) {
-  const bool inner = std::any_of(progress.begin(), progress.end(),
-                                 [](double p) { return p > 0 && p < 1; });
+  const bool inner =
+      std::any_of(progress.begin(), progress.end(), [](double p) { return p > 0 && p < 1; });
   auto course = course_of(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {

@@ -13,15 +13,15 @@ namespace gridshell::experiment {
 /// state where the rods are 2 % shorter than flat on average (or less, where that state does not
 /// hang together with the flat), from there back towards the flat and on to progress `to`. From the
 /// net it is found at the equilibrium next to the net, progress 1, and where `inner` states are
-/// wanted followed backwards from there. Errors: bad_input, no_equilibrium (not a single buckled state), cancelled.
+/// wanted followed backwards from there. Errors: bad_input, no_equilibrium (not a single buckled
+/// state), cancelled.
 Result<Course> follow_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
                                 bool inner, double to, const Watch& watch);
 
-/// Hands frames at `progress` (ascending, in [0, 1]; 0 is the flat footprint) to the sink. Where the
-/// path ends before a sample, the course's limit says why. Errors: as follow_actuation(), and the
-/// sink's.
+/// Hands frames at `progress` (ascending, in [0, 1]; 0 is the flat footprint) to the sink. Where
+/// the path ends before a sample, the course's limit says why. Errors: as follow_actuation(), and
+/// the sink's.
 Result<Course> run_actuation(std::shared_ptr<const Scene> scene,
-                             const std::vector<double>& progress, record::Sink& sink,
-                             Watch& watch);
+                             const std::vector<double>& progress, record::Sink& sink, Watch& watch);
 
 }  // namespace gridshell::experiment

@@ -26,8 +26,7 @@ double unknowns_of(const Footprint& footprint, preset::Rung rung, int edges_per_
 double memory_GB(const Footprint& footprint, preset::Rung rung, const LevelPlan& plan) {
   double unknowns = 0;
   for (const int edges : plan.edges_per_segment) unknowns += unknowns_of(footprint, rung, edges);
-  return 1e-9 * unknowns *
-         (rung == preset::Rung::twist ? bytes_a_twist_unknown : bytes_an_unknown);
+  return 1e-9 * unknowns * (rung == preset::Rung::twist ? bytes_a_twist_unknown : bytes_an_unknown);
 }
 
 Result<void> fits_memory(const Footprint& footprint, const preset::Preset& preset,
@@ -43,11 +42,11 @@ Result<void> fits_memory(const Footprint& footprint, const preset::Preset& prese
       fmt::format("{} edges a segment, {:.3g} unknowns, take about {:.2g} GB, more than the {:.2g} "
                   "GB of {}; {} needs less",
                   edges, unknowns_of(footprint, rung, edges), wanted, given,
-                  asked > 0 ? "[accuracy] memory_GB" : "half of the machine's memory ([accuracy] "
-                                                       "memory_GB changes that)",
-                  preset.accuracy.edges_per_segment > 0
-                      ? "a smaller [accuracy] edges_per_segment"
-                      : "a larger [accuracy] tolerance"));
+                  asked > 0 ? "[accuracy] memory_GB"
+                            : "half of the machine's memory ([accuracy] "
+                              "memory_GB changes that)",
+                  preset.accuracy.edges_per_segment > 0 ? "a smaller [accuracy] edges_per_segment"
+                                                        : "a larger [accuracy] tolerance"));
 }
 
 }  // namespace gridshell::experiment

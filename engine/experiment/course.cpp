@@ -37,8 +37,8 @@ double Course::worst_estimate_mm() const {
 }
 
 Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& watch) {
-  LevelPlan plan =
-      scene.edges_per_segment > 0 ? plan_of_mesh(scene.edges_per_segment) : plan_levels(scene.tolerance);
+  LevelPlan plan = scene.edges_per_segment > 0 ? plan_of_mesh(scene.edges_per_segment)
+                                               : plan_levels(scene.tolerance);
   const double allowed = scene.tolerance * scene.length_scale_mm;
   Effort spent;
   double setup = 0;
@@ -78,11 +78,11 @@ Report stand_at(Course& course, const Sample& sample, const Watch& watch) {
 void tell_limit(Course& course, const Leg& leg, const std::function<std::string(double)>& at) {
   std::string ends;
   for (const Event& event : leg.report.events)
-    if (event.kind != Event::Kind::locked)
-      ends += (ends.empty() ? "" : " and ") + at(event.t);
+    if (event.kind != Event::Kind::locked) ends += (ends.empty() ? "" : " and ") + at(event.t);
   if (!ends.empty()) {
     course.limit = record::Limit::snap;
-    course.limit_reason = "the path lost its stability " + ends + " and came to rest in another state";
+    course.limit_reason =
+        "the path lost its stability " + ends + " and came to rest in another state";
   }
   switch (leg.report.end) {
     case Outcome::reached:
@@ -106,8 +106,8 @@ void tell_limit(Course& course, const Leg& leg, const std::function<std::string(
       course.limit = record::Limit::branch_lost;
       break;
   }
-  course.limit_reason =
-      fmt::format("{} {}, and no rest was found beyond", words_of(leg.report.end).what, at(leg.report.t));
+  course.limit_reason = fmt::format("{} {}, and no rest was found beyond",
+                                    words_of(leg.report.end).what, at(leg.report.t));
 }
 
 }  // namespace gridshell::experiment

@@ -39,9 +39,9 @@ Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& 
 
 /// A sample of a leg.
 struct Sample {
-  int index = 0;          ///< of the frame
+  int index = 0;  ///< of the frame
   std::size_t leg = 0;
-  double t = 0;           ///< path parameter
+  double t = 0;  ///< path parameter
 };
 
 /// Certifies the course at a sample and leaves the session there; what the path itself found is

@@ -128,8 +128,8 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
 
 int dof_of(const Scene& scene, int edges_per_segment) {
   if (scene.rung == preset::Rung::net) return 0;
-  const auto model = build_model(mesh_rods(scene.footprint, edges_per_segment), scene.rods,
-                                 scene.mechanics());
+  const auto model =
+      build_model(mesh_rods(scene.footprint, edges_per_segment), scene.rods, scene.mechanics());
   return model ? model->dof() : 0;
 }
 
@@ -177,9 +177,8 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.joints = int(scene->footprint.joints.size());
   plan.cells = int(scene->footprint.cells.size());
   plan.dof = dof_of(*scene, plan.edges_per_segment);
-  plan.expected_error_mm =
-      (scene->rung == preset::Rung::net ? net_error : expected_error(levels)) *
-      scene->length_scale_mm;
+  plan.expected_error_mm = (scene->rung == preset::Rung::net ? net_error : expected_error(levels)) *
+                           scene->length_scale_mm;
   plan.expected_seconds = seconds_for(*scene, preset);
   plan.footprint = fmt::format(
       "{} rods, {} joints, {} cells; longest leg {:.2f} d, shortest {:.2f} d", plan.rods,

@@ -21,8 +21,7 @@ Eigen::VectorXd curvature(const Session& session, int level) {
 
 /// K of the cells in bins of x/L, L the half-span of the actuated boundary, at the nodes x; rows:
 /// bins, columns: mean, deviation, cells.
-Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x,
-                         const Eigen::VectorXd& K) {
+Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Eigen::VectorXd& K) {
   const double L = scene.actuated_boundary.row(0).cwiseAbs().maxCoeff();
   Eigen::VectorXd along(K.size());
   for (Eigen::Index k = 0; k < K.size(); ++k) {
@@ -62,7 +61,6 @@ Result<void> record_blocks(const Assemblage& blocks, const FlatFrame& flat,
           {seam.name, rod.family == Family::u ? 'u' : 'v', rod.line_mm, rod.gap_mm, rod.kink_deg});
   return {};
 }
-
 
 }  // namespace
 
@@ -174,8 +172,7 @@ std::vector<record::Frame> frames_in_motion(Session& session, const std::vector<
     to_finest.nodes(nodes, x);
     record::Frame frame;
     put_shape(scene, shell.finest(), x,
-              cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)),
-              frame);
+              cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)), frame);
     system.gradient_at(moment->state);
     frame.energies = system.assembly().energies;
     frame.residual_N = system.residual();

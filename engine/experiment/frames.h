@@ -10,8 +10,8 @@ namespace gridshell::experiment {
 /// boundaries. Errors: those of the net.
 Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh);
 
-/// What a shape says by itself: positions of the mesh's nodes without ghosts, K of the cells and its
-/// bins along x, height.
+/// What a shape says by itself: positions of the mesh's nodes without ghosts, K of the cells and
+/// its bins along x, height.
 void put_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
                const Eigen::VectorXd& K, record::Frame& frame);
 

@@ -72,8 +72,7 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, con
     if (!point) return tl::unexpected<Error>(point.error());
     push.displacement = point->normal();
   } else {
-    const JointTangents tangents =
-        joint_tangents(scene.footprint, mesh, nodes);
+    const JointTangents tangents = joint_tangents(scene.footprint, mesh, nodes);
     push.displacement = tangents.u.col(*joint).cross(tangents.v.col(*joint)).normalized();
   }
   const double depth = asked.depth_mm > 0 ? asked.depth_mm : asked.depth * scene.length_scale_mm;
@@ -105,8 +104,8 @@ std::string turning_back(Session& session, const Leg& leg, double depth_mm) {
     if (way * (event.t - station.point.t) >= 0) last = &station;
   if (!last) return {};
   const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
-  const auto turn = turning_point(session.shell().system(0), session.shell().motion(0),
-                                  last->point, way, fine);
+  const auto turn =
+      turning_point(session.shell().system(0), session.shell().motion(0), last->point, way, fine);
   return turn ? fmt::format(" (its path turns back at {:.3f} mm)", *turn * depth_mm)
               : std::string();
 }
@@ -123,13 +122,13 @@ void tell(Pushed& pushed, const Leg& leg) {
         leg.report.events.front().kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
         at(leg.report.events.front().t), turning_back(course.session, leg, pushed.depth_mm));
   if (course.limit == record::Limit::locking)
-    course.limit_reason = fmt::format(
-        "{} ({:.4f} of the length scale) and {:.4g} N the rods are at their length: {}",
-        at(leg.report.t), leg.report.t * pushed.depth_mm / scene.length_scale_mm,
-        pushed.push.displacement.normalized().dot(course.session.force(0)),
-        leg.report.certificate.largest_strain > 0.99 * scene.max_strain
-            ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
-            : "the push meets 100 times its first stiffness");
+    course.limit_reason =
+        fmt::format("{} ({:.4f} of the length scale) and {:.4g} N the rods are at their length: {}",
+                    at(leg.report.t), leg.report.t * pushed.depth_mm / scene.length_scale_mm,
+                    pushed.push.displacement.normalized().dot(course.session.force(0)),
+                    leg.report.certificate.largest_strain > 0.99 * scene.max_strain
+                        ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
+                        : "the push meets 100 times its first stiffness");
 }
 
 Result<Pushed> follow_push(std::shared_ptr<const Scene> scene, const preset::Indentation& asked,
@@ -292,7 +291,9 @@ Result<Course> run_indentation(std::shared_ptr<const Scene> scene,
   PushFrames frames(*kept, sink, watch, progress.size());
   for (std::size_t k = 0; k < progress.size(); ++k) {
     const bool back = indentation.unload && progress[k] > 0.5;
-    const double t = !indentation.unload ? progress[k] : back ? 2 * (1 - progress[k]) : 2 * progress[k];
+    const double t = !indentation.unload ? progress[k]
+                     : back              ? 2 * (1 - progress[k])
+                                         : 2 * progress[k];
     Result<bool> taken = false;
     if (!back || kept->course.legs.size() > 1) taken = frames.at(k, back ? 1 : 0, t, progress[k]);
     if (!taken) return tl::unexpected<Error>(taken.error());

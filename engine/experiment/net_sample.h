@@ -1,9 +1,9 @@
 // The `net` rung: the smooth Chebyshev net itself, sampled at the rods.
 #pragma once
 
+#include "engine/core/watch.h"
 #include "engine/record/sink.h"
 #include "engine/scene/scene.h"
-#include "engine/core/watch.h"
 
 namespace gridshell::experiment {
 

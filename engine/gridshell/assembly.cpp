@@ -77,9 +77,8 @@ inline void add_bend_hessian(const ModelEdge& e, const ModelEdge& f, BlockSlot s
 /// Edges one after another, and every bend with its two edges: on_edge(k, edge, geometry),
 /// on_bend(bend, geometry of e, geometry of f).
 template <class OnEdge, class OnBend>
-inline __attribute__((always_inline)) void along_rods(const Model& model,
-                                                      const Eigen::Matrix3Xd& x, OnEdge on_edge,
-                                                      OnBend on_bend) {
+inline __attribute__((always_inline)) void along_rods(const Model& model, const Eigen::Matrix3Xd& x,
+                                                      OnEdge on_edge, OnBend on_bend) {
   EdgeGeometry before, here;
   std::size_t next = 0;
   const std::size_t bends = model.bends.size();

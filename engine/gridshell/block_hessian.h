@@ -23,7 +23,7 @@ class BlockPattern {
   const std::vector<std::array<int, 2>>& pairs() const { return pairs_; }
 
  private:
-  std::vector<std::array<int, 2>> pairs_;                  // row and column of the block stored
+  std::vector<std::array<int, 2>> pairs_;                   // row and column of the block stored
   std::vector<std::vector<std::pair<int, int>>> pairs_of_;  // per smaller column: larger, index
 };
 

@@ -55,11 +55,11 @@ class Builder {
       entry.ghost_begin =
           add_edge(entry, ghost(rod.ghost_begin), rod.nodes.front(), s[1] - s[0], 0);
     for (int k = 0; k < edges; ++k)
-      add_edge(entry, rod.nodes[std::size_t(k)],
-               rod.nodes[std::size_t(k + 1) % rod.nodes.size()], s[k + 1] - s[k], rod.material.EA);
+      add_edge(entry, rod.nodes[std::size_t(k)], rod.nodes[std::size_t(k + 1) % rod.nodes.size()],
+               s[k + 1] - s[k], rod.material.EA);
     if (holds_direction(rod.end))
-      entry.ghost_end = add_edge(entry, rod.nodes.back(), ghost(rod.ghost_end),
-                                 s[edges] - s[edges - 1], 0);
+      entry.ghost_end =
+          add_edge(entry, rod.nodes.back(), ghost(rod.ghost_end), s[edges] - s[edges - 1], 0);
     for (std::size_t k = 1; k < entry.edges.size(); ++k)
       add_bend(rod.material, entry, entry.edges[k - 1], entry.edges[k]);
     if (entry.closed) rings_.push_back({int(model_.rods.size()), rod.material});
@@ -213,8 +213,8 @@ std::vector<int> edges_beside(const Model& model, int rod, int node) {
 
 /// add(e, f, share) for every pair of edges where two rods cross
 template <class Add>
-void at_crossing(const Model& model, int rod_a, int node_a, int rod_b, int node_b,
-                 double stiffness, Add add) {
+void at_crossing(const Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
+                 Add add) {
   const std::vector<int> first = edges_beside(model, rod_a, node_a),
                          second = edges_beside(model, rod_b, node_b);
   const double share = stiffness / double(first.size() * second.size());

@@ -36,7 +36,8 @@ struct ModelEdge {
 /// Bending at the node between edges e and f: f = e + 1, but where a ring closes.
 struct ModelBend {
   int e = 0, f = 0;
-  double stiffness = 0;  ///< 2 EI/l, l the mean rest length of the two edges (mJ); 0: SectionBending
+  double stiffness =
+      0;  ///< 2 EI/l, l the mean rest length of the two edges (mJ); 0: SectionBending
   BlockSlot slot = 0;
 };
 
@@ -48,10 +49,10 @@ struct ModelSpring {
 
 /// Blocks between the nodes of two edges and the columns of their angles; -1: none.
 struct PairSlots {
-  BlockSlot e = -1, f = -1;                 ///< between the ends of an edge
-  BlockSlot across[2][2] = {{-1, -1}, {-1, -1}};  ///< an end of e, an end of f
+  BlockSlot e = -1, f = -1;                                         ///< between the ends of an edge
+  BlockSlot across[2][2] = {{-1, -1}, {-1, -1}};                    ///< an end of e, an end of f
   BlockSlot spin[4][2] = {{-1, -1}, {-1, -1}, {-1, -1}, {-1, -1}};  ///< end (e's, f's), angle
-  BlockSlot spins = -1;                     ///< between the angles
+  BlockSlot spins = -1;                                             ///< between the angles
 };
 
 /// An energy of two edges of one kind.
@@ -76,8 +77,8 @@ struct ModelRod {
   std::vector<double> position;  ///< mm, ascending
   RodMaterial material;
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
-  Eigen::Vector3d director{0, 0, 1};        ///< m1 at the begin, as near as the tangent allows
-  int ghost_begin = -1, ghost_end = -1;     ///< nodes of the ghosts; -1: numbered after the others
+  Eigen::Vector3d director{0, 0, 1};     ///< m1 at the begin, as near as the tangent allows
+  int ghost_begin = -1, ghost_end = -1;  ///< nodes of the ghosts; -1: numbered after the others
 
   bool closed() const { return position.size() == nodes.size() + 1; }
 };
@@ -114,7 +115,7 @@ struct Model {
 
   // worked out by finish()
   BlockPattern pattern;
-  std::vector<int> free_index;  ///< per column: index among those not wholly held, or -1
+  std::vector<int> free_index;    ///< per column: index among those not wholly held, or -1
   std::vector<int> free_columns;  ///< its inverse
   Eigen::Matrix2Xd flat;          ///< (u, v) of every column, for seeds and orderings
   std::vector<int> segment;       ///< per column: the segment of a rod it is inside of, or -1

@@ -52,7 +52,8 @@ void add_joints(const RodMesh& mesh, const JointLaw& law, Model& model) {
   }
 }
 
-/// (u, v) of the model's columns: the mesh's nodes and their twins, and angles where their edges are
+/// (u, v) of the model's columns: the mesh's nodes and their twins, and angles where their edges
+/// are
 void lay_flat(const RodMesh& mesh, Model& model) {
   model.flat.leftCols(mesh.nodes()) = mesh.flat;
   if (model.nodes > mesh.nodes())

@@ -26,8 +26,8 @@ void put_ghosts(const Model& model, Eigen::Matrix3Xd& x) {
     if (rod.ghost_begin >= 0)
       put_ghost(model, rod.ghost_begin, false, tangent_of(model, x, rod.edges[1]), x);
     if (rod.ghost_end >= 0)
-      put_ghost(model, rod.ghost_end, true,
-                tangent_of(model, x, rod.edges[rod.edges.size() - 2]), x);
+      put_ghost(model, rod.ghost_end, true, tangent_of(model, x, rod.edges[rod.edges.size() - 2]),
+                x);
   }
 }
 

@@ -22,8 +22,8 @@ struct JointShear {
   double add(const PairGeometry& at, PairEnergy& out) const {
     const double beyond = angle(at) - rest, c = at.e.tangent.dot(at.f.tangent),
                  slope = 1 / std::sqrt(1 - c * c);
-    add_cosine(-stiffness * beyond * slope,
-               stiffness * slope * slope * (1 - beyond * c * slope), at.e, at.f, out);
+    add_cosine(-stiffness * beyond * slope, stiffness * slope * slope * (1 - beyond * c * slope),
+               at.e, at.f, out);
     return 0.5 * stiffness * beyond * beyond;
   }
 

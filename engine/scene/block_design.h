@@ -2,10 +2,10 @@
 #pragma once
 
 #include "engine/core/result.h"
-#include "engine/scene/net_design.h"
 #include "engine/footprint/blocks.h"
 #include "engine/footprint/flat_frame.h"
 #include "engine/preset/preset.h"
+#include "engine/scene/net_design.h"
 
 namespace gridshell {
 

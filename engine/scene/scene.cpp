@@ -3,10 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/preset/rung.h"
 #include "engine/scene/block_design.h"
 #include "engine/scene/curve_design.h"
 #include "engine/scene/net_design.h"
-#include "engine/preset/rung.h"
 #include "engine/scene/scene_rods.h"
 
 namespace gridshell {

@@ -12,11 +12,11 @@
 namespace gridshell {
 namespace {
 
-constexpr double push_step = 0.02;         // of the length scale: the largest load step
-constexpr double actuation_step = 0.05;    // in the path parameter
-constexpr double stiffness_growth = 100;   // at which the rods are at their length
-constexpr double locate_mm = 5e-3;         // of prescribed move: to which a limit is located
-constexpr double still_mm = 0.01;          // what an unstable rest is pushed by in a snap in time
+constexpr double push_step = 0.02;        // of the length scale: the largest load step
+constexpr double actuation_step = 0.05;   // in the path parameter
+constexpr double stiffness_growth = 100;  // at which the rods are at their length
+constexpr double locate_mm = 5e-3;        // of prescribed move: to which a limit is located
+constexpr double still_mm = 0.01;         // what an unstable rest is pushed by in a snap in time
 
 /// `b` in the place of `a`: what comes on beside `a` as it goes.
 std::vector<NodeAction> difference(std::vector<NodeAction> b, const std::vector<NodeAction>& a) {
@@ -140,15 +140,13 @@ Result<Report> Session::begin_on_net(const Watch& watch) {
                             : points_on(*scene_->net, flat);
   if (!net) return tl::unexpected<Error>(net.error());
   net->conservativeResize(3, mesh.nodes());
-  net->rightCols(mesh.ghosts) =
-      shell_->motion(0).at(1).middleCols(mesh.rod_nodes(), mesh.ghosts);
+  net->rightCols(mesh.ghosts) = shell_->motion(0).at(1).middleCols(mesh.rod_nodes(), mesh.ghosts);
   const Model& model = shell_->model(0);
   State state = flat_state(model, mesh, shell_->motion(0), scene_->flat);
   gridshell::move_to(model, columns_of(mesh, model, *net), state);
   shell_->motion(0).impose(shell_->system(0), 1, state);
   auto rest = rest_near(shell_->system(0), state, 0.5 * scene_->footprint.spacing, watch);
-  if (!rest)
-    return fail(rest.error().fault, "next to the net there is " + rest.error().message);
+  if (!rest) return fail(rest.error().fault, "next to the net there is " + rest.error().message);
   return begin_at(1, *rest, watch);
 }
 
@@ -182,8 +180,7 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
   const auto end = [&](Outcome outcome) {
     shell_->allow_unstable(false);
     // the leader may stand ahead of what is certified
-    if (outcome != Outcome::reached && outcome != Outcome::locked)
-      shell_->back_to(shell_->state());
+    if (outcome != Outcome::reached && outcome != Outcome::locked) shell_->back_to(shell_->state());
     Report done = report(outcome, shell_->state().t, before, begin);
     done.events = std::move(events);
     if (actuating_) progress_ = done.t * done.t;
@@ -217,9 +214,10 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
     if (!leader_lost && finer++ < 2 && lead_finer(watch)) continue;
     const bool branch_ended = nested.end == Outcome::unstable || nested.end == Outcome::lost;
     if (!leaving.wanted || !branch_ended || events.size() >= 8) return end(nested.end);
-    events.push_back({nested.end == Outcome::unstable ? Event::Kind::stability_lost
-                                                      : Event::Kind::turned_back,
-                      shell_->followed().t, {}});
+    events.push_back(
+        {nested.end == Outcome::unstable ? Event::Kind::stability_lost : Event::Kind::turned_back,
+         shell_->followed().t,
+         {}});
     if (!leave(t, events.back(), trail, watch))
       return end(watch.cancelled() ? Outcome::cancelled : nested.end);
     if (locked()) {
@@ -392,7 +390,8 @@ Report Session::drive(Drive drive, std::vector<NodeAction> coming, const Watch& 
   std::vector<NodeAction> field = field_;
   const auto come = times(std::move(coming), drive.field.begin + done.t * drive.field.change);
   field.insert(field.end(), come.begin(), come.end());
-  std::erase_if(field, [](const NodeAction& a) { return a.force.isZero(0) && a.stiffness.isZero(0); });
+  std::erase_if(field,
+                [](const NodeAction& a) { return a.force.isZero(0) && a.stiffness.isZero(0); });
   settle_field(std::move(field));
   return done;
 }
@@ -404,8 +403,7 @@ Report Session::move_to(double progress, const Watch& watch) {
     shell_->actuate(now, holds_, load_scale_);
     actuating_ = true;
     const NestedReport started = shell_->start(now, shell_->state().levels[0], watch);
-    if (started.end != Outcome::reached)
-      return report(started.end, now, effort(), seconds_now());
+    if (started.end != Outcome::reached) return report(started.end, now, effort(), seconds_now());
   }
   return go(t, watch);
 }
@@ -460,8 +458,7 @@ Report Session::release(int joint, const Watch& watch) {
 
 Report Session::load(double factor, const Watch& watch) {
   const Growth now = steady_load();
-  Report done =
-      drive({.holds = holds_, .load = {now.begin, factor - now.begin}}, {}, watch);
+  Report done = drive({.holds = holds_, .load = {now.begin, factor - now.begin}}, {}, watch);
   load_scale_ = now.begin + done.t * (factor - now.begin);
   return done;
 }
@@ -535,8 +532,8 @@ Report Session::refine(double tolerance_mm, const Watch& watch) {
 // ---- keep ----
 
 Checkpoint Session::save() const {
-  Checkpoint kept{shell_->state(), shell_->plan(), rods_,       {},        holds_,
-                  field_,          load_scale_,    progress_,   actuating_};
+  Checkpoint kept{shell_->state(), shell_->plan(), rods_,     {},        holds_,
+                  field_,          load_scale_,    progress_, actuating_};
   for (int k = 0; k < shell_->levels(); ++k) kept.motions.push_back(shell_->motion(k));
   return kept;
 }

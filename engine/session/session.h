@@ -28,8 +28,8 @@ struct Certificate {
 struct Event {
   enum class Kind { stability_lost, turned_back, locked };
   Kind kind = Kind::stability_lost;
-  double t = 0;               ///< where, as the leading mesh says
-  std::optional<double> to;   ///< where the next rest stands, if one was found
+  double t = 0;              ///< where, as the leading mesh says
+  std::optional<double> to;  ///< where the next rest stands, if one was found
 };
 
 /// How a step ended: what was reached, why no more, what it cost. Where not all was reached the
@@ -83,7 +83,7 @@ struct Trail {
 
 /// How a branch that ended is left.
 struct Leaving {
-  bool wanted = true;          ///< false: the path ends there
+  bool wanted = true;             ///< false: the path ends there
   bool through_unstable = false;  ///< go on through states that are not stable instead
 };
 
@@ -183,7 +183,7 @@ class Session {
   std::unique_ptr<NestedShell> shell_;
   std::vector<Hold> holds_;
   std::vector<NodeAction> field_;  // that is there
-  double load_scale_ = 1;  // of the scene's dead loads
+  double load_scale_ = 1;          // of the scene's dead loads
   double progress_ = 0;
   double first_stiffness_ = 0;  // of the last push, where it began
   Eigen::VectorXd along_;       // of its displacements, in the holds' directions

@@ -233,8 +233,7 @@ class BlockCholesky final : public LinearSolver {
       // the block's row is `first`; it is stored below the diagonal with the later node as row
       return ka > kb ? Scatter{slot(ka, kb), false} : Scatter{slot(kb, ka), true};
     };
-    for (const auto& [row, column] : model_.pattern.pairs())
-      pairs_.push_back(plan(row, column));
+    for (const auto& [row, column] : model_.pattern.pairs()) pairs_.push_back(plan(row, column));
     for (int column : column_) partly_.push_back(model_.held[std::size_t(column)] != 0);
   }
 

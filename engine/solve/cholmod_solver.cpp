@@ -75,7 +75,8 @@ class CholmodSolver final : public LinearSolver {
     if (x) {
       const auto* found = static_cast<const double*>(x->x);
       for (int k = 0; k < model_.free(); ++k)
-        b.col(model_.free_columns[std::size_t(k)]) = Eigen::Map<const Eigen::Vector3d>(found + 3 * k);
+        b.col(model_.free_columns[std::size_t(k)]) =
+            Eigen::Map<const Eigen::Vector3d>(found + 3 * k);
     }
     cholmod_free_dense(&x, &common_);
     cholmod_free_dense(&rhs, &common_);
@@ -117,8 +118,7 @@ class CholmodSolver final : public LinearSolver {
       return Place{column, int(std::lower_bound(list.begin(), list.end(), other) - list.begin()),
                    a < b};
     };
-    for (const auto& [row, column] : model_.pattern.pairs())
-      pairs_.push_back(place(row, column));
+    for (const auto& [row, column] : model_.pattern.pairs()) pairs_.push_back(place(row, column));
   }
 
   /// the `rank`-th block below the diagonal block of a block column

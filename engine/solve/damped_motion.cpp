@@ -51,9 +51,8 @@ bool DampedMotion::implicit(const Eigen::Matrix3Xd& aim, const Eigen::Matrix3Xd&
     for (int column : model_.free_columns)
       assembly_.hessian.diagonal[std::size_t(column)].diagonal() += stiffness * mass_.col(column);
     for (const Hold& hold : holds_)
-      assembly_.hessian.diagonal[std::size_t(hold.node)] += stiffness * held_mass * whole_mass_ *
-                                                            hold.directions *
-                                                            hold.directions.transpose();
+      assembly_.hessian.diagonal[std::size_t(hold.node)] +=
+          stiffness * held_mass * whole_mass_ * hold.directions * hold.directions.transpose();
     clear_prescribed(dx);
     if (!solver_->factor(assembly_.hessian, 0).usable) return false;
     solver_->solve(dx);

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "engine/core/result.h"
-#include "engine/solve/dynamics.h"
 #include "engine/core/watch.h"
+#include "engine/solve/dynamics.h"
 #include "engine/solve/linearisation.h"
 
 namespace gridshell {

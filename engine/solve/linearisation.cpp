@@ -54,8 +54,7 @@ void Linearisation::border(Inertia& inertia) {
     }
   const Eigen::Index m = Eigen::Index(border_.size());
   compliance_.resize(m, m);
-  for (Eigen::Index k = 0; k < m; ++k)
-    compliance_.col(k) = held_part(border_[std::size_t(k)]);
+  for (Eigen::Index k = 0; k < m; ++k) compliance_.col(k) = held_part(border_[std::size_t(k)]);
   compliance_ = (0.5 * (compliance_ + compliance_.transpose())).eval();
   const Eigen::VectorXd own =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(compliance_, Eigen::EigenvaluesOnly)
@@ -103,8 +102,7 @@ void Linearisation::tangent(const Eigen::Matrix3Xd& prescribed, const Outside& o
   Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, model_.columns());
   for (int column = 0; column < model_.nodes; ++column)
     if (model_.pinned(column)) moved.col(column) = prescribed.col(column);
-  for (const Hold& hold : holds_)
-    moved.col(hold.node) = hold.part(prescribed.col(hold.node));
+  for (const Hold& hold : holds_) moved.col(hold.node) = hold.part(prescribed.col(hold.node));
   multiply(model_, assembly_.hessian, moved, velocity);
   velocity *= -1;
   const auto grow = [&](const std::vector<NodeAction>& actions, double factor) {
@@ -122,8 +120,9 @@ Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx) const {
   Eigen::VectorXd change(Eigen::Index(model_.edges.size()));
   for (std::size_t k = 0; k < model_.edges.size(); ++k) {
     const ModelEdge& edge = model_.edges[k];
-    change[Eigen::Index(k)] = EA_scale_ * edge.EA / edge.rest_length *
-                              tangents_.col(Eigen::Index(k)).dot(dx.col(edge.to) - dx.col(edge.from));
+    change[Eigen::Index(k)] =
+        EA_scale_ * edge.EA / edge.rest_length *
+        tangents_.col(Eigen::Index(k)).dot(dx.col(edge.to) - dx.col(edge.from));
   }
   return change;
 }

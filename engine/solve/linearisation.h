@@ -76,9 +76,7 @@ class Linearisation {
   /// The mixed residual at another state, with the factorisation and directions of the last at().
   void residual_at(const State& state);
   /// The potential at a state, mJ.
-  double energy_at(const State& state) const {
-    return energies_of(model_, state, outside).total();
-  }
+  double energy_at(const State& state) const { return energies_of(model_, state, outside).total(); }
 
   /// Newton's correction: solves K dx = -dE/dx with what is held held.
   void correction(Eigen::Matrix3Xd& dx) const;

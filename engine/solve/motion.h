@@ -30,7 +30,9 @@ struct PinnedMotion {
   double come(double t) const { return pace == Pace::square ? t * t : t; }
   double speed(double t) const { return pace == Pace::square ? 2 * t : 1.0; }
   Eigen::Matrix3Xd at(double t) const { return begin + come(t) * change; }
-  Eigen::Vector3d at(double t, int node) const { return begin.col(node) + come(t) * change.col(node); }
+  Eigen::Vector3d at(double t, int node) const {
+    return begin.col(node) + come(t) * change.col(node);
+  }
   double grown(const Growth& growth, double t) const {
     return growth.begin + come(t) * growth.change;
   }

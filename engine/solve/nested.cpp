@@ -88,8 +88,8 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
     level->system->outside.field = &level->field;
     if (!shell.levels_.empty()) {
       const Level& coarser = *shell.levels_.back();
-      level->from_coarser = std::make_unique<StateTransfer>(coarser.mesh, coarser.model,
-                                                            level->mesh, level->model);
+      level->from_coarser =
+          std::make_unique<StateTransfer>(coarser.mesh, coarser.model, level->mesh, level->model);
       level->to_coarser.emplace(level->mesh, coarser.mesh);
     }
     shell.levels_.push_back(std::move(level));
@@ -125,7 +125,9 @@ State NestedShell::stay(const NestedShell& other, const std::vector<Hold>& holds
   for (auto& level : levels_) {
     State state = StateTransfer(theirs.mesh, theirs.model, level->mesh, level->model)
                       .carry(other.state_.levels.back());
-    level->motion = {state.x, Eigen::Matrix3Xd::Zero(3, state.x.cols()), Pace::even,
+    level->motion = {state.x,
+                     Eigen::Matrix3Xd::Zero(3, state.x.cols()),
+                     Pace::even,
                      {theirs.system->outside.load, 0}};
     level->system->hold(holds);
     if (first.x.size() == 0) first = std::move(state);
@@ -228,7 +230,8 @@ void NestedShell::actuate(double t, const std::vector<Hold>& holds, double load_
     Level& level = *levels_[k];
     level.motion = pinned_motion(level.mesh, boundary_);
     level.motion.load.change = load_scale;
-    for (const Hold& hold : holds) level.motion.begin.col(hold.node) = state_.levels[k].x.col(hold.node);
+    for (const Hold& hold : holds)
+      level.motion.begin.col(hold.node) = state_.levels[k].x.col(hold.node);
     level.system->hold(holds);
   }
   state_.t = t;
@@ -390,8 +393,7 @@ void NestedShell::estimate() {
   }
   // (4 fine - coarse)/3 of these two meshes less that of the two before
   const Eigen::Matrix3Xd before = coarser.leftCols(joints) - nodes(last - 2).leftCols(joints);
-  state_.error_estimate_mm =
-      margin_extrapolated * largest_column((4 * step - before) / 3) / 15;
+  state_.error_estimate_mm = margin_extrapolated * largest_column((4 * step - before) / 3) / 15;
   // the correction is known at the coarser nodes; between them it is interpolated
   Eigen::Matrix3Xd on_coarser, correction;
   finest.to_coarser->nodes(state_.x, on_coarser);
@@ -411,8 +413,7 @@ void NestedShell::take_reactions() {
   coarser.outside.field_factor = finest.outside.field_factor;
   coarser.gradient_at(state_.levels[last - 1]);
   for (std::size_t h = 0; h < state_.reactions.size(); ++h)
-    state_.reactions[h] =
-        (4 * state_.reactions[h] - coarser.reaction(finest.holds()[h])) / 3;
+    state_.reactions[h] = (4 * state_.reactions[h] - coarser.reaction(finest.holds()[h])) / 3;
 }
 
 }  // namespace gridshell

@@ -30,8 +30,8 @@ struct LevelPlan {
 /// is what to try then.
 LevelPlan plan_levels(double tolerance);
 
-/// The meshes that nest in one of `edges` a segment, down to four edges, itself the last: alone, its
-/// error is not known.
+/// The meshes that nest in one of `edges` a segment, down to four edges, itself the last: alone,
+/// its error is not known.
 LevelPlan plan_of_mesh(int edges);
 
 /// What a plan leaves of the largest joint error, over the length scale, as a rule: for plans
@@ -66,11 +66,12 @@ struct NestedReport {
 
 /// What moves from a state on, evenly from t = 0 to 1, on every level from where that level is.
 struct Drive {
-  std::vector<Hold> holds;                    ///< joints that are held from here on, all of them
+  std::vector<Hold> holds;  ///< joints that are held from here on, all of them
   std::vector<Eigen::Vector3d> displacements = {};  ///< of the held components, one a hold
-  std::optional<BoundaryMotion> boundary = {};  ///< where the edge points go (its end); else they stay
-  Growth load{1, 0};                          ///< of the dead loads
-  Growth field{0, 0};                         ///< and of the field
+  std::optional<BoundaryMotion> boundary =
+      {};              ///< where the edge points go (its end); else they stay
+  Growth load{1, 0};   ///< of the dead loads
+  Growth field{0, 0};  ///< and of the field
 };
 
 /// A footprint meshed on several levels with one motion of its boundary.

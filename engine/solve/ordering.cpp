@@ -69,7 +69,9 @@ class Dissection {
     graph_[node].clear();
   }
 
-  double coordinate(int node, int axis) const { return model_.flat(axis, model_.free_columns[std::size_t(node)]); }
+  double coordinate(int node, int axis) const {
+    return model_.flat(axis, model_.free_columns[std::size_t(node)]);
+  }
 
   /// best cut along one axis: left is coordinate <= at; its nodes with a neighbour right separate
   Cut best_cut(std::vector<int>& nodes, int axis) const {

@@ -65,8 +65,7 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report) {
   report = newton(system_, next.state, newton_options);
   if (report.outcome != Outcome::reached)
     return report.outcome == Outcome::not_converged ? Outcome::lost : report.outcome;
-  if (!options_.allow_unstable && !report.inertia.positive_definite())
-    return Outcome::unstable;
+  if (!options_.allow_unstable && !report.inertia.positive_definite()) return Outcome::unstable;
   take_velocity(next);
   last_ = report;
   before_ = std::move(now_);

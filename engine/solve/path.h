@@ -29,7 +29,7 @@ struct PathOptions {
 
 struct PathReport {
   Outcome end = Outcome::reached;  ///< reached, unstable, folded, lost, not_finite, cancelled
-  double t = 0;  ///< how far the path is certified
+  double t = 0;                    ///< how far the path is certified
   int steps = 0, halvings = 0;
   NewtonReport last;  ///< of the last point that was converged
 };

@@ -42,7 +42,7 @@ bool euler_step(const Model& model, const Eigen::Matrix3Xd& mass, double h, doub
     for (int node : model.free_columns) {
       assembly.hessian.diagonal[std::size_t(node)].diagonal().array() += inertia * mass(0, node);
       dx.col(node) += mass(0, node) * (moving.velocity.col(node) / h -
-                                    inertia * (state.x.col(node) - moving.state.x.col(node)));
+                                       inertia * (state.x.col(node) - moving.state.x.col(node)));
     }
     if (!solver.factor(assembly.hessian, 0).usable) return false;
     solver.solve(dx);
@@ -63,13 +63,14 @@ bool euler_step(const Model& model, const Eigen::Matrix3Xd& mass, double h, doub
 double courant_step(const Model& model, const Eigen::Matrix3Xd& mass) {
   double least = 1e300;
   for (const ModelEdge& edge : model.edges)
-    least = std::min(
-        least, std::sqrt(std::min(mass(0, edge.from), mass(0, edge.to)) * edge.rest_length / edge.EA));
+    least = std::min(least, std::sqrt(std::min(mass(0, edge.from), mass(0, edge.to)) *
+                                      edge.rest_length / edge.EA));
   return least;
 }
 
-BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass, MovingState& moving,
-                                const BaselineOptions& options, const Watch& watch) {
+BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass,
+                                MovingState& moving, const BaselineOptions& options,
+                                const Watch& watch) {
   BaselineReport report;
   Assembly assembly;
   const double h = options.step * courant_step(model, mass);
@@ -86,8 +87,8 @@ BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass
   return report;
 }
 
-BaselineReport dynamic_relaxation(const Model& model, State& state,
-                                  const BaselineOptions& options, const Watch& watch) {
+BaselineReport dynamic_relaxation(const Model& model, State& state, const BaselineOptions& options,
+                                  const Watch& watch) {
   BaselineReport report;
   // a quarter of what a row of the Hessian sums up to at most where rods are straight: no mode is
   // then faster than 2, and a step of 1 is at the limit (Gershgorin)
@@ -121,7 +122,7 @@ BaselineReport dynamic_relaxation(const Model& model, State& state,
       // the slow ones again and again
       for (int node : model.free_columns)
         state.x.col(node) -= 1.5 * h * velocity.col(node) +
-                       0.5 * h * h / mass(0, node) * assembly.gradient.col(node);
+                             0.5 * h * h / mass(0, node) * assembly.gradient.col(node);
       velocity.setZero();
     }
     before = from_rest ? 0 : kinetic;
@@ -129,8 +130,9 @@ BaselineReport dynamic_relaxation(const Model& model, State& state,
   return report;
 }
 
-BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass, MovingState& moving,
-                                const BaselineOptions& options, const Watch& watch) {
+BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass,
+                                MovingState& moving, const BaselineOptions& options,
+                                const Watch& watch) {
   BaselineReport report;
   Assembly assembly;
   const auto solver = make_linear_solver(model);

@@ -28,19 +28,21 @@ struct BaselineOptions {
 double courant_step(const Model& model, const Eigen::Matrix3Xd& mass);
 
 /// Symplectic Euler with mass-proportional damping, v += h F/m, x += h v, to rest.
-BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass, MovingState& moving,
-                                const BaselineOptions& options, const Watch& watch);
+BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass,
+                                MovingState& moving, const BaselineOptions& options,
+                                const Watch& watch);
 
 /// Kinetic dynamic relaxation [Barnes 1999]: fictitious masses from each node's stiffness, no
 /// damping; at each peak of the kinetic energy positions go back to it, velocities to zero, and the
 /// next kick is half a one.
-BaselineReport dynamic_relaxation(const Model& model, State& state,
-                                  const BaselineOptions& options, const Watch& watch);
+BaselineReport dynamic_relaxation(const Model& model, State& state, const BaselineOptions& options,
+                                  const Watch& watch);
 
 /// Implicit Euler, m (v1 - v0)/h = F(x1) - c m v1, x1 = x0 + h v1, a whole Newton solve a step, to
-/// rest: large steps damp by themselves. `options.step` is h in seconds. A step that Newton's method
-/// does not solve ends it as `not_converged` with the steps so far.
-BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass, MovingState& moving,
-                                const BaselineOptions& options, const Watch& watch);
+/// rest: large steps damp by themselves. `options.step` is h in seconds. A step that Newton's
+/// method does not solve ends it as `not_converged` with the steps so far.
+BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass,
+                                MovingState& moving, const BaselineOptions& options,
+                                const Watch& watch);
 
 }  // namespace gridshell

@@ -78,7 +78,8 @@ Result<void> Case::follow(int finest, Watch& watch) {
     auto net = on_net(*scene_, reference.mesh(0), reference.model(0), reference.motion(0));
     if (!net) return tl::unexpected<Error>(net.error());
     net = rest_near(reference.system(0), *net, 0.5 * scene_->footprint.spacing, watch);
-    if (!net) return tl::unexpected<Error>(lost({Outcome::lost, 1}, "finds no rest beside the net"));
+    if (!net)
+      return tl::unexpected<Error>(lost({Outcome::lost, 1}, "finds no rest beside the net"));
     report = reference.start(1, *net, watch);
   } else {
     const auto t =

@@ -22,8 +22,7 @@ RunOutcome kind_of(const Case& study, const Problem& problem, const Eigen::Matri
     return RunOutcome::planar_saddle;
   // an equilibrium of another boundary is none of this one
   for (int node = 0; node < problem.model.nodes; ++node)
-    if (problem.model.pinned(node) &&
-        (x.col(node) - problem.end.x.col(node)).norm() > near_mm)
+    if (problem.model.pinned(node) && (x.col(node) - problem.end.x.col(node)).norm() > near_mm)
       return RunOutcome::silent_wrong;
   Linearisation system(problem.model);
   const State state = start_state(problem.model, x);

@@ -22,7 +22,7 @@ Arrival by_default(Case& study, LevelPlan plan, double tolerance, int stops, con
     arrival.x = shell.state().x;
     arrival.claim = report.end == Outcome::reached     ? RunOutcome::right
                     : report.end == Outcome::cancelled ? RunOutcome::too_slow
-                                                         : RunOutcome::refused;
+                                                       : RunOutcome::refused;
     if (arrival.claim != RunOutcome::right || tolerance == 0 ||
         shell.state().error_estimate_mm <= tolerance * study.scale_mm())
       return arrival;
@@ -55,9 +55,9 @@ Arrival hold(const Problem& problem, double over_l_c, const Watch& watch) {
     for (int axis = 0; axis < 3; ++axis)
       moving.state.x(axis, node) += 0.01 * std::sin(1 + 2.3 * node + 1.7 * axis);
   const BaselineReport report = explicit_to_rest(problem.model, mass, moving, options, watch);
-  arrival.claim = report.end == Outcome::not_finite     ? RunOutcome::blow_up
+  arrival.claim = report.end == Outcome::not_finite  ? RunOutcome::blow_up
                   : report.end == Outcome::cancelled ? RunOutcome::too_slow
-                                                         : RunOutcome::right;
+                                                     : RunOutcome::right;
   arrival.x = std::move(moving.state.x);
   return arrival;
 }

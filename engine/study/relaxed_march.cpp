@@ -37,8 +37,7 @@ double slowest_frequency(const Problem& problem, const Eigen::Matrix3Xd& mass) {
   double frequency2 = 0;
   for (int k = 0; k < 30; ++k) {
     mode = mode.cwiseProduct(mass).eval();
-    const double before =
-        std::sqrt((mode.array().square() / mass.array()).sum());
+    const double before = std::sqrt((mode.array().square() / mass.array()).sum());
     system.solve(mode);
     const double after = std::sqrt((mode.array().square() * mass.array()).sum());
     frequency2 = before / after;

@@ -151,8 +151,7 @@ Cells newton_map(const Study& study, const std::vector<double>& load_steps,
       for (Globalisation how : globalisations)
         cells.push_back(cell(row(name_of(how)), study, k,
                              marching({.load_steps = int(steps), .globalisation = how})));
-      cells.push_back(
-          default_cell(row(default_solver), study, plan_of_mesh(k), 0, steps));
+      cells.push_back(default_cell(row(default_solver), study, plan_of_mesh(k), 0, steps));
     }
   return cells;
 }
@@ -283,14 +282,13 @@ Cells joint_map(const Study& study, const std::vector<double>& stiffnesses,
                const auto problem = study->problem(edges, patient);
                if (!problem) return RunOutcome::refused;
                Stopwatch unused;
-               const Problem joined =
-                   study->on_rung(**problem, {Rung::twist, stiffness});
+               const Problem joined = study->on_rung(**problem, {Rung::twist, stiffness});
                std::call_once(truth->once, [&] {
                  truth->arrival = march(joined, {.load_steps = 60}, unused, patient);
                });
                const auto how = shifted ? Globalisation::shifted : Globalisation::none;
-               const Arrival found = march(
-                   joined, {.load_steps = int(steps), .globalisation = how}, unused, watch);
+               const Arrival found =
+                   march(joined, {.load_steps = int(steps), .globalisation = how}, unused, watch);
                if (found.claim != RunOutcome::right) return found.claim;
                if (truth->arrival.claim != RunOutcome::right) return RunOutcome::refused;
                const double off = largest_column(found.x.leftCols(study->joints()) -

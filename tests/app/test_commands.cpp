@@ -224,8 +224,7 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
   bench.good({"movie", "small.toml", "-o", "run", "--set", "movie.beside=false"});
-  CHECK(names_in(bench.at / "run") ==
-        listed({"far", "near", "preset.toml", "summary.json"}));
+  CHECK(names_in(bench.at / "run") == listed({"far", "near", "preset.toml", "summary.json"}));
   auto movie_files = data_files;
   movie_files.push_back("frames");
   std::sort(movie_files.begin(), movie_files.end());

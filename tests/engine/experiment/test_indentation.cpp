@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "engine/experiment/experiment.h"
-#include "engine/scene/scene.h"
 #include "engine/measure/gauss.h"
 #include "engine/measure/symmetry.h"
+#include "engine/scene/scene.h"
 
 using namespace gridshell;
 

@@ -75,7 +75,8 @@ TEST_CASE("assembly: both ways give one gradient, the mixed residual is it where
   assemble_gradient(bent.model, at(bent, bent.x), {}, alone);
   CHECK((with_hessian.gradient - alone.gradient).norm() <= 1e-12 * alone.gradient.norm());
   CHECK(with_hessian.energies.total() == Approx(alone.energies.total()).epsilon(1e-14));
-  CHECK(energies_of(bent.model, at(bent, bent.x)).total() == Approx(alone.energies.total()).epsilon(1e-13));
+  CHECK(energies_of(bent.model, at(bent, bent.x)).total() ==
+        Approx(alone.energies.total()).epsilon(1e-13));
   const Eigen::Matrix3Xd any = Eigen::Matrix3Xd::Random(3, Eigen::Index(bent.model.edges.size()));
   State state = at(bent, bent.x);
   state.force = alone.force;

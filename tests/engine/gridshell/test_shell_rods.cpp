@@ -73,8 +73,9 @@ TEST_CASE("dead loads come on with the path: its tangent and the states agree") 
   rods.weight_N_per_mm.assign(circle().rods.size(), 3.2e-6);
   rods.points.push_back({0, {0, 0, -2e-3}});
   PathOptions options;
-  NestedShell shell =
-      NestedShell::make(circle(), rods, Rung::bend, shrinking(circle(), 0.9), {{4, 8}, false}, options).value();
+  NestedShell shell = NestedShell::make(circle(), rods, Rung::bend, shrinking(circle(), 0.9),
+                                        {{4, 8}, false}, options)
+                          .value();
   const auto first =
       first_buckled(shell.system(0), shell.mesh(0), shell.motion(0), 0.6, {}, {}, Watch());
   REQUIRE(first);
@@ -94,7 +95,8 @@ TEST_CASE("dead loads come on with the path: its tangent and the states agree") 
 
   // the velocity is the derivative of the states by t
   NestedShell other =
-      NestedShell::make(circle(), rods, Rung::bend, shrinking(circle(), 0.9), {{4}, false}, options).value();
+      NestedShell::make(circle(), rods, Rung::bend, shrinking(circle(), 0.9), {{4}, false}, options)
+          .value();
   REQUIRE(other.start(0.6, *first, Watch()).end == Outcome::reached);
   const Eigen::Matrix3Xd velocity = other.followed().velocity.x;
   const double h = 1e-4;
@@ -114,7 +116,8 @@ TEST_CASE("rods of two kinds: a circle's state turns with its families") {
       rods.materials.push_back(
           round_material((rod.family == Family::u) == u_thick ? thick : thin, 0));
     NestedShell shell =
-      NestedShell::make(circle(), rods, Rung::bend, shrinking(circle(), 0.9), {{4}, false}, {}).value();
+        NestedShell::make(circle(), rods, Rung::bend, shrinking(circle(), 0.9), {{4}, false}, {})
+            .value();
     const auto first =
         first_buckled(shell.system(0), shell.mesh(0), shell.motion(0), 0.8, {}, {}, Watch());
     REQUIRE(first);
@@ -123,7 +126,8 @@ TEST_CASE("rods of two kinds: a circle's state turns with its families") {
   }
   CHECK(energies[0] == Approx(energies[1]).epsilon(1e-9));
   NestedShell thin_shell =
-      NestedShell::make(circle(), thin, Rung::bend, shrinking(circle(), 0.9), {{4}, false}, {}).value();
+      NestedShell::make(circle(), thin, Rung::bend, shrinking(circle(), 0.9), {{4}, false}, {})
+          .value();
   const auto first = first_buckled(thin_shell.system(0), thin_shell.mesh(0), thin_shell.motion(0),
                                    0.8, {}, {}, Watch());
   REQUIRE(first);

@@ -23,11 +23,11 @@ TEST_CASE(
   const Model model = build_model(single_rod(12, length), section).value();
   const Eigen::Matrix3Xd mass =
       lumped_mass(model, {round_mass_t_per_mm(density, diameter)}).value();
-  const double period = 2 * length * length / M_PI * std::sqrt(mass.row(0).sum() / length / section.EI);
+  const double period =
+      2 * length * length / M_PI * std::sqrt(mass.row(0).sum() / length / section.EI);
   Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, model.nodes);
   x.row(0) = model.flat.row(0);
-  for (int k = 0; k < model.nodes; ++k)
-    x(2, k) = 0.1 * std::sin(M_PI * model.flat(0, k) / length);
+  for (int k = 0; k < model.nodes; ++k) x(2, k) = 0.1 * std::sin(M_PI * model.flat(0, k) / length);
   const MovingState start = MovingState::at_rest(start_state(model, x));
   const auto after = [&](double periods, int steps, double damping) {
     MovingState motion = start;
@@ -81,7 +81,7 @@ TEST_CASE("a shallow arch of two crossing rods snaps in time and ends at a certi
 
     // from there in time, the joint held where it is
     const Eigen::Matrix3Xd mass =
-      lumped_mass(model, {round_mass_t_per_mm(density, diameter)}).value();
+        lumped_mass(model, {round_mass_t_per_mm(density, diameter)}).value();
     DynamicsOptions options;
     options.step_s = 1e-3;
     options.damping_per_s = 40;

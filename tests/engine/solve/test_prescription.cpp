@@ -104,8 +104,7 @@ TEST_CASE(
     for (int k = 0; k < n; ++k)
       REQUIRE(velocity(k % 3, model.free_columns[k / 3]) ==
               Approx(moving[k]).margin(1e-8 * moving.head(n).cwiseAbs().maxCoeff()));
-    CHECK(system.held_stiffness()(0, 0) ==
-          Approx(moving[n]).margin(1e-7 * std::abs(moving[n])));
+    CHECK(system.held_stiffness()(0, 0) == Approx(moving[n]).margin(1e-7 * std::abs(moving[n])));
   }
 }
 

@@ -62,18 +62,18 @@ double michell(int edges, double ratio) {
   Linearisation system(model);
   const State flat = start_state(model, x);
   const double expected = 2 * M_PI * std::sqrt(3) / ratio;
-  return critical(0.5 * expected, 1.5 * expected,
-                  [&](double twist) {
-                    State state = flat;
-                    // cut, turned and closed again: the last bend rests turned, all share it
-                    std::get<std::vector<Pair<Torsion>>>(model.pairs).back().law.rest = -twist;
-                    for (int k = 0; k < edges; ++k) set_angle(model, state, k, twist * k / edges);
-                    REQUIRE(newton(system, state, {.tolerance_mm = 1e-6}).outcome ==
-                            Outcome::reached);
-                    // of 40 mm: still plane
-                    REQUIRE(state.x.row(2).leftCols(edges).cwiseAbs().maxCoeff() < 1e-4);
-                    return system.at(state, false).positive_definite();
-                  }) /
+  return critical(
+             0.5 * expected, 1.5 * expected,
+             [&](double twist) {
+               State state = flat;
+               // cut, turned and closed again: the last bend rests turned, all share it
+               std::get<std::vector<Pair<Torsion>>>(model.pairs).back().law.rest = -twist;
+               for (int k = 0; k < edges; ++k) set_angle(model, state, k, twist * k / edges);
+               REQUIRE(newton(system, state, {.tolerance_mm = 1e-6}).outcome == Outcome::reached);
+               // of 40 mm: still plane
+               REQUIRE(state.x.row(2).leftCols(edges).cwiseAbs().maxCoeff() < 1e-4);
+               return system.at(state, false).positive_definite();
+             }) /
          expected;
 }
 

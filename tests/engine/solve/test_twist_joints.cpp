@@ -95,8 +95,7 @@ TEST_CASE("gravity: a cantilever under its own weight sags by q L^4/(8 EI)") {
   const SingleRod single(edges, length, wire, RodEnd::clamped, RodEnd::free);
   Model model = single.model();
   for (int k = 0; k <= edges; ++k)
-    model.loads.push_back(
-        {k, {0, 0, -q * length / edges * (k == 0 || k == edges ? 0.5 : 1)}});
+    model.loads.push_back({k, {0, 0, -q * length / edges * (k == 0 || k == edges ? 0.5 : 1)}});
   Linearisation system(model);
   State state = start_state(model, single.line());
   settle(system, state, 1e-8);
