@@ -30,9 +30,10 @@ int report(const Error& error) {
 Error error_of(const std::exception& thrown) {
   if (!dynamic_cast<const std::bad_alloc*>(&thrown)) return {Fault::io, thrown.what()};
   // few bytes: there may be none left
-  return {Fault::io,
-          "memory ran out; 'gridshell check' says what a preset's meshes take, and fewer [accuracy] "
-          "edges_per_segment, a larger tolerance or a smaller [movie] size take less"};
+  return {
+      Fault::io,
+      "memory ran out; 'gridshell check' says what a preset's meshes take, and fewer [accuracy] "
+      "edges_per_segment, a larger tolerance or a smaller [movie] size take less"};
 }
 
 void answer_the_unexpected() {

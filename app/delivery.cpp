@@ -52,12 +52,11 @@ void name_left_behind(const fs::path& final_folder) {
     const bool old = folder.filename().string().find(".old-") != std::string::npos;
     std::string draws;
     if (!old && left.runs + left.frames > 0)
-      draws = fmt::format("\n  {}    draws it",
-                          render::shell_line({"gridshell", "render", name}));
-    std::fprintf(stderr, "'%s' is %s:%s\n  %s    removes it\n", name.c_str(),
-                 old ? "what is left of a run that was replaced"
-                     : "left of a run that was not finished",
-                 draws.c_str(), removes.c_str());
+      draws = fmt::format("\n  {}    draws it", render::shell_line({"gridshell", "render", name}));
+    std::fprintf(
+        stderr, "'%s' is %s:%s\n  %s    removes it\n", name.c_str(),
+        old ? "what is left of a run that was replaced" : "left of a run that was not finished",
+        draws.c_str(), removes.c_str());
   }
 }
 
@@ -83,10 +82,10 @@ std::string leave_finished(const fs::path& partial) {
   if (left.frames == 0)
     return fmt::format("{} and {}, each whole, are in '{}'", count(left.runs, "run"),
                        count(left.pictures, "picture"), name);
-  const auto others = left.runs + left.pictures == 0
-                          ? ""
-                          : fmt::format(", {} and {}", count(left.runs, "run"),
-                                        count(left.pictures, "picture"));
+  const auto others =
+      left.runs + left.pictures == 0
+          ? ""
+          : fmt::format(", {} and {}", count(left.runs, "run"), count(left.pictures, "picture"));
   return fmt::format("{} of an unfinished run{}, each whole, are in '{}'; this draws them:\n  {}",
                      count(left.frames, "frame"), others, name,
                      render::shell_line({"gridshell", "render", name}));

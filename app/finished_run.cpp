@@ -61,8 +61,8 @@ Result<std::vector<std::string>> case_names(const fs::path& folder) {
     const auto name = one["name"].get<std::string>();
     // it becomes the name of a folder that is written
     if (const auto wrong = preset::case_name_fault(name); !wrong.empty())
-      return fail(Fault::bad_input, fmt::format("'{}': case {}: {}", file.string(),
-                                                shown(name), wrong));
+      return fail(Fault::bad_input,
+                  fmt::format("'{}': case {}: {}", file.string(), shown(name), wrong));
     if (std::find(names.begin(), names.end(), name) != names.end())
       return fail(Fault::bad_input,
                   fmt::format("'{}': case \"{}\" is listed twice", file.string(), name));
@@ -76,10 +76,12 @@ Result<std::vector<std::string>> case_names(const fs::path& folder) {
 Result<void> check_name(const fs::path& file, const std::string& name) {
   const auto plain = [](unsigned char c) { return c >= 0x20 && c != 0x7f; };
   const auto stem = fs::path(name).filename().string();
-  if (!stem.empty() && stem.size() <= 200 && stem.front() != '.' && std::ranges::all_of(name, plain))
+  if (!stem.empty() && stem.size() <= 200 && stem.front() != '.' &&
+      std::ranges::all_of(name, plain))
     return {};
-  return fail(Fault::bad_input,
-              fmt::format("'{}': its preset's name cannot be the name of a picture", file.string()));
+  return fail(
+      Fault::bad_input,
+      fmt::format("'{}': its preset's name cannot be the name of a picture", file.string()));
 }
 
 // version 0.1 did not say: a run sampled at the stills' radii, or of a net's end alone, came from
@@ -172,10 +174,11 @@ Result<void> check_memory(const fs::path& folder, const FinishedRun& run) {
   const double given =
       run.preset.accuracy.memory_GB > 0 ? run.preset.accuracy.memory_GB : default_memory_GB();
   if (given == 0 || wanted <= given) return {};
-  return fail(Fault::bad_input,
-              fmt::format("'{}': drawing its {} nodes takes about {:.2g} GB, more than the {:.2g} GB "
-                          "of [accuracy] memory_GB (by default half of the machine's)",
-                          folder.string(), frames.front().nodes.cols(), wanted, given));
+  return fail(
+      Fault::bad_input,
+      fmt::format("'{}': drawing its {} nodes takes about {:.2g} GB, more than the {:.2g} GB "
+                  "of [accuracy] memory_GB (by default half of the machine's)",
+                  folder.string(), frames.front().nodes.cols(), wanted, given));
 }
 
 Result<FinishedRun> read_run(const fs::path& folder, const std::string& name,
@@ -189,8 +192,8 @@ Result<FinishedRun> read_run(const fs::path& folder, const std::string& name,
   const bool whole = fs::exists(folder / "summary.json", error);
   auto read = whole ? read_files(folder, unsealed, run) : read_journal(folder, run);
   if (!read) return tl::unexpected(read.error());
-  if (auto named = check_name(folder / (whole ? "summary.json" : record::journal_name),
-                              run.summary.preset);
+  if (auto named =
+          check_name(folder / (whole ? "summary.json" : record::journal_name), run.summary.preset);
       !named)
     return tl::unexpected(named.error());
   if (auto fits = check_memory(folder, run); !fits) return tl::unexpected(fits.error());

@@ -11,8 +11,8 @@
 
 namespace gridshell::app {
 
-/// One run folder. Of a run that was cut short the trajectory ends with the last whole frame, and the
-/// summary, which says so, speaks of that.
+/// One run folder. Of a run that was cut short the trajectory ends with the last whole frame, and
+/// the summary, which says so, speaks of that.
 struct FinishedRun {
   std::string name;  ///< of the case, empty without cases
   preset::Preset preset;

@@ -3,10 +3,10 @@
 
 namespace gridshell::app {
 
-/// From now on these signals end the program with the exit code of an interrupted one: at once where
-/// nothing is at stake, and by way of interrupt_came() while a Guarded lives. A second signal always
-/// ends it at once. A file that grows too large and a pipe that nobody reads are errors of their
-/// writes, not signals.
+/// From now on these signals end the program with the exit code of an interrupted one: at once
+/// where nothing is at stake, and by way of interrupt_came() while a Guarded lives. A second signal
+/// always ends it at once. A file that grows too large and a pipe that nobody reads are errors of
+/// their writes, not signals.
 void catch_interrupts();
 
 /// Whether one of them has come.

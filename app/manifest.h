@@ -15,8 +15,8 @@ inline constexpr const char* manifest_name = "manifest.txt";
 /// Lists what stands in `folder` in its manifest. Errors: io.
 Result<void> write_manifest(const std::filesystem::path& folder);
 
-/// Why a folder is not a run whose every file this program wrote, naming what is foreign; empty when
-/// it is one. Without a manifest (an unfinished run, or one of version 0.1) the summary or the
+/// Why a folder is not a run whose every file this program wrote, naming what is foreign; empty
+/// when it is one. Without a manifest (an unfinished run, or one of version 0.1) the summary or the
 /// journal is the proof, and the names that a run gives its files decide.
 std::string no_run_because(const std::filesystem::path& folder);
 

@@ -237,11 +237,10 @@ int produce(const Options& options, Pictures pictures) {
   auto jobs = jobs_of(*presets, pictures);
   if (!jobs) return report(jobs.error());
   const auto folder = output_of(options, presets->base);
-  const int code =
-      deliver(folder, phases_of(*jobs, pictures), options.quiet,
-              [&](const fs::path& partial, Progress& progress) {
-                return do_jobs(*jobs, *presets, pictures, options, partial, progress);
-              });
+  const int code = deliver(folder, phases_of(*jobs, pictures), options.quiet,
+                           [&](const fs::path& partial, Progress& progress) {
+                             return do_jobs(*jobs, *presets, pictures, options, partial, progress);
+                           });
   if (code != ExitCode::done) return code;
   bool whole = true;
   for (const auto& job : *jobs) {

@@ -112,8 +112,8 @@ std::string refusal_to_write(const fs::path& folder) { return refusal(target_of(
 
 Result<StagedFolder> StagedFolder::create(const fs::path& final_folder) {
   const auto refuse = [&](const std::string& because) {
-    return fail(Fault::bad_input, fmt::format("cannot write the folder '{}': {}",
-                                              final_folder.string(), because));
+    return fail(Fault::bad_input,
+                fmt::format("cannot write the folder '{}': {}", final_folder.string(), because));
   };
   const auto target = target_of(final_folder);
   if (const auto because = refusal(target); !because.empty()) return refuse(because);
@@ -198,9 +198,10 @@ Result<std::string> StagedFolder::remove_old(const fs::path& old) {
   std::error_code error;
   fs::remove_all(old, error);
   if (!error) return std::string();
-  return fmt::format("the run that stood in '{}' could not be removed ({}): what is left of it is "
-                     "in '{}'",
-                     final_.string(), error.message(), old.string());
+  return fmt::format(
+      "the run that stood in '{}' could not be removed ({}): what is left of it is "
+      "in '{}'",
+      final_.string(), error.message(), old.string());
 }
 
 void StagedFolder::keep() {

@@ -10,8 +10,8 @@
 
 namespace gridshell::app {
 
-/// The folder `DIR.partial-<pid>`, of no other program's, which becomes DIR on commit(). Where DIR is
-/// a link to a folder, that folder is what is written. Locked while it lives.
+/// The folder `DIR.partial-<pid>`, of no other program's, which becomes DIR on commit(). Where DIR
+/// is a link to a folder, that folder is what is written. Locked while it lives.
 class StagedFolder {
  public:
   /// Errors: bad_input when DIR exists and is neither a run without foreign files nor empty, or
@@ -25,9 +25,9 @@ class StagedFolder {
 
   const std::filesystem::path& path() const { return partial_; }
 
-  /// Lists its files and takes the final name at once; a run that stood there is removed after that.
-  /// Returns a sentence where that cannot be, naming what stayed behind; else nothing. Errors: io,
-  /// also when something that is no run has appeared under the final name meanwhile.
+  /// Lists its files and takes the final name at once; a run that stood there is removed after
+  /// that. Returns a sentence where that cannot be, naming what stayed behind; else nothing.
+  /// Errors: io, also when something that is no run has appeared under the final name meanwhile.
   Result<std::string> commit();
 
   /// Leaves the folder under its partial name, without half-written files.

@@ -100,14 +100,13 @@ Result<void> draw_run(FinishedRun& run, Artist& artist, const fs::path& from, co
       .and_then([&] {
         if (!run.in_journal) return copy_data(from, to);
         return read_whole(from / "preset.toml")
-            .and_then([&](const std::string& text) {
-              return write_atomically(to / "preset.toml", text);
-            })
+            .and_then(
+                [&](const std::string& text) { return write_atomically(to / "preset.toml", text); })
             .and_then([&] { return record::write_run(to, run.trajectory, run.summary); });
       })
       .and_then([&] {
-        run.summary.kind = run.pictures == Pictures::stills ? record::Kind::figure
-                                                            : record::Kind::movie;
+        run.summary.kind =
+            run.pictures == Pictures::stills ? record::Kind::figure : record::Kind::movie;
         run.summary.seconds_render =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return record::write_summary(to / "summary.json", run.summary);
@@ -126,8 +125,8 @@ int render(const Options& options, bool unsealed) {
   if (!runs) return report(runs.error());
   for (const auto& run : *runs)
     if (!run.summary.finished)
-      std::fprintf(stderr, "'%s' is not finished: %s\n",
-                   folder_of(options.input, run.name).c_str(), how_far(run).c_str());
+      std::fprintf(stderr, "'%s' is not finished: %s\n", folder_of(options.input, run.name).c_str(),
+                   how_far(run).c_str());
   const fs::path from = options.input;
   const auto folder = options.output.empty() ? from : options.output;
   std::vector<Phase> phases;
@@ -174,7 +173,9 @@ void add_render(CLI::App& program, Action& action) {
   add_picture_options(*command, *options);
   command->add_flag("--unsealed", *unsealed,
                     "take a trajectory.h5 that another program wrote or changed");
-  command->callback([&action, options, unsealed] { action = [options, unsealed] { return render(*options, *unsealed); }; });
+  command->callback([&action, options, unsealed] {
+    action = [options, unsealed] { return render(*options, *unsealed); };
+  });
 }
 
 }  // namespace gridshell::app

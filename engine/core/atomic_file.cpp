@@ -76,8 +76,7 @@ Result<std::string> read_whole(const std::filesystem::path& path, std::uintmax_t
   const auto refuse = [&](const std::string& reason) {
     return fail(Fault::io, fmt::format("cannot read '{}': {}", path.string(), reason));
   };
-  if (!S_ISREG(about.st_mode))
-    return refuse("it is a pipe or a device, must be a regular file");
+  if (!S_ISREG(about.st_mode)) return refuse("it is a pipe or a device, must be a regular file");
   // some files of the system say that they are empty, so the count is what decides
   std::string bytes;
   const auto too_large = [&] {

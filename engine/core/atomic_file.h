@@ -45,8 +45,8 @@ Result<void> write_atomically(const std::filesystem::path& path, std::string_vie
 inline constexpr std::uintmax_t largest_text = std::uintmax_t(16) << 20,
                                 largest_file = std::uintmax_t(1) << 30;
 
-/// The whole of a regular file of at most `limit` bytes: a pipe or a device, which may never end, is
-/// refused. Errors: Fault::io, "cannot read 'path': reason".
+/// The whole of a regular file of at most `limit` bytes: a pipe or a device, which may never end,
+/// is refused. Errors: Fault::io, "cannot read 'path': reason".
 Result<std::string> read_whole(const std::filesystem::path& path,
                                std::uintmax_t limit = largest_file);
 

@@ -31,8 +31,8 @@ struct Plan {
   double expected_error_mm = record::unknown;
   double expected_seconds = record::unknown;
   double memory_GB = record::unknown;  ///< that its meshes take, at most
-  std::vector<std::string> seams;  ///< of building blocks, a sentence each
-  std::string footprint;           ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
+  std::vector<std::string> seams;      ///< of building blocks, a sentence each
+  std::string footprint;               ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
 };
 
 /// Builds the scene of a preset and says what would run. Errors: Fault::bad_input with the reason.

@@ -31,7 +31,8 @@ struct Presets {
   std::vector<Case> cases;
 };
 
-/// Why a case cannot have this name, which is that of a folder among a run's files; empty when it can.
+/// Why a case cannot have this name, which is that of a folder among a run's files; empty when it
+/// can.
 std::string case_name_fault(const std::string& name);
 
 /// "table.key=value" as given to --set. Errors: bad_input when there is no key or no '='.

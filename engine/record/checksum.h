@@ -9,8 +9,7 @@ namespace gridshell::record {
 class Checksum {
  public:
   void add(std::string_view bytes) {
-    for (const char byte : bytes)
-      sum_ = (sum_ ^ static_cast<unsigned char>(byte)) * 1099511628211u;
+    for (const char byte : bytes) sum_ = (sum_ ^ static_cast<unsigned char>(byte)) * 1099511628211u;
   }
   std::uint64_t value() const { return sum_; }
 

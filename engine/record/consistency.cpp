@@ -55,8 +55,7 @@ Result<void> check_numbers(const Layout& layout) {
   const auto refuse = [](const char* what) {
     return fail(Fault::bad_input, fmt::format("{} holds a number that is no length in mm", what));
   };
-  for (const double length :
-       {layout.spacing_mm, layout.rod_diameter_mm, layout.length_scale_mm})
+  for (const double length : {layout.spacing_mm, layout.rod_diameter_mm, layout.length_scale_mm})
     if (!(length >= 0 && length <= largest_mm)) return refuse("/layout");
   if (!computable(layout.original_boundary) || !computable(layout.actuated_boundary))
     return refuse("a boundary");

@@ -7,9 +7,10 @@
 
 namespace gridshell::record {
 
-/// Every index of the layout points at something of a shell of `nodes` nodes, rods are no longer than
-/// those, the two boundaries have equally many points, nets hold what they are asked for, and every
-/// number can be computed with. Errors: Fault::bad_input naming what does not fit, with both numbers.
+/// Every index of the layout points at something of a shell of `nodes` nodes, rods are no longer
+/// than those, the two boundaries have equally many points, nets hold what they are asked for, and
+/// every number can be computed with. Errors: Fault::bad_input naming what does not fit, with both
+/// numbers.
 Result<void> check_layout(const Layout& layout, Eigen::Index nodes);
 
 /// The frame has `nodes` nodes and one K a cell. Errors: as above; `k` names the frame.

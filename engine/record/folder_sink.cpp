@@ -51,8 +51,7 @@ Result<Trajectory> FolderSink::finish(const Summary& summary) {
 
 void remove_journals(const fs::path& folder) {
   std::error_code ignored;
-  for (const char* name : {journal_name, coarser_journal_name})
-    fs::remove(folder / name, ignored);
+  for (const char* name : {journal_name, coarser_journal_name}) fs::remove(folder / name, ignored);
 }
 
 }  // namespace gridshell::record

@@ -11,8 +11,8 @@
 
 namespace gridshell::record {
 
-/// Writes frames to the journal of `folder`, of which none stays in memory. When a finer mesh begins,
-/// the coarser journal is kept beside the new one until that holds as many frames.
+/// Writes frames to the journal of `folder`, of which none stays in memory. When a finer mesh
+/// begins, the coarser journal is kept beside the new one until that holds as many frames.
 class FolderSink final : public Sink {
  public:
   FolderSink(std::filesystem::path folder, RunName name)

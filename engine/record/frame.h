@@ -29,9 +29,9 @@ struct Frame {
   double error_estimate_mm = unknown;
   int newton_iterations = 0;
   double time_s = unknown;  ///< of a snap in time, since its begin
-  std::string event;       ///< a snap, a limit, a recovery; empty when nothing happened
-  Eigen::Matrix3Xd nodes;  ///< positions, mm
-  Eigen::VectorXd cell_K;  ///< integrated Gauss curvature of each cell, rad
+  std::string event;        ///< a snap, a limit, a recovery; empty when nothing happened
+  Eigen::Matrix3Xd nodes;   ///< positions, mm
+  Eigen::VectorXd cell_K;   ///< integrated Gauss curvature of each cell, rad
   /// K of the cells by their centroid's x/L, L the half-span of the actuated boundary, in bins of
   /// equal width from -1 to 1, one a row: mean (rad), standard deviation (rad), number of cells
   Eigen::MatrixX3d K_bins;

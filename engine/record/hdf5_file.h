@@ -1,6 +1,6 @@
 // A thin layer over the HDF5 C library: handles that close themselves, and what its writer and its
-// reader share. Both stop at the first failure and remember why, so that a caller checks once at the
-// end.
+// reader share. Both stop at the first failure and remember why, so that a caller checks once at
+// the end.
 #pragma once
 
 #include <hdf5.h>

@@ -22,9 +22,9 @@ bool fits(hid_t found, hid_t wanted) {
   if (kind == H5T_VLEN || kind == H5T_ARRAY) {
     const Handle a(H5Tget_super(found), H5Tclose), b(H5Tget_super(wanted), H5Tclose);
     hsize_t one = 0, other = 0;
-    if (kind == H5T_ARRAY && (H5Tget_array_ndims(found) != 1 || H5Tget_array_ndims(wanted) != 1 ||
-                              H5Tget_array_dims2(found, &one) < 0 ||
-                              H5Tget_array_dims2(wanted, &other) < 0))
+    if (kind == H5T_ARRAY &&
+        (H5Tget_array_ndims(found) != 1 || H5Tget_array_ndims(wanted) != 1 ||
+         H5Tget_array_dims2(found, &one) < 0 || H5Tget_array_dims2(wanted, &other) < 0))
       return false;
     return one == other && fits(a, b);
   }

@@ -1,4 +1,5 @@
-// Reads HDF5 files that may come from anybody: every object is checked before anything of it is read.
+// Reads HDF5 files that may come from anybody: every object is checked before anything of it is
+// read.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,9 @@ namespace gridshell::record::hdf5 {
 
 /// Reads the bytes of a file, or a file where it lies. Every call after a failure does nothing and
 /// returns empty values. An object is read only where it is what was asked for: its type and rank,
-/// stored in the file itself (no external storage, no filters, no links but hard ones), and no larger
-/// than the file that holds it. The structures of the format itself are the library's to parse, and
-/// damaged ones can crash it: read in a process of its own first (trial.h).
+/// stored in the file itself (no external storage, no filters, no links but hard ones), and no
+/// larger than the file that holds it. The structures of the format itself are the library's to
+/// parse, and damaged ones can crash it: read in a process of its own first (trial.h).
 class Reader : public File {
  public:
   /// A copy of these bytes.

@@ -81,8 +81,7 @@ herr_t truncate(H5FD_t* file, hid_t, hbool_t) {
   Open& open = of(file);
   Stream& stream = *open.stream;
   open.written = open.allocated;
-  if (!stream.failure &&
-      ::ftruncate(stream.descriptor, off_t(stream.before + open.allocated)) != 0)
+  if (!stream.failure && ::ftruncate(stream.descriptor, off_t(stream.before + open.allocated)) != 0)
     stream.failure = errno;
   return 0;
 }

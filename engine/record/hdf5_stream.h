@@ -13,9 +13,9 @@ namespace gridshell::record::hdf5 {
 
 /// Where the bytes go; outlives the file.
 struct Stream {
-  int descriptor = -1;        ///< open for reading and writing, the caller's
-  std::size_t before = 0;     ///< bytes of the file that stand before the HDF5 part
-  int failure = 0;            ///< errno of the first write that failed
+  int descriptor = -1;     ///< open for reading and writing, the caller's
+  std::size_t before = 0;  ///< bytes of the file that stand before the HDF5 part
+  int failure = 0;         ///< errno of the first write that failed
 };
 
 /// Access properties of a file that writes to `stream`.

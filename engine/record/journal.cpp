@@ -204,8 +204,7 @@ class File {
     if (failure_ || at > size_ || size > size_ - at) return std::nullopt;
     std::string bytes(size, '\0');
     for (std::size_t got = 0; got < size;) {
-      const ssize_t now =
-          ::pread(descriptor_, bytes.data() + got, size - got, off_t(at + got));
+      const ssize_t now = ::pread(descriptor_, bytes.data() + got, size - got, off_t(at + got));
       if (now < 0 && errno == EINTR) continue;
       if (now <= 0) return std::nullopt;
       got += std::size_t(now);
@@ -276,7 +275,7 @@ Result<Head> head_of(const File& file) {
 
 /// Where each frame lies, by index.
 std::map<int, std::pair<std::uint64_t, std::uint64_t>> frames_of(const File& file,
-                                                                std::uint64_t at) {
+                                                                 std::uint64_t at) {
   std::map<int, std::pair<std::uint64_t, std::uint64_t>> found;
   while (const auto record = record_at(file, at)) {
     if (record->kind == frame_record && record->payload.size() >= sizeof(std::int32_t)) {
@@ -430,8 +429,7 @@ std::size_t frames_in_journal(const fs::path& folder) {
   for (const char* name : {journal_name, coarser_journal_name}) {
     const File file(folder / name);
     if (file.failure()) continue;
-    if (const auto head = head_of(file))
-      most = std::max(most, frames_of(file, head->next).size());
+    if (const auto head = head_of(file)) most = std::max(most, frames_of(file, head->next).size());
   }
   return most;
 }

@@ -1,9 +1,11 @@
-// frames.journal: the frames of a run that is not finished, each on the disk as soon as it is found.
+// frames.journal: the frames of a run that is not finished, each on the disk as soon as it is
+// found.
 //
-// A line that names the file, then records: kind (4 bytes), length (8), payload, checksum (8) of all
-// of these. The first record is the head (preset, names of the columns, layout), every other one a
-// frame, in the order in which they were found; of two with one index the later counts. A run that is
-// killed leaves a journal that reads up to its last whole record. Numbers are those of the machine.
+// A line that names the file, then records: kind (4 bytes), length (8), payload, checksum (8) of
+// all of these. The first record is the head (preset, names of the columns, layout), every other
+// one a frame, in the order in which they were found; of two with one index the later counts. A run
+// that is killed leaves a journal that reads up to its last whole record. Numbers are those of the
+// machine.
 #pragma once
 
 #include <cstdint>
@@ -71,7 +73,8 @@ Result<Journal> read_journal(const std::filesystem::path& path, bool trial = tru
 /// The journal of a run's folder that holds the most frames. Errors: as above.
 Result<Journal> read_journal_of(const std::filesystem::path& folder);
 
-/// The name of the preset in a folder's journal; nothing where there is no journal with a whole head.
+/// The name of the preset in a folder's journal; nothing where there is no journal with a whole
+/// head.
 std::optional<std::string> preset_of_journal(const std::filesystem::path& folder);
 
 /// How many frames a folder's journals hold; 0 without any. Nothing of them is trusted.

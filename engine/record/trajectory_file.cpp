@@ -34,8 +34,7 @@ constexpr std::size_t seal_size = 512;
 
 /// Name and checksum of the HDF5 bytes that follow.
 std::string seal_of(std::uintmax_t bytes, const Checksum& sum) {
-  std::string seal =
-      fmt::format("{}\n{} bytes, FNV-1a {:016x}\n", format_name, bytes, sum.value());
+  std::string seal = fmt::format("{}\n{} bytes, FNV-1a {:016x}\n", format_name, bytes, sum.value());
   seal.resize(seal_size, '\0');
   return seal;
 }

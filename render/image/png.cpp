@@ -91,7 +91,8 @@ bool decode_rows(std::string_view& bytes, Image& image, std::vector<png_bytep>& 
   png_set_read_fn(png, &bytes, take);
   png_set_chunk_malloc_max(png, largest_chunk);
   png_read_info(png, info);
-  const std::size_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
+  const std::size_t width = png_get_image_width(png, info),
+                    height = png_get_image_height(png, info);
   if (width * height > largest_pixels) {
     std::snprintf(failure.message, sizeof failure.message,
                   "it has %zu x %zu pixels, more than the %zu million that are read", width, height,

@@ -224,8 +224,7 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
   bench.good({"movie", "small.toml", "-o", "run", "--set", "movie.beside=false"});
-  CHECK(names_in(bench.at / "run") ==
-        listed({"far", "near", "preset.toml", "summary.json"}));
+  CHECK(names_in(bench.at / "run") == listed({"far", "near", "preset.toml", "summary.json"}));
   for (const char* name : {"near", "far"}) {
     CHECK(names_in(bench.at / "run" / name).size() == data_files.size() + 1);
     CHECK(files_under(bench.at / "run" / name / "frames", ".png").size() == 3);

@@ -13,9 +13,9 @@
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
+using Catch::Contains;
 using gridshell::read_whole;
 using gridshell::write_atomically;
-using Catch::Contains;
 
 namespace {
 
@@ -64,11 +64,10 @@ void cut_short(const fs::path& whole, const fs::path& partial, std::size_t count
   REQUIRE(run);
   fs::create_directories(partial);
   fs::copy_file(whole / "preset.toml", partial / "preset.toml");
-  auto journal = gridshell::record::JournalWriter::create(
-      partial / gridshell::record::journal_name, {"small", kind}, run->layout);
+  auto journal = gridshell::record::JournalWriter::create(partial / gridshell::record::journal_name,
+                                                          {"small", kind}, run->layout);
   REQUIRE(journal);
-  for (std::size_t k = 0; k < count; ++k)
-    REQUIRE(journal->append(std::as_const(run->frames)[k]));
+  for (std::size_t k = 0; k < count; ++k) REQUIRE(journal->append(std::as_const(run->frames)[k]));
 }
 
 }  // namespace
@@ -92,8 +91,8 @@ TEST_CASE("a file put into a run keeps it from being replaced or drawn over") {
   const Bench bench;
   bench.good({"run", "small.toml", "-o", "r"});
   REQUIRE(write_atomically(bench.at / "r/notes.txt", "mine"));
-  for (const auto& arguments : {std::vector<std::string>{"run", "small.toml", "-o", "r"},
-                                {"render", "r"}}) {
+  for (const auto& arguments :
+       {std::vector<std::string>{"run", "small.toml", "-o", "r"}, {"render", "r"}}) {
     const auto ended = bench.run(arguments);
     CHECK(ended.code == 2);
     CHECK(ended.err ==
@@ -170,8 +169,8 @@ TEST_CASE("frames of a run that was cut short are drawn, and it says that it is 
   CHECK(drawn.err.starts_with("'r.partial-7' is not finished: 3 frames, up to progress 0.667\n"));
   const auto pictures = files_under(bench.at / "r.partial-7/frames", ".png");
   REQUIRE(pictures.size() == 3);
-  const auto summary = nlohmann::json::parse(
-      read_whole(bench.at / "r.partial-7/summary.json").value());
+  const auto summary =
+      nlohmann::json::parse(read_whole(bench.at / "r.partial-7/summary.json").value());
   CHECK(summary["finished"] == false);
   CHECK(summary["kind"] == "movie");
   CHECK(summary["preset"] == "small");
@@ -253,9 +252,9 @@ TEST_CASE("names of cases that would meet a run's files are refused") {
 
 TEST_CASE("values whose products leave the numbers are refused by their key") {
   const Bench bench;
-  for (const std::string key : {"footprint.radius_mm", "footprint.spacing_mm", "rod.diameter_mm",
-                                "rod.young_GPa", "rod.curvature_per_mm", "dynamics.step_s",
-                                "loads.field_N_per_mm", "net.radius_mm"})
+  for (const std::string key :
+       {"footprint.radius_mm", "footprint.spacing_mm", "rod.diameter_mm", "rod.young_GPa",
+        "rod.curvature_per_mm", "dynamics.step_s", "loads.field_N_per_mm", "net.radius_mm"})
     for (const std::string value : {"1e160", "1e-160", "1e300"}) {
       const auto ended = bench.run({"check", "small.toml", "--set", key + "=" + value});
       INFO(key << " = " << value);
@@ -280,8 +279,9 @@ TEST_CASE("meshes that do not fit into memory are refused with what they would t
 TEST_CASE("a picture larger than any of ours is not read") {
   const Bench bench;
   // a header of 1000000 x 1000000 pixels, with its checksum
-  const unsigned char header[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13, 'I', 'H', 'D',
-                                  'R', 0, 0x0f, 0x42, 0x40, 0, 0x0f, 0x42, 0x40, 8, 6, 0, 0, 0};
+  const unsigned char header[] = {0x89, 'P',  'N',  'G',  13,  10,  26, 10,   0,    0,
+                                  0,    13,   'I',  'H',  'D', 'R', 0,  0x0f, 0x42, 0x40,
+                                  0,    0x0f, 0x42, 0x40, 8,   6,   0,  0,    0};
   std::string bytes(reinterpret_cast<const char*>(header), sizeof header);
   std::uint32_t sum = 0xffffffffu;
   for (std::size_t k = 12; k < bytes.size(); ++k) {

@@ -1,5 +1,5 @@
-// Every write, rename, mkdir and allocation of a small run fails once: the old run is left whole, or
-// the new one stands, and whatever is left beside it is whole too.
+// Every write, rename, mkdir and allocation of a small run fails once: the old run is left whole,
+// or the new one stands, and whatever is left beside it is whole too.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -47,8 +47,8 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
   return files;
 }
 
-/// what the program does, in a process of its own; its exit code, or 128 + the signal that ended it,
-/// and how many calls it made
+/// what the program does, in a process of its own; its exit code, or 128 + the signal that ended
+/// it, and how many calls it made
 struct Outcome {
   int code = 0;
   long calls = 0;

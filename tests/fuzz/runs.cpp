@@ -34,7 +34,8 @@ class Directions {
   template <class T>
   T number() {
     T value{};
-    for (std::size_t k = 0; k < sizeof value; ++k) reinterpret_cast<std::uint8_t*>(&value)[k] = byte();
+    for (std::size_t k = 0; k < sizeof value; ++k)
+      reinterpret_cast<std::uint8_t*>(&value)[k] = byte();
     return value;
   }
 
@@ -42,10 +43,23 @@ class Directions {
   std::string_view left_;
 };
 
-constexpr std::array names{"/nodes", "/rods", "/joints", "/cells", "/cell_K", "/K_bins",
-                           "/frames/frame", "/frames/event", "/frames/energy_bend_mJ",
-                           "/layout/edge_points", "/layout/original_boundary", "/layout/net_nodes",
-                           "/parts/names", "/parts/seam_rods", "/parts/0/rods", "/layout", "/parts"};
+constexpr std::array names{"/nodes",
+                           "/rods",
+                           "/joints",
+                           "/cells",
+                           "/cell_K",
+                           "/K_bins",
+                           "/frames/frame",
+                           "/frames/event",
+                           "/frames/energy_bend_mJ",
+                           "/layout/edge_points",
+                           "/layout/original_boundary",
+                           "/layout/net_nodes",
+                           "/parts/names",
+                           "/parts/seam_rods",
+                           "/parts/0/rods",
+                           "/layout",
+                           "/parts"};
 
 hid_t some_type(Directions& in) {
   switch (in.byte() % 8) {
@@ -110,8 +124,10 @@ void overwrite(hid_t file, const char* name, Directions& in) {
   std::vector<std::uint8_t> bytes(std::size_t(H5Sget_simple_extent_npoints(space)) *
                                   H5Tget_size(type));
   const bool plain = kind == H5T_INTEGER || kind == H5T_FLOAT || kind == H5T_COMPOUND;
-  if (plain && !bytes.empty() && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) >= 0) {
-    for (int k = 1 + in.byte() % 8; k > 0; --k) bytes[in.number<std::uint16_t>() % bytes.size()] = in.byte();
+  if (plain && !bytes.empty() &&
+      H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) >= 0) {
+    for (int k = 1 + in.byte() % 8; k > 0; --k)
+      bytes[in.number<std::uint16_t>() % bytes.size()] = in.byte();
     H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data());
   }
   H5Sclose(space), H5Tclose(type), H5Dclose(set);

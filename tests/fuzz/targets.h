@@ -15,8 +15,8 @@ struct Target {
   void (*read)(std::string_view bytes);
 };
 
-/// A preset; where the first line begins with "--set " the rest of that line is laid over it. What is
-/// read must read again from its own text.
+/// A preset; where the first line begins with "--set " the rest of that line is laid over it. What
+/// is read must read again from its own text.
 void preset(std::string_view bytes);
 /// A file of points.
 void points(std::string_view bytes);
@@ -30,8 +30,8 @@ void trajectory(std::string_view bytes);
 /// A picture for `compare`.
 void png(std::string_view bytes);
 
-inline constexpr Target targets[] = {{"preset", preset},   {"points", points},
-                                     {"summary", summary}, {"journal", journal},
+inline constexpr Target targets[] = {{"preset", preset},         {"points", points},
+                                     {"summary", summary},       {"journal", journal},
                                      {"trajectory", trajectory}, {"png", png}};
 
 }  // namespace gridshell::fuzz

@@ -70,7 +70,8 @@ TEST_CASE("a fault names its place, key, value, what is wrong and what is right"
        "bad.toml:2:1: [footprint] radus_mm = 126.0: unknown key; did you mean 'radius_mm'?"},
       {"[movie]\nelephant = true",
        "bad.toml:2:1: [movie] elephant = true: unknown key, must be one of frames, size, fps, "
-       "quality, colour_by, azimuth_deg, elevation_deg, turn_deg, zoom, inset, bins, captions, beside"},
+       "quality, colour_by, azimuth_deg, elevation_deg, turn_deg, zoom, inset, bins, captions, "
+       "beside"},
       {"radius_mm = 3.0",
        "bad.toml:1:1: radius_mm = 3.0: unknown key; did you mean 'footprint.radius_mm'?"},
       {"[actuatoin]\nradius_mm = 3",

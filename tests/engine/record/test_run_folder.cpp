@@ -117,7 +117,8 @@ TEST_CASE("a summary that is none is refused by its key") {
 TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {
   const TemporaryFolder folder;
   auto json = nlohmann::ordered_json::parse(to_json(sample_summary()));
-  for (const char* key : {"energy_joint_mJ", "energy_shear_mJ", "energy_load_mJ", "kind", "finished"})
+  for (const char* key :
+       {"energy_joint_mJ", "energy_shear_mJ", "energy_load_mJ", "kind", "finished"})
     json.erase(key);
   REQUIRE(write_atomically(folder.path() / "summary.json", json.dump()));
   const auto old = read_summary(folder.path() / "summary.json");

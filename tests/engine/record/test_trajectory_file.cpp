@@ -243,7 +243,8 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
 
 TEST_CASE("a column that an older version did not write is unknown") {
   const auto without = [](hid_t file) {
-    for (const char* name : {"/frames/energy_load_mJ", "/frames/newton_iterations", "/frames/event"})
+    for (const char* name :
+         {"/frames/energy_load_mJ", "/frames/newton_iterations", "/frames/event"})
       H5Ldelete(file, name, H5P_DEFAULT);
   };
   TemporaryFolder folder;
@@ -263,8 +264,9 @@ TEST_CASE("a trajectory that another program rewrote is read only where that is 
   const fs::path path = folder.path() / "a.h5";
   const Trajectory run = sample_trajectory();
   const std::string bytes = changed([](hid_t) {}, run);
-  CHECK(refusal(bytes) ==
-        "it bears no seal, so another program wrote it ('render --unsealed' reads it all the same)");
+  CHECK(
+      refusal(bytes) ==
+      "it bears no seal, so another program wrote it ('render --unsealed' reads it all the same)");
   REQUIRE(write_atomically(path, bytes));
   const auto back = read_trajectory(path, {.unsealed = true});
   REQUIRE(back);
@@ -343,8 +345,8 @@ TEST_CASE("objects that are not what they should be are refused before anything 
                  const hsize_t one = 1;
                  const hid_t space = H5Screate_simple(1, &one, nullptr);
                  H5Ldelete(file, "/rods", H5P_DEFAULT);
-                 const hid_t set = H5Dcreate2(file, "/rods", type, space, H5P_DEFAULT, H5P_DEFAULT,
-                                              H5P_DEFAULT);
+                 const hid_t set =
+                     H5Dcreate2(file, "/rods", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
                  H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &list);
                  H5Dclose(set), H5Sclose(space), H5Tclose(type);
                }),
