@@ -184,6 +184,12 @@ class Frames {
   int taken_ = 0;
 };
 
+/// Whether straight rods lie in the flat without a force; its frame is then exact.
+bool rests_flat(const Scene& scene) {
+  return std::all_of(scene.rods.materials.begin(), scene.rods.materials.end(),
+                     [](const RodMaterial& material) { return material.curvature.isZero(0); });
+}
+
 /// The leg on which a path parameter lies, if there is one.
 std::optional<std::size_t> leg_at(const Course& course, double t) {
   for (std::size_t k = course.legs.size(); k-- > 0;) {
@@ -217,7 +223,7 @@ Result<Course> run_actuation(std::shared_ptr<const Scene> scene,
   Frames frames(*scene, *course, sink, watch, progress.size());
   const Checkpoint end = course->session.save();
   for (std::size_t k = 0; k < progress.size(); ++k) {
-    if (progress[k] == 0) {
+    if (progress[k] == 0 && rests_flat(*scene)) {
       if (auto flat = frames.flat(int(k)); !flat) return tl::unexpected<Error>(flat.error());
       continue;
     }

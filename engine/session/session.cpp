@@ -118,13 +118,31 @@ Report Session::begin_flat() {
   return report(Outcome::reached, 0, before, begin);
 }
 
+/// The buckled shape of the bend rung, which every rung starts from: what twist and springs add
+/// does not choose the branch.
+Result<State> Session::first_shape(double t, const Watch& watch) {
+  const RodMesh& mesh = shell_->mesh(0);
+  const PinnedMotion& motion = shell_->motion(0);
+  if (scene_->mechanics() == Rung::bend)
+    return first_buckled(shell_->system(0), mesh, motion, t, scene_->seed, scene_->flat, watch);
+  const auto bend = build_model(mesh, rods_ ? *rods_ : scene_->rods, Rung::bend);
+  if (!bend) return tl::unexpected<Error>(bend.error());
+  Linearisation system(*bend);
+  const auto shape = first_buckled(system, mesh, motion, t, scene_->seed, scene_->flat, watch);
+  if (!shape) return shape;
+  const Model& model = shell_->model(0);
+  State state = flat_state(model, mesh, motion, scene_->flat);
+  gridshell::move_to(model, columns_of(mesh, model, shape->x), state);
+  motion.impose(shell_->system(0), t, state);
+  return rest_below(shell_->system(0), std::move(state), watch);
+}
+
 Result<Report> Session::begin_buckled(double shortening, const Watch& watch) {
   const double begin = seconds_now();
   const Effort before = effort();
   const auto t = parameter_of_shortening(shell_->mesh(0), shell_->motion(0), shortening);
   if (!t) return tl::unexpected<Error>(t.error());
-  auto first = first_buckled(shell_->system(0), shell_->mesh(0), shell_->motion(0), *t,
-                             scene_->seed, scene_->flat, watch);
+  auto first = first_shape(*t, watch);
   if (!first) return tl::unexpected<Error>(first.error());
   Report report = begin_at(*t, *first, watch);
   report.effort = effort() - before;
@@ -211,7 +229,8 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
     }
     // what the leading mesh does not see, or alone sees, is left to a finer leader
     const bool leader_lost = shell_->followed().t != next;
-    if (!leader_lost && finer++ < 2 && lead_finer(watch)) continue;
+    const bool chosen = scene_->edges_per_segment > 0;  // by the user, who then gets that mesh
+    if (!leader_lost && !chosen && finer++ < 2 && lead_finer(watch)) continue;
     const bool branch_ended = nested.end == Outcome::unstable || nested.end == Outcome::lost;
     if (!leaving.wanted || !branch_ended || events.size() >= 8) return end(nested.end);
     events.push_back(
@@ -221,7 +240,9 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
     if (!leave(t, events.back(), trail, watch))
       return end(watch.cancelled() ? Outcome::cancelled : nested.end);
     if (locked()) {
-      events.push_back({Event::Kind::locked, shell_->state().t, {}});
+      // the rest beyond is none of rods as long as these
+      shell_->back_to(good.state);
+      events.back() = {Event::Kind::locked, shell_->state().t, {}};
       return end(Outcome::locked);
     }
     station();

@@ -172,6 +172,7 @@ class Session {
   Growth steady_load() const;
   bool lead_finer(const Watch& watch);
   double load_step() const;
+  Result<State> first_shape(double t, const Watch& watch);
   bool leave(double t, Event& event, Trail* trail, const Watch& watch);
   Result<State> leave_to(double there, Trail* trail, const Watch& watch);
   Result<Outcome> take_over(const LevelPlan& plan, bool nearby, const Watch& watch);

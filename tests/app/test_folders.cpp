@@ -315,3 +315,18 @@ TEST_CASE("a signal ends commands that draw no progress, at once") {
     CHECK(ended.err == "stopped\n");
   }
 }
+
+TEST_CASE("a run folder of version 0.1 is drawn, and replaced as a run") {
+  const Bench bench;
+  fs::copy(fs::path(GRIDSHELL_SOURCE_DIR) / "tests/app/version_0_1", bench.at / "old");
+  const auto drawn = bench.good({"render", "old", "-o", "drawn"});
+  CHECK_THAT(drawn.err, !Contains("not finished"));
+  CHECK(files_under(bench.at / "drawn/frames", ".png").size() == 2);
+  const auto summary = nlohmann::json::parse(read_whole(bench.at / "drawn/summary.json").value());
+  CHECK(summary["energy_bend_mJ"] > 1.8);
+  // what it did not say is unknown
+  CHECK(summary["energy_load_mJ"].is_null());
+  CHECK(summary["finished"] == true);
+  bench.good({"run", "small.toml", "-o", "old"});
+  CHECK(fs::exists(bench.at / "old/manifest.txt"));
+}

@@ -242,3 +242,35 @@ TEST_CASE("a link to a folder is written through") {
     CHECK_THAT(staged.error().message, Catch::Contains("it is a link that leads nowhere"));
   }
 }
+
+TEST_CASE("an old run that cannot be removed is named, and the new one stands") {
+  const TemporaryFolder folder;
+  const auto run = folder.path() / "run";
+  make_run(run);
+  // root may remove everything: as somebody else, who owns it all
+  const bool root = geteuid() == 0;
+  const uid_t nobody = 65534;
+  if (root) {
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+      REQUIRE(chown(entry.path().c_str(), nobody, nobody) == 0);
+    REQUIRE(chown(folder.path().c_str(), nobody, nobody) == 0);
+    REQUIRE(seteuid(nobody) == 0);
+  }
+  fs::permissions(run / "frames", fs::perms::owner_read | fs::perms::owner_exec);
+  std::string note;
+  {
+    auto staged = StagedFolder::create(run);
+    REQUIRE(staged);
+    REQUIRE(write_atomically(staged->path() / "summary.json", "new"));
+    const auto committed = staged->commit();
+    REQUIRE(committed);
+    note = *committed;
+  }
+  const auto left = app::left_behind(run);
+  if (root) REQUIRE(seteuid(0) == 0);
+  CHECK(read_whole(run / "summary.json").value() == "new");
+  REQUIRE(left.size() == 1);
+  CHECK_THAT(note, Catch::Contains("could not be removed (Permission denied)") &&
+                       Catch::Contains("is in '" + left[0].string() + "'"));
+  fs::permissions(left[0] / "frames", fs::perms::owner_all);
+}

@@ -38,7 +38,7 @@ Eigen::Matrix3Xd joints_of(const record::Trajectory& run, std::size_t frame) {
   return run.frames[frame].nodes.leftCols(Eigen::Index(run.layout.joints.size()));
 }
 
-double work_of(const std::vector<record::Frame>& frames) {
+double work_of(const record::FrameList& frames) {
   double work = 0;
   for (std::size_t k = 1; k < frames.size(); ++k)
     work += 0.5 * (frames[k].force_N + frames[k - 1].force_N) *

@@ -33,7 +33,7 @@ void certified(const Session& session, const Report& report) {
   CAPTURE(words_of(report.end).name, report.t, report.certificate.residual_N);
   REQUIRE(report.end == Outcome::reached);
   CHECK(report.certificate.stable());
-  CHECK(report.certificate.residual_N < 1e-5);
+  CHECK(report.certificate.residual_N < 1e-3);  // of corrections below 1e-4 mm
   CHECK(report.certificate.error_estimate_mm < 1e-2 * session.scene().length_scale_mm);
   CHECK(report.effort.factorizations > 0);
 }

@@ -68,7 +68,6 @@ inline void settle(Linearisation& system, State& state, double tolerance = 1e-7)
   CAPTURE(int(report.outcome), report.iterations, report.last_move_mm);
   REQUIRE(report.outcome == Outcome::reached);
   newton(system, state, {.tolerance_mm = tolerance});
-  REQUIRE(system.at(state, false).positive_definite());
   system.gradient_at(state);
 }
 
