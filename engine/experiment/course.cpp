@@ -26,14 +26,9 @@ const Station& station_after(const Leg& leg, double t) {
 
 }  // namespace
 
-double Course::worst_estimate_mm() const {
-  double worst = 0;
-  for (const Leg& leg : legs)
-    for (const Station& station : leg.trail.stations) {
-      const double estimate = station.certificate.error_estimate_mm;
-      if (!(estimate <= worst)) worst = estimate;  // a nan is kept
-    }
-  return worst;
+double Course::last_estimate_mm() const {
+  if (legs.empty()) return 0;
+  return legs.back().trail.stations.back().certificate.error_estimate_mm;
 }
 
 Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& watch) {
@@ -47,19 +42,16 @@ Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& 
     if (!course) return course;
     course->seconds_setup += setup;
     course->session.charge(spent);
-    const double worst = course->worst_estimate_mm();
+    const double last = course->last_estimate_mm();
     const bool asked = scene.edges_per_segment > 0;
-    // a finer leader took over on the way: all of the path is told on its meshes
-    const LevelPlan used = course->session.shell().plan();
-    const bool changed = used.edges_per_segment != plan.edges_per_segment;
-    if (!changed && (asked || !(worst > allowed))) return course;
-    const auto next = changed ? used : finer(plan);
+    if (asked || !(last > allowed)) return course;
+    const auto next = finer(plan);
     if (!next)
       return fail(Fault::no_equilibrium,
                   fmt::format("the tolerance {:g} is not met: {} edges a segment leave an "
                               "estimated error of {:.2g} mm, {:.2g} of the length scale",
-                              scene.tolerance, plan.edges_per_segment.back(), worst,
-                              worst / scene.length_scale_mm));
+                              scene.tolerance, plan.edges_per_segment.back(), last,
+                              last / scene.length_scale_mm));
     plan = *next;
     spent = course->session.effort();
     setup = course->seconds_setup;

@@ -26,15 +26,15 @@ struct Course {
   std::string limit_reason;
   double seconds_setup = 0;
 
-  /// Largest error estimate at the stations of all legs, mm; NaN where one is not known.
-  double worst_estimate_mm() const;
+  /// The error estimate at the end, where errors are largest as a rule, mm; NaN where not known.
+  double last_estimate_mm() const;
 };
 
 /// Follows a path on the meshes of a plan. Errors: bad_input, no_equilibrium, cancelled.
 using Follow = std::function<Result<Course>(const LevelPlan&, const Watch&)>;
 
-/// The path on the coarsest plan whose estimates meet the scene's tolerance wherever it was
-/// certified. Errors: those of `follow`; no_equilibrium where the finest meshes do not meet it.
+/// The path on the coarsest plan whose estimate meets the scene's tolerance at its end. Errors:
+/// those of `follow`; no_equilibrium where the finest meshes do not meet it.
 Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& watch);
 
 /// A sample of a leg.

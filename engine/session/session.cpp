@@ -209,7 +209,6 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
   };
   shell_->allow_unstable(leaving.through_unstable);
   station();
-  int finer = 0;
   while (shell_->state().t != t) {
     if (watch.cancelled()) return end(Outcome::cancelled);
     const double now = shell_->state().t, left = t - now, step = load_step();
@@ -227,10 +226,6 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
       station();
       continue;
     }
-    // what the leading mesh does not see, or alone sees, is left to a finer leader
-    const bool leader_lost = shell_->followed().t != next;
-    const bool chosen = scene_->edges_per_segment > 0;  // by the user, who then gets that mesh
-    if (!leader_lost && !chosen && finer++ < 2 && lead_finer(watch)) continue;
     const bool branch_ended = nested.end == Outcome::unstable || nested.end == Outcome::lost;
     if (!leaving.wanted || !branch_ended || events.size() >= 8) return end(nested.end);
     events.push_back(
@@ -278,16 +273,6 @@ Result<Outcome> Session::take_over(const LevelPlan& plan, bool nearby, const Wat
   else
     back();
   return end;
-}
-
-/// The plan one mesh finer, from the last certified state.
-bool Session::lead_finer(const Watch& watch) {
-  LevelPlan plan = shell_->plan();
-  for (int& edges : plan.edges_per_segment) edges *= 2;
-  constexpr int most_edges = 64;
-  if (plan.edges_per_segment.back() > most_edges) return false;
-  const auto taken = take_over(plan, false, watch);
-  return taken && *taken == Outcome::reached;
 }
 
 /// Between two states the rods come to their length: finds where, and stands there.
@@ -474,7 +459,20 @@ Report Session::release(int joint, const Watch& watch) {
     if (holds_[k].node == joint) force.push_back({joint, holds_[k].part(this->force(k))});
   std::erase_if(left, [&](const Hold& hold) { return hold.node == joint; });
   const Growth load = steady_load();
-  return drive({.holds = left, .load = load, .field = {1, -1}}, std::move(force), watch);
+  const Checkpoint held = save();
+  Report done = drive({.holds = left, .load = load, .field = {1, -1}}, std::move(force), watch);
+  if (done.end == Outcome::reached || watch.cancelled()) return done;
+  // held it was stable, under the same force it is not: the hand opens, and the shell goes to rest
+  restore(held);
+  shell_->drive({.holds = left, .load = load});
+  holds_ = left;
+  const auto found = rest_below(shell_->system(0), shell_->state().levels[0], watch);
+  Outcome end = Outcome::not_converged;
+  if (found) end = shell_->start(0, *found, watch).end;
+  if (end != Outcome::reached) restore(held);
+  done.certificate = certificate();
+  done.end = watch.cancelled() ? Outcome::cancelled : end;
+  return done;
 }
 
 Report Session::load(double factor, const Watch& watch) {

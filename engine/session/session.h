@@ -170,7 +170,6 @@ class Session {
   Report drive(Drive drive, std::vector<NodeAction> field, const Watch& watch);
   void settle_field(std::vector<NodeAction> field);
   Growth steady_load() const;
-  bool lead_finer(const Watch& watch);
   double load_step() const;
   Result<State> first_shape(double t, const Watch& watch);
   bool leave(double t, Event& event, Trail* trail, const Watch& watch);
