@@ -4,31 +4,157 @@
 #include <cstdlib>
 #include <map>
 
+#include "render/movie/colour_range.h"
 #include "render/movie/encode.h"
 #include "render/movie/movie_writer.h"
+#include "render/movie/stage.h"
 #include "render/movie/stills.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
 
+namespace {
+
+// "#rrggbb", which the preset's reader has looked at
+render::Colour colour_of(const std::string& text) {
+  const long rgb = std::strtol(text.c_str() + 1, nullptr, 16);
+  return {float(rgb >> 16 & 255) / 255, float(rgb >> 8 & 255) / 255, float(rgb & 255) / 255, 1};
+}
+
+void choose(render::Colour& colour, const std::string& wish) {
+  if (wish == "transparent")
+    colour.a = 0;
+  else if (!wish.empty())
+    colour = colour_of(wish);
+}
+void choose(double& width, double wish) {
+  if (wish > 0) width = wish;
+}
+void choose(bool& flag, preset::Shown wish) {
+  if (wish != preset::Shown::automatic) flag = wish == preset::Shown::on;
+}
+
+std::optional<std::array<double, 2>> range_of(const std::vector<double>& range) {
+  if (range.empty()) return std::nullopt;
+  return std::array{range[0], range[1]};
+}
+
+std::optional<render::ColourMap> map_of(preset::ColourMap map) {
+  switch (map) {
+    case preset::ColourMap::automatic:
+      return std::nullopt;
+    case preset::ColourMap::diverging:
+      return render::ColourMap::diverging;
+    case preset::ColourMap::sequential:
+      return render::ColourMap::sequential;
+    case preset::ColourMap::grey:
+      return render::ColourMap::grey;
+  }
+  return std::nullopt;
+}
+
+render::Look look_of(const preset::Style& style) {
+  render::Look look = style.theme == preset::Theme::paper ? render::paper_look() : render::Look{};
+  choose(look.rod_mm, style.rod_width_mm);
+  choose(look.joint_mm, style.joint_width_mm);
+  choose(look.ring_mm, style.ring_width_mm);
+  choose(look.rod, style.rod_colour);
+  choose(look.joint, style.joint_colour);
+  choose(look.ring, style.ring_colour);
+  choose(look.background, style.background);
+  choose(look.cells, style.cells);
+  choose(look.rings, style.rings);
+  choose(look.floor, style.floor);
+  choose(look.shadow, style.shadow);
+  if (style.joints == preset::Shown::off) look.joint_mm = 0;
+  if (style.joints == preset::Shown::on && look.joint_mm == 0)
+    look.joint_mm = render::Look{}.joint_mm;
+  look.map = map_of(style.colour_map);
+  look.range = range_of(style.range);
+  look.far_fade = style.far_fade;
+  look.letters = style.letters;
+  return look;
+}
+
+// azimuth and elevation of a standard view
+std::optional<render::ViewDirection> direction_of(preset::View view) {
+  switch (view) {
+    case preset::View::free:
+      return std::nullopt;
+    case preset::View::front:
+      return render::ViewDirection{-90, 0};
+    case preset::View::side:
+      return render::ViewDirection{0, 0};
+    case preset::View::top:
+      return render::ViewDirection{-90, 90};
+    case preset::View::corner:
+      return render::ViewDirection{-45, 35.264};
+  }
+  return std::nullopt;
+}
+
+render::Quality quality_of(preset::Quality quality) {
+  switch (quality) {
+    case preset::Quality::draft:
+      return render::Quality::draft;
+    case preset::Quality::movie:
+      return render::Quality::movie;
+    case preset::Quality::figure:
+      return render::Quality::figure;
+  }
+  return render::Quality::movie;
+}
+
+render::ColourBy colour_by_of(preset::ColourBy by) {
+  switch (by) {
+    case preset::ColourBy::none:
+      return render::ColourBy::none;
+    case preset::ColourBy::K:
+      return render::ColourBy::K;
+    case preset::ColourBy::displacement:
+      return render::ColourBy::displacement;
+    case preset::ColourBy::K_change:
+      return render::ColourBy::K_change;
+  }
+  return render::ColourBy::none;
+}
+
+}  // namespace
+
 render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures) {
   const auto& movie = preset.movie;
+  const bool stills = pictures == Pictures::stills;
   render::MovieStyle style;
   style.width = movie.size[0];
   style.height = movie.size[1];
   style.fps = movie.fps;
-  // the two enums are the same words
-  style.quality = static_cast<render::Quality>(movie.quality);
-  style.colour_by = static_cast<render::ColourBy>(movie.colour_by);
+  style.quality = quality_of(stills ? preset.figure.quality : movie.quality);
+  style.colour_by = colour_by_of(movie.colour_by);
   style.azimuth_deg = movie.azimuth_deg;
   style.elevation_deg = movie.elevation_deg;
+  if (const auto standard = direction_of(movie.view)) {
+    style.azimuth_deg = standard->azimuth_deg;
+    style.elevation_deg = standard->elevation_deg;
+  }
   style.turn_deg = movie.turn_deg;
   style.zoom = movie.zoom;
+  if (!movie.target_mm.empty())
+    style.target_mm = Eigen::Vector3d(movie.target_mm[0], movie.target_mm[1], movie.target_mm[2]);
+  style.orthographic = movie.orthographic;
+  for (const auto& view : movie.views) style.views.push_back({view[0], view[1]});
   style.inset = movie.inset;
   style.bins = movie.bins;
+  style.bins_range = range_of(movie.bins_range);
   style.captions = movie.captions;
-  style.scale_bar_mm = pictures == Pictures::stills ? preset.figure.scale_bar_mm : 0;
+  style.scale_bar_mm = stills ? preset.figure.scale_bar_mm : 0;
   style.title = preset.title;
+  style.source = preset.source;
+  style.font_scale = preset.style.font_size;
+  style.look = look_of(preset.style);
+  style.seconds = movie.seconds;
+  style.hold_s = movie.hold_s;
+  style.title_s = movie.title_s;
+  style.pace = movie.pace == preset::Pace::eased ? render::Pace::eased : render::Pace::even;
   return style;
 }
 
@@ -48,17 +174,35 @@ Result<Artist> Artist::create(const std::string& context, int threads) {
 }
 
 Result<void> Artist::draw(Pictures pictures, const preset::Preset& preset,
-                          const record::Trajectory& run, const fs::path& folder, Watch& watch) {
+                          const record::Trajectory& run, const SharedBar& bar,
+                          const fs::path& folder, Watch& watch) {
   const auto style = style_of(preset, pictures);
   if (pictures == Pictures::stills) {
     const auto stem = folder / fs::path(preset.name).filename();
-    return render::write_stills(run, style, *renderer_, stem, watch).map([](const auto&) {});
+    return render::write_stills(run, style, bar, *renderer_, stem, watch).map([](const auto&) {});
   }
-  return render::write_movie(run, style, *renderer_, folder / "frames", watch)
+  if (auto showable = render::check_showable(run, style); !showable) return showable;
+  return render::write_movie(render::source_of(run), render::survey_of(run), style, bar, *renderer_,
+                             folder / "frames", watch)
       .and_then([&](const auto&) {
         return render::encode_movie(folder / "frames", style.fps, folder / "movie.mp4", watch);
       })
       .map([](const auto&) {});
+}
+
+std::vector<SharedBar> shared_bars(const std::vector<CaseRecord>& records, Pictures pictures) {
+  std::vector<render::Survey> surveys;
+  for (const CaseRecord& one : records) surveys.push_back(render::survey_of(one.run));
+  std::vector<SharedBar> bars;
+  for (const CaseRecord& one : records) {
+    // what is coloured by something else has a bar of its own
+    std::vector<const render::Survey*> alike;
+    for (std::size_t k = 0; k < records.size(); ++k)
+      if (records[k].preset.movie.colour_by == one.preset.movie.colour_by)
+        alike.push_back(&surveys[k]);
+    bars.push_back(render::colour_bar_of(alike, style_of(one.preset, pictures)));
+  }
+  return bars;
 }
 
 double expected_seconds(Pictures pictures, const preset::Preset& preset) {

@@ -4,8 +4,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "app/case_record.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/preset/preset.h"
@@ -13,11 +16,18 @@
 #include "render/context/context.h"
 #include "render/draw/renderer.h"
 #include "render/movie/style.h"
+#include "render/plot/legend.h"
 
 namespace gridshell::app {
 
 /// Which pictures a command makes.
 enum class Pictures { none, movie, stills };
+
+/// A colour bar of several runs; none where each has its own.
+using SharedBar = std::optional<render::ColourBar>;
+
+/// One a run: the bar that it shares with all others that are coloured by the same quantity.
+std::vector<SharedBar> shared_bars(const std::vector<CaseRecord>& records, Pictures pictures);
 
 /// How the preset wants its run shown.
 render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
@@ -33,7 +43,7 @@ class Artist {
   /// Stills: folder/<preset>_1.png ... and all in one, folder/<preset>.png. Each file is whole or
   /// absent. Errors: io, cancelled, bad_input when a picture cannot be that size.
   Result<void> draw(Pictures pictures, const preset::Preset& preset, const record::Trajectory& run,
-                    const std::filesystem::path& folder, Watch& watch);
+                    const SharedBar& bar, const std::filesystem::path& folder, Watch& watch);
 
   render::Renderer& renderer() { return *renderer_; }
 

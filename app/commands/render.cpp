@@ -56,11 +56,12 @@ Result<std::vector<preset::Override>> picture_overrides(const Options& options) 
   auto overrides = overrides_of(options);
   if (!overrides) return overrides;
   for (const auto& change : *overrides) {
-    const bool shows = change.key.starts_with("movie.") || change.key.starts_with("figure.");
+    const bool shows = change.key.starts_with("movie.") || change.key.starts_with("figure.") ||
+                       change.key.starts_with("style.");
     if (!shows || change.key == "movie.frames" || change.key == "figure.radii_mm")
       return fail(Fault::bad_input,
                   fmt::format("{}: {} cannot change once a run is finished; 'render' takes keys of "
-                              "[movie] and [figure] that only show it",
+                              "[movie], [style] and [figure] that only show it",
                               change.source, change.key));
   }
   return overrides;
@@ -144,15 +145,15 @@ Result<void> draw_together(std::vector<FinishedRun>& runs, const fs::path& from,
                            [&]() -> Watch& { return progress.next_phase(); });
 }
 
-Result<void> draw_run(FinishedRun& run, Artist& artist, const fs::path& from, const fs::path& to,
-                      Progress& progress) {
+Result<void> draw_run(FinishedRun& run, const SharedBar& bar, Artist& artist, const fs::path& from,
+                      const fs::path& to, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   return make_folder(to)
       .and_then([&] {
         if (drawn_beside(run)) return Result<void>{};
         const bool curve = shows_push(run);
         return artist.draw(run.pictures, run.preset,
-                           curve ? ends_of(run.trajectory) : run.trajectory, to,
+                           curve ? ends_of(run.trajectory) : run.trajectory, bar, to,
                            progress.next_phase());
       })
       .and_then([&] { return copy_data(from, to); })
@@ -205,9 +206,14 @@ int render(const Options& options) {
   const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
     auto artist = Artist::create(options.context, options.threads);
     if (!artist) return tl::unexpected(artist.error());
-    for (auto& run : *runs) {
-      auto drawn =
-          draw_run(run, *artist, folder_of(from, run.name), folder_of(partial, run.name), progress);
+    std::vector<CaseRecord> all;
+    for (const auto& run : *runs) all.push_back({run.preset, run.trajectory});
+    const auto bars = shared_bars(all, runs->front().pictures);
+    all.clear();
+    for (std::size_t k = 0; k < runs->size(); ++k) {
+      auto& run = (*runs)[k];
+      auto drawn = draw_run(run, bars[k], *artist, folder_of(from, run.name),
+                            folder_of(partial, run.name), progress);
       if (!drawn) return drawn;
     }
     if (auto drawn = draw_together(*runs, from, *artist, partial, progress); !drawn) return drawn;

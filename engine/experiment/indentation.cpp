@@ -97,6 +97,7 @@ class Push {
       along_ = tangents.u.col(joint_).cross(tangents.v.col(joint_)).normalized();
     }
     if (asked_.direction == preset::Direction::inward) along_ = -along_;
+    outcome_.trajectory.layout.loaded_joints = {{joint_, along_}};
     full_depth_ = asked_.depth_mm > 0 ? asked_.depth_mm : asked_.depth * scene_.length_scale_mm;
     Prescription held{joint_, Eigen::Matrix3Xd::Identity(3, 3)};
     if (asked_.lateral == preset::Lateral::free) held.directions = along_;

@@ -28,6 +28,9 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
   for (std::size_t k = 0; k < layout.cells.size(); ++k)
     for (const int joint : layout.cells[k].joints)
       if (outside(joint, joints)) return out_of_range("cell", k, "joint", joint, joints);
+  for (std::size_t k = 0; k < layout.loaded_joints.size(); ++k)
+    if (outside(layout.loaded_joints[k].joint, joints))
+      return out_of_range("loaded joint", k, "joint", layout.loaded_joints[k].joint, joints);
   for (const Part& part : layout.parts) {
     if (part.net.cols() != part.flat.cols())
       return fail(Fault::bad_input, fmt::format("block \"{}\" has {} points on its net and {} in "

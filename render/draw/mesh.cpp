@@ -25,24 +25,6 @@ std::vector<Eigen::Vector2f> corners(int sides) {
   return result;
 }
 
-/// Unit tangents at the points: the mean of the edges' directions on either side.
-std::vector<Eigen::Vector3f> tangents(std::span<const Eigen::Vector3f> points, bool closed) {
-  const std::size_t n = points.size();
-  std::vector<Eigen::Vector3f> result(n, Eigen::Vector3f::Zero());
-  for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
-    const std::size_t next = (i + 1) % n;
-    const Eigen::Vector3f direction = (points[next] - points[i]).stableNormalized();
-    result[i] += direction;
-    result[next] += direction;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    // an edge without length, or one that turns back, keeps the direction before it
-    if (result[i].norm() < 1e-6f) result[i] = i ? result[i - 1] : Eigen::Vector3f::UnitX();
-    result[i].normalize();
-  }
-  return result;
-}
-
 /// Frame vectors at right angles to the tangents, carried from each to the next without twist.
 std::vector<Eigen::Vector3f> transport(const std::vector<Eigen::Vector3f>& t) {
   std::vector<Eigen::Vector3f> normals(t.size());
@@ -110,6 +92,23 @@ Eigen::Matrix3f frame_of(const Eigen::Vector3f& axis, const Eigen::Vector3f& nor
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector3f> tangents(std::span<const Eigen::Vector3f> points, bool closed) {
+  const std::size_t n = points.size();
+  std::vector<Eigen::Vector3f> result(n, Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
+    const std::size_t next = (i + 1) % n;
+    const Eigen::Vector3f direction = (points[next] - points[i]).stableNormalized();
+    result[i] += direction;
+    result[next] += direction;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    // an edge without length, or one that turns back, keeps the direction before it
+    if (result[i].norm() < 1e-6f) result[i] = i ? result[i - 1] : Eigen::Vector3f::UnitX();
+    result[i].normalize();
+  }
+  return result;
+}
 
 void Mesh::clear() {
   vertices.clear();
@@ -188,6 +187,38 @@ void add_button(Mesh& mesh, const Eigen::Vector3f& centre, const Eigen::Vector3f
       else
         mesh.triangle(ring, ring + i + 1, ring + i);
     }
+    before = ring;
+  }
+}
+
+void add_cone(Mesh& mesh, const Eigen::Vector3f& base, const Eigen::Vector3f& tip, float radius,
+              int sides, const Eigen::Vector4f& colour) {
+  const Eigen::Vector3f axis = (tip - base).stableNormalized();
+  const Eigen::Matrix3f frame = frame_of(axis, any_normal(axis));
+  const auto corner = corners(sides);
+  const PackedColour packed = pack(colour);
+  const float length = (tip - base).norm(), lean = radius / std::hypot(radius, length);
+  const std::uint32_t bottom = add_ring(mesh, corner, base, frame, radius, -1, packed);
+  const std::uint32_t side = add_ring(mesh, corner, base, frame, radius, lean, packed);
+  const std::uint32_t top = add_ring(mesh, corner, tip, frame, 0, lean, packed);
+  for (int k = 1; k + 1 < sides; ++k) mesh.triangle(bottom, bottom + k + 1, bottom + k);
+  join_rings(mesh, side, top, sides);
+}
+
+void add_ball(Mesh& mesh, const Eigen::Vector3f& centre, float radius, int sides,
+              const Eigen::Vector4f& colour) {
+  const Eigen::Matrix3f frame = Eigen::Matrix3f::Identity();
+  const auto corner = corners(sides);
+  const PackedColour packed = pack(colour);
+  const int rings = std::max(2, sides / 2);
+  std::uint32_t before = 0;
+  for (int k = 0; k <= rings; ++k) {
+    const double angle = std::numbers::pi * (double(k) / rings - 0.5);
+    const auto lean = float(std::sin(angle)), across = float(std::cos(angle));
+    const Eigen::Vector3f at = centre + radius * lean * frame.col(2);
+    const std::uint32_t ring =
+        add_ring(mesh, corner, at, frame, radius * std::max(0.f, across), lean, packed);
+    if (k > 0) join_rings(mesh, before, ring, sides);
     before = ring;
   }
 }

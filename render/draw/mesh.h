@@ -17,7 +17,7 @@ PackedColour pack(const Eigen::Vector4f& linear);
 /// As the shaders read it (attributes 0, 1, 2).
 struct Vertex {
   Eigen::Vector3f position;            ///< mm
-  std::array<std::int16_t, 4> normal;  ///< unit vector times 32767
+  std::array<std::int16_t, 4> normal;  ///< unit vector times 32767, and of a ribbon its side
   PackedColour colour;
 };
 
@@ -31,6 +31,9 @@ struct Mesh {
                     const PackedColour& colour);
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 };
+
+/// Unit tangents at the points of a polyline: the mean of the edges' directions on either side.
+std::vector<Eigen::Vector3f> tangents(std::span<const Eigen::Vector3f> points, bool closed);
 
 /// A tube around a polyline.
 struct Tube {
@@ -49,5 +52,12 @@ void add_tube(Mesh& mesh, const Tube& tube);
 /// `axis`.
 void add_button(Mesh& mesh, const Eigen::Vector3f& centre, const Eigen::Vector3f& axis,
                 float radius, float half_height, int sides, const Eigen::Vector4f& colour);
+
+/// A closed cone from the middle of its base to its tip.
+void add_cone(Mesh& mesh, const Eigen::Vector3f& base, const Eigen::Vector3f& tip, float radius,
+              int sides, const Eigen::Vector4f& colour);
+
+void add_ball(Mesh& mesh, const Eigen::Vector3f& centre, float radius, int sides,
+              const Eigen::Vector4f& colour);
 
 }  // namespace gridshell::render

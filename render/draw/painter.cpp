@@ -8,6 +8,7 @@
 
 #include "render/draw/camera.h"
 #include "render/draw/colour.h"
+#include "render/draw/ribbon.h"
 
 namespace gridshell::render {
 namespace {
@@ -31,6 +32,12 @@ Eigen::Matrix4f to_ground(const Eigen::Matrix4d& matrix, double z) {
   return result;
 }
 
+/// Of a sample: mm at distance 1 in perspective, else anywhere.
+double sample_size(const Shot& shot) {
+  const double mm = 2 * shot.camera.half_extent_mm / (shot.height * shot.quality.supersample);
+  return shot.camera.field_of_view_deg <= 0 ? mm : mm / camera_distance(shot.camera);
+}
+
 /// The ground hides nothing when it is seen from below.
 bool ground_seen(const Shot& shot) {
   const Camera& camera = shot.camera;
@@ -48,8 +55,7 @@ Painter::Painter(const Gl& gl, Programs programs, ShadowMap shadow)
       programs_(std::move(programs)),
       shadow_(std::move(shadow)),
       solids_(gl),
-      ghosts_(gl),
-      cells_(gl),
+      painted_(gl),
       no_vertices_(gl),
       layer_(gl, Target::Depth::plain),
       sum_(gl, Target::Depth::none),
@@ -58,13 +64,16 @@ Painter::Painter(const Gl& gl, Programs programs, ShadowMap shadow)
 Result<Painter> Painter::create(const Gl& gl) {
   auto shadow = ShadowMap::create(gl);
   if (!shadow) return tl::unexpected(shadow.error());
-  auto solid = Program::create(gl, {"solid.vert"}, {"light.glsl", "shadow.glsl", "solid.frag"});
+  auto solid = Program::create(gl, {"solid.vert"},
+                               {"light.glsl", "shadow.glsl", "metal.glsl", "solid.frag"});
   if (!solid) return tl::unexpected(solid.error());
-  auto cell = Program::create(gl, {"light.glsl", "cell.vert"}, {"shadow.glsl", "cell.frag"});
-  if (!cell) return tl::unexpected(cell.error());
+  auto painted = Program::create(gl, {"light.glsl", "ribbon.glsl", "painted.vert"},
+                                 {"light.glsl", "shadow.glsl", "metal.glsl", "painted.frag"});
+  if (!painted) return tl::unexpected(painted.error());
   auto mean = Program::create(gl, {"screen.vert"}, {"mean.frag"});
   if (!mean) return tl::unexpected(mean.error());
-  return Painter(gl, {std::move(*solid), std::move(*cell), std::move(*mean)}, std::move(*shadow));
+  return Painter(gl, {std::move(*solid), std::move(*painted), std::move(*mean)},
+                 std::move(*shadow));
 }
 
 Result<void> Painter::begin(const Shot& shot) {
@@ -76,8 +85,7 @@ Result<void> Painter::begin(const Shot& shot) {
     resolve_.emplace(s, std::move(*program));
   }
   solids_.upload(shot.scene.solids);
-  ghosts_.upload(shot.scene.ghosts);
-  cells_.upload(shot.scene.cells);
+  painted_.upload(shot.scene.painted, {shot.scene.casters, shot.scene.sheets});
   passes_ = lighting_passes(shot.camera, shot.quality.jittered_passes);
   shadow_of_ = -1;
   return {};
@@ -92,7 +100,7 @@ Result<void> Painter::paint(const Shot& shot, const Tile& tile, Image& image) {
   }
   for (int i = 0; i < int(passes_.size()); ++i) {
     if (shot.quality.shadow && shadow_of_ != i) {
-      auto done = shadow_.render(shot.scene, solids_, cells_, passes_[i].direction,
+      auto done = shadow_.render(shot.scene, solids_, painted_, passes_[i].direction,
                                  shot.drawing.ground_z_mm);
       if (!done) return done;
       shadow_of_ = i;
@@ -168,6 +176,8 @@ void Painter::set_light(const Program& program, const Shot& shot, const Lighting
   program.set("eye", eye_uniform);
   program.set("background", linear(shot.drawing.background));
   program.set("forward", Eigen::Vector3f(forward.cast<float>()));
+  program.set("far_fade", float(shot.drawing.far_fade));
+  program.set("sheen", float(shot.drawing.sheen));
   program.set("haze", Eigen::Vector2f(float(middle), float(1 / extent)));
   program.set("shadow_on", int(shot.quality.shadow));
   program.set("shadow_depth", 1);
@@ -188,26 +198,19 @@ void Painter::draw_meshes(const Shot& shot, const Lighting& light, const Eigen::
   set_light(programs_.solid, shot, light);
   gl_->Enable(GL_CULL_FACE);
   solids_.draw();
-
-  gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  if (!ghosts_.empty()) {
-    // depth first, so that ghosts do not show through themselves
-    gl_->ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    ghosts_.draw();
-    gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    gl_->DepthFunc(GL_LEQUAL);
-    gl_->Enable(GL_BLEND);
-    ghosts_.draw();
-    gl_->DepthFunc(GL_LESS);
-  }
   gl_->Disable(GL_CULL_FACE);
-  if (cells_.empty()) return;
-  programs_.cell.use();
-  programs_.cell.set("view_projection", matrix);
-  set_light(programs_.cell, shot, light);
+
+  // in order, so that what is nearer lies over what is farther; only solids hide by depth
+  const Program& painted = programs_.painted;
+  painted.use();
+  painted.set("view_projection", matrix);
+  painted.set("widest", widest_radius_mm);
+  painted.set("sample_size", float(sample_size(shot)));
+  set_light(painted, shot, light);
   gl_->Enable(GL_BLEND);
+  gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   gl_->DepthMask(GL_FALSE);
-  cells_.draw();
+  painted_.draw();
   gl_->DepthMask(GL_TRUE);
 }
 
@@ -216,6 +219,9 @@ void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light)
   const Program& program = resolve_.at(shot.quality.supersample);
   program.use();
   program.set("samples", 0);
+  program.set("texel_of_samples",
+              Eigen::Vector2f(1.f / float(shot.quality.supersample * tile.width),
+                              1.f / float(shot.quality.supersample * tile.height)));
   program.set("cover", 1);
   program.set("rows", tile.height);
   program.set("to_ground", to_ground(matrix(shot, tile, light), shot.drawing.ground_z_mm));
@@ -223,6 +229,7 @@ void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light)
   program.set("ground_z", float(shot.drawing.ground_z_mm));
   program.set("ground_colour", linear(shot.drawing.ground_colour));
   program.set("background", linear(shot.drawing.background));
+  program.set("background_alpha", shot.drawing.background.a);
   program.set("middle", Eigen::Vector2f(shot.camera.target.head<2>().cast<float>()));
   program.set("fade", Eigen::Vector2f(float(ground_from * extent), float(ground_to * extent)));
   program.set("shadow_on", int(shot.quality.shadow));
@@ -237,6 +244,9 @@ void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light)
 
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, layer_.colour());
+  // four samples of a pixel in one fetch between them
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl_->ActiveTexture(GL_TEXTURE1);
   gl_->BindTexture(GL_TEXTURE_2D, shadow_.cover());
   gl_->Disable(GL_DEPTH_TEST);

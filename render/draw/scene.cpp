@@ -4,10 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "render/draw/camera.h"
 #include "render/draw/colour.h"
+#include "render/draw/ribbon.h"
 #include "render/draw/skin.h"
 
 namespace gridshell::render {
@@ -54,61 +59,164 @@ std::string mismatch(const Drawing& drawing) {
   return {};
 }
 
-/// Tubes of a given diameter, drawn no thinner than a sample.
-class TubeMaker {
- public:
-  TubeMaker(double diameter_mm, double mm_per_sample)
-      : radius_(float(0.5 * std::max(diameter_mm, 1.1 * mm_per_sample))),
-        sides_(sides_for(2 * radius_ / mm_per_sample)) {}
+/// A radius as drawn: no thinner than a sample.
+float radius_of(double diameter_mm, double mm_per_sample) {
+  return float(0.5 * std::max(diameter_mm, 1.1 * mm_per_sample));
+}
 
-  void add(Mesh& mesh, const Points& points, const Colours& colours, bool closed) const {
-    add_tube(mesh, {points, colours, radius_, sides_, closed});
+Points points_of(const Eigen::Matrix3Xd& nodes, const std::vector<int>& rod) {
+  Points points;
+  for (int node : rod) points.push_back(nodes.col(node).cast<float>());
+  return points;
+}
+
+/// Every joint's node, and the cells on either side of two joints' stretch.
+class Neighbours {
+ public:
+  explicit Neighbours(const record::Layout& layout) {
+    for (const record::Joint& joint : layout.joints) joints_.insert(joint.node);
+    for (int c = 0; c < int(layout.cells.size()); ++c)
+      for (int k = 0; k < 4; ++k) {
+        const auto& corners = layout.cells[c].joints;
+        const int a = layout.joints[corners[k]].node, b = layout.joints[corners[(k + 1) % 4]].node;
+        beside_[std::minmax(a, b)].push_back(c);
+      }
+  }
+  bool joint(int node) const { return joints_.contains(node); }
+  const std::vector<int>& cells(int a, int b) const {
+    static const std::vector<int> none;
+    const auto found = beside_.find(std::minmax(a, b));
+    return found == beside_.end() ? none : found->second;
   }
 
  private:
-  float radius_;
-  int sides_;
+  std::set<int> joints_;
+  std::map<std::pair<int, int>, std::vector<int>> beside_;
 };
 
-void add_rods(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
-  const TubeMaker tube(drawing.rod_diameter_mm, mm_per_sample);
-  Colours of_node(drawing.node_colours.size());
-  std::transform(drawing.node_colours.begin(), drawing.node_colours.end(), of_node.begin(), opaque);
-  const Eigen::Vector4f plain = opaque(drawing.rod_colour);
-  Points points;
-  Colours colours;
-  for (const auto& rod : drawing.layout->rods) {
-    points.clear();
-    colours.clear();
-    for (int node : rod) {
-      points.push_back(drawing.nodes.col(node).cast<float>());
-      colours.push_back(of_node.empty() ? plain : of_node[node]);
-    }
-    tube.add(mesh, points, colours, false);
-  }
-}
+/// Collects what is painted from far to near, each piece with its depth.
+class Weaver {
+ public:
+  Weaver(Scene& scene, const Drawing& drawing, const Camera& camera, double mm_per_sample)
+      : scene_(scene),
+        drawing_(drawing),
+        forward_(camera_axes(camera).forward),
+        mm_per_sample_(mm_per_sample) {}
 
-void add_rings(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
-  for (const Ring& ring : drawing.rings) {
-    Points points(ring.points.cols());
-    for (int k = 0; k < int(points.size()); ++k) points[k] = ring.points.col(k).cast<float>();
-    // a last point that repeats the first would be an edge without length
-    while (points.size() > 1 && (points.back() - points.front()).norm() < 1e-6f) points.pop_back();
-    const Colours colours(points.size(), opaque(ring.colour));
-    TubeMaker(ring.diameter_mm, mm_per_sample).add(mesh, points, colours, true);
-  }
-}
-
-void add_ghosts(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
-  for (const GhostRods& ghost : drawing.ghosts) {
-    const TubeMaker tube(ghost.diameter_mm, mm_per_sample);
-    for (const auto& rod : ghost.rods) {
-      Points points;
-      for (int node : rod) points.push_back(ghost.nodes.col(node).cast<float>());
-      tube.add(mesh, points, Colours(points.size(), to_linear(ghost.colour)), false);
+  void add_cells() {
+    cell_depth_.assign(drawing_.layout->cells.size(), NAN);
+    if (drawing_.cell_colours.empty()) return;
+    Colours colours(drawing_.cell_colours.size());
+    std::transform(drawing_.cell_colours.begin(), drawing_.cell_colours.end(), colours.begin(),
+                   [](const Colour& c) { return to_linear(c); });
+    const auto patches =
+        render::add_cells(scene_.painted, *drawing_.layout, drawing_.nodes, colours);
+    for (const CellPatch& patch : patches) {
+      double depth = 0;
+      for (int joint : drawing_.layout->cells[patch.cell].joints)
+        depth += 0.25 * forward_.dot(drawing_.nodes.col(drawing_.layout->joints[joint].node));
+      cell_depth_[patch.cell] = depth;
+      pieces_.push_back({depth, 0, patch.indices});
+      insert(scene_.sheets, patch.indices);
     }
   }
-}
+
+  /// A stretch between joints comes after the nearer of the cells beside it, so that these do not
+  /// cover half of it, and before whatever is nearer still.
+  void add_rods() {
+    const Neighbours neighbours(*drawing_.layout);
+    const float radius = radius_of(drawing_.rod_diameter_mm, mm_per_sample_);
+    Colours of_node(drawing_.node_colours.size());
+    std::transform(drawing_.node_colours.begin(), drawing_.node_colours.end(), of_node.begin(),
+                   opaque);
+    const Eigen::Vector4f plain = opaque(drawing_.rod_colour);
+    for (const auto& rod : drawing_.layout->rods) {
+      if (rod.size() < 2) continue;
+      Colours colours;
+      for (int node : rod) colours.push_back(of_node.empty() ? plain : of_node[node]);
+      const std::uint32_t first =
+          add_ribbon(scene_.painted, {points_of(drawing_.nodes, rod), colours, radius});
+      for (std::size_t begin = 0; begin + 1 < rod.size();) {
+        std::size_t end = begin + 1;
+        while (end + 1 < rod.size() && !neighbours.joint(rod[end])) ++end;
+        double depth =
+            0.5 * forward_.dot(drawing_.nodes.col(rod[begin]) + drawing_.nodes.col(rod[end]));
+        for (int cell : neighbours.cells(rod[begin], rod[end]))
+          if (std::isfinite(cell_depth_[cell])) depth = std::min(depth, cell_depth_[cell]);
+        add_stretch(first, int(begin), int(end), depth, true);
+        begin = end;
+      }
+    }
+  }
+
+  void add_rings() {
+    for (const Ring& ring : drawing_.rings) {
+      Points points(ring.points.cols());
+      for (int k = 0; k < int(points.size()); ++k) points[k] = ring.points.col(k).cast<float>();
+      // a last point that repeats the first would be an edge without length
+      while (points.size() > 1 && (points.back() - points.front()).norm() < 1e-6f)
+        points.pop_back();
+      if (points.size() < 3) continue;
+      const Colours colours(points.size(), opaque(ring.colour));
+      const std::uint32_t first = add_ribbon(
+          scene_.painted, {points, colours, radius_of(ring.diameter_mm, mm_per_sample_), true});
+      for (int k = 0, n = int(points.size()); k < n; ++k) {
+        Piece piece{forward_.dot(points[k].cast<double>()), 1, {}};
+        join_points(piece.indices, first, k, (k + 1) % n);
+        insert(scene_.casters, piece.indices);
+        pieces_.push_back(std::move(piece));
+      }
+    }
+  }
+
+  void add_ghosts() {
+    constexpr int edges = 4;
+    for (const GhostRods& ghost : drawing_.ghosts) {
+      const float radius = radius_of(ghost.diameter_mm, mm_per_sample_);
+      for (const auto& rod : ghost.rods) {
+        if (rod.size() < 2) continue;
+        const Points points = points_of(ghost.nodes, rod);
+        const Colours colours(points.size(), to_linear(ghost.colour));
+        const std::uint32_t first = add_ribbon(scene_.painted, {points, colours, radius});
+        for (int begin = 0, last = int(rod.size()) - 1; begin < last; begin += edges) {
+          const int end = std::min(begin + edges, last);
+          add_stretch(first, begin, end,
+                      0.5 * forward_.dot((points[begin] + points[end]).cast<double>()), false);
+        }
+      }
+    }
+  }
+
+  void finish() {
+    std::stable_sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
+      return a.depth > b.depth || (a.depth == b.depth && a.layer < b.layer);
+    });
+    for (const Piece& piece : pieces_) insert(scene_.painted.indices, piece.indices);
+  }
+
+ private:
+  struct Piece {
+    double depth = 0;
+    int layer = 0;  // of pieces of one depth: sheets lie below rods
+    std::vector<std::uint32_t> indices;
+  };
+  static void insert(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  }
+  void add_stretch(std::uint32_t first, int begin, int end, double depth, bool casts) {
+    Piece piece{depth, 1, {}};
+    for (int k = begin; k < end; ++k) join_points(piece.indices, first, k, k + 1);
+    if (casts) insert(scene_.casters, piece.indices);
+    pieces_.push_back(std::move(piece));
+  }
+
+  Scene& scene_;
+  const Drawing& drawing_;
+  Eigen::Vector3d forward_;
+  double mm_per_sample_;
+  std::vector<double> cell_depth_;
+  std::vector<Piece> pieces_;
+};
 
 /// For every node the cross product of its rods' tangents: the shell's normal at a joint.
 std::vector<Eigen::Vector3f> shell_normals(const Drawing& drawing) {
@@ -141,13 +249,38 @@ void add_joints(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
   }
 }
 
+void add_arrows(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
+  constexpr float head_width = 2.8f, head_length = 4.5f;  // over the shaft's diameter
+  for (const Arrow& arrow : drawing.arrows) {
+    const Eigen::Vector3f from = arrow.from.cast<float>(), to = arrow.to.cast<float>();
+    const float radius = radius_of(arrow.diameter_mm, mm_per_sample), length = (to - from).norm();
+    const Eigen::Vector3f neck =
+        to - std::min(2 * head_length * radius, 0.6f * length) * (to - from).stableNormalized();
+    const Eigen::Vector4f colour = opaque(arrow.colour);
+    const Points shaft{from, neck};
+    const Colours colours{colour, colour};
+    add_tube(mesh, {shaft, colours, radius, sides_for(2 * radius / mm_per_sample), false});
+    add_cone(mesh, neck, to, head_width * radius, 16, colour);
+  }
+}
+
+void add_marks(Mesh& mesh, const Drawing& drawing) {
+  for (const PointMark& mark : drawing.marks)
+    add_ball(mesh, mark.at.cast<float>(), float(0.5 * mark.diameter_mm), 20, opaque(mark.colour));
+}
+
 void enclose(Scene& scene) {
   Eigen::AlignedBox3f box;
-  for (const Mesh* mesh : {&scene.solids, &scene.ghosts, &scene.cells})
-    for (const Vertex& v : mesh->vertices) box.extend(v.position);
+  float widest = 0;
+  for (const Mesh* mesh : {&scene.solids, &scene.painted})
+    for (const Vertex& v : mesh->vertices) {
+      box.extend(v.position);
+      widest = std::max(widest, std::abs(float(v.normal[3])));
+    }
   if (box.isEmpty()) box.extend(Eigen::Vector3f::Zero());
-  scene.low = box.min().cast<double>() - Eigen::Vector3d::Constant(1e-3);
-  scene.high = box.max().cast<double>() + Eigen::Vector3d::Constant(1e-3);
+  const double room = 1e-3 + widest / 32767 * widest_radius_mm;
+  scene.low = box.min().cast<double>() - Eigen::Vector3d::Constant(room);
+  scene.high = box.max().cast<double>() + Eigen::Vector3d::Constant(room);
 }
 
 }  // namespace
@@ -156,16 +289,15 @@ Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm
   if (const std::string fault = mismatch(drawing); !fault.empty())
     return fail(Fault::bad_input, "the drawing " + fault);
   Scene scene;
-  add_rods(scene.solids, drawing, mm_per_sample);
-  add_rings(scene.solids, drawing, mm_per_sample);
   add_joints(scene.solids, drawing, mm_per_sample);
-  add_ghosts(scene.ghosts, drawing, mm_per_sample);
-  if (!drawing.cell_colours.empty()) {
-    Colours colours(drawing.cell_colours.size());
-    std::transform(drawing.cell_colours.begin(), drawing.cell_colours.end(), colours.begin(),
-                   [](const Colour& c) { return to_linear(c); });
-    add_cells(scene.cells, *drawing.layout, drawing.nodes, colours, camera_axes(camera).forward);
-  }
+  add_arrows(scene.solids, drawing, mm_per_sample);
+  add_marks(scene.solids, drawing);
+  Weaver weaver(scene, drawing, camera, mm_per_sample);
+  weaver.add_cells();
+  weaver.add_rods();
+  weaver.add_rings();
+  weaver.add_ghosts();
+  weaver.finish();
   enclose(scene);
   return scene;
 }

@@ -103,13 +103,13 @@ Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& movie
   if (auto showable = check_showable(blocks, style); !showable)
     return tl::unexpected(showable.error());
   const Stage stage(blocks, style);
-  Drawing drawing = stage.drawing(0);
+  Drawing drawing = stage.drawing(blocks.frames.front());
   drawing.ground = false;
   drawing.joint_diameter_mm = 0;
   drawing.rod_diameter_mm *= 1.5;
   for (const std::size_t block : owner) drawing.node_colours.push_back(block_colour(block));
-  auto picture = renderer.draw(drawing, stage.camera(0), draw_quality(style.quality), style.width,
-                               style.height);
+  auto picture =
+      renderer.draw(drawing, stage.camera(0), draw_quality(style), style.width, style.height);
   if (!picture) return tl::unexpected(picture.error());
   std::string names;
   for (const record::Part& part : run.layout.parts)

@@ -43,13 +43,14 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
       return tl::unexpected(showable.error());
     const record::Trajectory last = final_state(*runs[k].run);
     const Stage stage(last, style);
-    Drawing drawing = stage.drawing(0);
+    Drawing drawing = stage.drawing(last.frames.front());
     drawing.ground = false;
     dress(last, drawing);
-    auto picture = renderer.draw(drawing, stage.camera(0), draw_quality(style.quality), style.width,
-                                 style.height);
+    auto picture =
+        renderer.draw(drawing, stage.camera(0), draw_quality(style), style.width, style.height);
     if (!picture) return tl::unexpected(picture.error());
-    const std::string letter = runs.size() > 1 ? std::string(1, char('a' + k % 26)) : "";
+    const std::string letter =
+        runs.size() > 1 && style.look.letters ? std::string(1, char('a' + k % 26)) : "";
     figure.panels.push_back({std::move(*picture), letter, runs[k].caption});
     if (runs.size() == 1) {
       figure.scale_bar_mm = style.scale_bar_mm;

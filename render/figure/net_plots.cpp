@@ -129,14 +129,16 @@ Plot curvature_plot(const std::vector<NamedRun>& runs) {
   plot.references.push_back({.at = 0, .label = ""});
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
-    const double L = run.layout.actuated_boundary.row(0).cwiseAbs().maxCoeff();
+    // an assemblage need not lie about the origin
+    const auto ends = run.layout.actuated_boundary.row(0);
+    const double middle = 0.5 * (ends.minCoeff() + ends.maxCoeff()), L = ends.maxCoeff() - middle;
     const Eigen::Matrix3Xd joints = joints_of(run);
     Series series;
     series.name = runs[r].name;
     for (std::size_t k = 0; k < run.layout.cells.size(); ++k) {
       double x = 0;
       for (int joint : run.layout.cells[k].joints) x += joints(0, joint) / 4;
-      series.x.push_back(x / L);
+      series.x.push_back((x - middle) / L);
       series.y.push_back(run.frames.back().cell_K[long(k)]);
     }
     series.colour = series_colour(r);

@@ -27,7 +27,7 @@ MovieStyle still_style(MovieStyle style) {
 // legends of a single still; its caption stands where a movie has its title
 void finish_still(Image& picture, const Stage& stage, const record::Frame& frame, int index) {
   draw_over(picture, [&](Canvas& canvas) {
-    stage.draw_overlay(canvas, index);
+    stage.draw_overlay(canvas, {frame, index});
     const double em = stage.layout().font_size;
     canvas.text(still_caption(frame), {0.9 * em, 0.9 * em}, {.size = em, .align_y = AlignY::top});
   });
@@ -57,6 +57,7 @@ std::string still_caption(const record::Frame& frame) { return state_captions(fr
 
 Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory& run,
                                                         const MovieStyle& movie_style,
+                                                        const std::optional<ColourBar>& bar,
                                                         Renderer& renderer,
                                                         const std::filesystem::path& stem,
                                                         Watch& watch) {
@@ -65,7 +66,7 @@ Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory
     return tl::unexpected(showable.error());
   if (stem.has_parent_path())
     if (auto made = make_folder(stem.parent_path()); !made) return tl::unexpected(made.error());
-  const Stage stage(run, style);
+  const Stage stage(run.layout, survey_of(run), style, bar);
   PanelFigure figure{.panels = {},
                      .columns = std::min(stage.frames(), largest_columns),
                      .scale_bar_mm = style.scale_bar_mm,
@@ -77,12 +78,12 @@ Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory
       return fail(Fault::cancelled,
                   fmt::format("stopped after {} of {} stills", k, stage.frames()));
     const record::Frame& frame = run.frames[std::size_t(k)];
-    Result<Image> picture = renderer.draw(stage.drawing(k), stage.camera(k),
-                                          draw_quality(style.quality), style.width, style.height);
+    Result<Image> picture = stage.draw_views(renderer, {frame, k});
     if (!picture) return tl::unexpected(picture.error());
-    figure.panels.push_back({around(*picture, stage.shell_box()),
-                             stage.frames() > 1 ? std::string(1, char('a' + k % 26)) : "",
-                             still_caption(frame)});
+    figure.panels.push_back(
+        {around(*picture, stage.shell_box()),
+         stage.frames() > 1 && style.look.letters ? std::string(1, char('a' + k % 26)) : "",
+         still_caption(frame)});
     finish_still(*picture, stage, frame, k);
     files.push_back(with_suffix(stem, fmt::format("_{}.png", k + 1)));
     if (auto written = write_png(*picture, files.back()); !written)

@@ -159,7 +159,8 @@ void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
   const Legend legend(canvas, plot);
   LegendPlace corner = plot.legend;
   if (plot.legend == LegendPlace::automatic) corner = legend.free_corner(canvas, frame);
-  const bool above = !legend.empty() && corner == LegendPlace::none;
+  const bool above =
+      !legend.empty() && (corner == LegendPlace::none || corner == LegendPlace::above);
   if (above) frame = lay_out(canvas, box, plot, legend.head_height(frame.inside.width));
 
   canvas.clipped(frame.inside, [&] {
@@ -181,7 +182,7 @@ void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
                 {.size = plot.font_size, .colour = note.colour, .align_y = AlignY::top});
   }
   if (above)
-    legend.draw_above(canvas, frame, box.y + (plot.title.empty() ? 0 : 1.45 * plot.font_size));
+    legend.draw_above(canvas, frame, box.y + title_height(canvas, box, plot));
   else if (!legend.empty())
     legend.draw_in_corner(canvas, frame, corner);
 }

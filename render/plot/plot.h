@@ -30,8 +30,8 @@ enum class SeriesKind { points, bars };
 struct Series {
   std::string name;  ///< marked text; empty: not in the legend
   std::vector<double> x = {}, y = {};
-  std::vector<double> y_error = {};  ///< half-lengths; empty: none
-  std::vector<double> x_error = {};  ///< half-lengths; empty: none
+  std::vector<double> y_error = {};                ///< half-lengths; empty: none
+  std::vector<double> x_error = {};                ///< half-lengths; empty: none
   std::vector<std::array<double, 2>> x_span = {};  ///< ends of a bar, least and most; empty: none
   Colour colour{0.27f, 0.47f, 0.67f, 1};
   SeriesKind kind = SeriesKind::points;
@@ -67,7 +67,7 @@ struct Note {
   Colour colour{0.1f, 0.1f, 0.12f, 1};
 };
 
-enum class LegendPlace { none, automatic, upper_left, upper_right, lower_left, lower_right };
+enum class LegendPlace { none, automatic, above, upper_left, upper_right, lower_left, lower_right };
 
 struct Plot {
   std::string title;  ///< marked text; empty: none
