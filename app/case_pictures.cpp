@@ -21,10 +21,9 @@ Result<void> draw_beside(const std::vector<CaseRecord>& records, const std::stri
   std::vector<render::BesideRun> runs;
   for (const CaseRecord& one : records) runs.push_back({&one.run, one.preset.title});
   return render::write_beside(runs, style, renderer, folder / "frames", watch)
-      .and_then([&](const auto&) {
-        return render::encode_movie(folder / "frames", style.fps, folder / "movie.mp4", watch);
-      })
-      .map([](const auto&) {});
+      .and_then([&](const auto& report) {
+        return make_movie_files(folder, records.front().preset, style, report.frames, watch);
+      });
 }
 
 Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, render::Renderer& renderer,

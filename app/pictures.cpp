@@ -4,11 +4,13 @@
 #include <cstdlib>
 #include <map>
 
+#include "render/image/png.h"
 #include "render/movie/colour_range.h"
 #include "render/movie/encode.h"
 #include "render/movie/movie_writer.h"
 #include "render/movie/stage.h"
 #include "render/movie/stills.h"
+#include "render/movie/title_card.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
@@ -184,10 +186,36 @@ Result<void> Artist::draw(Pictures pictures, const preset::Preset& preset,
   if (auto showable = render::check_showable(run, style); !showable) return showable;
   return render::write_movie(render::source_of(run), render::survey_of(run), style, bar, *renderer_,
                              folder / "frames", watch)
-      .and_then([&](const auto&) {
-        return render::encode_movie(folder / "frames", style.fps, folder / "movie.mp4", watch);
-      })
-      .map([](const auto&) {});
+      .and_then([&](const auto& report) {
+        return make_movie_files(folder, preset, style, report.frames, watch);
+      });
+}
+
+render::Timing timing_of(const render::MovieStyle& style, int frames) {
+  return {style.fps, frames, style.seconds, style.hold_s, style.pace, style.title_s};
+}
+
+Result<void> make_movie_files(const fs::path& folder, const preset::Preset& preset,
+                              const render::MovieStyle& style, int frames, Watch& watch) {
+  const auto pictures = folder / "frames";
+  if (style.title_s > 0)
+    if (auto written = render::write_png(render::title_card(style), pictures / "title.png");
+        !written)
+      return written;
+  if (preset.movie.poster) {
+    std::error_code error;
+    fs::copy_file(pictures / render::frame_name(frames - 1), folder / "poster.png",
+                  fs::copy_options::overwrite_existing, error);
+    if (error) return fail(Fault::io, "cannot write poster.png: " + error.message());
+  }
+  std::vector<const char*> kinds{"movie.mp4"};
+  if (preset.movie.webm) kinds.push_back("movie.webm");
+  if (preset.movie.gif) kinds.push_back("movie.gif");
+  for (const char* kind : kinds) {
+    auto made = render::encode_movie(pictures, timing_of(style, frames), folder / kind, watch);
+    if (!made) return tl::unexpected(made.error());
+  }
+  return {};
 }
 
 std::vector<SharedBar> shared_bars(const std::vector<CaseRecord>& records, Pictures pictures) {
@@ -222,7 +250,9 @@ std::string how_to_make_movie(const fs::path& folder, const preset::Preset& pres
   std::error_code error;
   const auto frames = folder / "frames", movie = folder / "movie.mp4";
   if (!fs::exists(frames, error) || fs::exists(movie, error)) return "";
-  const auto line = render::shell_line(render::encode_arguments(frames, preset.movie.fps, movie));
+  const auto style = style_of(preset, Pictures::movie);
+  const auto line = render::shell_line(
+      render::encode_arguments(frames, timing_of(style, preset.movie.frames), movie));
   return "no ffmpeg on the PATH; this makes the movie:\n  " + line + "\n";
 }
 

@@ -15,6 +15,7 @@
 #include "engine/record/snapshot.h"
 #include "render/context/context.h"
 #include "render/draw/renderer.h"
+#include "render/movie/encode.h"
 #include "render/movie/style.h"
 #include "render/plot/legend.h"
 
@@ -54,6 +55,14 @@ class Artist {
   std::unique_ptr<render::Context> context_;  // outlives the renderer
   std::unique_ptr<render::Renderer> renderer_;
 };
+
+/// How fast the movie of `frames` frames plays.
+render::Timing timing_of(const render::MovieStyle& style, int frames);
+
+/// What is made of the frames in folder/frames: movie.mp4 and what else the preset asks for, where
+/// ffmpeg is on the PATH; poster.png. Errors: io, cancelled.
+Result<void> make_movie_files(const std::filesystem::path& folder, const preset::Preset& preset,
+                              const render::MovieStyle& style, int frames, Watch& watch);
 
 /// What drawing will take about, for the progress bar and `check`.
 double expected_seconds(Pictures pictures, const preset::Preset& preset);

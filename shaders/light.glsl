@@ -10,6 +10,13 @@ uniform float sheen;  // of metal; 0: flat ink
 
 vec3 towards_eye(vec3 world) { return normalize(eye.xyz - eye.w * world); }
 
+uniform float sample_size;  // mm, at distance 1 in perspective, else anywhere
+
+// The size of a sample at a point, mm.
+float unit_at(vec3 at) {
+  return sample_size * (eye.w == 1.0 ? dot(at - eye.xyz, forward) : 1.0);
+}
+
 // Irradiance without the key light.
 float ambient(vec3 n) { return sky * (0.5 + 0.5 * n.z) + bounce * (0.5 - 0.5 * n.z); }
 

@@ -1,4 +1,4 @@
-// Ribbons: rods as strips that face whoever looks at them.
+// Rods as strips that face whoever looks at them.
 uniform float widest;  // radius that a fourth component of 1 stands for, mm
 
 // Half the width of the ribbon that a vertex belongs to.

@@ -19,11 +19,12 @@ struct Camera {
   double field_of_view_deg = 20;  ///< 0: orthographic
 };
 
-/// A closed polyline drawn as a tube of its own (the ring of the actuated boundary).
+/// A closed polyline drawn as a rod of its own (the ring of the actuated boundary).
 struct Ring {
   Eigen::Matrix3Xd points;
   double diameter_mm = 1;
   Colour colour;
+  bool shadow = true;  ///< whether it throws one
 };
 
 /// Rods drawn without joints or cells, behind the shell: an ansatz, a block, an unloaded shape.

@@ -54,25 +54,28 @@ Painter::Painter(const Gl& gl, Programs programs, ShadowMap shadow)
     : gl_(&gl),
       programs_(std::move(programs)),
       shadow_(std::move(shadow)),
-      solids_(gl),
-      painted_(gl),
+      sheets_(gl),
+      ribbons_(gl),
+      beads_(gl),
       no_vertices_(gl),
-      layer_(gl, Target::Depth::plain),
+      layer_(gl, Target::Depth::none),
       sum_(gl, Target::Depth::none),
       pixels_(gl, Target::Depth::none) {}
 
 Result<Painter> Painter::create(const Gl& gl) {
   auto shadow = ShadowMap::create(gl);
   if (!shadow) return tl::unexpected(shadow.error());
-  auto solid = Program::create(gl, {"solid.vert"},
-                               {"light.glsl", "shadow.glsl", "metal.glsl", "solid.frag"});
-  if (!solid) return tl::unexpected(solid.error());
-  auto painted = Program::create(gl, {"light.glsl", "ribbon.glsl", "painted.vert"},
-                                 {"light.glsl", "shadow.glsl", "metal.glsl", "painted.frag"});
-  if (!painted) return tl::unexpected(painted.error());
+  auto sheet = Program::create(gl, {"light.glsl", "sheet.vert"}, {"shadow.glsl", "sheet.frag"});
+  if (!sheet) return tl::unexpected(sheet.error());
+  auto ribbon = Program::create(gl, {"light.glsl", "ribbon.glsl", "ribbon.vert"},
+                                {"light.glsl", "shadow.glsl", "metal.glsl", "ribbon.frag"});
+  if (!ribbon) return tl::unexpected(ribbon.error());
+  auto bead = Program::create(gl, {"light.glsl", "ribbon.glsl", "bead.vert"},
+                              {"light.glsl", "shadow.glsl", "metal.glsl", "bead.frag"});
+  if (!bead) return tl::unexpected(bead.error());
   auto mean = Program::create(gl, {"screen.vert"}, {"mean.frag"});
   if (!mean) return tl::unexpected(mean.error());
-  return Painter(gl, {std::move(*solid), std::move(*painted), std::move(*mean)},
+  return Painter(gl, {std::move(*sheet), std::move(*ribbon), std::move(*bead), std::move(*mean)},
                  std::move(*shadow));
 }
 
@@ -84,8 +87,9 @@ Result<void> Painter::begin(const Shot& shot) {
     if (!program) return tl::unexpected(program.error());
     resolve_.emplace(s, std::move(*program));
   }
-  solids_.upload(shot.scene.solids);
-  painted_.upload(shot.scene.painted, {shot.scene.casters, shot.scene.sheets});
+  sheets_.upload(shot.scene.sheets);
+  ribbons_.upload(shot.scene.ribbons, {shot.scene.casters});
+  beads_.upload(shot.scene.beads);
   passes_ = lighting_passes(shot.camera, shot.quality.jittered_passes);
   shadow_of_ = -1;
   return {};
@@ -100,7 +104,7 @@ Result<void> Painter::paint(const Shot& shot, const Tile& tile, Image& image) {
   }
   for (int i = 0; i < int(passes_.size()); ++i) {
     if (shot.quality.shadow && shadow_of_ != i) {
-      auto done = shadow_.render(shot.scene, solids_, painted_, passes_[i].direction,
+      auto done = shadow_.render(shot.scene, ribbons_, sheets_, passes_[i].direction,
                                  shot.drawing.ground_z_mm);
       if (!done) return done;
       shadow_of_ = i;
@@ -142,12 +146,10 @@ Result<void> Painter::paint_layer(const Shot& shot, const Tile& tile, const Ligh
   if (auto bound = layer_.bind(s * tile.width, s * tile.height, format); !bound) return bound;
   gl_->Disable(GL_SCISSOR_TEST);
   gl_->Enable(GL_FRAMEBUFFER_SRGB);
-  gl_->Enable(GL_DEPTH_TEST);
-  gl_->DepthFunc(GL_LESS);
-  gl_->DepthMask(GL_TRUE);
-  gl_->Disable(GL_BLEND);
+  gl_->Disable(GL_DEPTH_TEST);
+  gl_->Disable(GL_CULL_FACE);
   gl_->ClearColor(0, 0, 0, 0);
-  gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl_->Clear(GL_COLOR_BUFFER_BIT);
 
   // the ground hides what dips below it
   const bool dips = ground_seen(shot) && shot.scene.low.z() < shot.drawing.ground_z_mm;
@@ -193,25 +195,28 @@ void Painter::set_light(const Program& program, const Shot& shot, const Lighting
 void Painter::draw_meshes(const Shot& shot, const Lighting& light, const Eigen::Matrix4f& matrix) {
   gl_->ActiveTexture(GL_TEXTURE1);
   gl_->BindTexture(GL_TEXTURE_2D, shadow_.depth());
-  programs_.solid.use();
-  programs_.solid.set("view_projection", matrix);
-  set_light(programs_.solid, shot, light);
-  gl_->Enable(GL_CULL_FACE);
-  solids_.draw();
-  gl_->Disable(GL_CULL_FACE);
-
-  // in order, so that what is nearer lies over what is farther; only solids hide by depth
-  const Program& painted = programs_.painted;
-  painted.use();
-  painted.set("view_projection", matrix);
-  painted.set("widest", widest_radius_mm);
-  painted.set("sample_size", float(sample_size(shot)));
-  set_light(painted, shot, light);
+  for (const Program* program : {&programs_.sheet, &programs_.ribbon, &programs_.bead}) {
+    program->use();
+    program->set("view_projection", matrix);
+    set_light(*program, shot, light);
+    if (program == &programs_.sheet) continue;
+    program->set("widest", widest_radius_mm);
+    program->set("sample_size", float(sample_size(shot)));
+  }
   gl_->Enable(GL_BLEND);
   gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  gl_->DepthMask(GL_FALSE);
-  painted_.draw();
-  gl_->DepthMask(GL_TRUE);
+  const std::vector<Layer>& layers = shot.scene.layers;
+  const auto paint = [&](const Program& program, const VertexStore& store, std::size_t begin,
+                         std::size_t end) {
+    if (begin == end) return;
+    program.use();
+    store.draw_range(begin, end);
+  };
+  for (std::size_t k = 0; k + 1 < layers.size(); ++k) {
+    paint(programs_.sheet, sheets_, layers[k].sheets, layers[k + 1].sheets);
+    paint(programs_.ribbon, ribbons_, layers[k].ribbons, layers[k + 1].ribbons);
+    paint(programs_.bead, beads_, layers[k].beads, layers[k + 1].beads);
+  }
 }
 
 void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light) {

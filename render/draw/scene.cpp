@@ -24,12 +24,6 @@ using Colours = std::vector<Eigen::Vector4f>;
 /// Rods, rings and joints are never translucent.
 Eigen::Vector4f opaque(const Colour& c) { return to_linear({c.r, c.g, c.b, 1}); }
 
-int sides_for(double diameter_in_samples) {
-  if (diameter_in_samples < 4) return 6;
-  if (diameter_in_samples < 16) return 8;
-  return diameter_in_samples < 48 ? 12 : 24;
-}
-
 /// The first mismatch that would make drawing read past an array or draw NaN; empty when sound.
 std::string mismatch(const Drawing& drawing) {
   if (!drawing.layout) return "has no layout";
@@ -94,130 +88,6 @@ class Neighbours {
   std::map<std::pair<int, int>, std::vector<int>> beside_;
 };
 
-/// Collects what is painted from far to near, each piece with its depth.
-class Weaver {
- public:
-  Weaver(Scene& scene, const Drawing& drawing, const Camera& camera, double mm_per_sample)
-      : scene_(scene),
-        drawing_(drawing),
-        forward_(camera_axes(camera).forward),
-        mm_per_sample_(mm_per_sample) {}
-
-  void add_cells() {
-    cell_depth_.assign(drawing_.layout->cells.size(), NAN);
-    if (drawing_.cell_colours.empty()) return;
-    Colours colours(drawing_.cell_colours.size());
-    std::transform(drawing_.cell_colours.begin(), drawing_.cell_colours.end(), colours.begin(),
-                   [](const Colour& c) { return to_linear(c); });
-    const auto patches =
-        render::add_cells(scene_.painted, *drawing_.layout, drawing_.nodes, colours);
-    for (const CellPatch& patch : patches) {
-      double depth = 0;
-      for (int joint : drawing_.layout->cells[patch.cell].joints)
-        depth += 0.25 * forward_.dot(drawing_.nodes.col(drawing_.layout->joints[joint].node));
-      cell_depth_[patch.cell] = depth;
-      pieces_.push_back({depth, 0, patch.indices});
-      insert(scene_.sheets, patch.indices);
-    }
-  }
-
-  /// A stretch between joints comes after the nearer of the cells beside it, so that these do not
-  /// cover half of it, and before whatever is nearer still.
-  void add_rods() {
-    const Neighbours neighbours(*drawing_.layout);
-    const float radius = radius_of(drawing_.rod_diameter_mm, mm_per_sample_);
-    Colours of_node(drawing_.node_colours.size());
-    std::transform(drawing_.node_colours.begin(), drawing_.node_colours.end(), of_node.begin(),
-                   opaque);
-    const Eigen::Vector4f plain = opaque(drawing_.rod_colour);
-    for (const auto& rod : drawing_.layout->rods) {
-      if (rod.size() < 2) continue;
-      Colours colours;
-      for (int node : rod) colours.push_back(of_node.empty() ? plain : of_node[node]);
-      const std::uint32_t first =
-          add_ribbon(scene_.painted, {points_of(drawing_.nodes, rod), colours, radius});
-      for (std::size_t begin = 0; begin + 1 < rod.size();) {
-        std::size_t end = begin + 1;
-        while (end + 1 < rod.size() && !neighbours.joint(rod[end])) ++end;
-        double depth =
-            0.5 * forward_.dot(drawing_.nodes.col(rod[begin]) + drawing_.nodes.col(rod[end]));
-        for (int cell : neighbours.cells(rod[begin], rod[end]))
-          if (std::isfinite(cell_depth_[cell])) depth = std::min(depth, cell_depth_[cell]);
-        add_stretch(first, int(begin), int(end), depth, true);
-        begin = end;
-      }
-    }
-  }
-
-  void add_rings() {
-    for (const Ring& ring : drawing_.rings) {
-      Points points(ring.points.cols());
-      for (int k = 0; k < int(points.size()); ++k) points[k] = ring.points.col(k).cast<float>();
-      // a last point that repeats the first would be an edge without length
-      while (points.size() > 1 && (points.back() - points.front()).norm() < 1e-6f)
-        points.pop_back();
-      if (points.size() < 3) continue;
-      const Colours colours(points.size(), opaque(ring.colour));
-      const std::uint32_t first = add_ribbon(
-          scene_.painted, {points, colours, radius_of(ring.diameter_mm, mm_per_sample_), true});
-      for (int k = 0, n = int(points.size()); k < n; ++k) {
-        Piece piece{forward_.dot(points[k].cast<double>()), 1, {}};
-        join_points(piece.indices, first, k, (k + 1) % n);
-        insert(scene_.casters, piece.indices);
-        pieces_.push_back(std::move(piece));
-      }
-    }
-  }
-
-  void add_ghosts() {
-    constexpr int edges = 4;
-    for (const GhostRods& ghost : drawing_.ghosts) {
-      const float radius = radius_of(ghost.diameter_mm, mm_per_sample_);
-      for (const auto& rod : ghost.rods) {
-        if (rod.size() < 2) continue;
-        const Points points = points_of(ghost.nodes, rod);
-        const Colours colours(points.size(), to_linear(ghost.colour));
-        const std::uint32_t first = add_ribbon(scene_.painted, {points, colours, radius});
-        for (int begin = 0, last = int(rod.size()) - 1; begin < last; begin += edges) {
-          const int end = std::min(begin + edges, last);
-          add_stretch(first, begin, end,
-                      0.5 * forward_.dot((points[begin] + points[end]).cast<double>()), false);
-        }
-      }
-    }
-  }
-
-  void finish() {
-    std::stable_sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
-      return a.depth > b.depth || (a.depth == b.depth && a.layer < b.layer);
-    });
-    for (const Piece& piece : pieces_) insert(scene_.painted.indices, piece.indices);
-  }
-
- private:
-  struct Piece {
-    double depth = 0;
-    int layer = 0;  // of pieces of one depth: sheets lie below rods
-    std::vector<std::uint32_t> indices;
-  };
-  static void insert(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-  }
-  void add_stretch(std::uint32_t first, int begin, int end, double depth, bool casts) {
-    Piece piece{depth, 1, {}};
-    for (int k = begin; k < end; ++k) join_points(piece.indices, first, k, k + 1);
-    if (casts) insert(scene_.casters, piece.indices);
-    pieces_.push_back(std::move(piece));
-  }
-
-  Scene& scene_;
-  const Drawing& drawing_;
-  Eigen::Vector3d forward_;
-  double mm_per_sample_;
-  std::vector<double> cell_depth_;
-  std::vector<Piece> pieces_;
-};
-
 /// For every node the cross product of its rods' tangents: the shell's normal at a joint.
 std::vector<Eigen::Vector3f> shell_normals(const Drawing& drawing) {
   const auto count = std::size_t(drawing.nodes.cols());
@@ -233,46 +103,210 @@ std::vector<Eigen::Vector3f> shell_normals(const Drawing& drawing) {
   return normal;
 }
 
-void add_joints(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
-  if (drawing.joint_diameter_mm <= 0) return;
-  const auto normals = shell_normals(drawing);
-  const auto radius = float(0.5 * std::max(drawing.joint_diameter_mm, 1.1 * mm_per_sample));
-  const float half_height = std::max(0.6f * radius, float(0.8 * drawing.rod_diameter_mm));
-  const int sides = std::clamp(2 * sides_for(2 * radius / mm_per_sample), 12, 32);
-  const Eigen::Vector4f colour = opaque(drawing.joint_colour);
-  for (const auto& joint : drawing.layout->joints) {
-    const float length = normals[joint.node].norm();
-    const Eigen::Vector3f axis =
-        length > 1e-6f ? Eigen::Vector3f(normals[joint.node] / length) : Eigen::Vector3f::UnitZ();
-    add_button(mesh, drawing.nodes.col(joint.node).cast<float>(), axis, radius, half_height, sides,
-               colour);
-  }
-}
+/// Collects the pieces, each with its depth along the view, and puts them in order.
+class Weaver {
+ public:
+  Weaver(Scene& scene, const Drawing& drawing, const Camera& camera, double mm_per_sample)
+      : scene_(scene),
+        drawing_(drawing),
+        forward_(camera_axes(camera).forward),
+        mm_per_sample_(mm_per_sample) {}
 
-void add_arrows(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
-  constexpr float head_width = 2.8f, head_length = 4.5f;  // over the shaft's diameter
-  for (const Arrow& arrow : drawing.arrows) {
-    const Eigen::Vector3f from = arrow.from.cast<float>(), to = arrow.to.cast<float>();
-    const float radius = radius_of(arrow.diameter_mm, mm_per_sample), length = (to - from).norm();
-    const Eigen::Vector3f neck =
-        to - std::min(2 * head_length * radius, 0.6f * length) * (to - from).stableNormalized();
-    const Eigen::Vector4f colour = opaque(arrow.colour);
-    const Points shaft{from, neck};
-    const Colours colours{colour, colour};
-    add_tube(mesh, {shaft, colours, radius, sides_for(2 * radius / mm_per_sample), false});
-    add_cone(mesh, neck, to, head_width * radius, 16, colour);
+  void add_cells() {
+    cell_depth_.assign(drawing_.layout->cells.size(), INFINITY);
+    if (drawing_.cell_colours.empty()) return;
+    Colours colours(drawing_.cell_colours.size());
+    std::transform(drawing_.cell_colours.begin(), drawing_.cell_colours.end(), colours.begin(),
+                   [](const Colour& c) { return to_linear(c); });
+    auto patches = render::add_cells(scene_.sheets, *drawing_.layout, drawing_.nodes, colours);
+    for (CellPatch& patch : patches) {
+      double depth = 0;
+      for (int joint : drawing_.layout->cells[patch.cell].joints)
+        depth += 0.25 * forward_.dot(drawing_.nodes.col(drawing_.layout->joints[joint].node));
+      cell_depth_[patch.cell] = depth;
+      sheets_.push_back({depth, std::move(patch.indices)});
+    }
   }
-}
 
-void add_marks(Mesh& mesh, const Drawing& drawing) {
-  for (const PointMark& mark : drawing.marks)
-    add_ball(mesh, mark.at.cast<float>(), float(0.5 * mark.diameter_mm), 20, opaque(mark.colour));
-}
+  /// A stretch between joints comes with the nearer of the cells beside it, so that these do not
+  /// cover half of it, and a joint with the nearest of its stretches.
+  void add_rods() {
+    const Neighbours neighbours(*drawing_.layout);
+    node_depth_.assign(std::size_t(drawing_.nodes.cols()), INFINITY);
+    const float radius = radius_of(drawing_.rod_diameter_mm, mm_per_sample_);
+    Colours of_node(drawing_.node_colours.size());
+    std::transform(drawing_.node_colours.begin(), drawing_.node_colours.end(), of_node.begin(),
+                   opaque);
+    const Eigen::Vector4f plain = opaque(drawing_.rod_colour);
+    for (const auto& rod : drawing_.layout->rods) {
+      if (rod.size() < 2) continue;
+      Colours colours;
+      for (int node : rod) colours.push_back(of_node.empty() ? plain : of_node[node]);
+      const Points points = points_of(drawing_.nodes, rod);
+      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}});
+      for (std::size_t begin = 0; begin + 1 < rod.size();) {
+        std::size_t end = begin + 1;
+        while (end + 1 < rod.size() && !neighbours.joint(rod[end])) ++end;
+        double depth =
+            0.5 * forward_.dot(drawing_.nodes.col(rod[begin]) + drawing_.nodes.col(rod[end]));
+        for (int cell : neighbours.cells(rod[begin], rod[end]))
+          depth = std::min(depth, cell_depth_[cell]);
+        for (int node : {rod[begin], rod[end]})
+          node_depth_[node] = std::min(node_depth_[node], depth);
+        add_stretch(first, int(begin), int(end), depth, true);
+        begin = end;
+      }
+    }
+  }
+
+  void add_joints() {
+    if (drawing_.joint_diameter_mm <= 0) return;
+    const auto normals = shell_normals(drawing_);
+    const float radius = radius_of(drawing_.joint_diameter_mm, mm_per_sample_);
+    const Eigen::Vector4f colour = opaque(drawing_.joint_colour);
+    for (const auto& joint : drawing_.layout->joints) {
+      const float length = normals[joint.node].norm();
+      const Eigen::Vector3f axis =
+          length > 1e-6f ? Eigen::Vector3f(normals[joint.node] / length) : Eigen::Vector3f::UnitZ();
+      const Eigen::Vector3f at = drawing_.nodes.col(joint.node).cast<float>();
+      const double depth =
+          std::min(node_depth_[joint.node], forward_.dot(drawing_.nodes.col(joint.node)));
+      beads_.push_back({depth, add_bead(scene_.beads, at, axis, radius, BeadShape::flat, colour)});
+      add_bead_shadow(at, axis, radius);
+    }
+  }
+
+  void add_rings() {
+    for (const Ring& ring : drawing_.rings) {
+      Points points(ring.points.cols());
+      for (int k = 0; k < int(points.size()); ++k) points[k] = ring.points.col(k).cast<float>();
+      // a last point that repeats the first would be an edge without length
+      while (points.size() > 1 && (points.back() - points.front()).norm() < 1e-6f)
+        points.pop_back();
+      if (points.size() < 3) continue;
+      const Colours colours(points.size(), opaque(ring.colour));
+      const float radius = radius_of(ring.diameter_mm, mm_per_sample_);
+      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}, true});
+      for (int k = 0, n = int(points.size()); k < n; ++k) {
+        Piece piece{forward_.dot(points[k].cast<double>()), {}};
+        join_points(piece.indices, first, k, (k + 1) % n);
+        if (ring.shadow) insert(scene_.casters, piece.indices);
+        ribbons_.push_back(std::move(piece));
+      }
+    }
+  }
+
+  void add_ghosts() {
+    constexpr int edges = 4;
+    for (const GhostRods& ghost : drawing_.ghosts) {
+      const float radius = radius_of(ghost.diameter_mm, mm_per_sample_);
+      for (const auto& rod : ghost.rods) {
+        if (rod.size() < 2) continue;
+        const Points points = points_of(ghost.nodes, rod);
+        const Colours colours(points.size(), to_linear(ghost.colour));
+        const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}});
+        for (int begin = 0, last = int(rod.size()) - 1; begin < last; begin += edges) {
+          const int end = std::min(begin + edges, last);
+          add_stretch(first, begin, end,
+                      0.5 * forward_.dot((points[begin] + points[end]).cast<double>()), false);
+        }
+      }
+    }
+  }
+
+  void add_arrows() {
+    constexpr float head_width = 2.8f, head_length = 9;  // over the shaft's radius
+    for (const Arrow& arrow : drawing_.arrows) {
+      const Eigen::Vector3f from = arrow.from.cast<float>(), to = arrow.to.cast<float>();
+      const float radius = radius_of(arrow.diameter_mm, mm_per_sample_),
+                  length = (to - from).norm();
+      const Eigen::Vector3f along = (to - from).stableNormalized();
+      const Eigen::Vector3f neck = to - std::min(head_length * radius, 0.6f * length) * along;
+      // the head is a strip of its own that narrows to its tip
+      const Points points{from, neck, neck, to};
+      const std::vector<float> radii{radius, radius, head_width * radius, 0.05f * radius};
+      const Colours colours(4, opaque(arrow.colour));
+      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, radii});
+      for (const int begin : {0, 2})
+        add_stretch(first, begin, begin + 1, forward_.dot(arrow.to) - radius, true);
+    }
+  }
+
+  void add_marks() {
+    for (const PointMark& mark : drawing_.marks) {
+      const auto radius = float(0.5 * mark.diameter_mm);
+      beads_.push_back({forward_.dot(mark.at) - radius - drawing_.layout->spacing_mm,
+                        add_bead(scene_.beads, mark.at.cast<float>(), Eigen::Vector3f::UnitZ(),
+                                 radius, BeadShape::ball, opaque(mark.colour))});
+    }
+  }
+
+  /// From far to near, cut into layers of equal depth.
+  void finish() {
+    constexpr int most_layers = 32;
+    double near = INFINITY, far = -INFINITY;
+    for (auto* pieces : {&sheets_, &ribbons_, &beads_}) {
+      std::stable_sort(pieces->begin(), pieces->end(),
+                       [](const Piece& a, const Piece& b) { return a.depth > b.depth; });
+      if (pieces->empty()) continue;
+      far = std::max(far, pieces->front().depth);
+      near = std::min(near, pieces->back().depth);
+    }
+    // without sheets nothing hides what is behind it but rods, whose order is their own
+    const int layers = sheets_.empty() && beads_.empty() ? 1 : most_layers;
+    std::size_t sheet = 0, ribbon = 0, bead = 0;
+    for (int k = 1; k <= layers; ++k) {
+      scene_.layers.push_back({scene_.sheets.indices.size(), scene_.ribbons.indices.size(),
+                               scene_.beads.indices.size()});
+      const double until = k == layers ? -INFINITY : far + (near - far) * k / layers;
+      take(sheets_, sheet, until, scene_.sheets.indices);
+      take(ribbons_, ribbon, until, scene_.ribbons.indices);
+      take(beads_, bead, until, scene_.beads.indices);
+    }
+    scene_.layers.push_back(
+        {scene_.sheets.indices.size(), scene_.ribbons.indices.size(), scene_.beads.indices.size()});
+  }
+
+ private:
+  struct Piece {
+    double depth = 0;
+    std::vector<std::uint32_t> indices;
+  };
+  static void insert(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  }
+  static void take(const std::vector<Piece>& pieces, std::size_t& next, double until,
+                   std::vector<std::uint32_t>& indices) {
+    for (; next < pieces.size() && pieces[next].depth >= until; ++next)
+      insert(indices, pieces[next].indices);
+  }
+  void add_stretch(std::uint32_t first, int begin, int end, double depth, bool casts) {
+    Piece piece{depth, {}};
+    for (int k = begin; k < end; ++k) join_points(piece.indices, first, k, k + 1);
+    if (casts) insert(scene_.casters, piece.indices);
+    ribbons_.push_back(std::move(piece));
+  }
+  /// A bead's shadow is that of a short strip as wide as it.
+  void add_bead_shadow(const Eigen::Vector3f& at, const Eigen::Vector3f& axis, float radius) {
+    const Eigen::Vector3f half = 0.8f * radius * axis.unitOrthogonal();
+    const Points points{at - half, at + half};
+    const Colours colours(2, {0, 0, 0, 1});
+    const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}});
+    join_points(scene_.casters, first, 0, 1);
+  }
+
+  Scene& scene_;
+  const Drawing& drawing_;
+  Eigen::Vector3d forward_;
+  double mm_per_sample_;
+  std::vector<double> cell_depth_, node_depth_;
+  std::vector<Piece> sheets_, ribbons_, beads_;
+};
 
 void enclose(Scene& scene) {
   Eigen::AlignedBox3f box;
   float widest = 0;
-  for (const Mesh* mesh : {&scene.solids, &scene.painted})
+  for (const Mesh* mesh : {&scene.sheets, &scene.ribbons, &scene.beads})
     for (const Vertex& v : mesh->vertices) {
       box.extend(v.position);
       widest = std::max(widest, std::abs(float(v.normal[3])));
@@ -289,13 +323,13 @@ Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm
   if (const std::string fault = mismatch(drawing); !fault.empty())
     return fail(Fault::bad_input, "the drawing " + fault);
   Scene scene;
-  add_joints(scene.solids, drawing, mm_per_sample);
-  add_arrows(scene.solids, drawing, mm_per_sample);
-  add_marks(scene.solids, drawing);
   Weaver weaver(scene, drawing, camera, mm_per_sample);
   weaver.add_cells();
   weaver.add_rods();
   weaver.add_rings();
+  weaver.add_joints();
+  weaver.add_arrows();
+  weaver.add_marks();
   weaver.add_ghosts();
   weaver.finish();
   enclose(scene);

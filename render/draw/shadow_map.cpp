@@ -37,7 +37,7 @@ void ShadowMap::fit(const Scene& scene, const Eigen::Vector3d& light, double gro
   axes.row(2) = light.transpose().cast<float>();
   Eigen::AlignedBox3f box;
   auto top = float(ground_z);
-  for (const Mesh* mesh : {&scene.solids, &scene.painted})
+  for (const Mesh* mesh : {&scene.ribbons, &scene.sheets})
     for (const Vertex& v : mesh->vertices) {
       box.extend(axes * v.position);
       top = std::max(top, v.position.z());
@@ -55,8 +55,8 @@ void ShadowMap::fit(const Scene& scene, const Eigen::Vector3d& light, double gro
   matrix_.topRightCorner<3, 1>() = -scale.cwiseProduct(middle);
 }
 
-Result<void> ShadowMap::render(const Scene& scene, const VertexStore& solids,
-                               const VertexStore& painted, const Eigen::Vector3d& light,
+Result<void> ShadowMap::render(const Scene& scene, const VertexStore& ribbons,
+                               const VertexStore& sheets, const Eigen::Vector3d& light,
                                double ground_z) {
   if (auto bound = target_.bind(texels, texels, GL_RG8); !bound) return bound;
   fit(scene, light, ground_z);
@@ -66,31 +66,29 @@ Result<void> ShadowMap::render(const Scene& scene, const VertexStore& solids,
   caster_.set("widest", widest_radius_mm);
   caster_.set("ground_z", float(ground_z));
   caster_.set("height_scale", 1 / height_range_mm_);
-  draw_casters(solids, painted);
+  draw_casters(ribbons, sheets);
   blur();
   return {};
 }
 
-void ShadowMap::draw_casters(const VertexStore& solids, const VertexStore& painted) const {
+void ShadowMap::draw_casters(const VertexStore& ribbons, const VertexStore& sheets) const {
   gl_->ClearColor(0, 0, 0, 0);
   gl_->Enable(GL_DEPTH_TEST);
   gl_->DepthFunc(GL_LESS);
   gl_->DepthMask(GL_TRUE);
   gl_->Disable(GL_BLEND);
   gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  gl_->Enable(GL_CULL_FACE);
-  caster_.set("density", 1.f);
-  caster_.set("ribbons", 0);
-  solids.draw();
   gl_->Disable(GL_CULL_FACE);
+  caster_.set("density", 1.f);
   caster_.set("ribbons", 1);
-  painted.draw(1);
+  ribbons.draw(1);
   caster_.set("ribbons", 0);
+
   gl_->Enable(GL_BLEND);
   gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   gl_->DepthMask(GL_FALSE);
   caster_.set("density", cell_density);
-  painted.draw(2);
+  sheets.draw();
   gl_->DepthMask(GL_TRUE);
 }
 

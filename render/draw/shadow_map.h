@@ -19,10 +19,10 @@ class ShadowMap {
 
   static Result<ShadowMap> create(const Gl& gl);
 
-  /// Draws the scene from the direction of the unit vector `light`. `solids` and `painted` hold the
-  /// scene's meshes, `painted` with casters and sheets as lists 1 and 2. A sheet holds back part of
-  /// the light that its alpha would.
-  Result<void> render(const Scene& scene, const VertexStore& solids, const VertexStore& painted,
+  /// Draws the scene from the direction of the unit vector `light`. `ribbons` and `sheets` hold the
+  /// scene's meshes, `ribbons` with its casters as list 1. A sheet holds back part of the light
+  /// that its alpha would.
+  Result<void> render(const Scene& scene, const VertexStore& ribbons, const VertexStore& sheets,
                       const Eigen::Vector3d& light, double ground_z);
 
   GLuint cover() const { return target_.colour(); }
@@ -34,7 +34,7 @@ class ShadowMap {
  private:
   ShadowMap(const Gl& gl, Program caster, Program halve);
   void fit(const Scene& scene, const Eigen::Vector3d& light, double ground_z);
-  void draw_casters(const VertexStore& solids, const VertexStore& painted) const;
+  void draw_casters(const VertexStore& ribbons, const VertexStore& sheets) const;
   void blur();
 
   const Gl* gl_;

@@ -8,7 +8,7 @@
 namespace gridshell::render {
 namespace {
 
-constexpr int most_steps = 6;  // along a cell's side
+constexpr int most_steps = 4;  // along a cell's side
 
 /// Where a node sits: its place `at` along rod `rod`.
 struct Place {

@@ -109,11 +109,12 @@ Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle&
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
   for (const NetRun& one : runs)
     largest = std::max(largest, unit.factor * deviation_of_nodes(*one.run).maxCoeff());
-  const ColourScale scale{ColourMap::sequential, 0, round_end(largest)};
+  const ColourScale scale{ColourMap::sequential, 0, round_end(largest), 0.2};
   const auto dress = [&](const record::Trajectory& run, Drawing& drawing) {
     const Eigen::VectorXd deviation = deviation_of_nodes(run);
     for (double one : deviation) drawing.node_colours.push_back(scale(unit.factor * one));
     drawing.rod_diameter_mm *= 1.8;
+    drawing.sheen = 0.2;
     drawing.joint_diameter_mm = 0;
   };
   auto figure = panels_of(runs, style, renderer, watch, dress);

@@ -63,7 +63,7 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
   plot.y = {.label = "force (N)"};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Series series;
-    series.name = runs[k].name;
+    if (runs.size() > 1) series.name = runs[k].name;
     series.colour = series_colour(k);
     series.marker = markers[k % 4];
     for (const record::Frame& frame : runs[k].run->frames) {

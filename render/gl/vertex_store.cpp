@@ -33,10 +33,14 @@ void VertexStore::upload(const Mesh& mesh, Lists more) {
 }
 
 void VertexStore::draw(std::size_t list) const {
-  if (empty(list)) return;
+  if (list + 1 < starts_.size()) draw_range(starts_[list], starts_[list + 1]);
+}
+
+void VertexStore::draw_range(std::size_t begin, std::size_t end) const {
+  if (begin >= end) return;
   gl_->BindVertexArray(layout_.id());
-  gl_->DrawElements(GL_TRIANGLES, GLsizei(starts_[list + 1] - starts_[list]), GL_UNSIGNED_INT,
-                    reinterpret_cast<const void*>(starts_[list] * sizeof(std::uint32_t)));
+  gl_->DrawElements(GL_TRIANGLES, GLsizei(end - begin), GL_UNSIGNED_INT,
+                    reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
 }
 
 }  // namespace gridshell::render

@@ -21,9 +21,8 @@ class VertexStore {
   void upload(const Mesh& mesh, Lists more = {});
   /// List 0 is the mesh's own, then the others in order.
   void draw(std::size_t list = 0) const;
-  bool empty(std::size_t list = 0) const {
-    return list + 1 >= starts_.size() || starts_[list] == starts_[list + 1];
-  }
+  /// Indices `begin` to `end` - 1 of the mesh's own list.
+  void draw_range(std::size_t begin, std::size_t end) const;
 
  private:
   const Gl* gl_;

@@ -23,6 +23,8 @@ constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, event_ink{0.70f, 0.10f, 0.08f, 1};
 MovieStyle bare(MovieStyle style) {
   style.captions = style.inset = style.bins = style.legends = false;
   style.scale_bar_mm = 0;
+  // a shadow would end at the edge of its part
+  style.look.floor = false;
   return style;
 }
 

@@ -31,7 +31,7 @@ ColourBar curvature_bar(const std::vector<const Survey*>& runs, bool change) {
 }
 
 ColourBar displacement_bar(const std::vector<const Survey*>& runs) {
-  ColourBar bar{"|*u*| / *δ*_{0}", {ColourMap::sequential, 0, 1}};
+  ColourBar bar{"|*u*| / *δ*_{0}", {ColourMap::sequential, 0, 1, 0.2}};
   for (const Survey* run : runs)
     bar.beyond_high |= run->depth_mm > 0 && run->largest_move_mm > 1.02 * run->depth_mm;
   return bar;

@@ -16,8 +16,8 @@ namespace gridshell::render {
 namespace {
 
 constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, pale_ink{0.38f, 0.39f, 0.42f, 1},
-    event_ink{0.70f, 0.10f, 0.08f, 1}, load_ink{0.0f, 0.36f, 0.62f, 1},
-    original_ink{0.66f, 0.67f, 0.7f, 1};
+    event_ink{0.70f, 0.10f, 0.08f, 1}, load_ink{0.05f, 0.05f, 0.06f, 1},
+    mark_ink{0.98f, 0.76f, 0.10f, 1}, original_ink{0.66f, 0.67f, 0.7f, 1};
 
 // a square around everything that moves or bounds
 TopExtent top_extent(const Eigen::Matrix3Xd& points) {
@@ -178,19 +178,19 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   // where both boundaries coincide the stronger one hides the fainter
   if (look.rings) {
     if (shows_original(frame) && frame.actuation > 0)
-      drawing.rings.push_back({run_.original_boundary, std::max(0.6, thin), original_ink});
+      drawing.rings.push_back({run_.original_boundary, std::max(0.6, thin), original_ink, false});
     drawing.rings.push_back(
         {boundary_at(run_, frame.actuation), std::max(look.ring_mm, 1.6 * thin), look.ring});
   }
   for (const LoadArrow& arrow : load_arrows(run_, frame)) {
     drawing.arrows.push_back({arrow.from, arrow.to, std::max(1.6, 2.0 * thin), load_ink});
-    drawing.marks.push_back({frame.nodes.col(arrow.node), std::max(5.0, 6 * thin), load_ink});
+    drawing.marks.push_back({frame.nodes.col(arrow.node), std::max(5.0, 6 * thin), mark_ink});
   }
   drawing.ground_z_mm = ground_z_mm_;
   drawing.ground = look.floor && style_.views.empty() && look.background.a > 0;
   drawing.background = look.background;
   drawing.far_fade = look.far_fade;
-  drawing.sheen = look.sheen;
+  drawing.sheen = drawing.node_colours.empty() ? look.sheen : 0.2;
   return drawing;
 }
 

@@ -17,9 +17,9 @@ DrawQuality draw_quality(Quality quality) {
     case Quality::draft:
       return {.supersample = 1, .shadow = false, .jittered_passes = 1};
     case Quality::movie:
-      return {.supersample = 2, .shadow = true, .jittered_passes = 1};
+      return {.supersample = 1, .shadow = true, .jittered_passes = 1};
     case Quality::figure:
-      return {.supersample = 2, .shadow = true, .jittered_passes = 64};
+      return {.supersample = 1, .shadow = true, .jittered_passes = 40};
   }
   return {};
 }

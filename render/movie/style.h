@@ -62,8 +62,8 @@ struct MovieStyle {
   Pace pace = Pace::even;
 };
 
-/// Draft: one sample a pixel and no shadow; movie: 2 x 2 with soft shadow; figure: many passes with
-/// jittered light.
+/// Draft: no shadow; movie: with soft shadow; figure: many passes with jittered light. A sample a
+/// pixel is enough: what is thin knows how much of it is covered.
 DrawQuality draw_quality(Quality quality);
 /// The same, as the look wants it.
 DrawQuality draw_quality(const MovieStyle& style);

@@ -47,9 +47,9 @@ class Survey {
   record::Frame first;                   ///< what later frames are compared with
   double depth_mm = 0;                   ///< of a push, at its deepest; 0 without one
   double lowest_z_mm = 0;                ///< of all that is drawn
-  Interval bins_rad;                       ///< mean K of the bins, with their standard deviations
+  Interval bins_rad;                     ///< mean K of the bins, with their standard deviations
   Eigen::ArrayXd most_K, most_K_change;  ///< largest size of each cell's, over all frames
-  Interval K, K_change;                    ///< over all cells and frames, rad
+  Interval K, K_change;                  ///< over all cells and frames, rad
   double largest_move_mm = 0;            ///< of a joint, from where it was in the first frame
   std::vector<Mark> marks;               ///< in order
 

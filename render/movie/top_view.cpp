@@ -9,7 +9,7 @@ namespace gridshell::render {
 namespace {
 
 constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, joint_ink{0.75f, 0.12f, 0.1f, 1},
-    load_ink{0.0f, 0.36f, 0.62f, 1};
+    load_ink{0.05f, 0.05f, 0.06f, 1};
 
 struct ToBox {
   Box box;

@@ -106,9 +106,9 @@ Colour ColourScale::operator()(double value) const {
     case ColourMap::diverging:
       return diverging(2 * t - 1);
     case ColourMap::sequential:
-      return sequential(t);
+      return sequential(start + (1 - start) * std::clamp(t, 0.0, 1.0));
     case ColourMap::grey:
-      return grey(t);
+      return grey(start + (1 - start) * std::clamp(t, 0.0, 1.0));
   }
   return {};
 }

@@ -36,6 +36,7 @@ enum class ColourMap { diverging, sequential, grey };
 struct ColourScale {
   ColourMap map = ColourMap::diverging;
   double low = -1, high = 1;
+  double start = 0;  ///< where in a sequential map `low` stands, for thin lines on white
 
   Colour operator()(double value) const;
 };

@@ -57,7 +57,7 @@ class Legend {
     double width = 0;  ///< key and name
   };
   Box corner_box(const Box& inside, LegendPlace place) const;
-  void draw_entry(Canvas& canvas, const Entry& entry, double x, double middle) const;
+  void draw_entry(Canvas& canvas, const Entry& entry, double x, double middle, double end) const;
 
   const Plot& plot_;
   std::vector<Entry> entries_;
