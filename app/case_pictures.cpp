@@ -1,6 +1,7 @@
 #include "app/case_pictures.h"
 
 #include "app/net_pictures.h"
+#include "app/page_pictures.h"
 #include "app/pictures.h"
 #include "render/figure/push_figure.h"
 #include "render/image/png.h"
@@ -39,8 +40,10 @@ Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, render::
   return render::draw_pushes(shells, style, renderer, watch)
       .and_then(
           [&](const render::Image& image) { return render::write_png(image, with("_loads.png")); })
-      .and_then([&] { return render::write_plot(with("_force"), render::force_plot(named)); })
-      .and_then([&] { return render::write_push_bins(with("_bins"), named); });
+      .and_then([&] {
+        return render::write_plot(with("_force"), render::force_plot(named), style.print);
+      })
+      .and_then([&] { return render::write_push_bins(with("_bins"), named, style.print); });
 }
 
 bool shown_on_net(const preset::Preset& preset) {
@@ -49,6 +52,8 @@ bool shown_on_net(const preset::Preset& preset) {
 
 Result<void> draw_case_figures(std::vector<CaseRecord> records, render::Renderer& renderer,
                                const fs::path& stem, const std::function<Watch&()>& next_phase) {
+  if (records.front().preset.page.kind != preset::PageKind::none)
+    return draw_page(records, renderer, stem, next_phase());
   std::vector<CaseRecord> nets, pushes;
   for (CaseRecord& one : records) {
     if (one.preset.indentation.wanted())

@@ -1,9 +1,11 @@
 #include "app/pictures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 
+#include "render/figure/vector_shell.h"
 #include "render/image/png.h"
 #include "render/movie/colour_range.h"
 #include "render/movie/encode.h"
@@ -153,6 +155,14 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures) {
   style.source = preset.source;
   style.font_scale = preset.style.font_size;
   style.look = look_of(preset.style);
+  style.vector = stills && preset.figure.vector;
+  if (stills && preset.figure.width_mm > 0) {
+    style.print = {preset.figure.width_mm, preset.figure.dpi};
+    const double aspect = double(style.height) / style.width;
+    style.width =
+        std::clamp(int(std::lround(style.print.width_mm / 25.4 * style.print.dpi)), 16, 16384);
+    style.height = std::clamp(int(std::lround(aspect * style.width)), 16, 16384);
+  }
   style.seconds = movie.seconds;
   style.hold_s = movie.hold_s;
   style.title_s = movie.title_s;
@@ -175,13 +185,36 @@ Result<Artist> Artist::create(const std::string& context, int threads) {
   return Artist(std::move(*made), std::move(*renderer));
 }
 
+namespace {
+
+// the last frame as lines
+Result<void> write_lines(const record::Trajectory& run, render::MovieStyle style,
+                         const fs::path& stem) {
+  style.captions = style.inset = style.legends = false;
+  style.turn_deg = 0;
+  const render::Stage stage(run, style);
+  const int last = stage.frames() - 1;
+  const double points =
+      style.print.width_mm > 0 ? style.print.width_mm * 72 / 25.4 : 0.5 * style.width;
+  const auto drawing = stage.drawing(run.frames.back());
+  return render::write_figure(fs::path(stem) += "_lines", points,
+                              points * style.height / style.width, style.title,
+                              [&](render::Canvas& canvas) {
+                                render::draw_shell_lines(canvas, drawing, stage.camera(last));
+                              });
+}
+
+}  // namespace
+
 Result<void> Artist::draw(Pictures pictures, const preset::Preset& preset,
                           const record::Trajectory& run, const SharedBar& bar,
                           const fs::path& folder, Watch& watch) {
   const auto style = style_of(preset, pictures);
   if (pictures == Pictures::stills) {
     const auto stem = folder / fs::path(preset.name).filename();
-    return render::write_stills(run, style, bar, *renderer_, stem, watch).map([](const auto&) {});
+    auto drawn =
+        render::write_stills(run, style, bar, *renderer_, stem, watch).map([](const auto&) {});
+    return drawn && style.vector ? write_lines(run, style, stem) : drawn;
   }
   if (auto showable = render::check_showable(run, style); !showable) return showable;
   return render::write_movie(render::source_of(run), render::survey_of(run), style, bar, *renderer_,

@@ -111,7 +111,8 @@ bool drawn_beside(const FinishedRun& run) {
 
 bool is_picture(const fs::path& path) {
   const auto kind = path.extension();
-  return path.filename() == "frames" || kind == ".png" || kind == ".svg" || kind == ".mp4";
+  return path.filename() == "frames" || kind == ".png" || kind == ".svg" || kind == ".pdf" ||
+         kind == ".mp4" || kind == ".webm" || kind == ".gif";
 }
 
 // everything of a run but its pictures; hidden files are someone's half-written ones

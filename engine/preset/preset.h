@@ -194,11 +194,10 @@ struct Style {
         floor = Shown::automatic, shadow = Shown::automatic;
   double far_fade = 0.25;  ///< by how much the far side pales
   bool letters = true;     ///< of the panels of a figure
-  std::string font = "DejaVu Sans";
   double font_size = 1;  ///< of all text, over its usual size
 };
 
-enum class PageKind { none, fig1, fig2, fig3, fig4, fig5 };
+enum class PageKind { none, fig1, fig3, fig4, fig5 };
 /// A page that shows a figure of the paper.
 struct Page {
   PageKind kind = PageKind::none;

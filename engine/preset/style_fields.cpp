@@ -71,7 +71,6 @@ std::vector<Field> look_fields() {
        "by how much the far side pales into the background"},
       {"style", "letters", "", flag<&P::style, &S::letters>(),
        "whether the panels of a figure bear letters"},
-      {"style", "font", "", text<&P::style, &S::font>(), "family of all text"},
       {"style", "font_size", "", real<&P::style, &S::font_size>(between(0.5, 2)),
        "of all text, over its usual size"},
   };
@@ -88,7 +87,7 @@ std::vector<Field> print_fields() {
       {"figure", "vector", "", flag<&P::figure, &Figure::vector>(),
        "whether stills are also drawn as lines, as SVG and PDF, hidden ones faded"},
       {"page", "kind", "",
-       word<&P::page, &Page::kind>({"none", "fig1", "fig2", "fig3", "fig4", "fig5"}),
+       word<&P::page, &Page::kind>({"none", "fig1", "fig3", "fig4", "fig5"}),
        "figure of the paper that `figure` lays out on one page"},
       {"page", "photo", "", text<&P::page, &Page::photo>(),
        "a PNG in the photograph's place; empty: an empty frame"},

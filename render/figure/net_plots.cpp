@@ -204,14 +204,23 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   return plot;
 }
 
-Result<void> write_footprints(const std::filesystem::path& stem,
-                              const std::vector<NamedRun>& runs) {
+void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
   const bool caps = all_caps(runs);
-  const double width = caps ? 470 : 250, height = 250;
-  return write_figure(stem, width, height, "Original boundaries", [&](Canvas& canvas) {
-    draw_boundaries(canvas, {10, 8, 230, 222}, runs);
-    if (caps) draw_planes(canvas, {250, 10, 210, 220}, runs);
-  });
+  const double half = caps ? box.width / 2 : box.width;
+  // below the boundaries stands a length to read them by
+  draw_boundaries(canvas, {box.x, box.y, half - 8, box.height - 20}, runs);
+  if (caps) draw_planes(canvas, {box.x + half, box.y, half, box.height - 8}, runs);
+}
+
+Result<void> write_footprints(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
+                              const Print& print) {
+  const double width = all_caps(runs) ? 470 : 250, height = 250;
+  return write_figure(
+      stem, width, height, "Original boundaries",
+      [&](Canvas& canvas) {
+        draw_footprints(canvas, Box{0, 0, width, height}.inset(9), runs);
+      },
+      print);
 }
 
 }  // namespace gridshell::render

@@ -34,6 +34,7 @@ Result<Image> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& mov
   for (const Survey& survey : surveys) all.push_back(&survey);
   const auto bar = colour_bar_of(all, style);
   PanelFigure figure;
+  if (style.print.width_mm > 0) figure.print = style.print;
   figure.columns = std::min(3, int(runs.size()));
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
@@ -75,7 +76,8 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
   return plot;
 }
 
-Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs) {
+Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
+                             const Print& print) {
   constexpr double font = 7.5, column = 186, height = 190;  // points
   std::vector<Plot> plots;
   double low = 0, high = 0;
@@ -93,10 +95,13 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
     plot.y.high = high;
   }
   const double width = column * double(plots.size());
-  return write_figure(stem, width, height, "K of the cells in bins of x/L", [&](Canvas& canvas) {
-    for (std::size_t k = 0; k < plots.size(); ++k)
-      draw_plot(canvas, {column * double(k) + 3, 3, column - 6, height - 6}, plots[k]);
-  });
+  return write_figure(
+      stem, width, height, "K of the cells in bins of x/L",
+      [&](Canvas& canvas) {
+        for (std::size_t k = 0; k < plots.size(); ++k)
+          draw_plot(canvas, {column * double(k) + 3, 3, column - 6, height - 6}, plots[k]);
+      },
+      print);
 }
 
 }  // namespace gridshell::render

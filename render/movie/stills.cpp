@@ -72,6 +72,8 @@ Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory
                      .scale_bar_mm = style.scale_bar_mm,
                      .pixels_per_mm = stage.pixels_per_mm(),
                      .colour_bar = stage.colour_bar()};
+  if (style.print.width_mm > 0) figure.print = style.print;
+  const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
   std::vector<std::filesystem::path> files;
   for (int k = 0; k < stage.frames(); ++k) {
     if (watch.cancelled())
@@ -86,14 +88,14 @@ Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory
          still_caption(frame)});
     finish_still(*picture, stage, frame, k);
     files.push_back(with_suffix(stem, fmt::format("_{}.png", k + 1)));
-    if (auto written = write_png(*picture, files.back()); !written)
+    if (auto written = write_png(*picture, files.back(), dpi); !written)
       return tl::unexpected(written.error());
     watch.report(double(k + 1) / (stage.frames() + 1));
   }
   Result<Image> whole = draw_panels(figure);
   if (!whole) return tl::unexpected(whole.error());
   files.push_back(with_suffix(stem, ".png"));
-  if (auto written = write_png(*whole, files.back()); !written)
+  if (auto written = write_png(*whole, files.back(), dpi); !written)
     return tl::unexpected(written.error());
   watch.report(1);
   return files;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/draw/drawing.h"
+#include "render/plot/canvas.h"
 #include "render/plot/colour_map.h"
 
 namespace gridshell::render {
@@ -56,6 +57,8 @@ struct MovieStyle {
   double scale_bar_mm = 0;                          ///< 0: none
   std::string title;                                ///< shown as it is
   std::string source;     ///< figure or movie that it follows, on the title card
+  Print print;            ///< of figures
+  bool vector = false;    ///< stills as lines too
   double font_scale = 1;  ///< of all text
   Look look;
   double seconds = 0, hold_s = 0, title_s = 0;  ///< of the movie; 0: frames / fps, none, none

@@ -32,7 +32,8 @@ Grid make_grid(const PanelFigure& figure) {
   grid.width = figure.panels[0].picture.width;
   grid.height = figure.panels[0].picture.height;
   // 8.5 pt when the whole is printed width_mm wide; margins and bar add about a tenth
-  const double pixels_per_pt = 1.1 * grid.columns * grid.width / (figure.width_mm / 25.4 * 72);
+  const double pixels_per_pt =
+      1.1 * grid.columns * grid.width / (figure.print.width_mm / 25.4 * 72);
   grid.em = std::max(7.5, 8.5 * pixels_per_pt);
   grid.gap = grid.margin = std::round(0.6 * grid.em);
   const bool captions = std::any_of(figure.panels.begin(), figure.panels.end(),
@@ -85,7 +86,9 @@ Result<Image> draw_panels(const PanelFigure& figure) {
           fmt::format("panels of a figure must be of one size: {} x {} and {} x {}", first.width,
                       first.height, panel.picture.width, panel.picture.height));
   const Grid grid = make_grid(figure);
-  return draw_picture(grid.total_width(), grid.total_height(), 1, {1, 1, 1, 1},
+  const double wished = figure.print.dpi * figure.print.width_mm / 25.4;
+  const double scale = wished > 0 ? std::round(wished) / grid.total_width() : 1;
+  return draw_picture(grid.total_width(), grid.total_height(), scale, {1, 1, 1, 1},
                       [&](Canvas& canvas) { draw(canvas, figure, grid); });
 }
 

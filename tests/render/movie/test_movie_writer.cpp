@@ -45,7 +45,6 @@ TEST_CASE("a movie is numbered frames, each told when it is whole") {
   std::sort(names.begin(), names.end());
   CHECK(names == std::vector<std::string>{"frame_00000.png", "frame_00001.png", "frame_00002.png"});
   CHECK(renderer.outside == 0);
-  CHECK(renderer.last_quality.supersample == 2);
   CHECK(renderer.last_quality.shadow);
 }
 
