@@ -203,7 +203,7 @@ Result<void> do_jobs(std::vector<Job>& jobs, const preset::Preset& base, Picture
 
 std::string state_text(const record::Summary& at) {
   if (!at.solved) return "the net itself, no equilibrium";
-  return fmt::format("bend energy {:.3f} mJ, {}, residual {:.1e} N", at.energy_bend_mJ,
+  return fmt::format("bend energy {:.3f} mJ, {}, residual {:.1e} N", at.energies[Term::bend],
                      at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots),
                      at.residual_N);
 }

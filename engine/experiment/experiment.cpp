@@ -59,9 +59,7 @@ record::Summary summary_of(const preset::Preset& preset, const ActuationScene& s
   s.limit_reason = outcome.limit_reason;
   s.residual_N = last.residual_N;
   s.error_estimate_mm = last.error_estimate_mm;
-  s.energy_bend_mJ = last.energy_bend_mJ;
-  s.energy_stretch_mJ = last.energy_stretch_mJ;
-  s.energy_twist_mJ = last.energy_twist_mJ;
+  s.energies = last.energies;
   s.height_mm = last.height_mm;
   s.total_K = last.total_K;
   const record::Layout& layout = outcome.trajectory.layout;
@@ -157,7 +155,9 @@ Result<Plan> plan(const preset::Preset& preset) {
   return plan;
 }
 
-Result<Outcome> run(const preset::Preset& preset, bool stills, Watch& watch) {
+namespace {
+
+Result<Outcome> run_whole(const preset::Preset& preset, bool stills, Watch& watch) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
   const bool pushed = preset.indentation.wanted();
@@ -169,6 +169,27 @@ Result<Outcome> run(const preset::Preset& preset, bool stills, Watch& watch) {
     return fail(Fault::no_equilibrium, "no frame was certified: " + outcome->limit_reason);
   record::Summary summary = summary_of(preset, *scene, *outcome);
   return Outcome{std::move(outcome->trajectory), std::move(summary)};
+}
+
+}  // namespace
+
+Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
+                            Watch& watch) {
+  auto outcome = run_whole(preset, stills, watch);
+  if (!outcome) return tl::unexpected<Error>(outcome.error());
+  if (auto begun = sink.begin(std::move(outcome->trajectory.layout)); !begun)
+    return tl::unexpected<Error>(begun.error());
+  for (record::Frame& frame : outcome->trajectory.frames)
+    if (auto taken = sink.take(std::move(frame)); !taken)
+      return tl::unexpected<Error>(taken.error());
+  return std::move(outcome->summary);
+}
+
+Result<Outcome> run(const preset::Preset& preset, bool stills, Watch& watch) {
+  record::MemorySink sink;
+  auto summary = run(preset, stills, sink, watch);
+  if (!summary) return tl::unexpected<Error>(summary.error());
+  return Outcome{std::move(sink.trajectory()), std::move(*summary)};
 }
 
 }  // namespace gridshell::experiment

@@ -7,6 +7,7 @@
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/preset/preset.h"
+#include "engine/record/sink.h"
 #include "engine/record/snapshot.h"
 #include "engine/record/summary.h"
 
@@ -36,8 +37,13 @@ struct Plan {
 /// Builds the scene of a preset and says what would run. Errors: Fault::bad_input with the reason.
 Result<Plan> plan(const preset::Preset& preset);
 
-/// Runs the experiment. Frames sample the path at `preset.movie.frames` even steps, or at
-/// `preset.figure.radii_mm` when `stills` is set. Errors: bad_input, no_equilibrium, cancelled.
+/// Runs the experiment and hands every certified frame to `sink`. Frames sample the path at
+/// `preset.movie.frames` even steps, or at `preset.figure.radii_mm` when `stills` is set. Errors:
+/// bad_input, no_equilibrium, cancelled, and what the sink says.
+Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
+                            Watch& watch);
+
+/// The same with all frames kept in memory.
 Result<Outcome> run(const preset::Preset& preset, bool stills, Watch& watch);
 
 }  // namespace gridshell::experiment

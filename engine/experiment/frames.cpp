@@ -28,8 +28,7 @@ Measures measure(const ActuationScene& scene, const NestedShell& shell) {
   const Measures coarse =
       measure(scene, shell.mesh(last - 1), shell.model(last - 1), state.levels[last - 1].x);
   fine.K = (4 * fine.K - coarse.K) / 3;
-  fine.energies.bend = (4 * fine.energies.bend - coarse.energies.bend) / 3;
-  fine.energies.stretch = (4 * fine.energies.stretch - coarse.energies.stretch) / 3;
+  fine.energies = (4 * fine.energies - coarse.energies) / 3;
   return fine;
 }
 
@@ -103,8 +102,7 @@ record::Frame frame_of(const ActuationScene& scene, NestedShell& shell) {
   const NestedState& state = shell.state();
   const Measures measures = measure(scene, shell);
   record::Frame frame;
-  frame.energy_bend_mJ = measures.energies.bend;
-  frame.energy_stretch_mJ = measures.energies.stretch;
+  frame.energies = measures.energies;
   put_shape(scene, shell.mesh(shell.levels() - 1), state.x, measures.K, frame);
   frame.residual_N = state.residual_N;
   frame.negative_pivots = state.inertia.negative_pivots;

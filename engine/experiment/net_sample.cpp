@@ -16,7 +16,7 @@ record::Frame frame_at(const ActuationScene& scene, const RodMesh& mesh, int ind
   put_shape(scene, mesh, x, K, frame);
   frame.index = index;
   frame.progress = frame.actuation = progress;
-  frame.energy_bend_mJ = frame.energy_stretch_mJ = frame.energy_twist_mJ = record::unknown;
+  frame.energies = Energies::not_known();
   frame.residual_N = record::unknown;
   frame.negative_pivots = -1;
   frame.event = progress == 0 ? "" : "the net itself, no equilibrium";

@@ -30,9 +30,7 @@ record::Frame frame_of_moment(const ActuationScene& scene, NestedShell& shell,
   put_shape(scene, shell.mesh(shell.levels() - 1), x,
             cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, moment.x)),
             frame);
-  const Energies energies = energies_of(shell.model(0), moment.x);
-  frame.energy_bend_mJ = energies.bend;
-  frame.energy_stretch_mJ = energies.stretch;
+  frame.energies = energies_of(shell.model(0), moment.x);
   shell.system(0).gradient_at({moment.x, {}});
   frame.residual_N = shell.system(0).residual();
   frame.negative_pivots = -1;

@@ -130,9 +130,7 @@ record::Frame TwistLevels::frame() {
     const Measures coarse = measure(last - 1);
     const auto extrapolate = [](auto& fine, const auto& rough) { fine = (4 * fine - rough) / 3; };
     extrapolate(found.K, coarse.K);
-    extrapolate(found.energies.bend, coarse.energies.bend);
-    extrapolate(found.energies.stretch, coarse.energies.stretch);
-    extrapolate(found.energies.twist, coarse.energies.twist);
+    extrapolate(found.energies, coarse.energies);
     // the correction is known at the coarser nodes; between them it is interpolated
     Eigen::Matrix3Xd on_coarser, correction;
     finest.to_coarser->nodes(x, on_coarser);
@@ -141,9 +139,7 @@ record::Frame TwistLevels::frame() {
   }
   record::Frame frame;
   put_shape(scene_, finest.mesh, x, found.K, frame);
-  frame.energy_bend_mJ = found.energies.bend;
-  frame.energy_stretch_mJ = found.energies.stretch;
-  frame.energy_twist_mJ = found.energies.twist;
+  frame.energies = found.energies;
   frame.residual_N = finest.path->solver().residual_at(finest.path->state());
   frame.negative_pivots = finest.path->report().inertia.negative_pivots;
   frame.error_estimate_mm = error_estimate_mm();

@@ -46,7 +46,7 @@ class TwistLevels {
   };
   struct Measures {
     Eigen::VectorXd K;
-    TwistEnergies energies;
+    Energies energies;
   };
   TwistLevels(const ActuationScene& scene, const LevelPlan& plan) : scene_(scene), plan_(plan) {}
   Eigen::Matrix3Xd nodes(std::size_t level) const;

@@ -39,7 +39,7 @@ inline void reset(const Model& model, Assembly& out) {
 inline void add_stretch(const ModelEdge& edge, int k, double EA, const EdgeGeometry& g,
                         Assembly& out) {
   const StretchEnergy s = stretch(EA, edge.rest_length, g.length);
-  out.energies.stretch += s.value;
+  out.energies[Term::stretch] += s.value;
   out.force[k] = s.force;
   out.tangents.col(k) = g.tangent;
   // the edge to a ghost only shows a direction
@@ -53,7 +53,7 @@ inline void add_pull(const ModelEdge& edge, const Eigen::Vector3d& pull, Assembl
 
 inline void add_bend_gradient(const ModelEdge& e, const ModelEdge& f, const BendEnergy& bend,
                               Assembly& out) {
-  out.energies.bend += bend.value;
+  out.energies[Term::bend] += bend.value;
   out.gradient.col(e.from) -= bend.gradient_e;
   out.gradient.col(e.to) += bend.gradient_e - bend.gradient_f;
   out.gradient.col(f.to) += bend.gradient_f;
@@ -78,10 +78,10 @@ inline void add_bend_hessian(const Model& model, int k, const BendEnergy& bend, 
 Energies energies_of(const Model& model, const Eigen::Matrix3Xd& x) {
   Energies sum;
   for (const ModelEdge& edge : model.edges)
-    sum.stretch += stretch(edge.EA, edge.rest_length, geometry_of(x, edge).length).value;
+    sum[Term::stretch] += stretch(edge.EA, edge.rest_length, geometry_of(x, edge).length).value;
   for (const ModelBend& bend : model.bends)
-    sum.bend += bend_value(bend.stiffness, geometry_of(x, model.edges[bend.edge]),
-                           geometry_of(x, model.edges[bend.edge + 1]));
+    sum[Term::bend] += bend_value(bend.stiffness, geometry_of(x, model.edges[bend.edge]),
+                                  geometry_of(x, model.edges[bend.edge + 1]));
   return sum;
 }
 

@@ -41,7 +41,7 @@ double load_energy(const Model& model, const Eigen::Matrix3Xd& x, double factor)
 
 void add_loads(const Model& model, const Eigen::Matrix3Xd& x, double factor, Assembly& out) {
   if (model.load.size() == 0) return;
-  out.energies.load = load_energy(model, x, factor);
+  out.energies[Term::load] = load_energy(model, x, factor);
   out.gradient -= factor * model.load;
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/footprint/mesh.h"
 #include "engine/gridshell/shell_rods.h"
+#include "engine/rod/energies.h"
 
 namespace gridshell {
 
@@ -40,16 +41,10 @@ struct Model {
   int dof() const { return 3 * free(); }
 };
 
-/// Rods of `mesh` with their sections and loads; edge points are pinned but for free ends, ghosts too. A held
-/// direction costs EI/l |kb|^2, l the length of the edge at the end: half an edge bends there [the
-/// symmetric ghost of beam theory, second order]. The edge to a ghost has no EA.
+/// Rods of `mesh` with their sections and loads; edge points are pinned but for free ends, ghosts
+/// too. A held direction costs EI/l |kb|^2, l the length of the edge at the end: half an edge bends
+/// there [the symmetric ghost of beam theory, second order]. The edge to a ghost has no EA.
 Model build_model(const RodMesh& mesh, const ShellRods& rods);
-
-/// Potential energy by term, mJ. `load` is minus the work of the dead loads.
-struct Energies {
-  double bend = 0, stretch = 0, load = 0;
-  double total() const { return bend + stretch + load; }
-};
 
 /// The symmetric Hessian of a net of chains in 3x3 blocks: `diagonal` per node, `next` per edge
 /// (row: its `from`, column: its `to`), `second` per bend (row: first node, column: third node).

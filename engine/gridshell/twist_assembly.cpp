@@ -54,34 +54,35 @@ double load_energy(const TwistModel& model, const TwistState& state) {
 
 }  // namespace
 
-TwistEnergies energies_of(const TwistModel& model, const TwistState& state) {
-  TwistEnergies sum;
+Energies energies_of(const TwistModel& model, const TwistState& state) {
+  Energies sum;
   std::vector<EdgeGeometry> geometry;
   for (int k = 0; k < int(model.edges.size()); ++k) {
     geometry.push_back(geometry_of(model, state, k));
-    sum.stretch += stretch(model.edges[k].EA, model.edges[k].rest_length, geometry[k].length).value;
+    sum[Term::stretch] +=
+        stretch(model.edges[k].EA, model.edges[k].rest_length, geometry[k].length).value;
   }
   for (int k = 0; k < int(model.bends.size()); ++k) {
     const TwistBend& bend = model.bends[k];
     const double excess = excess_twist(model, state, k);
-    sum.twist += 0.5 * bend.GJ_l * excess * excess;
-    sum.bend +=
+    sum[Term::twist] += 0.5 * bend.GJ_l * excess * excess;
+    sum[Term::bend] +=
         bend_value_of(bend, geometry[bend.e], geometry[bend.f], state, excess + bend.rest_twist);
   }
   for (const JointSpring& spring : model.springs)
-    sum.joints +=
+    sum[Term::joint] +=
         0.5 * spring.stiffness * (state.x.col(spring.a) - state.x.col(spring.b)).squaredNorm();
   for (const JointShear& shear : model.shears) {
     const double angle = shear_angle(shear, geometry[shear.e], geometry[shear.f]);
-    sum.joints += 0.5 * shear.stiffness * angle * angle;
+    sum[Term::shear] += 0.5 * shear.stiffness * angle * angle;
   }
   for (const JointTwist& joint : model.twists) {
     const EdgeGeometry &e = geometry[joint.e], &f = geometry[joint.f];
     const double on_e = joint_spin(1, state.angle[joint.e], e, state.director.col(joint.e), f),
                  on_f = joint_spin(-1, state.angle[joint.f], f, state.director.col(joint.f), e);
-    sum.joints += 0.5 * joint.stiffness * (on_e * on_e + on_f * on_f);
+    sum[Term::joint] += 0.5 * joint.stiffness * (on_e * on_e + on_f * on_f);
   }
-  sum.load = load_energy(model, state);
+  sum[Term::load] = load_energy(model, state);
   return sum;
 }
 
@@ -173,7 +174,7 @@ void TwistAssembly::add_links(const TwistState& state, bool with_hessian) {
     const TwistEdge& edge = model_.edges[k];
     const EdgeGeometry g = geometry_of(model_, state, k);
     const StretchEnergy s = stretch(edge.EA, edge.rest_length, g.length);
-    energies_.stretch += s.value;
+    energies_[Term::stretch] += s.value;
     const double geometric = s.force / g.length;
     Eigen::Matrix3d h =
         (edge.EA / edge.rest_length - geometric) * g.tangent * g.tangent.transpose();
@@ -182,7 +183,7 @@ void TwistAssembly::add_links(const TwistState& state, bool with_hessian) {
   }
   for (const JointSpring& spring : model_.springs) {
     const Eigen::Vector3d gap = state.x.col(spring.b) - state.x.col(spring.a);
-    energies_.joints += 0.5 * spring.stiffness * gap.squaredNorm();
+    energies_[Term::joint] += 0.5 * spring.stiffness * gap.squaredNorm();
     scatter_link(spring.a, spring.b, spring.stiffness * gap,
                  spring.stiffness * Eigen::Matrix3d::Identity(), with_hessian);
   }
@@ -198,16 +199,16 @@ void TwistAssembly::add_bends(const TwistState& state, bool with_hessian) {
     const CurvatureBinormal binormal = binormal_with_derivatives(e.tangent, f.tangent);
     PairEnergy out;
     add_twist(bend.GJ_l, excess, binormal, out);
-    energies_.twist += 0.5 * bend.GJ_l * excess * excess;
+    energies_[Term::twist] += 0.5 * bend.GJ_l * excess * excess;
     if (!bend.round) {
       const double angle = state.angle[bend.e] + (excess + bend.rest_twist) / 2;
-      energies_.bend += add_material_bend(
+      energies_[Term::bend] += add_material_bend(
           bend.bend, halfway_frame(e.tangent, state.director.col(bend.e), angle), binormal, out);
     }
     scale_to_edges(e.length, f.length, out);
     if (bend.round) {
       const double stiffness = 2 * bend.bend.stiffness[0], w = 1 / (1 + cosine);
-      energies_.bend += bend_value(stiffness, e, f);
+      energies_[Term::bend] += bend_value(stiffness, e, f);
       add_cosine(-2 * stiffness * w * w, 4 * stiffness * w * w * w, e, f, out);
     }
     scatter_pair(bend.e, bend.f, out, with_hessian);
@@ -220,7 +221,7 @@ void TwistAssembly::add_shears(const TwistState& state, bool with_hessian) {
                        f = geometry_of(model_, state, shear.f);
     const double angle = shear_angle(shear, e, f), c = e.tangent.dot(f.tangent);
     const double slope = 1 / std::sqrt(1 - c * c), k = shear.stiffness;
-    energies_.joints += 0.5 * k * angle * angle;
+    energies_[Term::shear] += 0.5 * k * angle * angle;
     PairEnergy out;
     add_cosine(-k * angle * slope, k * slope * slope * (1 - angle * c * slope), e, f, out);
     scatter_pair(shear.e, shear.f, out, with_hessian);
@@ -233,7 +234,7 @@ void TwistAssembly::add_joint_twists(const TwistState& state, bool with_hessian)
                        f = geometry_of(model_, state, joint.f);
     const double k = joint.stiffness;
     PairEnergy on_e, on_f;
-    energies_.joints +=
+    energies_[Term::joint] +=
         add_joint_spin(k, 1, state.angle[joint.e], e, state.director.col(joint.e), f, on_e) +
         add_joint_spin(k, -1, state.angle[joint.f], f, state.director.col(joint.f), e, on_f);
     scatter_pair(joint.e, joint.f, on_e, with_hessian);
@@ -251,7 +252,7 @@ void TwistAssembly::assemble(const TwistState& state, bool with_hessian) {
   add_bends(state, with_hessian);
   add_shears(state, with_hessian);
   add_joint_twists(state, with_hessian);
-  energies_.load = load_energy(model_, state);
+  energies_[Term::load] = load_energy(model_, state);
   gradient_.head(3 * model_.nodes) -=
       state.load * Eigen::Map<const Eigen::VectorXd>(model_.load.data(), 3 * model_.nodes);
 }

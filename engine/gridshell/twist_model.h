@@ -11,6 +11,7 @@
 #include "engine/core/result.h"
 #include "engine/footprint/footprint.h"
 #include "engine/rod/bend_material.h"
+#include "engine/rod/energies.h"
 #include "engine/rod/material.h"
 
 namespace gridshell {
@@ -142,13 +143,7 @@ Eigen::Vector3d material_director(const TwistModel& model, const TwistState& sta
 /// tau - tau_0 of a bend, the twist beyond that at rest, rad.
 double excess_twist(const TwistModel& model, const TwistState& state, int bend);
 
-/// Potential energy by term, mJ. `load` is minus the work of dead loads.
-struct TwistEnergies {
-  double bend = 0, stretch = 0, twist = 0, joints = 0, load = 0;
-  double total() const { return bend + stretch + twist + joints + load; }
-};
-
-TwistEnergies energies_of(const TwistModel& model, const TwistState& state);
+Energies energies_of(const TwistModel& model, const TwistState& state);
 
 /// Gradient and Hessian of the energy in one pattern that is worked out once. Keep one per model.
 class TwistAssembly {
@@ -159,7 +154,7 @@ class TwistAssembly {
   void hessian_at(const TwistState& state) { assemble(state, true); }
 
   const TwistModel& model() const { return model_; }
-  const TwistEnergies& energies() const { return energies_; }
+  const Energies& energies() const { return energies_; }
   /// by every unknown, fixed ones too: forces (N) and moments (mJ) that hold them
   const Eigen::VectorXd& gradient() const { return gradient_; }
   /// lower triangle over the free unknowns
@@ -180,7 +175,7 @@ class TwistAssembly {
   void scatter_pair(int e, int f, const PairEnergy& energy, bool with_hessian);
 
   const TwistModel& model_;
-  TwistEnergies energies_;
+  Energies energies_;
   Eigen::VectorXd gradient_;
   Eigen::SparseMatrix<double> hessian_;
   std::vector<int> places_;  // where each element's entries go, element by element

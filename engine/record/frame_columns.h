@@ -2,9 +2,9 @@
 // trajectory.h5, in order.
 #pragma once
 
-#include <array>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "engine/record/snapshot.h"
 
@@ -12,32 +12,51 @@ namespace gridshell::record {
 
 /// A quantity by name, unit ("1" without one, "" for text) and where it stands in a Frame.
 struct FrameColumn {
-  const char* name;
+  std::string name;
   const char* unit;
-  std::variant<int Frame::*, double Frame::*, std::string Frame::*> field;
+  std::variant<int Frame::*, double Frame::*, std::string Frame::*, Term> field;
 };
 
-inline const std::array<FrameColumn, 19> frame_columns{{
-    {"frame", "1", &Frame::index},
-    {"progress", "1", &Frame::progress},
-    {"boundary_radius_mm", "mm", &Frame::boundary_radius_mm},
-    {"depth_mm", "mm", &Frame::depth_mm},
-    {"force_N", "N", &Frame::force_N},
-    {"energy_bend_mJ", "mJ", &Frame::energy_bend_mJ},
-    {"energy_stretch_mJ", "mJ", &Frame::energy_stretch_mJ},
-    {"energy_twist_mJ", "mJ", &Frame::energy_twist_mJ},
-    {"height_mm", "mm", &Frame::height_mm},
-    {"total_K", "rad", &Frame::total_K},
-    {"residual_N", "N", &Frame::residual_N},
-    {"negative_pivots", "1", &Frame::negative_pivots},
-    {"error_estimate_mm", "mm", &Frame::error_estimate_mm},
-    {"newton_iterations", "1", &Frame::newton_iterations},
-    {"event", "", &Frame::event},
-    {"reach_above_tenth", "1", &Frame::reach_above_tenth},
-    {"reach_above_half", "1", &Frame::reach_above_half},
-    {"lowest_latitude_deg", "deg", &Frame::lowest_latitude_deg},
-    {"time_s", "s", &Frame::time_s},
-}};
+/// The quantity of a frame that a column stands for: `visit(value)`, by reference.
+template <class FrameType, class Visit>
+decltype(auto) visit_column(const FrameColumn& column, FrameType& frame, Visit visit) {
+  return std::visit(
+      [&](auto field) -> decltype(auto) {
+        if constexpr (std::is_same_v<decltype(field), Term>) {
+          return visit(frame.energies[field]);
+        } else {
+          return visit(frame.*field);
+        }
+      },
+      column.field);
+}
+
+inline const std::vector<FrameColumn> frame_columns = [] {
+  std::vector<FrameColumn> columns{
+      {"frame", "1", &Frame::index},
+      {"progress", "1", &Frame::progress},
+      {"boundary_radius_mm", "mm", &Frame::boundary_radius_mm},
+      {"depth_mm", "mm", &Frame::depth_mm},
+      {"force_N", "N", &Frame::force_N},
+  };
+  for (const TermName& term : energy_terms)
+    columns.push_back({std::string("energy_") + term.name + "_mJ", "mJ", term.term});
+  const std::vector<FrameColumn> others{
+      {"height_mm", "mm", &Frame::height_mm},
+      {"total_K", "rad", &Frame::total_K},
+      {"residual_N", "N", &Frame::residual_N},
+      {"negative_pivots", "1", &Frame::negative_pivots},
+      {"error_estimate_mm", "mm", &Frame::error_estimate_mm},
+      {"newton_iterations", "1", &Frame::newton_iterations},
+      {"event", "", &Frame::event},
+      {"reach_above_tenth", "1", &Frame::reach_above_tenth},
+      {"reach_above_half", "1", &Frame::reach_above_half},
+      {"lowest_latitude_deg", "deg", &Frame::lowest_latitude_deg},
+      {"time_s", "s", &Frame::time_s},
+  };
+  columns.insert(columns.end(), others.begin(), others.end());
+  return columns;
+}();
 
 /// Stored in trajectory.h5 beside the columns above, to draw the boundary of a frame.
 inline const FrameColumn actuation_column{"actuation", "1", &Frame::actuation};

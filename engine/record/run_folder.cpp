@@ -74,7 +74,7 @@ std::string frames_csv(const Trajectory& trajectory) {
   csv.end_line();
   for (const Frame& frame : trajectory.frames) {
     for (const FrameColumn& column : frame_columns)
-      std::visit([&](auto field) { put(csv, frame.*field); }, column.field);
+      visit_column(column, frame, [&](const auto& value) { put(csv, value); });
     csv.end_line();
   }
   return std::move(csv).text();

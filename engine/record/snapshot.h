@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/rod/energies.h"
+
 namespace gridshell::record {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -76,7 +78,7 @@ struct Frame {
   /// of a push: share of the joints that moved more than 0.1 and 0.5 of the depth, and the lowest
   /// latitude among the first
   double reach_above_tenth = unknown, reach_above_half = unknown, lowest_latitude_deg = unknown;
-  double energy_bend_mJ = 0, energy_stretch_mJ = 0, energy_twist_mJ = 0;
+  Energies energies;     ///< by term, mJ
   double height_mm = 0;  ///< highest joint above the boundary's plane
   double total_K = 0;    ///< rad
   double residual_N = 0;
@@ -84,9 +86,9 @@ struct Frame {
   double error_estimate_mm = unknown;
   int newton_iterations = 0;
   double time_s = unknown;  ///< of a snap in time, since its begin
-  std::string event;       ///< a snap, a limit, a recovery; empty when nothing happened
-  Eigen::Matrix3Xd nodes;  ///< positions, mm
-  Eigen::VectorXd cell_K;  ///< integrated Gauss curvature of each cell, rad
+  std::string event;        ///< a snap, a limit, a recovery; empty when nothing happened
+  Eigen::Matrix3Xd nodes;   ///< positions, mm
+  Eigen::VectorXd cell_K;   ///< integrated Gauss curvature of each cell, rad
   /// K of the cells by their centroid's x/L, L the half-span of the actuated boundary, in bins of
   /// equal width from -1 to 1, one a row: mean (rad), standard deviation (rad), number of cells
   Eigen::MatrixX3d K_bins;

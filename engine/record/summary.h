@@ -27,7 +27,7 @@ struct Summary {
   std::string limit_reason;  ///< a sentence when limit is not none
   double residual_N = 0;
   double error_estimate_mm = unknown;
-  double energy_bend_mJ = 0, energy_stretch_mJ = 0, energy_twist_mJ = 0;
+  Energies energies;  ///< by term, mJ
   double height_mm = 0;
   double total_K = 0;
   double max_deviation = unknown,

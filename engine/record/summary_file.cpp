@@ -33,9 +33,8 @@ void each_field(SummaryType& summary, Visit visit) {
   visit("limit_reason", summary.limit_reason);
   visit("residual_N", summary.residual_N);
   visit("error_estimate_mm", summary.error_estimate_mm);
-  visit("energy_bend_mJ", summary.energy_bend_mJ);
-  visit("energy_stretch_mJ", summary.energy_stretch_mJ);
-  visit("energy_twist_mJ", summary.energy_twist_mJ);
+  for (const TermName& term : energy_terms)
+    visit(fmt::format("energy_{}_mJ", term.name).c_str(), summary.energies[term.term]);
   visit("height_mm", summary.height_mm);
   visit("total_K", summary.total_K);
   visit("max_deviation", summary.max_deviation);

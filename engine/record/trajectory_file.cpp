@@ -143,13 +143,15 @@ void write_column(hdf5::Writer& file, const std::string& name, const char* unit,
 }
 
 void write_column(hdf5::Writer& file, const FrameColumn& column, const std::vector<Frame>& frames) {
-  std::visit(
-      [&]<class T>(T Frame::*field) {
-        std::vector<T> values;
-        for (const Frame& frame : frames) values.push_back(frame.*field);
-        write_column(file, std::string("/frames/") + column.name, column.unit, values);
-      },
-      column.field);
+  static const Frame any;
+  visit_column(column, any, [&]<class T>(const T&) {
+    std::vector<T> values;
+    for (const Frame& frame : frames)
+      visit_column(column, frame, [&]<class U>(const U& value) {
+        if constexpr (std::is_same_v<T, U>) values.push_back(value);
+      });
+    write_column(file, "/frames/" + column.name, column.unit, values);
+  });
 }
 
 /// A frame without bins has unknown ones.
@@ -236,21 +238,23 @@ Layout read_layout(hdf5::Reader& file) {
 }
 
 void read_column(hdf5::Reader& file, const FrameColumn& column, std::vector<Frame>& frames) {
-  const std::string name = std::string("/frames/") + column.name;
-  std::visit(
-      [&]<class T>(T Frame::*field) {
-        std::vector<T> values;
-        if constexpr (std::is_same_v<T, std::string>)
-          values = file.strings(name);
-        else
-          values = file.vector<T>(name, memory_type(T{}));
-        if (values.size() != frames.size())
-          file.fail_because(
-              fmt::format("{} has {} values for {} frames", name, values.size(), frames.size()));
-        if (!file.good()) return;
-        for (std::size_t k = 0; k < frames.size(); ++k) frames[k].*field = std::move(values[k]);
-      },
-      column.field);
+  const std::string name = "/frames/" + column.name;
+  static const Frame any;
+  visit_column(column, any, [&]<class T>(const T&) {
+    std::vector<T> values;
+    if constexpr (std::is_same_v<T, std::string>)
+      values = file.strings(name);
+    else
+      values = file.vector<T>(name, memory_type(T{}));
+    if (values.size() != frames.size())
+      file.fail_because(
+          fmt::format("{} has {} values for {} frames", name, values.size(), frames.size()));
+    if (!file.good()) return;
+    for (std::size_t k = 0; k < frames.size(); ++k)
+      visit_column(column, frames[k], [&]<class U>(U& value) {
+        if constexpr (std::is_same_v<T, U>) value = std::move(values[k]);
+      });
+  });
 }
 
 void read_bins(hdf5::Reader& file, std::vector<Frame>& frames) {

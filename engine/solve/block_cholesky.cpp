@@ -13,12 +13,19 @@
 namespace gridshell {
 namespace {
 
-typedef double Column __attribute__((vector_size(32)));  // x, y, z and a zero
+// x, y, z and a zero. The alignment is stated, as the clones below would each assume their own.
+typedef double Column __attribute__((vector_size(32), aligned(32)));
 
 /// A 3x3 block by columns.
-struct Block {
+struct alignas(32) Block {
   Column column[3];
 };
+
+/// A node's part of a right-hand side. (std::vector<Column> would forget the alignment.)
+struct alignas(32) Entry {
+  Column value;
+};
+static_assert(alignof(Block) == 32 && alignof(Entry) == 32 && sizeof(Entry) == sizeof(Column));
 
 /// The plan and the numbers of one factor; plain arrays for the loops below.
 struct Factor {
@@ -88,17 +95,17 @@ bool factor_numbers(Factor& f, Inertia& inertia) {
 }
 
 GRIDSHELL_CLONES
-void solve_numbers(const Factor& f, Column* x) {
+void solve_numbers(const Factor& f, Entry* x) {
   for (int k = 0; k < f.columns; ++k) {
     const Block& d = f.diagonal[k];
-    Column v = x[k];
+    Column v = x[k].value;
     v[0] = v[0] / d.column[0][0];
     v[1] = (v[1] - d.column[0][1] * v[0]) / d.column[1][1];
     v[2] = (v[2] - d.column[0][2] * v[0] - d.column[1][2] * v[1]) / d.column[2][2];
-    x[k] = v;
+    x[k].value = v;
     for (int i = f.first[k]; i < f.first[k + 1]; ++i) {
       const Block& b = f.below[i];
-      x[f.row[i]] -= b.column[0] * v[0] + b.column[1] * v[1] + b.column[2] * v[2];
+      x[f.row[i]].value -= b.column[0] * v[0] + b.column[1] * v[1] + b.column[2] * v[2];
     }
   }
   for (int k = f.columns - 1; k >= 0; --k) {
@@ -106,15 +113,15 @@ void solve_numbers(const Factor& f, Column* x) {
     Column sum[3] = {};
     for (int i = f.first[k]; i < f.first[k + 1]; ++i) {
       const Block& b = f.below[i];
-      const Column y = x[f.row[i]];
+      const Column y = x[f.row[i]].value;
       for (int j = 0; j < 3; ++j) sum[j] += b.column[j] * y;
     }
-    Column v = x[k];
+    Column v = x[k].value;
     for (int j = 0; j < 3; ++j) v[j] = v[j] * f.sign[k][j] - (sum[j][0] + sum[j][1] + sum[j][2]);
     v[2] = v[2] / d.column[2][2];
     v[1] = (v[1] - d.column[1][2] * v[2]) / d.column[1][1];
     v[0] = (v[0] - d.column[0][1] * v[1] - d.column[0][2] * v[2]) / d.column[0][0];
-    x[k] = v;
+    x[k].value = v;
   }
 }
 
@@ -141,15 +148,15 @@ class BlockCholesky final : public LinearSolver {
 
   void solve(Eigen::Matrix3Xd& b) const override {
     work_.resize(order_.size());
-    std::vector<Column>& x = work_;
+    std::vector<Entry>& x = work_;
     for (std::size_t k = 0; k < order_.size(); ++k) {
       const auto v = b.col(model_.free_nodes[order_[k]]);
-      x[k] = Column{v[0], v[1], v[2], 0};
+      x[k].value = Column{v[0], v[1], v[2], 0};
     }
     solve_numbers(factor_, x.data());
     b.setZero();
     for (std::size_t k = 0; k < order_.size(); ++k)
-      b.col(model_.free_nodes[order_[k]]) << x[k][0], x[k][1], x[k][2];
+      b.col(model_.free_nodes[order_[k]]) << x[k].value[0], x[k].value[1], x[k].value[2];
   }
 
   long long blocks() const override {
@@ -256,7 +263,7 @@ class BlockCholesky final : public LinearSolver {
   std::vector<int> order_, place_;  // elimination order of free nodes, and its inverse
   std::vector<Scatter> next_, second_;
   Factor factor_;
-  mutable std::vector<Column> work_;  // of solve()
+  mutable std::vector<Entry> work_;  // of solve()
 };
 
 }  // namespace

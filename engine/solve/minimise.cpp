@@ -60,7 +60,7 @@ class Descent {
  private:
   double energy_at(const Eigen::Matrix3Xd& x) const {
     const Energies energies = energies_of(system_.model(), x);
-    return energies.bend + options_.EA_scale * energies.stretch +
+    return energies[Term::bend] + options_.EA_scale * energies[Term::stretch] +
            load_energy(system_.model(), x, system_.load_factor());
   }
 

@@ -45,7 +45,7 @@ RunOutcome rest_shifted(Linearisation& system, State& state, const MarchOptions&
                         const Watch& watch) {
   const auto energy_at = [&](const Eigen::Matrix3Xd& x) {
     const Energies energies = energies_of(system.model(), x);
-    return energies.bend + options.EA_scale * energies.stretch;
+    return energies[Term::bend] + options.EA_scale * energies[Term::stretch];
   };
   Eigen::Matrix3Xd dx, trial;
   double shift = 0;

@@ -24,7 +24,7 @@ const std::map<std::string, Folders> may_see{
     {"engine/solve", {"engine/core", "engine/footprint", "engine/rod", "engine/gridshell"}},
     {"engine/measure", {"engine/core", "engine/geometry", "engine/footprint"}},
     {"engine/preset", {"engine/core"}},
-    {"engine/record", {"engine/core"}},
+    {"engine/record", {"engine/core", "engine/rod"}},
     // the one entry point of the engine joins the rest
     {"engine/experiment",
      {"engine/core", "engine/geometry", "engine/footprint", "engine/rod", "engine/gridshell",

@@ -124,7 +124,7 @@ inline record::Trajectory dome(int frames = 24, int edges_per_segment = 8) {
       frame.cell_K[long(c)] =
           cell_curvature(run.layout.cells[c].u_mm, run.layout.cells[c].v_mm, scale);
     frame.total_K = frame.cell_K.sum();
-    frame.energy_bend_mJ = 40 * t;
+    frame.energies[Term::bend] = 40 * t;
     frame.residual_N = 3.2e-9;
     if (frames > 2 && k == 2 * frames / 3) frame.event = "snap at a radius of 104.9 mm";
     run.frames.push_back(std::move(frame));

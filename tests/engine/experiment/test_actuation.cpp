@@ -69,8 +69,8 @@ TEST_CASE("actuation of Fig. 1 ends in the state with two diagonal mirrors, at i
   CHECK(s.stable);
   CHECK(s.negative_pivots == 0);
   CHECK(s.limit == record::Limit::none);
-  CHECK(s.energy_bend_mJ == Approx(39.979).margin(5e-4));
-  CHECK(s.energy_stretch_mJ == Approx(0.0136).margin(2e-4));
+  CHECK(s.energies[Term::bend] == Approx(39.979).margin(5e-4));
+  CHECK(s.energies[Term::stretch] == Approx(0.0136).margin(2e-4));
   CHECK(s.residual_N < 1e-8);
   CHECK(s.error_estimate_mm <= 1e-6 * 126);
   const auto& nodes = outcome.trajectory.frames.back().nodes;
@@ -99,12 +99,12 @@ TEST_CASE("the seed names the diagonal whose corner joints lie lower, and up or 
 TEST_CASE("the last frame does not depend on how many frames are asked for") {
   const experiment::Outcome few = run(fig1(2, 1e-3)), many = run(fig1(25, 1e-3));
   CHECK(few.trajectory.frames.back().nodes == many.trajectory.frames.back().nodes);
-  CHECK(few.summary.energy_bend_mJ == many.summary.energy_bend_mJ);
+  CHECK(few.summary.energies[Term::bend] == many.summary.energies[Term::bend]);
   REQUIRE(many.trajectory.frames.size() == 25);
   double previous = -1;
   for (const record::Frame& frame : many.trajectory.frames) {
-    CHECK(frame.energy_bend_mJ > previous);
-    previous = frame.energy_bend_mJ;
+    CHECK(frame.energies[Term::bend] > previous);
+    previous = frame.energies[Term::bend];
     // a frame that is not stable says so
     CHECK((frame.negative_pivots == 0) == frame.event.empty());
     CHECK(frame.boundary_radius_mm == Approx(126 - 31.5 * frame.progress));
@@ -124,7 +124,7 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
     const experiment::Outcome outcome = at(edges);
     const double error = (joints_of(outcome.trajectory) - exact).colwise().norm().maxCoeff();
     const double energy =
-        std::abs(outcome.summary.energy_bend_mJ - reference.summary.energy_bend_mJ);
+        std::abs(outcome.summary.energies[Term::bend] - reference.summary.energies[Term::bend]);
     if (before > 0) {
       CHECK(std::log2(before / error) == Approx(2).margin(0.1));
       CHECK(std::log2(energy_before / energy) == Approx(2).margin(0.15));

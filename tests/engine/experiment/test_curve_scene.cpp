@@ -100,7 +100,7 @@ TEST_CASE("a cylinder from a table of points is the cylinder") {
   for (double z = -150; z <= 150; z += 50) p.net.profile.push_back({80, z});
   const record::Summary table = run(p);
   CHECK(table.joints == known.joints);
-  CHECK(table.energy_bend_mJ == Approx(known.energy_bend_mJ).epsilon(1e-9));
+  CHECK(table.energies[Term::bend] == Approx(known.energies[Term::bend]).epsilon(1e-9));
   CHECK(table.max_deviation == Approx(known.max_deviation).margin(1e-9));
   // all of the profile, and more than there is of it
   p.net.length_mm = 0;

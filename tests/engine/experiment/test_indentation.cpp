@@ -47,7 +47,7 @@ double work_of(const std::vector<record::Frame>& frames) {
 }
 
 double energy_of(const record::Frame& frame) {
-  return frame.energy_bend_mJ + frame.energy_stretch_mJ;
+  return frame.energies[Term::bend] + frame.energies[Term::stretch];
 }
 
 }  // namespace

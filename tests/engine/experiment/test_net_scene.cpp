@@ -60,7 +60,7 @@ TEST_CASE("the hemisphere on the axes, converged: deviation, total curvature and
   CHECK(100 * s.max_deviation == Approx(3.1029).margin(5e-5));
   CHECK(100 * s.mean_deviation == Approx(0.9955).margin(5e-5));
   CHECK(s.total_K == Approx(6.01157).margin(5e-6));
-  CHECK(s.energy_bend_mJ + s.energy_stretch_mJ == Approx(8.07123).margin(5e-6));
+  CHECK(s.energies[Term::bend] + s.energies[Term::stretch] == Approx(8.07123).margin(5e-6));
   CHECK(s.error_estimate_mm < 1e-7 * 120);
 }
 

@@ -36,7 +36,7 @@ bool certified_or_named(const Result<experiment::ActuationOutcome>& outcome,
   const record::Frame& frame = outcome->trajectory.frames.back();
   CHECK(frame.negative_pivots == 0);
   CHECK(std::isfinite(frame.nodes.sum()));
-  CHECK(frame.energy_bend_mJ > 1);  // no planar saddle
+  CHECK(frame.energies[Term::bend] > 1);  // no planar saddle
   CHECK(frame.residual_N < residual_N);
   return true;
 }
@@ -62,7 +62,7 @@ TEST_CASE("one single step asked for, and many, end in one state") {
 }
 
 TEST_CASE("EA from a hundredth to ten thousand times: the same state, or a reason") {
-  const double reference = end_of(fig1())->trajectory.frames.back().energy_bend_mJ;
+  const double reference = end_of(fig1())->trajectory.frames.back().energies[Term::bend];
   for (double scale : {1e-2, 1e-1, 1e1, 1e2, 1e4}) {
     auto scene = fig1();
     for (RodSection& section : scene.rods.sections) section.EA *= scale;
@@ -73,7 +73,8 @@ TEST_CASE("EA from a hundredth to ten thousand times: the same state, or a reaso
     if (!certified_or_named(outcome, std::max(1e-8, 1e-9 * scale))) continue;
     // stretch shares the work: with N of about 1e-3 EA x scale the energies differ by as much
     const double softness = std::max(1e-3, 2e-3 / scale);
-    CHECK(outcome->trajectory.frames.back().energy_bend_mJ == Approx(reference).epsilon(softness));
+    CHECK(outcome->trajectory.frames.back().energies[Term::bend] ==
+          Approx(reference).epsilon(softness));
   }
 }
 
@@ -127,8 +128,8 @@ TEST_CASE("down to half the radius: certified states, each on the one before") {
   for (const record::Frame& frame : outcome->trajectory.frames) {
     if (!frame.event.empty()) continue;
     CHECK(frame.negative_pivots == 0);
-    CHECK(frame.energy_bend_mJ > energy);
-    energy = frame.energy_bend_mJ;
+    CHECK(frame.energies[Term::bend] > energy);
+    energy = frame.energies[Term::bend];
   }
 }
 

@@ -58,7 +58,7 @@ TEST_CASE("twist assembly: gradient is the derivative of the energy, by every un
   TwistAssembly assembly(model);
   assembly.gradient_at(state);
   CHECK(assembly.energies().total() == Approx(energies_of(model, state).total()).epsilon(1e-13));
-  CHECK(assembly.energies().joints > 0);
+  CHECK(assembly.energies()[Term::joint] > 0);
   const double h = 1e-5, scale = assembly.gradient().cwiseAbs().maxCoeff();
   for (int k = 0; k < model.unknowns(); ++k) {
     const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(model.unknowns(), k);

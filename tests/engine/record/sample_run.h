@@ -34,9 +34,9 @@ inline Trajectory sample_trajectory() {
     frame.index = k;
     frame.progress = k / 3.0;
     frame.boundary_radius_mm = 126 - 0.1 * k;
-    frame.energy_bend_mJ = 1e-300 * k;
-    frame.energy_stretch_mJ = 0.1 + 0.2 * k;
-    frame.energy_twist_mJ = -0.0;
+    frame.energies[Term::bend] = 1e-300 * k;
+    frame.energies[Term::stretch] = 0.1 + 0.2 * k;
+    frame.energies[Term::twist] = -0.0;
     frame.height_mm = 1.0 / 7 * k;
     frame.total_K = M_PI * k;
     frame.residual_N = 5e-324;
@@ -66,7 +66,7 @@ inline Summary sample_summary() {
   summary.limit = Limit::snap;
   summary.limit_reason = "a branch was lost at R_a = 97.1 mm";
   summary.residual_N = 1.0 / 3e9;
-  summary.energy_bend_mJ = 39.979;
+  summary.energies[Term::bend] = 39.979;
   summary.height_mm = 0.1;
   summary.total_K = 6.01157;
   summary.max_deviation = 0.031029;

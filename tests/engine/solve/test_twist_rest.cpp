@@ -30,7 +30,7 @@ double elastica_height(int edges, double shortening) {
       start_twist_state(model, single.line(1 - shortening, 0.6 * std::sqrt(shortening) * length));
   for (int k = 0; k < edges; ++k) state.angle[k] = std::sin(12.9898 * (k + 1));
   settle(solver, state);
-  CHECK(energies_of(model, state).twist < 1e-12);
+  CHECK(energies_of(model, state)[Term::twist] < 1e-12);
   return state.x.row(2).maxCoeff() / length;
 }
 

@@ -50,7 +50,7 @@ double distance_of_rungs(int edges, double& twist_before, double& seconds) {
   for (int node = 0; node < shell.mesh.joints; ++node)  // and off the bend rung's rest
     x.col(node) += 0.2 * Eigen::Vector3d(normal(random), normal(random), normal(random));
   move_to(model, x, angle, state);
-  twist_before = energies_of(model, state).twist;
+  twist_before = energies_of(model, state)[Term::twist];
   TwistSolver solver(model);
   TwistOptions options;
   options.tolerance_mm = 1e-7;
@@ -60,7 +60,7 @@ double distance_of_rungs(int edges, double& twist_before, double& seconds) {
   CAPTURE(int(report.outcome), report.iterations, report.last_move_mm, report.residual_N);
   REQUIRE(report.outcome == NewtonOutcome::converged);
   CHECK(report.inertia.positive_definite());
-  CHECK(energies_of(model, state).twist < 1e-12);
+  CHECK(energies_of(model, state)[Term::twist] < 1e-12);
   const int joints = shell.mesh.joints;
   return (state.x.leftCols(joints) - shell.state.x.leftCols(joints)).colwise().norm().maxCoeff() /
          R_o;
