@@ -36,13 +36,13 @@ Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, render::
     shells.push_back({&one.run, one.preset.title});
     named.push_back({&one.run, one.preset.title});
   }
+  render::Plot force = render::force_plot(named);
+  if (records.size() == 1) force.title = render::plain(records.front().preset.title);
   const auto with = [&](const char* suffix) { return fs::path(stem) += suffix; };
   return render::draw_pushes(shells, style, renderer, watch)
       .and_then(
           [&](const render::Image& image) { return render::write_png(image, with("_loads.png")); })
-      .and_then([&] {
-        return render::write_plot(with("_force"), render::force_plot(named), style.print);
-      })
+      .and_then([&] { return render::write_plot(with("_force"), force, style.print); })
       .and_then([&] { return render::write_push_bins(with("_bins"), named, style.print); });
 }
 

@@ -74,6 +74,10 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
                                             one.run.layout.parts.empty() ? "%" : "mm")});
     named.push_back({&one.run, name});
   }
+  const auto titled = [&](render::Plot plot) {
+    plot.title = render::plain(style.title);
+    return plot;
+  };
   const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
   const auto save = [&, dpi](const char* suffix) {
     return [&, suffix, dpi](const render::Image& image) {
@@ -91,17 +95,17 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
                    : render::write_footprints(with_suffix(stem, "_footprint"), named, style.print);
       })
       .and_then([&] {
-        return render::write_plot(with_suffix(stem, "_K"), render::curvature_plot(named),
+        return render::write_plot(with_suffix(stem, "_K"), titled(render::curvature_plot(named)),
                                   style.print);
       })
       .and_then([&] {
-        return render::write_plot(with_suffix(stem, "_quantiles"), render::quantile_plot(named),
-                                  style.print);
+        return render::write_plot(with_suffix(stem, "_quantiles"),
+                                  titled(render::quantile_plot(named)), style.print);
       })
       .and_then([&]() -> Result<void> {
         if (records.size() > 1 || !render::on_sphere(records.front().run.layout)) return {};
         return render::write_plot(with_suffix(stem, "_latitude"),
-                                  render::latitude_plot(named.front(), scan), style.print);
+                                  titled(render::latitude_plot(named.front(), scan)), style.print);
       });
 }
 

@@ -116,6 +116,7 @@ Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& movie
     names += (names.empty() ? "" : ", ") + plain(part.name);
   PanelFigure figure;
   if (style.print.width_mm > 0) figure.print = style.print;
+  figure.title = style.title;
   figure.columns = 1;
   figure.panels.push_back({std::move(*picture), "", names});
   figure.scale_bar_mm = style.scale_bar_mm;

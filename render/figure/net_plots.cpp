@@ -77,6 +77,9 @@ void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>
   const Box length =
       canvas.text(fmt::format("*d* = {:g} mm", bar), {left.x + place.scale * bar + 4, left.y},
                   {.size = 8, .align_y = AlignY::middle});
+  if (runs.size() == 1)
+    canvas.text("flat footprint", {length.right() + 10, left.y},
+                {.size = 8, .align_y = AlignY::middle});
   // caps are named beside the planes that cut them
   if (runs.size() > 1 && !all_caps(runs)) draw_names(canvas, {length.right() + 14, left.y}, runs);
 }
@@ -100,9 +103,9 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
     canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4});
     // to a hundredth, and no minus before a zero
     const double shown = std::round(100 * z / rho) / 100 + 0.0;
-    canvas.text(fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", shown),
-                {centre.x + half + 4, y},
-                {.size = 6.5, .colour = colour, .align_y = AlignY::middle});
+    canvas.text(
+        fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", shown), {centre.x + half + 4, y},
+        {.size = std::min(6.5, 0.085 * scale * rho), .colour = colour, .align_y = AlignY::middle});
   }
 }
 

@@ -35,6 +35,7 @@ Result<Image> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& mov
   const auto bar = colour_bar_of(all, style);
   PanelFigure figure;
   if (style.print.width_mm > 0) figure.print = style.print;
+  figure.title = style.title;
   figure.columns = std::min(3, int(runs.size()));
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");

@@ -83,6 +83,7 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
     layout.title = cut_top(rest, 1.15 * line);
     layout.state = cut_top(rest, line);
   }
+  if (!captions && style.heading) cut_top(rest, 2.2 * line);
   const bool scale_bar = style.scale_bar_mm > 0 && rest.height > 6 * line;
   Box foot = cut_bottom(rest, captions ? 2.8 * line : (scale_bar ? 1.7 * line : 0));
   if (scale_bar) {

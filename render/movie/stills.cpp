@@ -19,6 +19,7 @@ constexpr int largest_columns = 3;
 // a still stands alone in print: no title, no frame count, no second view, no turn
 MovieStyle still_style(MovieStyle style) {
   style.captions = false;
+  style.heading = true;
   style.inset = false;
   style.turn_deg = 0;
   return style;
@@ -29,7 +30,11 @@ void finish_still(Image& picture, const Stage& stage, const record::Frame& frame
   draw_over(picture, [&](Canvas& canvas) {
     stage.draw_overlay(canvas, {frame, index});
     const double em = stage.layout().font_size;
-    canvas.text(still_caption(frame), {0.9 * em, 0.9 * em}, {.size = em, .align_y = AlignY::top});
+    TextStyle title{.size = em, .bold = true, .align_y = AlignY::top};
+    const double room = stage.layout().view.right() - 0.9 * em;
+    canvas.text(plain(canvas.shortened(stage.style().title, room, title)), {0.9 * em, 0.9 * em},
+                title);
+    canvas.text(still_caption(frame), {0.9 * em, 2.4 * em}, {.size = em, .align_y = AlignY::top});
   });
 }
 
@@ -73,6 +78,7 @@ Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory
                      .pixels_per_mm = stage.pixels_per_mm(),
                      .colour_bar = stage.colour_bar()};
   if (style.print.width_mm > 0) figure.print = style.print;
+  figure.title = style.title;
   const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
   std::vector<std::filesystem::path> files;
   for (int k = 0; k < stage.frames(); ++k) {

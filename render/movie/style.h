@@ -54,6 +54,7 @@ struct MovieStyle {
   std::optional<std::array<double, 2>> bins_range;  ///< of its axis, rad; else the run's
   bool captions = true;                             ///< title, radius, height, frame, events
   bool legends = true;                              ///< the colour bar
+  bool heading = false;                             ///< room above for two lines of a still
   double scale_bar_mm = 0;                          ///< 0: none
   std::string title;                                ///< shown as it is
   std::string source;     ///< figure or movie that it follows, on the title card

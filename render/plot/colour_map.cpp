@@ -101,7 +101,9 @@ Colour grey(double t) { return to_colour({0.95 - 0.75 * std::clamp(t, 0.0, 1.0),
 
 Colour ColourScale::operator()(double value) const {
   if (!std::isfinite(value)) return {0.6f, 0.6f, 0.6f, 1};
-  const double t = high > low ? (value - low) / (high - low) : 0.5;
+  double t = high > low ? (value - low) / (high - low) : 0.5;
+  // what is farther from zero is stronger
+  if (map != ColourMap::diverging && high <= 0 && low < 0) t = 1 - t;
   switch (map) {
     case ColourMap::diverging:
       return diverging(2 * t - 1);

@@ -18,6 +18,7 @@ struct Panel {
 };
 
 struct PanelFigure {
+  std::string title;  ///< plain text above all; empty: none
   std::vector<Panel> panels;
   int columns = 3;
   double scale_bar_mm = 0;   ///< 0: none

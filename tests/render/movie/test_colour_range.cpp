@@ -37,6 +37,8 @@ TEST_CASE("K of one sign takes a sequential map, of two signs one about zero") {
   const auto negative = bar({of_K(0, -0.3)});
   CHECK(negative->scale.map == ColourMap::sequential);
   CHECK(negative->scale.high == 0);
+  CHECK(negative->scale(0).b == positive->scale(0).b);
+  CHECK(negative->scale(negative->scale.low).b == positive->scale(positive->scale.high).b);
   const auto both = bar({of_K(-0.2, 0.3)});
   CHECK(both->scale.map == ColourMap::diverging);
   CHECK(both->scale.low == -both->scale.high);
