@@ -29,7 +29,9 @@ Result<void> draw_beside(const std::vector<CaseRecord>& records, const std::stri
 
 Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, render::Renderer& renderer,
                                 const fs::path& stem, Watch& watch) {
-  const auto style = style_of(records.front().preset, Pictures::stills);
+  auto style = style_of(records.front().preset, Pictures::stills);
+  // each panel bears its own title
+  if (records.size() > 1) style.title.clear();
   std::vector<render::NetRun> shells;
   std::vector<render::NamedRun> named;
   for (const CaseRecord& one : records) {

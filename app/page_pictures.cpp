@@ -55,6 +55,7 @@ class PageMaker {
     style_ = style_of(records.front().preset, Pictures::stills);
     style_.look.letters = false;
     style_.scale_bar_mm = 0;
+    style_.title.clear();
     for (const CaseRecord& one : records) {
       const bool push = one.preset.indentation.wanted();
       (push ? pushes_ : shells_).push_back({&one.run, render::plain(one.preset.title)});

@@ -269,14 +269,24 @@ std::vector<SharedBar> shared_bars(const std::vector<CaseRecord>& records, Pictu
 double expected_seconds(Pictures pictures, const preset::Preset& preset) {
   if (pictures == Pictures::none) return 0;
   const auto& movie = preset.movie;
+  const bool stills = pictures == Pictures::stills;
+  const auto quality = stills ? preset.figure.quality : movie.quality;
   // a megapixel on two cores of a software rasteriser; captions and PNG are in it
-  const double megapixel_seconds = movie.quality == preset::Quality::draft   ? 0.1
-                                   : movie.quality == preset::Quality::movie ? 0.35
-                                                                             : 15;
-  const double count = pictures == Pictures::movie
-                           ? movie.frames
-                           : std::max(1.0, double(preset.figure.radii_mm.size()));
-  return count * 1e-6 * movie.size[0] * movie.size[1] * megapixel_seconds;
+  const double megapixel_seconds = quality == preset::Quality::draft   ? 0.08
+                                   : quality == preset::Quality::movie ? 0.15
+                                                                       : 2.2;
+  double count = movie.frames;
+  if (stills) {
+    // the stills, and what stands beside nets and loads
+    const bool push = preset.indentation.wanted();
+    count = std::max(push ? 2.0 : 1.0, double(preset.figure.radii_mm.size()));
+    if (push)
+      count += 1;
+    else if (preset.on_net())
+      count += 2;
+  }
+  const auto style = style_of(preset, pictures);
+  return count * 1e-6 * style.width * style.height * megapixel_seconds;
 }
 
 std::string how_to_make_movie(const fs::path& folder, const preset::Preset& preset) {

@@ -77,7 +77,7 @@ std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
   const bool stills = pictures == Pictures::stills;
   if (stills && std::any_of(jobs.begin(), jobs.end(), has_net))
     phases.push_back({"drawing shells over nets",
-                      2 * double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
+                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
   if (stills && std::any_of(jobs.begin(), jobs.end(), is_pushed))
     phases.push_back({"drawing point loads",
                       double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});

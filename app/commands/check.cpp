@@ -33,9 +33,10 @@ void print_plan(const preset::Preset& preset, const experiment::Plan& plan) {
   fmt::print("  size            {} rods, {} joints, {} cells, {} unknowns\n", plan.rods,
              plan.joints, plan.cells, plan.dof);
   fmt::print("  expected error  {}\n", or_unknown(plan.expected_error_mm, "mm"));
-  fmt::print("  expected time   {} to simulate, {} to draw the movie\n",
+  fmt::print("  expected time   {} to simulate, {} to draw the movie, {} the figure\n",
              or_unknown(plan.expected_seconds, "s"),
-             or_unknown(expected_seconds(Pictures::movie, preset), "s"));
+             or_unknown(expected_seconds(Pictures::movie, preset), "s"),
+             or_unknown(expected_seconds(Pictures::stills, preset), "s"));
 }
 
 Result<void> check(const Options& options) {

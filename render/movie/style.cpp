@@ -19,7 +19,7 @@ DrawQuality draw_quality(Quality quality) {
     case Quality::movie:
       return {.supersample = 1, .shadow = true, .jittered_passes = 1};
     case Quality::figure:
-      return {.supersample = 1, .shadow = true, .jittered_passes = 40};
+      return {.supersample = 1, .shadow = true, .jittered_passes = 24};
   }
   return {};
 }

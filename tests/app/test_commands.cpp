@@ -310,17 +310,18 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
       bench.good({"chart", "accuracy", "small.toml", "--limit", "0.05", "--edges", "4"});
   CHECK_THAT(said.out, Catch::Contains("auto at 1e-06: error"));
   const auto folder = bench.at / "out/small_accuracy";
-  CHECK(names_in(folder) == std::vector<std::string>{"accuracy.csv", "accuracy.png", "accuracy.svg",
-                                                     "preset.toml", "scaling.csv", "scaling.png",
-                                                     "scaling.svg", "summary.json", "unknowns.png",
+  CHECK(names_in(folder) == std::vector<std::string>{"accuracy.csv", "accuracy.pdf", "accuracy.png",
+                                                     "accuracy.svg", "preset.toml", "scaling.csv",
+                                                     "scaling.pdf", "scaling.png", "scaling.svg",
+                                                     "summary.json", "unknowns.pdf", "unknowns.png",
                                                      "unknowns.svg"});
   CHECK(json_of(folder / "summary.json")["chart"] == "accuracy");
   // maps go beside it, and the next chart takes their place
   const auto maps = bench.good({"chart", "stability", "small.toml", "--limit", "0.05"});
   CHECK_THAT(maps.out, Catch::Contains("default: ") && Catch::Contains(" 0 silently wrong"));
   CHECK(names_in(bench.at / "out/small_stability") ==
-        std::vector<std::string>{"preset.toml", "stability.csv", "stability.png", "stability.svg",
-                                 "summary.json"});
+        std::vector<std::string>{"preset.toml", "stability.csv", "stability.pdf", "stability.png",
+                                 "stability.svg", "summary.json"});
   bench.good({"chart", "stability", "small.toml", "--limit", "0.01", "--quiet"});
   CHECK(bench.run({"chart", "accuracy", "small.toml", "--limit", "0"}).code == 2);
   CHECK(bench.run({"chart", "speed", "small.toml"}).code == 2);
