@@ -72,13 +72,13 @@ Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory
   if (stem.has_parent_path())
     if (auto made = make_folder(stem.parent_path()); !made) return tl::unexpected(made.error());
   const Stage stage(run.layout, survey_of(run), style, bar);
-  PanelFigure figure{.panels = {},
+  PanelFigure figure{.title = style.title,
+                     .panels = {},
                      .columns = std::min(stage.frames(), largest_columns),
                      .scale_bar_mm = style.scale_bar_mm,
                      .pixels_per_mm = stage.pixels_per_mm(),
                      .colour_bar = stage.colour_bar()};
   if (style.print.width_mm > 0) figure.print = style.print;
-  figure.title = style.title;
   const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
   std::vector<std::filesystem::path> files;
   for (int k = 0; k < stage.frames(); ++k) {
