@@ -75,6 +75,11 @@ std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
   if (drawn_beside(jobs.front(), pictures))
     phases.push_back({"drawing", expected_seconds(pictures, jobs.front().preset)});
   const bool stills = pictures == Pictures::stills;
+  if (stills && jobs.front().preset.page.kind != preset::PageKind::none) {
+    phases.push_back({"drawing the page",
+                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
+    return phases;
+  }
   if (stills && std::any_of(jobs.begin(), jobs.end(), has_net))
     phases.push_back({"drawing shells over nets",
                       double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
@@ -130,8 +135,10 @@ Result<void> draw_alone(Job& job, Pictures pictures, const CaseRecord& one, cons
                         const fs::path& folder, Artist& artist, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const bool curve = pictures == Pictures::stills && is_pushed(job);
-  auto drawn = artist.draw(pictures, job.preset, curve ? ends_of(one.run) : one.run, bar, folder,
-                           progress.next_phase());
+  const auto draw = [&](const record::Trajectory& run) {
+    return artist.draw(pictures, job.preset, run, bar, folder, progress.next_phase());
+  };
+  auto drawn = curve ? draw(ends_of(one.run)) : draw(one.run);
   job.summary.seconds_render +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return drawn;
