@@ -56,8 +56,7 @@ class Screen {
       if (std::abs(area) < 1e-9) return false;
       const double a = cross(p.at, t[1].at, t[2].at) / area,
                    b = cross(t[0].at, p.at, t[2].at) / area, c = 1 - a - b;
-      // a point on a cell's rim is its neighbour's too
-      if (std::min({a, b, c}) < 1e-6) return false;
+      if (std::min({a, b, c}) < -1e-9) return false;
       return a * t[0].depth + b * t[1].depth + c * t[2].depth < p.depth - slack;
     });
   }
