@@ -1,10 +1,10 @@
 #include "render/figure/vector_shell.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "render/draw/camera.h"
 #include "tests/render/draw/picture.h"
-#include "tests/render/plot/ink.h"
 
 using namespace gridshell;
 using namespace gridshell::render;

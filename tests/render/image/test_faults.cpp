@@ -1,11 +1,13 @@
 // The metric on real pictures: it must see everything that a person would call broken, and nothing
 // that another machine does to a good picture.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <random>
 
+#include "render/draw/camera.h"
 #include "render/image/compare.h"
 #include "render/movie/stage.h"
 #include "tests/render/draw/picture.h"
@@ -60,11 +62,6 @@ std::function<void(Drawing&, Camera&)> drawn(std::function<void(Drawing&)> chang
 const std::map<std::string, Change>& faults() {
   static const std::map<std::string, Change> all{
       {"a lost rod", [](Subject& s) { s.run.layout.rods.erase(s.run.layout.rods.begin() + 5); }},
-      {"a lost joint",
-       [](Subject& s) {
-         s.run.layout.joints.pop_back();
-         s.run.layout.cells.pop_back();
-       }},
       {"a lost cell",
        [](Subject& s) { s.spoil = drawn([](Drawing& d) { d.cell_colours[40].a = 0; }); }},
       {"a wrong cell colour",
@@ -145,6 +142,26 @@ TEST_CASE("the metric catches every injected fault", "[image]") {
     INFO(name << ": " << worst->difference);
     CHECK_FALSE(worst->same());
   }
+}
+
+TEST_CASE("the metric catches a single lost joint", "[image]") {
+  Easel paint;
+  Subject subject;
+  const Image good = paint(subject);
+  subject.spoil = drawn([](Drawing& d) { d.joint_diameter_mm = 0; });
+  const Image bare = paint(subject);
+  // the picture with the joints, but for one
+  const Stage stage(subject.run, subject.style);
+  const int node = subject.run.layout.joints[70].node;
+  const Eigen::Vector2d at =
+      to_pixel(stage.camera(7), 480, 270, subject.run.frames[7].nodes.col(node));
+  Image spoiled = good;
+  for (int y = int(at.y()) - 5; y <= int(at.y()) + 5; ++y)
+    std::copy_n(bare.pixel(int(at.x()) - 5, y), 4 * 11, spoiled.pixel(int(at.x()) - 5, y));
+  const auto worst = compare(good, spoiled);
+  REQUIRE(worst);
+  CAPTURE(worst->difference);
+  CHECK_FALSE(worst->same());
 }
 
 TEST_CASE("the metric passes every harmless variation", "[image]") {
