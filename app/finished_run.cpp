@@ -127,7 +127,7 @@ record::Summary summary_of(const record::Journal& journal, const preset::Preset&
   const auto rung = preset::rung_of(preset);
   s.model = preset::name_of(rung);
   s.model_reason = preset::model_reason(preset);
-  s.solved = rung != preset::Model::net;
+  s.solved = rung != preset::Rung::net;
   s.rods = int(run.layout.rods.size());
   s.joints = int(run.layout.joints.size());
   s.cells = int(run.layout.cells.size());
