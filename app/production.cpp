@@ -221,8 +221,7 @@ Result<void> do_jobs(std::vector<Job>& jobs, const preset::Presets& presets, Pic
         !ended)
       return ended;
   if (artist)
-    if (auto drawn =
-            draw_all(jobs, base, pictures, std::move(records), *artist, partial, progress);
+    if (auto drawn = draw_all(jobs, base, pictures, std::move(records), *artist, partial, progress);
         !drawn)
       return drawn;
   for (const auto& job : jobs) {

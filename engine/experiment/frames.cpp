@@ -19,8 +19,8 @@ Eigen::VectorXd curvature(const Session& session, int level) {
   return cell_curvature(footprint, joint_tangents(footprint, mesh, nodes));
 }
 
-/// K of the cells in bins of x/L, L the half-span of the actuated boundary and x from its middle, at
-/// the nodes x; rows: bins, columns: mean, deviation, cells.
+/// K of the cells in bins of x/L, L the half-span of the actuated boundary and x from its middle,
+/// at the nodes x; rows: bins, columns: mean, deviation, cells.
 Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Eigen::VectorXd& K) {
   // an assemblage need not lie about the origin
   const auto ends = scene.actuated_boundary.row(0);

@@ -29,9 +29,9 @@ struct Outside {
 
 /// How the Hessian's stretch is taken.
 struct Stiffness {
-  bool mixed = false;  ///< the state's axial forces take the place of EA (|e|/l - 1) in the
-                       ///< geometric stiffness N/|e| (I - t t^T): the mixed form, whose axial
-                       ///< forces are unknowns of their own, eliminated on the edge
+  bool mixed = false;   ///< the state's axial forces take the place of EA (|e|/l - 1) in the
+                        ///< geometric stiffness N/|e| (I - t t^T): the mixed form, whose axial
+                        ///< forces are unknowns of their own, eliminated on the edge
   double EA_scale = 1;  ///< multiplies EA (continuation in stiffness)
 };
 

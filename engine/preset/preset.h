@@ -238,7 +238,9 @@ constexpr auto words(View) {
                            {View::corner, "corner"}});
 }
 enum class Pace { even, eased };
-constexpr auto words(Pace) { return word_table<Pace>({{Pace::even, "even"}, {Pace::eased, "eased"}}); }
+constexpr auto words(Pace) {
+  return word_table<Pace>({{Pace::even, "even"}, {Pace::eased, "eased"}});
+}
 struct Movie {
   int frames = 240;
   std::array<int, 2> size{1280, 720};
@@ -257,10 +259,10 @@ struct Movie {
   std::vector<double> target_mm;  ///< (x, y, z) in the middle of the panel; empty: all that moves
   bool orthographic = false;
   std::vector<double> bins_range;  ///< (low, high) of the axis of the bins, rad; empty: the run's
-  Points views;        ///< (azimuth, elevation) of more views in each frame
-  double seconds = 0;  ///< of the movie without hold and title; 0: frames / fps
-  double hold_s = 0;   ///< of the last frame
-  double title_s = 0;  ///< of a title card at the begin
+  Points views;                    ///< (azimuth, elevation) of more views in each frame
+  double seconds = 0;              ///< of the movie without hold and title; 0: frames / fps
+  double hold_s = 0;               ///< of the last frame
+  double title_s = 0;              ///< of a title card at the begin
   Pace pace = Pace::even;
   bool webm = false, gif = false, poster = false;  ///< files beside movie.mp4
 };
@@ -291,7 +293,7 @@ struct Style {
         floor = Shown::automatic, shadow = Shown::automatic;
   double far_fade = 0.25;  ///< by how much the far side pales
   bool letters = true;     ///< of the panels of a figure
-  double font_size = 1;  ///< of all text, over its usual size
+  double font_size = 1;    ///< of all text, over its usual size
 };
 
 enum class PageKind { none, fig1, fig3, fig4, fig5 };

@@ -55,13 +55,13 @@ struct Layout {
   std::vector<std::vector<int>> rods;  ///< nodes of each rod from edge point to edge point
   std::vector<Joint> joints;
   std::vector<Cell> cells;
-  std::vector<int> edge_points;        ///< nodes pinned on the boundary
-  Eigen::Matrix3Xd original_boundary;  ///< closed polyline (last point joins the first)
-  Eigen::Matrix3Xd actuated_boundary;  ///< same number of points; in correspondence
-  Eigen::Matrix3Xd net_nodes;          ///< place of every node on the net designed on, if any
-  Eigen::Matrix3Xd flat_nodes;         ///< and in the flat footprint, where there is a net
-  std::vector<Part> parts;             ///< of a net made of building blocks
-  std::vector<SeamRod> seam_rods;      ///< and how they meet
+  std::vector<int> edge_points;            ///< nodes pinned on the boundary
+  Eigen::Matrix3Xd original_boundary;      ///< closed polyline (last point joins the first)
+  Eigen::Matrix3Xd actuated_boundary;      ///< same number of points; in correspondence
+  Eigen::Matrix3Xd net_nodes;              ///< place of every node on the net designed on, if any
+  Eigen::Matrix3Xd flat_nodes;             ///< and in the flat footprint, where there is a net
+  std::vector<Part> parts;                 ///< of a net made of building blocks
+  std::vector<SeamRod> seam_rods;          ///< and how they meet
   std::vector<LoadedJoint> loaded_joints;  ///< where the shell is pushed or pulled
 };
 

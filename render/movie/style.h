@@ -27,7 +27,9 @@ constexpr auto words(ColourBy) {
                                {ColourBy::K_change, "K_change"}});
 }
 enum class Pace { even, eased };
-constexpr auto words(Pace) { return word_table<Pace>({{Pace::even, "even"}, {Pace::eased, "eased"}}); }
+constexpr auto words(Pace) {
+  return word_table<Pace>({{Pace::even, "even"}, {Pace::eased, "eased"}});
+}
 
 /// What things look like, the theme's choices and the user's in one.
 struct Look {

@@ -57,8 +57,7 @@ void Interval::take(const Interval& other) {
 }
 
 FrameSource source_of(const record::Trajectory& run) {
-  return {&run.layout, int(run.frames.size()),
-          [&run](int k) -> Result<record::Frame> {
+  return {&run.layout, int(run.frames.size()), [&run](int k) -> Result<record::Frame> {
             const record::Frame& frame = run.frames[std::size_t(k)];
             if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
             return frame;

@@ -74,8 +74,8 @@ TEST_CASE("every key of [movie] and [style] changes how a movie looks, those of 
   const std::set<std::string> elsewhere{"frames", "beside", "webm", "gif", "poster"};
   const std::set<std::string> stills{"quality", "scale_bar_mm", "width_mm", "vector"};
   for (const auto& field : field_table()) {
-    const bool movie = field.table == "style" ||
-                       (field.table == "movie" && !elsewhere.contains(field.key));
+    const bool movie =
+        field.table == "style" || (field.table == "movie" && !elsewhere.contains(field.key));
     if (!movie && !(field.table == "figure" && stills.contains(field.key))) continue;
     const auto pictures = movie ? app::Pictures::movie : app::Pictures::stills;
     Preset preset;
