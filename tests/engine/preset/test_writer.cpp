@@ -113,6 +113,9 @@ Preset pushed(bool joint) {
   preset.indentation.depth = joint ? 0.07 : 0;
   preset.indentation.depth_mm = joint ? 0 : 1.25;
   if (!joint) preset.indentation.joint.clear();
+  // of a free view
+  preset.movie.azimuth_deg = 12.5;
+  preset.movie.elevation_deg = -3.5;
   return preset;
 }
 
