@@ -184,7 +184,7 @@ Result<void> draw_all(std::vector<Job>& jobs, const preset::Preset& base, Pictur
   const auto start = std::chrono::steady_clock::now();
   if (drawn_beside(jobs.front(), pictures) || pictures == Pictures::stills)
     if (auto drawn =
-            draw_together(jobs, base, pictures, std::move(records), *artist, partial, progress);
+            draw_together(jobs, base, pictures, std::move(records), artist, partial, progress);
         !drawn)
       return drawn;
   const double together =
