@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 /// Lines for the terminal once everything is written, and the summary of a study.
 struct Findings {
   std::string text;
-  Json summary;
+  Json summary = Json::object();
 };
 
 constexpr double wide_mm = 178, high_mm = 105, low_mm = 80;
@@ -161,7 +161,7 @@ int chart(const ChartOptions& options) {
       [&](const fs::path& partial, Progress& progress) -> Result<void> {
         Json all{{"preset", presets->base.name}, {"chart", options.kind}, {"cases", Json::array()}};
         for (const auto& run : runs) {
-          Json summary;
+          Json summary = Json::object();
           auto drawn = draw(run, options, folder_of(partial, run.name), progress, summary, text);
           if (!drawn) return drawn;
           all["cases"].push_back(std::move(summary));

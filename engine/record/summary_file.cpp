@@ -119,7 +119,7 @@ const char* name_of(Kind kind) { return kind_names[static_cast<std::size_t>(kind
 const char* name_of(Limit limit) { return limit_names[static_cast<std::size_t>(limit)]; }
 
 std::string to_json(const Summary& summary) {
-  Json json;
+  Json json = Json::object();  // made by [] it would not survive a failed allocation
   each_field(summary, [&](const char* key, const auto& value) { json[key] = json_of(value); });
   if (!summary.solved) json["stable"] = json["negative_pivots"] = nullptr;
   // NaN becomes null; a broken UTF-8 sequence in a user's text must not stop a run

@@ -110,15 +110,16 @@ TEST_CASE("stability: the default promises the tolerance of the joints, and keep
   CHECK(at(rows, "full steps", 1e-4, 3) != RunOutcome::right);
 }
 
-TEST_CASE("stability: with spring joints full steps find another state, stiff ones more often") {
-  const auto rows = outcomes_of(joint_map(small_case(), {1, 1e6}, {1, 3, 5}, 1));
+TEST_CASE("stability: with spring joints full steps find another state, shifted ones do not") {
+  const auto rows = outcomes_of(joint_map(small_case(), {1, 1e6}, {3, 5}, 1));
   for (double stiffness : {1.0, 1e6}) {
-    CHECK(record::silently_wrong(at(rows, "full steps", stiffness, 1)));
-    CHECK(at(rows, "full steps", stiffness, 5) == RunOutcome::right);
-    CHECK(at(rows, "shifted", stiffness, 5) == RunOutcome::right);
+    int wrong = 0;
+    for (double steps : {3.0, 5.0}) {
+      CHECK(at(rows, "shifted", stiffness, steps) == RunOutcome::right);
+      wrong += at(rows, "full steps", stiffness, steps) != RunOutcome::right;
+    }
+    CHECK(wrong > 0);
   }
-  CHECK(at(rows, "full steps", 1, 3) == RunOutcome::right);
-  CHECK(record::silently_wrong(at(rows, "full steps", 1e6, 3)));
 }
 
 TEST_CASE("stability: the judge tells states apart, whatever a method says") {
