@@ -141,20 +141,6 @@ void add_rung_conflicts(const Preset& preset, std::vector<Conflict>& found) {
                        fmt::format("twists the rods ({}), and their torsional stiffness is not "
                                    "known: [{}] shear_GPa must be above 0",
                                    cause.what, table)});
-  if (preset.dynamics.snap)
-    found.push_back({"dynamics",
-                     "snap",
-                     {bracketed(cause)},
-                     fmt::format("snaps are followed in time on the bend rung alone, which does "
-                                 "not serve {}: must be false",
-                                 bracketed(cause))});
-  if (preset.indentation.wanted())
-    found.push_back({"indentation",
-                     preset.indentation.depth_mm > 0 ? "depth_mm" : "depth",
-                     {bracketed(cause)},
-                     fmt::format("joints are pushed on the bend rung alone, which does not serve "
-                                 "{}: must be 0",
-                                 bracketed(cause))});
 }
 
 void add_rod_conflicts(const Preset& preset, std::vector<Conflict>& found) {

@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "engine/experiment/actuation.h"
 #include "engine/experiment/experiment.h"
 
 namespace gridshell {
@@ -55,19 +56,23 @@ inline EstimateTrial try_estimate(const preset::Preset& preset) {
     trial.refused = asked->summary.limit_reason;
     return trial;
   }
-  preset::Preset fine = preset;
-  fine.accuracy.tolerance = std::min(preset.accuracy.tolerance, 1e-6);
-  fine.accuracy.edges_per_segment = std::min(128, 4 * asked->summary.edges_per_segment);
-  const auto finer = run(fine);
-  if (!finer || finer->summary.limit != asked->summary.limit) {
-    trial.refused = "reference: " + (finer ? finer->summary.limit_reason : finer.error().message);
+  // two meshes finer and extrapolated, on the same branch
+  Scene exact = scene_of(preset).value();
+  exact.tolerance = std::min(preset.accuracy.tolerance, 1e-6);
+  LevelPlan plan{{4}, true};
+  while (plan.edges_per_segment.back() < std::min(128, 4 * asked->summary.edges_per_segment))
+    plan.edges_per_segment.push_back(2 * plan.edges_per_segment.back());
+  const auto finer = experiment::follow_actuation(std::make_shared<const Scene>(std::move(exact)),
+                                                  plan, false, 1, watch);
+  if (!finer || finer->limit != asked->summary.limit) {
+    trial.refused = "reference: " + (finer ? finer->limit_reason : finer.error().message);
     return trial;
   }
-  const auto &a = asked->trajectory, &b = finer->trajectory;
+  const auto& a = asked->trajectory;
   double worst = 0;
   for (std::size_t k = 0; k < a.layout.joints.size(); ++k)
     worst = std::max(worst, (a.frames.back().nodes.col(a.layout.joints[k].node) -
-                             b.frames.back().nodes.col(b.layout.joints[k].node))
+                             finer->session.nodes().col(Eigen::Index(k)))
                                 .norm());
   trial.truth = worst / preset.footprint.radius_mm;
   trial.estimate = a.frames.back().error_estimate_mm / preset.footprint.radius_mm;

@@ -226,3 +226,22 @@ TEST_CASE("a joint that is not there is refused") {
   CHECK(outcome.error().fault == Fault::bad_input);
   CHECK_THAT(outcome.error().message, Catch::Contains("no such joint"));
 }
+
+TEST_CASE("pushes on the twist rung are those of the bend rung, to a millionth of rho") {
+  for (const Case which : {Case::pole_inward, Case::pole_outward}) {
+    preset::Preset p = hemisphere(which, 120, preset::Placement::on_axis, 0.05, 3);
+    p.accuracy.edges_per_segment = 4;
+    p.accuracy.tolerance = 1e-6;
+    const experiment::Outcome bend = run(p);
+    p.accuracy.model = preset::Rung::twist;
+    p.rod.shear_GPa = 31;
+    const experiment::Outcome twist = run(p);
+    REQUIRE(twist.trajectory.frames.size() == bend.trajectory.frames.size());
+    const record::Frame &a = bend.trajectory.frames.back(), &b = twist.trajectory.frames.back();
+    CHECK(b.force_N == Approx(a.force_N).epsilon(1e-5));
+    CHECK(b.energies[Term::twist] < 1e-10);
+    const Eigen::Index joints = bend.summary.joints;
+    CHECK((a.nodes.leftCols(joints) - b.nodes.leftCols(joints)).colwise().norm().maxCoeff() <
+          1e-6 * 120);
+  }
+}

@@ -86,9 +86,6 @@ TEST_CASE("a rung that cannot serve the scene, and physics that lacks something,
       {"[joints]\nkind = \"spring\"\n[rod]\nshear_GPa = 31",
        "bad.toml:2:8: [joints] kind = \"spring\": springs without stiffness hold nothing, [joints] "
        "stiffness_N_per_mm must be above 0"},
-      {"[rod]\nshear_GPa = 31\n[joints]\ntwist_Nmm = 2\n[indentation]\ndepth = 0.1",
-       "bad.toml:6:9: [indentation] depth = 0.1: joints are pushed on the bend rung alone, which "
-       "does not serve [joints] twist_Nmm: must be 0"},
       {"[loads]\npoints = [[0, 0, 1]]",
        "bad.toml:2:10: [loads] points = [ [ 0, 0, 1 ] ]: holds a point of 3 coordinates, must be a "
        "list of points [i, j, F_x, F_y, F_z]"},
