@@ -60,11 +60,17 @@ Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& 
 
 Report stand_at(Course& course, const Sample& sample, const Watch& watch) {
   const Leg& leg = course.legs[sample.leg];
-  const Station& before = station_before(leg, sample.t);
-  Report report = course.session.sample(sample.t, before, watch);
-  if (report.end == Outcome::reached || report.end == Outcome::cancelled) return report;
-  // where a branch was left the state belongs to the next one
-  return course.session.sample(sample.t, station_after(leg, sample.t), watch);
+  const Station &before = station_before(leg, sample.t), &after = station_after(leg, sample.t);
+  Report report = course.session.sample(sample.t, before, false, watch);
+  // where a branch was left the state belongs to the next one, where that does not come so far
+  // back to the rest beside it, and else it is an equilibrium that says what it is
+  if (report.end != Outcome::reached && !watch.cancelled())
+    report = course.session.sample(sample.t, after, false, watch);
+  if (report.end == Outcome::unstable || report.end == Outcome::lost)
+    report = course.session.sample_rest(sample.t, before, watch);
+  if (report.end != Outcome::reached && !watch.cancelled())
+    report = course.session.sample(sample.t, before, true, watch);
+  return report;
 }
 
 void tell_limit(Course& course, const Leg& leg, const std::function<std::string(double)>& at) {

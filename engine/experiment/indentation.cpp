@@ -212,6 +212,8 @@ class PushFrames {
     record::Frame frame = frame_at(pushed_, t);
     frame.newton_iterations = course.session.effort().newton_iterations - before;
     frame.event = event_between(way, leg == leg_ ? last_t_ : way.from, t, pushed_.depth_mm);
+    if (frame.event.empty() && frame.negative_pivots > 0)
+      frame.event = fmt::format("unstable: {} negative pivots", frame.negative_pivots);
     leg_ = leg;
     last_t_ = t;
     if (auto taken = take(std::move(frame), index, progress); !taken)

@@ -357,18 +357,21 @@ bool Session::leave(double t, Event& event, Trail* trail, const Watch& watch) {
   return false;
 }
 
-Report Session::sample(double t, const Station& beside, const Watch& watch) {
+Report Session::sample(double t, const Station& beside, bool unstable, const Watch& watch) {
   const double begin = seconds_now();
   const Effort before = effort();
-  shell_->allow_unstable(!beside.certificate.stable());
-  NestedReport nested = shell_->sample(t, beside.point, watch);
-  if (nested.end == Outcome::unstable) {
-    // between two stations where stability is lost: an equilibrium that says what it is
-    shell_->allow_unstable(true);
-    nested = shell_->sample(t, beside.point, watch);
-  }
+  shell_->allow_unstable(unstable || !beside.certificate.stable());
+  const NestedReport nested = shell_->sample(t, beside.point, watch);
   shell_->allow_unstable(false);
   return report(nested.end, nested.t, before, begin);
+}
+
+Report Session::sample_rest(double t, const Station& before, const Watch& watch) {
+  const double begin = seconds_now();
+  const Effort spent = effort();
+  const auto rest = leave_branch(shell_->system(0), shell_->motion(0), before.point, t, watch);
+  if (!rest) return report(Outcome::lost, t, spent, begin);
+  return sample(t, {{t, *rest, {}}, {}}, false, watch);
 }
 
 Growth Session::steady_load() const {

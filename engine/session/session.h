@@ -158,8 +158,11 @@ class Session {
   Effort effort() const { return spent_ + shell_->effort(); }
   /// Counts what another session spent before this one.
   void charge(const Effort& spent) { spent_ += spent; }
-  /// Certifies the state at t beside a station, without moving the path on.
-  Report sample(double t, const Station& beside, const Watch& watch);
+  /// Certifies the state at t beside a station, without moving the path on; with `unstable`, or
+  /// beside a station that is not stable, any equilibrium, which says how stable it is.
+  Report sample(double t, const Station& beside, bool unstable, const Watch& watch);
+  /// The rest at t that a shell comes to which lost its branch behind the station.
+  Report sample_rest(double t, const Station& before, const Watch& watch);
   /// Whether the rods have come to their length.
   bool locked() const;
 

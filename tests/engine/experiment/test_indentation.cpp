@@ -176,7 +176,8 @@ TEST_CASE("deep pushes end certified or at a named limit", "[full]") {
     for (const Case which : {Case::pole_inward, Case::oblique_inward}) {
       const experiment::Outcome outcome = run(hemisphere(which, 120, placement, 0.6, 31));
       for (const record::Frame& frame : outcome.trajectory.frames) {
-        CHECK(frame.negative_pivots == 0);
+        // between a loss of stability and the next rest a frame says that it is not stable
+        CHECK((frame.negative_pivots == 0 || frame.event.starts_with("unstable")));
         CHECK(frame.residual_N < 1e-5);
       }
       const bool whole = outcome.trajectory.frames.back().depth_mm == Approx(72);
