@@ -131,8 +131,9 @@ void tell(Pushed& pushed, const Leg& leg) {
                         : "the push meets 100 times its first stiffness");
 }
 
-Result<Pushed> follow_push(std::shared_ptr<const Scene> scene, const preset::Indentation& asked,
-                           const LevelPlan& plan, const Watch& watch) {
+Result<Pushed> follow_push(const std::shared_ptr<const Scene>& scene,
+                           const preset::Indentation& asked, const LevelPlan& plan,
+                           const Watch& watch) {
   auto actuated = follow_actuation(scene, plan, false, 1, watch);
   if (!actuated) return tl::unexpected<Error>(actuated.error());
   if (actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)

@@ -384,7 +384,7 @@ void Session::settle_field(std::vector<NodeAction> field) {
 }
 
 /// Drives the shell from where it is, all the way if it can.
-Report Session::drive(Drive drive, std::vector<NodeAction> coming, const Watch& watch) {
+Report Session::drive(const Drive& drive, std::vector<NodeAction> coming, const Watch& watch) {
   const double begin = seconds_now();
   const Effort before = effort();
   const std::vector<Hold> held = drive.holds;

@@ -170,7 +170,7 @@ class Session {
   Session(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
   Result<void> build(const LevelPlan& plan);
   Report report(Outcome end, double t, const Effort& before, double begin) const;
-  Report drive(Drive drive, std::vector<NodeAction> field, const Watch& watch);
+  Report drive(const Drive& drive, std::vector<NodeAction> field, const Watch& watch);
   void settle_field(std::vector<NodeAction> field);
   Growth steady_load() const;
   double load_step() const;
