@@ -25,7 +25,7 @@ first=${processors%% *}
 
 for processor in $processors; do
   # the emulator lacks some features that these models have; it says so, and that does not matter
-  qemu-x86_64 -cpu "$processor" "$program" run s1_actuation --frames 3 --quiet \
+  qemu-x86_64 -cpu "$processor" "$program" run s1_actuation --frames 3 --set accuracy.edges_per_segment=4 --quiet \
     -o "$folder/$processor" 2>"$folder/$processor.txt"
   status=$?
   if [ $status -ne 0 ]; then
