@@ -6,15 +6,17 @@
 #include <vector>
 
 #include "engine/experiment/course.h"
+#include "engine/record/sink.h"
 
 namespace gridshell::experiment {
 
 /// Follows the actuation of a scene. From flat the path is found the patient way: a first buckled
 /// state where the rods are 2 % shorter than flat on average (or less, where that state does not
-/// hang together with the flat), from there back towards the flat and on to progress `to`. From the
-/// net it is found at the equilibrium next to the net, progress 1, and where `inner` states are
-/// wanted followed backwards from there. Errors: bad_input, no_equilibrium (not a single buckled
-/// state), cancelled.
+/// hang together with the flat), from there back towards the flat and on to progress `to`. Where
+/// that state comes from is not stable all the way, a shell would not have come along it: the path
+/// then begins next to the flat, unless the scene's imperfection is none. From the net it is found
+/// at the equilibrium next to the net, progress 1, and where `inner` states are wanted followed
+/// backwards from there. Errors: bad_input, no_equilibrium (not a single buckled state), cancelled.
 Result<Course> follow_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
                                 bool inner, double to, const Watch& watch);
 

@@ -2,49 +2,70 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "engine/experiment/confirm.h"
+#include "engine/session/budget.h"
 
 namespace gridshell::experiment {
 namespace {
 
 /// The station that a sample of a leg lies behind: the last one that the leg came past before it.
 const Station& station_before(const Leg& leg, double t) {
-  const double way = leg.to > leg.from ? 1 : -1;
   const Station* before = &leg.trail.stations.front();
   for (const Station& station : leg.trail.stations)
-    if (way * (t - station.point.t) >= 0) before = &station;
+    if (leg.way() * (t - station.point.t) >= 0) before = &station;
   return *before;
 }
 
 /// The station that it lies in front of.
 const Station& station_after(const Leg& leg, double t) {
-  const double way = leg.to > leg.from ? 1 : -1;
   for (const Station& station : leg.trail.stations)
-    if (way * (station.point.t - t) >= 0) return station;
+    if (leg.way() * (station.point.t - t) >= 0) return station;
   return leg.trail.stations.back();
+}
+
+/// The error estimate at the end, where errors are largest as a rule, mm; NaN where not known.
+double last_estimate_mm(const Course& course) {
+  if (course.legs.empty()) return 0;
+  return course.legs.back().trail.stations.back().certificate.error_estimate_mm;
 }
 
 }  // namespace
 
-double Course::last_estimate_mm() const {
-  if (legs.empty()) return 0;
-  return legs.back().trail.stations.back().certificate.error_estimate_mm;
+bool Course::eventful() const {
+  return std::any_of(legs.begin(), legs.end(), [](const Leg& leg) {
+    return !leg.report.events.empty() || leg.report.end != Outcome::reached;
+  });
+}
+
+Leg& follow_leg(Course& course, double to, const Leaving& leaving, const Watch& watch) {
+  Leg leg{course.session.shell().state().t, to, {}, {}};
+  leg.report = course.session.go(to, watch, leaving, &leg.trail);
+  return course.legs.emplace_back(std::move(leg));
+}
+
+LevelPlan first_plan(const Scene& scene) {
+  return scene.edges_per_segment > 0 ? plan_of_mesh(scene.edges_per_segment)
+                                     : plan_levels(scene.tolerance, scene.leading_edges);
 }
 
 Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& watch) {
-  LevelPlan plan = scene.edges_per_segment > 0 ? plan_of_mesh(scene.edges_per_segment)
-                                               : plan_levels(scene.tolerance);
+  LevelPlan plan = first_plan(scene);
   const double allowed = scene.tolerance * scene.length_scale_mm;
+  const bool asked = scene.edges_per_segment > 0;
   Effort spent;
   double setup = 0;
   for (;;) {
+    if (auto fits = fits_memory(scene, plan); !fits) return tl::unexpected<Error>(fits.error());
     auto course = follow(plan, watch);
     if (!course) return course;
     course->seconds_setup += setup;
     course->session.charge(spent);
-    const double last = course->last_estimate_mm();
-    const bool asked = scene.edges_per_segment > 0;
-    if (asked || !(last > allowed)) return course;
+    const double last = last_estimate_mm(*course);
+    if (asked) return course;
+    if (!(last > allowed)) return confirmed(scene, std::move(*course), follow, watch);
     const auto next = finer(plan);
     if (!next)
       return fail(Fault::no_equilibrium,
@@ -73,39 +94,67 @@ Report stand_at(Course& course, const Sample& sample, const Watch& watch) {
   return report;
 }
 
-void tell_limit(Course& course, const Leg& leg, const std::function<std::string(double)>& at) {
-  std::string ends;
-  for (const Event& event : leg.report.events)
-    if (event.kind != Event::Kind::locked) ends += (ends.empty() ? "" : " and ") + at(event.t);
-  if (!ends.empty()) {
-    course.limit = record::Limit::snap;
-    course.limit_reason =
-        "the path lost its stability " + ends + " and came to rest in another state";
-  }
-  switch (leg.report.end) {
+namespace {
+
+record::Limit limit_of(Outcome end) {
+  switch (end) {
     case Outcome::reached:
     case Outcome::cancelled:
-      return;
-    case Outcome::locked: {
-      course.limit = record::Limit::locking;
-      course.limit_reason =
-          fmt::format("{} the rods are at their length: the largest strain is {:.3g}",
-                      at(leg.report.t), leg.report.certificate.largest_strain);
-      return;
-    }
+      return record::Limit::none;
+    case Outcome::locked:
+      return record::Limit::locking;
     case Outcome::not_finite:
-      course.limit = record::Limit::no_equilibrium;
-      break;
+      return record::Limit::no_equilibrium;
     case Outcome::unstable:
     case Outcome::lost:
     case Outcome::folded:
     case Outcome::not_converged:
     case Outcome::meshes_disagree:
-      course.limit = record::Limit::branch_lost;
       break;
   }
-  course.limit_reason = fmt::format("{} {}, and no rest was found beyond",
-                                    words_of(leg.report.end).what, at(leg.report.t));
+  return record::Limit::branch_lost;
+}
+
+/// Where a leg left a branch for a rest further on.
+std::string places_left(const Leg& leg, const At& at) {
+  std::string places;
+  for (const Event& event : leg.report.events)
+    if (event.to) places += (places.empty() ? "" : " and ") + at(event.t, event.error);
+  return places;
+}
+
+/// How a leg ended before its end.
+std::string how_it_ended(const Leg& leg, const At& at) {
+  const Report& report = leg.report;
+  if (report.end == Outcome::locked)
+    return fmt::format("{} the rods are at their length: the largest strain is {:.3g}",
+                       at(report.t, {}), report.certificate.largest_strain);
+  const char* where = leg.back ? " on the way back to the flat" : "";
+  return fmt::format("{}{} {}, and no rest was found beyond", words_of(report.end).what, where,
+                     at(report.t, {}));
+}
+
+}  // namespace
+
+void tell_limit(Course& course, const At& at) {
+  course.limit = record::Limit::none;
+  course.limit_reason.clear();
+  for (const Leg& leg : course.legs) {
+    const auto ended = limit_of(leg.report.end);
+    if (ended != record::Limit::none) {
+      course.limit = leg.back ? record::Limit::no_equilibrium : ended;
+      course.limit_reason = how_it_ended(leg, at);
+      break;
+    }
+    const auto places = places_left(leg, at);
+    if (places.empty() || course.limit != record::Limit::none) continue;
+    course.limit = record::Limit::snap;
+    course.limit_reason = fmt::format(
+        "{}the path lost its stability {} and came to rest in another state",
+        leg.back ? "on the way back to the flat " : "", places);
+  }
+  if (course.doubt.empty()) return;
+  course.limit_reason += (course.limit_reason.empty() ? "" : "; ") + course.doubt;
 }
 
 }  // namespace gridshell::experiment

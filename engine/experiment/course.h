@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/record/sink.h"
 #include "engine/record/summary.h"
 #include "engine/session/session.h"
 
@@ -15,42 +14,60 @@ namespace gridshell::experiment {
 struct Leg {
   double from = 0, to = 0;  ///< path parameter
   Trail trail;
-  Report report;  ///< how it ended
+  Report report;      ///< how it ended
+  bool back = false;  ///< from the first state back towards the flat
+  /// 1 where its parameter grows, -1 where it falls
+  double way() const { return to < from ? -1 : 1; }
+  /// Path parameter of the last certified state.
+  double end() const { return trail.stations.back().point.t; }
 };
 
-/// A session with the legs that were followed in it, and what ended the last one.
+/// A session with the legs that were followed in it, and what ended them.
 struct Course {
   Session session;
-  std::vector<Leg> legs;
-  record::Limit limit = record::Limit::none;
-  std::string limit_reason;
+  std::vector<Leg> legs = {};
   double seconds_setup = 0;
+  std::string doubt = {};  ///< what meshes do not agree on, a sentence; empty: nothing is known
+  record::Limit limit = record::Limit::none;
+  std::string limit_reason = {};
 
-  /// The error estimate at the end, where errors are largest as a rule, mm; NaN where not known.
-  double last_estimate_mm() const;
+  /// Whether a branch was lost, a limit met, or a leg ended early.
+  bool eventful() const;
 };
+
+/// From where the session stands on: follows the path to `to` and keeps the way as a leg.
+Leg& follow_leg(Course& course, double to, const Leaving& leaving, const Watch& watch);
 
 /// Follows a path on the meshes of a plan. Errors: bad_input, no_equilibrium, cancelled.
 using Follow = std::function<Result<Course>(const LevelPlan&, const Watch&)>;
 
-/// The path on the coarsest plan whose estimate meets the scene's tolerance at its end. Errors:
-/// those of `follow`; no_equilibrium where the finest meshes do not meet it.
+/// The meshes that the tolerance asks for, or those asked for by themselves.
+LevelPlan first_plan(const Scene& scene);
+
+/// The path on the coarsest plan whose estimate meets the scene's tolerance. What happens on it is
+/// confirmed (confirm.h) where the tolerance chooses the meshes. Errors: those of `follow`;
+/// no_equilibrium where the finest meshes do not meet it; bad_input where they do not fit the
+/// memory.
 Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& watch);
 
 /// A sample of a leg.
 struct Sample {
   int index = 0;  ///< of the frame
   std::size_t leg = 0;
-  double t = 0;  ///< path parameter
+  double t = 0;         ///< path parameter
+  double progress = 0;  ///< of the experiment
 };
 
 /// Certifies the course at a sample and leaves the session there; what the path itself found is
-/// not changed by it. Outcomes as of a path; `reached` also where the sample lies beyond the leg's
-/// end, which is then told by its t.
+/// not changed by it. Outcomes as of a path.
 Report stand_at(Course& course, const Sample& sample, const Watch& watch);
 
-/// How a leg that ended before its end is told, as a limit and a sentence. `at` says where, given a
-/// path parameter: "at progress 0.4312".
-void tell_limit(Course& course, const Leg& leg, const std::function<std::string(double)>& at);
+/// Says where a path parameter lies, in the experiment's own words: "at progress 0.4312", with its
+/// error where it is known.
+using At = std::function<std::string(double t, std::optional<double> error)>;
+
+/// Tells as a limit and a sentence how the legs ended and what they came past: the first that ended
+/// before its end, else the snaps.
+void tell_limit(Course& course, const At& at);
 
 }  // namespace gridshell::experiment

@@ -8,12 +8,12 @@
 
 #include "engine/core/clock.h"
 #include "engine/experiment/actuation.h"
-#include "engine/experiment/budget.h"
 #include "engine/experiment/indentation.h"
 #include "engine/experiment/net_sample.h"
 #include "engine/measure/deviation.h"
 #include "engine/preset/rung.h"
 #include "engine/scene/scene.h"
+#include "engine/session/budget.h"
 
 namespace gridshell::experiment {
 namespace {
@@ -133,11 +133,6 @@ int dof_of(const Scene& scene, int edges_per_segment) {
   return model ? model->dof() : 0;
 }
 
-LevelPlan levels_of(const Scene& scene) {
-  return scene.edges_per_segment > 0 ? plan_of_mesh(scene.edges_per_segment)
-                                     : plan_levels(scene.tolerance);
-}
-
 /// About how long a run takes on one core: bringing the coarsest mesh to rest, then two corrections
 /// a frame on each mesh. Measured on shells of 500 to 40 000 unknowns; good within a factor of
 /// three.
@@ -146,7 +141,7 @@ double seconds_for(const Scene& scene, const preset::Preset& preset) {
   if (scene.rung == preset::Rung::net) return 0.01;
   const bool twist = scene.rung == preset::Rung::twist;
   double seconds = 0;
-  for (int edges : levels_of(scene).edges_per_segment) {
+  for (int edges : first_plan(scene).edges_per_segment) {
     const double dof = dof_of(scene, edges);
     if (seconds == 0) seconds = to_rest * dof;
     seconds += (twist ? a_twist_frame : a_frame) * dof * preset.movie.frames;
@@ -159,14 +154,14 @@ double seconds_for(const Scene& scene, const preset::Preset& preset) {
 Result<Plan> plan(const preset::Preset& preset) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
-  if (auto fits = fits_memory(scene->footprint, preset, levels_of(*scene)); !fits)
+  if (auto fits = fits_memory(*scene, first_plan(*scene)); !fits)
     return tl::unexpected<Error>(fits.error());
   // what the run would only find out later
   if (preset.indentation.wanted() && preset.indentation.joint.size() == 2)
     if (auto joint = pushed_joint(preset.indentation, scene->footprint, {}); !joint)
       return tl::unexpected<Error>(joint.error());
   Plan plan;
-  const LevelPlan levels = levels_of(*scene);
+  const LevelPlan levels = first_plan(*scene);
   plan.model = word_of(scene->rung);
   plan.memory_GB = memory_GB(scene->footprint, scene->rung, levels);
   plan.model_reason = preset::model_reason(preset);

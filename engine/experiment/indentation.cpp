@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/experiment/actuation.h"
 #include "engine/experiment/frames.h"
+#include "engine/experiment/sampler.h"
 #include "engine/measure/displacement.h"
 #include "engine/measure/gauss.h"
 #include "engine/scene/net_design.h"
@@ -90,45 +92,56 @@ struct Pushed {
   Eigen::Matrix3Xd before;  // joints of the unloaded shell
 };
 
-std::string at_depth(double depth_mm, double t) {
-  return fmt::format("at depth {:.3f} mm", t * depth_mm);
+At at_depth(double depth_mm) {
+  return [depth_mm](double t, std::optional<double> error) {
+    auto text = fmt::format("at depth {:.3f} mm", t * depth_mm);
+    if (error) text += fmt::format(" ± {:.1g} mm", *error * depth_mm);
+    return text;
+  };
 }
 
 /// Where the path that was lost turns back, as the arc length says.
 std::string turning_back(Session& session, const Leg& leg, double depth_mm) {
-  if (leg.report.events.empty()) return {};
   const Event& event = leg.report.events.front();
   const Station* last = nullptr;
-  const double way = leg.to > leg.from ? 1 : -1;
   for (const Station& station : leg.trail.stations)
-    if (way * (event.t - station.point.t) >= 0) last = &station;
+    if (leg.way() * (event.t - station.point.t) >= 0) last = &station;
   if (!last) return {};
   const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
-  const auto turn =
-      turning_point(session.shell().system(0), session.shell().motion(0), last->point, way, fine);
+  const auto turn = turning_point(session.shell().system(0), session.shell().motion(0),
+                                  last->point, leg.way(), fine);
   return turn ? fmt::format(" (its path turns back at {:.3f} mm)", *turn * depth_mm)
               : std::string();
 }
 
-/// Why the push stopped, or what it came past.
-void tell(Pushed& pushed, const Leg& leg) {
-  const auto at = [&](double t) { return at_depth(pushed.depth_mm, t); };
+/// Why the push stopped, or what it came past: the first leg to which anything happened.
+void tell(Pushed& pushed) {
   Course& course = pushed.course;
-  tell_limit(course, leg, at);
+  const At at = at_depth(pushed.depth_mm);
+  tell_limit(course, at);
+  const auto told = std::find_if(course.legs.begin(), course.legs.end(), [](const Leg& leg) {
+    return !leg.report.events.empty() || leg.report.end != Outcome::reached;
+  });
+  if (told == course.legs.end() || told->report.events.empty()) return;
+  const Leg& leg = *told;
   const Scene& scene = course.session.scene();
+  const Event& first = leg.report.events.front();
+  std::string reason;
   if (course.limit == record::Limit::snap)
-    course.limit_reason = fmt::format(
+    reason = fmt::format(
         "held at the joint, the shell lost its {} {}{} and came to rest in another state",
-        leg.report.events.front().kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
-        at(leg.report.events.front().t), turning_back(course.session, leg, pushed.depth_mm));
+        first.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
+        at(first.t, first.error), turning_back(course.session, leg, pushed.depth_mm));
   if (course.limit == record::Limit::locking)
-    course.limit_reason =
+    reason =
         fmt::format("{} ({:.4f} of the length scale) and {:.4g} N the rods are at their length: {}",
-                    at(leg.report.t), leg.report.t * pushed.depth_mm / scene.length_scale_mm,
+                    at(leg.report.t, {}), leg.report.t * pushed.depth_mm / scene.length_scale_mm,
                     pushed.push.displacement.normalized().dot(course.session.force(0)),
                     leg.report.certificate.largest_strain > 0.99 * scene.max_strain
                         ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
                         : "the push meets 100 times its first stiffness");
+  if (reason.empty()) return;
+  course.limit_reason = reason + (course.doubt.empty() ? "" : "; ") + course.doubt;
 }
 
 Result<Pushed> follow_push(const std::shared_ptr<const Scene>& scene,
@@ -146,127 +159,51 @@ Result<Pushed> follow_push(const std::shared_ptr<const Scene>& scene,
   Course& course = pushed.course;
   pushed.before = course.session.nodes().leftCols(Eigen::Index(scene->footprint.joints.size()));
   course.legs.clear();
-  course.limit = record::Limit::none;
   Hold hold{push->joint};
   if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
   const Report held = course.session.take_hold({hold}, {push->displacement}, watch);
   if (held.end != Outcome::reached)
     return fail(Fault::no_equilibrium, "the unloaded shell cannot be held at the joint pushed");
   for (double to : asked.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
-    Leg leg{course.session.shell().state().t, to, {}, {}};
-    leg.report = course.session.go(to, watch, {}, &leg.trail);
-    course.legs.push_back(std::move(leg));
+    const Leg& leg = follow_leg(course, to, {}, watch);
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
-    if (course.limit == record::Limit::none) tell(pushed, course.legs.back());
-    if (course.legs.back().report.end != Outcome::reached) break;
+    if (leg.report.end != Outcome::reached) break;
   }
   return pushed;
 }
 
-record::Frame frame_at(Pushed& pushed, double t) {
+Caption caption_of(const Pushed& pushed) {
   const Session& session = pushed.course.session;
-  record::Frame frame = frame_of(session);
-  frame.actuation = 1;
-  frame.boundary_radius_mm = session.scene().radius_end_mm;
-  frame.depth_mm = t * pushed.depth_mm;
-  frame.force_N = pushed.push.displacement.normalized().dot(session.force(0));
-  const Reach reach =
-      reach_of(pushed.before, frame.nodes.leftCols(pushed.before.cols()), frame.depth_mm);
-  frame.reach_above_tenth = reach.above_tenth;
-  frame.reach_above_half = reach.above_half;
-  frame.lowest_latitude_deg = reach.lowest_latitude_deg;
-  return frame;
+  return {at_depth(pushed.depth_mm),
+          [&](record::Frame& frame, double t, double) {
+            frame.actuation = 1;
+            frame.boundary_radius_mm = session.scene().radius_end_mm;
+            frame.depth_mm = t * pushed.depth_mm;
+          },
+          [&](record::Frame& frame) {
+            frame.force_N = pushed.push.displacement.normalized().dot(session.force(0));
+            const Reach reach =
+                reach_of(pushed.before, frame.nodes.leftCols(pushed.before.cols()),
+                         session.shell().state().t * pushed.depth_mm);
+            frame.reach_above_tenth = reach.above_tenth;
+            frame.reach_above_half = reach.above_half;
+            frame.lowest_latitude_deg = reach.lowest_latitude_deg;
+          }};
 }
 
-/// What happened on a leg between two path parameters.
-std::string event_between(const Leg& leg, double before, double t, double depth_mm) {
-  const double way = leg.to > leg.from ? 1 : -1;
-  for (const Event& event : leg.report.events)
-    if (event.to && way * (*event.to - before) > 0 && way * (t - *event.to) >= 0)
-      return fmt::format("snap at depth {:.2f} mm", event.t * depth_mm);
-  return {};
+/// Where on the push a frame's progress lies.
+Sample sample_of(std::size_t index, double progress, bool unload) {
+  if (!unload) return {int(index), 0, progress, progress};
+  const bool back = progress > 0.5;
+  return {int(index), back ? 1u : 0u, back ? 2 * (1 - progress) : 2 * progress, progress};
 }
 
-/// Frames of a leg's samples, and of its limit.
-class PushFrames {
- public:
-  PushFrames(Pushed& pushed, record::Sink& sink, Watch& watch, std::size_t count)
-      : pushed_(pushed), sink_(sink), watch_(watch), count_(count) {}
-
-  Result<bool> at(std::size_t index, std::size_t leg, double t, double progress) {
-    Course& course = pushed_.course;
-    const Leg& way = course.legs[leg];
-    const double end = way.trail.stations.back().point.t;
-    const bool beyond = (way.to > way.from) ? t > end : t < end;
-    if (beyond) return false;
-    const int before = course.session.effort().newton_iterations;
-    const Report report = stand_at(course, {int(index), leg, t}, watch_);
-    if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
-    if (report.end != Outcome::reached) {
-      course.limit = record::Limit::branch_lost;
-      course.limit_reason =
-          fmt::format("{} {}", words_of(report.end).what, at_depth(pushed_.depth_mm, t));
-      return false;
-    }
-    if (auto moved = motion(way, leg, t, progress); !moved)
-      return tl::unexpected<Error>(moved.error());
-    record::Frame frame = frame_at(pushed_, t);
-    frame.newton_iterations = course.session.effort().newton_iterations - before;
-    frame.event = event_between(way, leg == leg_ ? last_t_ : way.from, t, pushed_.depth_mm);
-    if (frame.event.empty() && frame.negative_pivots > 0)
-      frame.event = fmt::format("unstable: {} negative pivots", frame.negative_pivots);
-    leg_ = leg;
-    last_t_ = t;
-    if (auto taken = take(std::move(frame), index, progress); !taken)
-      return tl::unexpected<Error>(taken.error());
-    return true;
-  }
-
-  /// The state in which the rods came to their length.
-  Result<void> limit(const Checkpoint& end, std::size_t index, double progress) {
-    pushed_.course.session.restore(end);
-    pushed_.course.session.shell().back_to(end.state);
-    record::Frame frame = frame_at(pushed_, end.state.t);
-    frame.event = "locking";
-    return take(std::move(frame), index, progress);
-  }
-
- private:
-  Result<void> motion(const Leg& leg, std::size_t number, double t, double progress) {
-    if (number != leg_) next_snap_ = 0;
-    const double way = leg.to > leg.from ? 1 : -1;
-    bool any = false;
-    for (; next_snap_ < leg.trail.snaps.size(); ++next_snap_) {
-      const Trail::Snap& snap = leg.trail.snaps[next_snap_];
-      const double landed = leg.trail.stations[snap.before + 1].point.t;
-      if (way * (t - landed) < 0) break;
-      any = true;
-      for (record::Frame& frame : frames_in_motion(pushed_.course.session, snap.moments)) {
-        frame.actuation = 1;
-        frame.boundary_radius_mm = pushed_.course.session.scene().radius_end_mm;
-        frame.depth_mm = landed * pushed_.depth_mm;
-        if (auto taken = take(std::move(frame), 0, progress); !taken) return taken;
-      }
-    }
-    if (any) stand_at(pushed_.course, {0, number, t}, watch_);
-    return {};
-  }
-
-  Result<void> take(record::Frame frame, std::size_t index, double progress) {
-    frame.index = pushed_.course.session.scene().snap.wanted ? taken_ : int(index);
-    frame.progress = progress;
-    ++taken_;
-    watch_.report(0.5 + 0.5 * double(taken_) / double(count_));
-    return sink_.take(std::move(frame));
-  }
-
-  Pushed& pushed_;
-  record::Sink& sink_;
-  Watch& watch_;
-  std::size_t count_, next_snap_ = 0, leg_ = 0;
-  double last_t_ = 0;
-  int taken_ = 0;
-};
+/// Whether a push came as far as a sample.
+bool came_to(const Course& course, const Sample& sample) {
+  if (sample.leg >= course.legs.size()) return false;
+  const Leg& leg = course.legs[sample.leg];
+  return leg.way() * (leg.end() - sample.t) >= 0;
+}
 
 }  // namespace
 
@@ -274,36 +211,40 @@ Result<Course> run_indentation(std::shared_ptr<const Scene> scene,
                                const preset::Indentation& indentation,
                                const std::vector<double>& progress, record::Sink& sink,
                                Watch& watch) {
-  std::optional<Pushed> kept;
+  std::map<std::vector<int>, Pushed> tried;  // by the meshes
   auto course = course_of(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) -> Result<Course> {
         auto pushed = follow_push(scene, indentation, plan, w);
         if (!pushed) return tl::unexpected<Error>(pushed.error());
-        kept.emplace(std::move(*pushed));
-        return std::move(kept->course);
+        const auto at =
+            tried.insert_or_assign(plan.edges_per_segment, std::move(*pushed)).first;
+        return std::move(at->second.course);
       },
       watch);
   if (!course) return course;
+  Pushed* kept = &tried.at(course->session.shell().plan().edges_per_segment);
   kept->course = std::move(*course);
+  tell(*kept);
   auto layout = layout_of(*scene, kept->course.session.shell().finest());
   if (!layout) return tl::unexpected<Error>(layout.error());
   if (auto begun = sink.begin(std::move(*layout)); !begun)
     return tl::unexpected<Error>(begun.error());
   const Checkpoint end = kept->course.session.save();
-  PushFrames frames(*kept, sink, watch, progress.size());
+  Sampler sampler(kept->course, caption_of(*kept), sink, watch, progress.size());
   for (std::size_t k = 0; k < progress.size(); ++k) {
-    const bool back = indentation.unload && progress[k] > 0.5;
-    const double t = !indentation.unload ? progress[k]
-                     : back              ? 2 * (1 - progress[k])
-                                         : 2 * progress[k];
+    Sample sample = sample_of(k, progress[k], indentation.unload);
     Result<bool> taken = false;
-    if (!back || kept->course.legs.size() > 1) taken = frames.at(k, back ? 1 : 0, t, progress[k]);
+    if (came_to(kept->course, sample)) taken = sampler.at(sample);
     if (!taken) return tl::unexpected<Error>(taken.error());
     if (*taken) continue;
-    if (kept->course.limit == record::Limit::locking)
-      if (auto last = frames.limit(end, k, progress[k]); !last)
+    if (kept->course.limit == record::Limit::locking) {
+      // the state in which the rods came to their length
+      kept->course.session.restore(end);
+      sample.t = end.state.t;
+      if (auto last = sampler.stand(sample, "locking"); !last)
         return tl::unexpected<Error>(last.error());
+    }
     break;
   }
   return std::move(kept->course);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/experiment/course.h"
+#include "engine/record/sink.h"
 
 namespace gridshell::experiment {
 

@@ -36,6 +36,15 @@ std::vector<Field> shell_fields() {
        "side to which the flat shell buckles"},
       {"actuation", "seed_diagonal", "", word<&P::actuation, &Actuation::seed_diagonal>(),
        "of the corner pairs on the two diagonals, the one whose joints lie lower"},
+      {"imperfection", "size", "", real<&P::imperfection, &Imperfection::size>(between(0, 0.01)),
+       "with which a branch is entered that leaves a path where it loses its stability, of d; it "
+       "only chooses, each state being one of the perfect shell; 0: the symmetric branch, whose "
+       "frames say where it is not stable"},
+      {"imperfection", "seed", "", integer<&P::imperfection, &Imperfection::seed>(between(0, 1e9)),
+       "of what is drawn by chance"},
+      {"imperfection", "form", "", word<&P::imperfection, &Imperfection::form>(),
+       "\"random\": to the side on which a direction a joint points; \"soft_mode\": along the mode "
+       "that went soft, to one side with odd seeds and to the other with even ones"},
   };
 }
 
@@ -136,6 +145,7 @@ const std::vector<Table>& tables() {
       {"block", "A building block: a net and where it is cut.", true},
       {"join", "Two sides of blocks that become one seam.", true},
       {"actuation", "How the boundary moves: every edge point straight and evenly."},
+      {"imperfection", "What chooses where a shell goes that loses its stability."},
       {"indentation", "The push at one joint of the actuated shell."},
       {"loads", "What pulls on the shell beside its boundary."},
       {"dynamics", "How a shell moves that has lost its stability."},

@@ -198,6 +198,18 @@ struct Dynamics {
   double damping_per_s = 20;
 };
 
+/// What chooses where a path that loses its stability goes.
+enum class ImperfectionForm { random, soft_mode };
+constexpr auto words(ImperfectionForm) {
+  return word_table<ImperfectionForm>(
+      {{ImperfectionForm::random, "random"}, {ImperfectionForm::soft_mode, "soft_mode"}});
+}
+struct Imperfection {
+  double size = 1e-4;  ///< of d; 0: the symmetric branch
+  int seed = 1;
+  ImperfectionForm form = ImperfectionForm::random;
+};
+
 struct Limits {
   double max_strain = 1e-3;
 };
@@ -266,6 +278,7 @@ struct Preset {
   Indentation indentation;
   Loads loads;
   Dynamics dynamics;
+  Imperfection imperfection;
   Limits limits;
   Accuracy accuracy;
   Movie movie;

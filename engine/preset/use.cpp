@@ -188,6 +188,10 @@ class Idle {
     if (!preset_.dynamics.snap)
       for (const char* key : {"step_s", "damping_per_s"})
         add("dynamics", key, {"[dynamics] snap"}, "no snap is followed in time without it");
+    if (preset_.imperfection.size == 0)
+      for (const char* key : {"seed", "form"})
+        add("imperfection", key, {"[imperfection] size"},
+            "with [imperfection] size = 0 nothing is chosen: the path stays on the symmetric branch");
   }
 
   const Preset& preset_;

@@ -153,8 +153,12 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   scene.rung = preset::rung_of(preset);
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;
+  scene.imperfection = {preset.imperfection.size * preset.footprint.spacing_mm,
+                        preset.imperfection.seed,
+                        preset.imperfection.form == preset::ImperfectionForm::soft_mode};
   scene.edges_per_segment = preset.accuracy.edges_per_segment;
   scene.tolerance = preset.accuracy.tolerance;
+  scene.memory_GB = preset.accuracy.memory_GB;
   scene.max_strain = preset.limits.max_strain;
   scene.snap = {preset.dynamics.snap, preset.dynamics.step_s, preset.dynamics.damping_per_s};
   return scene;

@@ -9,6 +9,7 @@
 #include "engine/core/result.h"
 #include "engine/footprint/blocks.h"
 #include "engine/footprint/boundary_motion.h"
+#include "engine/footprint/branch_choice.h"
 #include "engine/footprint/flat_frame.h"
 #include "engine/footprint/footprint.h"
 #include "engine/geometry/chebyshev_net.h"
@@ -40,8 +41,12 @@ struct Scene {
   Eigen::Matrix3Xd actuated_boundary;
   double radius_begin_mm = std::numeric_limits<double>::quiet_NaN();  ///< of a circular boundary
   double radius_end_mm = std::numeric_limits<double>::quiet_NaN();
-  BuckleSeed seed;
+  BuckleSeed seed;            ///< decides the first buckling
+  Imperfection imperfection;  ///< and every later one
   int edges_per_segment = 0;  ///< the mesh asked for; 0: as the tolerance asks
+  int leading_edges = 4;      ///< of the mesh that leads, where the tolerance chooses
+  double memory_GB = 0;       ///< that the meshes may take; 0: half of the machine's
+  double load_step = 1;       ///< largest load steps, of the usual ones
   double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
   double max_strain = 1e-3;
   SnapDynamics snap;

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "engine/core/clock.h"
-#include "engine/scene/net_design.h"
+#include "engine/session/budget.h"
+#include "engine/session/first_state.h"
+#include "engine/session/leave.h"
 #include "engine/solve/buckle.h"
-#include "engine/solve/minimise.h"
-#include "engine/solve/rest.h"
 
 namespace gridshell {
 namespace {
@@ -16,7 +16,8 @@ constexpr double push_step = 0.02;        // of the length scale: the largest lo
 constexpr double actuation_step = 0.05;   // in the path parameter
 constexpr double stiffness_growth = 100;  // at which the rods are at their length
 constexpr double locate_mm = 5e-3;        // of prescribed move: to which a limit is located
-constexpr double still_mm = 0.01;         // what an unstable rest is pushed by in a snap in time
+constexpr int most_halvings = 5;          // of a load step that a finer mesh does not follow
+constexpr std::size_t most_events = 8;    // branches left on one way
 
 /// `b` in the place of `a`: what comes on beside `a` as it goes.
 std::vector<NodeAction> difference(std::vector<NodeAction> b, const std::vector<NodeAction>& a) {
@@ -110,31 +111,10 @@ Report Session::begin_flat() {
     flat.residual_N = system.residual();
     flat.x = nodes_of(shell_->mesh(k), shell_->model(k), flat.levels.back().x);
   }
-  std::vector<PinnedMotion> motions;
-  for (int k = 0; k < shell_->levels(); ++k) motions.push_back(shell_->motion(k));
-  shell_->restore(flat, motions, {});
+  shell_->restore(flat, shell_->motions(), {});
   actuating_ = true;
   progress_ = 0;
   return report(Outcome::reached, 0, before, begin);
-}
-
-/// The buckled shape of the bend rung, which every rung starts from: what twist and springs add
-/// does not choose the branch.
-Result<State> Session::first_shape(double t, const Watch& watch) {
-  const RodMesh& mesh = shell_->mesh(0);
-  const PinnedMotion& motion = shell_->motion(0);
-  if (scene_->mechanics() == Rung::bend)
-    return first_buckled(shell_->system(0), mesh, motion, t, scene_->seed, scene_->flat, watch);
-  const auto bend = build_model(mesh, rods_ ? *rods_ : scene_->rods, Rung::bend);
-  if (!bend) return tl::unexpected<Error>(bend.error());
-  Linearisation system(*bend);
-  const auto shape = first_buckled(system, mesh, motion, t, scene_->seed, scene_->flat, watch);
-  if (!shape) return shape;
-  const Model& model = shell_->model(0);
-  State state = flat_state(model, mesh, motion, scene_->flat);
-  gridshell::move_to(model, columns_of(mesh, model, shape->x), state);
-  motion.impose(shell_->system(0), t, state);
-  return rest_below(shell_->system(0), std::move(state), watch);
 }
 
 Result<Report> Session::begin_buckled(double shortening, const Watch& watch) {
@@ -142,7 +122,7 @@ Result<Report> Session::begin_buckled(double shortening, const Watch& watch) {
   const Effort before = effort();
   const auto t = parameter_of_shortening(shell_->mesh(0), shell_->motion(0), shortening);
   if (!t) return tl::unexpected<Error>(t.error());
-  auto first = first_shape(*t, watch);
+  auto first = buckled_state(*shell_, *scene_, rods_ ? *rods_ : scene_->rods, *t, watch);
   if (!first) return tl::unexpected<Error>(first.error());
   Report report = begin_at(*t, *first, watch);
   report.effort = effort() - before;
@@ -151,20 +131,8 @@ Result<Report> Session::begin_buckled(double shortening, const Watch& watch) {
 }
 
 Result<Report> Session::begin_on_net(const Watch& watch) {
-  const RodMesh& mesh = shell_->mesh(0);
-  const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
-  // blocks that meet with a gap would tear the rods between them
-  auto net = scene_->blocks ? scene_->blocks->closed(flat, 4 * scene_->footprint.spacing)
-                            : points_on(*scene_->net, flat);
-  if (!net) return tl::unexpected<Error>(net.error());
-  net->conservativeResize(3, mesh.nodes());
-  net->rightCols(mesh.ghosts) = shell_->motion(0).at(1).middleCols(mesh.rod_nodes(), mesh.ghosts);
-  const Model& model = shell_->model(0);
-  State state = flat_state(model, mesh, shell_->motion(0), scene_->flat);
-  gridshell::move_to(model, columns_of(mesh, model, *net), state);
-  shell_->motion(0).impose(shell_->system(0), 1, state);
-  auto rest = rest_near(shell_->system(0), state, 0.5 * scene_->footprint.spacing, watch);
-  if (!rest) return fail(rest.error().fault, "next to the net there is " + rest.error().message);
+  const auto rest = state_on_net(*shell_, *scene_, watch);
+  if (!rest) return tl::unexpected<Error>(rest.error());
   return begin_at(1, *rest, watch);
 }
 
@@ -186,9 +154,9 @@ Report Session::begin_from(const Session& other, const Watch& watch) {
 // ---- move ----
 
 double Session::load_step() const {
-  if (actuating_) return actuation_step;
+  if (actuating_) return scene_->load_step * actuation_step;
   const double reach = shell_->reach_mm();
-  return reach > 0 ? push_step * scene_->length_scale_mm / reach : 0.1;
+  return scene_->load_step * (reach > 0 ? push_step * scene_->length_scale_mm / reach : 0.1);
 }
 
 Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* trail) {
@@ -207,37 +175,54 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
   const auto station = [&] {
     if (trail) trail->stations.push_back({shell_->followed(), certificate()});
   };
-  shell_->allow_unstable(leaving.through_unstable);
+  bool unstable_too = leaving.through_unstable;
+  shell_->allow_unstable(unstable_too);
   station();
+  int halvings = 0;
   while (shell_->state().t != t) {
     if (watch.cancelled()) return end(Outcome::cancelled);
-    const double now = shell_->state().t, left = t - now, step = load_step();
+    const double now = shell_->state().t, left = t - now, step = load_step() / (1 << halvings);
     const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
     const double next = steps == 1 ? t : now + left / steps;
-    const Checkpoint good = save();
+    const NestedState good = shell_->state();
     const NestedReport nested = shell_->advance(next, watch);
     if (nested.end == Outcome::cancelled) return end(Outcome::cancelled);
     if (nested.end == Outcome::reached) {
       if (locked()) {
-        to_lock(next, now, good, watch);
-        events.push_back({Event::Kind::locked, shell_->state().t, {}});
+        stand_before(next, good, [&] { return !locked(); }, watch);
+        events.push_back({Event::Kind::locked, shell_->state().t, {}, {}});
         return end(Outcome::locked);
       }
+      halvings = std::max(halvings - 1, 0);
       station();
       continue;
     }
+    // a finer mesh that did not follow is asked again nearer by
+    if (nested.end == Outcome::meshes_disagree && ++halvings <= most_halvings) {
+      shell_->back_to(good);
+      continue;
+    }
     const bool branch_ended = nested.end == Outcome::unstable || nested.end == Outcome::lost;
-    if (!leaving.wanted || !branch_ended || events.size() >= 8) return end(nested.end);
-    events.push_back(
-        {nested.end == Outcome::unstable ? Event::Kind::stability_lost : Event::Kind::turned_back,
-         shell_->followed().t,
-         {}});
+    if (!leaving.wanted || !branch_ended || events.size() >= most_events) return end(nested.end);
+    const auto kind =
+        nested.end == Outcome::unstable ? Event::Kind::stability_lost : Event::Kind::turned_back;
+    // what the finer meshes lost and the leader did not is not located yet
+    if (shell_->followed().t == next && kind == Event::Kind::stability_lost) {
+      stand_before(next, good, [] { return true; }, watch);
+      if (shell_->state().t != good.t) station();
+    }
+    events.push_back({kind, shell_->followed().t, {}, {}});
+    if (kind == Event::Kind::stability_lost && !scene_->imperfection.chooses()) {
+      shell_->back_to(shell_->state());
+      shell_->allow_unstable(unstable_too = true);
+      continue;
+    }
     if (!leave(t, events.back(), trail, watch))
       return end(watch.cancelled() ? Outcome::cancelled : nested.end);
     if (locked()) {
       // the rest beyond is none of rods as long as these
-      shell_->back_to(good.state);
-      events.back() = {Event::Kind::locked, shell_->state().t, {}};
+      shell_->back_to(good);
+      events.back() = {Event::Kind::locked, shell_->state().t, {}, {}};
       return end(Outcome::locked);
     }
     station();
@@ -275,62 +260,21 @@ Result<Outcome> Session::take_over(const LevelPlan& plan, bool nearby, const Wat
   return end;
 }
 
-/// Between two states the rods come to their length: finds where, and stands there.
-void Session::to_lock(double beyond, double unlocked, const Checkpoint& good, const Watch& watch) {
+/// Stands in the last certified state, between `good` and `beyond`, that is accepted.
+void Session::stand_before(double beyond, const NestedState& good,
+                           const std::function<bool()>& accepted, const Watch& watch) {
   const double reach = std::max(shell_->reach_mm(), 1e-9);
-  NestedState last = good.state;
-  double bad = beyond, fine = unlocked;
-  while (std::abs(bad - fine) * reach > locate_mm && !watch.cancelled()) {
+  NestedState last = good;
+  double bad = beyond;
+  while (std::abs(bad - last.t) * reach > locate_mm && !watch.cancelled()) {
     shell_->back_to(last);
-    const double middle = 0.5 * (fine + bad);
-    if (shell_->advance(middle, watch).end == Outcome::reached && !locked()) {
+    const double middle = 0.5 * (last.t + bad);
+    if (shell_->advance(middle, watch).end == Outcome::reached && accepted())
       last = shell_->state();
-      fine = middle;
-    } else {
+    else
       bad = middle;
-    }
   }
   shell_->back_to(last);
-}
-
-Result<State> Session::leave_to(double there, Trail* trail, const Watch& watch) {
-  const PathPoint& last = shell_->followed();
-  Linearisation& system = shell_->system(0);
-  const PinnedMotion& motion = shell_->motion(0);
-  if (!scene_->snap.wanted) return leave_branch(system, motion, last, there, watch);
-  motion.load_up(system, last.t);
-  system.at(last.state, false);
-  const Eigen::Matrix3Xd mode = softest_mode(system);
-  State state = last.state;
-  motion.impose(system, there, state);
-  // to the side on which the energy falls
-  const double push = 2 * still_mm / largest_column(mode);
-  State sides[2] = {state, state};
-  for (int k = 0; k < 2; ++k)
-    gridshell::move_to(system.model(), state.x + (k == 0 ? push : -push) * mode, sides[k]);
-  state = system.energy_at(sides[0]) <= system.energy_at(sides[1]) ? sides[0] : sides[1];
-  const auto mass = lumped_mass(system.model(), scene_->mass_t_per_mm);
-  if (!mass) return tl::unexpected<Error>(mass.error());
-  DynamicsOptions options;
-  options.step_s = scene_->snap.step_s;
-  options.damping_per_s = scene_->snap.damping_per_s;
-  options.tolerance_mm = 1e-7;
-  DampedMotion damped(system.model(), *mass, options, system.outside, system.holds());
-  MovingState moving = MovingState::at_rest(state);
-  std::vector<Moment> seen;
-  const auto settled = damped.settle(
-      moving, {.still_N = 1e-4, .still_mJ = 1e-7},
-      [&](const MovingState& now) {
-        if (trail) seen.push_back({now.time, now.state});
-      },
-      watch);
-  if (!settled) return tl::unexpected<Error>(settled.error());
-  system.gradient_at(moving.state);
-  moving.state.force = system.assembly().force;
-  if (minimise(system, moving.state, {}, watch).outcome != Outcome::reached)
-    return fail(Fault::no_equilibrium, "the motion did not end near a rest");
-  if (trail) trail->snaps.push_back({trail->stations.size() - 1, std::move(seen)});
-  return moving.state;
 }
 
 /// The branch ended: comes to rest again a little further on. The meshes lose it at slightly
@@ -343,10 +287,13 @@ bool Session::leave(double t, Event& event, Trail* trail, const Watch& watch) {
   for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
     double there = last.t + way * beyond * scene_->length_scale_mm / speed;
     if (way * (there - t) > 0) there = t;
-    const auto rest = leave_to(there, trail, watch);
+    std::vector<Moment> moments;
+    const auto rest = rest_beyond(*shell_, *scene_, last, event.kind, there, moments, watch);
     if (watch.cancelled()) return false;
     if (rest && shell_->start(there, *rest, watch).end == Outcome::reached) {
       event.to = there;
+      if (trail && !moments.empty())
+        trail->snaps.push_back({trail->stations.size() - 1, std::move(moments)});
       return true;
     }
     if (there == t) break;
@@ -369,7 +316,9 @@ Report Session::sample(double t, const Station& beside, bool unstable, const Wat
 Report Session::sample_rest(double t, const Station& before, const Watch& watch) {
   const double begin = seconds_now();
   const Effort spent = effort();
-  const auto rest = leave_branch(shell_->system(0), shell_->motion(0), before.point, t, watch);
+  std::vector<Moment> moments;
+  const auto rest = rest_beyond(*shell_, *scene_, before.point, Event::Kind::stability_lost, t,
+                                moments, watch);
   if (!rest) return report(Outcome::lost, t, spent, begin);
   return sample(t, {{t, *rest, {}}, {}}, false, watch);
 }
@@ -498,7 +447,8 @@ Report Session::rest(const Watch& watch) {
   const Effort before = effort();
   const Checkpoint good = save();
   const double t = shell_->state().t;
-  const auto found = rest_below(shell_->system(0), shell_->state().levels[0], watch);
+  const Departure departure = departure_of(*scene_, shell_->mesh(0), shell_->model(0));
+  const auto found = rest_below(shell_->system(0), shell_->state().levels[0], watch, departure);
   Outcome end = watch.cancelled() ? Outcome::cancelled : Outcome::not_converged;
   if (found) end = shell_->start(t, *found, watch).end;
   if (end != Outcome::reached) restore(good);
@@ -510,20 +460,10 @@ Report Session::rest_in_time(const Watch& watch,
   const double begin = seconds_now();
   const Effort before = effort();
   const Checkpoint good = save();
-  Linearisation& system = shell_->system(0);
-  const auto mass = lumped_mass(system.model(), scene_->mass_t_per_mm);
-  if (!mass) return report(Outcome::not_converged, shell_->state().t, before, begin);
-  DynamicsOptions options;
-  options.step_s = scene_->snap.step_s;
-  options.damping_per_s = scene_->snap.damping_per_s;
-  DampedMotion damped(system.model(), *mass, options, system.outside, holds_);
-  MovingState moving = MovingState::at_rest(shell_->state().levels[0]);
   Outcome end = Outcome::not_converged;
-  if (damped.settle(moving, {}, seen, watch)) {
-    system.gradient_at(moving.state);
-    moving.state.force = system.assembly().force;
-    end = shell_->start(shell_->state().t, moving.state, watch).end;
-  }
+  if (const auto rest =
+          gridshell::rest_in_time(*shell_, *scene_, shell_->state().levels[0], {}, seen, watch))
+    end = shell_->start(shell_->state().t, *rest, watch).end;
   if (watch.cancelled()) end = Outcome::cancelled;
   if (end != Outcome::reached) restore(good);
   return report(end, shell_->state().t, before, begin);
@@ -545,7 +485,7 @@ Report Session::refine(double tolerance_mm, const Watch& watch) {
   Outcome end = Outcome::reached;
   while (end == Outcome::reached && !(certificate().error_estimate_mm <= tolerance_mm)) {
     const auto plan = finer(shell_->plan());
-    if (!plan) break;
+    if (!plan || !fits_memory(*scene_, *plan)) break;
     end = take_over(*plan, false, watch).value_or(Outcome::not_converged);
   }
   return report(end, shell_->state().t, before, begin);
@@ -554,10 +494,8 @@ Report Session::refine(double tolerance_mm, const Watch& watch) {
 // ---- keep ----
 
 Checkpoint Session::save() const {
-  Checkpoint kept{shell_->state(), shell_->plan(), rods_,     {},        holds_,
-                  field_,          load_scale_,    progress_, actuating_};
-  for (int k = 0; k < shell_->levels(); ++k) kept.motions.push_back(shell_->motion(k));
-  return kept;
+  return {shell_->state(), shell_->plan(), rods_,     shell_->motions(), holds_,
+          field_,          load_scale_,    progress_, actuating_};
 }
 
 void Session::restore(const Checkpoint& kept) {

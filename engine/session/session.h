@@ -9,39 +9,11 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "engine/session/report.h"
 #include "engine/solve/damped_motion.h"
 #include "engine/solve/nested.h"
 
 namespace gridshell {
-
-/// What is known of a state.
-struct Certificate {
-  double residual_N = 0;         ///< largest force that nothing holds
-  int negative_pivots = 0;       ///< of the Hessian with what is held held; 0: stable
-  double error_estimate_mm = 0;  ///< of the joints; NaN on one mesh
-  double largest_strain = 0;
-
-  bool stable() const { return negative_pivots == 0; }
-};
-
-/// Something that happened to the shell on its path.
-struct Event {
-  enum class Kind { stability_lost, turned_back, locked };
-  Kind kind = Kind::stability_lost;
-  double t = 0;              ///< where, as the leading mesh says
-  std::optional<double> to;  ///< where the next rest stands, if one was found
-};
-
-/// How a step ended: what was reached, why no more, what it cost. Where not all was reached the
-/// shell stands in the last certified state.
-struct Report {
-  Outcome end = Outcome::reached;
-  double t = 0;               ///< path parameter reached
-  Certificate certificate;    ///< of the state the shell stands in
-  std::vector<Event> events;  ///< on the way
-  Effort effort;
-  double seconds = 0;
-};
 
 /// A state to go back to; taking one and going back cost a copy.
 struct Checkpoint {
@@ -57,35 +29,6 @@ struct Checkpoint {
 
 /// Whether a pushed joint finds its own way across the push.
 enum class Across { free, held };
-
-/// A point of a path as the coarsest mesh knows it, with the certificate of all meshes.
-struct Station {
-  PathPoint point;
-  Certificate certificate;
-};
-
-/// What the coarsest mesh was like at a time, while it moved.
-struct Moment {
-  double time = 0;  ///< s
-  State state;
-};
-
-/// What a path leaves to whoever watches it: a station a certified load step, in order, and what
-/// moved in time where a snap was followed so.
-struct Trail {
-  std::vector<Station> stations;
-  struct Snap {
-    std::size_t before = 0;  ///< the station that it left from
-    std::vector<Moment> moments;
-  };
-  std::vector<Snap> snaps;
-};
-
-/// How a branch that ended is left.
-struct Leaving {
-  bool wanted = true;             ///< false: the path ends there
-  bool through_unstable = false;  ///< go on through states that are not stable instead
-};
 
 /// One shell of one scene. Not thread-safe; its watch may be cancelled from any thread.
 class Session {
@@ -130,7 +73,8 @@ class Session {
   Report rest_in_time(const Watch& watch, const std::function<void(const MovingState&)>& seen);
   /// Other rods on the same footprint, from where it is. Errors (bad_input) as open().
   Result<Report> set_rods(const ShellRods& rods, const Watch& watch);
-  /// Finer meshes until the error estimate is below `tolerance_mm`, or no plan is finer.
+  /// Finer meshes until the error estimate is below `tolerance_mm`, or no plan is finer or fits the
+  /// memory.
   Report refine(double tolerance_mm, const Watch& watch);
   /// Begins to push joints without going anywhere: the drive of `push`, for go().
   Report take_hold(std::vector<Hold> holds, std::vector<Eigen::Vector3d> displacements,
@@ -174,12 +118,11 @@ class Session {
   void settle_field(std::vector<NodeAction> field);
   Growth steady_load() const;
   double load_step() const;
-  Result<State> first_shape(double t, const Watch& watch);
   bool leave(double t, Event& event, Trail* trail, const Watch& watch);
-  Result<State> leave_to(double there, Trail* trail, const Watch& watch);
   Result<Outcome> take_over(const LevelPlan& plan, bool nearby, const Watch& watch);
   double push_stiffness() const;
-  void to_lock(double beyond, double unlocked, const Checkpoint& good, const Watch& watch);
+  void stand_before(double beyond, const NestedState& good, const std::function<bool()>& accepted,
+                    const Watch& watch);
 
   std::shared_ptr<const Scene> scene_;
   std::optional<ShellRods> rods_;  // in the place of the scene's

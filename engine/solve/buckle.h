@@ -3,7 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
-#include "engine/footprint/boundary_motion.h"
+#include "engine/footprint/branch_choice.h"
 #include "engine/footprint/flat_frame.h"
 #include "engine/footprint/mesh.h"
 #include "engine/gridshell/shell_rods.h"

@@ -27,4 +27,24 @@ void PinnedMotion::velocity(Linearisation& system, double t, const State& state,
   velocity.force = system.force_change(velocity.x);
 }
 
+PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
+  PinnedMotion pinned;
+  pinned.begin = pinned.change = Eigen::Matrix3Xd::Zero(3, mesh.nodes());
+  pinned.begin.middleCols(mesh.joints, mesh.edge_points) = motion.begin;
+  pinned.change.middleCols(mesh.joints, mesh.edge_points) = motion.end - motion.begin;
+  // a ghost stays in the held direction from its edge point
+  const auto place = [&](int ghost, Eigen::Index end, double side) {
+    const double length = side * mesh.ghost_length;
+    pinned.begin.col(ghost) = motion.begin.col(end) + length * motion.begin_tangent.col(end);
+    pinned.change.col(ghost) = motion.end.col(end) + length * motion.end_tangent.col(end);
+    pinned.change.col(ghost) -= pinned.begin.col(ghost);
+  };
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
+    const std::vector<int>& node = mesh.rods[r];
+    if (mesh.is_ghost(node.front())) place(node.front(), 2 * Eigen::Index(r), -1);
+    if (mesh.is_ghost(node.back())) place(node.back(), 2 * Eigen::Index(r) + 1, 1);
+  }
+  return pinned;
+}
+
 }  // namespace gridshell

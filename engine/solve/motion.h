@@ -1,6 +1,8 @@
 // How what is prescribed moves along a path: pinned nodes, held joints, loads.
 #pragma once
 
+#include "engine/footprint/boundary_motion.h"
+#include "engine/footprint/mesh.h"
 #include "engine/solve/linearisation.h"
 
 namespace gridshell {
@@ -43,5 +45,9 @@ struct PinnedMotion {
   /// How all columns follow at a state just factorised, and the axial forces with them; by t.
   void velocity(Linearisation& system, double t, const State& state, State& velocity) const;
 };
+
+/// The motion of a mesh's pinned nodes: its edge points and, beyond those whose direction is held,
+/// their ghosts.
+PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion);
 
 }  // namespace gridshell

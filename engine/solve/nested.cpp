@@ -16,60 +16,20 @@ namespace {
 // asymptotic range
 constexpr double margin = 1.25, margin_extrapolated = 2.2;
 
+/// What extrapolation at second order leaves where three meshes show another: with steps between
+/// them whose sizes have the ratio r, r = 4 at second order, |step| (1/(r - 1) - 1/3). Within
+/// `near` of second order the difference is that of the next order, which is estimated by itself.
+double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& before) {
+  constexpr double near = 0.1;
+  const double size = step.norm();
+  if (size == 0) return 0;
+  const double ratio = before.norm() / size;
+  if (std::abs(ratio - 4) < 4 * near) return 0;
+  if (ratio <= 1) return largest_column(step);
+  return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * largest_column(step);
+}
+
 }  // namespace
-
-PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
-  PinnedMotion pinned;
-  pinned.begin = pinned.change = Eigen::Matrix3Xd::Zero(3, mesh.nodes());
-  pinned.begin.middleCols(mesh.joints, mesh.edge_points) = motion.begin;
-  pinned.change.middleCols(mesh.joints, mesh.edge_points) = motion.end - motion.begin;
-  // a ghost stays in the held direction from its edge point
-  const auto place = [&](int ghost, Eigen::Index end, double side) {
-    const double length = side * mesh.ghost_length;
-    pinned.begin.col(ghost) = motion.begin.col(end) + length * motion.begin_tangent.col(end);
-    pinned.change.col(ghost) = motion.end.col(end) + length * motion.end_tangent.col(end);
-    pinned.change.col(ghost) -= pinned.begin.col(ghost);
-  };
-  for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
-    const std::vector<int>& node = mesh.rods[r];
-    if (mesh.is_ghost(node.front())) place(node.front(), 2 * Eigen::Index(r), -1);
-    if (mesh.is_ghost(node.back())) place(node.back(), 2 * Eigen::Index(r) + 1, 1);
-  }
-  return pinned;
-}
-
-double expected_error(const LevelPlan& plan) {
-  // measured on circles, caps and hemispheres
-  constexpr double plain_of_four = 3e-3, extrapolated_of_sixteen = 7.5e-6;
-  const double edges = plan.edges_per_segment.back();
-  return plan.extrapolate ? extrapolated_of_sixteen * std::pow(16 / edges, 4)
-                          : plain_of_four * std::pow(4 / edges, 2);
-}
-
-LevelPlan plan_levels(double tolerance) {
-  LevelPlan plan{{4, 8}, false};
-  if (tolerance >= margin * expected_error(plan)) return plan;
-  plan = {{4, 8, 16}, true};
-  while (expected_error(plan) > tolerance)
-    plan.edges_per_segment.push_back(2 * plan.edges_per_segment.back());
-  return plan;
-}
-
-LevelPlan plan_of_mesh(int edges) {
-  LevelPlan plan{{edges}, false};
-  for (int k = edges; k % 2 == 0 && k / 2 >= 4; k /= 2)
-    plan.edges_per_segment.insert(plan.edges_per_segment.begin(), k / 2);
-  return plan;
-}
-
-std::optional<LevelPlan> finer(const LevelPlan& plan) {
-  LevelPlan next = plan;
-  const int finest = 2 * plan.edges_per_segment.back();
-  if (finest > 128) return std::nullopt;
-  next.edges_per_segment.push_back(finest);
-  next.extrapolate = next.edges_per_segment.size() > 2;
-  return next;
-}
 
 Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRods& rods, Rung rung,
                                       const BoundaryMotion& motion, const LevelPlan& plan,
@@ -100,6 +60,12 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
 
 void NestedShell::follow_anew() {
   path_ = std::make_unique<PathFollower>(*levels_[0]->system, levels_[0]->motion, options_);
+}
+
+std::vector<PinnedMotion> NestedShell::motions() const {
+  std::vector<PinnedMotion> all;
+  for (const auto& level : levels_) all.push_back(level->motion);
+  return all;
 }
 
 Effort NestedShell::effort() const {
@@ -393,7 +359,9 @@ void NestedShell::estimate() {
   }
   // (4 fine - coarse)/3 of these two meshes less that of the two before
   const Eigen::Matrix3Xd before = coarser.leftCols(joints) - nodes(last - 2).leftCols(joints);
-  state_.error_estimate_mm = margin_extrapolated * largest_column((4 * step - before) / 3) / 15;
+  state_.error_estimate_mm =
+      std::max(margin_extrapolated * largest_column((4 * step - before) / 3) / 15,
+               margin * left_by_order(step, before));
   // the correction is known at the coarser nodes; between them it is interpolated
   Eigen::Matrix3Xd on_coarser, correction;
   finest.to_coarser->nodes(state_.x, on_coarser);

@@ -7,40 +7,11 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/footprint/boundary_motion.h"
-#include "engine/footprint/mesh.h"
 #include "engine/gridshell/state_transfer.h"
+#include "engine/solve/level_plan.h"
 #include "engine/solve/path.h"
 
 namespace gridshell {
-
-/// The motion of a mesh's pinned nodes: its edge points and, beyond those whose direction is held,
-/// their ghosts.
-PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion);
-
-/// Which meshes are solved and how they are used.
-struct LevelPlan {
-  std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before
-  bool extrapolate = false;  ///< over the last two (needs three, the third for the estimate)
-};
-
-/// The cheapest plan worth trying for a tolerance of the largest joint error, relative to the
-/// length scale: the error of k edges falls as 1/k^2, extrapolated as 1/k^4, and is about 3e-3 at
-/// four edges for shells of the paper's kind. The estimate says afterwards whether it held; `finer`
-/// is what to try then.
-LevelPlan plan_levels(double tolerance);
-
-/// The meshes that nest in one of `edges` a segment, down to four edges, itself the last: alone,
-/// its error is not known.
-LevelPlan plan_of_mesh(int edges);
-
-/// What a plan leaves of the largest joint error, over the length scale, as a rule: for plans
-/// before a run.
-double expected_error(const LevelPlan& plan);
-
-/// The next plan: extrapolation, or one level more. Empty when the finest mesh would pass 128
-/// edges.
-std::optional<LevelPlan> finer(const LevelPlan& plan);
 
 /// One certified state on all levels.
 struct NestedState {
@@ -122,6 +93,7 @@ class NestedShell {
   const Model& model(int level) const { return levels_[std::size_t(level)]->model; }
   Linearisation& system(int level) { return *levels_[std::size_t(level)]->system; }
   const PinnedMotion& motion(int level) const { return levels_[std::size_t(level)]->motion; }
+  std::vector<PinnedMotion> motions() const;  ///< one a level
   /// Puts the loads of the current state on all levels.
   void load_up();
   /// Energies of a level's state under what acts there.

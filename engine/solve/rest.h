@@ -7,9 +7,23 @@
 
 namespace gridshell {
 
-/// Softest mode of the Hessian last assembled in `system` by inverse iteration: unit vector over
-/// all columns, zero at what is held.
-Eigen::Matrix3Xd softest_mode(Linearisation& system);
+/// On which side of an unstable state to leave it: where the energy ends lower, along a mode, or
+/// against it.
+enum class Leave { lower, along, against };
+
+/// How an unstable state is left.
+struct Departure {
+  Eigen::Matrix3Xd start;  ///< over all columns: its part along the softest modes is followed;
+                           ///< empty: any
+  Leave side = Leave::lower;
+  double amplitude_mm = 0.5;  ///< of the push: far above round-off, far below a cell
+  double step_mm = 0.5;       ///< of the way down (drift.h)
+};
+
+/// Softest mode of the Hessian last assembled in `system` by inverse iteration from `start` (empty:
+/// any): unit vector over all columns, zero at what is held. Its side, and the mixture where several
+/// modes are equally soft, are those of the start's projection on them.
+Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& start = {});
 
 /// From `state` to rest near it: full Newton steps that move no node further than `farthest_mm` and
 /// end in a minimum, else down the energy, else off a saddle along its softest mode. Errors:
@@ -19,20 +33,19 @@ Result<State> rest_near(Linearisation& system, const State& state, double farthe
 
 /// Down the energy to a minimum; where that ends at a saddle, off it along its softest mode.
 /// Errors as rest_near().
-Result<State> rest_below(Linearisation& system, State state, const Watch& watch);
+Result<State> rest_below(Linearisation& system, State state, const Watch& watch,
+                         const Departure& departure = {});
 
-/// On which side of an unstable state to leave it: where the energy ends lower, along a mode, or
-/// against it.
-enum class Leave { lower, along, against };
-
-/// From a state that is not stable, pushed along `mode` (its softest) to either side, to rest; the
-/// one of lower energy, or that on the side asked for. Errors: no_equilibrium, cancelled.
+/// From a state that is not stable, pushed along `mode` (its softest) to either side, to the rest
+/// that the steepest slope leads to; the one of lower energy, or that on the side asked for. A push
+/// that leads back to the saddle is repeated four times as large, up to 1 mm. Errors:
+/// no_equilibrium, cancelled.
 Result<State> settle(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& mode,
-                     const Watch& watch, Leave leave = Leave::lower);
+                     const Departure& departure, const Watch& watch);
 
 /// From the last point of a path that lost its stability or turned back: with the motion a little
 /// further, at `beyond`, along the mode that went soft. Errors as settle().
 Result<State> leave_branch(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
-                           double beyond, const Watch& watch);
+                           double beyond, const Departure& departure, const Watch& watch);
 
 }  // namespace gridshell

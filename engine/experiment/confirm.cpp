@@ -1,0 +1,104 @@
+#include "engine/experiment/confirm.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/session/budget.h"
+
+namespace gridshell::experiment {
+namespace {
+
+constexpr int most_leaders = 3;
+constexpr double near_t = 0.05;        // events that two leaders place so near are the same
+constexpr double near_spacings = 0.1;  // ends whose joints lie so near are the same state, of d
+
+int leader_of(const Course& course) {
+  return course.session.shell().plan().edges_per_segment.front();
+}
+
+/// Largest distance of the joints where two courses stand, mm.
+double distance(const Course& a, const Course& b) {
+  const Eigen::Index joints = a.session.shell().finest().joints;
+  return largest_column(a.session.nodes().leftCols(joints) - b.session.nodes().leftCols(joints));
+}
+
+std::optional<std::string> leg_disagreement(const Leg& a, const Leg& b) {
+  const auto &seen = a.report.events, &found = b.report.events;
+  if (seen.size() != found.size())
+    return fmt::format("{} and {} losses of the branch", seen.size(), found.size());
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const bool locks = seen[k].kind == Event::Kind::locked;
+    if (locks != (found[k].kind == Event::Kind::locked) ||
+        seen[k].to.has_value() != found[k].to.has_value())
+      return "events of another kind";
+    if (std::abs(seen[k].t - found[k].t) > near_t)
+      return fmt::format("path parameters {:.3f} and {:.3f} of an event", seen[k].t, found[k].t);
+  }
+  if (std::abs(a.end() - b.end()) > near_t)
+    return fmt::format("ends at path parameters {:.3f} and {:.3f}", a.end(), b.end());
+  return std::nullopt;
+}
+
+/// The places of a course's events, extrapolated with those of a leader of twice the edges.
+void extrapolate_events(const Course& fine, Course& course) {
+  for (std::size_t k = 0; k < course.legs.size(); ++k) {
+    auto& events = course.legs[k].report.events;
+    for (std::size_t e = 0; e < events.size(); ++e) {
+      const double t = fine.legs[k].report.events[e].t, step = t - events[e].t;
+      // of a lock the finest mesh decides, and the state that is kept is its own
+      if (events[e].kind != Event::Kind::locked) events[e].t = t + step / 3;
+      events[e].error = std::abs(step) / 3;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> disagreement(const Course& coarse, const Course& fine) {
+  if (coarse.legs.size() != fine.legs.size()) return "another way from the flat";
+  for (std::size_t k = 0; k < coarse.legs.size(); ++k)
+    if (auto found = leg_disagreement(coarse.legs[k], fine.legs[k])) return found;
+  if (coarse.legs.empty() || coarse.legs.back().end() != fine.legs.back().end())
+    return std::nullopt;  // both ended early, at states of their own
+  const double apart = distance(coarse, fine), d = coarse.session.scene().footprint.spacing;
+  if (apart > near_spacings * d) return fmt::format("ends {:.3g} mm apart", apart);
+  return std::nullopt;
+}
+
+Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow,
+                         const Watch& watch) {
+  for (int asked = 0; asked < most_leaders && course.eventful(); ++asked) {
+    const auto plan = with_finer_leader(course.session.shell().plan());
+    if (!plan || !fits_memory(scene, *plan)) {
+      course.doubt = fmt::format("no mesh finer than {} edges a segment led to confirm it",
+                                 leader_of(course));
+      return course;
+    }
+    auto fine = follow(*plan, watch);
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (!fine) {
+      course.doubt = fmt::format("with {} edges a segment leading: {}",
+                                 plan->edges_per_segment.front(), fine.error().message);
+      return course;
+    }
+    const auto differs = disagreement(course, *fine);
+    if (!differs) {
+      extrapolate_events(*fine, course);
+      course.session.charge(fine->session.effort());
+      course.doubt.clear();
+      return course;
+    }
+    fine->session.charge(course.session.effort());
+    fine->seconds_setup += course.seconds_setup;
+    fine->doubt =
+        fmt::format("leading meshes of {} and {} edges a segment do not agree: {}",
+                    leader_of(course), leader_of(*fine), *differs);
+    course = std::move(*fine);
+    if (!course.eventful()) course.doubt.clear();
+  }
+  return course;
+}
+
+}  // namespace gridshell::experiment

@@ -1,0 +1,23 @@
+// Where a path begins: a buckled state out of the flat, or the rest beside a net.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/scene/scene.h"
+#include "engine/solve/nested.h"
+
+namespace gridshell {
+
+/// The seed's buckled state of the coarsest mesh at t, at rest. Every rung starts from the shape of
+/// the bend rung: what twist and springs add does not choose the branch. Of the two diagonals of a
+/// circle's shell the one asked for lies lower; a dome that went to the other is begun from the
+/// other seed, its mirror image. Errors: no_equilibrium, cancelled, bad_input (rods that the rung
+/// cannot take).
+Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellRods& rods, double t,
+                            const Watch& watch);
+
+/// The state of the coarsest mesh next to the scene's net, at rest. Errors: as buckled_state(), and
+/// the net's.
+Result<State> state_on_net(NestedShell& shell, const Scene& scene, const Watch& watch);
+
+}  // namespace gridshell

@@ -1,0 +1,93 @@
+#include "engine/session/leave.h"
+
+#include <random>
+
+#include "engine/solve/minimise.h"
+
+namespace gridshell {
+namespace {
+
+constexpr double still_mm = 0.01;  // what an unstable rest is pushed by in a snap in time
+
+/// The side of `mode` that a departure takes; of sides that are alike that on which the energy
+/// falls.
+State pushed_off(Linearisation& system, const State& state, const Eigen::Matrix3Xd& mode,
+                 Leave side) {
+  const double push = 2 * still_mm / largest_column(mode);
+  State along = state, against = state;
+  move_to(system.model(), state.x + push * mode, along);
+  move_to(system.model(), state.x - push * mode, against);
+  if (side == Leave::along) return along;
+  if (side == Leave::against) return against;
+  return system.energy_at(along) <= system.energy_at(against) ? along : against;
+}
+
+Departure departure_for(Event::Kind kind, const Scene& scene, const NestedShell& shell) {
+  Departure departure = departure_of(scene, shell.mesh(0), shell.model(0));
+  // a path that turns back has one way on
+  if (kind != Event::Kind::stability_lost) departure.side = Leave::lower;
+  return departure;
+}
+
+}  // namespace
+
+Departure departure_of(const Scene& scene, const RodMesh& mesh, const Model& model) {
+  const Imperfection& imperfection = scene.imperfection;
+  Departure departure;
+  departure.step_mm = 0.025 * scene.footprint.spacing;
+  if (!imperfection.chooses()) return departure;
+  departure.amplitude_mm = imperfection.size_mm;
+  departure.side = Leave::along;
+  if (imperfection.soft_mode && imperfection.seed % 2 == 0) departure.side = Leave::against;
+  std::mt19937 random{imperfection.soft_mode ? 0u : std::uint32_t(imperfection.seed)};
+  departure.start = Eigen::Matrix3Xd::Zero(3, model.columns());
+  // not by std::uniform_real_distribution, whose numbers differ from library to library
+  for (int joint = 0; joint < mesh.joints; ++joint)
+    for (int axis = 0; axis < 3; ++axis)
+      departure.start(axis, joint) = double(random()) / double(1u << 31) - 1;
+  return departure;
+}
+
+Result<State> rest_beyond(NestedShell& shell, const Scene& scene, const PathPoint& last,
+                          Event::Kind kind, double there, std::vector<Moment>& moments,
+                          const Watch& watch) {
+  Linearisation& system = shell.system(0);
+  const PinnedMotion& motion = shell.motion(0);
+  const Departure departure = departure_for(kind, scene, shell);
+  if (!scene.snap.wanted) return leave_branch(system, motion, last, there, departure, watch);
+  motion.load_up(system, last.t);
+  system.at(last.state, false);
+  const Eigen::Matrix3Xd mode = softest_mode(system, departure.start);
+  State state = last.state;
+  motion.impose(system, there, state);
+  auto moved = rest_in_time(
+      shell, scene, pushed_off(system, state, mode, departure.side),
+      {.still_N = 1e-4, .still_mJ = 1e-7},
+      [&](const MovingState& now) { moments.push_back({now.time, now.state}); }, watch);
+  if (!moved) return moved;
+  if (minimise(system, *moved, {}, watch).outcome != Outcome::reached)
+    return fail(Fault::no_equilibrium, "the motion did not end near a rest");
+  return moved;
+}
+
+Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& from,
+                           const RestOptions& rest,
+                           const std::function<void(const MovingState&)>& seen,
+                           const Watch& watch) {
+  Linearisation& system = shell.system(0);
+  const auto mass = lumped_mass(system.model(), scene.mass_t_per_mm);
+  if (!mass) return tl::unexpected<Error>(mass.error());
+  DynamicsOptions options;
+  options.step_s = scene.snap.step_s;
+  options.damping_per_s = scene.snap.damping_per_s;
+  options.tolerance_mm = 1e-7;
+  DampedMotion damped(system.model(), *mass, options, system.outside, system.holds());
+  MovingState moving = MovingState::at_rest(from);
+  if (const auto settled = damped.settle(moving, rest, seen, watch); !settled)
+    return tl::unexpected<Error>(settled.error());
+  system.gradient_at(moving.state);
+  moving.state.force = system.assembly().force;
+  return moving.state;
+}
+
+}  // namespace gridshell

@@ -1,0 +1,34 @@
+// Leaving a branch that ended: which way a shell goes, and where it comes to rest.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "engine/session/report.h"
+#include "engine/solve/damped_motion.h"
+#include "engine/solve/nested.h"
+#include "engine/solve/rest.h"
+
+namespace gridshell {
+
+/// How the scene's imperfection leaves a state that lost its stability. Drawn a joint, so it is the
+/// same on every mesh.
+Departure departure_of(const Scene& scene, const RodMesh& mesh, const Model& model);
+
+/// Where the shell, on its coarsest mesh, comes to rest that lost its branch at `last`, with what
+/// is prescribed at `there`: down the energy, or in time where the scene wants it, every time step
+/// then in `moments`. At a loss of stability the imperfection says to which side, at a limit point
+/// the energy. Errors: bad_input (a mass not known), no_equilibrium, cancelled.
+Result<State> rest_beyond(NestedShell& shell, const Scene& scene, const PathPoint& last,
+                          Event::Kind kind, double there, std::vector<Moment>& moments,
+                          const Watch& watch);
+
+/// Moves in time from a state of the coarsest mesh, with the scene's damping, until it rests.
+/// Errors: as rest_beyond().
+Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& from,
+                           const RestOptions& rest,
+                           const std::function<void(const MovingState&)>& seen,
+                           const Watch& watch);
+
+}  // namespace gridshell

@@ -1,0 +1,37 @@
+// Which meshes a shell is solved on, from the accuracy asked for.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace gridshell {
+
+/// Which meshes are solved and how they are used.
+struct LevelPlan {
+  std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before
+  bool extrapolate = false;  ///< over the last two (needs three, the third for the estimate)
+};
+
+/// The cheapest plan worth trying for a tolerance of the largest joint error, relative to the
+/// length scale: the error of k edges falls as 1/k^2, extrapolated as 1/k^4, and is about 3e-3 at
+/// four edges for shells of the paper's kind. The estimate says afterwards whether it held; `finer`
+/// is what to try then. `leader`: edges a segment of the coarsest mesh.
+LevelPlan plan_levels(double tolerance, int leader = 4);
+
+/// The meshes that nest in one of `edges` a segment, down to four edges, itself the last: alone,
+/// its error is not known.
+LevelPlan plan_of_mesh(int edges);
+
+/// What a plan leaves of the largest joint error, over the length scale, as a rule: for plans
+/// before a run.
+double expected_error(const LevelPlan& plan);
+
+/// The next plan: extrapolation, or one level more. Empty when the finest mesh would pass 128
+/// edges.
+std::optional<LevelPlan> finer(const LevelPlan& plan);
+
+/// The plan whose leading mesh has twice the edges: what a coarse leader alone sees is not found on
+/// it. Empty when its finest mesh would pass 128 edges.
+std::optional<LevelPlan> with_finer_leader(const LevelPlan& plan);
+
+}  // namespace gridshell
