@@ -26,10 +26,16 @@ const Station& station_after(const Leg& leg, double t) {
   return leg.trail.stations.back();
 }
 
-/// The error estimate at the end, where errors are largest as a rule, mm; NaN where not known.
-double last_estimate_mm(const Course& course) {
-  if (course.legs.empty()) return 0;
-  return course.legs.back().trail.stations.back().certificate.error_estimate_mm;
+/// Largest error estimate where stable states were certified on a way that was followed forwards,
+/// mm; NaN where one is not known.
+double worst_estimate_mm(const Course& course) {
+  double worst = 0;
+  for (const Leg& leg : course.legs)
+    for (const Station& station : leg.trail.stations) {
+      const double estimate = station.certificate.error_estimate_mm;
+      if (station.certificate.stable() && !(estimate <= worst)) worst = estimate;
+    }
+  return worst;
 }
 
 }  // namespace
@@ -63,16 +69,16 @@ Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& 
     if (!course) return course;
     course->seconds_setup += setup;
     course->session.charge(spent);
-    const double last = last_estimate_mm(*course);
+    const double worst = worst_estimate_mm(*course);
     if (asked) return course;
-    if (!(last > allowed)) return confirmed(scene, std::move(*course), follow, watch);
+    if (!(worst > allowed)) return confirmed(scene, std::move(*course), follow, watch);
     const auto next = finer(plan);
     if (!next)
       return fail(Fault::no_equilibrium,
                   fmt::format("the tolerance {:g} is not met: {} edges a segment leave an "
                               "estimated error of {:.2g} mm, {:.2g} of the length scale",
-                              scene.tolerance, plan.edges_per_segment.back(), last,
-                              last / scene.length_scale_mm));
+                              scene.tolerance, plan.edges_per_segment.back(), worst,
+                              worst / scene.length_scale_mm));
     plan = *next;
     spent = course->session.effort();
     setup = course->seconds_setup;
@@ -126,9 +132,15 @@ std::string places_left(const Leg& leg, const At& at) {
 /// How a leg ended before its end.
 std::string how_it_ended(const Leg& leg, const At& at) {
   const Report& report = leg.report;
+  const double strain = report.certificate.largest_strain;
+  if (report.end == Outcome::locked && strain < 0)
+    return fmt::format(
+        "{} a rod too short to buckle is compressed as far as [limits] max_strain allows: its "
+        "strain is {:.3g}",
+        at(report.t, {}), strain);
   if (report.end == Outcome::locked)
     return fmt::format("{} the rods are at their length: the largest strain is {:.3g}",
-                       at(report.t, {}), report.certificate.largest_strain);
+                       at(report.t, {}), strain);
   const char* where = leg.back ? " on the way back to the flat" : "";
   return fmt::format("{}{} {}, and no rest was found beyond", words_of(report.end).what, where,
                      at(report.t, {}));
@@ -149,9 +161,9 @@ void tell_limit(Course& course, const At& at) {
     const auto places = places_left(leg, at);
     if (places.empty() || course.limit != record::Limit::none) continue;
     course.limit = record::Limit::snap;
-    course.limit_reason = fmt::format(
-        "{}the path lost its stability {} and came to rest in another state",
-        leg.back ? "on the way back to the flat " : "", places);
+    course.limit_reason =
+        fmt::format("{}the path lost its stability {} and came to rest in another state",
+                    leg.back ? "on the way back to the flat " : "", places);
   }
   if (course.doubt.empty()) return;
   course.limit_reason += (course.limit_reason.empty() ? "" : "; ") + course.doubt;

@@ -108,8 +108,8 @@ std::string turning_back(Session& session, const Leg& leg, double depth_mm) {
     if (leg.way() * (event.t - station.point.t) >= 0) last = &station;
   if (!last) return {};
   const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
-  const auto turn = turning_point(session.shell().system(0), session.shell().motion(0),
-                                  last->point, leg.way(), fine);
+  const auto turn = turning_point(session.shell().system(0), session.shell().motion(0), last->point,
+                                  leg.way(), fine);
   return turn ? fmt::format(" (its path turns back at {:.3f} mm)", *turn * depth_mm)
               : std::string();
 }
@@ -132,12 +132,13 @@ void tell(Pushed& pushed) {
         "held at the joint, the shell lost its {} {}{} and came to rest in another state",
         first.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
         at(first.t, first.error), turning_back(course.session, leg, pushed.depth_mm));
-  if (course.limit == record::Limit::locking)
+  const double strain = leg.report.certificate.largest_strain;
+  if (course.limit == record::Limit::locking && strain > 0)
     reason =
         fmt::format("{} ({:.4f} of the length scale) and {:.4g} N the rods are at their length: {}",
                     at(leg.report.t, {}), leg.report.t * pushed.depth_mm / scene.length_scale_mm,
                     pushed.push.displacement.normalized().dot(course.session.force(0)),
-                    leg.report.certificate.largest_strain > 0.99 * scene.max_strain
+                    strain > 0.99 * scene.max_strain
                         ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
                         : "the push meets 100 times its first stiffness");
   if (reason.empty()) return;
@@ -182,9 +183,8 @@ Caption caption_of(const Pushed& pushed) {
           },
           [&](record::Frame& frame) {
             frame.force_N = pushed.push.displacement.normalized().dot(session.force(0));
-            const Reach reach =
-                reach_of(pushed.before, frame.nodes.leftCols(pushed.before.cols()),
-                         session.shell().state().t * pushed.depth_mm);
+            const Reach reach = reach_of(pushed.before, frame.nodes.leftCols(pushed.before.cols()),
+                                         session.shell().state().t * pushed.depth_mm);
             frame.reach_above_tenth = reach.above_tenth;
             frame.reach_above_half = reach.above_half;
             frame.lowest_latitude_deg = reach.lowest_latitude_deg;
@@ -217,8 +217,7 @@ Result<Course> run_indentation(std::shared_ptr<const Scene> scene,
       [&](const LevelPlan& plan, const Watch& w) -> Result<Course> {
         auto pushed = follow_push(scene, indentation, plan, w);
         if (!pushed) return tl::unexpected<Error>(pushed.error());
-        const auto at =
-            tried.insert_or_assign(plan.edges_per_segment, std::move(*pushed)).first;
+        const auto at = tried.insert_or_assign(plan.edges_per_segment, std::move(*pushed)).first;
         return std::move(at->second.course);
       },
       watch);

@@ -45,7 +45,9 @@ inline void add_stretch(const ModelEdge& edge, int k, double EA, const EdgeGeome
   out.force[k] = s.force;
   out.tangents.col(k) = g.tangent;
   // the edge to a ghost only shows a direction
-  if (edge.EA > 0) keep_largest(out.largest_strain, std::abs(g.length / edge.rest_length - 1));
+  const double strain = g.length / edge.rest_length - 1;
+  if (edge.EA > 0 && !(std::abs(strain) <= std::abs(out.largest_strain)))
+    out.largest_strain = strain;
 }
 
 inline void add_pull(const ModelEdge& edge, const Eigen::Vector3d& pull, Assembly& out) {

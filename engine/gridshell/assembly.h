@@ -15,7 +15,7 @@ struct Assembly {
   Eigen::VectorXd force;      ///< axial force EA (|e|/l - 1) of every edge, N
   BlockHessian hessian;
   double smallest_cosine = 1;  ///< of the turns between edges: below 0 they turn over 90 degrees
-  double largest_strain = 0;   ///< over all edges, absolute
+  double largest_strain = 0;   ///< of the edges, by size, with its sign
 };
 
 /// What acts on a model from outside beside its ground: its dead loads times a factor, a field that

@@ -22,12 +22,10 @@ Result<State> buckled_dome(Linearisation& system, const RodMesh& mesh, const Pin
                            double t, const Scene& scene, const Watch& watch) {
   constexpr double clearly_mm = 1e-3;  // that one diagonal lies lower
   auto first = first_buckled(system, mesh, motion, t, scene.seed, scene.flat, watch);
-  const bool mirrored = !std::isnan(scene.radius_begin_mm);  // circles alone are sure to be
   const auto lower = [&](const State& state) {
-    return scene.seed.diagonal *
-           lower_on_diagonal(mesh, nodes_of(mesh, system.model(), state.x));
+    return scene.seed.diagonal * lower_on_diagonal(mesh, nodes_of(mesh, system.model(), state.x));
   };
-  if (!first || !mirrored || lower(*first) > -clearly_mm) return first;
+  if (!first || lower(*first) > -clearly_mm) return first;
   BuckleSeed other = scene.seed;
   other.diagonal *= -1;
   auto second = first_buckled(system, mesh, motion, t, other, scene.flat, watch);

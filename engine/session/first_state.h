@@ -9,10 +9,10 @@
 namespace gridshell {
 
 /// The seed's buckled state of the coarsest mesh at t, at rest. Every rung starts from the shape of
-/// the bend rung: what twist and springs add does not choose the branch. Of the two diagonals of a
-/// circle's shell the one asked for lies lower; a dome that went to the other is begun from the
-/// other seed, its mirror image. Errors: no_equilibrium, cancelled, bad_input (rods that the rung
-/// cannot take).
+/// the bend rung: what twist and springs add does not choose the branch. Of the two diagonals the
+/// one asked for lies lower; a dome that went to the other is begun from the other seed, which for
+/// symmetric footprints is its mirror image. Errors: no_equilibrium, cancelled, bad_input (rods
+/// that the rung cannot take).
 Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellRods& rods, double t,
                             const Watch& watch);
 

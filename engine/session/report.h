@@ -14,7 +14,7 @@ struct Certificate {
   double residual_N = 0;         ///< largest force that nothing holds
   int negative_pivots = 0;       ///< of the Hessian with what is held held; 0: stable
   double error_estimate_mm = 0;  ///< of the joints; NaN on one mesh
-  double largest_strain = 0;
+  double largest_strain = 0;     ///< by size; below 0: a compression
 
   bool stable() const { return negative_pivots == 0; }
 };

@@ -86,7 +86,7 @@ Energies Session::energies() const {
 
 bool Session::locked() const {
   const NestedState& state = shell_->state();
-  if (state.largest_strain > scene_->max_strain) return true;
+  if (std::abs(state.largest_strain) > scene_->max_strain) return true;
   if (actuating_ || holds_.empty() || !(first_stiffness_ > 0)) return false;
   return push_stiffness() > stiffness_growth * first_stiffness_;
 }
@@ -189,7 +189,8 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
     if (nested.end == Outcome::cancelled) return end(Outcome::cancelled);
     if (nested.end == Outcome::reached) {
       if (locked()) {
-        stand_before(next, good, [&] { return !locked(); }, watch);
+        stand_before(
+            next, good, [&] { return !locked(); }, watch);
         events.push_back({Event::Kind::locked, shell_->state().t, {}, {}});
         return end(Outcome::locked);
       }
@@ -208,7 +209,8 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
         nested.end == Outcome::unstable ? Event::Kind::stability_lost : Event::Kind::turned_back;
     // what the finer meshes lost and the leader did not is not located yet
     if (shell_->followed().t == next && kind == Event::Kind::stability_lost) {
-      stand_before(next, good, [] { return true; }, watch);
+      stand_before(
+          next, good, [] { return true; }, watch);
       if (shell_->state().t != good.t) station();
     }
     events.push_back({kind, shell_->followed().t, {}, {}});
@@ -317,8 +319,8 @@ Report Session::sample_rest(double t, const Station& before, const Watch& watch)
   const double begin = seconds_now();
   const Effort spent = effort();
   std::vector<Moment> moments;
-  const auto rest = rest_beyond(*shell_, *scene_, before.point, Event::Kind::stability_lost, t,
-                                moments, watch);
+  const auto rest =
+      rest_beyond(*shell_, *scene_, before.point, Event::Kind::stability_lost, t, moments, watch);
   if (!rest) return report(Outcome::lost, t, spent, begin);
   return sample(t, {{t, *rest, {}}, {}}, false, watch);
 }

@@ -17,7 +17,7 @@ namespace {
 typedef double Column __attribute__((vector_size(32), aligned(32)));
 
 /// A 3x3 block by columns.
-struct alignas(32) Block {
+struct alignas(32) Block3 {
   Column column[3];
 };
 
@@ -25,7 +25,7 @@ struct alignas(32) Block {
 struct alignas(32) Entry {
   Column value;
 };
-static_assert(alignof(Block) == 32 && alignof(Entry) == 32 && sizeof(Entry) == sizeof(Column));
+static_assert(alignof(Block3) == 32 && alignof(Entry) == 32 && sizeof(Entry) == sizeof(Column));
 
 /// The plan and the numbers of one factor; plain arrays for the loops below.
 struct Factor {
@@ -34,13 +34,13 @@ struct Factor {
   std::vector<int> row;     // its row (in elimination order)
   std::vector<int> target;  // per pair (a <= b) of a column's rows: block that it updates
   std::vector<long long> first_target;  // per column
-  std::vector<Block> diagonal, below;   // targets < columns are diagonal, the rest is below
+  std::vector<Block3> diagonal, below;  // targets < columns are diagonal, the rest is below
   std::vector<std::array<double, 3>> sign;
 };
 
 /// L S L^T of a diagonal block in place (lower part); returns false for a pivot that cannot be
 /// used.
-inline bool factor_diagonal(Block& d, std::array<double, 3>& sign, Inertia& inertia) {
+inline bool factor_diagonal(Block3& d, std::array<double, 3>& sign, Inertia& inertia) {
   for (int k = 0; k < 3; ++k) {
     double pivot = d.column[k][k];
     for (int m = 0; m < k; ++m) pivot -= d.column[m][k] * d.column[m][k] * sign[m];
@@ -64,7 +64,7 @@ inline bool factor_diagonal(Block& d, std::array<double, 3>& sign, Inertia& iner
 GRIDSHELL_CLONES
 bool factor_numbers(Factor& f, Inertia& inertia) {
   for (int k = 0; k < f.columns; ++k) {
-    Block& d = f.diagonal[k];
+    Block3& d = f.diagonal[k];
     std::array<double, 3>& s = f.sign[k];
     if (!factor_diagonal(d, s, inertia)) return false;
     const double r0 = s[0] / d.column[0][0], r1 = s[1] / d.column[1][1], r2 = s[2] / d.column[2][2];
@@ -72,18 +72,18 @@ bool factor_numbers(Factor& f, Inertia& inertia) {
                  l21 = d.column[1][2] * s[1];
     const int begin = f.first[k], end = f.first[k + 1];
     for (int i = begin; i < end; ++i) {
-      Block& b = f.below[i];
+      Block3& b = f.below[i];
       b.column[0] *= r0;
       b.column[1] = (b.column[1] - l10 * b.column[0]) * r1;
       b.column[2] = (b.column[2] - l20 * b.column[0] - l21 * b.column[1]) * r2;
     }
     const int* target = f.target.data() + f.first_target[k];
     for (int a = begin; a < end; ++a) {
-      const Block& la = f.below[a];
+      const Block3& la = f.below[a];
       const Column m0 = la.column[0] * s[0], m1 = la.column[1] * s[1], m2 = la.column[2] * s[2];
-      Block* place = &f.diagonal[*target++];
+      Block3* place = &f.diagonal[*target++];
       for (int b = a;;) {
-        const Block& lb = f.below[b];
+        const Block3& lb = f.below[b];
         for (int j = 0; j < 3; ++j)
           place->column[j] -= lb.column[0] * m0[j] + lb.column[1] * m1[j] + lb.column[2] * m2[j];
         if (++b == end) break;
@@ -97,22 +97,22 @@ bool factor_numbers(Factor& f, Inertia& inertia) {
 GRIDSHELL_CLONES
 void solve_numbers(const Factor& f, Entry* x) {
   for (int k = 0; k < f.columns; ++k) {
-    const Block& d = f.diagonal[k];
+    const Block3& d = f.diagonal[k];
     Column v = x[k].value;
     v[0] = v[0] / d.column[0][0];
     v[1] = (v[1] - d.column[0][1] * v[0]) / d.column[1][1];
     v[2] = (v[2] - d.column[0][2] * v[0] - d.column[1][2] * v[1]) / d.column[2][2];
     x[k].value = v;
     for (int i = f.first[k]; i < f.first[k + 1]; ++i) {
-      const Block& b = f.below[i];
+      const Block3& b = f.below[i];
       x[f.row[i]].value -= b.column[0] * v[0] + b.column[1] * v[1] + b.column[2] * v[2];
     }
   }
   for (int k = f.columns - 1; k >= 0; --k) {
-    const Block& d = f.diagonal[k];
+    const Block3& d = f.diagonal[k];
     Column sum[3] = {};
     for (int i = f.first[k]; i < f.first[k + 1]; ++i) {
-      const Block& b = f.below[i];
+      const Block3& b = f.below[i];
       const Column y = x[f.row[i]].value;
       for (int j = 0; j < 3; ++j) sum[j] += b.column[j] * y;
     }
@@ -242,7 +242,7 @@ class BlockCholesky final : public LinearSolver {
     bool transposed;
   };
 
-  static void put(const Eigen::Matrix3d& m, bool transposed, Block& b) {
+  static void put(const Eigen::Matrix3d& m, bool transposed, Block3& b) {
     for (int c = 0; c < 3; ++c)
       b.column[c] =
           transposed ? Column{m(c, 0), m(c, 1), m(c, 2), 0} : Column{m(0, c), m(1, c), m(2, c), 0};
@@ -251,9 +251,9 @@ class BlockCholesky final : public LinearSolver {
   bool partly_held(int column) const { return model_.held[std::size_t(column)] != 0; }
 
   void scatter(const BlockHessian& hessian, double shift) {
-    std::memset(static_cast<void*>(factor_.below.data()), 0, factor_.below.size() * sizeof(Block));
+    std::memset(static_cast<void*>(factor_.below.data()), 0, factor_.below.size() * sizeof(Block3));
     for (std::size_t k = 0; k < column_.size(); ++k) {
-      Block& d = factor_.diagonal[k];
+      Block3& d = factor_.diagonal[k];
       const int column = column_[k];
       const Eigen::Matrix3d& own = hessian.diagonal[std::size_t(column)];
       put(partly_[k] ? without_held(model_, column, column, own) : own, false, d);

@@ -21,7 +21,7 @@ struct NestedState {
   double error_estimate_mm = 0;  ///< of the joints of x; NaN when only one level is solved
   double residual_N = 0;         ///< of the finest level's equilibrium
   Inertia inertia;               ///< of the finest level's Hessian
-  double largest_strain = 0;
+  double largest_strain = 0;     ///< by size, with its sign
   std::vector<Eigen::Vector3d> reactions;  ///< on held joints, extrapolated as x, N
   /// how the reactions' held components grow with these, in the order of holds and their
   /// directions, N/mm

@@ -25,7 +25,7 @@ double kick_and_drift(const Model& model, const Eigen::Matrix3Xd& mass, double k
 
 /// energies beyond any the rods could hold: strained by more than one half
 bool grown(const Assembly& assembly) {
-  return !(assembly.largest_strain < 0.5) || !std::isfinite(assembly.energies.total());
+  return !(std::abs(assembly.largest_strain) < 0.5) || !std::isfinite(assembly.energies.total());
 }
 
 /// one implicit step; false where Newton's method does not solve it, the motion is then unchanged

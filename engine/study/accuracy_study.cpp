@@ -29,8 +29,8 @@ struct Measured {
 };
 
 /// Several runs of a fast method, one of a slow one.
-Measured measure(Case& study, const Method& method, double allowed, const AccuracyOptions& options,
-                 const Watch& watch) {
+Measured measure(Subject& study, const Method& method, double allowed,
+                 const AccuracyOptions& options, const Watch& watch) {
   Measured measured;
   for (int run = 0; run < std::max(1, options.runs); ++run) {
     Stopwatch stopwatch;
@@ -46,7 +46,7 @@ Measured measure(Case& study, const Method& method, double allowed, const Accura
   return measured;
 }
 
-AccuracyRow row_of(const Case& study, const Method& method, const Measured& measured) {
+AccuracyRow row_of(const Subject& study, const Method& method, const Measured& measured) {
   AccuracyRow row;
   row.method = method.name;
   row.edges_per_segment = measured.arrival.edges;
@@ -96,7 +96,7 @@ std::vector<Ladder> other_ladders(const AccuracyOptions& options) {
 }
 
 /// Runs ladders on several threads; rows come back in the order of the ladders.
-std::vector<AccuracyRow> climb(Case& study, const std::vector<Ladder>& ladders, int threads,
+std::vector<AccuracyRow> climb(Subject& study, const std::vector<Ladder>& ladders, int threads,
                                const AccuracyOptions& options, Watch& watch, double from,
                                double to) {
   std::vector<std::vector<AccuracyRow>> rows(ladders.size());
@@ -175,7 +175,7 @@ std::vector<record::ScalingRow> scaling_of(const preset::Preset& preset,
   int step = 0;
   for (double factor : {2.0, 1.5, 1.0, 0.75, 0.5}) {
     watch.report(0.75 + 0.05 * step++);
-    auto made = Case::create(respaced(preset, factor), 16, watch);
+    auto made = Subject::create(respaced(preset, factor), 16, watch);
     if (!made) continue;  // a footprint that cannot be cut so, or whose path is lost
     for (std::size_t k = 0; k < methods.size() && !watch.cancelled(); ++k) {
       if (slow[k]) continue;
@@ -201,9 +201,9 @@ std::vector<record::ScalingRow> scaling_of(const preset::Preset& preset,
 Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const AccuracyOptions& options,
                                      Watch& watch) {
   keep_blas_on_one_thread();
-  auto made = Case::create(preset, options.finest, watch);
+  auto made = Subject::create(preset, options.finest, watch);
   if (!made) return tl::unexpected<Error>(made.error());
-  Case& study = **made;
+  Subject& study = **made;
   for (int k = 1; k <= options.most_edges; k *= 2)
     (void)study.problem(k, watch);  // a mesh without one is refused where it is used
   AccuracyStudy result;

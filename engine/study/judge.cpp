@@ -10,13 +10,13 @@ using record::RunOutcome;
 constexpr double flat = 1e-3;  // of the length scale
 
 /// Height of the joints above one another, over the length scale.
-double height_of(const Case& study, const Eigen::Matrix3Xd& x) {
+double height_of(const Subject& study, const Eigen::Matrix3Xd& x) {
   const auto z = x.leftCols(study.joints()).row(2);
   return (z.maxCoeff() - z.minCoeff()) / study.scale_mm();
 }
 
 /// What a state that is not the right one is on its own mesh.
-RunOutcome kind_of(const Case& study, const Problem& problem, const Eigen::Matrix3Xd& x,
+RunOutcome kind_of(const Subject& study, const Problem& problem, const Eigen::Matrix3Xd& x,
                    double near_mm) {
   if (height_of(study, x) < flat && height_of(study, problem.end.x) > 10 * flat)
     return RunOutcome::planar_saddle;
@@ -34,7 +34,7 @@ RunOutcome kind_of(const Case& study, const Problem& problem, const Eigen::Matri
 
 }  // namespace
 
-RunOutcome judge(Case& study, const Arrival& arrival, double claimed, double allowed,
+RunOutcome judge(Subject& study, const Arrival& arrival, double claimed, double allowed,
                  const Watch& watch) {
   if (arrival.claim != RunOutcome::right) return arrival.claim;
   if (!arrival.x.allFinite() || arrival.x.cols() < study.joints()) return RunOutcome::silent_wrong;
@@ -49,7 +49,7 @@ RunOutcome judge(Case& study, const Arrival& arrival, double claimed, double all
   return judge_end(study, **problem, arrival.x, claimed);
 }
 
-RunOutcome judge_end(const Case& study, const Problem& problem, const Eigen::Matrix3Xd& x,
+RunOutcome judge_end(const Subject& study, const Problem& problem, const Eigen::Matrix3Xd& x,
                      double claimed) {
   if (!x.allFinite()) return RunOutcome::silent_wrong;
   const Eigen::Index joints = study.joints();

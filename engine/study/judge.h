@@ -12,11 +12,11 @@ namespace gridshell::study {
 /// claimed right is a planar saddle (all joints within 1e-3 of the boundary's plane), another state
 /// (a stable equilibrium of the mesh) or silently wrong (neither, or negative pivots). A method's
 /// report that it failed is believed.
-record::RunOutcome judge(Case& study, const Arrival& arrival, double claimed, double allowed,
+record::RunOutcome judge(Subject& study, const Arrival& arrival, double claimed, double allowed,
                          const Watch& watch);
 
 /// The same for positions on the mesh of a problem, by the problem's own end.
-record::RunOutcome judge_end(const Case& study, const Problem& problem, const Eigen::Matrix3Xd& x,
-                             double claimed);
+record::RunOutcome judge_end(const Subject& study, const Problem& problem,
+                             const Eigen::Matrix3Xd& x, double claimed);
 
 }  // namespace gridshell::study

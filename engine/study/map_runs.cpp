@@ -9,7 +9,8 @@ namespace gridshell::study {
 
 using record::RunOutcome;
 
-Arrival by_default(Case& study, LevelPlan plan, double tolerance, int stops, const Watch& watch) {
+Arrival by_default(Subject& study, LevelPlan plan, double tolerance, int stops,
+                   const Watch& watch) {
   for (;;) {
     NestedShell shell = study.shell(plan, tolerance > 0 ? tolerance : 1e-3);
     NestedReport report = study.begin(shell, watch);
@@ -62,7 +63,7 @@ Arrival hold(const Problem& problem, double over_l_c, const Watch& watch) {
   return arrival;
 }
 
-Problem from_flat(const Case& study, const Problem& problem, double height) {
+Problem from_flat(const Subject& study, const Problem& problem, double height) {
   Problem flat = problem;
   const Eigen::Matrix3Xd end = problem.motion.at(problem.t);
   flat.motion = {study.scene().flat.all(problem.mesh.flat), {}, Pace::even};
@@ -81,7 +82,7 @@ Problem from_flat(const Case& study, const Problem& problem, double height) {
   return flat;
 }
 
-Arrival buckle(const Case& study, const Problem& problem, const Watch& watch) {
+Arrival buckle(const Subject& study, const Problem& problem, const Watch& watch) {
   Linearisation system(problem.model);
   Arrival arrival;
   arrival.edges = problem.edges;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/record/charts.h"
-#include "engine/study/case.h"
 #include "engine/study/stopwatch.h"
+#include "engine/study/subject.h"
 
 namespace gridshell::study {
 
@@ -28,7 +28,7 @@ struct Arrival {
 struct Method {
   std::string name;
   int edges = 0;  ///< of the finest mesh; 0: none
-  std::function<Arrival(Case&, Stopwatch&, const Watch&)> run;
+  std::function<Arrival(Subject&, Stopwatch&, const Watch&)> run;
 };
 
 /// Path parameter of load step `k` of `steps`: boundary or joint move evenly.

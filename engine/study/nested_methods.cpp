@@ -37,7 +37,7 @@ Arrival arrive(const NestedShell& shell, const NestedReport& report, bool extrap
   return arrival;
 }
 
-Arrival follow(Case& study, const LevelPlan& plan, double tolerance, Stopwatch& stopwatch,
+Arrival follow(Subject& study, const LevelPlan& plan, double tolerance, Stopwatch& stopwatch,
                const Watch& watch, double* estimate, const OnRung& on = {}) {
   stopwatch.start();
   NestedShell shell = study.shell(plan, tolerance, on);
@@ -61,7 +61,7 @@ double load_parameter(const Problem& problem, int k, int steps) {
 }
 
 Method net_method() {
-  return {"net", 0, [](Case& study, Stopwatch& stopwatch, const Watch&) {
+  return {"net", 0, [](Subject& study, Stopwatch& stopwatch, const Watch&) {
             Arrival arrival;
             arrival.claim = RunOutcome::refused;
             const auto& scene = study.scene();
@@ -82,7 +82,7 @@ Method net_method() {
 }
 
 Method bend_method(int edges) {
-  return {"bend", edges, [edges](Case& study, Stopwatch& stopwatch, const Watch& watch) {
+  return {"bend", edges, [edges](Subject& study, Stopwatch& stopwatch, const Watch& watch) {
             const LevelPlan plan{{edges}, false};
             return follow(study, plan, expected_error(plan), stopwatch, watch, nullptr);
           }};
@@ -91,7 +91,7 @@ Method bend_method(int edges) {
 namespace {
 
 Method on_rung(const std::string& name, int edges, const OnRung& on) {
-  return {name, edges, [edges, on](Case& study, Stopwatch& stopwatch, const Watch& watch) {
+  return {name, edges, [edges, on](Subject& study, Stopwatch& stopwatch, const Watch& watch) {
             const LevelPlan plan{{edges}, false};
             return follow(study, plan, expected_error(plan), stopwatch, watch, nullptr, on);
           }};
@@ -108,14 +108,14 @@ Method spring_method(int edges, double stiffness_N_per_mm) {
 
 Method nested_method(const std::vector<int>& edges) {
   const LevelPlan plan{edges, edges.size() > 2};
-  return {"nested", edges.back(), [plan](Case& study, Stopwatch& stopwatch, const Watch& watch) {
+  return {"nested", edges.back(), [plan](Subject& study, Stopwatch& stopwatch, const Watch& watch) {
             return follow(study, plan, expected_error(plan), stopwatch, watch, nullptr);
           }};
 }
 
 Method auto_method(double tolerance) {
   return {fmt::format("auto {:.0e}", tolerance), 0,
-          [tolerance](Case& study, Stopwatch& stopwatch, const Watch& watch) {
+          [tolerance](Subject& study, Stopwatch& stopwatch, const Watch& watch) {
             LevelPlan plan = plan_levels(tolerance);
             for (;;) {
               double estimate = 0;

@@ -131,7 +131,7 @@ Arrival march(const Problem& problem, const MarchOptions& options, Stopwatch& st
 
 Method textbook_method(int edges) {
   return {"Newton + CHOLMOD", edges,
-          [edges](Case& study, Stopwatch& stopwatch, const Watch& watch) -> Arrival {
+          [edges](Subject& study, Stopwatch& stopwatch, const Watch& watch) -> Arrival {
             const auto problem = study.problem(edges, watch);
             if (!problem) return {RunOutcome::refused, {}, false, 0, 0, 0};
             return march(**problem, {}, stopwatch, watch);

@@ -121,7 +121,7 @@ Arrival march_relaxed(const Problem& problem, const RelaxMarch& options, Stopwat
 
 Method relaxed_method(Relaxation kind, int edges) {
   return {name_of(kind), edges,
-          [kind, edges](Case& study, Stopwatch& stopwatch, const Watch& watch) -> Arrival {
+          [kind, edges](Subject& study, Stopwatch& stopwatch, const Watch& watch) -> Arrival {
             const auto problem = study.problem(edges, watch);
             if (!problem) return {RunOutcome::refused, {}, false, 0, 0, 0};
             RelaxMarch how{.kind = kind};

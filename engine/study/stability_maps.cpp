@@ -15,7 +15,7 @@ using record::StabilityRow;
 
 constexpr double claimed = 1e-4;  // of the length scale: what a method at rest promises
 
-using Study = std::shared_ptr<Case>;
+using Study = std::shared_ptr<Subject>;
 using Run = std::function<Arrival(const Problem&, const Watch&)>;
 
 /// Runs on one mesh of a case and is judged there.
@@ -55,7 +55,7 @@ constexpr Globalisation globalisations[] = {Globalisation::none, Globalisation::
 /// A case that is made when a cell first needs it; empty where it has no reference.
 class Lazy {
  public:
-  explicit Lazy(std::function<Result<std::unique_ptr<Case>>()> make) : make_(std::move(make)) {}
+  explicit Lazy(std::function<Result<std::unique_ptr<Subject>>()> make) : make_(std::move(make)) {}
   Study get() {
     const std::lock_guard lock(mutex_);
     if (!made_) {
@@ -67,7 +67,7 @@ class Lazy {
 
  private:
   std::mutex mutex_;
-  std::function<Result<std::unique_ptr<Case>>()> make_;
+  std::function<Result<std::unique_ptr<Subject>>()> make_;
   std::optional<Study> made_;
 };
 
@@ -184,7 +184,7 @@ Cells stiffness_map(const preset::Preset& preset, const std::vector<double>& sca
   for (double scale : scales) {
     const auto lazy = std::make_shared<Lazy>([=] {
       Watch patient;
-      return Case::create(preset, 16, patient, scale);
+      return Subject::create(preset, 16, patient, scale);
     });
     for (Cell& one : load_step_cells({"EA", "", "EA over the rods'", scale, "", 0, {}}, lazy,
                                      load_steps, edges))
@@ -209,7 +209,7 @@ Cells leg_map(const preset::Preset& preset, const std::vector<double>& legs,
     cut.actuation.radius_mm *= cut.footprint.radius_mm / preset.footprint.radius_mm;
     const auto lazy = std::make_shared<Lazy>([=] {
       Watch patient;
-      return Case::create(cut, 16, patient);
+      return Subject::create(cut, 16, patient);
     });
     for (Cell& one : load_step_cells({"shortest leg", "", "leg over d", leg, "", 0, {}}, lazy,
                                      load_steps, edges))
@@ -221,7 +221,7 @@ Cells leg_map(const preset::Preset& preset, const std::vector<double>& legs,
 namespace {
 
 /// As judge(), for a problem that ends elsewhere.
-RunOutcome judge_at(const Problem& problem, const Case& study, const Arrival& arrival) {
+RunOutcome judge_at(const Problem& problem, const Subject& study, const Arrival& arrival) {
   if (arrival.claim != RunOutcome::right) return arrival.claim;
   return judge_end(study, problem, arrival.x, claimed);
 }

@@ -27,9 +27,9 @@ Result<std::vector<record::StabilityRow>> stability_study(const preset::Preset& 
                                                           const StabilityOptions& options,
                                                           Watch& watch) {
   keep_blas_on_one_thread();
-  auto made = Case::create(preset, 64, watch);
+  auto made = Subject::create(preset, 64, watch);
   if (!made) return tl::unexpected<Error>(made.error());
-  const std::shared_ptr<Case> study = std::move(*made);
+  const std::shared_ptr<Subject> study = std::move(*made);
   if (study->task() != Task::actuation)
     return fail(Fault::bad_input,
                 "maps of stability need an actuation from the flat, without a "

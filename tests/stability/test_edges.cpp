@@ -12,10 +12,10 @@ using record::RunOutcome;
 
 namespace {
 
-std::shared_ptr<Case> small_case() {
-  static const std::shared_ptr<Case> made = [] {
+std::shared_ptr<Subject> small_case() {
+  static const std::shared_ptr<Subject> made = [] {
     Watch watch;
-    return std::shared_ptr<Case>(Case::create(small_scene(), 64, watch).value());
+    return std::shared_ptr<Subject>(Subject::create(small_scene(), 64, watch).value());
   }();
   return made;
 }

@@ -1,4 +1,4 @@
-#include "engine/study/case.h"
+#include "engine/study/subject.h"
 
 #include <fmt/format.h>
 
@@ -38,9 +38,9 @@ Error lost(const NestedReport& report, const char* where) {
 
 }  // namespace
 
-Result<std::unique_ptr<Case>> Case::create(const preset::Preset& preset, int finest, Watch& watch,
-                                           double EA_scale) {
-  std::unique_ptr<Case> made(new Case);
+Result<std::unique_ptr<Subject>> Subject::create(const preset::Preset& preset, int finest,
+                                                 Watch& watch, double EA_scale) {
+  std::unique_ptr<Subject> made(new Subject);
   if (auto ready = made->set_up(preset); !ready) return tl::unexpected<Error>(ready.error());
   if (EA_scale != 1) {
     Scene stiffer = *made->scene_;
@@ -52,7 +52,7 @@ Result<std::unique_ptr<Case>> Case::create(const preset::Preset& preset, int fin
   return made;
 }
 
-Result<void> Case::set_up(const preset::Preset& preset) {
+Result<void> Subject::set_up(const preset::Preset& preset) {
   auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
   if (scene->rung == preset::Rung::twist)
@@ -67,7 +67,7 @@ Result<void> Case::set_up(const preset::Preset& preset) {
   return {};
 }
 
-Result<void> Case::follow(int finest, Watch& watch) {
+Result<void> Subject::follow(int finest, Watch& watch) {
   LevelPlan plan{{4}, true};
   while (2 * plan.edges_per_segment.back() <= std::max(finest, 16))
     plan.edges_per_segment.push_back(2 * plan.edges_per_segment.back());
@@ -113,7 +113,7 @@ Result<void> Case::follow(int finest, Watch& watch) {
   return {};
 }
 
-Result<void> Case::find_push(const NestedShell& shell) {
+Result<void> Subject::find_push(const NestedShell& shell) {
   const auto push = experiment::push_of(pushed_, *scene_, shell.finest(), shell.state().x);
   if (!push) return tl::unexpected<Error>(push.error());
   joint_ = push->joint;
@@ -121,11 +121,11 @@ Result<void> Case::find_push(const NestedShell& shell) {
   return {};
 }
 
-void Case::push(NestedShell& shell) const {
+void Subject::push(NestedShell& shell) const {
   shell.drive({.holds = {Hold{joint_}}, .displacements = {displacement_}});
 }
 
-ShellRods Case::rods_on(const OnRung& on) const {
+ShellRods Subject::rods_on(const OnRung& on) const {
   constexpr double shear_over_young = 31.0 / 83;  // of Nitinol; at rest these rods do not twist
   ShellRods rods = scene_->rods;
   if (on.rung == Rung::bend) return rods;
@@ -134,7 +134,7 @@ ShellRods Case::rods_on(const OnRung& on) const {
   return rods;
 }
 
-NestedShell Case::shell(const LevelPlan& plan, double tolerance, const OnRung& on) const {
+NestedShell Subject::shell(const LevelPlan& plan, double tolerance, const OnRung& on) const {
   PathOptions options;
   options.spacing_mm = scene_->footprint.spacing;
   options.tolerance_mm = std::clamp(1e-3 * tolerance * scale_mm(), 1e-7, 1e-4);
@@ -142,7 +142,7 @@ NestedShell Case::shell(const LevelPlan& plan, double tolerance, const OnRung& o
       .value();
 }
 
-Problem Case::on_rung(const Problem& problem, const OnRung& on) const {
+Problem Subject::on_rung(const Problem& problem, const OnRung& on) const {
   Problem other = problem;
   other.model = build_model(problem.mesh, rods_on(on), on.rung).value();
   if (task_ == Task::push) other.model.pin(joint_);
@@ -157,7 +157,7 @@ Problem Case::on_rung(const Problem& problem, const OnRung& on) const {
   return other;
 }
 
-NestedReport Case::begin(NestedShell& shell, const Watch& watch) {
+NestedReport Subject::begin(NestedShell& shell, const Watch& watch) {
   if (task_ == Task::beside_net) return {Outcome::reached, 1};
   const auto coarse = problem(shell.plan().edges_per_segment.front(), watch);
   if (!coarse) return {Outcome::lost, t_};
@@ -170,7 +170,7 @@ NestedReport Case::begin(NestedShell& shell, const Watch& watch) {
   return report;
 }
 
-NestedReport Case::go(NestedShell& shell, const Watch& watch) const {
+NestedReport Subject::go(NestedShell& shell, const Watch& watch) const {
   if (task_ == Task::actuation) return shell.advance(1, watch);
   if (task_ == Task::beside_net) {
     auto net = on_net(*scene_, shell.mesh(0), shell.model(0), shell.motion(0));
@@ -185,8 +185,8 @@ NestedReport Case::go(NestedShell& shell, const Watch& watch) const {
   return report;
 }
 
-Result<State> Case::rest_beside(const Problem& problem, const Eigen::Matrix3Xd& wanted, double t,
-                                const Watch& watch) const {
+Result<State> Subject::rest_beside(const Problem& problem, const Eigen::Matrix3Xd& wanted, double t,
+                                   const Watch& watch) const {
   Eigen::Matrix3Xd x;
   MeshTransfer(finest_, problem.mesh).nodes(wanted, x);
   Linearisation system(problem.model);
@@ -202,7 +202,7 @@ Result<State> Case::rest_beside(const Problem& problem, const Eigen::Matrix3Xd& 
       fmt::format("{} edges a segment have no stable state near the reference's", problem.edges));
 }
 
-Result<const Problem*> Case::problem(int edges, const Watch& watch) {
+Result<const Problem*> Subject::problem(int edges, const Watch& watch) {
   const std::lock_guard lock(mutex_);
   if (const auto known = problems_.find(edges); known != problems_.end()) return &known->second;
   const NestedShell one = shell({{edges}, false}, exact);
@@ -229,7 +229,7 @@ Result<const Problem*> Case::problem(int edges, const Watch& watch) {
   return &problems_.emplace(edges, std::move(problem)).first->second;
 }
 
-double Case::error_of(const Eigen::Matrix3Xd& x) const {
+double Subject::error_of(const Eigen::Matrix3Xd& x) const {
   return largest_column(x.leftCols(joints()) - end_.leftCols(joints())) / scale_mm();
 }
 

@@ -40,13 +40,13 @@ struct Problem {
 /// extrapolated over the last two; every coarser mesh is brought to rest from the reference's
 /// positions, so all starts and ends lie on one branch. A push holds the joint across, too
 /// (`lateral = "held"`): one problem for methods that cannot prescribe one direction alone.
-class Case {
+class Subject {
  public:
   /// Errors: bad_input (scene), no_equilibrium (the path is lost or snaps on the way: there is
   /// nothing to compare with), cancelled.
   /// `EA_scale` multiplies the rods' EA.
-  static Result<std::unique_ptr<Case>> create(const preset::Preset& preset, int finest,
-                                              Watch& watch, double EA_scale = 1);
+  static Result<std::unique_ptr<Subject>> create(const preset::Preset& preset, int finest,
+                                                 Watch& watch, double EA_scale = 1);
 
   /// Made once a mesh, from any thread. Errors: no_equilibrium where the mesh has no state near the
   /// reference's.
@@ -71,7 +71,7 @@ class Case {
   NestedReport go(NestedShell& shell, const Watch& watch) const;
 
  private:
-  Case() = default;
+  Subject() = default;
   Result<void> set_up(const preset::Preset& preset);
   Result<void> follow(int finest, Watch& watch);
   Result<void> find_push(const NestedShell& shell);
