@@ -73,6 +73,7 @@ class Idle {
     if (preset_.rod_v.differs) rods("rod_v", preset_.rod_v);
     push();
     motion();
+    pictures();
     return std::move(found_);
   }
 
@@ -188,6 +189,14 @@ class Idle {
     if (!preset_.dynamics.snap)
       for (const char* key : {"step_s", "damping_per_s"})
         add("dynamics", key, {"[dynamics] snap"}, "no snap is followed in time without it");
+  }
+
+  void pictures() {
+    if (preset_.movie.view != View::free)
+      for (const char* key : {"azimuth_deg", "elevation_deg"})
+        add("movie", key, {"[movie] view"}, "[movie] view takes its place");
+    if (preset_.page.kind == PageKind::none)
+      add("page", "photo", {"[page] kind"}, "no page is made: [page] kind is \"none\"");
   }
 
   const Preset& preset_;

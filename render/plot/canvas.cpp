@@ -1,11 +1,13 @@
 #include "render/plot/canvas.h"
 
+#include <fmt/format.h>
 #include <pango/pangocairo.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 #include "render/plot/pixels.h"
 #include "render/plot/text.h"
@@ -198,6 +200,70 @@ void Canvas::marker(Marker kind, Point p, double size, Colour fill, const Stroke
   }
 }
 
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string xml;
+  for (char c : text) {
+    if (c == '&')
+      xml += "&amp;";
+    else if (c == '<')
+      xml += "&lt;";
+    else if (c == '>')
+      xml += "&gt;";
+    else
+      xml += c;
+  }
+  return xml;
+}
+
+std::string hex(Colour c) {
+  const auto byte = [](float v) { return int(255 * std::clamp(v, 0.f, 1.f) + 0.5f); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(c.r), byte(c.g), byte(c.b));
+}
+
+// every piece of one look in its place, `at` being the layout's upper left corner
+std::string text_element(PangoLayout* layout, const std::vector<TextRun>& runs, Point anchor,
+                         Point at, const TextStyle& style, double scale) {
+  std::string spans;
+  PangoLayoutIter* iter = pango_layout_get_iter(layout);
+  const std::string_view letters = pango_layout_get_text(layout);
+  do {
+    const PangoLayoutRun* run = pango_layout_iter_get_run_readonly(iter);
+    if (!run) continue;
+    PangoRectangle logical;
+    pango_layout_iter_get_run_extents(iter, nullptr, &logical);
+    const std::size_t from = std::size_t(run->item->offset),
+                      length = std::size_t(run->item->length);
+    std::size_t begin = 0, index = 0;
+    while (index + 1 < runs.size() && begin + runs[index].text.size() <= from)
+      begin += runs[index++].text.size();
+    const TextRun look = runs.empty() ? TextRun{} : runs[index];
+    const double rise = look.level == 0 ? 0 : look.level > 0 ? raised_by : -lowered_by;
+    const double y = at.y + double(pango_layout_iter_get_baseline(iter)) / PANGO_SCALE;
+    spans += fmt::format("<tspan x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\"{}>{}</tspan>",
+                         at.x + double(logical.x) / PANGO_SCALE, y - rise * style.size,
+                         look.level == 0 ? style.size : script_size * style.size,
+                         look.slanted ? " font-style=\"oblique\"" : "",
+                         escaped(letters.substr(from, length)));
+  } while (pango_layout_iter_next_run(iter));
+  pango_layout_iter_free(iter);
+  const std::string halo =
+      style.halo.a > 0 ? fmt::format(
+                             " stroke=\"{}\" stroke-opacity=\"{:.3g}\" stroke-width=\"{:.3f}\" "
+                             "paint-order=\"stroke\"",
+                             hex(style.halo), style.halo.a, style.size / 4)
+                       : "";
+  return fmt::format(
+      "<text transform=\"scale({:.5g}) translate({:.3f} {:.3f}) rotate({:.3f})\" "
+      "font-family=\"DejaVu Sans, "
+      "sans-serif\"{} fill=\"{}\" fill-opacity=\"{:.3g}\"{} xml:space=\"preserve\">{}</text>\n",
+      scale, anchor.x, anchor.y, -style.angle_deg, style.bold ? " font-weight=\"bold\"" : "",
+      hex(style.colour), style.colour.a, halo, spans);
+}
+
+}  // namespace
+
 Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style) {
   const Layout layout = make_layout(cairo_, marked, style);
   PangoRectangle ink_rectangle, logical_rectangle;
@@ -205,17 +271,19 @@ Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style
   const Point at = corner(layout.get(), to_box(logical_rectangle), style);
 
   const double angle = -style.angle_deg * std::numbers::pi / 180;
+  if (keeps_text_)
+    text_elements_ += text_element(layout.get(), parse_marked(marked), anchor, at, style, scale_);
   cairo_save(cairo_);
   cairo_translate(cairo_, anchor.x, anchor.y);
   cairo_rotate(cairo_, angle);
   cairo_move_to(cairo_, at.x, at.y);
-  if (style.halo.a > 0) {
+  if (style.halo.a > 0 && !keeps_text_) {
     pango_cairo_layout_path(cairo_, layout.get());
     paint_path({0, 0, 0, 0}, {style.halo, style.size / 4});
     cairo_move_to(cairo_, at.x, at.y);
   }
   set_colour(cairo_, style.colour);
-  pango_cairo_show_layout(cairo_, layout.get());
+  if (!keeps_text_) pango_cairo_show_layout(cairo_, layout.get());
   cairo_restore(cairo_);
   cairo_new_path(cairo_);
 
@@ -274,6 +342,16 @@ void Canvas::picture(const Image& image, const Box& box) {
   cairo_fill(cairo_);
   cairo_restore(cairo_);
   cairo_surface_destroy(surface);
+}
+
+void Canvas::enlarged(double scale, const std::function<void()>& inside) {
+  const double before = scale_;
+  cairo_save(cairo_);
+  cairo_scale(cairo_, scale, scale);
+  scale_ *= scale;
+  inside();
+  scale_ = before;
+  cairo_restore(cairo_);
 }
 
 void Canvas::clipped(const Box& box, const std::function<void()>& inside) {

@@ -94,11 +94,21 @@ class Canvas {
   /// ink boxes of all texts drawn so far, in order
   const std::vector<Box>& text_boxes() const { return text_boxes_; }
 
+  /// What `inside` draws is `scale` times as large.
+  void enlarged(double scale, const std::function<void()>& inside);
+
+  /// From here on text is not drawn but kept as SVG elements, so that it stays text.
+  void keep_text() { keeps_text_ = true; }
+  const std::string& text_elements() const { return text_elements_; }
+
  private:
   void paint_path(Colour fill, const Stroke& stroke);
 
   cairo_t* cairo_;
   double width_, height_;
+  bool keeps_text_ = false;
+  double scale_ = 1;  ///< of what enlarged() has in hand
+  std::string text_elements_;
   std::vector<std::string> texts_;
   std::vector<Box> text_boxes_;
 };
@@ -112,13 +122,24 @@ void draw_over(Image& image, const DrawOn& draw);
 Image draw_picture(double width, double height, double pixels_per_unit, Colour background,
                    const DrawOn& draw);
 
-/// An SVG of width x height points. Letters become outlines, so that it looks the same on every
-/// machine; `title` and all texts stand in its <title> and <desc> for search and screen readers.
+/// An SVG of width x height points whose text stays text, in DejaVu Sans or what stands in for it;
+/// `title` and all texts stand in its <title> and <desc> for search and screen readers.
 std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw);
 
-/// The same drawing as `<stem>.png` (at `dpi`) and `<stem>.svg`, each whole or absent.
-/// Errors: Fault::io naming the path.
+/// A PDF of width x height points with its fonts in it; the same drawing gives the same bytes.
+std::string draw_pdf(double width, double height, const std::string& title, const DrawOn& draw);
+
+/// How a figure is printed.
+struct Print {
+  double width_mm = 0;  ///< 0: the figure's own
+  double dpi = 300;
+
+  bool operator==(const Print&) const = default;
+};
+
+/// The same drawing as `<stem>.png` with its dpi, `<stem>.svg` and `<stem>.pdf`, each whole or
+/// absent, enlarged to the width of print. Errors: Fault::io naming the path.
 Result<void> write_figure(const std::filesystem::path& stem, double width_pt, double height_pt,
-                          const std::string& title, const DrawOn& draw, double dpi = 300);
+                          const std::string& title, const DrawOn& draw, const Print& print = {});
 
 }  // namespace gridshell::render
