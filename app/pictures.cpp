@@ -143,7 +143,8 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures) {
   return style;
 }
 
-Result<Artist> Artist::create(const std::string& context, int threads) {
+Result<Artist> Artist::create(const std::string& context, int threads, const std::string& font) {
+  if (auto chosen = render::use_font(font); !chosen) return tl::unexpected(chosen.error());
   const auto kind = find_word<render::ContextKind>(context);
   if (!kind) return fail(Fault::bad_input, "--context " + context + ": no such context");
   // the software rasteriser reads this when its context is made

@@ -36,9 +36,10 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
 /// Draws runs; holds the OpenGL context, so it stays on the thread that made it.
 class Artist {
  public:
-  /// `context` as in --context; `threads` of the rasteriser, 0: as many as it likes. Errors: io
-  /// when no context can be had, naming what was tried.
-  static Result<Artist> create(const std::string& context, int threads);
+  /// `context` as in --context; `threads` of the rasteriser, 0: as many as it likes; `font` of all
+  /// text, empty: the usual one. Errors: io when no context can be had, naming what was tried;
+  /// bad_input for a font that is not there.
+  static Result<Artist> create(const std::string& context, int threads, const std::string& font);
 
   /// Movie: folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is on the PATH.
   /// Stills: folder/<preset>_1.png ... and all in one, folder/<preset>.png. Each file is whole or

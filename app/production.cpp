@@ -209,7 +209,7 @@ Result<void> do_jobs(std::vector<Job>& jobs, const preset::Presets& presets, Pic
       return said;
   std::optional<Artist> artist;
   if (pictures != Pictures::none) {
-    auto made = Artist::create(options.context, options.threads);
+    auto made = Artist::create(options.context, options.threads, base.style.font);
     if (!made) return tl::unexpected(made.error());
     artist.emplace(std::move(*made));
   }

@@ -76,7 +76,10 @@ std::string allowed(const Field& field) {
           [](const Word& k) { return words_text(k.words); },
           [](const IntegerPair& k) { return "two integers, each" + bounds_text(k.range); },
           [](const IntegerList& k) { return "a list of integers" + bounds_text(k.range); },
-          [](const RealList& k) { return "a list of numbers, each" + bounds_text(k.range); },
+          [](const RealList& k) {
+            const std::string bounds = bounds_text(k.range);
+            return "a list of numbers" + (bounds.empty() ? bounds : ", each" + bounds);
+          },
           [](const OptionalInteger& k) {
             return "an integer" + bounds_text(k.range) + ", or \"none\"";
           },

@@ -93,7 +93,7 @@ std::vector<Field> picture_fields() {
       {"movie", "fps", "1/s", integer<&P::movie, &Movie::fps>(between(1, 240)),
        "frames a second of movie.mp4"},
       {"movie", "quality", "", word<&P::movie, &Movie::quality>(),
-       "draft: plain; movie: 2x2 supersampling and shadow; figure: many jittered passes"},
+       "draft: no shadow; movie: a soft shadow; figure: many passes with jittered light"},
       {"movie", "colour_by", "", word<&P::movie, &Movie::colour_by>(),
        "none; the cells by their integrated Gauss curvature K, or by how much it changed since the "
        "first frame; or the rods by how far they moved over the depth of the push"},

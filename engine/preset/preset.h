@@ -293,6 +293,7 @@ struct Style {
         floor = Shown::automatic, shadow = Shown::automatic;
   double far_fade = 0.25;  ///< by how much the far side pales
   bool letters = true;     ///< of the panels of a figure
+  std::string font;        ///< family of all text; empty: the usual one
   double font_size = 1;    ///< of all text, over its usual size
 };
 

@@ -66,6 +66,8 @@ std::vector<Field> look_fields() {
        "by how much the far side pales into the background"},
       {"style", "letters", "", flag<&P::style, &S::letters>(),
        "whether the panels of a figure bear letters"},
+      {"style", "font", "", text<&P::style, &S::font>(),
+       "family of all text, in all cases; empty: DejaVu Sans, which has every sign"},
       {"style", "font_size", "", real<&P::style, &S::font_size>(between(0.5, 2)),
        "of all text, over its usual size"},
   };

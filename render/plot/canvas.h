@@ -1,6 +1,6 @@
 // One surface to draw lines, areas and text on, whatever it ends as: a finished frame, a PNG or an
 // SVG. Lengths are in units of the canvas, x to the right, y down: pixels over a frame, points
-// (1/72 inch) on a figure. Made with Cairo and Pango; text is DejaVu Sans.
+// (1/72 inch) on a figure. Made with Cairo and Pango.
 #pragma once
 
 #include <filesystem>
@@ -59,10 +59,18 @@ std::string plain(const std::string& text);
 
 enum class Marker { none, circle, square, diamond, triangle, cross };
 
+/// The family of text where none is chosen: it has every sign that is used.
+inline constexpr const char* usual_font = "DejaVu Sans";
+
+/// The family of all text from here on, in the whole process; empty: the usual one. Errors:
+/// bad_input for one that the machine does not have.
+Result<void> use_font(const std::string& family);
+
 /// The surface; made by draw_over, draw_picture and draw_svg below.
 class Canvas {
  public:
   Canvas(cairo_t* cairo, double width, double height);
+  ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
@@ -91,8 +99,9 @@ class Canvas {
 
   /// all texts drawn so far without their marks, in order
   const std::vector<std::string>& texts() const { return texts_; }
-  /// ink boxes of all texts drawn so far, in order
+  /// ink boxes of all texts drawn so far, in order, and of all markers that are not cut off
   const std::vector<Box>& text_boxes() const { return text_boxes_; }
+  const std::vector<Box>& marker_boxes() const { return markers_; }
 
   /// What `inside` draws is `scale` times as large.
   void enlarged(double scale, const std::function<void()>& inside);
@@ -103,6 +112,9 @@ class Canvas {
 
  private:
   void paint_path(Colour fill, const Stroke& stroke);
+  Box scaled(const Box& box) const {
+    return {scale_ * box.x, scale_ * box.y, scale_ * box.width, scale_ * box.height};
+  }
 
   cairo_t* cairo_;
   double width_, height_;
@@ -110,7 +122,18 @@ class Canvas {
   double scale_ = 1;  ///< of what enlarged() has in hand
   std::string text_elements_;
   std::vector<std::string> texts_;
-  std::vector<Box> text_boxes_;
+  std::vector<Box> text_boxes_, markers_;
+  Box clip_;  ///< empty: everything is drawn
+};
+
+/// While it lives, it is told of every canvas of its thread that is finished: what the tests of
+/// layouts look at.
+class CanvasWatch {
+ public:
+  explicit CanvasWatch(std::function<void(const Canvas&)> on_finished);
+  ~CanvasWatch();
+  CanvasWatch(const CanvasWatch&) = delete;
+  CanvasWatch& operator=(const CanvasWatch&) = delete;
 };
 
 using DrawOn = std::function<void(Canvas&)>;
@@ -122,7 +145,7 @@ void draw_over(Image& image, const DrawOn& draw);
 Image draw_picture(double width, double height, double pixels_per_unit, Colour background,
                    const DrawOn& draw);
 
-/// An SVG of width x height points whose text stays text, in DejaVu Sans or what stands in for it;
+/// An SVG of width x height points whose text stays text, in its font or what stands in for it;
 /// `title` and all texts stand in its <title> and <desc> for search and screen readers.
 std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw);
 

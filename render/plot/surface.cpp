@@ -29,21 +29,6 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
   return CAIRO_STATUS_SUCCESS;
 }
 
-std::string escaped(const std::string& text) {
-  std::string xml;
-  for (char c : text) {
-    if (c == '&')
-      xml += "&amp;";
-    else if (c == '<')
-      xml += "&lt;";
-    else if (c == '>')
-      xml += "&gt;";
-    else
-      xml += c;
-  }
-  return xml;
-}
-
 // frames are opaque, and then there is nothing to multiply
 bool opaque(const std::uint8_t* pixel, int pixels) {
   std::uint8_t all = 255;
@@ -133,7 +118,7 @@ std::string draw_svg(double width, double height, const std::string& title, cons
   }
   const std::size_t root = svg.find("<svg"), end = svg.find('>', root);
   if (root != std::string::npos && end != std::string::npos)
-    svg.insert(end + 1, "\n<title>" + escaped(title) + "</title>\n<desc>" + escaped(description) +
+    svg.insert(end + 1, "\n<title>" + xml_text(title) + "</title>\n<desc>" + xml_text(description) +
                             "</desc>");
   if (const std::size_t close = svg.rfind("</svg>"); close != std::string::npos)
     svg.insert(close, elements);

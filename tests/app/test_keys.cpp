@@ -70,12 +70,12 @@ TEST_CASE("something reads the member of every key") {
 
 TEST_CASE("every key of [movie] and [style] changes how a movie looks, those of [figure] a still") {
   // the number of frames, whether cases stand together and what more files are made are the
-  // movie's, not its style's
-  const std::set<std::string> elsewhere{"frames", "beside", "webm", "gif", "poster"};
+  // movie's, not its style's; the font is that of the whole process
+  const std::set<std::string> elsewhere{"frames", "beside", "webm", "gif", "poster", "font"};
   const std::set<std::string> stills{"quality", "scale_bar_mm", "width_mm", "vector"};
   for (const auto& field : field_table()) {
     const bool movie =
-        field.table == "style" || (field.table == "movie" && !elsewhere.contains(field.key));
+        (field.table == "style" || field.table == "movie") && !elsewhere.contains(field.key);
     if (!movie && !(field.table == "figure" && stills.contains(field.key))) continue;
     const auto pictures = movie ? app::Pictures::movie : app::Pictures::stills;
     Preset preset;

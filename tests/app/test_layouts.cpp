@@ -2,13 +2,16 @@
 // zoom.
 #include <catch2/catch.hpp>
 
+#include "app/console.h"
 #include "app/loading.h"
 #include "app/pictures.h"
 #include "app/preset_library.h"
+#include "app/production.h"
 #include "render/figure/push_figure.h"
 #include "render/movie/bins_plot.h"
 #include "render/movie/stage.h"
 #include "tests/render/synthetic.h"
+#include "tests/temporary_folder.h"
 
 using namespace gridshell;
 using namespace gridshell::render;
@@ -35,14 +38,14 @@ record::Trajectory eventful(bool pushed) {
 
 struct Words {
   std::vector<std::string> texts;
-  std::vector<Box> boxes;
+  std::vector<Box> boxes, markers;
 };
 
 Words words_of(double width, double height, const DrawOn& draw) {
   Words words;
   draw_picture(width, height, 1, {}, [&](Canvas& canvas) {
     draw(canvas);
-    words = {canvas.texts(), canvas.text_boxes()};
+    words = {canvas.texts(), canvas.text_boxes(), canvas.marker_boxes()};
   });
   return words;
 }
@@ -55,6 +58,7 @@ void check_apart(const Words& words, const Box& panel) {
       INFO(words.texts[b]);
       CHECK_FALSE(words.boxes[a].overlaps(words.boxes[b]));
     }
+    for (const Box& marker : words.markers) CHECK_FALSE(words.boxes[a].overlaps(marker));
   }
 }
 
@@ -88,6 +92,32 @@ TEST_CASE("in every preset's frames and stills no text leaves the picture or mee
       }
     }
   }
+}
+
+TEST_CASE("in what `figure` and `movie` make of every preset no text meets another or a data point",
+          "[full]") {
+  for (const auto& embedded : app::embedded_presets())
+    for (const auto pictures : {app::Pictures::stills, app::Pictures::movie}) {
+      const TemporaryFolder folder;
+      app::Options options;
+      options.input = embedded.name;
+      options.output = folder.path() / "run";
+      options.quiet = true;
+      options.size = pictures == app::Pictures::movie ? "480x270" : "640x360";
+      options.quality = "draft";
+      options.frames = "2";
+      options.set = {"accuracy.tolerance=0.01"};
+      INFO(embedded.name << (pictures == app::Pictures::movie ? ", movie" : ", figure"));
+      int words = 0;
+      const CanvasWatch watch([&](const Canvas& canvas) {
+        check_apart({canvas.texts(), canvas.text_boxes(), canvas.marker_boxes()},
+                    {0, 0, canvas.width(), canvas.height()});
+        words += int(canvas.texts().size());
+      });
+      // some end early, which is not what is looked at here
+      CHECK(app::produce(options, pictures) <= app::ExitCode::failed);
+      CHECK(words > 5);
+    }
 }
 
 TEST_CASE("plots of bins and forces keep their words apart, however narrow") {

@@ -192,3 +192,57 @@ TEST_CASE("a figure is written as PNG, SVG and PDF, whose words stay words") {
   REQUIRE_FALSE(failed);
   CHECK(failed.error().fault == Fault::io);
 }
+
+TEST_CASE("characters that XML forbids do not break an SVG") {
+  const std::string svg =
+      draw_svg(90, 20, "bell \a", [](Canvas& c) { c.text("a\x01 < b", {5, 10}, {}); });
+  CHECK(svg.find_first_of("\a\x01") == std::string::npos);
+  CHECK(svg.find("bell ") != std::string::npos);
+}
+
+TEST_CASE("the font is chosen by name, and one that is not there is refused") {
+  const auto width = [] {
+    double wide = 0;
+    draw_picture(1, 1, 1, white, [&](Canvas& c) { wide = c.measure("iiii", {.size = 12}).width; });
+    return wide;
+  };
+  const double usual = width();
+  const auto refused = use_font("No Such Font");
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().message.find("\"No Such Font\": no font of that name") !=
+        std::string::npos);
+  CHECK(width() == usual);
+  REQUIRE(use_font("DejaVu Sans Mono"));
+  CHECK(width() > 1.5 * usual);
+  CHECK(draw_svg(9, 9, "", [](Canvas& c) { c.text("a", {1, 8}, {}); }).find("\"DejaVu Sans Mono,") !=
+        std::string::npos);
+  REQUIRE(use_font(""));
+  CHECK(width() == usual);
+}
+
+TEST_CASE("a canvas knows where its words and markers are, however it is enlarged or cut off") {
+  std::vector<Box> texts, markers;
+  {
+    const CanvasWatch watch([&](const Canvas& c) {
+      texts = c.text_boxes();
+      markers = c.marker_boxes();
+    });
+    draw_picture(100, 100, 1, white, [](Canvas& c) {
+      c.enlarged(2, [&] {
+        c.text("wide", {10, 20}, {.size = 10});
+        c.clipped({20, 20, 20, 20}, [&] {
+          for (const double x : {30.0, 90.0})
+            c.marker(Marker::circle, {x, 30}, 4, {0, 0, 0, 1}, {{}, 0});
+        });
+      });
+    });
+  }
+  REQUIRE(texts.size() == 1);
+  CHECK(texts[0].x == Approx(20).margin(3));
+  CHECK(texts[0].height > 12);
+  REQUIRE(markers.size() == 1);
+  CHECK(markers[0].x == Approx(56));
+  CHECK(markers[0].width == Approx(8));
+  draw_picture(9, 9, 1, white, [](Canvas& c) { c.text("unwatched", {1, 8}, {}); });
+  CHECK(texts.size() == 1);
+}
