@@ -1,6 +1,7 @@
 #include "app/case_pictures.h"
 
 #include "app/net_pictures.h"
+#include "app/page_pictures.h"
 #include "app/pictures.h"
 #include "render/figure/push_figure.h"
 #include "render/image/png.h"
@@ -21,27 +22,30 @@ Result<void> draw_beside(const std::vector<CaseRecord>& records, const std::stri
   std::vector<render::BesideRun> runs;
   for (const CaseRecord& one : records) runs.push_back({&one.run, one.preset.title});
   return render::write_beside(runs, style, renderer, folder / "frames", watch)
-      .and_then([&](const auto&) {
-        return render::encode_movie(folder / "frames", style.fps, folder / "movie.mp4", watch);
-      })
-      .map([](const auto&) {});
+      .and_then([&](const auto& report) {
+        return make_movie_files(folder, records.front().preset, style, report.frames, watch);
+      });
 }
 
 Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, render::Renderer& renderer,
                                 const fs::path& stem, Watch& watch) {
-  const auto style = style_of(records.front().preset, Pictures::stills);
+  auto style = style_of(records.front().preset, Pictures::stills);
+  // each panel bears its own title
+  if (records.size() > 1) style.title.clear();
   std::vector<render::NetRun> shells;
   std::vector<render::NamedRun> named;
   for (const CaseRecord& one : records) {
     shells.push_back({&one.run, one.preset.title});
     named.push_back({&one.run, one.preset.title});
   }
+  render::Plot force = render::force_plot(named);
+  if (records.size() == 1) force.title = render::plain(records.front().preset.title);
   const auto with = [&](const char* suffix) { return fs::path(stem) += suffix; };
   return render::draw_pushes(shells, style, renderer, watch)
       .and_then(
           [&](const render::Image& image) { return render::write_png(image, with("_loads.png")); })
-      .and_then([&] { return render::write_plot(with("_force"), render::force_plot(named)); })
-      .and_then([&] { return render::write_push_bins(with("_bins"), named); });
+      .and_then([&] { return render::write_plot(with("_force"), force, style.print); })
+      .and_then([&] { return render::write_push_bins(with("_bins"), named, style.print); });
 }
 
 bool shown_on_net(const preset::Preset& preset) {
@@ -50,6 +54,8 @@ bool shown_on_net(const preset::Preset& preset) {
 
 Result<void> draw_case_figures(std::vector<CaseRecord> records, render::Renderer& renderer,
                                const fs::path& stem, const std::function<Watch&()>& next_phase) {
+  if (records.front().preset.page.kind != preset::PageKind::none)
+    return draw_page(records, renderer, stem, next_phase());
   std::vector<CaseRecord> nets, pushes;
   for (CaseRecord& one : records) {
     if (one.preset.indentation.wanted())

@@ -41,11 +41,14 @@ Result<void> draw_block_pictures(const CaseRecord& one, const render::MovieStyle
       .and_then([&](const render::Image& image) {
         return render::write_png(image, with_suffix(stem, "_blocks.png"));
       })
-      .and_then(
-          [&] { return render::write_block_footprints(with_suffix(stem, "_footprint"), one.run); })
+      .and_then([&] {
+        return render::write_block_footprints(with_suffix(stem, "_footprint"), one.run,
+                                              style.print);
+      })
       .and_then([&]() -> Result<void> {
         if (one.run.layout.seam_rods.empty()) return {};
-        return render::write_plot(with_suffix(stem, "_seams"), render::seam_plot(one.run));
+        return render::write_plot(with_suffix(stem, "_seams"), render::seam_plot(one.run),
+                                  style.print);
       });
 }
 
@@ -73,9 +76,14 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
                                             one.run.layout.parts.empty() ? "%" : "mm")});
     named.push_back({&one.run, name});
   }
-  const auto save = [&](const char* suffix) {
-    return [&, suffix](const render::Image& image) {
-      return render::write_png(image, with_suffix(stem, suffix));
+  const auto titled = [&](render::Plot plot) {
+    plot.title = render::plain(style.title);
+    return plot;
+  };
+  const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
+  const auto save = [&, dpi](const char* suffix) {
+    return [&, suffix, dpi](const render::Image& image) {
+      return render::write_png(image, with_suffix(stem, suffix), dpi);
     };
   };
   return render::draw_over_nets(shells, style, renderer, watch)
@@ -84,19 +92,22 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
       .and_then(save("_deviation.png"))
       .and_then([&] {
         const bool blocks = records.size() == 1 && !records.front().run.layout.parts.empty();
-        return blocks ? draw_block_pictures(records.front(), style, renderer, stem, watch)
-                      : render::write_footprints(with_suffix(stem, "_footprint"), named);
+        return blocks
+                   ? draw_block_pictures(records.front(), style, renderer, stem, watch)
+                   : render::write_footprints(with_suffix(stem, "_footprint"), named, style.print);
       })
       .and_then([&] {
-        return render::write_plot(with_suffix(stem, "_K"), render::curvature_plot(named));
+        return render::write_plot(with_suffix(stem, "_K"), titled(render::curvature_plot(named)),
+                                  style.print);
       })
       .and_then([&] {
-        return render::write_plot(with_suffix(stem, "_quantiles"), render::quantile_plot(named));
+        return render::write_plot(with_suffix(stem, "_quantiles"),
+                                  titled(render::quantile_plot(named)), style.print);
       })
       .and_then([&]() -> Result<void> {
         if (records.size() > 1 || !render::on_sphere(records.front().run.layout)) return {};
         return render::write_plot(with_suffix(stem, "_latitude"),
-                                  render::latitude_plot(named.front(), scan));
+                                  titled(render::latitude_plot(named.front(), scan)), style.print);
       });
 }
 

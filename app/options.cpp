@@ -18,6 +18,8 @@ void add_changes(CLI::App& command, Options& options) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--size", options.size, "width and height of a picture: WxH");
   command.add_option("--quality", options.quality, "draft, movie or figure");
+  command.add_option("--width", options.width, "width of a figure as printed: 85mm");
+  command.add_option("--dpi", options.dpi, "pixels of an inch, with --width");
 }
 
 }  // namespace
@@ -57,7 +59,17 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
   }
   if (!options.frames.empty()) overrides.push_back({"--frames", "movie.frames", options.frames});
   if (!options.quality.empty())
-    overrides.push_back({"--quality", "movie.quality", options.quality});
+    for (const char* key : {"movie.quality", "figure.quality"})
+      overrides.push_back({"--quality", key, options.quality});
+  if (!options.width.empty()) {
+    std::smatch part;
+    if (!std::regex_match(options.width, part, std::regex("([0-9]{1,4}(\\.[0-9]+)?)mm")))
+      return fail(
+          Fault::bad_input,
+          fmt::format("--width {}: must be in millimetres, for example 85mm", options.width));
+    overrides.push_back({"--width", "figure.width_mm", part[1]});
+  }
+  if (!options.dpi.empty()) overrides.push_back({"--dpi", "figure.dpi", options.dpi});
   if (!options.size.empty()) {
     std::smatch part;
     if (!std::regex_match(options.size, part, std::regex("([0-9]{1,6})x([0-9]{1,6})")))

@@ -21,7 +21,7 @@ struct Options {
   int threads = 0;
   bool quiet = false;
   std::string context = "auto";
-  std::string size, quality, frames;
+  std::string size, quality, frames, width, dpi;
   bool print_config = false;
 };
 

@@ -1,36 +1,150 @@
 #include "app/pictures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
+#include "render/figure/vector_shell.h"
+#include "render/image/png.h"
+#include "render/movie/colour_range.h"
 #include "render/movie/encode.h"
 #include "render/movie/movie_writer.h"
+#include "render/movie/stage.h"
 #include "render/movie/stills.h"
+#include "render/movie/title_card.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
 
+namespace {
+
+// "#rrggbb", which the preset's reader has looked at
+render::Colour colour_of(const std::string& text) {
+  const long rgb = std::strtol(text.c_str() + 1, nullptr, 16);
+  return {float(rgb >> 16 & 255) / 255, float(rgb >> 8 & 255) / 255, float(rgb & 255) / 255, 1};
+}
+
+void choose(render::Colour& colour, const std::string& wish) {
+  if (wish == "transparent")
+    colour.a = 0;
+  else if (!wish.empty())
+    colour = colour_of(wish);
+}
+void choose(double& width, double wish) {
+  if (wish > 0) width = wish;
+}
+void choose(bool& flag, preset::Shown wish) {
+  if (wish != preset::Shown::automatic) flag = wish == preset::Shown::on;
+}
+
+std::optional<std::array<double, 2>> range_of(const std::vector<double>& range) {
+  if (range.empty()) return std::nullopt;
+  return std::array{range[0], range[1]};
+}
+
+std::optional<render::ColourMap> map_of(preset::ColourMap map) {
+  switch (map) {
+    case preset::ColourMap::automatic:
+      return std::nullopt;
+    case preset::ColourMap::diverging:
+      return render::ColourMap::diverging;
+    case preset::ColourMap::sequential:
+      return render::ColourMap::sequential;
+    case preset::ColourMap::grey:
+      return render::ColourMap::grey;
+  }
+  return std::nullopt;
+}
+
+render::Look look_of(const preset::Style& style) {
+  render::Look look = style.theme == preset::Theme::paper ? render::paper_look() : render::Look{};
+  choose(look.rod_mm, style.rod_width_mm);
+  choose(look.joint_mm, style.joint_width_mm);
+  choose(look.ring_mm, style.ring_width_mm);
+  choose(look.rod, style.rod_colour);
+  choose(look.joint, style.joint_colour);
+  choose(look.ring, style.ring_colour);
+  choose(look.background, style.background);
+  choose(look.cells, style.cells);
+  choose(look.rings, style.rings);
+  choose(look.floor, style.floor);
+  choose(look.shadow, style.shadow);
+  if (style.joints == preset::Shown::off) look.joint_mm = 0;
+  if (style.joints == preset::Shown::on && look.joint_mm == 0)
+    look.joint_mm = render::Look{}.joint_mm;
+  look.map = map_of(style.colour_map);
+  look.range = range_of(style.range);
+  look.far_fade = style.far_fade;
+  look.letters = style.letters;
+  return look;
+}
+
+// azimuth and elevation of a standard view
+std::optional<render::ViewDirection> direction_of(preset::View view) {
+  switch (view) {
+    case preset::View::free:
+      return std::nullopt;
+    case preset::View::front:
+      return render::ViewDirection{-90, 0};
+    case preset::View::side:
+      return render::ViewDirection{0, 0};
+    case preset::View::top:
+      return render::ViewDirection{-90, 90};
+    case preset::View::corner:
+      return render::ViewDirection{-45, 35.264};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures) {
   const auto& movie = preset.movie;
+  const bool stills = pictures == Pictures::stills;
   render::MovieStyle style;
   style.width = movie.size[0];
   style.height = movie.size[1];
   style.fps = movie.fps;
-  style.quality = same_word<render::Quality>(movie.quality);
+  style.quality = same_word<render::Quality>(stills ? preset.figure.quality : movie.quality);
   style.colour_by = same_word<render::ColourBy>(movie.colour_by);
   style.azimuth_deg = movie.azimuth_deg;
   style.elevation_deg = movie.elevation_deg;
+  if (const auto standard = direction_of(movie.view)) {
+    style.azimuth_deg = standard->azimuth_deg;
+    style.elevation_deg = standard->elevation_deg;
+  }
   style.turn_deg = movie.turn_deg;
   style.zoom = movie.zoom;
+  if (!movie.target_mm.empty())
+    style.target_mm = Eigen::Vector3d(movie.target_mm[0], movie.target_mm[1], movie.target_mm[2]);
+  style.orthographic = movie.orthographic;
+  for (const auto& view : movie.views) style.views.push_back({view[0], view[1]});
   style.inset = movie.inset;
   style.bins = movie.bins;
+  style.bins_range = range_of(movie.bins_range);
   style.captions = movie.captions;
-  style.scale_bar_mm = pictures == Pictures::stills ? preset.figure.scale_bar_mm : 0;
+  style.scale_bar_mm = stills ? preset.figure.scale_bar_mm : 0;
   style.title = preset.title;
+  style.source = preset.source;
+  style.font_scale = preset.style.font_size;
+  style.look = look_of(preset.style);
+  style.vector = stills && preset.figure.vector;
+  if (stills && preset.figure.width_mm > 0) {
+    style.print = {preset.figure.width_mm, preset.figure.dpi};
+    const double aspect = double(style.height) / style.width;
+    style.width =
+        std::clamp(int(std::lround(style.print.width_mm / 25.4 * style.print.dpi)), 16, 16384);
+    style.height = std::clamp(int(std::lround(aspect * style.width)), 16, 16384);
+  }
+  style.seconds = movie.seconds;
+  style.hold_s = movie.hold_s;
+  style.title_s = movie.title_s;
+  style.pace = same_word<render::Pace>(movie.pace);
   return style;
 }
 
-Result<Artist> Artist::create(const std::string& context, int threads) {
+Result<Artist> Artist::create(const std::string& context, int threads, const std::string& font) {
+  if (auto chosen = render::use_font(font); !chosen) return tl::unexpected(chosen.error());
   const auto kind = find_word<render::ContextKind>(context);
   if (!kind) return fail(Fault::bad_input, "--context " + context + ": no such context");
   // the software rasteriser reads this when its context is made
@@ -42,9 +156,31 @@ Result<Artist> Artist::create(const std::string& context, int threads) {
   return Artist(std::move(*made), std::move(*renderer));
 }
 
+namespace {
+
+// the last frame as lines
+Result<void> write_lines(const record::Trajectory& run, render::MovieStyle style,
+                         const fs::path& stem) {
+  style.captions = style.inset = style.legends = false;
+  style.turn_deg = 0;
+  const render::Stage stage(run, style);
+  const int last = stage.frames() - 1;
+  const double points =
+      style.print.width_mm > 0 ? style.print.width_mm * 72 / 25.4 : 0.5 * style.width;
+  const auto drawing = stage.drawing(run.frames.back());
+  return render::write_figure(fs::path(stem) += "_lines", points,
+                              points * style.height / style.width, style.title,
+                              [&](render::Canvas& canvas) {
+                                render::draw_shell_lines(canvas, drawing, stage.camera(last));
+                              });
+}
+
+}  // namespace
+
 Result<void> Artist::draw(Pictures pictures, const preset::Preset& preset,
-                          const record::Trajectory& run, const fs::path& folder, Watch& watch) {
-  return draw_pictures(pictures, preset, run, folder, watch).and_then([&]() -> Result<void> {
+                          const record::Trajectory& run, const SharedBar& bar,
+                          const fs::path& folder, Watch& watch) {
+  return draw_pictures(pictures, preset, run, bar, folder, watch).and_then([&]() -> Result<void> {
     // a frame that could not be read was drawn empty
     if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
     return {};
@@ -52,38 +188,95 @@ Result<void> Artist::draw(Pictures pictures, const preset::Preset& preset,
 }
 
 Result<void> Artist::draw_pictures(Pictures pictures, const preset::Preset& preset,
-                                   const record::Trajectory& run, const fs::path& folder,
-                                   Watch& watch) {
+                                   const record::Trajectory& run, const SharedBar& bar,
+                                   const fs::path& folder, Watch& watch) {
   const auto style = style_of(preset, pictures);
   if (pictures == Pictures::stills) {
     const auto stem = folder / fs::path(preset.name).filename();
-    return render::write_stills(run, style, *renderer_, stem, watch).map([](const auto&) {});
+    auto drawn =
+        render::write_stills(run, style, bar, *renderer_, stem, watch).map([](const auto&) {});
+    return drawn && style.vector ? write_lines(run, style, stem) : drawn;
   }
-  return render::write_movie(run, style, *renderer_, folder / "frames", watch)
-      .and_then([&](const auto&) {
-        return render::encode_movie(folder / "frames", style.fps, folder / "movie.mp4", watch);
-      })
-      .map([](const auto&) {});
+  if (auto showable = render::check_showable(run, style); !showable) return showable;
+  return render::write_movie(render::source_of(run), render::survey_of(run), style, bar, *renderer_,
+                             folder / "frames", watch)
+      .and_then([&](const auto& report) {
+        return make_movie_files(folder, preset, style, report.frames, watch);
+      });
+}
+
+render::Timing timing_of(const render::MovieStyle& style, int frames) {
+  return {style.fps, frames, style.seconds, style.hold_s, style.pace, style.title_s};
+}
+
+Result<void> make_movie_files(const fs::path& folder, const preset::Preset& preset,
+                              const render::MovieStyle& style, int frames, Watch& watch) {
+  const auto pictures = folder / "frames";
+  if (style.title_s > 0)
+    if (auto written = render::write_png(render::title_card(style), pictures / "title.png");
+        !written)
+      return written;
+  if (preset.movie.poster) {
+    std::error_code error;
+    fs::copy_file(pictures / render::frame_name(frames - 1), folder / "poster.png",
+                  fs::copy_options::overwrite_existing, error);
+    if (error) return fail(Fault::io, "cannot write poster.png: " + error.message());
+  }
+  std::vector<const char*> kinds{"movie.mp4"};
+  if (preset.movie.webm) kinds.push_back("movie.webm");
+  if (preset.movie.gif) kinds.push_back("movie.gif");
+  for (const char* kind : kinds) {
+    auto made = render::encode_movie(pictures, timing_of(style, frames), folder / kind, watch);
+    if (!made) return tl::unexpected(made.error());
+  }
+  return {};
+}
+
+std::vector<SharedBar> shared_bars(const std::vector<CaseRecord>& records, Pictures pictures) {
+  std::vector<render::Survey> surveys;
+  for (const CaseRecord& one : records) surveys.push_back(render::survey_of(one.run));
+  std::vector<SharedBar> bars;
+  for (const CaseRecord& one : records) {
+    // what is coloured by something else has a bar of its own
+    std::vector<const render::Survey*> alike;
+    for (std::size_t k = 0; k < records.size(); ++k)
+      if (records[k].preset.movie.colour_by == one.preset.movie.colour_by)
+        alike.push_back(&surveys[k]);
+    bars.push_back(render::colour_bar_of(alike, style_of(one.preset, pictures)));
+  }
+  return bars;
 }
 
 double expected_seconds(Pictures pictures, const preset::Preset& preset) {
   if (pictures == Pictures::none) return 0;
   const auto& movie = preset.movie;
+  const bool stills = pictures == Pictures::stills;
+  const auto quality = stills ? preset.figure.quality : movie.quality;
   // a megapixel on two cores of a software rasteriser; captions and PNG are in it
-  const double megapixel_seconds = movie.quality == preset::Quality::draft   ? 0.1
-                                   : movie.quality == preset::Quality::movie ? 0.35
-                                                                             : 15;
-  const double count = pictures == Pictures::movie
-                           ? movie.frames
-                           : std::max(1.0, double(preset.figure.radii_mm.size()));
-  return count * 1e-6 * movie.size[0] * movie.size[1] * megapixel_seconds;
+  const double megapixel_seconds = quality == preset::Quality::draft   ? 0.08
+                                   : quality == preset::Quality::movie ? 0.15
+                                                                       : 2.2;
+  double count = movie.frames;
+  if (stills) {
+    // the stills, and what stands beside nets and loads
+    const bool push = preset.indentation.wanted();
+    count = std::max(push ? 2.0 : 1.0, double(preset.figure.radii_mm.size()));
+    if (push)
+      count += 1;
+    else if (preset.on_net())
+      count += 2;
+  }
+  const auto style = style_of(preset, pictures);
+  return count * 1e-6 * style.width * style.height * megapixel_seconds;
 }
 
 std::string how_to_make_movie(const fs::path& folder, const preset::Preset& preset) {
   std::error_code error;
   const auto frames = folder / "frames", movie = folder / "movie.mp4";
   if (!fs::exists(frames, error) || fs::exists(movie, error)) return "";
-  const auto line = render::shell_line(render::encode_arguments(frames, preset.movie.fps, movie));
+  const auto style = style_of(preset, Pictures::movie);
+  const auto line = render::shell_line(
+      render::encode_arguments(frames, timing_of(style, preset.movie.frames), movie));
   return "no ffmpeg on the PATH; this makes the movie:\n  " + line + "\n";
 }
 

@@ -4,20 +4,31 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "app/case_record.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/preset/preset.h"
 #include "engine/record/snapshot.h"
 #include "render/context/context.h"
 #include "render/draw/renderer.h"
+#include "render/movie/encode.h"
 #include "render/movie/style.h"
+#include "render/plot/legend.h"
 
 namespace gridshell::app {
 
 /// Which pictures a command makes.
 enum class Pictures { none, movie, stills };
+
+/// A colour bar of several runs; none where each has its own.
+using SharedBar = std::optional<render::ColourBar>;
+
+/// One a run: the bar that it shares with all others that are coloured by the same quantity.
+std::vector<SharedBar> shared_bars(const std::vector<CaseRecord>& records, Pictures pictures);
 
 /// How the preset wants its run shown.
 render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
@@ -25,15 +36,16 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
 /// Draws runs; holds the OpenGL context, so it stays on the thread that made it.
 class Artist {
  public:
-  /// `context` as in --context; `threads` of the rasteriser, 0: as many as it likes. Errors: io
-  /// when no context can be had, naming what was tried.
-  static Result<Artist> create(const std::string& context, int threads);
+  /// `context` as in --context; `threads` of the rasteriser, 0: as many as it likes; `font` of all
+  /// text, empty: the usual one. Errors: io when no context can be had, naming what was tried;
+  /// bad_input for a font that is not there.
+  static Result<Artist> create(const std::string& context, int threads, const std::string& font);
 
   /// Movie: folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is on the PATH.
   /// Stills: folder/<preset>_1.png ... and all in one, folder/<preset>.png. Each file is whole or
   /// absent. Errors: io, cancelled, bad_input when a picture cannot be that size.
   Result<void> draw(Pictures pictures, const preset::Preset& preset, const record::Trajectory& run,
-                    const std::filesystem::path& folder, Watch& watch);
+                    const SharedBar& bar, const std::filesystem::path& folder, Watch& watch);
 
   render::Renderer& renderer() { return *renderer_; }
 
@@ -41,12 +53,20 @@ class Artist {
   Artist(std::unique_ptr<render::Context> context, std::unique_ptr<render::Renderer> renderer)
       : context_(std::move(context)), renderer_(std::move(renderer)) {}
   Result<void> draw_pictures(Pictures pictures, const preset::Preset& preset,
-                             const record::Trajectory& run, const std::filesystem::path& folder,
-                             Watch& watch);
+                             const record::Trajectory& run, const SharedBar& bar,
+                             const std::filesystem::path& folder, Watch& watch);
 
   std::unique_ptr<render::Context> context_;  // outlives the renderer
   std::unique_ptr<render::Renderer> renderer_;
 };
+
+/// How fast the movie of `frames` frames plays.
+render::Timing timing_of(const render::MovieStyle& style, int frames);
+
+/// What is made of the frames in folder/frames: movie.mp4 and what else the preset asks for, where
+/// ffmpeg is on the PATH; poster.png. Errors: io, cancelled.
+Result<void> make_movie_files(const std::filesystem::path& folder, const preset::Preset& preset,
+                              const render::MovieStyle& style, int frames, Watch& watch);
 
 /// What drawing will take about, for the progress bar and `check`.
 double expected_seconds(Pictures pictures, const preset::Preset& preset);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "app/case_pictures.h"
 #include "app/console.h"
@@ -54,7 +53,8 @@ Result<std::vector<Job>> jobs_of(const preset::Presets& presets, Pictures pictur
 double simulation_guess(const Job& job) { return 0.5 + 0.01 * job.preset.movie.frames; }
 
 bool has_net(const Job& job) { return shown_on_net(job.preset); }
-bool is_pushed(const Job& job) { return job.preset.indentation.wanted(); }
+bool is_push(const preset::Preset& preset) { return preset.indentation.wanted(); }
+bool is_pushed(const Job& job) { return is_push(job.preset); }
 
 // what is drawn once all cases have run
 bool drawn_beside(const Job& job, Pictures pictures) {
@@ -67,15 +67,22 @@ std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
     const double guess = job.plan.expected_seconds;
     const auto of_case = job.name.empty() ? "" : " " + job.name;
     phases.push_back({"simulating" + of_case, std::isnan(guess) ? simulation_guess(job) : guess});
-    if (pictures != Pictures::none && !drawn_beside(job, pictures))
-      phases.push_back({"drawing" + of_case, expected_seconds(pictures, job.preset)});
   }
+  for (const auto& job : jobs)
+    if (pictures != Pictures::none && !drawn_beside(job, pictures))
+      phases.push_back({"drawing" + (job.name.empty() ? "" : " " + job.name),
+                        expected_seconds(pictures, job.preset)});
   if (drawn_beside(jobs.front(), pictures))
     phases.push_back({"drawing", expected_seconds(pictures, jobs.front().preset)});
   const bool stills = pictures == Pictures::stills;
+  if (stills && jobs.front().preset.page.kind != preset::PageKind::none) {
+    phases.push_back({"drawing the page",
+                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
+    return phases;
+  }
   if (stills && std::any_of(jobs.begin(), jobs.end(), has_net))
     phases.push_back({"drawing shells over nets",
-                      2 * double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
+                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
   if (stills && std::any_of(jobs.begin(), jobs.end(), is_pushed))
     phases.push_back({"drawing point loads",
                       double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
@@ -94,40 +101,61 @@ record::Kind kind_of(Pictures pictures) {
   return record::Kind::unknown;
 }
 
-// every frame is on the disk as soon as it is found, and the run before a picture of it is drawn
-Result<record::Trajectory> simulate(Job& job, Pictures pictures, const fs::path& folder,
-                                    Watch& watch) {
-  auto made = make_folder(folder).and_then(
-      [&] { return write_atomically(folder / "preset.toml", preset::to_toml(job.preset)); });
-  if (!made) return tl::unexpected(made.error());
-  record::FolderSink sink(folder, {job.preset.name, kind_of(pictures)});
-  auto summary = experiment::run(job.preset, pictures == Pictures::stills, sink, watch);
-  if (!summary) return tl::unexpected(summary.error());
-  job.summary = *summary;
-  job.summary.kind = kind_of(pictures);
-  return sink.finish(job.summary);
+// what may bring a run further that ended before its end; empty where nothing is known
+std::string help_for(const preset::Preset& preset, record::Limit limit) {
+  switch (limit) {
+    case record::Limit::none:
+    case record::Limit::snap:
+      return "";
+    case record::Limit::locking:
+      return is_push(preset) ? "less depth, or more [limits] max_strain, would end before that"
+                             : "a larger actuated boundary, or more [limits] max_strain, would end "
+                               "before that";
+    case record::Limit::branch_lost:
+    case record::Limit::no_equilibrium:
+      break;
+  }
+  if (preset.actuation.start == preset::Start::net)
+    return "what may help: --set actuation.start=flat, the patient way from the flat footprint";
+  return "what may help: --set accuracy.edges_per_segment=8";
 }
 
-Result<void> do_job(Job& job, Pictures pictures, const fs::path& folder, Artist* artist,
-                    Progress& progress, std::vector<CaseRecord>& records) {
-  auto simulated = simulate(job, pictures, folder, progress.next_phase());
-  if (!simulated) return tl::unexpected(simulated.error());
-  job.length_scale_mm = simulated->layout.length_scale_mm;
-  if (!artist) return {};
-  if (drawn_beside(job, pictures)) {
-    records.push_back({job.preset, std::move(*simulated)});
-    return {};
+// every frame is on the disk as soon as it is found, and all runs before a picture of one is drawn
+Result<void> simulate(Job& job, Pictures pictures, const fs::path& folder, Progress& progress,
+                      std::vector<CaseRecord>& records) {
+  auto made = make_folder(folder).and_then(
+      [&] { return write_atomically(folder / "preset.toml", preset::to_toml(job.preset)); });
+  if (!made) return made;
+  record::FolderSink sink(folder, {job.preset.name, kind_of(pictures)});
+  auto summary =
+      experiment::run(job.preset, pictures == Pictures::stills, sink, progress.next_phase());
+  if (!summary) {
+    Error error = summary.error();
+    if (error.fault == Fault::no_equilibrium)
+      error.message += "\n" + help_for(job.preset, record::Limit::no_equilibrium);
+    return tl::unexpected(error);
   }
+  job.summary = *summary;
+  job.summary.kind = kind_of(pictures);
+  auto trajectory = sink.finish(job.summary);
+  if (!trajectory) return tl::unexpected(trajectory.error());
+  job.length_scale_mm = trajectory->layout.length_scale_mm;
+  if (pictures != Pictures::none) records.push_back({job.preset, std::move(*trajectory)});
+  return {};
+}
+
+// the pictures of one run by itself
+Result<void> draw_alone(Job& job, Pictures pictures, const CaseRecord& one, const SharedBar& bar,
+                        const fs::path& folder, Artist& artist, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const bool curve = pictures == Pictures::stills && is_pushed(job);
-  const record::Trajectory& run = *simulated;
-  auto drawn =
-      artist->draw(pictures, job.preset, curve ? ends_of(run) : run, folder, progress.next_phase());
-  if (!drawn) return drawn;
-  if (pictures == Pictures::stills) records.push_back({job.preset, std::move(*simulated)});
-  job.summary.seconds_render =
+  const auto draw = [&](const record::Trajectory& run) {
+    return artist.draw(pictures, job.preset, run, bar, folder, progress.next_phase());
+  };
+  auto drawn = curve ? draw(ends_of(one.run)) : draw(one.run);
+  job.summary.seconds_render +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return record::write_summary(folder / "summary.json", job.summary);
+  return drawn;
 }
 
 // what shows several runs: movies and shells beside one another
@@ -141,6 +169,36 @@ Result<void> draw_together(const std::vector<Job>& jobs, const preset::Preset& b
                            [&]() -> Watch& { return progress.next_phase(); });
 }
 
+// every picture: of each run by itself, then of all together, whose time they share
+Result<void> draw_all(std::vector<Job>& jobs, const preset::Preset& base, Pictures pictures,
+                      std::vector<CaseRecord> records, Artist& artist, const fs::path& partial,
+                      Progress& progress) {
+  if (!drawn_beside(jobs.front(), pictures)) {
+    const auto bars = shared_bars(records, pictures);
+    for (std::size_t k = 0; k < jobs.size(); ++k)
+      if (auto drawn = draw_alone(jobs[k], pictures, records[k], bars[k],
+                                  folder_of(partial, jobs[k].name), artist, progress);
+          !drawn)
+        return drawn;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  if (drawn_beside(jobs.front(), pictures) || pictures == Pictures::stills)
+    if (auto drawn =
+            draw_together(jobs, base, pictures, std::move(records), artist, partial, progress);
+        !drawn)
+      return drawn;
+  const double together =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (Job& job : jobs) {
+    job.summary.seconds_render += together / double(jobs.size());
+    if (auto written =
+            record::write_summary(folder_of(partial, job.name) / "summary.json", job.summary);
+        !written)
+      return written;
+  }
+  return {};
+}
+
 Result<void> do_jobs(std::vector<Job>& jobs, const preset::Presets& presets, Pictures pictures,
                      const Options& options, const fs::path& partial, Progress& progress) {
   const preset::Preset& base = presets.base;
@@ -151,25 +209,25 @@ Result<void> do_jobs(std::vector<Job>& jobs, const preset::Presets& presets, Pic
       return said;
   std::optional<Artist> artist;
   if (pictures != Pictures::none) {
-    auto made = Artist::create(options.context, options.threads);
+    auto made = Artist::create(options.context, options.threads, base.style.font);
     if (!made) return tl::unexpected(made.error());
     artist.emplace(std::move(*made));
   }
   std::vector<std::string> names;
   std::vector<record::Summary> summaries;
   std::vector<CaseRecord> records;
-  for (auto& job : jobs) {
-    auto ended = do_job(job, pictures, folder_of(partial, job.name), artist ? &*artist : nullptr,
-                        progress, records);
-    if (!ended) return ended;
+  for (auto& job : jobs)
+    if (auto ended = simulate(job, pictures, folder_of(partial, job.name), progress, records);
+        !ended)
+      return ended;
+  if (artist)
+    if (auto drawn = draw_all(jobs, base, pictures, std::move(records), *artist, partial, progress);
+        !drawn)
+      return drawn;
+  for (const auto& job : jobs) {
     names.push_back(job.name);
     summaries.push_back(job.summary);
   }
-  if (!records.empty())
-    if (auto drawn =
-            draw_together(jobs, base, pictures, std::move(records), *artist, partial, progress);
-        !drawn)
-      return drawn;
   if (!cases) return {};
   return write_atomically(partial / "summary.json", summary_of_cases(base.name, names, summaries));
 }
@@ -247,6 +305,8 @@ int produce(const Options& options, Pictures pictures) {
     if (!options.quiet) print_result(job, folder);
     const auto fault = shortcoming(job.summary, job.preset.allow_unstable);
     if (!fault.empty()) std::fprintf(stderr, "%s: %s\n", job.preset.name.c_str(), fault.c_str());
+    if (const auto help = help_for(job.preset, job.summary.limit); !help.empty())
+      std::fprintf(stderr, "%s: %s\n", job.preset.name.c_str(), help.c_str());
     whole = whole && fault.empty();
   }
   return whole ? ExitCode::done : ExitCode::failed;

@@ -5,8 +5,17 @@ uniform vec4 eye;  // w = 1: the camera's position; w = 0: the direction towards
 uniform vec3 background;
 uniform vec2 haze;  // distance along the view where it begins, and 1 / its depth
 uniform vec3 forward;
+uniform float far_fade;
+uniform float sheen;  // of metal; 0: flat ink
 
 vec3 towards_eye(vec3 world) { return normalize(eye.xyz - eye.w * world); }
+
+uniform float sample_size;  // mm, at distance 1 in perspective, else anywhere
+
+// The size of a sample at a point, mm.
+float unit_at(vec3 at) {
+  return sample_size * (eye.w == 1.0 ? dot(at - eye.xyz, forward) : 1.0);
+}
 
 // Irradiance without the key light.
 float ambient(vec3 n) { return sky * (0.5 + 0.5 * n.z) + bounce * (0.5 - 0.5 * n.z); }
@@ -14,5 +23,5 @@ float ambient(vec3 n) { return sky * (0.5 + 0.5 * n.z) + bounce * (0.5 - 0.5 * n
 // What lies beyond the target pales a little, so that near and far rods stay apart: by this part.
 float haze_at(vec3 world) {
   float depth = clamp((dot(world, forward) - haze.x) * haze.y, 0.0, 1.0);
-  return 0.16 * depth * depth;
+  return far_fade * depth * (2.0 - depth);
 }

@@ -3,4 +3,4 @@ uniform sampler2D sum;
 uniform float share;
 out vec4 fragment;
 
-void main() { fragment = vec4(share * texelFetch(sum, ivec2(gl_FragCoord.xy), 0).rgb, 1.0); }
+void main() { fragment = share * texelFetch(sum, ivec2(gl_FragCoord.xy), 0); }

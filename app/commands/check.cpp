@@ -35,9 +35,10 @@ void print_plan(const preset::Preset& preset, const experiment::Plan& plan) {
              plan.joints, plan.cells, plan.dof);
   fmt::print("  memory          about {:.1g} GB\n", plan.memory_GB);
   fmt::print("  expected error  {}\n", or_unknown(plan.expected_error_mm, "mm"));
-  fmt::print("  expected time   {} to simulate, {} to draw the movie\n",
+  fmt::print("  expected time   {} to simulate, {} to draw the movie, {} the figure\n",
              or_unknown(plan.expected_seconds, "s"),
-             or_unknown(expected_seconds(Pictures::movie, preset), "s"));
+             or_unknown(expected_seconds(Pictures::movie, preset), "s"),
+             or_unknown(expected_seconds(Pictures::stills, preset), "s"));
 }
 
 Result<void> check(const Options& options) {

@@ -30,11 +30,12 @@ Result<std::vector<preset::Override>> picture_overrides(const Options& options) 
   auto overrides = overrides_of(options);
   if (!overrides) return overrides;
   for (const auto& change : *overrides) {
-    const bool shows = change.key.starts_with("movie.") || change.key.starts_with("figure.");
+    const bool shows = change.key.starts_with("movie.") || change.key.starts_with("figure.") ||
+                       change.key.starts_with("style.");
     if (!shows || change.key == "movie.frames" || change.key == "figure.radii_mm")
       return fail(Fault::bad_input,
                   fmt::format("{}: {} cannot change once a run is finished; 'render' takes keys of "
-                              "[movie] and [figure] that only show it",
+                              "[movie], [style] and [figure] that only show it",
                               change.source, change.key));
   }
   return overrides;
@@ -49,7 +50,8 @@ bool drawn_beside(const FinishedRun& run) {
 
 bool is_picture(const fs::path& path) {
   const auto kind = path.extension();
-  return path.filename() == "frames" || kind == ".png" || kind == ".svg" || kind == ".mp4";
+  return path.filename() == "frames" || kind == ".png" || kind == ".svg" || kind == ".pdf" ||
+         kind == ".mp4" || kind == ".webm" || kind == ".gif";
 }
 
 // everything of a run but its pictures; hidden files are someone's half-written ones
@@ -86,15 +88,15 @@ Result<void> draw_together(std::vector<FinishedRun>& runs, const fs::path& from,
                            [&]() -> Watch& { return progress.next_phase(); });
 }
 
-Result<void> draw_run(FinishedRun& run, Artist& artist, const fs::path& from, const fs::path& to,
-                      Progress& progress) {
+Result<void> draw_run(FinishedRun& run, const SharedBar& bar, Artist& artist, const fs::path& from,
+                      const fs::path& to, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   return make_folder(to)
       .and_then([&] {
         if (drawn_beside(run)) return Result<void>{};
         const bool curve = shows_push(run);
         const record::Trajectory& all = run.trajectory;
-        return artist.draw(run.pictures, run.preset, curve ? ends_of(all) : all, to,
+        return artist.draw(run.pictures, run.preset, curve ? ends_of(all) : all, bar, to,
                            progress.next_phase());
       })
       .and_then([&] {
@@ -134,22 +136,33 @@ int render(const Options& options, bool unsealed) {
     if (!drawn_beside(run))
       phases.push_back({"drawing" + (run.name.empty() ? "" : " " + run.name),
                         expected_seconds(run.pictures, run.preset)});
-  if (std::any_of(runs->begin(), runs->end(), shows_net))
+  const bool page = runs->front().preset.page.kind != preset::PageKind::none;
+  if (page && is_still(runs->front()))
+    phases.push_back(
+        {"drawing the page",
+         double(runs->size()) * expected_seconds(Pictures::stills, runs->front().preset)});
+  if (!page && std::any_of(runs->begin(), runs->end(), shows_net))
     phases.push_back({"drawing shells over nets",
                       2 * double(runs->size()) *
                           expected_seconds(runs->front().pictures, runs->front().preset)});
   if (drawn_beside(runs->front()))
     phases.push_back({"drawing", expected_seconds(Pictures::movie, runs->front().preset)});
-  if (std::any_of(runs->begin(), runs->end(), shows_push))
+  if (!page && std::any_of(runs->begin(), runs->end(), shows_push))
     phases.push_back(
         {"drawing point loads",
          double(runs->size()) * expected_seconds(Pictures::stills, runs->front().preset)});
   const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
-    auto artist = Artist::create(options.context, options.threads);
+    auto artist =
+        Artist::create(options.context, options.threads, runs->front().preset.style.font);
     if (!artist) return tl::unexpected(artist.error());
-    for (auto& run : *runs) {
-      auto drawn =
-          draw_run(run, *artist, folder_of(from, run.name), folder_of(partial, run.name), progress);
+    std::vector<CaseRecord> all;
+    for (const auto& run : *runs) all.push_back({run.preset, run.trajectory});
+    const auto bars = shared_bars(all, runs->front().pictures);
+    all.clear();
+    for (std::size_t k = 0; k < runs->size(); ++k) {
+      auto& run = (*runs)[k];
+      auto drawn = draw_run(run, bars[k], *artist, folder_of(from, run.name),
+                            folder_of(partial, run.name), progress);
       if (!drawn) return drawn;
     }
     if (auto drawn = draw_together(*runs, from, *artist, partial, progress); !drawn) return drawn;

@@ -19,14 +19,17 @@ Eigen::VectorXd curvature(const Session& session, int level) {
   return cell_curvature(footprint, joint_tangents(footprint, mesh, nodes));
 }
 
-/// K of the cells in bins of x/L, L the half-span of the actuated boundary, at the nodes x; rows:
-/// bins, columns: mean, deviation, cells.
+/// K of the cells in bins of x/L, L the half-span of the actuated boundary and x from its middle,
+/// at the nodes x; rows: bins, columns: mean, deviation, cells.
 Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Eigen::VectorXd& K) {
-  const double L = scene.actuated_boundary.row(0).cwiseAbs().maxCoeff();
+  // an assemblage need not lie about the origin
+  const auto ends = scene.actuated_boundary.row(0);
+  const double middle = 0.5 * (ends.minCoeff() + ends.maxCoeff()), L = ends.maxCoeff() - middle;
   Eigen::VectorXd along(K.size());
   for (Eigen::Index k = 0; k < K.size(); ++k) {
     const auto& joints = scene.footprint.cells[std::size_t(k)].joints;
-    along[k] = 0.25 * (x(0, joints[0]) + x(0, joints[1]) + x(0, joints[2]) + x(0, joints[3])) / L;
+    const double at = x(0, joints[0]) + x(0, joints[1]) + x(0, joints[2]) + x(0, joints[3]);
+    along[k] = (0.25 * at - middle) / L;
   }
   const CurvatureBins bins = curvature_bins(along, K);
   Eigen::MatrixX3d rows(bins.mean.size(), 3);
@@ -86,6 +89,9 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
   for (int k = 0; k < mesh.edge_points; ++k) layout.edge_points.push_back(mesh.joints + k);
   layout.original_boundary = scene.original_boundary;
   layout.actuated_boundary = scene.actuated_boundary;
+  for (const PointLoad& load : scene.rods.points)
+    if (load.force.norm() > 0)
+      layout.loaded_joints.push_back({load.joint, load.force.normalized()});
   if (scene.net) {
     const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
     auto net = points_on(*scene.net, flat);

@@ -87,6 +87,17 @@ std::string put(const Text& kind, const toml::node& value, Preset& preset) {
   return "";
 }
 
+std::string put(const ColourText& kind, const toml::node& value, Preset& preset) {
+  const auto* text = value.as_string();
+  if (!text) return "is " + type_text(value);
+  const std::string& colour = text->get();
+  const bool hex = colour.size() == 7 && colour[0] == '#' &&
+                   colour.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+  if (!hex && !colour.empty() && colour != "transparent") return "is no colour";
+  kind.in(preset) = colour;
+  return "";
+}
+
 std::string put(const Word& kind, const toml::node& value, Preset& preset) {
   const auto* text = value.as_string();
   if (!text) return "is " + type_text(value);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
+
 #include "engine/preset/rung.h"
 #include "engine/preset/shape_consistency.h"
 
@@ -72,6 +74,13 @@ std::vector<Conflict> conflicts(const Preset& preset) {
   if (const auto count = preset.indentation.joint.size(); count != 0 && count != 2)
     found.push_back(
         {"indentation", "joint", {}, fmt::format("a list of {}, must be [i, j] or empty", count)});
+  for (const auto& [table, key, range] : {std::tuple("style", "range", &preset.style.range),
+                                          {"movie", "bins_range", &preset.movie.bins_range}})
+    if (!range->empty() && (range->size() != 2 || (*range)[0] >= (*range)[1]))
+      found.push_back({table, key, {}, "must be [low, high] with low < high, or empty"});
+  if (const auto count = preset.movie.target_mm.size(); count != 0 && count != 3)
+    found.push_back(
+        {"movie", "target_mm", {}, fmt::format("a list of {}, must be [x, y, z] or empty", count)});
   for (auto& more : {shape_conflicts(preset), block_conflicts(preset)})
     found.insert(found.end(), more.begin(), more.end());
   return found;

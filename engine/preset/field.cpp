@@ -70,10 +70,16 @@ std::string allowed(const Field& field) {
           [](const Integer& k) { return "an integer" + bounds_text(k.range); },
           [](const Flag&) { return std::string("true or false"); },
           [](const Text&) { return std::string("a string"); },
+          [](const ColourText&) {
+            return std::string("a colour \"#rrggbb\", \"transparent\" or \"\"");
+          },
           [](const Word& k) { return words_text(k.words); },
           [](const IntegerPair& k) { return "two integers, each" + bounds_text(k.range); },
           [](const IntegerList& k) { return "a list of integers" + bounds_text(k.range); },
-          [](const RealList& k) { return "a list of numbers, each" + bounds_text(k.range); },
+          [](const RealList& k) {
+            const std::string bounds = bounds_text(k.range);
+            return "a list of numbers" + (bounds.empty() ? bounds : ", each" + bounds);
+          },
           [](const OptionalInteger& k) {
             return "an integer" + bounds_text(k.range) + ", or \"none\"";
           },
@@ -94,6 +100,7 @@ std::string value_text(const Field& field, const Preset& preset) {
           [&](const Integer& k) { return std::to_string(k.in(from)); },
           [&](const Flag& k) { return std::string(k.in(from) ? "true" : "false"); },
           [&](const Text& k) { return in_quotes(k.in(from)); },
+          [&](const ColourText& k) { return in_quotes(k.in(from)); },
           [&](const Word& k) { return in_quotes(k.words.at(k.get(preset))); },
           [&](const IntegerPair& k) {
             return fmt::format("[{}, {}]", k.in(from)[0], k.in(from)[1]);

@@ -43,6 +43,10 @@ struct Flag {
 struct Text {
   std::string& (*in)(Preset&);
 };
+/// A colour: "#rrggbb", "transparent", or empty for the usual one.
+struct ColourText {
+  std::string& (*in)(Preset&);
+};
 /// One word of a few, those of an enum; the index of a word is the enumerator's value.
 struct Word {
   int (*get)(const Preset&);
@@ -79,8 +83,8 @@ struct Field {
   std::string table;  ///< empty at the top of the file
   std::string key;
   std::string unit;  ///< empty: a pure number or not a number
-  std::variant<Real, Integer, Flag, Text, Word, IntegerPair, RealList, IntegerList, OptionalInteger,
-               PointList>
+  std::variant<Real, Integer, Flag, Text, ColourText, Word, IntegerPair, RealList, IntegerList,
+               OptionalInteger, PointList>
       kind;
   std::string meaning;  ///< one sentence without a full stop
 };

@@ -47,6 +47,10 @@ Text text() {
   return {reach<path...>};
 }
 template <auto... path>
+ColourText colour() {
+  return {reach<path...>};
+}
+template <auto... path>
 Word word() {
   using Enum = std::remove_reference_t<decltype(reach<path...>(std::declval<Preset&>()))>;
   return {[](const Preset& preset) {

@@ -3,6 +3,7 @@
 #include "engine/preset/field_makers.h"
 #include "engine/preset/physics_fields.h"
 #include "engine/preset/shape_fields.h"
+#include "engine/preset/style_fields.h"
 
 namespace gridshell::preset {
 namespace {
@@ -101,10 +102,10 @@ std::vector<Field> picture_fields() {
       {"movie", "fps", "1/s", integer<&P::movie, &Movie::fps>(between(1, 240)),
        "frames a second of movie.mp4"},
       {"movie", "quality", "", word<&P::movie, &Movie::quality>(),
-       "draft: plain; movie: 2x2 supersampling and shadow; figure: many jittered passes"},
+       "draft: no shadow; movie: a soft shadow; figure: many passes with jittered light"},
       {"movie", "colour_by", "", word<&P::movie, &Movie::colour_by>(),
-       "none; the cells by their integrated Gauss curvature K; or the rods by how far they moved "
-       "over the depth of the push"},
+       "none; the cells by their integrated Gauss curvature K, or by how much it changed since the "
+       "first frame; or the rods by how far they moved over the depth of the push"},
       {"movie", "azimuth_deg", "deg", real<&P::movie, &Movie::azimuth_deg>(between(-360, 360)),
        "direction of the camera at the first frame, from +x towards +y"},
       {"movie", "elevation_deg", "deg", real<&P::movie, &Movie::elevation_deg>(between(-90, 90)),
@@ -152,7 +153,9 @@ const std::vector<Table>& tables() {
       {"limits", "Where the model stops being valid."},
       {"accuracy", "How exact the answer is to be."},
       {"movie", "The frames of `gridshell movie` and their camera."},
+      {"style", "How pictures look."},
       {"figure", "The stills of `gridshell figure`."},
+      {"page", "A page that shows a figure of the paper, for `gridshell figure`."},
   };
   return all;
 }
@@ -160,8 +163,9 @@ const std::vector<Table>& tables() {
 const std::vector<Field>& field_table() {
   static const std::vector<Field> all = [] {
     auto fields = shell_fields();
-    for (auto& more : {rod_fields(), joint_fields(), boundary_fields(), net_fields(),
-                       indentation_fields(), load_fields(), numerics_fields(), picture_fields()})
+    for (auto& more :
+         {rod_fields(), joint_fields(), boundary_fields(), net_fields(), indentation_fields(),
+          load_fields(), numerics_fields(), picture_fields(), style_fields()})
       fields.insert(fields.end(), more.begin(), more.end());
     return fields;
   }();

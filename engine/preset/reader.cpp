@@ -366,7 +366,8 @@ std::string case_name_fault(const std::string& name) {
   if (name.size() > longest_name)
     return fmt::format("is {} letters long, must be at most {}", name.size(), longest_name);
   const auto kind = std::filesystem::path(name).extension().string();
-  for (const char* taken : {".csv", ".h5", ".journal", ".json", ".mp4", ".png", ".svg", ".toml"})
+  for (const char* taken : {".csv", ".gif", ".h5", ".journal", ".json", ".mp4", ".pdf", ".png",
+                            ".svg", ".toml", ".webm"})
     if (kind == taken) return fmt::format("must not end in {}, as the files of a run do", kind);
   if (name == "frames") return "is the folder of a movie's pictures, must be another name";
   return "";

@@ -73,6 +73,7 @@ class Idle {
     if (preset_.rod_v.differs) rods("rod_v", preset_.rod_v);
     push();
     motion();
+    pictures();
     return std::move(found_);
   }
 
@@ -192,6 +193,14 @@ class Idle {
       for (const char* key : {"seed", "form"})
         add("imperfection", key, {"[imperfection] size"},
             "with [imperfection] size = 0 nothing is chosen: the path stays on the symmetric branch");
+  }
+
+  void pictures() {
+    if (preset_.movie.view != View::free)
+      for (const char* key : {"azimuth_deg", "elevation_deg"})
+        add("movie", key, {"[movie] view"}, "[movie] view takes its place");
+    if (preset_.page.kind == PageKind::none)
+      add("page", "photo", {"[page] kind"}, "no page is made: [page] kind is \"none\"");
   }
 
   const Preset& preset_;

@@ -31,6 +31,9 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
   for (std::size_t k = 0; k < layout.cells.size(); ++k)
     for (const int joint : layout.cells[k].joints)
       if (outside(joint, joints)) return out_of_range("cell", k, "joint", joint, joints);
+  for (std::size_t k = 0; k < layout.loaded_joints.size(); ++k)
+    if (outside(layout.loaded_joints[k].joint, joints))
+      return out_of_range("loaded joint", k, "joint", layout.loaded_joints[k].joint, joints);
   for (const Part& part : layout.parts) {
     if (part.net.cols() != part.flat.cols())
       return fail(Fault::bad_input, fmt::format("block \"{}\" has {} points on its net and {} in "
@@ -65,6 +68,9 @@ Result<void> check_numbers(const Layout& layout) {
   for (const Joint& joint : layout.joints)
     if (!(std::max(std::abs(joint.u_mm), std::abs(joint.v_mm)) <= largest_mm))
       return refuse("a joint");
+  for (const LoadedJoint& load : layout.loaded_joints)
+    if (!(std::abs(load.direction.norm() - 1) <= 1e-6))
+      return fail(Fault::bad_input, "the direction of a loaded joint is no unit vector");
   return {};
 }
 

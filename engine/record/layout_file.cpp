@@ -59,6 +59,18 @@ void write_parts(hdf5::Writer& file, const Layout& layout) {
                "mm, mm, degrees");
 }
 
+void write_loads(hdf5::Writer& file, const Layout& layout) {
+  std::vector<int> joints;
+  Eigen::Matrix3Xd directions(3, layout.loaded_joints.size());
+  for (const LoadedJoint& load : layout.loaded_joints) {
+    directions.col(long(joints.size())) = load.direction;
+    joints.push_back(load.joint);
+  }
+  file.dataset("/layout/load_joints", H5T_NATIVE_INT, {joints.size()}, joints.data(), "1");
+  file.dataset("/layout/load_directions", H5T_NATIVE_DOUBLE, {joints.size(), 3}, directions.data(),
+               "1");
+}
+
 }  // namespace
 
 void write_layout(hdf5::Writer& file, const Layout& layout) {
@@ -81,6 +93,7 @@ void write_layout(hdf5::Writer& file, const Layout& layout) {
   boundary("/layout/net_nodes", layout.net_nodes);
   boundary("/layout/flat_nodes", layout.flat_nodes);
   if (!layout.parts.empty()) write_parts(file, layout);
+  if (!layout.loaded_joints.empty()) write_loads(file, layout);
 }
 
 namespace {
@@ -112,6 +125,15 @@ void read_parts(hdf5::Reader& file, Layout& layout) {
         {seams[k], families[k] == "u" ? 'u' : 'v', numbers[k][0], numbers[k][1], numbers[k][2]});
 }
 
+void read_loads(hdf5::Reader& file, Layout& layout) {
+  const auto joints = file.vector<int>("/layout/load_joints", H5T_NATIVE_INT);
+  const Eigen::Matrix3Xd directions = read_points(file, "/layout/load_directions");
+  if (file.good() && directions.cols() != long(joints.size()))
+    file.fail_because("/layout has not one direction a joint that is pushed");
+  for (std::size_t k = 0; file.good() && k < joints.size(); ++k)
+    layout.loaded_joints.push_back({joints[k], directions.col(long(k))});
+}
+
 }  // namespace
 
 Layout read_layout(hdf5::Reader& file) {
@@ -128,6 +150,7 @@ Layout read_layout(hdf5::Reader& file) {
   layout.net_nodes = read_points(file, "/layout/net_nodes");
   layout.flat_nodes = read_points(file, "/layout/flat_nodes");
   if (file.has("/parts")) read_parts(file, layout);
+  if (file.has("/layout/load_joints")) read_loads(file, layout);
   return layout;
 }
 

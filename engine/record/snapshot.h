@@ -41,6 +41,12 @@ struct SeamRod {
   double kink_deg = 0;  ///< between its tangents there
 };
 
+/// A joint that is pushed or pulled, and which way: a unit vector.
+struct LoadedJoint {
+  int joint = 0;  ///< of Layout::joints
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+};
+
 /// The net, fixed over a run.
 struct Layout {
   double spacing_mm = 0;
@@ -49,13 +55,14 @@ struct Layout {
   std::vector<std::vector<int>> rods;  ///< nodes of each rod from edge point to edge point
   std::vector<Joint> joints;
   std::vector<Cell> cells;
-  std::vector<int> edge_points;        ///< nodes pinned on the boundary
-  Eigen::Matrix3Xd original_boundary;  ///< closed polyline (last point joins the first)
-  Eigen::Matrix3Xd actuated_boundary;  ///< same number of points; in correspondence
-  Eigen::Matrix3Xd net_nodes;          ///< place of every node on the net designed on, if any
-  Eigen::Matrix3Xd flat_nodes;         ///< and in the flat footprint, where there is a net
-  std::vector<Part> parts;             ///< of a net made of building blocks
-  std::vector<SeamRod> seam_rods;      ///< and how they meet
+  std::vector<int> edge_points;            ///< nodes pinned on the boundary
+  Eigen::Matrix3Xd original_boundary;      ///< closed polyline (last point joins the first)
+  Eigen::Matrix3Xd actuated_boundary;      ///< same number of points; in correspondence
+  Eigen::Matrix3Xd net_nodes;              ///< place of every node on the net designed on, if any
+  Eigen::Matrix3Xd flat_nodes;             ///< and in the flat footprint, where there is a net
+  std::vector<Part> parts;                 ///< of a net made of building blocks
+  std::vector<SeamRod> seam_rods;          ///< and how they meet
+  std::vector<LoadedJoint> loaded_joints;  ///< where the shell is pushed or pulled
 };
 
 /// All frames of a run over one layout.

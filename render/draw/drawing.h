@@ -19,11 +19,12 @@ struct Camera {
   double field_of_view_deg = 20;  ///< 0: orthographic
 };
 
-/// A closed polyline drawn as a tube of its own (the ring of the actuated boundary).
+/// A closed polyline drawn as a rod of its own (the ring of the actuated boundary).
 struct Ring {
   Eigen::Matrix3Xd points;
   double diameter_mm = 1;
   Colour colour;
+  bool shadow = true;  ///< whether it throws one
 };
 
 /// Rods drawn without joints or cells, behind the shell: an ansatz, a block, an unloaded shape.
@@ -31,6 +32,20 @@ struct GhostRods {
   Eigen::Matrix3Xd nodes;
   std::vector<std::vector<int>> rods;
   double diameter_mm = 0.5;
+  Colour colour;
+};
+
+/// An arrow with a solid head, tip at `to`.
+struct Arrow {
+  Eigen::Vector3d from, to;
+  double diameter_mm = 1;  ///< of its shaft
+  Colour colour;
+};
+
+/// A ball around a point.
+struct PointMark {
+  Eigen::Vector3d at;
+  double diameter_mm = 4;
   Colour colour;
 };
 
@@ -46,10 +61,14 @@ struct Drawing {
   std::vector<Colour> cell_colours;  ///< empty: no cells; else one a cell, alpha counts
   std::vector<Ring> rings;
   std::vector<GhostRods> ghosts;
+  std::vector<Arrow> arrows;
+  std::vector<PointMark> marks;
+  double sheen = 1;        ///< of rods and joints; 0: ink
+  double far_fade = 0.16;  ///< how much of the background lies over what is farthest, 0 to 1
   double ground_z_mm = 0;  ///< plane of the ground
   bool ground = true;
   Colour ground_colour{0.93f, 0.93f, 0.94f};
-  Colour background{1, 1, 1};
+  Colour background{1, 1, 1};  ///< alpha 0: the picture is clear where nothing is drawn
 };
 
 /// How much work goes into a frame.

@@ -8,6 +8,7 @@
 
 #include "render/draw/camera.h"
 #include "render/draw/colour.h"
+#include "render/draw/ribbon.h"
 
 namespace gridshell::render {
 namespace {
@@ -31,6 +32,12 @@ Eigen::Matrix4f to_ground(const Eigen::Matrix4d& matrix, double z) {
   return result;
 }
 
+/// Of a sample: mm at distance 1 in perspective, else anywhere.
+double sample_size(const Shot& shot) {
+  const double mm = 2 * shot.camera.half_extent_mm / (shot.height * shot.quality.supersample);
+  return shot.camera.field_of_view_deg <= 0 ? mm : mm / camera_distance(shot.camera);
+}
+
 /// The ground hides nothing when it is seen from below.
 bool ground_seen(const Shot& shot) {
   const Camera& camera = shot.camera;
@@ -47,24 +54,29 @@ Painter::Painter(const Gl& gl, Programs programs, ShadowMap shadow)
     : gl_(&gl),
       programs_(std::move(programs)),
       shadow_(std::move(shadow)),
-      solids_(gl),
-      ghosts_(gl),
-      cells_(gl),
+      sheets_(gl),
+      ribbons_(gl),
+      beads_(gl),
       no_vertices_(gl),
-      layer_(gl, Target::Depth::plain),
+      layer_(gl, Target::Depth::none),
       sum_(gl, Target::Depth::none),
       pixels_(gl, Target::Depth::none) {}
 
 Result<Painter> Painter::create(const Gl& gl) {
   auto shadow = ShadowMap::create(gl);
   if (!shadow) return tl::unexpected(shadow.error());
-  auto solid = Program::create(gl, {"solid.vert"}, {"light.glsl", "shadow.glsl", "solid.frag"});
-  if (!solid) return tl::unexpected(solid.error());
-  auto cell = Program::create(gl, {"light.glsl", "cell.vert"}, {"shadow.glsl", "cell.frag"});
-  if (!cell) return tl::unexpected(cell.error());
+  auto sheet = Program::create(gl, {"light.glsl", "sheet.vert"}, {"shadow.glsl", "sheet.frag"});
+  if (!sheet) return tl::unexpected(sheet.error());
+  auto ribbon = Program::create(gl, {"light.glsl", "ribbon.glsl", "ribbon.vert"},
+                                {"light.glsl", "shadow.glsl", "metal.glsl", "ribbon.frag"});
+  if (!ribbon) return tl::unexpected(ribbon.error());
+  auto bead = Program::create(gl, {"light.glsl", "ribbon.glsl", "bead.vert"},
+                              {"light.glsl", "shadow.glsl", "metal.glsl", "bead.frag"});
+  if (!bead) return tl::unexpected(bead.error());
   auto mean = Program::create(gl, {"screen.vert"}, {"mean.frag"});
   if (!mean) return tl::unexpected(mean.error());
-  return Painter(gl, {std::move(*solid), std::move(*cell), std::move(*mean)}, std::move(*shadow));
+  return Painter(gl, {std::move(*sheet), std::move(*ribbon), std::move(*bead), std::move(*mean)},
+                 std::move(*shadow));
 }
 
 Result<void> Painter::begin(const Shot& shot) {
@@ -75,9 +87,9 @@ Result<void> Painter::begin(const Shot& shot) {
     if (!program) return tl::unexpected(program.error());
     resolve_.emplace(s, std::move(*program));
   }
-  solids_.upload(shot.scene.solids);
-  ghosts_.upload(shot.scene.ghosts);
-  cells_.upload(shot.scene.cells);
+  sheets_.upload(shot.scene.sheets);
+  ribbons_.upload(shot.scene.ribbons, {shot.scene.casters});
+  beads_.upload(shot.scene.beads);
   passes_ = lighting_passes(shot.camera, shot.quality.jittered_passes);
   shadow_of_ = -1;
   return {};
@@ -92,7 +104,7 @@ Result<void> Painter::paint(const Shot& shot, const Tile& tile, Image& image) {
   }
   for (int i = 0; i < int(passes_.size()); ++i) {
     if (shot.quality.shadow && shadow_of_ != i) {
-      auto done = shadow_.render(shot.scene, solids_, cells_, passes_[i].direction,
+      auto done = shadow_.render(shot.scene, ribbons_, sheets_, passes_[i].direction,
                                  shot.drawing.ground_z_mm);
       if (!done) return done;
       shadow_of_ = i;
@@ -134,12 +146,10 @@ Result<void> Painter::paint_layer(const Shot& shot, const Tile& tile, const Ligh
   if (auto bound = layer_.bind(s * tile.width, s * tile.height, format); !bound) return bound;
   gl_->Disable(GL_SCISSOR_TEST);
   gl_->Enable(GL_FRAMEBUFFER_SRGB);
-  gl_->Enable(GL_DEPTH_TEST);
-  gl_->DepthFunc(GL_LESS);
-  gl_->DepthMask(GL_TRUE);
-  gl_->Disable(GL_BLEND);
+  gl_->Disable(GL_DEPTH_TEST);
+  gl_->Disable(GL_CULL_FACE);
   gl_->ClearColor(0, 0, 0, 0);
-  gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl_->Clear(GL_COLOR_BUFFER_BIT);
 
   // the ground hides what dips below it
   const bool dips = ground_seen(shot) && shot.scene.low.z() < shot.drawing.ground_z_mm;
@@ -168,6 +178,8 @@ void Painter::set_light(const Program& program, const Shot& shot, const Lighting
   program.set("eye", eye_uniform);
   program.set("background", linear(shot.drawing.background));
   program.set("forward", Eigen::Vector3f(forward.cast<float>()));
+  program.set("far_fade", float(shot.drawing.far_fade));
+  program.set("sheen", float(shot.drawing.sheen));
   program.set("haze", Eigen::Vector2f(float(middle), float(1 / extent)));
   program.set("shadow_on", int(shot.quality.shadow));
   program.set("shadow_depth", 1);
@@ -183,32 +195,28 @@ void Painter::set_light(const Program& program, const Shot& shot, const Lighting
 void Painter::draw_meshes(const Shot& shot, const Lighting& light, const Eigen::Matrix4f& matrix) {
   gl_->ActiveTexture(GL_TEXTURE1);
   gl_->BindTexture(GL_TEXTURE_2D, shadow_.depth());
-  programs_.solid.use();
-  programs_.solid.set("view_projection", matrix);
-  set_light(programs_.solid, shot, light);
-  gl_->Enable(GL_CULL_FACE);
-  solids_.draw();
-
-  gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  if (!ghosts_.empty()) {
-    // depth first, so that ghosts do not show through themselves
-    gl_->ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    ghosts_.draw();
-    gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    gl_->DepthFunc(GL_LEQUAL);
-    gl_->Enable(GL_BLEND);
-    ghosts_.draw();
-    gl_->DepthFunc(GL_LESS);
+  for (const Program* program : {&programs_.sheet, &programs_.ribbon, &programs_.bead}) {
+    program->use();
+    program->set("view_projection", matrix);
+    set_light(*program, shot, light);
+    if (program == &programs_.sheet) continue;
+    program->set("widest", widest_radius_mm);
+    program->set("sample_size", float(sample_size(shot)));
   }
-  gl_->Disable(GL_CULL_FACE);
-  if (cells_.empty()) return;
-  programs_.cell.use();
-  programs_.cell.set("view_projection", matrix);
-  set_light(programs_.cell, shot, light);
   gl_->Enable(GL_BLEND);
-  gl_->DepthMask(GL_FALSE);
-  cells_.draw();
-  gl_->DepthMask(GL_TRUE);
+  gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  const std::vector<Layer>& layers = shot.scene.layers;
+  const auto paint = [&](const Program& program, const VertexStore& store, std::size_t begin,
+                         std::size_t end) {
+    if (begin == end) return;
+    program.use();
+    store.draw_range(begin, end);
+  };
+  for (std::size_t k = 0; k + 1 < layers.size(); ++k) {
+    paint(programs_.sheet, sheets_, layers[k].sheets, layers[k + 1].sheets);
+    paint(programs_.ribbon, ribbons_, layers[k].ribbons, layers[k + 1].ribbons);
+    paint(programs_.bead, beads_, layers[k].beads, layers[k + 1].beads);
+  }
 }
 
 void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light) {
@@ -216,6 +224,9 @@ void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light)
   const Program& program = resolve_.at(shot.quality.supersample);
   program.use();
   program.set("samples", 0);
+  program.set("texel_of_samples",
+              Eigen::Vector2f(1.f / float(shot.quality.supersample * tile.width),
+                              1.f / float(shot.quality.supersample * tile.height)));
   program.set("cover", 1);
   program.set("rows", tile.height);
   program.set("to_ground", to_ground(matrix(shot, tile, light), shot.drawing.ground_z_mm));
@@ -223,6 +234,7 @@ void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light)
   program.set("ground_z", float(shot.drawing.ground_z_mm));
   program.set("ground_colour", linear(shot.drawing.ground_colour));
   program.set("background", linear(shot.drawing.background));
+  program.set("background_alpha", shot.drawing.background.a);
   program.set("middle", Eigen::Vector2f(shot.camera.target.head<2>().cast<float>()));
   program.set("fade", Eigen::Vector2f(float(ground_from * extent), float(ground_to * extent)));
   program.set("shadow_on", int(shot.quality.shadow));
@@ -237,6 +249,9 @@ void Painter::resolve(const Shot& shot, const Tile& tile, const Lighting& light)
 
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, layer_.colour());
+  // four samples of a pixel in one fetch between them
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl_->ActiveTexture(GL_TEXTURE1);
   gl_->BindTexture(GL_TEXTURE_2D, shadow_.cover());
   gl_->Disable(GL_DEPTH_TEST);

@@ -35,7 +35,7 @@ class Painter {
 
  private:
   struct Programs {
-    Program solid, cell, mean;
+    Program sheet, ribbon, bead, mean;
   };
   Painter(const Gl& gl, Programs programs, ShadowMap shadow);
 
@@ -50,7 +50,7 @@ class Painter {
   Programs programs_;
   std::map<int, Program> resolve_;  ///< by samples along a pixel's side
   ShadowMap shadow_;
-  VertexStore solids_, ghosts_, cells_;
+  VertexStore sheets_, ribbons_, beads_;
   VertexArray no_vertices_;
   Target layer_, sum_, pixels_;
   std::vector<Lighting> passes_;

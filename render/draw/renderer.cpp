@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <optional>
 
 #include "render/context/context.h"
+#include "render/draw/colour.h"
 #include "render/draw/painter.h"
 #include "render/draw/tiles.h"
 
@@ -26,6 +28,17 @@ Result<void> check(const DrawQuality& quality, int width, int height) {
     return fail(Fault::bad_input,
                 fmt::format("jittered_passes = {}: 1 to {}", quality.jittered_passes, most_passes));
   return {};
+}
+
+/// From colours times alpha, mixed in linear light, to colours beside alpha.
+void unpremultiply(Image& image) {
+  for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
+    const float alpha = float(image.rgba[k + 3]) / 255;
+    for (int c = 0; c < 3 && alpha > 0 && alpha < 1; ++c) {
+      const float linear = std::min(1.f, to_linear(float(image.rgba[k + c]) / 255) / alpha);
+      image.rgba[k + c] = std::uint8_t(255 * to_srgb(linear) + 0.5f);
+    }
+  }
 }
 
 class GlRenderer final : public Renderer {
@@ -61,6 +74,7 @@ class GlRenderer final : public Renderer {
                                          "error {:#x}{}",
                                          width, height, error,
                                          error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
+    if (drawing.background.a < 1) unpremultiply(image);
     return image;
   }
 

@@ -4,10 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "render/draw/camera.h"
 #include "render/draw/colour.h"
+#include "render/draw/ribbon.h"
 #include "render/draw/skin.h"
 
 namespace gridshell::render {
@@ -18,12 +23,6 @@ using Colours = std::vector<Eigen::Vector4f>;
 
 /// Rods, rings and joints are never translucent.
 Eigen::Vector4f opaque(const Colour& c) { return to_linear({c.r, c.g, c.b, 1}); }
-
-int sides_for(double diameter_in_samples) {
-  if (diameter_in_samples < 4) return 6;
-  if (diameter_in_samples < 16) return 8;
-  return diameter_in_samples < 48 ? 12 : 24;
-}
 
 /// The first mismatch that would make drawing read past an array or draw NaN; empty when sound.
 std::string mismatch(const Drawing& drawing) {
@@ -54,61 +53,40 @@ std::string mismatch(const Drawing& drawing) {
   return {};
 }
 
-/// Tubes of a given diameter, drawn no thinner than a sample.
-class TubeMaker {
- public:
-  TubeMaker(double diameter_mm, double mm_per_sample)
-      : radius_(float(0.5 * std::max(diameter_mm, 1.1 * mm_per_sample))),
-        sides_(sides_for(2 * radius_ / mm_per_sample)) {}
+/// A radius as drawn: no thinner than a sample.
+float radius_of(double diameter_mm, double mm_per_sample) {
+  return float(0.5 * std::max(diameter_mm, 1.1 * mm_per_sample));
+}
 
-  void add(Mesh& mesh, const Points& points, const Colours& colours, bool closed) const {
-    add_tube(mesh, {points, colours, radius_, sides_, closed});
+Points points_of(const Eigen::Matrix3Xd& nodes, const std::vector<int>& rod) {
+  Points points;
+  for (int node : rod) points.push_back(nodes.col(node).cast<float>());
+  return points;
+}
+
+/// Every joint's node, and the cells on either side of two joints' stretch.
+class Neighbours {
+ public:
+  explicit Neighbours(const record::Layout& layout) {
+    for (const record::Joint& joint : layout.joints) joints_.insert(joint.node);
+    for (int c = 0; c < int(layout.cells.size()); ++c)
+      for (int k = 0; k < 4; ++k) {
+        const auto& corners = layout.cells[c].joints;
+        const int a = layout.joints[corners[k]].node, b = layout.joints[corners[(k + 1) % 4]].node;
+        beside_[std::minmax(a, b)].push_back(c);
+      }
+  }
+  bool joint(int node) const { return joints_.contains(node); }
+  const std::vector<int>& cells(int a, int b) const {
+    static const std::vector<int> none;
+    const auto found = beside_.find(std::minmax(a, b));
+    return found == beside_.end() ? none : found->second;
   }
 
  private:
-  float radius_;
-  int sides_;
+  std::set<int> joints_;
+  std::map<std::pair<int, int>, std::vector<int>> beside_;
 };
-
-void add_rods(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
-  const TubeMaker tube(drawing.rod_diameter_mm, mm_per_sample);
-  Colours of_node(drawing.node_colours.size());
-  std::transform(drawing.node_colours.begin(), drawing.node_colours.end(), of_node.begin(), opaque);
-  const Eigen::Vector4f plain = opaque(drawing.rod_colour);
-  Points points;
-  Colours colours;
-  for (const auto& rod : drawing.layout->rods) {
-    points.clear();
-    colours.clear();
-    for (int node : rod) {
-      points.push_back(drawing.nodes.col(node).cast<float>());
-      colours.push_back(of_node.empty() ? plain : of_node[node]);
-    }
-    tube.add(mesh, points, colours, false);
-  }
-}
-
-void add_rings(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
-  for (const Ring& ring : drawing.rings) {
-    Points points(ring.points.cols());
-    for (int k = 0; k < int(points.size()); ++k) points[k] = ring.points.col(k).cast<float>();
-    // a last point that repeats the first would be an edge without length
-    while (points.size() > 1 && (points.back() - points.front()).norm() < 1e-6f) points.pop_back();
-    const Colours colours(points.size(), opaque(ring.colour));
-    TubeMaker(ring.diameter_mm, mm_per_sample).add(mesh, points, colours, true);
-  }
-}
-
-void add_ghosts(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
-  for (const GhostRods& ghost : drawing.ghosts) {
-    const TubeMaker tube(ghost.diameter_mm, mm_per_sample);
-    for (const auto& rod : ghost.rods) {
-      Points points;
-      for (int node : rod) points.push_back(ghost.nodes.col(node).cast<float>());
-      tube.add(mesh, points, Colours(points.size(), to_linear(ghost.colour)), false);
-    }
-  }
-}
 
 /// For every node the cross product of its rods' tangents: the shell's normal at a joint.
 std::vector<Eigen::Vector3f> shell_normals(const Drawing& drawing) {
@@ -125,29 +103,218 @@ std::vector<Eigen::Vector3f> shell_normals(const Drawing& drawing) {
   return normal;
 }
 
-void add_joints(Mesh& mesh, const Drawing& drawing, double mm_per_sample) {
-  if (drawing.joint_diameter_mm <= 0) return;
-  const auto normals = shell_normals(drawing);
-  const auto radius = float(0.5 * std::max(drawing.joint_diameter_mm, 1.1 * mm_per_sample));
-  const float half_height = std::max(0.6f * radius, float(0.8 * drawing.rod_diameter_mm));
-  const int sides = std::clamp(2 * sides_for(2 * radius / mm_per_sample), 12, 32);
-  const Eigen::Vector4f colour = opaque(drawing.joint_colour);
-  for (const auto& joint : drawing.layout->joints) {
-    const float length = normals[joint.node].norm();
-    const Eigen::Vector3f axis =
-        length > 1e-6f ? Eigen::Vector3f(normals[joint.node] / length) : Eigen::Vector3f::UnitZ();
-    add_button(mesh, drawing.nodes.col(joint.node).cast<float>(), axis, radius, half_height, sides,
-               colour);
+/// Collects the pieces, each with its depth along the view, and puts them in order.
+class Weaver {
+ public:
+  Weaver(Scene& scene, const Drawing& drawing, const Camera& camera, double mm_per_sample)
+      : scene_(scene),
+        drawing_(drawing),
+        forward_(camera_axes(camera).forward),
+        mm_per_sample_(mm_per_sample) {}
+
+  void add_cells() {
+    cell_depth_.assign(drawing_.layout->cells.size(), INFINITY);
+    if (drawing_.cell_colours.empty()) return;
+    Colours colours(drawing_.cell_colours.size());
+    std::transform(drawing_.cell_colours.begin(), drawing_.cell_colours.end(), colours.begin(),
+                   [](const Colour& c) { return to_linear(c); });
+    auto patches = render::add_cells(scene_.sheets, *drawing_.layout, drawing_.nodes, colours);
+    for (CellPatch& patch : patches) {
+      double depth = 0;
+      for (int joint : drawing_.layout->cells[patch.cell].joints)
+        depth += 0.25 * forward_.dot(drawing_.nodes.col(drawing_.layout->joints[joint].node));
+      cell_depth_[patch.cell] = depth;
+      sheets_.push_back({depth, std::move(patch.indices)});
+    }
   }
-}
+
+  /// A stretch between joints comes with the nearer of the cells beside it, so that these do not
+  /// cover half of it, and a joint with the nearest of its stretches.
+  void add_rods() {
+    const Neighbours neighbours(*drawing_.layout);
+    node_depth_.assign(std::size_t(drawing_.nodes.cols()), INFINITY);
+    const float radius = radius_of(drawing_.rod_diameter_mm, mm_per_sample_);
+    Colours of_node(drawing_.node_colours.size());
+    std::transform(drawing_.node_colours.begin(), drawing_.node_colours.end(), of_node.begin(),
+                   opaque);
+    const Eigen::Vector4f plain = opaque(drawing_.rod_colour);
+    for (const auto& rod : drawing_.layout->rods) {
+      if (rod.size() < 2) continue;
+      Colours colours;
+      for (int node : rod) colours.push_back(of_node.empty() ? plain : of_node[node]);
+      const Points points = points_of(drawing_.nodes, rod);
+      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}});
+      for (std::size_t begin = 0; begin + 1 < rod.size();) {
+        std::size_t end = begin + 1;
+        while (end + 1 < rod.size() && !neighbours.joint(rod[end])) ++end;
+        double depth =
+            0.5 * forward_.dot(drawing_.nodes.col(rod[begin]) + drawing_.nodes.col(rod[end]));
+        for (int cell : neighbours.cells(rod[begin], rod[end]))
+          depth = std::min(depth, cell_depth_[cell]);
+        for (int node : {rod[begin], rod[end]})
+          node_depth_[node] = std::min(node_depth_[node], depth);
+        add_stretch(first, int(begin), int(end), depth, true);
+        begin = end;
+      }
+    }
+  }
+
+  void add_joints() {
+    if (drawing_.joint_diameter_mm <= 0) return;
+    const auto normals = shell_normals(drawing_);
+    const float radius = radius_of(drawing_.joint_diameter_mm, mm_per_sample_);
+    const Eigen::Vector4f colour = opaque(drawing_.joint_colour);
+    for (const auto& joint : drawing_.layout->joints) {
+      const float length = normals[joint.node].norm();
+      const Eigen::Vector3f axis =
+          length > 1e-6f ? Eigen::Vector3f(normals[joint.node] / length) : Eigen::Vector3f::UnitZ();
+      const Eigen::Vector3f at = drawing_.nodes.col(joint.node).cast<float>();
+      const double depth =
+          std::min(node_depth_[joint.node], forward_.dot(drawing_.nodes.col(joint.node)));
+      beads_.push_back({depth, add_bead(scene_.beads, at, axis, radius, BeadShape::flat, colour)});
+      add_bead_shadow(at, axis, radius);
+    }
+  }
+
+  void add_rings() {
+    for (const Ring& ring : drawing_.rings) {
+      Points points(ring.points.cols());
+      for (int k = 0; k < int(points.size()); ++k) points[k] = ring.points.col(k).cast<float>();
+      // a last point that repeats the first would be an edge without length
+      while (points.size() > 1 && (points.back() - points.front()).norm() < 1e-6f)
+        points.pop_back();
+      if (points.size() < 3) continue;
+      const Colours colours(points.size(), opaque(ring.colour));
+      const float radius = radius_of(ring.diameter_mm, mm_per_sample_);
+      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}, true});
+      for (int k = 0, n = int(points.size()); k < n; ++k) {
+        Piece piece{forward_.dot(points[k].cast<double>()), {}};
+        join_points(piece.indices, first, k, (k + 1) % n);
+        if (ring.shadow) insert(scene_.casters, piece.indices);
+        ribbons_.push_back(std::move(piece));
+      }
+    }
+  }
+
+  void add_ghosts() {
+    constexpr int edges = 4;
+    for (const GhostRods& ghost : drawing_.ghosts) {
+      const float radius = radius_of(ghost.diameter_mm, mm_per_sample_);
+      for (const auto& rod : ghost.rods) {
+        if (rod.size() < 2) continue;
+        const Points points = points_of(ghost.nodes, rod);
+        const Colours colours(points.size(), to_linear(ghost.colour));
+        const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}});
+        for (int begin = 0, last = int(rod.size()) - 1; begin < last; begin += edges) {
+          const int end = std::min(begin + edges, last);
+          add_stretch(first, begin, end,
+                      0.5 * forward_.dot((points[begin] + points[end]).cast<double>()), false);
+        }
+      }
+    }
+  }
+
+  void add_arrows() {
+    constexpr float head_width = 2.8f, head_length = 9;  // over the shaft's radius
+    for (const Arrow& arrow : drawing_.arrows) {
+      const Eigen::Vector3f from = arrow.from.cast<float>(), to = arrow.to.cast<float>();
+      const float radius = radius_of(arrow.diameter_mm, mm_per_sample_),
+                  length = (to - from).norm();
+      const Eigen::Vector3f along = (to - from).stableNormalized();
+      const Eigen::Vector3f neck = to - std::min(head_length * radius, 0.6f * length) * along;
+      // the head is a strip of its own that narrows to its tip
+      const Points points{from, neck, neck, to};
+      const std::vector<float> radii{radius, radius, head_width * radius, 0.05f * radius};
+      const Colours colours(4, opaque(arrow.colour));
+      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, radii});
+      for (const int begin : {0, 2})
+        add_stretch(first, begin, begin + 1, forward_.dot(arrow.to) - radius, true);
+    }
+  }
+
+  void add_marks() {
+    for (const PointMark& mark : drawing_.marks) {
+      const auto radius = float(0.5 * mark.diameter_mm);
+      beads_.push_back({forward_.dot(mark.at) - radius - drawing_.layout->spacing_mm,
+                        add_bead(scene_.beads, mark.at.cast<float>(), Eigen::Vector3f::UnitZ(),
+                                 radius, BeadShape::ball, opaque(mark.colour))});
+    }
+  }
+
+  /// From far to near, cut into layers of equal depth.
+  void finish() {
+    constexpr int most_layers = 32;
+    double near = INFINITY, far = -INFINITY;
+    for (auto* pieces : {&sheets_, &ribbons_, &beads_}) {
+      std::stable_sort(pieces->begin(), pieces->end(),
+                       [](const Piece& a, const Piece& b) { return a.depth > b.depth; });
+      if (pieces->empty()) continue;
+      far = std::max(far, pieces->front().depth);
+      near = std::min(near, pieces->back().depth);
+    }
+    // without sheets nothing hides what is behind it but rods, whose order is their own
+    const int layers = sheets_.empty() && beads_.empty() ? 1 : most_layers;
+    std::size_t sheet = 0, ribbon = 0, bead = 0;
+    for (int k = 1; k <= layers; ++k) {
+      scene_.layers.push_back({scene_.sheets.indices.size(), scene_.ribbons.indices.size(),
+                               scene_.beads.indices.size()});
+      const double until = k == layers ? -INFINITY : far + (near - far) * k / layers;
+      take(sheets_, sheet, until, scene_.sheets.indices);
+      take(ribbons_, ribbon, until, scene_.ribbons.indices);
+      take(beads_, bead, until, scene_.beads.indices);
+    }
+    scene_.layers.push_back(
+        {scene_.sheets.indices.size(), scene_.ribbons.indices.size(), scene_.beads.indices.size()});
+  }
+
+ private:
+  struct Piece {
+    double depth = 0;
+    std::vector<std::uint32_t> indices;
+  };
+  static void insert(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  }
+  static void take(const std::vector<Piece>& pieces, std::size_t& next, double until,
+                   std::vector<std::uint32_t>& indices) {
+    for (; next < pieces.size() && pieces[next].depth >= until; ++next)
+      insert(indices, pieces[next].indices);
+  }
+  void add_stretch(std::uint32_t first, int begin, int end, double depth, bool casts) {
+    Piece piece{depth, {}};
+    for (int k = begin; k < end; ++k) join_points(piece.indices, first, k, k + 1);
+    if (casts) insert(scene_.casters, piece.indices);
+    ribbons_.push_back(std::move(piece));
+  }
+  /// A bead's shadow is that of a short strip as wide as it.
+  void add_bead_shadow(const Eigen::Vector3f& at, const Eigen::Vector3f& axis, float radius) {
+    const Eigen::Vector3f half = 0.8f * radius * axis.unitOrthogonal();
+    const Points points{at - half, at + half};
+    const Colours colours(2, {0, 0, 0, 1});
+    const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}});
+    join_points(scene_.casters, first, 0, 1);
+  }
+
+  Scene& scene_;
+  const Drawing& drawing_;
+  Eigen::Vector3d forward_;
+  double mm_per_sample_;
+  std::vector<double> cell_depth_, node_depth_;
+  std::vector<Piece> sheets_, ribbons_, beads_;
+};
 
 void enclose(Scene& scene) {
   Eigen::AlignedBox3f box;
-  for (const Mesh* mesh : {&scene.solids, &scene.ghosts, &scene.cells})
-    for (const Vertex& v : mesh->vertices) box.extend(v.position);
+  float widest = 0;
+  for (const Mesh* mesh : {&scene.sheets, &scene.ribbons, &scene.beads})
+    for (const Vertex& v : mesh->vertices) {
+      box.extend(v.position);
+      widest = std::max(widest, std::abs(float(v.normal[3])));
+    }
   if (box.isEmpty()) box.extend(Eigen::Vector3f::Zero());
-  scene.low = box.min().cast<double>() - Eigen::Vector3d::Constant(1e-3);
-  scene.high = box.max().cast<double>() + Eigen::Vector3d::Constant(1e-3);
+  const double room = 1e-3 + widest / 32767 * widest_radius_mm;
+  scene.low = box.min().cast<double>() - Eigen::Vector3d::Constant(room);
+  scene.high = box.max().cast<double>() + Eigen::Vector3d::Constant(room);
 }
 
 }  // namespace
@@ -156,16 +323,15 @@ Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm
   if (const std::string fault = mismatch(drawing); !fault.empty())
     return fail(Fault::bad_input, "the drawing " + fault);
   Scene scene;
-  add_rods(scene.solids, drawing, mm_per_sample);
-  add_rings(scene.solids, drawing, mm_per_sample);
-  add_joints(scene.solids, drawing, mm_per_sample);
-  add_ghosts(scene.ghosts, drawing, mm_per_sample);
-  if (!drawing.cell_colours.empty()) {
-    Colours colours(drawing.cell_colours.size());
-    std::transform(drawing.cell_colours.begin(), drawing.cell_colours.end(), colours.begin(),
-                   [](const Colour& c) { return to_linear(c); });
-    add_cells(scene.cells, *drawing.layout, drawing.nodes, colours, camera_axes(camera).forward);
-  }
+  Weaver weaver(scene, drawing, camera, mm_per_sample);
+  weaver.add_cells();
+  weaver.add_rods();
+  weaver.add_rings();
+  weaver.add_joints();
+  weaver.add_arrows();
+  weaver.add_marks();
+  weaver.add_ghosts();
+  weaver.finish();
   enclose(scene);
   return scene;
 }

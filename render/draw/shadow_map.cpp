@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "render/draw/ribbon.h"
+
 namespace gridshell::render {
 namespace {
 
@@ -20,7 +22,7 @@ ShadowMap::ShadowMap(const Gl& gl, Program caster, Program halve)
       no_vertices_(gl) {}
 
 Result<ShadowMap> ShadowMap::create(const Gl& gl) {
-  auto caster = Program::create(gl, {"caster.vert"}, {"caster.frag"});
+  auto caster = Program::create(gl, {"ribbon.glsl", "caster.vert"}, {"caster.frag"});
   if (!caster) return tl::unexpected(caster.error());
   auto halve = Program::create(gl, {"screen.vert"}, {"halve.frag"});
   if (!halve) return tl::unexpected(halve.error());
@@ -35,7 +37,7 @@ void ShadowMap::fit(const Scene& scene, const Eigen::Vector3d& light, double gro
   axes.row(2) = light.transpose().cast<float>();
   Eigen::AlignedBox3f box;
   auto top = float(ground_z);
-  for (const Mesh* mesh : {&scene.solids, &scene.cells})
+  for (const Mesh* mesh : {&scene.ribbons, &scene.sheets})
     for (const Vertex& v : mesh->vertices) {
       box.extend(axes * v.position);
       top = std::max(top, v.position.z());
@@ -53,37 +55,40 @@ void ShadowMap::fit(const Scene& scene, const Eigen::Vector3d& light, double gro
   matrix_.topRightCorner<3, 1>() = -scale.cwiseProduct(middle);
 }
 
-Result<void> ShadowMap::render(const Scene& scene, const VertexStore& solids,
-                               const VertexStore& cells, const Eigen::Vector3d& light,
+Result<void> ShadowMap::render(const Scene& scene, const VertexStore& ribbons,
+                               const VertexStore& sheets, const Eigen::Vector3d& light,
                                double ground_z) {
   if (auto bound = target_.bind(texels, texels, GL_RG8); !bound) return bound;
   fit(scene, light, ground_z);
   caster_.use();
   caster_.set("light_matrix", matrix_);
+  caster_.set("light", Eigen::Vector3f(light.cast<float>()));
+  caster_.set("widest", widest_radius_mm);
   caster_.set("ground_z", float(ground_z));
   caster_.set("height_scale", 1 / height_range_mm_);
-  draw_casters(solids, cells);
+  draw_casters(ribbons, sheets);
   blur();
   return {};
 }
 
-void ShadowMap::draw_casters(const VertexStore& solids, const VertexStore& cells) const {
+void ShadowMap::draw_casters(const VertexStore& ribbons, const VertexStore& sheets) const {
   gl_->ClearColor(0, 0, 0, 0);
   gl_->Enable(GL_DEPTH_TEST);
   gl_->DepthFunc(GL_LESS);
   gl_->DepthMask(GL_TRUE);
   gl_->Disable(GL_BLEND);
   gl_->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  gl_->Enable(GL_CULL_FACE);
-  caster_.set("density", 1.f);
-  solids.draw();
-
   gl_->Disable(GL_CULL_FACE);
+  caster_.set("density", 1.f);
+  caster_.set("ribbons", 1);
+  ribbons.draw(1);
+  caster_.set("ribbons", 0);
+
   gl_->Enable(GL_BLEND);
   gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   gl_->DepthMask(GL_FALSE);
   caster_.set("density", cell_density);
-  cells.draw();
+  sheets.draw();
   gl_->DepthMask(GL_TRUE);
 }
 

@@ -19,9 +19,10 @@ class ShadowMap {
 
   static Result<ShadowMap> create(const Gl& gl);
 
-  /// Draws the scene from the direction of the unit vector `light`. `solids` and `cells` hold the
-  /// scene's meshes. A cell holds back part of the light that its alpha would.
-  Result<void> render(const Scene& scene, const VertexStore& solids, const VertexStore& cells,
+  /// Draws the scene from the direction of the unit vector `light`. `ribbons` and `sheets` hold the
+  /// scene's meshes, `ribbons` with its casters as list 1. A sheet holds back part of the light
+  /// that its alpha would.
+  Result<void> render(const Scene& scene, const VertexStore& ribbons, const VertexStore& sheets,
                       const Eigen::Vector3d& light, double ground_z);
 
   GLuint cover() const { return target_.colour(); }
@@ -33,7 +34,7 @@ class ShadowMap {
  private:
   ShadowMap(const Gl& gl, Program caster, Program halve);
   void fit(const Scene& scene, const Eigen::Vector3d& light, double ground_z);
-  void draw_casters(const VertexStore& solids, const VertexStore& cells) const;
+  void draw_casters(const VertexStore& ribbons, const VertexStore& sheets) const;
   void blur();
 
   const Gl* gl_;

@@ -3,13 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <vector>
 
 namespace gridshell::render {
 namespace {
 
-constexpr int most_steps = 6;  // along a cell's side
+constexpr int most_steps = 4;  // along a cell's side
 
 /// Where a node sits: its place `at` along rod `rod`.
 struct Place {
@@ -96,35 +95,34 @@ Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
   return patch;
 }
 
-void add_patch(Mesh& mesh, const Patch& patch, const Eigen::Vector4f& colour) {
+std::vector<std::uint32_t> add_patch(Mesh& mesh, const Patch& patch,
+                                     const Eigen::Vector4f& colour) {
   const int n = patch.steps;
   const auto first = std::uint32_t(mesh.vertices.size());
   const PackedColour packed = pack(colour);
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) mesh.add(patch.at(i, j), patch.normal(i, j), packed);
+  std::vector<std::uint32_t> indices;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const std::uint32_t a = first + j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
-      mesh.triangle(a, b, c);
-      mesh.triangle(a, c, d);
+      indices.insert(indices.end(), {a, b, c, a, c, d});
     }
+  return indices;
 }
 
 }  // namespace
 
-void add_cells(Mesh& mesh, const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
-               std::span<const Eigen::Vector4f> colours, const Eigen::Vector3d& forward) {
+std::vector<CellPatch> add_cells(Mesh& mesh, const record::Layout& layout,
+                                 const Eigen::Matrix3Xd& nodes,
+                                 std::span<const Eigen::Vector4f> colours) {
   const auto where = places(layout, nodes.cols());
-  std::vector<double> depth(layout.cells.size(), 0);
-  for (std::size_t c = 0; c < depth.size(); ++c)
-    for (int joint : layout.cells[c].joints)
-      depth[c] += forward.dot(nodes.col(layout.joints[joint].node));
-  std::vector<int> order(depth.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return depth[a] > depth[b]; });
-  for (int c : order)
+  std::vector<CellPatch> patches;
+  for (int c = 0; c < int(layout.cells.size()); ++c)
     if (colours[c].w() > 0)
-      add_patch(mesh, coons_patch(layout, nodes, where, layout.cells[c]), colours[c]);
+      patches.push_back(
+          {c, add_patch(mesh, coons_patch(layout, nodes, where, layout.cells[c]), colours[c])});
+  return patches;
 }
 
 }  // namespace gridshell::render

@@ -103,18 +103,20 @@ Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& movie
   if (auto showable = check_showable(blocks, style); !showable)
     return tl::unexpected(showable.error());
   const Stage stage(blocks, style);
-  Drawing drawing = stage.drawing(0);
+  Drawing drawing = stage.drawing(blocks.frames.front());
   drawing.ground = false;
   drawing.joint_diameter_mm = 0;
   drawing.rod_diameter_mm *= 1.5;
   for (const std::size_t block : owner) drawing.node_colours.push_back(block_colour(block));
-  auto picture = renderer.draw(drawing, stage.camera(0), draw_quality(style.quality), style.width,
-                               style.height);
+  auto picture =
+      renderer.draw(drawing, stage.camera(0), draw_quality(style), style.width, style.height);
   if (!picture) return tl::unexpected(picture.error());
   std::string names;
   for (const record::Part& part : run.layout.parts)
     names += (names.empty() ? "" : ", ") + plain(part.name);
   PanelFigure figure;
+  if (style.print.width_mm > 0) figure.print = style.print;
+  figure.title = style.title;
   figure.columns = 1;
   figure.panels.push_back({std::move(*picture), "", names});
   figure.scale_bar_mm = style.scale_bar_mm;
@@ -122,39 +124,66 @@ Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& movie
   return draw_panels(figure);
 }
 
-Result<void> write_block_footprints(const std::filesystem::path& stem,
-                                    const record::Trajectory& run) {
-  const record::Layout& layout = run.layout;
-  const auto moves = apart(layout.parts, &record::Part::flat, 0.25);
+namespace {
+
+/// Blocks apart above, joined below.
+struct BlockSheet {
+  std::vector<Eigen::Vector3d> moves;
   Extent above, below;
-  for (std::size_t k = 0; k < layout.parts.size(); ++k) {
-    above.take(layout.parts[k].flat, moves[k]);
-    below.take(layout.parts[k].flat, Eigen::Vector3d::Zero());
-  }
-  below.take(layout.original_boundary, Eigen::Vector3d::Zero());
-  constexpr double width = 340, margin = 12, between = 14, bar_height = 20;
-  const double scale = (width - 2 * margin) / std::max(above.size().x(), below.size().x());
-  const double below_y = margin + scale * above.size().y() + between;
-  const double height = below_y + scale * below.size().y() + bar_height + margin;
-  const auto centred = [&](const Extent& extent, double y) {
-    return ToScale{{(width - scale * extent.size().x()) / 2, y}, extent, scale};
-  };
-  return write_figure(stem, width, height, "Footprints of the blocks", [&](Canvas& canvas) {
-    const ToScale up = centred(above, margin), down = centred(below, below_y);
+
+  explicit BlockSheet(const record::Layout& layout)
+      : moves(apart(layout.parts, &record::Part::flat, 0.25)) {
     for (std::size_t k = 0; k < layout.parts.size(); ++k) {
-      draw_rods(canvas, up, layout.parts[k], moves[k], {block_colour(k), 0.8});
-      draw_rods(canvas, down, layout.parts[k], Eigen::Vector3d::Zero(), {block_colour(k), 0.8});
+      above.take(layout.parts[k].flat, moves[k]);
+      below.take(layout.parts[k].flat, Eigen::Vector3d::Zero());
     }
-    std::vector<Point> ring;
-    for (Eigen::Index k = 0; k < layout.original_boundary.cols(); ++k)
-      ring.push_back(down(layout.original_boundary.col(k)));
-    canvas.polyline(ring, {ink, 1.2}, true);
-    const Point left{margin, height - margin};
-    canvas.line(left, {left.x + scale * layout.spacing_mm, left.y}, {ink, 1.4});
-    canvas.text(fmt::format("*d* = {:g} mm", layout.spacing_mm),
-                {left.x + scale * layout.spacing_mm + 4, left.y},
-                {.size = 8, .align_y = AlignY::middle});
-  });
+    below.take(layout.original_boundary, Eigen::Vector3d::Zero());
+  }
+  double wide() const { return std::max(above.size().x(), below.size().x()); }
+  double high() const { return above.size().y() + below.size().y(); }
+};
+
+constexpr double between = 14, bar_height = 20;  // points
+
+}  // namespace
+
+void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run) {
+  const record::Layout& layout = run.layout;
+  const BlockSheet sheet(layout);
+  const double scale =
+      std::min(box.width / sheet.wide(), (box.height - between - bar_height) / sheet.high());
+  const auto centred = [&](const Extent& extent, double y) {
+    return ToScale{{box.middle().x - scale * extent.size().x() / 2, y}, extent, scale};
+  };
+  const ToScale up = centred(sheet.above, box.y),
+                down = centred(sheet.below, box.y + scale * sheet.above.size().y() + between);
+  for (std::size_t k = 0; k < layout.parts.size(); ++k) {
+    draw_rods(canvas, up, layout.parts[k], sheet.moves[k], {block_colour(k), 0.8});
+    draw_rods(canvas, down, layout.parts[k], Eigen::Vector3d::Zero(), {block_colour(k), 0.8});
+  }
+  std::vector<Point> ring;
+  for (Eigen::Index k = 0; k < layout.original_boundary.cols(); ++k)
+    ring.push_back(down(layout.original_boundary.col(k)));
+  canvas.polyline(ring, {ink, 1.2}, true);
+  const Point left{box.x, down.corner.y + scale * sheet.below.size().y() + 0.6 * bar_height};
+  canvas.line(left, {left.x + scale * layout.spacing_mm, left.y}, {ink, 1.4});
+  canvas.text(fmt::format("*d* = {:g} mm", layout.spacing_mm),
+              {left.x + scale * layout.spacing_mm + 4, left.y},
+              {.size = 8, .align_y = AlignY::middle});
+}
+
+Result<void> write_block_footprints(const std::filesystem::path& stem,
+                                    const record::Trajectory& run, const Print& print) {
+  constexpr double width = 340, margin = 12;
+  const BlockSheet sheet(run.layout);
+  const double scale = (width - 2 * margin) / sheet.wide();
+  const double height = 2 * margin + scale * sheet.high() + between + bar_height;
+  return write_figure(
+      stem, width, height, "Footprints of the blocks",
+      [&](Canvas& canvas) {
+        draw_block_footprints(canvas, Box{0, 0, width, height}.inset(margin), run);
+      },
+      print);
 }
 
 Plot seam_plot(const record::Trajectory& run) {

@@ -19,10 +19,13 @@ Colour block_colour(std::size_t index);
 Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& style,
                           Renderer& renderer, Watch& watch);
 
+/// What write_block_footprints draws, as large as fits into a box.
+void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run);
+
 /// The blocks' footprints apart, and below them the joined footprint with its original boundary, to
 /// scale. Writes `<stem>.png` and `<stem>.svg`.
 Result<void> write_block_footprints(const std::filesystem::path& stem,
-                                    const record::Trajectory& run);
+                                    const record::Trajectory& run, const Print& print = {});
 
 /// Gap and kink of every rod across a seam against its place along the seam, one marker a seam.
 Plot seam_plot(const record::Trajectory& run);

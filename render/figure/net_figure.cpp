@@ -36,6 +36,8 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
                               Renderer& renderer, Watch& watch, const Dress& dress) {
   const MovieStyle style = plain_style(movie_style);
   PanelFigure figure;
+  if (style.print.width_mm > 0) figure.print = style.print;
+  figure.title = style.title;
   figure.columns = std::min(3, int(runs.size()));
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
@@ -43,13 +45,14 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
       return tl::unexpected(showable.error());
     const record::Trajectory last = final_state(*runs[k].run);
     const Stage stage(last, style);
-    Drawing drawing = stage.drawing(0);
+    Drawing drawing = stage.drawing(last.frames.front());
     drawing.ground = false;
     dress(last, drawing);
-    auto picture = renderer.draw(drawing, stage.camera(0), draw_quality(style.quality), style.width,
-                                 style.height);
+    auto picture =
+        renderer.draw(drawing, stage.camera(0), draw_quality(style), style.width, style.height);
     if (!picture) return tl::unexpected(picture.error());
-    const std::string letter = runs.size() > 1 ? std::string(1, char('a' + k % 26)) : "";
+    const std::string letter =
+        runs.size() > 1 && style.look.letters ? std::string(1, char('a' + k % 26)) : "";
     figure.panels.push_back({std::move(*picture), letter, runs[k].caption});
     if (runs.size() == 1) {
       figure.scale_bar_mm = style.scale_bar_mm;
@@ -108,11 +111,12 @@ Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle&
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
   for (const NetRun& one : runs)
     largest = std::max(largest, unit.factor * deviation_of_nodes(*one.run).maxCoeff());
-  const ColourScale scale{ColourMap::sequential, 0, round_end(largest)};
+  const ColourScale scale{ColourMap::sequential, 0, round_end(largest), 0.2};
   const auto dress = [&](const record::Trajectory& run, Drawing& drawing) {
     const Eigen::VectorXd deviation = deviation_of_nodes(run);
     for (double one : deviation) drawing.node_colours.push_back(scale(unit.factor * one));
     drawing.rod_diameter_mm *= 1.8;
+    drawing.sheen = 0.2;
     drawing.joint_diameter_mm = 0;
   };
   auto figure = panels_of(runs, style, renderer, watch, dress);

@@ -77,6 +77,9 @@ void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>
   const Box length =
       canvas.text(fmt::format("*d* = {:g} mm", bar), {left.x + place.scale * bar + 4, left.y},
                   {.size = 8, .align_y = AlignY::middle});
+  if (runs.size() == 1)
+    canvas.text("flat footprint", {length.right() + 10, left.y},
+                {.size = 8, .align_y = AlignY::middle});
   // caps are named beside the planes that cut them
   if (runs.size() > 1 && !all_caps(runs)) draw_names(canvas, {length.right() + 14, left.y}, runs);
 }
@@ -100,9 +103,9 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
     canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4});
     // to a hundredth, and no minus before a zero
     const double shown = std::round(100 * z / rho) / 100 + 0.0;
-    canvas.text(fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", shown),
-                {centre.x + half + 4, y},
-                {.size = 6.5, .colour = colour, .align_y = AlignY::middle});
+    canvas.text(
+        fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", shown), {centre.x + half + 4, y},
+        {.size = std::min(6.5, 0.085 * scale * rho), .colour = colour, .align_y = AlignY::middle});
   }
 }
 
@@ -129,14 +132,16 @@ Plot curvature_plot(const std::vector<NamedRun>& runs) {
   plot.references.push_back({.at = 0, .label = ""});
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
-    const double L = run.layout.actuated_boundary.row(0).cwiseAbs().maxCoeff();
+    // an assemblage need not lie about the origin
+    const auto ends = run.layout.actuated_boundary.row(0);
+    const double middle = 0.5 * (ends.minCoeff() + ends.maxCoeff()), L = ends.maxCoeff() - middle;
     const Eigen::Matrix3Xd joints = joints_of(run);
     Series series;
     series.name = runs[r].name;
     for (std::size_t k = 0; k < run.layout.cells.size(); ++k) {
       double x = 0;
       for (int joint : run.layout.cells[k].joints) x += joints(0, joint) / 4;
-      series.x.push_back(x / L);
+      series.x.push_back((x - middle) / L);
       series.y.push_back(run.frames.back().cell_K[long(k)]);
     }
     series.colour = series_colour(r);
@@ -202,14 +207,23 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   return plot;
 }
 
-Result<void> write_footprints(const std::filesystem::path& stem,
-                              const std::vector<NamedRun>& runs) {
+void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
   const bool caps = all_caps(runs);
-  const double width = caps ? 470 : 250, height = 250;
-  return write_figure(stem, width, height, "Original boundaries", [&](Canvas& canvas) {
-    draw_boundaries(canvas, {10, 8, 230, 222}, runs);
-    if (caps) draw_planes(canvas, {250, 10, 210, 220}, runs);
-  });
+  const double half = caps ? box.width / 2 : box.width;
+  // below the boundaries stands a length to read them by
+  draw_boundaries(canvas, {box.x, box.y, half - 8, box.height - 20}, runs);
+  if (caps) draw_planes(canvas, {box.x + half, box.y, half, box.height - 8}, runs);
+}
+
+Result<void> write_footprints(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
+                              const Print& print) {
+  const double width = all_caps(runs) ? 470 : 250, height = 250;
+  return write_figure(
+      stem, width, height, "Original boundaries",
+      [&](Canvas& canvas) {
+        draw_footprints(canvas, Box{0, 0, width, height}.inset(9), runs);
+      },
+      print);
 }
 
 }  // namespace gridshell::render

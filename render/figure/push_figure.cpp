@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "render/movie/bins_plot.h"
+#include "render/movie/colour_range.h"
 #include "render/movie/stage.h"
+#include "render/movie/survey.h"
 #include "render/plot/panels.h"
 
 namespace gridshell::render {
@@ -14,6 +16,8 @@ MovieStyle panel_style(MovieStyle style) {
   style.captions = style.inset = style.bins = style.legends = false;
   style.turn_deg = 0;
   style.colour_by = ColourBy::displacement;
+  style.look.floor = false;
+  style.look.joint_mm = 0;
   // round shells, three to a row
   style.width = style.height;
   return style;
@@ -24,25 +28,31 @@ MovieStyle panel_style(MovieStyle style) {
 Result<Image> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
                           Renderer& renderer, Watch& watch) {
   const MovieStyle style = panel_style(movie_style);
+  std::vector<Survey> surveys;
+  std::vector<const Survey*> all;
+  for (const NetRun& one : runs) surveys.push_back(survey_of(*one.run));
+  for (const Survey& survey : surveys) all.push_back(&survey);
+  const auto bar = colour_bar_of(all, style);
   PanelFigure figure;
+  if (style.print.width_mm > 0) figure.print = style.print;
+  figure.title = style.title;
   figure.columns = std::min(3, int(runs.size()));
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
     if (auto showable = check_showable(*runs[k].run, style); !showable)
       return tl::unexpected(showable.error());
-    const Stage stage(*runs[k].run, style);
+    const Stage stage(runs[k].run->layout, std::move(surveys[k]), style, bar);
     const int last = stage.frames() - 1;
-    Drawing drawing = stage.drawing(last);
-    drawing.ground = false;
+    Drawing drawing = stage.drawing(runs[k].run->frames.back());
     // the colours are the rods': nothing hides them
     drawing.rod_diameter_mm *= 1.5;
-    drawing.joint_diameter_mm = 0;
-    auto picture = renderer.draw(drawing, stage.camera(last), draw_quality(style.quality),
-                                 style.width, style.height);
+    auto picture =
+        renderer.draw(drawing, stage.camera(last), draw_quality(style), style.width, style.height);
     if (!picture) return tl::unexpected(picture.error());
-    figure.panels.push_back(
-        {std::move(*picture), std::string(1, char('a' + k % 26)), runs[k].caption});
-    figure.colour_bar = stage.colour_bar();
+    figure.panels.push_back({std::move(*picture),
+                             style.look.letters ? std::string(1, char('a' + k % 26)) : "",
+                             runs[k].caption});
+    figure.colour_bar = bar;
     watch.report(double(k + 1) / double(runs.size()));
   }
   return draw_panels(figure);
@@ -53,10 +63,9 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
   Plot plot;
   plot.x = {.label = "depth *δ* (mm)", .low = 0};
   plot.y = {.label = "force (N)"};
-  plot.legend = LegendPlace::upper_left;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Series series;
-    series.name = runs[k].name;
+    if (runs.size() > 1) series.name = runs[k].name;
     series.colour = series_colour(k);
     series.marker = markers[k % 4];
     for (const record::Frame& frame : runs[k].run->frames) {
@@ -68,28 +77,32 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
   return plot;
 }
 
-Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs) {
-  constexpr double font = 7.5, column = 168, height = 180;  // points
+Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
+                             const Print& print) {
+  constexpr double font = 7.5, column = 186, height = 190;  // points
   std::vector<Plot> plots;
   double low = 0, high = 0;
   for (const NamedRun& one : runs) {
-    if (one.run->frames.back().K_bins.rows() == 0) return {};
-    plots.push_back(bins_plot(*one.run, int(one.run->frames.size()) - 1, font));
-    plots.back().title = one.name + ": total " + fixed(one.run->frames.back().total_K, 3) + " rad";
+    const record::Frame& last = one.run->frames.back();
+    if (last.K_bins.rows() == 0) return {};
+    plots.push_back(
+        bins_plot(survey_of(*one.run), long(one.run->layout.cells.size()), last, {}, font));
+    plots.back().title = one.name + "\nΣ*K*_{□} = " + fixed(last.total_K, 3) + " rad";
     low = std::min(low, plots.back().y.low.value_or(0));
     high = std::max(high, plots.back().y.high.value_or(0));
   }
   for (Plot& plot : plots) {
-    plot.y = {.label = "", .low = low, .high = 1.15 * high};
-    plot.legend = LegendPlace::none;
+    plot.y.low = low;
+    plot.y.high = high;
   }
-  plots.front().y.label = "*K* of a cell (rad)";
-  plots.front().legend = LegendPlace::upper_left;
   const double width = column * double(plots.size());
-  return write_figure(stem, width, height, "K of the cells in bins of x/L", [&](Canvas& canvas) {
-    for (std::size_t k = 0; k < plots.size(); ++k)
-      draw_plot(canvas, {column * double(k) + 3, 3, column - 6, height - 6}, plots[k]);
-  });
+  return write_figure(
+      stem, width, height, "K of the cells in bins of x/L",
+      [&](Canvas& canvas) {
+        for (std::size_t k = 0; k < plots.size(); ++k)
+          draw_plot(canvas, {column * double(k) + 3, 3, column - 6, height - 6}, plots[k]);
+      },
+      print);
 }
 
 }  // namespace gridshell::render

@@ -18,6 +18,7 @@ Plot force_plot(const std::vector<NamedRun>& runs);
 
 /// K of the cells in bins of x/L at the last frame over the grey ones of the first, a plot a run on
 /// one scale. Writes `<stem>.png` and `<stem>.svg`.
-Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs);
+Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
+                             const Print& print = {});
 
 }  // namespace gridshell::render

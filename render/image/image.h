@@ -21,6 +21,8 @@ struct Image {
 /// A colour in sRGB, components in [0, 1].
 struct Colour {
   float r = 0, g = 0, b = 0, a = 1;
+
+  bool operator==(const Colour&) const = default;
 };
 
 }  // namespace gridshell::render

@@ -51,7 +51,7 @@ bool opaque(const Image& image) {
 }
 
 // everything with a destructor lives in the caller: a longjmp skips destructors
-bool encode_rows(const Image& image, bool with_alpha, png_bytep row, std::string& bytes,
+bool encode_rows(const Image& image, bool with_alpha, double dpi, png_bytep row, std::string& bytes,
                  Failure& failure) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
@@ -63,6 +63,10 @@ bool encode_rows(const Image& image, bool with_alpha, png_bytep row, std::string
   png_set_IHDR(png, info, image.width, image.height, 8,
                with_alpha ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (dpi > 0) {
+    const auto per_metre = png_uint_32(dpi / 0.0254 + 0.5);
+    png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
+  }
   // run lengths of the SUB filter's differences: a third less time than level 3, 8 % larger
   png_set_compression_level(png, 1);
   png_set_compression_strategy(png, Z_RLE);
@@ -118,20 +122,20 @@ bool decode_rows(std::string_view& bytes, Image& image, std::vector<png_bytep>& 
 
 }  // namespace
 
-Result<std::string> encode_png(const Image& image) {
+Result<std::string> encode_png(const Image& image, double dpi) {
   if (image.width < 1 || image.height < 1)
     return fail(Fault::bad_input, fmt::format("a picture of {} x {} pixels cannot be a PNG",
                                               image.width, image.height));
   std::string bytes;
   std::vector<png_byte> row(std::size_t(4) * image.width);
   Failure failure;
-  if (!encode_rows(image, !opaque(image), row.data(), bytes, failure))
+  if (!encode_rows(image, !opaque(image), dpi, row.data(), bytes, failure))
     return fail(Fault::io, fmt::format("cannot encode a PNG: {}", failure.message));
   return bytes;
 }
 
-Result<void> write_png(const Image& image, const std::filesystem::path& path) {
-  auto bytes = encode_png(image);
+Result<void> write_png(const Image& image, const std::filesystem::path& path, double dpi) {
+  auto bytes = encode_png(image, dpi);
   if (!bytes) return tl::unexpected(bytes.error());
   return write_atomically(path, *bytes);
 }

@@ -12,11 +12,12 @@ namespace gridshell::render {
 /// The picture as the bytes of an 8-bit PNG: RGB when every pixel is opaque, else RGBA. SUB filter
 /// and run lengths, the fastest that keeps rendered frames small.
 /// Errors: Fault::bad_input for an empty picture.
-Result<std::string> encode_png(const Image& image);
+/// `dpi` above 0 is written into the file: pixels an inch as printed.
+Result<std::string> encode_png(const Image& image, double dpi = 0);
 
 /// Writes a PNG that is whole or absent. Errors: Fault::io naming the path and what the system
 /// said; those of encode_png.
-Result<void> write_png(const Image& image, const std::filesystem::path& path);
+Result<void> write_png(const Image& image, const std::filesystem::path& path, double dpi = 0);
 
 /// Reads a PNG of any colour type and bit depth as 8-bit RGBA. Errors: Fault::io naming the path
 /// and why it cannot be opened; Fault::bad_input when it is no PNG or is damaged.

@@ -10,7 +10,9 @@
 #include "engine/core/atomic_file.h"
 #include "render/image/png.h"
 #include "render/movie/captions.h"
+#include "render/movie/colour_range.h"
 #include "render/movie/stage.h"
+#include "render/movie/timeline.h"
 
 namespace gridshell::render {
 namespace {
@@ -21,20 +23,29 @@ constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, event_ink{0.70f, 0.10f, 0.08f, 1};
 MovieStyle bare(MovieStyle style) {
   style.captions = style.inset = style.bins = style.legends = false;
   style.scale_bar_mm = 0;
+  // a shadow would end at the edge of its part
+  style.look.floor = false;
   return style;
 }
 
 class Beside {
  public:
   Beside(const std::vector<BesideRun>& runs, const MovieStyle& style) : runs_(runs), style_(style) {
-    em_ = std::max(7.5, 0.024 * std::min<double>(style.height, 0.72 * style.width));
+    em_ = style.font_scale *
+          std::max(7.5, 0.024 * std::min<double>(style.height, 0.72 * style.width));
     MovieStyle part = bare(style);
-    share_colours(part);
+    std::vector<Survey> surveys;
+    std::vector<const Survey*> all;
+    for (const BesideRun& one : runs) surveys.push_back(survey_of(*one.run));
+    for (const Survey& survey : surveys) all.push_back(&survey);
+    bar_ = colour_bar_of(all, style);
     legend_ = bar_ ? legend_width() : 0;
     const int count = int(runs.size());
     part.width = std::max(16, int((style.width - legend_ - 2 * em_) / count));
     part.height = std::max(16, int(style.height - top() - foot()));
-    for (const BesideRun& one : runs) stages_.push_back(std::make_unique<Stage>(*one.run, part));
+    for (std::size_t k = 0; k < runs.size(); ++k)
+      stages_.push_back(
+          std::make_unique<Stage>(runs[k].run->layout, std::move(surveys[k]), part, bar_));
   }
 
   int frames() const {
@@ -45,10 +56,9 @@ class Beside {
 
   Result<Image> draw(int index, Renderer& renderer) const {
     std::vector<Image> parts;
-    for (const auto& stage : stages_) {
-      const int k = at(*stage, index);
-      auto part = renderer.draw(stage->drawing(k), stage->camera(k), draw_quality(style_.quality),
-                                stage->style().width, stage->style().height);
+    for (std::size_t run = 0; run < stages_.size(); ++run) {
+      const int k = at(*stages_[run], index);
+      auto part = stages_[run]->draw_views(renderer, {frame(run, k), k});
       if (!part) return part;
       parts.push_back(std::move(*part));
     }
@@ -60,18 +70,11 @@ class Beside {
 
  private:
   double top() const { return style_.captions ? 6.2 * em_ : 0; }
-  double foot() const { return style_.captions ? 2 * em_ : 0; }
-  static int at(const Stage& stage, int index) { return std::min(index, stage.frames() - 1); }
-
-  // the widest scale that any run has by itself
-  void share_colours(MovieStyle& part) {
-    for (const BesideRun& one : runs_) {
-      const Stage alone(*one.run, part);
-      if (!alone.colour_bar()) return;
-      if (!bar_ || alone.colour_bar()->scale.high > bar_->scale.high) bar_ = alone.colour_bar();
-    }
-    if (bar_) part.K_limit = bar_->scale.high;
+  double foot() const { return style_.captions ? 4.6 * em_ : 0; }
+  const record::Frame& frame(std::size_t run, int k) const {
+    return runs_[run].run->frames[std::size_t(k)];
   }
+  static int at(const Stage& stage, int index) { return std::min(index, stage.frames() - 1); }
 
   double legend_width() const {
     double width = 0;
@@ -84,22 +87,26 @@ class Beside {
     const Box box{em_ + double(k) * part.width, top(), double(part.width), double(part.height)};
     canvas.picture(part, box);
     if (!style_.captions) return;
-    const record::Frame& frame = runs_[k].run->frames[std::size_t(at(*stages_[k], index))];
+    const int now = at(*stages_[k], index);
+    const record::Frame& shown = frame(k, now);
     TextStyle text{.size = em_, .colour = ink, .bold = true, .align_x = AlignX::centre};
     text.align_y = AlignY::middle;
     const double x = box.middle().x, width = box.width - em_;
     canvas.text(plain(canvas.shortened(runs_[k].name, width, text)), {x, 3.3 * em_}, text);
     text.bold = false;
     std::string state;
-    for (const std::string& caption : state_captions(frame)) {
+    for (const std::string& caption : state_captions(shown)) {
       // the height is that of the whole shell: of a push the two before say more
       const std::string longer = state.empty() ? caption : state + "    " + caption;
       if (canvas.measure(longer, text).width <= width) state = longer;
     }
     canvas.text(state, {x, 4.8 * em_}, text);
-    if (frame.event.empty()) return;
     text.colour = event_ink;
-    canvas.text(plain(canvas.shortened(frame.event, width, text)), {x, box.bottom() - em_}, text);
+    canvas.text(plain(canvas.shortened(event_caption(shown), width, text)),
+                {x, box.bottom() + 0.8 * em_}, text);
+    const double length = std::min(width, 18 * em_);
+    draw_timeline(canvas, {x - length / 2, box.bottom() + 1.7 * em_, length, 0.9 * em_},
+                  stages_[k]->survey().marks, now, stages_[k]->frames(), em_);
   }
 
   void draw_text(Canvas& canvas, int index) const {

@@ -1,4 +1,4 @@
-// The words of a frame.
+// The words of a frame, which speak of that frame alone.
 #pragma once
 
 #include <string>
@@ -8,14 +8,18 @@
 
 namespace gridshell::render {
 
-/// What a frame's state is, the most telling first, as marked text: "*R*_{a} = 115.9 mm",
-/// "height 42.1 mm", "*δ* = 3.20 mm", "force 0.214 N". What does not apply is not there.
+/// What a frame's state is, the most telling first, as marked text: of a pushed shell "*δ* = 3.20
+/// mm" and "*F* = 0.214 N", else "*R*_{a} = 115.9 mm"; then "height 42.1 mm". What does not apply
+/// is not there.
 std::vector<std::string> state_captions(const record::Frame& frame);
 
-/// "frame 120 / 240"
-std::string frame_caption(int index, int frames);
+/// "frame 120 / 240"; `at` from 0
+std::string frame_caption(int at, int frames);
 
-/// "residual 3.2 × 10^{−9} N, stable", or how many negative pivots make it unstable.
+/// "residual < 1 × 10^{−8} N, stable". An unstable frame says so in its event.
 std::string equilibrium_caption(const record::Frame& frame);
+
+/// What happened in this very frame: its event, or that it is unstable; empty when nothing did.
+std::string event_caption(const record::Frame& frame);
 
 }  // namespace gridshell::render

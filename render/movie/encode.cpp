@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
@@ -11,32 +12,67 @@
 
 namespace gridshell::render {
 
-std::vector<std::string> encode_arguments(const std::filesystem::path& frames, int fps,
+namespace {
+
+/// When every frame is shown, and how long the last one stays.
+std::string timing_filters(const Timing& timing) {
+  std::string filters;
+  const bool eased = timing.pace == Pace::eased && timing.frames > 1;
+  const double seconds =
+      timing.seconds > 0 ? timing.seconds : double(timing.frames) / std::max(1, timing.fps);
+  if (eased) {
+    // the inverse of 3 p^2 - 2 p^3: slow at both ends
+    filters += fmt::format("setpts='(0.5-sin(asin(1-2*N/{})/3))*{:.6f}/TB',fps={},",
+                           timing.frames - 1, seconds, timing.fps);
+  } else if (timing.seconds > 0 && timing.frames > 0) {
+    filters += fmt::format("setpts='N*{:.6f}/TB',fps={},", seconds / timing.frames, timing.fps);
+  }
+  if (timing.hold_s > 0)
+    filters += fmt::format("tpad=stop_mode=clone:stop_duration={:.3f},", timing.hold_s);
+  return filters;
+}
+
+/// What ends the chain, and how the result is written.
+std::vector<std::string> output_options(const std::string& kind) {
+  const std::vector<std::string> tags{"-colorspace", "bt709", "-color_primaries", "bt709",
+                                      "-color_trc",  "bt709", "-color_range",     "tv"};
+  std::vector<std::string> options;
+  if (kind == ".webm") options = {"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-row-mt", "1"};
+  if (kind == ".gif") return {"-loop", "0"};
+  if (kind != ".webm") options = {"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart"};
+  options.insert(options.end(), {"-pix_fmt", "yuv420p"});
+  options.insert(options.end(), tags.begin(), tags.end());
+  return options;
+}
+
+}  // namespace
+
+std::vector<std::string> encode_arguments(const std::filesystem::path& frames, const Timing& timing,
                                           const std::filesystem::path& movie) {
   // in the pattern a percent sign of the folder's own name is doubled
   std::string pattern;
   for (char c : frames.string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+  const std::string kind = movie.extension().string(), rate = std::to_string(timing.fps);
   // ffmpeg takes what stands before a colon for a protocol, and a leading dash for an option
-  return {"ffmpeg",
-          "-nostdin",
-          "-y",
-          "-loglevel",
-          "error",
-          "-framerate",
-          std::to_string(fps),
-          "-i",
-          "file:" + pattern + "/frame_%05d.png",
-          "-vf",
-          "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white",
-          "-c:v",
-          "libx264",
-          "-crf",
-          "18",
-          "-pix_fmt",
-          "yuv420p",
-          "-movflags",
-          "+faststart",
-          "file:" + movie.string()};
+  std::vector<std::string> words{"ffmpeg",    "-nostdin", "-y",
+                                 "-loglevel", "error",    "-framerate",
+                                 rate,        "-i",       "file:" + pattern + "/frame_%05d.png"};
+  const bool gif = kind == ".gif";
+  std::string chain = "[0:v]" + timing_filters(timing) + "format=rgb24[run]", last = "run";
+  if (timing.title_s > 0) {
+    for (const char* word : {"-loop", "1", "-framerate"}) words.push_back(word);
+    words.insert(words.end(), {rate, "-t", fmt::format("{:.3f}", timing.title_s), "-i",
+                               "file:" + frames.string() + "/title.png"});
+    chain += ";[1:v]format=rgb24[card];[card][run]concat=n=2:v=1[all]";
+    last = "all";
+  }
+  chain += ";[" + last + "]pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,";
+  chain += gif ? "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=none"
+               : "scale=out_color_matrix=bt709:out_range=tv";
+  words.insert(words.end(), {"-filter_complex", chain});
+  for (const std::string& option : output_options(kind)) words.push_back(option);
+  words.push_back("file:" + movie.string());
+  return words;
 }
 
 std::string shell_line(const std::vector<std::string>& words) {
@@ -65,13 +101,13 @@ std::filesystem::path find_program(const std::string& name) {
   return {};
 }
 
-Result<Encoding> encode_movie(const std::filesystem::path& frames, int fps,
+Result<Encoding> encode_movie(const std::filesystem::path& frames, const Timing& timing,
                               const std::filesystem::path& movie, const Watch& watch) {
-  Encoding encoding{false, shell_line(encode_arguments(frames, fps, movie))};
+  Encoding encoding{false, shell_line(encode_arguments(frames, timing, movie))};
   const std::filesystem::path program = find_program("ffmpeg");
   if (program.empty()) return encoding;
   AtomicFile file(movie);
-  std::vector<std::string> arguments = encode_arguments(frames, fps, file.temporary());
+  std::vector<std::string> arguments = encode_arguments(frames, timing, file.temporary());
   arguments[0] = program.string();
   if (auto run = run_child(arguments, watch); !run) {
     auto error = run.error();

@@ -1,4 +1,4 @@
-// Frames to movie.mp4, by ffmpeg where it is on the PATH.
+// Frames to a movie, by ffmpeg where it is on the PATH.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
+#include "render/movie/style.h"
 
 namespace gridshell::render {
 
@@ -16,9 +17,20 @@ struct Encoding {
   std::string command;
 };
 
-/// The arguments that turn `frames`/frame_%05d.png into `movie`, to be run in any folder: H.264
-/// with 4:2:0 colours, which every player knows; an odd size is padded by a pixel.
-std::vector<std::string> encode_arguments(const std::filesystem::path& frames, int fps,
+/// How fast a movie plays.
+struct Timing {
+  int fps = 30;
+  int frames = 0;      ///< how many there are; only seconds and pace need it
+  double seconds = 0;  ///< of all frames; 0: frames / fps
+  double hold_s = 0;   ///< of the last frame
+  Pace pace = Pace::even;
+  double title_s = 0;  ///< of the card `frames`/title.png before all
+};
+
+/// The arguments that turn `frames`/frame_%05d.png into `movie`, to be run in any folder. By its
+/// extension: .mp4, H.264 with 4:2:0 colours, which every player knows, and tags that say which
+/// colours these are; .webm, VP9; .gif with a palette of its own. An odd size is padded by a pixel.
+std::vector<std::string> encode_arguments(const std::filesystem::path& frames, const Timing& timing,
                                           const std::filesystem::path& movie);
 
 /// Words as one line that a POSIX shell reads back as the same words.
@@ -30,7 +42,7 @@ std::filesystem::path find_program(const std::string& name);
 /// Runs ffmpeg on `frames` and puts `movie` in place once it is whole. Without ffmpeg that is no
 /// error: `made` is false and `command` says how. Errors: Fault::io with ffmpeg's last words when
 /// it failed, Fault::cancelled.
-Result<Encoding> encode_movie(const std::filesystem::path& frames, int fps,
+Result<Encoding> encode_movie(const std::filesystem::path& frames, const Timing& timing,
                               const std::filesystem::path& movie, const Watch& watch);
 
 }  // namespace gridshell::render

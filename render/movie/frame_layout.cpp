@@ -34,10 +34,11 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
   FrameLayout layout;
   const double w = style.width, h = style.height;
   // readable down to small pictures, and no wider than a tall one allows
-  const double em = layout.font_size = std::max(7.5, 0.024 * std::min(h, 0.72 * w));
+  const double em = layout.font_size =
+      style.font_scale * std::max(7.5, 0.024 * std::min(h, 0.72 * w));
   const double margin = std::min(0.9 * em, 0.06 * std::min(w, h)), line = 1.5 * em;
   Box rest = Box{0, 0, w, h}.inset(margin);
-  const bool captions = style.captions && rest.height > 9 * line && rest.width > 14 * em;
+  const bool captions = style.captions && rest.height > 10 * line && rest.width > 14 * em;
   const bool wide = w >= 1.15 * h;
 
   // legends first: a column on the right or a strip below
@@ -82,13 +83,15 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
     layout.title = cut_top(rest, 1.15 * line);
     layout.state = cut_top(rest, line);
   }
+  if (!captions && style.heading) cut_top(rest, 2.2 * line);
   const bool scale_bar = style.scale_bar_mm > 0 && rest.height > 6 * line;
-  Box foot = cut_bottom(rest, captions ? 2 * line : (scale_bar ? 1.7 * line : 0));
+  Box foot = cut_bottom(rest, captions ? 2.8 * line : (scale_bar ? 1.7 * line : 0));
   if (scale_bar) {
     Box place = cut_right(foot, 0.4 * foot.width);
     layout.scale_bar = cut_bottom(place, 1.7 * line);
   }
   if (captions) {
+    layout.timeline = cut_bottom(foot, 0.8 * line);
     layout.progress = cut_bottom(foot, line);
     layout.event = foot;
   }

@@ -12,14 +12,14 @@ namespace gridshell::render {
 
 /// Boxes in pixels; an empty one is not shown.
 struct FrameLayout {
-  double font_size = 17;  ///< of captions; follows the picture's height
-  Box title, state;       ///< upper left, a line each
-  Box event, progress;    ///< lower left, a line each
+  double font_size = 17;          ///< of captions; follows the picture's height
+  Box title, state;               ///< upper left, a line each
+  Box event, progress, timeline;  ///< lower left, a line each
   Box colour_bar, inset, scale_bar, plot;
   Box view;  ///< what is left for the shell
 
   std::vector<Box> parts() const {
-    return {title, state, event, progress, colour_bar, inset, scale_bar, plot, view};
+    return {title, state, event, progress, timeline, colour_bar, inset, scale_bar, plot, view};
   }
 };
 

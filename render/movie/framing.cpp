@@ -4,75 +4,54 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "render/draw/camera.h"
-#include "render/movie/boundary.h"
 
 namespace gridshell::render {
-namespace {
 
-// evenly spread directions (a Fibonacci lattice on the sphere), one a row
-Eigen::MatrixX3d even_directions(int count) {
-  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-  Eigen::MatrixX3d directions(count, 3);
-  for (int k = 0; k < count; ++k) {
-    const double z = 1 - (2 * k + 1.0) / count, r = std::sqrt(1 - z * z);
-    directions.row(k) << r * std::cos(golden * k), r * std::sin(golden * k), z;
-  }
-  return directions;
-}
-
-}  // namespace
-
-Eigen::Matrix3Xd extreme_points(const record::Trajectory& run) {
-  const Eigen::MatrixX3d directions = even_directions(128);
-  Eigen::VectorXd farthest =
-      Eigen::VectorXd::Constant(directions.rows(), -std::numeric_limits<double>::infinity());
-  Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, directions.rows());
-  for (const record::Frame& frame : run.frames) {
-    // rods are smooth: every few nodes bound them well enough
-    const long stride = std::max<long>(1, frame.nodes.cols() / 600);
-    for (long n = 0; n < frame.nodes.cols(); n += stride) {
-      const Eigen::Vector3d node = frame.nodes.col(n);
-      if (!node.allFinite()) continue;
-      const Eigen::VectorXd reach = directions * node;
-      for (long d = 0; d < reach.size(); ++d)
-        if (reach[d] > farthest[d]) farthest[d] = reach[d], points.col(d) = node;
-    }
-  }
-  const record::Layout& layout = run.layout;
-  const bool shown = run.frames.empty() || shows_original(run.frames.front());
-  const Eigen::Matrix3Xd& original = shown ? layout.original_boundary : layout.actuated_boundary;
-  Eigen::Matrix3Xd all(3, points.cols() + original.cols() + layout.actuated_boundary.cols());
-  all << points, original, layout.actuated_boundary;
-  return all;
-}
-
-Framing::Framing(const Eigen::Matrix3Xd& points, const MovieStyle& style, const Box& view)
+Framing::Framing(const Eigen::Matrix3Xd& points, const MovieStyle& style, const Box& panel)
     : azimuth_deg_(style.azimuth_deg),
       elevation_deg_(style.elevation_deg),
       turn_deg_(style.turn_deg),
+      field_of_view_deg_(style.orthographic ? 0 : Camera{}.field_of_view_deg),
       width_(style.width),
       height_(style.height) {
-  if (points.cols() == 0 || view.empty()) return;
+  if (points.cols() == 0 || panel.empty()) return;
+  fit(points, panel);
+  look_at(style, panel);
+  seen_ = union_of_views(points);
+}
+
+void Framing::fit(const Eigen::Matrix3Xd& points, const Box& panel) {
   const Eigen::Vector3d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
   middle_ = (low + high) / 2;
   half_extent_mm_ = std::max(1e-6, (high - low).norm());
   // size and shift act on each other through perspective, weakly: a few rounds settle both
   for (int round = 0; round < 12; ++round) {
     const Box seen = union_of_views(points);
-    const double fit = std::max(seen.width / view.width, seen.height / view.height);
+    const double fit = std::max(seen.width / panel.width, seen.height / panel.height);
     const double mm = 1 / pixels_per_mm();
     right_mm_ += (seen.middle().x - width_ / 2.0) * mm;
     up_mm_ -= (seen.middle().y - height_ / 2.0) * mm;
-    // what is in the picture's middle now belongs in the view's
+    // what is in the picture's middle now belongs in the panel's
     half_extent_mm_ *= fit;
-    right_mm_ -= (view.middle().x - width_ / 2.0) / pixels_per_mm();
-    up_mm_ += (view.middle().y - height_ / 2.0) / pixels_per_mm();
+    right_mm_ -= (panel.middle().x - width_ / 2.0) / pixels_per_mm();
+    up_mm_ += (panel.middle().y - height_ / 2.0) / pixels_per_mm();
+  }
+}
+
+// what stands in the panel's middle, the target if there is one, stays there
+void Framing::look_at(const MovieStyle& style, const Box& panel) {
+  const double x = panel.middle().x - width_ / 2.0, y = panel.middle().y - height_ / 2.0;
+  right_mm_ += x / pixels_per_mm();
+  up_mm_ -= y / pixels_per_mm();
+  if (style.target_mm) {
+    middle_ = *style.target_mm;
+    right_mm_ = up_mm_ = 0;
   }
   half_extent_mm_ /= style.zoom;
-  seen_ = union_of_views(points);
+  right_mm_ -= x / pixels_per_mm();
+  up_mm_ += y / pixels_per_mm();
 }
 
 Camera Framing::camera(double moment) const {
@@ -80,6 +59,7 @@ Camera Framing::camera(double moment) const {
   camera.azimuth_deg = azimuth_deg_ + turn_deg_ * moment;
   camera.elevation_deg = elevation_deg_;
   camera.half_extent_mm = half_extent_mm_;
+  camera.field_of_view_deg = field_of_view_deg_;
   const CameraAxes axes = camera_axes(camera);
   camera.target = middle_ + right_mm_ * axes.right + up_mm_ * axes.up;
   return camera;

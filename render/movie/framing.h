@@ -1,5 +1,5 @@
-// A camera that keeps a whole run in its view: one target, one size, fixed over the movie, while it
-// slowly turns.
+// A camera that keeps a whole run in its panel: one target, one size, fixed over the movie, while
+// it slowly turns.
 #pragma once
 
 #include "engine/record/snapshot.h"
@@ -9,16 +9,12 @@
 
 namespace gridshell::render {
 
-/// Points that bound all frames and both boundaries: the farthest along some hundred directions,
-/// and the boundaries themselves. 3 x n, mm.
-Eigen::Matrix3Xd extreme_points(const record::Trajectory& run);
-
 /// The camera over a movie.
 class Framing {
  public:
-  /// At zoom 1 all points lie within `view` (pixels of a width x height picture) at every moment of
-  /// the turn, as large as possible.
-  Framing(const Eigen::Matrix3Xd& points, const MovieStyle& style, const Box& view);
+  /// At zoom 1 all points (3 x n, mm) lie within `panel` (pixels of a width x height picture) at
+  /// every moment of the turn, as large as possible. Zoom and target are about the panel's middle.
+  Framing(const Eigen::Matrix3Xd& points, const MovieStyle& style, const Box& panel);
 
   /// `moment` from 0, the first frame, to 1, the last
   Camera camera(double moment) const;
@@ -29,8 +25,10 @@ class Framing {
 
  private:
   Box union_of_views(const Eigen::Matrix3Xd& points) const;
+  void fit(const Eigen::Matrix3Xd& points, const Box& panel);
+  void look_at(const MovieStyle& style, const Box& panel);
 
-  double azimuth_deg_, elevation_deg_, turn_deg_;
+  double azimuth_deg_, elevation_deg_, turn_deg_, field_of_view_deg_;
   int width_, height_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   double half_extent_mm_ = 1;

@@ -24,34 +24,44 @@ Clock::time_point lap(Clock::time_point since, double& total) {
 
 std::string frame_name(int index) { return fmt::format("frame_{:05d}.png", index); }
 
-Result<MovieReport> write_movie(const record::Trajectory& run, const MovieStyle& style,
-                                Renderer& renderer, const std::filesystem::path& folder,
-                                Watch& watch, const OnFrame& on_frame) {
-  if (auto showable = check_showable(run, style); !showable)
-    return tl::unexpected(showable.error());
+Result<MovieReport> write_movie(const FrameSource& source, Survey survey, const MovieStyle& style,
+                                const std::optional<ColourBar>& bar, Renderer& renderer,
+                                const std::filesystem::path& folder, Watch& watch,
+                                const OnFrame& on_frame) {
+  if (auto sized = check_size(style); !sized) return tl::unexpected(sized.error());
+  if (source.count < 1) return fail(Fault::bad_input, "the run has no frame to show");
   if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
-  const Stage stage(run, style);
-  const DrawQuality quality = draw_quality(style.quality);
+  const Stage stage(*source.layout, std::move(survey), style, bar);
   MovieReport report;
-  for (int k = 0; k < stage.frames(); ++k) {
+  for (int k = 0; k < source.count; ++k) {
     if (watch.cancelled())
-      return fail(Fault::cancelled,
-                  fmt::format("stopped after {} of {} frames", k, stage.frames()));
+      return fail(Fault::cancelled, fmt::format("stopped after {} of {} frames", k, source.count));
     auto time = Clock::now();
-    Result<Image> picture =
-        renderer.draw(stage.drawing(k), stage.camera(k), quality, style.width, style.height);
+    const auto frame = source.at(k);
+    if (!frame) return tl::unexpected(frame.error());
+    if (auto good = check_frame(*source.layout, *frame, k, style); !good)
+      return tl::unexpected(good.error());
+    auto picture = stage.draw_views(renderer, {*frame, k});
     if (!picture) return tl::unexpected(picture.error());
     time = lap(time, report.seconds_draw);
-    stage.finish(*picture, k);
+    stage.finish(*picture, {*frame, k});
     time = lap(time, report.seconds_overlay);
     if (auto written = write_png(*picture, folder / frame_name(k)); !written)
       return tl::unexpected(written.error());
     lap(time, report.seconds_write);
     ++report.frames;
-    watch.report(double(k + 1) / stage.frames());
+    watch.report(double(k + 1) / source.count);
     if (on_frame) on_frame(k, *picture);
   }
   return report;
+}
+
+Result<MovieReport> write_movie(const record::Trajectory& run, const MovieStyle& style,
+                                Renderer& renderer, const std::filesystem::path& folder,
+                                Watch& watch, const OnFrame& on_frame) {
+  if (auto showable = check_showable(run, style); !showable)
+    return tl::unexpected(showable.error());
+  return write_movie(source_of(run), survey_of(run), style, {}, renderer, folder, watch, on_frame);
 }
 
 }  // namespace gridshell::render

@@ -8,33 +8,16 @@
 #include "render/movie/bins_plot.h"
 #include "render/movie/boundary.h"
 #include "render/movie/captions.h"
+#include "render/movie/colour_range.h"
+#include "render/movie/load_marks.h"
+#include "render/movie/timeline.h"
 
 namespace gridshell::render {
 namespace {
 
-constexpr double joint_diameter_mm = 3;  // the paper's elastomer joints
 constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, pale_ink{0.38f, 0.39f, 0.42f, 1},
-    event_ink{0.70f, 0.10f, 0.08f, 1};
-
-// one scale over the run, from the most that each cell comes to, so that it does not depend on how
-// many frames sample the path; a few strongly bent cells at the boundary must not pale the rest
-std::optional<ColourBar> bar_of(const record::Trajectory& run, const MovieStyle& style) {
-  if (style.colour_by == ColourBy::displacement)
-    return ColourBar{"|*u*| / *δ*_{0}", {ColourMap::sequential, 0, 1}};
-  if (style.colour_by == ColourBy::none || run.layout.cells.empty()) return std::nullopt;
-  Eigen::ArrayXd low = Eigen::ArrayXd::Zero(long(run.layout.cells.size())), high = low;
-  for (const record::Frame& frame : run.frames) {
-    const Eigen::ArrayXd K = frame.cell_K.array().isFinite().select(frame.cell_K.array(), 0.0);
-    low = low.min(K);
-    high = high.max(K);
-  }
-  const Eigen::ArrayXd most = high.max(-low);
-  ColourBar bar{"*K*_{□} (rad)", symmetric_scale({most.begin(), most.end()}, 0.9)};
-  if (style.K_limit > 0) bar.scale.low = -(bar.scale.high = style.K_limit);
-  bar.beyond_low = low.minCoeff() < bar.scale.low;
-  bar.beyond_high = high.maxCoeff() > bar.scale.high;
-  return bar;
-}
+    event_ink{0.70f, 0.10f, 0.08f, 1}, load_ink{0.05f, 0.05f, 0.06f, 1},
+    mark_ink{0.98f, 0.76f, 0.10f, 1}, original_ink{0.66f, 0.67f, 0.7f, 1};
 
 // a square around everything that moves or bounds
 TopExtent top_extent(const Eigen::Matrix3Xd& points) {
@@ -44,35 +27,9 @@ TopExtent top_extent(const Eigen::Matrix3Xd& points) {
           std::max({1e-6, (high.x() - low.x()) / 2, (high.y() - low.y()) / 2})};
 }
 
-// how deep a push goes; 0 without one
-double deepest(const record::Trajectory& run) {
-  double depth = 0;
-  for (const record::Frame& frame : run.frames)
-    if (frame.depth_mm > depth) depth = frame.depth_mm;
-  return depth;
-}
-
-// below everything that is drawn in any frame
-double lowest_z(const record::Trajectory& run) {
-  double lowest = 0;
-  bool any = false;
-  const auto take = [&](const Eigen::Matrix3Xd& points) {
-    if (points.cols() == 0) return;
-    const double z = points.row(2).minCoeff();
-    lowest = any ? std::min(lowest, z) : z;
-    any = true;
-  };
-  if (!run.frames.empty() && shows_original(run.frames.front())) take(run.layout.original_boundary);
-  take(run.layout.actuated_boundary);
-  for (const record::Frame& frame : run.frames) take(frame.nodes);
-  return lowest;
-}
-
-// lines thinner than this many pixels flicker and vanish in a movie
+// a rod's least width in pixels: thin enough for a large net, thick enough to be seen
 double least_pixels(const MovieStyle& style) {
-  // a figure is printed at some 15 pixels a mm, where a hair line needs two
-  const double wished = style.quality == Quality::figure ? 2.0 : 1.35;
-  return std::max(1.1, wished * std::min(style.height / 720.0, style.width / 1000.0));
+  return std::max(1.1, 1.5 * std::min(style.height / 720.0, style.width / 1000.0));
 }
 
 // one more than the largest node that the layout names
@@ -84,52 +41,109 @@ long nodes_named(const record::Layout& layout) {
   return long(largest) + 1;
 }
 
+bool by_cells(ColourBy by) { return by == ColourBy::K || by == ColourBy::K_change; }
+
+// columns of equal width; a single view has the whole picture to itself, so that the ground goes on
+// under the captions
+std::vector<Box> panels_of(const FrameLayout& layout, const MovieStyle& style) {
+  const int count = 1 + int(style.views.size());
+  if (count == 1) return {{0, 0, double(style.width), double(style.height)}};
+  std::vector<Box> panels;
+  const Box& view = layout.view;
+  for (int k = 0; k < count; ++k) {
+    const double from = std::round(view.x + view.width * k / count);
+    const double to = std::round(view.x + view.width * (k + 1) / count);
+    panels.push_back({from, std::round(view.y), to - from, std::floor(view.height)});
+  }
+  return panels;
+}
+
+std::vector<Framing> framings_of(const std::vector<Box>& panels, const Box& view,
+                                 const Eigen::Matrix3Xd& points, const MovieStyle& style) {
+  if (panels.size() == 1) return {Framing(points, style, view)};
+  std::vector<Framing> framings;
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    MovieStyle one = style;
+    one.width = int(panels[k].width);
+    one.height = int(panels[k].height);
+    if (k > 0) {
+      one.azimuth_deg = style.views[k - 1].azimuth_deg;
+      one.elevation_deg = style.views[k - 1].elevation_deg;
+    }
+    const double margin = 0.04 * panels[k].width;
+    framings.emplace_back(points, one, Box{0, 0, panels[k].width, panels[k].height}.inset(margin));
+  }
+  return framings;
+}
+
+// everything beside the box in one colour
+void clear_beside(Image& image, const Box& box, Colour colour) {
+  const auto byte = [](float c) { return std::uint8_t(255 * c + 0.5f); };
+  const std::uint8_t rgba[] = {byte(colour.r), byte(colour.g), byte(colour.b), byte(colour.a)};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (x < box.x || x >= box.right() || y < box.y || y >= box.bottom())
+        std::copy_n(rgba, 4, image.pixel(x, y));
+}
+
 }  // namespace
 
-Result<void> check_showable(const record::Trajectory& run, const MovieStyle& style) {
+Result<void> check_size(const MovieStyle& style) {
   if (style.width < 16 || style.height < 16 || style.width > 16384 || style.height > 16384)
     return fail(Fault::bad_input, fmt::format("a picture of {} x {} pixels cannot be made: both "
                                               "sides must be 16 to 16384",
                                               style.width, style.height));
   if (!(style.zoom > 0)) return fail(Fault::bad_input, "the camera's zoom must be above 0");
-  if (run.frames.empty()) return fail(Fault::bad_input, "the run has no frame to show");
-  if (run.layout.original_boundary.cols() != run.layout.actuated_boundary.cols())
-    return fail(Fault::bad_input, "the run's two boundaries differ in their number of points");
-  const long nodes = nodes_named(run.layout), cells = long(run.layout.cells.size());
-  for (std::size_t k = 0; k < run.frames.size(); ++k) {
-    const record::Frame& frame = run.frames[k];
-    if (frame.nodes.cols() < nodes || !frame.nodes.allFinite())
-      return fail(Fault::bad_input,
-                  fmt::format("frame {} of the run has {} nodes where {} with finite positions are "
-                              "needed",
-                              k, frame.nodes.cols(), nodes));
-    if (style.colour_by == ColourBy::K && frame.cell_K.size() != cells)
-      return fail(Fault::bad_input,
-                  fmt::format("frame {} of the run has K of {} cells instead of {}", k,
-                              frame.cell_K.size(), cells));
-  }
   return {};
 }
 
-Stage::Stage(const record::Trajectory& run, const MovieStyle& style)
-    : run_(run),
-      style_(style),
-      bar_(bar_of(run, style)),
-      layout_(lay_out_frame(style, bar_ && style.legends ? &*bar_ : nullptr)),
-      framing_(extreme_points(run), style, layout_.view),
-      top_(top_extent(extreme_points(run))),
-      depth_mm_(deepest(run)),
-      ground_z_mm_(lowest_z(run) - 0.75 * joint_diameter_mm) {}
-
-Camera Stage::camera(int index) const {
-  return framing_.camera(frames() > 1 ? double(index) / (frames() - 1) : 0);
+Result<void> check_frame(const record::Layout& layout, const record::Frame& frame, int at,
+                         const MovieStyle& style) {
+  const long nodes = nodes_named(layout), cells = long(layout.cells.size());
+  if (frame.nodes.cols() < nodes || !frame.nodes.allFinite())
+    return fail(Fault::bad_input,
+                fmt::format("frame {} of the run has {} nodes where {} with finite positions are "
+                            "needed",
+                            at, frame.nodes.cols(), nodes));
+  if (by_cells(style.colour_by) && frame.cell_K.size() != cells)
+    return fail(Fault::bad_input, fmt::format("frame {} of the run has K of {} cells instead of {}",
+                                              at, frame.cell_K.size(), cells));
+  return {};
 }
+
+Result<void> check_showable(const record::Trajectory& run, const MovieStyle& style) {
+  if (auto sized = check_size(style); !sized) return sized;
+  if (run.frames.empty()) return fail(Fault::bad_input, "the run has no frame to show");
+  if (run.layout.original_boundary.cols() != run.layout.actuated_boundary.cols())
+    return fail(Fault::bad_input, "the run's two boundaries differ in their number of points");
+  for (std::size_t k = 0; k < run.frames.size(); ++k)
+    if (auto good = check_frame(run.layout, run.frames[k], int(k), style); !good) return good;
+  return {};
+}
+
+Stage::Stage(const record::Layout& layout, Survey survey, const MovieStyle& style,
+             const std::optional<ColourBar>& shared)
+    : run_(layout),
+      survey_(std::move(survey)),
+      style_(style),
+      bar_(shared ? shared : colour_bar_of({&survey_}, style)),
+      layout_(lay_out_frame(style, bar_ && style.legends ? &*bar_ : nullptr)),
+      panels_(panels_of(layout_, style)),
+      framings_(framings_of(panels_, layout_.view, survey_.bounds(), style)),
+      top_(top_extent(survey_.bounds())),
+      ground_z_mm_(survey_.lowest_z_mm - 0.75 * std::max(style.look.joint_mm, 3.0)) {}
+
+Stage::Stage(const record::Trajectory& run, const MovieStyle& style)
+    : Stage(run.layout, survey_of(run), style) {}
+
+Camera Stage::camera(int at) const { return framings_.front().camera(moment(at)); }
 
 std::vector<Colour> Stage::cell_colours(const record::Frame& frame, float alpha) const {
   std::vector<Colour> colours;
-  if (!bar_ || style_.colour_by != ColourBy::K) return colours;
-  for (double K : frame.cell_K) {
-    colours.push_back(bar_->scale(K));
+  if (!bar_ || !by_cells(style_.colour_by) || !style_.look.cells) return colours;
+  const bool change = style_.colour_by == ColourBy::K_change;
+  for (long k = 0; k < frame.cell_K.size(); ++k) {
+    colours.push_back(bar_->scale(frame.cell_K[k] - (change ? survey_.first.cell_K[k] : 0)));
     colours.back().a = alpha;
   }
   return colours;
@@ -138,47 +152,77 @@ std::vector<Colour> Stage::cell_colours(const record::Frame& frame, float alpha)
 std::vector<Colour> Stage::node_colours(const record::Frame& frame) const {
   std::vector<Colour> colours;
   if (style_.colour_by != ColourBy::displacement) return colours;
-  const Eigen::Matrix3Xd& before = run_.frames.front().nodes;
+  const Eigen::Matrix3Xd& before = survey_.first.nodes;
+  const double depth = survey_.depth_mm;
   for (long n = 0; n < frame.nodes.cols(); ++n)
     colours.push_back(
-        bar_->scale(depth_mm_ > 0 ? (frame.nodes.col(n) - before.col(n)).norm() / depth_mm_ : 0));
+        bar_->scale(depth > 0 ? (frame.nodes.col(n) - before.col(n)).norm() / depth : 0));
   return colours;
 }
 
-Drawing Stage::drawing(int index) const {
-  const record::Frame& frame = run_.frames[std::size_t(index)];
+Drawing Stage::drawing(const record::Frame& frame) const {
+  const Look& look = style_.look;
   const double thin = least_pixels(style_) / pixels_per_mm();
   Drawing drawing;
-  drawing.layout = &run_.layout;
+  drawing.layout = &run_;
   drawing.nodes = frame.nodes;
-  drawing.rod_diameter_mm = std::max(run_.layout.rod_diameter_mm, thin);
-  drawing.joint_diameter_mm = std::max(joint_diameter_mm, 1.5 * drawing.rod_diameter_mm);
+  drawing.rod_colour = look.rod;
+  drawing.rod_diameter_mm = std::max(look.rod_mm > 0 ? look.rod_mm : run_.rod_diameter_mm, thin);
+  drawing.joint_colour = look.joint;
+  drawing.joint_diameter_mm =
+      look.joint_mm > 0 ? std::max(look.joint_mm, 1.5 * drawing.rod_diameter_mm) : 0;
   drawing.cell_colours = cell_colours(frame, 0.93f);
   drawing.node_colours = node_colours(frame);
   // colours need some width to be seen
   if (!drawing.node_colours.empty()) drawing.rod_diameter_mm *= 1.8;
   // where both boundaries coincide the stronger one hides the fainter
-  if (shows_original(frame))
+  if (look.rings) {
+    if (shows_original(frame) && frame.actuation > 0)
+      drawing.rings.push_back({run_.original_boundary, std::max(0.6, thin), original_ink, false});
     drawing.rings.push_back(
-        {run_.layout.original_boundary, std::max(0.6, thin), {0.66f, 0.67f, 0.7f, 1}});
-  drawing.rings.push_back({boundary_at(run_.layout, frame.actuation),
-                           std::max(1.4, 1.6 * thin),
-                           {0.3f, 0.33f, 0.38f, 1}});
+        {boundary_at(run_, frame.actuation), std::max(look.ring_mm, 1.6 * thin), look.ring});
+  }
+  for (const LoadArrow& arrow : load_arrows(run_, frame)) {
+    drawing.arrows.push_back({arrow.from, arrow.to, std::max(1.6, 2.0 * thin), load_ink});
+    drawing.marks.push_back({frame.nodes.col(arrow.node), std::max(5.0, 6 * thin), mark_ink});
+  }
   drawing.ground_z_mm = ground_z_mm_;
+  drawing.ground = look.floor && style_.views.empty() && look.background.a > 0;
+  drawing.background = look.background;
+  drawing.far_fade = look.far_fade;
+  drawing.sheen = drawing.node_colours.empty() ? look.sheen : 0.2;
   return drawing;
 }
 
-const std::string& Stage::event_at(int index) const {
-  // an event stays long enough to be read
-  static const std::string nothing;
-  const int held = std::max(1, int(1.5 * style_.fps));
-  for (int k = index; k >= 0 && k > index - held; --k)
-    if (!run_.frames[std::size_t(k)].event.empty()) return run_.frames[std::size_t(k)].event;
-  return nothing;
+Result<Image> Stage::draw_views(Renderer& renderer, const Shown& shown) const {
+  const Drawing drawn = drawing(shown.frame);
+  const DrawQuality quality = draw_quality(style_);
+  if (panels_.size() == 1) {
+    auto picture = renderer.draw(drawn, camera(shown.at), quality, style_.width, style_.height);
+    // what is larger than its panel ends at the panel's edge
+    if (picture && !layout_.view.inset(-1).contains(shell_box()))
+      clear_beside(*picture, layout_.view, style_.look.background);
+    return picture;
+  }
+  std::vector<Image> parts;
+  for (std::size_t k = 0; k < panels_.size(); ++k) {
+    auto part = renderer.draw(drawn, framings_[k].camera(moment(shown.at)), quality,
+                              int(panels_[k].width), int(panels_[k].height));
+    if (!part) return part;
+    parts.push_back(std::move(*part));
+  }
+  return draw_picture(style_.width, style_.height, 1, style_.look.background, [&](Canvas& canvas) {
+    for (std::size_t k = 0; k < parts.size(); ++k) canvas.picture(parts[k], panels_[k]);
+  });
 }
 
-void Stage::draw_captions(Canvas& canvas, int index) const {
-  const record::Frame& frame = run_.frames[std::size_t(index)];
+Result<Image> Stage::draw(Renderer& renderer, const Shown& shown) const {
+  auto picture = draw_views(renderer, shown);
+  if (picture) finish(*picture, shown);
+  return picture;
+}
+
+void Stage::draw_captions(Canvas& canvas, const Shown& shown) const {
   const double em = layout_.font_size;
   const TextStyle title{.size = 1.15 * em, .colour = ink, .bold = true, .align_y = AlignY::middle};
   const TextStyle line{.size = em, .colour = ink, .align_y = AlignY::middle};
@@ -190,7 +234,7 @@ void Stage::draw_captions(Canvas& canvas, int index) const {
   // columns of fixed width, so that the words stand still while the numbers run; what does not
   // fit is left out
   double x = layout_.state.x;
-  for (const std::string& caption : state_captions(frame)) {
+  for (const std::string& caption : state_captions(shown.frame)) {
     const double width = canvas.measure(caption, line).width;
     if (x + width > layout_.state.right()) break;
     canvas.text(caption, {x, layout_.state.middle().y}, line);
@@ -200,40 +244,42 @@ void Stage::draw_captions(Canvas& canvas, int index) const {
   TextStyle event = line;
   event.colour = event_ink;
   event.bold = true;
-  canvas.text(plain(canvas.shortened(event_at(index), layout_.event.width, event)),
+  canvas.text(plain(canvas.shortened(event_caption(shown.frame), layout_.event.width, event)),
               place(layout_.event), event);
-  const std::string count = frame_caption(index, frames());
+  draw_timeline(canvas, layout_.timeline, survey_.marks, shown.at, frames(), em);
+  const std::string count = frame_caption(shown.at, frames());
   const double count_width = canvas.measure(frame_caption(frames() - 1, frames()), line).width;
   if (count_width > layout_.progress.width) return;
   canvas.text(count, place(layout_.progress), line);
-  const std::string rest = equilibrium_caption(frame);
+  const std::string rest = equilibrium_caption(shown.frame);
   const double rest_x = layout_.progress.x + count_width + 1.2 * em;
   if (rest_x + canvas.measure(rest, small).width <= layout_.progress.right())
     canvas.text(rest, {rest_x, layout_.progress.middle().y}, small);
 }
 
-void Stage::draw_overlay(Canvas& canvas, int index) const {
-  const record::Frame& frame = run_.frames[std::size_t(index)];
-  if (!layout_.title.empty()) draw_captions(canvas, index);
+void Stage::draw_overlay(Canvas& canvas, const Shown& shown) const {
+  if (!layout_.title.empty()) draw_captions(canvas, shown);
   if (bar_ && !layout_.colour_bar.empty())
     draw_colour_bar(canvas, layout_.colour_bar, *bar_, 0.95 * layout_.font_size);
   if (!layout_.inset.empty()) {
-    draw_top_view(canvas, layout_.inset, run_.layout, frame, top_, cell_colours(frame, 1));
+    draw_top_view(canvas, layout_.inset, run_, shown.frame, top_, cell_colours(shown.frame, 1));
     // where the corner beside a round shell has room for it
     const double size = 0.75 * layout_.font_size, gap = 0.3 * size;
     if (layout_.inset.width > 11 * layout_.font_size)
       canvas.text("top", {layout_.inset.x + gap, layout_.inset.y + gap},
                   {.size = size, .colour = pale_ink, .align_y = AlignY::top});
   }
-  if (!layout_.plot.empty() && frame.K_bins.rows() > 0)
-    draw_plot(canvas, layout_.plot, bins_plot(run_, index, 0.95 * layout_.font_size));
+  if (!layout_.plot.empty() && shown.frame.K_bins.rows() > 0)
+    draw_plot(canvas, layout_.plot,
+              bins_plot(survey_, long(run_.cells.size()), shown.frame, style_.bins_range,
+                        0.95 * layout_.font_size));
   if (!layout_.scale_bar.empty())
     draw_scale_bar(canvas, layout_.scale_bar, style_.scale_bar_mm, pixels_per_mm(),
                    0.95 * layout_.font_size);
 }
 
-void Stage::finish(Image& picture, int index) const {
-  draw_over(picture, [&](Canvas& canvas) { draw_overlay(canvas, index); });
+void Stage::finish(Image& picture, const Shown& shown) const {
+  draw_over(picture, [&](Canvas& canvas) { draw_overlay(canvas, shown); });
 }
 
 }  // namespace gridshell::render

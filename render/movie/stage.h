@@ -1,16 +1,19 @@
-// One run set up for showing: camera, ground, colours and captions, fixed over all its frames. A
+// One run set up for showing: cameras, ground, colours and captions, fixed over all its frames. A
 // movie, a still and a window take a frame from here as geometry, and finish the picture drawn of
-// it with captions and legends.
+// it with captions and legends. It holds no frame but the first: any other is handed to it.
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/record/snapshot.h"
 #include "render/draw/drawing.h"
+#include "render/draw/renderer.h"
 #include "render/movie/frame_layout.h"
 #include "render/movie/framing.h"
 #include "render/movie/style.h"
+#include "render/movie/survey.h"
 #include "render/movie/top_view.h"
 
 namespace gridshell::render {
@@ -18,43 +21,64 @@ namespace gridshell::render {
 /// Whether a run can be shown: it has frames, each with a position for every node and a K for every
 /// cell, and the picture has a size. Errors: Fault::bad_input naming the frame.
 Result<void> check_showable(const record::Trajectory& run, const MovieStyle& style);
+Result<void> check_size(const MovieStyle& style);
+/// `at`: the frame's position in the run.
+Result<void> check_frame(const record::Layout& layout, const record::Frame& frame, int at,
+                         const MovieStyle& style);
+
+/// A frame and its position in the run, from 0.
+struct Shown {
+  const record::Frame& frame;
+  int at = 0;
+};
 
 class Stage {
  public:
-  /// The run outlives the stage and is showable.
+  /// The layout outlives the stage, whose run is showable. The colour bar is the survey's own
+  /// unless one is given that several runs share.
+  Stage(const record::Layout& layout, Survey survey, const MovieStyle& style,
+        const std::optional<ColourBar>& shared = std::nullopt);
+  /// Of a run in memory.
   Stage(const record::Trajectory& run, const MovieStyle& style);
 
-  int frames() const { return int(run_.frames.size()); }
+  int frames() const { return survey_.frames; }
   const MovieStyle& style() const { return style_; }
   const FrameLayout& layout() const { return layout_; }
+  const Survey& survey() const { return survey_; }
   /// of K□ over all frames, or of the displacement; none when nothing is coloured
   const std::optional<ColourBar>& colour_bar() const { return bar_; }
-  double pixels_per_mm() const { return framing_.pixels_per_mm(); }
+  double pixels_per_mm() const { return framings_.front().pixels_per_mm(); }
   /// what the shell covers over all frames, in pixels
-  const Box& shell_box() const { return framing_.seen(); }
+  const Box& shell_box() const { return framings_.front().seen(); }
 
-  /// what to draw of frame `index`, and from where
-  Drawing drawing(int index) const;
-  Camera camera(int index) const;
+  /// what to draw of a frame, and from where
+  Drawing drawing(const record::Frame& frame) const;
+  Camera camera(int at) const;
 
-  /// Draws captions, colour bar, top view and scale bar of frame `index` over its picture.
-  void finish(Image& picture, int index) const;
+  /// The whole picture of a frame, all views of it, captions and legends. Errors: the renderer's.
+  Result<Image> draw(Renderer& renderer, const Shown& shown) const;
+  /// The same without captions and legends.
+  Result<Image> draw_views(Renderer& renderer, const Shown& shown) const;
+
+  /// Draws captions, colour bar, top view and scale bar of a frame over its picture.
+  void finish(Image& picture, const Shown& shown) const;
   /// The same onto any canvas of the picture's size.
-  void draw_overlay(Canvas& canvas, int index) const;
+  void draw_overlay(Canvas& canvas, const Shown& shown) const;
 
  private:
   std::vector<Colour> cell_colours(const record::Frame& frame, float alpha) const;
   std::vector<Colour> node_colours(const record::Frame& frame) const;
-  void draw_captions(Canvas& canvas, int index) const;
-  const std::string& event_at(int index) const;
+  void draw_captions(Canvas& canvas, const Shown& shown) const;
+  double moment(int at) const { return frames() > 1 ? double(at) / (frames() - 1) : 0; }
 
-  const record::Trajectory& run_;
+  const record::Layout& run_;
+  Survey survey_;
   MovieStyle style_;
   std::optional<ColourBar> bar_;
   FrameLayout layout_;
-  Framing framing_;
+  std::vector<Box> panels_;        ///< one a view
+  std::vector<Framing> framings_;  ///< one a view, each in a picture of its panel's size
   TopExtent top_;
-  double depth_mm_ = 0;  ///< of a push, at its deepest
   double ground_z_mm_ = 0;
 };
 

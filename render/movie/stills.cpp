@@ -19,6 +19,7 @@ constexpr int largest_columns = 3;
 // a still stands alone in print: no title, no frame count, no second view, no turn
 MovieStyle still_style(MovieStyle style) {
   style.captions = false;
+  style.heading = true;
   style.inset = false;
   style.turn_deg = 0;
   return style;
@@ -27,9 +28,13 @@ MovieStyle still_style(MovieStyle style) {
 // legends of a single still; its caption stands where a movie has its title
 void finish_still(Image& picture, const Stage& stage, const record::Frame& frame, int index) {
   draw_over(picture, [&](Canvas& canvas) {
-    stage.draw_overlay(canvas, index);
+    stage.draw_overlay(canvas, {frame, index});
     const double em = stage.layout().font_size;
-    canvas.text(still_caption(frame), {0.9 * em, 0.9 * em}, {.size = em, .align_y = AlignY::top});
+    TextStyle title{.size = em, .bold = true, .align_y = AlignY::top};
+    const double room = stage.layout().view.right() - 0.9 * em;
+    canvas.text(plain(canvas.shortened(stage.style().title, room, title)), {0.9 * em, 0.9 * em},
+                title);
+    canvas.text(still_caption(frame), {0.9 * em, 2.4 * em}, {.size = em, .align_y = AlignY::top});
   });
 }
 
@@ -57,6 +62,7 @@ std::string still_caption(const record::Frame& frame) { return state_captions(fr
 
 Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory& run,
                                                         const MovieStyle& movie_style,
+                                                        const std::optional<ColourBar>& bar,
                                                         Renderer& renderer,
                                                         const std::filesystem::path& stem,
                                                         Watch& watch) {
@@ -65,34 +71,37 @@ Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory
     return tl::unexpected(showable.error());
   if (stem.has_parent_path())
     if (auto made = make_folder(stem.parent_path()); !made) return tl::unexpected(made.error());
-  const Stage stage(run, style);
-  PanelFigure figure{.panels = {},
+  const Stage stage(run.layout, survey_of(run), style, bar);
+  PanelFigure figure{.title = style.title,
+                     .panels = {},
                      .columns = std::min(stage.frames(), largest_columns),
                      .scale_bar_mm = style.scale_bar_mm,
                      .pixels_per_mm = stage.pixels_per_mm(),
                      .colour_bar = stage.colour_bar()};
+  if (style.print.width_mm > 0) figure.print = style.print;
+  const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
   std::vector<std::filesystem::path> files;
   for (int k = 0; k < stage.frames(); ++k) {
     if (watch.cancelled())
       return fail(Fault::cancelled,
                   fmt::format("stopped after {} of {} stills", k, stage.frames()));
     const record::Frame& frame = run.frames[std::size_t(k)];
-    Result<Image> picture = renderer.draw(stage.drawing(k), stage.camera(k),
-                                          draw_quality(style.quality), style.width, style.height);
+    Result<Image> picture = stage.draw_views(renderer, {frame, k});
     if (!picture) return tl::unexpected(picture.error());
-    figure.panels.push_back({around(*picture, stage.shell_box()),
-                             stage.frames() > 1 ? std::string(1, char('a' + k % 26)) : "",
-                             still_caption(frame)});
+    figure.panels.push_back(
+        {around(*picture, stage.shell_box()),
+         stage.frames() > 1 && style.look.letters ? std::string(1, char('a' + k % 26)) : "",
+         still_caption(frame)});
     finish_still(*picture, stage, frame, k);
     files.push_back(with_suffix(stem, fmt::format("_{}.png", k + 1)));
-    if (auto written = write_png(*picture, files.back()); !written)
+    if (auto written = write_png(*picture, files.back(), dpi); !written)
       return tl::unexpected(written.error());
     watch.report(double(k + 1) / (stage.frames() + 1));
   }
   Result<Image> whole = draw_panels(figure);
   if (!whole) return tl::unexpected(whole.error());
   files.push_back(with_suffix(stem, ".png"));
-  if (auto written = write_png(*whole, files.back()); !written)
+  if (auto written = write_png(*whole, files.back(), dpi); !written)
     return tl::unexpected(written.error());
   watch.report(1);
   return files;

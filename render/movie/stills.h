@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "engine/record/snapshot.h"
 #include "render/draw/renderer.h"
 #include "render/movie/style.h"
+#include "render/plot/legend.h"
 
 namespace gridshell::render {
 
@@ -20,9 +22,9 @@ std::string still_caption(const record::Frame& frame);
 /// bar and scale bar (style.scale_bar_mm) as `<stem>_1.png`, `<stem>_2.png` ..., and all of them
 /// side by side, lettered, with one scale bar and one colour bar, as `<stem>.png`. Returns the
 /// files written. Progress and errors as write_movie.
-Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory& run,
-                                                        const MovieStyle& style, Renderer& renderer,
-                                                        const std::filesystem::path& stem,
-                                                        Watch& watch);
+/// `bar` is a colour bar that several cases share.
+Result<std::vector<std::filesystem::path>> write_stills(
+    const record::Trajectory& run, const MovieStyle& style, const std::optional<ColourBar>& bar,
+    Renderer& renderer, const std::filesystem::path& stem, Watch& watch);
 
 }  // namespace gridshell::render

@@ -1,10 +1,15 @@
 // How a run is shown: everything a user may choose about a movie or a still.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/core/words.h"
 #include "render/draw/drawing.h"
+#include "render/plot/canvas.h"
+#include "render/plot/colour_map.h"
 
 namespace gridshell::render {
 
@@ -13,11 +18,43 @@ constexpr auto words(Quality) {
   return word_table<Quality>(
       {{Quality::draft, "draft"}, {Quality::movie, "movie"}, {Quality::figure, "figure"}});
 }
-enum class ColourBy { none, K, displacement };
+/// Cells by K or its change since the first frame, or rods by how far they moved over the depth.
+enum class ColourBy { none, K, displacement, K_change };
 constexpr auto words(ColourBy) {
-  return word_table<ColourBy>(
-      {{ColourBy::none, "none"}, {ColourBy::K, "K"}, {ColourBy::displacement, "displacement"}});
+  return word_table<ColourBy>({{ColourBy::none, "none"},
+                               {ColourBy::K, "K"},
+                               {ColourBy::displacement, "displacement"},
+                               {ColourBy::K_change, "K_change"}});
 }
+enum class Pace { even, eased };
+constexpr auto words(Pace) {
+  return word_table<Pace>({{Pace::even, "even"}, {Pace::eased, "eased"}});
+}
+
+/// What things look like, the theme's choices and the user's in one.
+struct Look {
+  double rod_mm = 0, joint_mm = 3, ring_mm = 1.4;  ///< widths as drawn, no less than a pixel
+  Colour rod{0.16f, 0.17f, 0.20f, 1}, joint{0.75f, 0.12f, 0.10f, 1}, ring{0.3f, 0.33f, 0.38f, 1},
+      background{1, 1, 1, 1};                  ///< a background of alpha 0 stays out of the picture
+  std::optional<ColourMap> map;                ///< else by the values
+  std::optional<std::array<double, 2>> range;  ///< of the colours, else by the values
+  bool cells = true, rings = true, floor = true, shadow = true;
+  double sheen = 1;        ///< of rods and joints; 0: ink
+  double far_fade = 0.25;  ///< of the far side, into the background
+  bool letters = true;     ///< of the panels of a figure
+
+  bool operator==(const Look&) const = default;
+};
+
+/// White, with black rods: as in the paper's figures.
+Look paper_look();
+
+/// A direction from which the shell is seen.
+struct ViewDirection {
+  double azimuth_deg = 30, elevation_deg = 22;
+
+  bool operator==(const ViewDirection&) const = default;
+};
 
 struct MovieStyle {
   int width = 1280, height = 720;  ///< pixels
@@ -26,20 +63,33 @@ struct MovieStyle {
   ColourBy colour_by = ColourBy::K;
   double azimuth_deg = 30, elevation_deg = 22;  ///< of the camera at the first frame
   double turn_deg = 40;                         ///< how far it turns until the last
-  double zoom = 1;                              ///< 1: the whole run just fits
-  bool inset = true;                            ///< the small top view
-  bool bins = false;                            ///< K of the cells in bins along x, as a plot
-  bool captions = true;                         ///< title, radius, height, frame, events
-  bool legends = true;                          ///< the colour bar
-  double K_limit = 0;                           ///< end of the colours of K, rad; 0: the run's own
-  double scale_bar_mm = 0;                      ///< 0: none
-  std::string title;                            ///< shown as it is
+  double zoom = 1;                              ///< 1: the whole run just fits its panel
+  std::optional<Eigen::Vector3d> target_mm;     ///< in the middle of the panel, else all that moves
+  bool orthographic = false;
+  std::vector<ViewDirection> views;                 ///< more of them, beside one another
+  bool inset = true;                                ///< the small top view
+  bool bins = false;                                ///< K of the cells in bins along x, as a plot
+  std::optional<std::array<double, 2>> bins_range;  ///< of its axis, rad; else the run's
+  bool captions = true;                             ///< title, radius, height, frame, events
+  bool legends = true;                              ///< the colour bar
+  bool heading = false;                             ///< room above for two lines of a still
+  double scale_bar_mm = 0;                          ///< 0: none
+  std::string title;                                ///< shown as it is
+  std::string source;     ///< figure or movie that it follows, on the title card
+  Print print;            ///< of figures
+  bool vector = false;    ///< stills as lines too
+  double font_scale = 1;  ///< of all text
+  Look look;
+  double seconds = 0, hold_s = 0, title_s = 0;  ///< of the movie; 0: frames / fps, none, none
+  Pace pace = Pace::even;
 
   bool operator==(const MovieStyle&) const = default;
 };
 
-/// Draft: one sample a pixel and no shadow; movie: 2 x 2 with soft shadow; figure: 64 passes with
-/// jittered light.
+/// Draft: no shadow; movie: with soft shadow; figure: many passes with jittered light. A sample a
+/// pixel is enough: what is thin knows how much of it is covered.
 DrawQuality draw_quality(Quality quality);
+/// The same, as the look wants it.
+DrawQuality draw_quality(const MovieStyle& style);
 
 }  // namespace gridshell::render

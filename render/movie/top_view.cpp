@@ -8,7 +8,8 @@
 namespace gridshell::render {
 namespace {
 
-constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, joint_ink{0.75f, 0.12f, 0.1f, 1};
+constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, joint_ink{0.75f, 0.12f, 0.1f, 1},
+    load_ink{0.05f, 0.05f, 0.06f, 1};
 
 struct ToBox {
   Box box;
@@ -34,8 +35,6 @@ void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
                    const std::vector<Colour>& cell_colours) {
   const double hair = std::max(0.6, box.width / 260), radius = std::max(0.7, box.width / 130);
   const ToBox place{box.inset(radius + hair), extent};
-  canvas.rectangle(box, {1, 1, 1, 0.6f}, {{}, 0}, 2 * radius);
-
   if (shows_original(frame))
     canvas.polyline(closed_line(layout.original_boundary, place), {{0.6f, 0.6f, 0.62f, 1}, hair},
                     true);
@@ -59,6 +58,11 @@ void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
   }
   for (const record::Joint& joint : layout.joints)
     canvas.circle(place(frame.nodes.col(joint.node)), radius, joint_ink);
+  for (const record::LoadedJoint& load : layout.loaded_joints) {
+    const record::Joint& joint = layout.joints.at(std::size_t(load.joint));
+    canvas.circle(place(frame.nodes.col(joint.node)), 2.6 * radius, {0, 0, 0, 0},
+                  {load_ink, 1.2 * radius});
+  }
 }
 
 }  // namespace gridshell::render

@@ -1,17 +1,31 @@
 #include "render/plot/canvas.h"
 
+#include <fmt/format.h>
 #include <pango/pangocairo.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "render/plot/pixels.h"
 #include "render/plot/text.h"
 
 namespace gridshell::render {
 namespace {
+
+// of the process, as fontconfig's choice is
+std::string& font_family() {
+  static std::string family = usual_font;
+  return family;
+}
+
+std::function<void(const Canvas&)>& watcher() {
+  thread_local std::function<void(const Canvas&)> now;
+  return now;
+}
 
 struct Unref {
   void operator()(void* object) const { g_object_unref(object); }
@@ -67,7 +81,8 @@ Layout make_layout(cairo_t* cairo, const std::string& marked, const TextStyle& s
   cairo_font_options_destroy(options);
   pango_context_set_round_glyph_positions(context, FALSE);
 
-  PangoFontDescription* font = pango_font_description_from_string("DejaVu Sans");
+  PangoFontDescription* font = pango_font_description_new();
+  pango_font_description_set_family(font, font_family().c_str());
   pango_font_description_set_size(font, int(style.size * PANGO_SCALE));
   if (style.bold) pango_font_description_set_weight(font, PANGO_WEIGHT_BOLD);
   pango_layout_set_font_description(layout.get(), font);
@@ -101,6 +116,32 @@ Point corner(PangoLayout* layout, const Box& logical, const TextStyle& style) {
 
 }  // namespace
 
+Result<void> use_font(const std::string& family) {
+  if (family.empty()) {
+    font_family() = usual_font;
+    return {};
+  }
+  PangoFontFamily** families = nullptr;
+  int count = 0;
+  pango_font_map_list_families(pango_cairo_font_map_get_default(), &families, &count);
+  const bool there = std::any_of(families, families + count, [&](PangoFontFamily* one) {
+    return family == pango_font_family_get_name(one);
+  });
+  g_free(families);
+  if (!there)
+    return fail(Fault::bad_input,
+                fmt::format("[style] font = \"{}\": no font of that name on this machine; `fc-list "
+                            ": family` lists those that are",
+                            family));
+  font_family() = family;
+  return {};
+}
+
+CanvasWatch::CanvasWatch(std::function<void(const Canvas&)> on_finished) {
+  watcher() = std::move(on_finished);
+}
+CanvasWatch::~CanvasWatch() { watcher() = nullptr; }
+
 bool Box::contains(const Box& b) const {
   const double e = 1e-6;
   return b.x >= x - e && b.y >= y - e && b.right() <= right() + e && b.bottom() <= bottom() + e;
@@ -120,6 +161,10 @@ Box Box::inset(double margin) const {
 Canvas::Canvas(cairo_t* cairo, double width, double height)
     : cairo_(cairo), width_(width), height_(height) {
   cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
+}
+
+Canvas::~Canvas() {
+  if (watcher()) watcher()(*this);
 }
 
 void Canvas::paint_path(Colour fill, const Stroke& stroke) {
@@ -174,6 +219,9 @@ void Canvas::circle(Point centre, double radius, Colour fill, const Stroke& stro
 
 void Canvas::marker(Marker kind, Point p, double size, Colour fill, const Stroke& stroke) {
   const double h = size / 2;
+  const Box ink{p.x - h, p.y - h, size, size};
+  if (kind != Marker::none && (clip_.empty() || clip_.overlaps(ink)))
+    markers_.push_back(scaled(ink));
   switch (kind) {
     case Marker::none:
       return;
@@ -198,6 +246,56 @@ void Canvas::marker(Marker kind, Point p, double size, Colour fill, const Stroke
   }
 }
 
+namespace {
+
+std::string hex(Colour c) {
+  const auto byte = [](float v) { return int(255 * std::clamp(v, 0.f, 1.f) + 0.5f); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(c.r), byte(c.g), byte(c.b));
+}
+
+// every piece of one look in its place, `at` being the layout's upper left corner
+std::string text_element(PangoLayout* layout, const std::vector<TextRun>& runs, Point anchor,
+                         Point at, const TextStyle& style, double scale) {
+  std::string spans;
+  PangoLayoutIter* iter = pango_layout_get_iter(layout);
+  const std::string_view letters = pango_layout_get_text(layout);
+  do {
+    const PangoLayoutRun* run = pango_layout_iter_get_run_readonly(iter);
+    if (!run) continue;
+    PangoRectangle logical;
+    pango_layout_iter_get_run_extents(iter, nullptr, &logical);
+    const std::size_t from = std::size_t(run->item->offset),
+                      length = std::size_t(run->item->length);
+    std::size_t begin = 0, index = 0;
+    while (index + 1 < runs.size() && begin + runs[index].text.size() <= from)
+      begin += runs[index++].text.size();
+    const TextRun look = runs.empty() ? TextRun{} : runs[index];
+    const double rise = look.level == 0 ? 0 : look.level > 0 ? raised_by : -lowered_by;
+    const double y = at.y + double(pango_layout_iter_get_baseline(iter)) / PANGO_SCALE;
+    spans += fmt::format("<tspan x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\"{}>{}</tspan>",
+                         at.x + double(logical.x) / PANGO_SCALE, y - rise * style.size,
+                         look.level == 0 ? style.size : script_size * style.size,
+                         look.slanted ? " font-style=\"oblique\"" : "",
+                         xml_text(letters.substr(from, length)));
+  } while (pango_layout_iter_next_run(iter));
+  pango_layout_iter_free(iter);
+  const std::string halo =
+      style.halo.a > 0 ? fmt::format(
+                             " stroke=\"{}\" stroke-opacity=\"{:.3g}\" stroke-width=\"{:.3f}\" "
+                             "paint-order=\"stroke\"",
+                             hex(style.halo), style.halo.a, style.size / 4)
+                       : "";
+  return fmt::format(
+      "<text transform=\"scale({:.5g}) translate({:.3f} {:.3f}) rotate({:.3f})\" "
+      "font-family=\"{}, sans-serif\"{} fill=\"{}\" fill-opacity=\"{:.3g}\"{} "
+      "xml:space=\"preserve\">{}</text>\n",
+      scale, anchor.x, anchor.y, -style.angle_deg, xml_text(font_family()),
+      style.bold ? " font-weight=\"bold\"" : "",
+      hex(style.colour), style.colour.a, halo, spans);
+}
+
+}  // namespace
+
 Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style) {
   const Layout layout = make_layout(cairo_, marked, style);
   PangoRectangle ink_rectangle, logical_rectangle;
@@ -205,17 +303,19 @@ Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style
   const Point at = corner(layout.get(), to_box(logical_rectangle), style);
 
   const double angle = -style.angle_deg * std::numbers::pi / 180;
+  if (keeps_text_)
+    text_elements_ += text_element(layout.get(), parse_marked(marked), anchor, at, style, scale_);
   cairo_save(cairo_);
   cairo_translate(cairo_, anchor.x, anchor.y);
   cairo_rotate(cairo_, angle);
   cairo_move_to(cairo_, at.x, at.y);
-  if (style.halo.a > 0) {
+  if (style.halo.a > 0 && !keeps_text_) {
     pango_cairo_layout_path(cairo_, layout.get());
     paint_path({0, 0, 0, 0}, {style.halo, style.size / 4});
     cairo_move_to(cairo_, at.x, at.y);
   }
   set_colour(cairo_, style.colour);
-  pango_cairo_show_layout(cairo_, layout.get());
+  if (!keeps_text_) pango_cairo_show_layout(cairo_, layout.get());
   cairo_restore(cairo_);
   cairo_new_path(cairo_);
 
@@ -228,9 +328,10 @@ Box Canvas::text(const std::string& marked, Point anchor, const TextStyle& style
       const double py = anchor.y + x * std::sin(angle) + y * std::cos(angle);
       x0 = std::min(x0, px), x1 = std::max(x1, px), y0 = std::min(y0, py), y1 = std::max(y1, py);
     }
+  const Box turned{x0, y0, x1 - x0, y1 - y0};
   texts_.push_back(without_marks(marked));
-  text_boxes_.push_back({x0, y0, x1 - x0, y1 - y0});
-  return text_boxes_.back();
+  text_boxes_.push_back(scaled(turned));
+  return turned;
 }
 
 Box Canvas::measure(const std::string& marked, const TextStyle& style) const {
@@ -276,11 +377,23 @@ void Canvas::picture(const Image& image, const Box& box) {
   cairo_surface_destroy(surface);
 }
 
+void Canvas::enlarged(double scale, const std::function<void()>& inside) {
+  const double before = scale_;
+  cairo_save(cairo_);
+  cairo_scale(cairo_, scale, scale);
+  scale_ *= scale;
+  inside();
+  scale_ = before;
+  cairo_restore(cairo_);
+}
+
 void Canvas::clipped(const Box& box, const std::function<void()>& inside) {
   cairo_save(cairo_);
   cairo_rectangle(cairo_, box.x, box.y, box.width, box.height);
   cairo_clip(cairo_);
+  const Box before = std::exchange(clip_, box);
   inside();
+  clip_ = before;
   cairo_restore(cairo_);
 }
 

@@ -1,6 +1,6 @@
 // One surface to draw lines, areas and text on, whatever it ends as: a finished frame, a PNG or an
 // SVG. Lengths are in units of the canvas, x to the right, y down: pixels over a frame, points
-// (1/72 inch) on a figure. Made with Cairo and Pango; text is DejaVu Sans.
+// (1/72 inch) on a figure. Made with Cairo and Pango.
 #pragma once
 
 #include <filesystem>
@@ -59,10 +59,18 @@ std::string plain(const std::string& text);
 
 enum class Marker { none, circle, square, diamond, triangle, cross };
 
+/// The family of text where none is chosen: it has every sign that is used.
+inline constexpr const char* usual_font = "DejaVu Sans";
+
+/// The family of all text from here on, in the whole process; empty: the usual one. Errors:
+/// bad_input for one that the machine does not have.
+Result<void> use_font(const std::string& family);
+
 /// The surface; made by draw_over, draw_picture and draw_svg below.
 class Canvas {
  public:
   Canvas(cairo_t* cairo, double width, double height);
+  ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
@@ -91,16 +99,41 @@ class Canvas {
 
   /// all texts drawn so far without their marks, in order
   const std::vector<std::string>& texts() const { return texts_; }
-  /// ink boxes of all texts drawn so far, in order
+  /// ink boxes of all texts drawn so far, in order, and of all markers that are not cut off
   const std::vector<Box>& text_boxes() const { return text_boxes_; }
+  const std::vector<Box>& marker_boxes() const { return markers_; }
+
+  /// What `inside` draws is `scale` times as large.
+  void enlarged(double scale, const std::function<void()>& inside);
+
+  /// From here on text is not drawn but kept as SVG elements, so that it stays text.
+  void keep_text() { keeps_text_ = true; }
+  const std::string& text_elements() const { return text_elements_; }
 
  private:
   void paint_path(Colour fill, const Stroke& stroke);
+  Box scaled(const Box& box) const {
+    return {scale_ * box.x, scale_ * box.y, scale_ * box.width, scale_ * box.height};
+  }
 
   cairo_t* cairo_;
   double width_, height_;
+  bool keeps_text_ = false;
+  double scale_ = 1;  ///< of what enlarged() has in hand
+  std::string text_elements_;
   std::vector<std::string> texts_;
-  std::vector<Box> text_boxes_;
+  std::vector<Box> text_boxes_, markers_;
+  Box clip_;  ///< empty: everything is drawn
+};
+
+/// While it lives, it is told of every canvas of its thread that is finished: what the tests of
+/// layouts look at.
+class CanvasWatch {
+ public:
+  explicit CanvasWatch(std::function<void(const Canvas&)> on_finished);
+  ~CanvasWatch();
+  CanvasWatch(const CanvasWatch&) = delete;
+  CanvasWatch& operator=(const CanvasWatch&) = delete;
 };
 
 using DrawOn = std::function<void(Canvas&)>;
@@ -112,13 +145,24 @@ void draw_over(Image& image, const DrawOn& draw);
 Image draw_picture(double width, double height, double pixels_per_unit, Colour background,
                    const DrawOn& draw);
 
-/// An SVG of width x height points. Letters become outlines, so that it looks the same on every
-/// machine; `title` and all texts stand in its <title> and <desc> for search and screen readers.
+/// An SVG of width x height points whose text stays text, in its font or what stands in for it;
+/// `title` and all texts stand in its <title> and <desc> for search and screen readers.
 std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw);
 
-/// The same drawing as `<stem>.png` (at `dpi`) and `<stem>.svg`, each whole or absent.
-/// Errors: Fault::io naming the path.
+/// A PDF of width x height points with its fonts in it; the same drawing gives the same bytes.
+std::string draw_pdf(double width, double height, const std::string& title, const DrawOn& draw);
+
+/// How a figure is printed.
+struct Print {
+  double width_mm = 0;  ///< 0: the figure's own
+  double dpi = 300;
+
+  bool operator==(const Print&) const = default;
+};
+
+/// The same drawing as `<stem>.png` with its dpi, `<stem>.svg` and `<stem>.pdf`, each whole or
+/// absent, enlarged to the width of print. Errors: Fault::io naming the path.
 Result<void> write_figure(const std::filesystem::path& stem, double width_pt, double height_pt,
-                          const std::string& title, const DrawOn& draw, double dpi = 300);
+                          const std::string& title, const DrawOn& draw, const Print& print = {});
 
 }  // namespace gridshell::render

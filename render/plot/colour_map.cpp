@@ -23,6 +23,38 @@ Oklab from_polar(double L, double chroma, double hue) {
   return {L, chroma * std::cos(hue), chroma * std::sin(hue)};
 }
 
+// a smooth curve through the knots [Catmull and Rom 1974], in `count` points of equal distance
+std::vector<Oklab> even_steps(const std::vector<Oklab>& knots, int count) {
+  const int fine = 64, last = int(knots.size()) - 1;
+  const auto at = [&](int k) { return knots[std::size_t(std::clamp(k, 0, last))]; };
+  const auto blend = [](double a, double b, double c, double d, double t) {
+    return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
+  };
+  std::vector<Oklab> curve;
+  std::vector<double> length;
+  for (int n = 0; n <= fine * last; ++n) {
+    const int k = std::min(n / fine, last - 1);
+    const double t = double(n - k * fine) / fine;
+    const Oklab a = at(k - 1), b = at(k), c = at(k + 1), d = at(k + 2);
+    curve.push_back(
+        {blend(a.L, b.L, c.L, d.L, t), blend(a.a, b.a, c.a, d.a, t), blend(a.b, b.b, c.b, d.b, t)});
+    const Oklab& q = curve.back();
+    const Oklab& p = n > 0 ? curve[std::size_t(n) - 1] : q;
+    length.push_back((n > 0 ? length.back() : 0) + std::hypot(q.L - p.L, q.a - p.a, q.b - p.b));
+  }
+  std::vector<Oklab> even;
+  for (int n = 0; n < count; ++n) {
+    const double wished = length.back() * n / (count - 1);
+    const auto after = std::size_t(
+        std::clamp<long>(std::lower_bound(length.begin(), length.end(), wished) - length.begin(), 1,
+                         long(length.size()) - 1));
+    const double step = length[after] - length[after - 1];
+    even.push_back(mix(curve[after - 1], curve[after],
+                       step > 0 ? std::clamp((wished - length[after - 1]) / step, 0.0, 1.0) : 0));
+  }
+  return even;
+}
+
 }  // namespace
 
 Oklab to_oklab(Colour c) {
@@ -54,24 +86,33 @@ Colour diverging(double t) {
 }
 
 Colour sequential(double t) {
-  static const std::array<Oklab, 9> knots = [] {
-    constexpr std::array<int, 9> viridis = {0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c,
-                                            0x28ae80, 0x5ec962, 0xaddc30, 0xfde725};
-    std::array<Oklab, 9> labs;
-    for (std::size_t k = 0; k < labs.size(); ++k)
-      labs[k] = to_oklab({float(viridis[k] >> 16) / 255, float(viridis[k] >> 8 & 255) / 255,
-                          float(viridis[k] & 255) / 255});
-    return labs;
-  }();
-  const double x = std::clamp(t, 0.0, 1.0) * (knots.size() - 1);
-  const std::size_t k = std::min<std::size_t>(std::size_t(x), knots.size() - 2);
-  return to_colour(mix(knots[k], knots[k + 1], x - double(k)));
+  static const std::vector<Oklab> table = even_steps({{0.935, -0.002, 0.045},
+                                                      {0.79, 0.066, 0.105},
+                                                      {0.645, 0.135, 0.070},
+                                                      {0.47, 0.140, -0.045},
+                                                      {0.31, 0.055, -0.125}},
+                                                     256);
+  const double x = std::clamp(t, 0.0, 1.0) * double(table.size() - 1);
+  const std::size_t k = std::min(std::size_t(x), table.size() - 2);
+  return to_colour(mix(table[k], table[k + 1], x - double(k)));
 }
+
+Colour grey(double t) { return to_colour({0.95 - 0.75 * std::clamp(t, 0.0, 1.0), 0, 0}); }
 
 Colour ColourScale::operator()(double value) const {
   if (!std::isfinite(value)) return {0.6f, 0.6f, 0.6f, 1};
-  const double t = high > low ? (value - low) / (high - low) : 0.5;
-  return map == ColourMap::diverging ? diverging(2 * t - 1) : sequential(t);
+  double t = high > low ? (value - low) / (high - low) : 0.5;
+  // what is farther from zero is stronger
+  if (map != ColourMap::diverging && high <= 0 && low < 0) t = 1 - t;
+  switch (map) {
+    case ColourMap::diverging:
+      return diverging(2 * t - 1);
+    case ColourMap::sequential:
+      return sequential(start + (1 - start) * std::clamp(t, 0.0, 1.0));
+    case ColourMap::grey:
+      return grey(start + (1 - start) * std::clamp(t, 0.0, 1.0));
+  }
+  return {};
 }
 
 ColourScale symmetric_scale(std::vector<double> values, double quantile) {

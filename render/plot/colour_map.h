@@ -21,17 +21,22 @@ Colour to_colour(Oklab lab, float alpha = 1);
 /// equal length and equal lightness, so that equal |t| looks equally strong.
 Colour diverging(double t);
 
-/// Dark violet - blue - green - yellow over t in [0, 1] (clipped), lightness growing evenly: the
-/// nine knots of matplotlib's viridis (CC0), joined in Oklab.
+/// Sand - apricot - coral - plum - indigo over t in [0, 1] (clipped): lightness falls evenly, and
+/// equal steps of t are equal distances in Oklab. Light where there is little, so that dark rods
+/// stand out and paper stays white.
 Colour sequential(double t);
 
-enum class ColourMap { diverging, sequential };
+/// Light to dark grey over t in [0, 1], for print without colours.
+Colour grey(double t);
+
+enum class ColourMap { diverging, sequential, grey };
 
 /// What a value looks like: `low` … `high` over the whole map; beyond it the end colours, for an
 /// unknown value grey.
 struct ColourScale {
   ColourMap map = ColourMap::diverging;
   double low = -1, high = 1;
+  double start = 0;  ///< where in a sequential map `low` stands, for thin lines on white
 
   Colour operator()(double value) const;
 };

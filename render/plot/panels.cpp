@@ -12,15 +12,16 @@ namespace {
 struct Grid {
   int columns, rows;
   double width, height;  // of a panel
-  double em, gap, caption, margin, foot, bar;
+  double em, gap, head, caption, margin, foot, bar;
 
   double total_width() const { return 2 * margin + columns * width + (columns - 1) * gap + bar; }
   double total_height() const {
-    return 2 * margin + rows * (height + caption) + (rows - 1) * gap + foot;
+    return 2 * margin + head + rows * (height + caption) + (rows - 1) * gap + foot;
   }
   Box panel(int index) const {
     return {std::round(margin + (index % columns) * (width + gap)),
-            std::round(margin + (index / columns) * (height + caption + gap)), width, height};
+            std::round(margin + head + (index / columns) * (height + caption + gap)), width,
+            height};
   }
 };
 
@@ -32,12 +33,14 @@ Grid make_grid(const PanelFigure& figure) {
   grid.width = figure.panels[0].picture.width;
   grid.height = figure.panels[0].picture.height;
   // 8.5 pt when the whole is printed width_mm wide; margins and bar add about a tenth
-  const double pixels_per_pt = 1.1 * grid.columns * grid.width / (figure.width_mm / 25.4 * 72);
+  const double pixels_per_pt =
+      1.1 * grid.columns * grid.width / (figure.print.width_mm / 25.4 * 72);
   grid.em = std::max(7.5, 8.5 * pixels_per_pt);
   grid.gap = grid.margin = std::round(0.6 * grid.em);
   const bool captions = std::any_of(figure.panels.begin(), figure.panels.end(),
                                     [](const Panel& p) { return !p.caption.empty(); });
   grid.caption = captions ? std::round(1.7 * grid.em) : 0;
+  grid.head = figure.title.empty() ? 0 : std::round(1.7 * grid.em);
   grid.foot = figure.scale_bar_mm > 0 ? std::round(1.9 * grid.em) : 0;
   if (figure.colour_bar)
     draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
@@ -48,6 +51,11 @@ Grid make_grid(const PanelFigure& figure) {
 
 void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid) {
   const double em = grid.em;
+  TextStyle title{.size = em, .bold = true, .align_y = AlignY::middle};
+  const double room = grid.total_width() - 2 * grid.margin;
+  title.size *=
+      std::min(1.0, room / std::max(1.0, canvas.measure(plain(figure.title), title).width));
+  canvas.text(plain(figure.title), {grid.margin, grid.margin + grid.head / 2}, title);
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
     const Panel& panel = figure.panels[k];
     const Box box = grid.panel(int(k));
@@ -67,7 +75,8 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid) {
   }
   if (figure.colour_bar) {
     const double height = std::min(grid.rows * grid.height, 16 * em);
-    draw_colour_bar(canvas, {last.right() + grid.gap, grid.margin, grid.bar - grid.gap, height},
+    draw_colour_bar(canvas,
+                    {last.right() + grid.gap, grid.margin + grid.head, grid.bar - grid.gap, height},
                     *figure.colour_bar, em);
   }
 }
@@ -85,7 +94,9 @@ Result<Image> draw_panels(const PanelFigure& figure) {
           fmt::format("panels of a figure must be of one size: {} x {} and {} x {}", first.width,
                       first.height, panel.picture.width, panel.picture.height));
   const Grid grid = make_grid(figure);
-  return draw_picture(grid.total_width(), grid.total_height(), 1, {1, 1, 1, 1},
+  const double wished = figure.print.dpi * figure.print.width_mm / 25.4;
+  const double scale = wished > 0 ? std::round(wished) / grid.total_width() : 1;
+  return draw_picture(grid.total_width(), grid.total_height(), scale, {1, 1, 1, 1},
                       [&](Canvas& canvas) { draw(canvas, figure, grid); });
 }
 

@@ -18,12 +18,13 @@ struct Panel {
 };
 
 struct PanelFigure {
+  std::string title;  ///< plain text above all; empty: none
   std::vector<Panel> panels;
   int columns = 3;
   double scale_bar_mm = 0;   ///< 0: none
   double pixels_per_mm = 0;  ///< of the panels' pictures
   std::optional<ColourBar> colour_bar;
-  double width_mm = 178;  ///< as printed; text is 8.5 pt at that width
+  Print print{178, 0};  ///< text is 8.5 pt at that width; with a dpi the figure is that wide
 };
 
 /// The figure, panels pixel by pixel as they are. Errors: Fault::bad_input for no panel or panels

@@ -159,7 +159,8 @@ void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
   const Legend legend(canvas, plot);
   LegendPlace corner = plot.legend;
   if (plot.legend == LegendPlace::automatic) corner = legend.free_corner(canvas, frame);
-  const bool above = !legend.empty() && corner == LegendPlace::none;
+  const bool above =
+      !legend.empty() && (corner == LegendPlace::none || corner == LegendPlace::above);
   if (above) frame = lay_out(canvas, box, plot, legend.head_height(frame.inside.width));
 
   canvas.clipped(frame.inside, [&] {
@@ -181,18 +182,21 @@ void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
                 {.size = plot.font_size, .colour = note.colour, .align_y = AlignY::top});
   }
   if (above)
-    legend.draw_above(canvas, frame, box.y + (plot.title.empty() ? 0 : 1.45 * plot.font_size));
+    legend.draw_above(canvas, frame, box.y + title_height(canvas, box, plot));
   else if (!legend.empty())
     legend.draw_in_corner(canvas, frame, corner);
 }
 
-Result<void> write_plot(const std::filesystem::path& stem, const Plot& plot, double width_mm,
-                        double height_mm) {
-  const double width = width_mm * points_per_mm, height = height_mm * points_per_mm;
-  return write_figure(stem, width, height, plot.title.empty() ? plot.y.label : plot.title,
-                      [&](Canvas& canvas) {
-                        draw_plot(canvas, Box{0, 0, width, height}.inset(2), plot);
-                      });
+Result<void> write_plot(const std::filesystem::path& stem, const Plot& plot, const Print& print) {
+  constexpr double column_mm = 88, height_over_width = 62.0 / 88;
+  const double width = (print.width_mm > 0 ? print.width_mm : column_mm) * points_per_mm;
+  const double height = height_over_width * width;
+  return write_figure(
+      stem, width, height, plot.title.empty() ? plot.y.label : plot.title,
+      [&](Canvas& canvas) {
+        draw_plot(canvas, Box{0, 0, width, height}.inset(2), plot);
+      },
+      print);
 }
 
 }  // namespace gridshell::render

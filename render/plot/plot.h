@@ -67,7 +67,7 @@ struct Note {
   Colour colour{0.1f, 0.1f, 0.12f, 1};
 };
 
-enum class LegendPlace { none, automatic, upper_left, upper_right, lower_left, lower_right };
+enum class LegendPlace { none, automatic, above, upper_left, upper_right, lower_left, lower_right };
 
 struct Plot {
   std::string title;  ///< marked text; empty: none
@@ -83,8 +83,9 @@ struct Plot {
 /// Draws the plot with its labels into `box`; nothing reaches outside.
 void draw_plot(Canvas& canvas, const Box& box, const Plot& plot);
 
-/// A plot of its own as `<stem>.png` and `<stem>.svg`; 88 mm is a journal's column.
-Result<void> write_plot(const std::filesystem::path& stem, const Plot& plot, double width_mm = 88,
-                        double height_mm = 62);
+/// A plot of its own as `<stem>.png`, `<stem>.svg` and `<stem>.pdf`, as wide as printed or 88 mm, a
+/// journal's column.
+Result<void> write_plot(const std::filesystem::path& stem, const Plot& plot,
+                        const Print& print = {});
 
 }  // namespace gridshell::render

@@ -108,12 +108,25 @@ double PlotAxis::place(double value) const {
   return from + t * (to - from);
 }
 
+TextStyle title_style(const Canvas& canvas, const Box& box, const Plot& plot) {
+  TextStyle style{
+      .size = plot.font_size, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::top};
+  const double width = canvas.measure(plot.title, style).width;
+  style.size *= std::min(1.0, box.width / std::max(1e-9, width));
+  return style;
+}
+
+double title_height(const Canvas& canvas, const Box& box, const Plot& plot) {
+  if (plot.title.empty()) return 0;
+  return canvas.measure(plot.title, title_style(canvas, box, plot)).height + 0.3 * plot.font_size;
+}
+
 PlotFrame lay_out(const Canvas& canvas, const Box& box, const Plot& plot, double head) {
   const TextStyle style{.size = plot.font_size};
   const double line = canvas.measure("0", style).height, gap = 0.35 * plot.font_size;
   PlotFrame frame{{}, choose_range(plot, true), choose_range(plot, false), {}, {}};
 
-  const double top = box.y + head + (plot.title.empty() ? line / 2 : 1.35 * line);
+  const double top = box.y + head + std::max(line / 2, title_height(canvas, box, plot));
   const double bottom = box.bottom() - line - gap - (plot.x.label.empty() ? 0 : 1.15 * line);
   frame.y.from = bottom;
   frame.y.to = top;
@@ -163,9 +176,11 @@ void draw_axes(Canvas& canvas, const Box& box, const Plot& plot, const PlotFrame
   if (!plot.y.label.empty())
     canvas.text(plot.y.label, {box.x + 0.12 * size, in.middle().y},
                 {.size = size, .align_x = AlignX::centre, .align_y = AlignY::top, .angle_deg = 90});
-  if (!plot.title.empty())
-    canvas.text(plot.title, {in.middle().x, box.y},
-                {.size = size, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::top});
+  if (plot.title.empty()) return;
+  const TextStyle title = title_style(canvas, box, plot);
+  const double half = canvas.measure(plot.title, title).width / 2;
+  canvas.text(plot.title, {std::clamp(in.middle().x, box.x + half, box.right() - half), box.y},
+              title);
 }
 
 }  // namespace gridshell::render

@@ -24,6 +24,10 @@ struct PlotFrame {
   Point place(double px, double py) const { return {x.place(px), y.place(py)}; }
 };
 
+/// The title as it fits into the box's width, and the height that it takes; 0 without a title.
+TextStyle title_style(const Canvas& canvas, const Box& box, const Plot& plot);
+double title_height(const Canvas& canvas, const Box& box, const Plot& plot);
+
 /// Ranges from the data or as given, margins from the labels' own sizes; `head` is kept free above.
 PlotFrame lay_out(const Canvas& canvas, const Box& box, const Plot& plot, double head = 0);
 
@@ -53,7 +57,7 @@ class Legend {
     double width = 0;  ///< key and name
   };
   Box corner_box(const Box& inside, LegendPlace place) const;
-  void draw_entry(Canvas& canvas, const Entry& entry, double x, double middle) const;
+  void draw_entry(Canvas& canvas, const Entry& entry, double x, double middle, double end) const;
 
   const Plot& plot_;
   std::vector<Entry> entries_;

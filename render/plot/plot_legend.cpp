@@ -98,7 +98,7 @@ void Legend::draw_above(Canvas& canvas, const PlotFrame& frame, double top) cons
   double x = 0, y = top + row_ / 2;
   for (const Entry& e : entries_) {
     if (x > 0 && x + e.width > frame.inside.width) x = 0, y += row_;
-    draw_entry(canvas, e, frame.inside.x + x, y);
+    draw_entry(canvas, e, frame.inside.x + x, y, frame.inside.right());
     x += e.width + 1.2 * size_;
   }
 }
@@ -108,12 +108,13 @@ void Legend::draw_in_corner(Canvas& canvas, const PlotFrame& frame, LegendPlace 
   canvas.rectangle(box, {1, 1, 1, 0.85f});
   double y = box.y + 0.2 * size_ + row_ / 2;
   for (const Entry& e : entries_) {
-    draw_entry(canvas, e, box.x + 0.4 * size_, y);
+    draw_entry(canvas, e, box.x + 0.4 * size_, y, frame.inside.right());
     y += row_;
   }
 }
 
-void Legend::draw_entry(Canvas& canvas, const Entry& entry, double x, double middle) const {
+void Legend::draw_entry(Canvas& canvas, const Entry& entry, double x, double middle,
+                        double end) const {
   const Box key{x, middle - 0.4 * size_, key_, 0.8 * size_};
   if (entry.band || entry.series->kind == SeriesKind::bars) {
     canvas.rectangle(key.inset(0.08 * size_),
@@ -125,8 +126,11 @@ void Legend::draw_entry(Canvas& canvas, const Entry& entry, double x, double mid
     const Colour fill = s.hollow ? Colour{1, 1, 1, 1} : s.colour;
     canvas.marker(s.marker, key.middle(), s.marker_size, fill, {s.colour, s.hollow ? 0.9 : 0});
   }
-  canvas.text(entry.name, {x + key_ + 0.5 * size_, middle},
-              {.size = size_, .align_y = AlignY::middle});
+  // a name too long for the plot is set smaller
+  TextStyle style{.size = size_, .align_y = AlignY::middle};
+  const double at = x + key_ + 0.5 * size_;
+  style.size *= std::min(1.0, (end - at) / std::max(1e-9, canvas.measure(entry.name, style).width));
+  canvas.text(entry.name, {at, middle}, style);
 }
 
 }  // namespace gridshell::render

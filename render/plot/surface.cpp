@@ -1,4 +1,5 @@
 // What a Canvas ends as.
+#include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <cairo.h>
 
@@ -11,6 +12,7 @@
 #include "render/image/png.h"
 #include "render/plot/canvas.h"
 #include "render/plot/pixels.h"
+#include "render/plot/text.h"
 
 namespace gridshell::render {
 namespace {
@@ -25,21 +27,6 @@ using Cairo = std::unique_ptr<cairo_t, Free>;
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) {
   static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
   return CAIRO_STATUS_SUCCESS;
-}
-
-std::string escaped(const std::string& text) {
-  std::string xml;
-  for (char c : text) {
-    if (c == '&')
-      xml += "&amp;";
-    else if (c == '<')
-      xml += "&lt;";
-    else if (c == '>')
-      xml += "&gt;";
-    else
-      xml += c;
-  }
-  return xml;
 }
 
 // frames are opaque, and then there is nothing to multiply
@@ -116,32 +103,58 @@ Image draw_picture(double width, double height, double pixels_per_unit, Colour b
 }
 
 std::string draw_svg(double width, double height, const std::string& title, const DrawOn& draw) {
-  std::string svg, description;
+  std::string svg, description, elements;
   {
     Surface surface(cairo_svg_surface_create_for_stream(append, &svg, width, height));
     Cairo cairo(cairo_create(surface.get()));
     Canvas canvas(cairo.get(), width, height);
     canvas.rectangle({0, 0, width, height}, {1, 1, 1, 1});
+    canvas.keep_text();
     draw(canvas);
+    elements = canvas.text_elements();
     for (const std::string& text : canvas.texts())
       description += (description.empty() ? "" : "\n") + text;
     cairo_surface_finish(surface.get());
   }
   const std::size_t root = svg.find("<svg"), end = svg.find('>', root);
   if (root != std::string::npos && end != std::string::npos)
-    svg.insert(end + 1, "\n<title>" + escaped(title) + "</title>\n<desc>" + escaped(description) +
+    svg.insert(end + 1, "\n<title>" + xml_text(title) + "</title>\n<desc>" + xml_text(description) +
                             "</desc>");
+  if (const std::size_t close = svg.rfind("</svg>"); close != std::string::npos)
+    svg.insert(close, elements);
   return svg;
 }
 
+std::string draw_pdf(double width, double height, const std::string& title, const DrawOn& draw) {
+  std::string pdf;
+  Surface surface(cairo_pdf_surface_create_for_stream(append, &pdf, width, height));
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, title.c_str());
+  // no clock in the bytes
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
+                                 "2018-01-01T00:00:00Z");
+  {
+    Cairo cairo(cairo_create(surface.get()));
+    Canvas canvas(cairo.get(), width, height);
+    draw(canvas);
+  }
+  cairo_surface_finish(surface.get());
+  return pdf;
+}
+
 Result<void> write_figure(const std::filesystem::path& stem, double width_pt, double height_pt,
-                          const std::string& title, const DrawOn& draw, double dpi) {
-  std::filesystem::path png = stem, svg = stem;
-  png += ".png";
-  svg += ".svg";
-  const Image image = draw_picture(width_pt, height_pt, dpi / 72, {1, 1, 1, 1}, draw);
-  if (auto written = write_png(image, png); !written) return written;
-  return write_atomically(svg, draw_svg(width_pt, height_pt, title, draw));
+                          const std::string& title, const DrawOn& draw, const Print& print) {
+  const auto file = [&](const char* kind) { return std::filesystem::path(stem) += kind; };
+  // text is plain in a title
+  const std::string name = without_marks(title);
+  const double wished = print.width_mm * 72 / 25.4, scale = wished > 0 ? wished / width_pt : 1;
+  const DrawOn enlarged = [&](Canvas& canvas) { canvas.enlarged(scale, [&] { draw(canvas); }); };
+  const double width = scale * width_pt, height = scale * height_pt;
+  const Image image = draw_picture(width, height, print.dpi / 72, {1, 1, 1, 1}, enlarged);
+  return write_png(image, file(".png"), print.dpi)
+      .and_then(
+          [&] { return write_atomically(file(".svg"), draw_svg(width, height, name, enlarged)); })
+      .and_then(
+          [&] { return write_atomically(file(".pdf"), draw_pdf(width, height, name, enlarged)); });
 }
 
 }  // namespace gridshell::render

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gridshell::render {
@@ -23,5 +24,8 @@ std::vector<TextRun> parse_marked(const std::string& marked);
 
 /// The letters alone.
 std::string without_marks(const std::string& marked);
+
+/// Letters as they stand in XML; control characters, which it forbids, are left out.
+std::string xml_text(std::string_view letters);
 
 }  // namespace gridshell::render

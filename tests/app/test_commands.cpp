@@ -326,14 +326,16 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
   CHECK_THAT(said.out, Catch::Contains("auto at 1e-06: error"));
   const auto folder = bench.at / "out/small_accuracy";
   CHECK(names_in(folder) ==
-        listed({"accuracy.csv", "accuracy.png", "accuracy.svg", "preset.toml", "scaling.csv",
-                "scaling.png", "scaling.svg", "summary.json", "unknowns.png", "unknowns.svg"}));
+        listed({"accuracy.csv", "accuracy.pdf", "accuracy.png", "accuracy.svg", "preset.toml",
+                "scaling.csv", "scaling.pdf", "scaling.png", "scaling.svg", "summary.json",
+                "unknowns.pdf", "unknowns.png", "unknowns.svg"}));
   CHECK(json_of(folder / "summary.json")["chart"] == "accuracy");
   // maps go beside it, and the next chart takes their place
   const auto maps = bench.good({"chart", "stability", "small.toml", "--limit", "0.05"});
   CHECK_THAT(maps.out, Catch::Contains("default: ") && Catch::Contains(" 0 silently wrong"));
   CHECK(names_in(bench.at / "out/small_stability") ==
-        listed({"preset.toml", "stability.csv", "stability.png", "stability.svg", "summary.json"}));
+        listed({"preset.toml", "stability.csv", "stability.pdf", "stability.png", "stability.svg",
+                "summary.json"}));
   bench.good({"chart", "stability", "small.toml", "--limit", "0.01", "--quiet"});
   CHECK(bench.run({"chart", "accuracy", "small.toml", "--limit", "0"}).code == 2);
   CHECK(bench.run({"chart", "speed", "small.toml"}).code == 2);

@@ -44,8 +44,14 @@ void change(const Field& field, Preset& preset) {
   if (auto* k = std::get_if<Real>(&kind)) k->in(preset) += 1;
   if (auto* k = std::get_if<Integer>(&kind)) k->in(preset) += 1;
   if (auto* k = std::get_if<Flag>(&kind)) k->in(preset) = !k->in(preset);
-  if (auto* k = std::get_if<Word>(&kind)) k->set(preset, k->get(preset) == 0 ? 1 : 0);
+  if (auto* k = std::get_if<Word>(&kind)) {
+    // the last word: the first after "auto" is often what "auto" comes to
+    k->set(preset, k->get(preset) == 0 ? int(k->words.size()) - 1 : 0);
+  }
   if (auto* k = std::get_if<IntegerPair>(&kind)) k->in(preset)[1] += 1;
+  if (auto* k = std::get_if<RealList>(&kind)) k->in(preset) = {1, 2, 3};
+  if (auto* k = std::get_if<PointList>(&kind)) k->in(preset) = {{1, 2, 3}};
+  if (auto* k = std::get_if<ColourText>(&kind)) k->in(preset) = "#010203";
 }
 
 }  // namespace
@@ -62,12 +68,15 @@ TEST_CASE("something reads the member of every key") {
   }
 }
 
-TEST_CASE("every key of [movie] changes how a movie looks, and the scale bar a still") {
-  // the number of frames and whether cases stand together are the movie's, not its style's
-  const std::set<std::string> elsewhere{"frames", "beside"};
+TEST_CASE("every key of [movie] and [style] changes how a movie looks, those of [figure] a still") {
+  // the number of frames, whether cases stand together and what more files are made are the
+  // movie's, not its style's; the font is that of the whole process
+  const std::set<std::string> elsewhere{"frames", "beside", "webm", "gif", "poster", "font"};
+  const std::set<std::string> stills{"quality", "scale_bar_mm", "width_mm", "vector"};
   for (const auto& field : field_table()) {
-    const bool movie = field.table == "movie" && !elsewhere.contains(field.key);
-    if (!movie && !(field.table == "figure" && field.key == "scale_bar_mm")) continue;
+    const bool movie =
+        (field.table == "style" || field.table == "movie") && !elsewhere.contains(field.key);
+    if (!movie && !(field.table == "figure" && stills.contains(field.key))) continue;
     const auto pictures = movie ? app::Pictures::movie : app::Pictures::stills;
     Preset preset;
     const auto before = app::style_of(preset, pictures);

@@ -58,7 +58,10 @@ void measure(Context& context, int width, int height, int frames) {
   Camera camera;
   camera.target = {0, 0, 15};
   camera.half_extent_mm = 105;
-  Case cases[] = {{"plain", {1, false, 1}}, {"2x2", {2, false, 1}}, {"2x2 + shadow", {2, true, 1}}};
+  Case cases[] = {{"plain", {1, false, 1}},
+                  {"2x2", {2, false, 1}},
+                  {"2x2 + shadow", {2, true, 1}},
+                  {"movie", {1, true, 1}}};
   for (Case& c : cases) c.renderer = value(Renderer::create(context));
   // in turns, so that whatever else runs on the machine falls on all of them alike
   for (int frame = -1; frame < frames; ++frame)

@@ -40,6 +40,13 @@ TEST_CASE("a key that the kind does not use is refused with its place and the re
                  Catch::Contains("[[block]] 2 kind = \"sphere\" does not use it"));
 }
 
+TEST_CASE("pictures have keys that others put out of use") {
+  CHECK_THAT(faults_of("[movie]\nview = \"top\"\nazimuth_deg = 10.0\n"),
+             Catch::Contains("[movie] view takes its place"));
+  CHECK_THAT(faults_of("[page]\nphoto = \"a.png\"\n"), Catch::Contains("no page is made"));
+  CHECK(faults_of("[movie]\nazimuth_deg = 10.0\n", {{"--set", "movie.view", "top"}}) == "");
+}
+
 TEST_CASE("a default that is written out is no fault, nor is what another kind uses") {
   CHECK(faults_of("[net]\nwaist = 0.5\n") == "");
   CHECK(faults_of("[footprint]\nkind = \"net\"\n[net]\nkind = \"spool\"\nwaist = 0.4\n") == "");

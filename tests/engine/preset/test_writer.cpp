@@ -50,9 +50,12 @@ Preset all_changed() {
     if (auto* k = std::get_if<IntegerList>(&kind)) k->in(preset) = {3, 2};
     if (auto* k = std::get_if<RealList>(&kind)) k->in(preset) = {87.1, 1e2 / 1.5};
     if (auto* k = std::get_if<OptionalInteger>(&kind)) k->in(preset) = -3;
+    if (auto* k = std::get_if<ColourText>(&kind)) k->in(preset) = "#0a1B2c";
     if (auto* k = std::get_if<PointList>(&kind))
       for (int n = 0; n < 4; ++n) k->in(preset).emplace_back(k->coordinates.size(), 0.1 - 1e-7 * n);
   }
+  preset.movie.target_mm = {1.5, -2, 1e2 / 3};
+  preset.movie.bins_range = preset.style.range = {-0.02, 0.07};
   // each is checked apart: only circles have radii, only the bend rung pushes and snaps
   preset.figure.radii_mm.clear();
   preset.indentation.depth = preset.indentation.depth_mm = 0;
@@ -110,6 +113,9 @@ Preset pushed(bool joint) {
   preset.indentation.depth = joint ? 0.07 : 0;
   preset.indentation.depth_mm = joint ? 0 : 1.25;
   if (!joint) preset.indentation.joint.clear();
+  // of a free view
+  preset.movie.azimuth_deg = 12.5;
+  preset.movie.elevation_deg = -3.5;
   return preset;
 }
 

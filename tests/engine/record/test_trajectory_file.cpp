@@ -44,6 +44,11 @@ void check_same_layout(const Layout& a, const Layout& b) {
     CHECK(same_bits(a.parts[k].net, b.parts[k].net));
     CHECK(same_bits(a.parts[k].flat, b.parts[k].flat));
   }
+  REQUIRE(a.loaded_joints.size() == b.loaded_joints.size());
+  for (std::size_t k = 0; k < a.loaded_joints.size(); ++k) {
+    CHECK(a.loaded_joints[k].joint == b.loaded_joints[k].joint);
+    CHECK(a.loaded_joints[k].direction == b.loaded_joints[k].direction);
+  }
   REQUIRE(a.seam_rods.size() == b.seam_rods.size());
   for (std::size_t k = 0; k < a.seam_rods.size(); ++k) {
     const SeamRod &x = a.seam_rods[k], &y = b.seam_rods[k];

@@ -9,7 +9,7 @@ using namespace gridshell;
 using namespace gridshell::render;
 
 TEST_CASE("shaders are part of the program", "[gl]") {
-  CHECK(shader_text("solid.vert").find("void main()") != std::string_view::npos);
+  CHECK(shader_text("ribbon.vert").find("void main()") != std::string_view::npos);
   CHECK(shader_text("no_such.vert").empty());
 }
 
@@ -25,8 +25,8 @@ TEST_CASE("a shader that does not compile is an error with the compiler's log", 
   CHECK(missing.error().message == "no shader of the name no_such.frag");
 
   // its functions are in light.glsl
-  const auto wrong = Program::create(*gl, {"solid.vert"}, {"solid.frag"});
+  const auto wrong = Program::create(*gl, {"screen.vert"}, {"ribbon.frag"});
   REQUIRE_FALSE(wrong);
   CHECK(wrong.error().fault == Fault::io);
-  CHECK_THAT(wrong.error().message, Catch::Matchers::Contains("solid.frag does not compile"));
+  CHECK_THAT(wrong.error().message, Catch::Matchers::Contains("ribbon.frag does not compile"));
 }

@@ -2,10 +2,14 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "engine/core/atomic_file.h"
+#include "render/image/png.h"
 #include "render/movie/encode.h"
+#include "render/movie/movie_writer.h"
+#include "render/movie/title_card.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -37,7 +41,8 @@ class FakeFfmpeg {
 TEST_CASE("without ffmpeg the command line is told instead, ready for a shell") {
   const FakeFfmpeg none("");
   const TemporaryFolder folder;
-  const auto encoding = encode_movie("out/my run/frames", 30, folder.path() / "movie.mp4", {});
+  const auto encoding =
+      encode_movie("out/my run/frames", {.fps = 30}, folder.path() / "movie.mp4", {});
   REQUIRE(encoding);
   CHECK_FALSE(encoding->made);
   CHECK(encoding->command.find("ffmpeg -nostdin -y") == 0);
@@ -50,7 +55,8 @@ TEST_CASE("with ffmpeg the movie appears whole, under its name") {
   // the last argument is the file; everything it was given goes into it
   const FakeFfmpeg ffmpeg("for last; do :; done\nprintf '%s\\n' \"$@\" > \"${last#file:}\"\n");
   const TemporaryFolder folder;
-  const auto encoding = encode_movie("frames of 100%", 25, folder.path() / "movie.mp4", {});
+  const auto encoding =
+      encode_movie("frames of 100%", {.fps = 25}, folder.path() / "movie.mp4", {});
   REQUIRE(encoding);
   CHECK(encoding->made);
   CHECK(folder.entries() == std::vector<std::string>{"movie.mp4"});
@@ -65,7 +71,7 @@ TEST_CASE("a failing ffmpeg is an error with its last words and leaves nothing")
       "for last; do :; done\necho half > \"${last#file:}\"\n"
       "echo 'first line' >&2\necho 'Unknown encoder libx264' >&2\nexit 8\n");
   const TemporaryFolder folder;
-  const auto encoding = encode_movie("frames", 30, folder.path() / "movie.mp4", {});
+  const auto encoding = encode_movie("frames", {.fps = 30}, folder.path() / "movie.mp4", {});
   REQUIRE_FALSE(encoding);
   CHECK(encoding.error().fault == Fault::io);
   CHECK(encoding.error().message.find("failed with exit code 8: Unknown encoder libx264") !=
@@ -82,7 +88,7 @@ TEST_CASE("a cancel ends ffmpeg within a second") {
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
     watch.cancel();
   });
-  const auto encoding = encode_movie("frames", 30, folder.path() / "movie.mp4", watch);
+  const auto encoding = encode_movie("frames", {.fps = 30}, folder.path() / "movie.mp4", watch);
   stopper.join();
   REQUIRE_FALSE(encoding);
   CHECK(encoding.error().fault == Fault::cancelled);
@@ -98,4 +104,64 @@ TEST_CASE("a shell reads the words back as they were") {
   std::string expected;
   for (const std::string& word : words) expected += word + "\n";
   CHECK(read_whole(out).value() == expected);
+}
+
+TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
+  const auto line = [](const Timing& timing, const char* file) {
+    return shell_line(encode_arguments("frames", timing, file));
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  CHECK(has(line({.fps = 30, .hold_s = 1.5}, "m.mp4"), "tpad=stop_mode=clone:stop_duration=1.500"));
+  CHECK(has(line({.fps = 30, .frames = 60, .seconds = 4}, "m.mp4"), "N*0.066667/TB"));
+  CHECK(has(line({.fps = 30, .frames = 60, .pace = Pace::eased}, "m.mp4"), "asin(1-2*N/59)"));
+  CHECK(has(line({.fps = 30, .title_s = 2}, "m.mp4"), "file:frames/title.png"));
+  CHECK(has(line({}, "m.mp4"), "-color_primaries bt709"));
+  CHECK(has(line({}, "m.webm"), "libvpx-vp9"));
+  CHECK(has(line({}, "m.gif"), "paletteuse"));
+}
+
+TEST_CASE("a real ffmpeg makes movies of the length asked for") {
+  if (find_program("ffmpeg").empty() || find_program("ffprobe").empty()) {
+    WARN("no ffmpeg, skipped");
+    return;
+  }
+  const TemporaryFolder folder;
+  const fs::path frames = folder.path() / "frames";
+  REQUIRE(make_folder(frames));
+  MovieStyle style;
+  style.width = 64;
+  style.height = 49;
+  style.title = "a title";
+  REQUIRE(write_png(title_card(style), frames / "title.png"));
+  for (int k = 0; k < 6; ++k) {
+    Image image(64, 49);
+    for (std::size_t n = 0; n < image.rgba.size(); ++n)
+      image.rgba[n] = n % 4 == 3 ? 255 : std::uint8_t(40 * k);
+    REQUIRE(write_png(image, frames / frame_name(k)));
+  }
+  const Timing timing{
+      .fps = 20, .frames = 6, .seconds = 1, .hold_s = 0.5, .pace = Pace::eased, .title_s = 0.5};
+  for (const char* name : {"movie.mp4", "movie.webm", "movie.gif"}) {
+    INFO(name);
+    const auto made = encode_movie(frames, timing, folder.path() / name, {});
+    if (!made) FAIL(made.error().message);
+    const std::string probe =
+        "ffprobe -v error -show_entries format=duration:stream=color_primaries "
+        "-of default=nk=1:nw=1 " +
+        shell_line({(folder.path() / name).string()}) + " > " +
+        shell_line({(folder.path() / "probe").string()});
+    REQUIRE(std::system(probe.c_str()) == 0);
+    const auto said = read_whole(folder.path() / "probe");
+    REQUIRE(said);
+    const bool gif = std::string(name) == "movie.gif";
+    if (!gif) CHECK(said->find("bt709") != std::string::npos);
+    std::istringstream lines(*said);
+    double seconds = 0;
+    for (std::string line; std::getline(lines, line);)
+      if (!line.empty() && std::isdigit(static_cast<unsigned char>(line[0])))
+        seconds = std::stod(line);
+    CHECK(seconds == Approx(2.0).margin(0.15));
+  }
 }

@@ -3,6 +3,7 @@
 
 #include "render/draw/camera.h"
 #include "render/movie/framing.h"
+#include "render/movie/survey.h"
 #include "tests/render/synthetic.h"
 
 using namespace gridshell;
@@ -10,7 +11,7 @@ using namespace gridshell::render;
 
 TEST_CASE("the whole run stays within the view over the whole turn, and fills it") {
   const record::Trajectory run = synthetic::dome(8, 4);
-  const Eigen::Matrix3Xd points = extreme_points(run);
+  const Eigen::Matrix3Xd points = survey_of(run).bounds();
   for (const auto& [width, height] : {std::pair{1280, 720}, {320, 240}, {600, 1200}})
     for (double elevation : {0.0, 22.0, 60.0, 90.0})
       for (double turn : {0.0, 40.0, -360.0}) {
@@ -46,7 +47,7 @@ TEST_CASE("the camera turns evenly about one target and keeps its distance") {
   MovieStyle style;
   style.azimuth_deg = 10;
   style.turn_deg = 80;
-  const Framing framing(extreme_points(run), style, {0, 0, 1280, 720});
+  const Framing framing(survey_of(run).bounds(), style, {0, 0, 1280, 720});
   const Camera first = framing.camera(0), middle = framing.camera(0.5), last = framing.camera(1);
   CHECK(first.azimuth_deg == Approx(10));
   CHECK(middle.azimuth_deg == Approx(50));
@@ -55,19 +56,46 @@ TEST_CASE("the camera turns evenly about one target and keeps its distance") {
   CHECK(first.elevation_deg == last.elevation_deg);
 }
 
-TEST_CASE("zoom magnifies about the same middle") {
+TEST_CASE("zoom magnifies about the middle of the panel") {
   const record::Trajectory run = synthetic::dome(4, 2);
   MovieStyle style;
-  const Framing plain(extreme_points(run), style, {0, 0, 1280, 720});
+  const Framing plain(survey_of(run).bounds(), style, {0, 0, 1280, 720});
   style.zoom = 2;
-  const Framing near(extreme_points(run), style, {0, 0, 1280, 720});
+  const Framing near(survey_of(run).bounds(), style, {0, 0, 1280, 720});
   CHECK(near.pixels_per_mm() == Approx(2 * plain.pixels_per_mm()));
   CHECK((near.camera(0).target - plain.camera(0).target).norm() < 1e-9);
 }
 
+TEST_CASE("zoom and target are about the panel, wherever it stands") {
+  const record::Trajectory run = synthetic::dome(4, 2);
+  const Box panel{300, 50, 400, 600};
+  const auto points = survey_of(run).bounds();
+  MovieStyle style;
+  const Framing plain(points, style, panel);
+  // the point that stands in the panel's middle
+  const Camera before = plain.camera(0);
+  const CameraAxes axes = camera_axes(before);
+  const double mm = 1 / plain.pixels_per_mm();
+  const Eigen::Vector3d middle = before.target + mm * (panel.middle().x - 640) * axes.right -
+                                 mm * (panel.middle().y - 360) * axes.up;
+  style.zoom = 3;
+  const Eigen::Vector2d after =
+      to_pixel(Framing(points, style, panel).camera(0), 1280, 720, middle);
+  CHECK(after.x() == Approx(panel.middle().x).margin(1));
+  CHECK(after.y() == Approx(panel.middle().y).margin(1));
+  style.target_mm = Eigen::Vector3d(20, -30, 10);
+  for (const bool orthographic : {false, true}) {
+    style.orthographic = orthographic;
+    const Eigen::Vector2d at =
+        to_pixel(Framing(points, style, panel).camera(0), 1280, 720, *style.target_mm);
+    CHECK(at.x() == Approx(panel.middle().x).margin(0.01));
+    CHECK(at.y() == Approx(panel.middle().y).margin(0.01));
+  }
+}
+
 TEST_CASE("a bar of pixels_per_mm is true in the plane through the target") {
   const record::Trajectory run = synthetic::dome(4, 2);
-  const Framing framing(extreme_points(run), MovieStyle{}, {100, 100, 800, 500});
+  const Framing framing(survey_of(run).bounds(), MovieStyle{}, {100, 100, 800, 500});
   const Camera camera = framing.camera(0.3);
   const CameraAxes axes = camera_axes(camera);
   const Eigen::Vector2d a = to_pixel(camera, 1280, 720, camera.target);

@@ -45,7 +45,6 @@ TEST_CASE("a movie is numbered frames, each told when it is whole") {
   std::sort(names.begin(), names.end());
   CHECK(names == std::vector<std::string>{"frame_00000.png", "frame_00001.png", "frame_00002.png"});
   CHECK(renderer.outside == 0);
-  CHECK(renderer.last_quality.supersample == 2);
   CHECK(renderer.last_quality.shadow);
 }
 
@@ -101,4 +100,33 @@ TEST_CASE("frames are the same bytes from run to run") {
     REQUIRE(write_movie(run, small(), renderer, folder.path(), watch,
                         [&](int, const Image& picture) { movie->push_back(picture); }));
   for (std::size_t k = 0; k < 2; ++k) CHECK(first[k].rgba == second[k].rgba);
+}
+
+TEST_CASE("a movie is drawn from one frame at a time, and is that of the run in memory") {
+  const TemporaryFolder folder;
+  const record::Trajectory run = synthetic::dome(4, 2);
+  test::FakeRenderer renderer;
+  Watch watch;
+  REQUIRE(write_movie(run, small(), renderer, folder.path() / "memory", watch));
+  std::vector<int> asked;
+  const FrameSource source{&run.layout, 4, [&](int k) -> Result<record::Frame> {
+                             asked.push_back(k);
+                             return run.frames[std::size_t(k)];
+                           }};
+  const auto survey = survey_of(source);
+  REQUIRE(survey);
+  asked.clear();
+  REQUIRE(write_movie(source, *survey, small(), {}, renderer, folder.path() / "one", watch));
+  CHECK(asked == std::vector<int>{0, 1, 2, 3});
+  for (int k = 0; k < 4; ++k) {
+    const auto a = read_png(folder.path() / "memory" / frame_name(k));
+    const auto b = read_png(folder.path() / "one" / frame_name(k));
+    REQUIRE((a && b));
+    CHECK(a->rgba == b->rgba);
+  }
+  // what the source says goes through
+  const FrameSource broken{&run.layout, 4, [](int) -> Result<record::Frame> {
+                             return fail(Fault::io, "the file is gone");
+                           }};
+  CHECK(survey_of(broken).error().message == "the file is gone");
 }

@@ -21,7 +21,7 @@ TEST_CASE("stills are one picture a frame and one of them all") {
   style.height = 300;
   style.scale_bar_mm = 20;
   style.quality = Quality::figure;
-  const auto files = write_stills(run, style, renderer, folder.path() / "fig1", watch);
+  const auto files = write_stills(run, style, {}, renderer, folder.path() / "fig1", watch);
   REQUIRE(files);
   CHECK(files->size() == 4);
   CHECK(folder.entries() ==
@@ -46,7 +46,7 @@ TEST_CASE("stills stop when asked to") {
   Watch watch;
   watch.cancel();
   const auto files =
-      write_stills(synthetic::dome(3, 2), {}, renderer, folder.path() / "fig1", watch);
+      write_stills(synthetic::dome(3, 2), {}, {}, renderer, folder.path() / "fig1", watch);
   REQUIRE_FALSE(files);
   CHECK(files.error().fault == Fault::cancelled);
   CHECK(folder.entries().empty());

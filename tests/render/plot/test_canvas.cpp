@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/atomic_file.h"
 #include "render/image/png.h"
 #include "render/plot/canvas.h"
 #include "tests/render/plot/ink.h"
@@ -150,14 +151,14 @@ TEST_CASE("a picture within a picture keeps its colours") {
   CHECK(int(image.pixel(20, 20)[0]) == 255);
 }
 
-TEST_CASE("a figure is written as PNG and SVG, the SVG is well-formed and holds its words") {
+TEST_CASE("a figure is written as PNG, SVG and PDF, whose words stay words") {
   const TemporaryFolder folder;
   const DrawOn draw = [](Canvas& c) {
     c.text("*R*_{a} < 10 & more", {10, 30}, {});
     c.circle({40, 60}, 10, {0.2f, 0.4f, 0.8f, 1});
   };
   REQUIRE(write_figure(folder.path() / "figure", 144, 72, "energy & radius", draw));
-  CHECK(folder.entries() == std::vector<std::string>{"figure.png", "figure.svg"});
+  CHECK(folder.entries() == std::vector<std::string>{"figure.pdf", "figure.png", "figure.svg"});
   const auto image = read_png(folder.path() / "figure.png");
   REQUIRE(image);
   CHECK(image->width == 600);
@@ -167,8 +168,81 @@ TEST_CASE("a figure is written as PNG and SVG, the SVG is well-formed and holds 
   CHECK(svg.find("<title>energy &amp; radius</title>") != std::string::npos);
   CHECK(svg.find("Ra &lt; 10 &amp; more") != std::string::npos);
   CHECK_FALSE(well_formed(svg.substr(0, svg.size() / 2)));
+  // text as text: a slanted R, a smaller a below the line
+  CHECK(svg.find("<text ") != std::string::npos);
+  CHECK(svg.find("font-style=\"oblique\">R</tspan>") != std::string::npos);
+  CHECK(svg.find("<glyph") == std::string::npos);
+  CHECK(svg.find("<symbol") == std::string::npos);
+
+  // the same bytes again, as large as asked for
+  CHECK(draw_pdf(144, 72, "energy", draw) == draw_pdf(144, 72, "energy", draw));
+  CHECK(draw_pdf(144, 72, "energy", draw).starts_with("%PDF"));
+  REQUIRE(write_figure(folder.path() / "wide", 144, 72, "", draw, {85, 300}));
+  const auto wide = read_png(folder.path() / "wide.png");
+  REQUIRE(wide);
+  CHECK(wide->width == 1004);
+  const auto bytes = read_whole(folder.path() / "wide.png");
+  REQUIRE(bytes);
+  // 300 dpi are 11811 pixels a metre
+  const std::size_t at = bytes->find("pHYs");
+  REQUIRE(at != std::string::npos);
+  CHECK(bytes->substr(at + 4, 9) == std::string("\0\0\x2e\x23\0\0\x2e\x23\x01", 9));
 
   const auto failed = write_figure(folder.path() / "absent" / "figure", 144, 72, "", draw);
   REQUIRE_FALSE(failed);
   CHECK(failed.error().fault == Fault::io);
+}
+
+TEST_CASE("characters that XML forbids do not break an SVG") {
+  const std::string svg =
+      draw_svg(90, 20, "bell \a", [](Canvas& c) { c.text("a\x01 < b", {5, 10}, {}); });
+  CHECK(svg.find_first_of("\a\x01") == std::string::npos);
+  CHECK(svg.find("bell ") != std::string::npos);
+}
+
+TEST_CASE("the font is chosen by name, and one that is not there is refused") {
+  const auto width = [] {
+    double wide = 0;
+    draw_picture(1, 1, 1, white, [&](Canvas& c) { wide = c.measure("iiii", {.size = 12}).width; });
+    return wide;
+  };
+  const double usual = width();
+  const auto refused = use_font("No Such Font");
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().message.find("\"No Such Font\": no font of that name") !=
+        std::string::npos);
+  CHECK(width() == usual);
+  REQUIRE(use_font("DejaVu Sans Mono"));
+  CHECK(width() > 1.5 * usual);
+  CHECK(draw_svg(9, 9, "", [](Canvas& c) { c.text("a", {1, 8}, {}); }).find("\"DejaVu Sans Mono,") !=
+        std::string::npos);
+  REQUIRE(use_font(""));
+  CHECK(width() == usual);
+}
+
+TEST_CASE("a canvas knows where its words and markers are, however it is enlarged or cut off") {
+  std::vector<Box> texts, markers;
+  {
+    const CanvasWatch watch([&](const Canvas& c) {
+      texts = c.text_boxes();
+      markers = c.marker_boxes();
+    });
+    draw_picture(100, 100, 1, white, [](Canvas& c) {
+      c.enlarged(2, [&] {
+        c.text("wide", {10, 20}, {.size = 10});
+        c.clipped({20, 20, 20, 20}, [&] {
+          for (const double x : {30.0, 90.0})
+            c.marker(Marker::circle, {x, 30}, 4, {0, 0, 0, 1}, {{}, 0});
+        });
+      });
+    });
+  }
+  REQUIRE(texts.size() == 1);
+  CHECK(texts[0].x == Approx(20).margin(3));
+  CHECK(texts[0].height > 12);
+  REQUIRE(markers.size() == 1);
+  CHECK(markers[0].x == Approx(56));
+  CHECK(markers[0].width == Approx(8));
+  draw_picture(9, 9, 1, white, [](Canvas& c) { c.text("unwatched", {1, 8}, {}); });
+  CHECK(texts.size() == 1);
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -53,17 +54,25 @@ TEST_CASE("the diverging map is neutral in the middle and equally strong on both
   CHECK(diverging(-7).b == diverging(-1).b);
 }
 
-TEST_CASE("the sequential map grows lighter all the way") {
-  double before = -1;
-  for (int k = 0; k <= 64; ++k) {
-    const double L = to_oklab(sequential(k / 64.0)).L;
-    CHECK(L > before);
-    before = L;
+TEST_CASE("the sequential maps darken all the way, in steps that look equal") {
+  std::vector<double> steps;
+  for (int k = 0; k < 64; ++k) {
+    const Oklab p = to_oklab(sequential(k / 64.0)), q = to_oklab(sequential((k + 1) / 64.0));
+    CHECK(q.L < p.L);
+    CHECK(to_oklab(grey((k + 1) / 64.0)).L < to_oklab(grey(k / 64.0)).L);
+    steps.push_back(std::hypot(q.L - p.L, q.a - p.a, q.b - p.b));
   }
-  CHECK(before > 0.85);
-  CHECK(to_oklab(sequential(0)).L < 0.35);
-  // an end of the published map: #fde725
-  CHECK(sequential(1).r == Approx(0xfd / 255.0).margin(0.003));
+  const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
+  CHECK(*most < 1.05 * *least);
+  CHECK(to_oklab(sequential(0)).L > 0.9);
+  CHECK(to_oklab(sequential(1)).L < 0.35);
+}
+
+TEST_CASE("a scale for thin lines begins where they can be seen") {
+  const ColourScale lines{ColourMap::sequential, 0, 1, 0.2};
+  CHECK(lines(0).b == sequential(0.2).b);
+  CHECK(lines(1).b == sequential(1).b);
+  CHECK(lines(0.5).b == sequential(0.6).b);
 }
 
 TEST_CASE("a scale maps its ends and clips beyond, the unknown is grey") {

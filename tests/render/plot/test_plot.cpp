@@ -183,5 +183,6 @@ TEST_CASE("gaps, empty series and single points are drawn without complaint") {
 TEST_CASE("a plot is written at the size of a journal's column") {
   const TemporaryFolder folder;
   REQUIRE(write_plot(folder.path() / "energies", energies()));
-  CHECK(folder.entries() == std::vector<std::string>{"energies.png", "energies.svg"});
+  CHECK(folder.entries() ==
+        std::vector<std::string>{"energies.pdf", "energies.png", "energies.svg"});
 }

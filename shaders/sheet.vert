@@ -1,7 +1,7 @@
 // Cells: thin sheets, lit from both sides and mostly by their own colour, so that the colour bar
 // beside them stays true. A patch is fine enough to be lit at its vertices.
 layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
+layout(location = 1) in vec4 normal;
 layout(location = 2) in vec4 colour;
 uniform mat4 view_projection;
 uniform float ground_z;
@@ -11,7 +11,7 @@ out vec3 key_part;  // what the key light adds
 
 void main() {
   world = position;
-  vec3 n = dot(normal, towards_eye(position)) < 0.0 ? -normal : normal;
+  vec3 n = dot(normal.xyz, towards_eye(position)) < 0.0 ? -normal.xyz : normal.xyz;
   float through = dot(n, light_direction);
   const float own = 0.6;
   float pale = haze_at(position);

@@ -1,0 +1,208 @@
+#include "app/page_pictures.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "app/pictures.h"
+#include "render/figure/block_figure.h"
+#include "render/figure/net_figure.h"
+#include "render/figure/net_plots.h"
+#include "render/figure/page.h"
+#include "render/figure/push_figure.h"
+#include "render/image/png.h"
+#include "render/movie/bins_plot.h"
+#include "render/movie/stage.h"
+#include "render/movie/stills.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+using render::Box;
+using render::Canvas;
+using render::PagePanel;
+
+constexpr double plot_font = 7;  // points
+
+/// What panels draw from must outlive them: pictures are held here.
+struct Page {
+  double width_mm = 178, height_mm = 100;
+  std::vector<PagePanel> panels;
+
+  void add(const std::string& letter, const std::string& caption, const Box& box_mm,
+           std::function<void(Canvas&, const Box&)> draw) {
+    panels.push_back({letter, caption, box_mm, std::move(draw)});
+  }
+  void add_image(const std::string& letter, const std::string& caption, const Box& box_mm,
+                 render::Image image) {
+    add(letter, caption, box_mm, [image = std::move(image)](Canvas& canvas, const Box& box) {
+      render::draw_fitted(canvas, box, image);
+    });
+  }
+  void add_plot(const std::string& letter, const Box& box_mm, render::Plot plot) {
+    plot.font_size = plot_font;
+    add(letter, "", box_mm, [plot = std::move(plot)](Canvas& canvas, const Box& box) {
+      render::draw_plot(canvas, box, plot);
+    });
+  }
+};
+
+class PageMaker {
+ public:
+  PageMaker(const std::vector<CaseRecord>& records, render::Renderer& renderer, Watch& watch)
+      : records_(records), renderer_(renderer), watch_(watch) {
+    style_ = style_of(records.front().preset, Pictures::stills);
+    style_.look.letters = false;
+    style_.scale_bar_mm = 0;
+    style_.title.clear();
+    for (const CaseRecord& one : records) {
+      const bool push = one.preset.indentation.wanted();
+      (push ? pushes_ : shells_).push_back({&one.run, render::plain(one.preset.title)});
+      (push ? named_pushes_ : named_shells_).push_back({&one.run, render::plain(one.preset.title)});
+    }
+  }
+
+  Result<Page> make(preset::PageKind kind) {
+    switch (kind) {
+      case preset::PageKind::none:
+        return Page{};
+      case preset::PageKind::fig1:
+        return fig1();
+      case preset::PageKind::fig3:
+        return fig3();
+      case preset::PageKind::fig4:
+        return fig4();
+      case preset::PageKind::fig5:
+        return fig5();
+    }
+    return Page{};
+  }
+
+ private:
+  Result<void> add_photo(Page& page, const std::string& letter, const Box& box_mm) {
+    const std::string& file = records_.front().preset.page.photo;
+    if (file.empty()) {
+      page.add(letter, "", box_mm, render::draw_photo_frame);
+      return {};
+    }
+    auto photo = render::read_png(file);
+    if (!photo) return tl::unexpected(Error{Fault::bad_input, photo.error().message});
+    page.add_image(letter, "", box_mm, std::move(*photo));
+    return {};
+  }
+
+  /// A photograph, and the shell on its way, all at one scale.
+  Result<Page> fig1() {
+    Page page{178, 92, {}};
+    if (auto placed = add_photo(page, "A", {2, 2, 56, 88}); !placed)
+      return tl::unexpected(placed.error());
+    const record::Trajectory& run = records_.front().run;
+    render::MovieStyle style = style_;
+    style.captions = style.inset = style.legends = false;
+    style.turn_deg = 0;
+    const render::Stage stage(run, style);
+    const int count = stage.frames();
+    const double width = 116, height = 88.0 / count;
+    for (int k = 0; k < count; ++k) {
+      const record::Frame& frame = run.frames[std::size_t(k)];
+      auto picture = stage.draw_views(renderer_, {frame, k});
+      if (!picture) return tl::unexpected(picture.error());
+      // pictures are as high as their place: what they show of a millimetre is the same for all
+      const double units = (height * 72 / 25.4 - 12) * stage.pixels_per_mm() / style.height;
+      page.add("B" + std::to_string(k + 1), render::still_caption(frame),
+               {60, 2 + k * height, width, height},
+               [image = std::move(*picture), units, last = k + 1 == count](Canvas& canvas,
+                                                                           const Box& box) {
+                 render::draw_fitted(canvas, box, image);
+                 if (last)
+                   render::draw_scale_bar(canvas, {box.right() - 70, box.bottom() - 16, 70, 16}, 20,
+                                          units, plot_font);
+               });
+      watch_.report(double(k + 1) / count);
+    }
+    return page;
+  }
+
+  /// Domain, shell over its net, distances from the centre with what was scanned, caps.
+  Result<Page> fig3() {
+    Page page{178, 130, {}};
+    if (auto placed = add_photo(page, "A", {2, 2, 52, 50}); !placed)
+      return tl::unexpected(placed.error());
+    page.add("B", "", {56, 2, 120, 50}, [runs = named_shells_](Canvas& canvas, const Box& box) {
+      render::draw_footprints(canvas, box, runs);
+    });
+    auto over = render::draw_over_nets({shells_.front()}, style_, renderer_, watch_);
+    if (!over) return tl::unexpected(over.error());
+    page.add_image("C", "", {2, 54, 84, 40}, std::move(*over));
+    const preset::Points& points = records_.front().preset.figure.scan;
+    Eigen::Matrix3Xd scan(3, points.size());
+    for (Eigen::Index k = 0; k < scan.cols(); ++k)
+      for (int axis = 0; axis < 3; ++axis)
+        scan(axis, k) = points[std::size_t(k)].at(std::size_t(axis));
+    page.add_plot("", {90, 54, 86, 40}, render::latitude_plot(named_shells_.front(), scan));
+    auto caps = render::draw_deviations(shells_, style_, renderer_, watch_);
+    if (!caps) return tl::unexpected(caps.error());
+    page.add_image("D", "", {2, 96, 174, 33}, std::move(*caps));
+    return page;
+  }
+
+  /// Shells over their nets, K of their cells, and one of them under point loads.
+  Result<Page> fig4() {
+    Page page{178, 190, {}};
+    auto over = render::draw_over_nets(shells_, style_, renderer_, watch_);
+    if (!over) return tl::unexpected(over.error());
+    page.add_image("A", "", {2, 2, 174, 44}, std::move(*over));
+    page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
+    auto pushes = render::draw_pushes(pushes_, style_, renderer_, watch_);
+    if (!pushes) return tl::unexpected(pushes.error());
+    page.add_image("C", "", {2, 94, 174, 50}, std::move(*pushes));
+    for (std::size_t k = 0; k < named_pushes_.size(); ++k) {
+      const record::Trajectory& run = *named_pushes_[k].run;
+      render::Plot plot = render::bins_plot(render::survey_of(run), long(run.layout.cells.size()),
+                                            run.frames.back(), std::array{-0.01, 0.07}, plot_font);
+      const double width = 174.0 / double(named_pushes_.size());
+      page.add_plot(k == 0 ? "D" : "", {2 + width * double(k), 146, width - 1, 43}, plot);
+    }
+    return page;
+  }
+
+  /// Blocks, their footprints, and the assemblage over them.
+  Result<Page> fig5() {
+    Page page{178, 116, {}};
+    const record::Trajectory& run = records_.front().run;
+    auto blocks = render::draw_blocks(run, style_, renderer_, watch_);
+    if (!blocks) return tl::unexpected(blocks.error());
+    page.add_image("A", "", {2, 2, 86, 54}, std::move(*blocks));
+    page.add("B", "", {92, 2, 84, 54}, [&run](Canvas& canvas, const Box& box) {
+      render::draw_block_footprints(canvas, box, run);
+    });
+    auto over = render::draw_over_nets(shells_, style_, renderer_, watch_);
+    if (!over) return tl::unexpected(over.error());
+    page.add_image("C", "", {2, 58, 112, 57}, std::move(*over));
+    page.add_plot("D", {116, 58, 60, 57}, render::curvature_plot(named_shells_));
+    return page;
+  }
+
+  const std::vector<CaseRecord>& records_;
+  render::Renderer& renderer_;
+  Watch& watch_;
+  render::MovieStyle style_;
+  std::vector<render::NetRun> shells_, pushes_;
+  std::vector<render::NamedRun> named_shells_, named_pushes_;
+};
+
+}  // namespace
+
+Result<void> draw_page(const std::vector<CaseRecord>& records, render::Renderer& renderer,
+                       const fs::path& stem, Watch& watch) {
+  const preset::Preset& preset = records.front().preset;
+  if (preset.page.kind == preset::PageKind::none) return {};
+  const auto page = PageMaker(records, renderer, watch).make(preset.page.kind);
+  if (!page) return tl::unexpected(page.error());
+  const render::Print print{preset.figure.width_mm, preset.figure.dpi};
+  return render::write_page(fs::path(stem) += "_page", preset.source, page->width_mm,
+                            page->height_mm, page->panels, print);
+}
+
+}  // namespace gridshell::app

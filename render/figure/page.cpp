@@ -1,0 +1,50 @@
+#include "render/figure/page.h"
+
+#include <algorithm>
+
+namespace gridshell::render {
+namespace {
+
+constexpr double points_per_mm = 72 / 25.4, letter_room = 10, caption_room = 12;  // points
+constexpr Colour pale{0.75f, 0.75f, 0.77f, 1};
+
+}  // namespace
+
+void draw_fitted(Canvas& canvas, const Box& box, const Image& image) {
+  const double scale = std::min(box.width / image.width, box.height / image.height);
+  const double width = scale * image.width, height = scale * image.height;
+  canvas.picture(image, {box.middle().x - width / 2, box.middle().y - height / 2, width, height});
+}
+
+void draw_photo_frame(Canvas& canvas, const Box& box) {
+  canvas.rectangle(box, {0, 0, 0, 0}, {pale, 0.7, {4, 3}});
+  canvas.text("photograph", box.middle(),
+              {.size = 8, .colour = pale, .align_x = AlignX::centre, .align_y = AlignY::middle});
+}
+
+Result<void> write_page(const std::filesystem::path& stem, const std::string& title,
+                        double width_mm, double height_mm, const std::vector<PagePanel>& panels,
+                        const Print& print) {
+  const auto draw = [&](Canvas& canvas) {
+    for (const PagePanel& panel : panels) {
+      const Box& mm = panel.box_mm;
+      Box box{points_per_mm * mm.x, points_per_mm * mm.y, points_per_mm * mm.width,
+              points_per_mm * mm.height};
+      if (!panel.letter.empty())
+        canvas.text(panel.letter, {box.x, box.y},
+                    {.size = 9.5, .bold = true, .align_y = AlignY::top});
+      box.x += letter_room;
+      box.width -= letter_room;
+      if (!panel.caption.empty()) {
+        box.height -= caption_room;
+        canvas.text(panel.caption, {box.middle().x, box.bottom() + caption_room / 2},
+                    {.size = 7.5, .align_x = AlignX::centre, .align_y = AlignY::middle});
+      }
+      panel.draw(canvas, box);
+    }
+  };
+  return write_figure(stem, points_per_mm * width_mm, points_per_mm * height_mm, title, draw,
+                      print);
+}
+
+}  // namespace gridshell::render

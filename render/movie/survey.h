@@ -1,0 +1,73 @@
+// What the pictures of a run have to know of all its frames before the first is drawn: ranges,
+// bounds and events. Frames are looked at once, one at a time, and none but the first is kept.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/record/snapshot.h"
+
+namespace gridshell::render {
+
+/// Frames one at a time, from memory or from a file.
+struct FrameSource {
+  const record::Layout* layout = nullptr;
+  int count = 0;
+  std::function<Result<record::Frame>(int)> at;  ///< 0 to count - 1, in any order
+};
+
+/// The frames of a run in memory, which outlives the source.
+FrameSource source_of(const record::Trajectory& run);
+
+/// The smallest and the largest of some values; low > high before the first.
+struct Interval {
+  double low = INFINITY, high = -INFINITY;
+  void take(double value);
+  void take(const Interval& other);
+  bool any() const { return low <= high; }
+};
+
+/// Something that happened to the shell, and in which frame.
+enum class MarkKind { unstable, motion, snap, lock, other };
+struct Mark {
+  int at = 0;  ///< position of the frame in the run, from 0
+  MarkKind kind = MarkKind::other;
+};
+
+class Survey {
+ public:
+  /// The layout outlives the survey.
+  explicit Survey(const record::Layout& layout);
+
+  /// The next frame of the run.
+  void take(const record::Frame& frame);
+
+  int frames = 0;
+  record::Frame first;                   ///< what later frames are compared with
+  double depth_mm = 0;                   ///< of a push, at its deepest; 0 without one
+  double lowest_z_mm = 0;                ///< of all that is drawn
+  Interval bins_rad;                     ///< mean K of the bins, with their standard deviations
+  Eigen::ArrayXd most_K, most_K_change;  ///< largest size of each cell's, over all frames
+  Interval K, K_change;                  ///< over all cells and frames, rad
+  double largest_move_mm = 0;            ///< of a joint, from where it was in the first frame
+  std::vector<Mark> marks;               ///< in order
+
+  /// Points that bound all frames, what is drawn of both boundaries, and the arrows of loads: the
+  /// farthest along some hundred directions, and the boundaries themselves. 3 x n, mm.
+  Eigen::Matrix3Xd bounds() const;
+
+ private:
+  void take_point(const Eigen::Vector3d& point);
+
+  const record::Layout* layout_;
+  Eigen::MatrixX3d directions_;
+  Eigen::VectorXd farthest_;
+  Eigen::Matrix3Xd extremes_;
+};
+
+/// Of all frames of a source; those of a failing source: its error.
+Result<Survey> survey_of(const FrameSource& source);
+Survey survey_of(const record::Trajectory& run);
+
+}  // namespace gridshell::render

@@ -1,0 +1,58 @@
+#include "render/movie/title_card.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "render/plot/canvas.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, pale_ink{0.38f, 0.39f, 0.42f, 1};
+
+// words in lines of at most `width`
+std::string wrapped(const Canvas& canvas, const std::string& text, double width,
+                    const TextStyle& style) {
+  std::istringstream words(text);
+  std::string all, line;
+  for (std::string word; words >> word;) {
+    const std::string longer = line.empty() ? word : line + " " + word;
+    if (!line.empty() && canvas.measure(plain(longer), style).width > width) {
+      all += line + "\n";
+      line = word;
+    } else {
+      line = longer;
+    }
+  }
+  return all + line;
+}
+
+}  // namespace
+
+Image title_card(const MovieStyle& style) {
+  const double w = style.width, h = style.height;
+  return draw_picture(w, h, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+    TextStyle title{.size = style.font_scale * 0.075 * std::min(h, 0.6 * w),
+                    .colour = ink,
+                    .bold = true,
+                    .align_x = AlignX::centre,
+                    .align_y = AlignY::middle};
+    std::string text = wrapped(canvas, style.title, 0.84 * w, title);
+    for (int k = 0; k < 12; ++k) {
+      const Box box = canvas.measure(plain(text), title);
+      if (box.width <= 0.9 * w && box.height <= 0.5 * h) break;
+      title.size *= 0.9;
+      text = wrapped(canvas, style.title, 0.84 * w, title);
+    }
+    canvas.text(plain(text), {w / 2, 0.45 * h}, title);
+    TextStyle source{.size = 0.5 * title.size,
+                     .colour = pale_ink,
+                     .align_x = AlignX::centre,
+                     .align_y = AlignY::middle};
+    const double width = canvas.measure(plain(style.source), source).width;
+    source.size *= std::min(1.0, 0.9 * w / std::max(1.0, width));
+    canvas.text(plain(style.source), {w / 2, 0.8 * h}, source);
+  });
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,138 @@
+// The words of every preset's pictures: none leaves its panel or meets another, at any size or
+// zoom.
+#include <catch2/catch.hpp>
+
+#include "app/console.h"
+#include "app/loading.h"
+#include "app/pictures.h"
+#include "app/preset_library.h"
+#include "app/production.h"
+#include "render/figure/push_figure.h"
+#include "render/movie/bins_plot.h"
+#include "render/movie/stage.h"
+#include "tests/render/synthetic.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+namespace {
+
+// a run with all that a caption can speak of
+record::Trajectory eventful(bool pushed) {
+  record::Trajectory run = synthetic::dome(9, 1);
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    record::Frame& frame = run.frames[k];
+    frame.K_bins.resize(5, 3);
+    for (int bin = 0; bin < 5; ++bin) frame.K_bins.row(bin) << 0.03 + 0.004 * bin, 0.01, 20;
+    if (!pushed) continue;
+    frame.depth_mm = 1.5 * double(k);
+    frame.force_N = -0.1234 * double(k);
+  }
+  if (pushed) run.layout.loaded_joints = {{50, -Eigen::Vector3d::UnitZ()}};
+  run.frames[2].negative_pivots = 12;
+  run.frames[4].event = "snap at depth 12.34 mm";
+  run.frames[8].event = "locking";
+  return run;
+}
+
+struct Words {
+  std::vector<std::string> texts;
+  std::vector<Box> boxes, markers;
+};
+
+Words words_of(double width, double height, const DrawOn& draw) {
+  Words words;
+  draw_picture(width, height, 1, {}, [&](Canvas& canvas) {
+    draw(canvas);
+    words = {canvas.texts(), canvas.text_boxes(), canvas.marker_boxes()};
+  });
+  return words;
+}
+
+void check_apart(const Words& words, const Box& panel) {
+  for (std::size_t a = 0; a < words.boxes.size(); ++a) {
+    INFO(words.texts[a]);
+    CHECK((words.boxes[a].empty() || panel.contains(words.boxes[a])));
+    for (std::size_t b = a + 1; b < words.boxes.size(); ++b) {
+      INFO(words.texts[b]);
+      CHECK_FALSE(words.boxes[a].overlaps(words.boxes[b]));
+    }
+    for (const Box& marker : words.markers) CHECK_FALSE(words.boxes[a].overlaps(marker));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("in every preset's frames and stills no text leaves the picture or meets another") {
+  for (const auto& embedded : app::embedded_presets()) {
+    const auto presets = app::load_preset(embedded.name, {});
+    REQUIRE(presets);
+    for (const auto& one : app::runs_of(*presets)) {
+      const record::Trajectory run = eventful(one.preset.indentation.wanted());
+      for (const auto pictures : {app::Pictures::movie, app::Pictures::stills}) {
+        MovieStyle style = app::style_of(one.preset, pictures);
+        for (const auto& [width, height] :
+             {std::pair{style.width, style.height}, {320, 240}, {720, 1280}, {1920, 500}})
+          for (const double zoom : {1.0, 3.0}) {
+            style.width = width;
+            style.height = height;
+            style.zoom = zoom;
+            const Stage stage(run, style);
+            INFO(embedded.name << " " << one.name << " " << width << " x " << height);
+            for (int at : {0, 2, 4, 8}) {
+              const auto words = words_of(width, height, [&](Canvas& canvas) {
+                stage.draw_overlay(canvas, {run.frames[std::size_t(at)], at});
+              });
+              check_apart(words, {0, 0, double(width), double(height)});
+              if (!stage.layout().title.empty())
+                for (const Box& box : words.boxes) CHECK_FALSE(box.overlaps(stage.layout().view));
+            }
+          }
+      }
+    }
+  }
+}
+
+TEST_CASE("in what `figure` and `movie` make of every preset no text meets another or a data point",
+          "[full]") {
+  for (const auto& embedded : app::embedded_presets())
+    for (const auto pictures : {app::Pictures::stills, app::Pictures::movie}) {
+      const TemporaryFolder folder;
+      app::Options options;
+      options.input = embedded.name;
+      options.output = folder.path() / "run";
+      options.quiet = true;
+      options.size = pictures == app::Pictures::movie ? "480x270" : "640x360";
+      options.quality = "draft";
+      options.frames = "2";
+      options.set = {"accuracy.tolerance=0.01"};
+      INFO(embedded.name << (pictures == app::Pictures::movie ? ", movie" : ", figure"));
+      int words = 0;
+      const CanvasWatch watch([&](const Canvas& canvas) {
+        check_apart({canvas.texts(), canvas.text_boxes(), canvas.marker_boxes()},
+                    {0, 0, canvas.width(), canvas.height()});
+        words += int(canvas.texts().size());
+      });
+      // some end early, which is not what is looked at here
+      CHECK(app::produce(options, pictures) <= app::ExitCode::failed);
+      CHECK(words > 5);
+    }
+}
+
+TEST_CASE("plots of bins and forces keep their words apart, however narrow") {
+  const record::Trajectory run = eventful(true);
+  const Survey survey = survey_of(run);
+  for (const double width : {150.0, 186.0, 260.0, 500.0}) {
+    Plot bins = bins_plot(survey, long(run.layout.cells.size()), run.frames.back(), {}, 7.5);
+    bins.title = "Inward at 45° latitude and longitude, a long name\nΣ*K*_{□} = 5.898 rad";
+    Plot force = force_plot({{&run, "the first of two long names that do not fit"},
+                             {&run, "the second of two long names that do not fit"}});
+    for (const Plot& plot : {bins, force}) {
+      INFO(width);
+      const Box box{3, 3, width - 6, 184};
+      check_apart(words_of(width, 190, [&](Canvas& canvas) { draw_plot(canvas, box, plot); }),
+                  {0, 0, width, 190});
+    }
+  }
+}
