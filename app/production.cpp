@@ -68,17 +68,18 @@ std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
     const auto of_case = job.name.empty() ? "" : " " + job.name;
     phases.push_back({"simulating" + of_case, std::isnan(guess) ? simulation_guess(job) : guess});
     if (pictures != Pictures::none && !drawn_beside(job, pictures))
-      phases.push_back({"drawing" + of_case, expected_seconds(pictures, job.preset)});
+      phases.push_back({"drawing" + of_case, expected_seconds(pictures, job.preset), true});
   }
   if (drawn_beside(jobs.front(), pictures))
-    phases.push_back({"drawing", expected_seconds(pictures, jobs.front().preset)});
+    phases.push_back({"drawing", expected_seconds(pictures, jobs.front().preset), true});
   const bool stills = pictures == Pictures::stills;
   if (stills && std::any_of(jobs.begin(), jobs.end(), has_net))
     phases.push_back({"drawing shells over nets",
-                      2 * double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
+                      2 * double(jobs.size()) * expected_seconds(pictures, jobs.front().preset),
+                      true});
   if (stills && std::any_of(jobs.begin(), jobs.end(), is_pushed))
     phases.push_back({"drawing point loads",
-                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
+                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset), true});
   return phases;
 }
 

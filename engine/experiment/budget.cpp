@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "engine/core/memory.h"
-#include "engine/preset/rung.h"
 
 namespace gridshell::experiment {
 namespace {
@@ -31,24 +30,22 @@ double memory_GB(const Footprint& footprint, preset::Rung rung, const LevelPlan&
   return 1e-9 * unknowns * (rung == preset::Rung::twist ? bytes_a_twist_unknown : bytes_an_unknown);
 }
 
-Result<void> fits_memory(const Footprint& footprint, const preset::Preset& preset,
-                         const LevelPlan& plan) {
-  const preset::Rung rung = preset::rung_of(preset);
-  const double asked = preset.accuracy.memory_GB;
+Result<void> fits_memory(const Scene& scene, const LevelPlan& plan) {
+  const double asked = scene.memory_GB;
   const double given = asked > 0 ? asked : default_memory_GB();
-  const double wanted = memory_GB(footprint, rung, plan);
+  const double wanted = memory_GB(scene.footprint, scene.rung, plan);
   if (given == 0 || wanted <= given) return {};
   const int edges = plan.edges_per_segment.back();
   return fail(
       Fault::bad_input,
       fmt::format("{} edges a segment, {:.3g} unknowns, take about {:.2g} GB, more than the {:.2g} "
                   "GB of {}; {} needs less",
-                  edges, unknowns_of(footprint, rung, edges), wanted, given,
+                  edges, unknowns_of(scene.footprint, scene.rung, edges), wanted, given,
                   asked > 0 ? "[accuracy] memory_GB"
                             : "half of the machine's memory ([accuracy] "
                               "memory_GB changes that)",
-                  preset.accuracy.edges_per_segment > 0 ? "a smaller [accuracy] edges_per_segment"
-                                                        : "a larger [accuracy] tolerance"));
+                  scene.edges_per_segment > 0 ? "a smaller [accuracy] edges_per_segment"
+                                              : "a larger [accuracy] tolerance"));
 }
 
 }  // namespace gridshell::experiment

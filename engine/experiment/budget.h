@@ -3,7 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/footprint/footprint.h"
-#include "engine/preset/preset.h"
+#include "engine/scene/scene.h"
 #include "engine/solve/nested.h"
 
 namespace gridshell::experiment {
@@ -16,7 +16,6 @@ double memory_GB(const Footprint& footprint, preset::Rung rung, const LevelPlan&
 
 /// Whether that is within [accuracy] memory_GB, by default half of the machine's. Errors: bad_input
 /// with what was asked for, what it would take, and what there is.
-Result<void> fits_memory(const Footprint& footprint, const preset::Preset& preset,
-                         const LevelPlan& plan);
+Result<void> fits_memory(const Scene& scene, const LevelPlan& plan);
 
 }  // namespace gridshell::experiment

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engine/experiment/budget.h"
+
 namespace gridshell::experiment {
 namespace {
 
@@ -39,19 +41,21 @@ Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& 
   double setup = 0;
   for (;;) {
     auto course = follow(plan, watch);
-    if (!course) return course;
+    if (!course || watch.cancelled()) return course;
     course->seconds_setup += setup;
     course->session.charge(spent);
     const double last = course->last_estimate_mm();
     const bool asked = scene.edges_per_segment > 0;
     if (asked || !(last > allowed)) return course;
     const auto next = finer(plan);
-    if (!next)
-      return fail(Fault::no_equilibrium,
-                  fmt::format("the tolerance {:g} is not met: {} edges a segment leave an "
-                              "estimated error of {:.2g} mm, {:.2g} of the length scale",
-                              scene.tolerance, plan.edges_per_segment.back(), last,
-                              last / scene.length_scale_mm));
+    const auto fits = next ? fits_memory(scene, *next) : Result<void>{};
+    if (!next || !fits)
+      return fail(
+          Fault::no_equilibrium,
+          fmt::format("the tolerance {:g} is not met: {} edges a segment leave an "
+                      "estimated error of {:.2g} mm, {:.2g} of the length scale{}",
+                      scene.tolerance, plan.edges_per_segment.back(), last,
+                      last / scene.length_scale_mm, fits ? "" : "; " + fits.error().message));
     plan = *next;
     spent = course->session.effort();
     setup = course->seconds_setup;

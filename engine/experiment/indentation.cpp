@@ -95,7 +95,7 @@ std::string at_depth(double depth_mm, double t) {
 }
 
 /// Where the path that was lost turns back, as the arc length says.
-std::string turning_back(Session& session, const Leg& leg, double depth_mm) {
+std::string turning_back(Session& session, const Leg& leg, double depth_mm, const Watch& watch) {
   if (leg.report.events.empty()) return {};
   const Event& event = leg.report.events.front();
   const Station* last = nullptr;
@@ -104,14 +104,14 @@ std::string turning_back(Session& session, const Leg& leg, double depth_mm) {
     if (way * (event.t - station.point.t) >= 0) last = &station;
   if (!last) return {};
   const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
-  const auto turn =
-      turning_point(session.shell().system(0), session.shell().motion(0), last->point, way, fine);
+  const auto turn = turning_point(session.shell().system(0), session.shell().motion(0), last->point,
+                                  way, fine, watch);
   return turn ? fmt::format(" (its path turns back at {:.3f} mm)", *turn * depth_mm)
               : std::string();
 }
 
 /// Why the push stopped, or what it came past.
-void tell(Pushed& pushed, const Leg& leg) {
+void tell(Pushed& pushed, const Leg& leg, const Watch& watch) {
   const auto at = [&](double t) { return at_depth(pushed.depth_mm, t); };
   Course& course = pushed.course;
   tell_limit(course, leg, at);
@@ -120,7 +120,7 @@ void tell(Pushed& pushed, const Leg& leg) {
     course.limit_reason = fmt::format(
         "held at the joint, the shell lost its {} {}{} and came to rest in another state",
         leg.report.events.front().kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
-        at(leg.report.events.front().t), turning_back(course.session, leg, pushed.depth_mm));
+        at(leg.report.events.front().t), turning_back(course.session, leg, pushed.depth_mm, watch));
   if (course.limit == record::Limit::locking)
     course.limit_reason =
         fmt::format("{} ({:.4f} of the length scale) and {:.4g} N the rods are at their length: {}",
@@ -157,7 +157,7 @@ Result<Pushed> follow_push(const std::shared_ptr<const Scene>& scene,
     leg.report = course.session.go(to, watch, {}, &leg.trail);
     course.legs.push_back(std::move(leg));
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
-    if (course.limit == record::Limit::none) tell(pushed, course.legs.back());
+    if (course.limit == record::Limit::none) tell(pushed, course.legs.back(), watch);
     if (course.legs.back().report.end != Outcome::reached) break;
   }
   return pushed;

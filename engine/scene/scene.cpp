@@ -155,6 +155,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;
   scene.edges_per_segment = preset.accuracy.edges_per_segment;
   scene.tolerance = preset.accuracy.tolerance;
+  scene.memory_GB = preset.accuracy.memory_GB;
   scene.max_strain = preset.limits.max_strain;
   scene.snap = {preset.dynamics.snap, preset.dynamics.step_s, preset.dynamics.damping_per_s};
   return scene;

@@ -43,6 +43,7 @@ struct Scene {
   BuckleSeed seed;
   int edges_per_segment = 0;  ///< the mesh asked for; 0: as the tolerance asks
   double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
+  double memory_GB = 0;       ///< that the meshes may take; 0: half of the machine's
   double max_strain = 1e-3;
   SnapDynamics snap;
 

@@ -300,7 +300,7 @@ Result<State> Session::leave_to(double there, Trail* trail, const Watch& watch) 
   if (!scene_->snap.wanted) return leave_branch(system, motion, last, there, watch);
   motion.load_up(system, last.t);
   system.at(last.state, false);
-  const Eigen::Matrix3Xd mode = softest_mode(system);
+  const Eigen::Matrix3Xd mode = softest_mode(system, watch);
   State state = last.state;
   motion.impose(system, there, state);
   // to the side on which the energy falls

@@ -9,7 +9,7 @@ namespace gridshell {
 
 /// Softest mode of the Hessian last assembled in `system` by inverse iteration: unit vector over
 /// all columns, zero at what is held.
-Eigen::Matrix3Xd softest_mode(Linearisation& system);
+Eigen::Matrix3Xd softest_mode(Linearisation& system, const Watch& watch);
 
 /// From `state` to rest near it: full Newton steps that move no node further than `farthest_mm` and
 /// end in a minimum, else down the energy, else off a saddle along its softest mode. Errors:
