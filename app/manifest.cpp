@@ -49,8 +49,8 @@ struct Unlisted {
   std::set<std::string> cases;  // folders, each a run
 };
 
-// what the journal or the summary of a folder says that it is
-std::optional<Unlisted> unlisted(const fs::path& folder) {
+// what the summary or the journal of a folder says that it is
+std::optional<Unlisted> named(const fs::path& folder) {
   Unlisted run;
   const auto name_pictures = [&](const fs::path& preset) {
     run.stems = {preset.filename().string(), "accuracy", "unknowns", "scaling", "stability"};
@@ -67,17 +67,25 @@ std::optional<Unlisted> unlisted(const fs::path& folder) {
         for (const char* key : {"name", "preset"})
           if (one.is_object() && one.contains(key) && one[key].is_string())
             run.cases.insert(fs::path(one[key].get<std::string>()).filename().string());
+    // a folder is not its own case
+    for (const char* name : {"", ".", ".."}) run.cases.erase(name);
     return run;
   }
-  if (const auto preset = record::preset_of_journal(folder)) {
-    name_pictures(*preset);
-    return run;
-  }
-  // of several cases none of which was finished: the folders in it are the runs
+  const auto preset = record::preset_of_journal(folder);
+  if (!preset) return std::nullopt;
+  name_pictures(*preset);
+  return run;
+}
+
+// the same, or of several cases none of which was finished the runs in the folder: no deeper, for
+// any folder of the machine may be asked for
+std::optional<Unlisted> unlisted(const fs::path& folder) {
+  if (auto run = named(folder)) return run;
+  Unlisted run;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.is_directory(error) && unlisted(entry.path()))
-      run.cases.insert(entry.path().filename().string());
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->is_directory(error) && named(at->path()))
+      run.cases.insert(at->path().filename().string());
   if (run.cases.empty()) return std::nullopt;
   return run;
 }
@@ -113,7 +121,7 @@ void gather_foreign(const fs::path& folder, const Unlisted& run, const std::stri
   }
   for (const auto& name : run.cases) {
     if (!fs::is_directory(folder / name, error)) continue;
-    if (const auto inner = unlisted(folder / name))
+    if (const auto inner = named(folder / name))
       gather_foreign(folder / name, *inner, before + name + "/", foreign);
     else if (!fs::is_empty(folder / name, error))
       foreign.push_back(before + name);

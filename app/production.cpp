@@ -71,21 +71,21 @@ std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
   for (const auto& job : jobs)
     if (pictures != Pictures::none && !drawn_beside(job, pictures))
       phases.push_back({"drawing" + (job.name.empty() ? "" : " " + job.name),
-                        expected_seconds(pictures, job.preset)});
+                        expected_seconds(pictures, job.preset), true});
   if (drawn_beside(jobs.front(), pictures))
-    phases.push_back({"drawing", expected_seconds(pictures, jobs.front().preset)});
+    phases.push_back({"drawing", expected_seconds(pictures, jobs.front().preset), true});
   const bool stills = pictures == Pictures::stills;
   if (stills && jobs.front().preset.page.kind != preset::PageKind::none) {
     phases.push_back({"drawing the page",
-                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
+                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset), true});
     return phases;
   }
   if (stills && std::any_of(jobs.begin(), jobs.end(), has_net))
     phases.push_back({"drawing shells over nets",
-                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
+                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset), true});
   if (stills && std::any_of(jobs.begin(), jobs.end(), is_pushed))
     phases.push_back({"drawing point loads",
-                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)});
+                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset), true});
   return phases;
 }
 

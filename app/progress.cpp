@@ -108,8 +108,9 @@ void Progress::stop_if_asked() {
     interrupted_at_ = Clock::now();
     if (!watches_.empty()) watches_.back()->cancel();
   }
-  // a long frame does not listen: what is finished is whole, so the program may end
-  if (interrupted_ && seconds_since(interrupted_at_) > 0.7) {
+  // what is finished is whole, so the program may end
+  const bool draws = !watches_.empty() && phases_[watches_.size() - 1].draws;
+  if (interrupted_ && draws && seconds_since(interrupted_at_) > 0.7) {
     if (bar_open_) std::fputs("\r\033[K", stderr);
     try {
       last_words_();

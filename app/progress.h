@@ -19,6 +19,8 @@ namespace gridshell::app {
 struct Phase {
   std::string label;
   double expected_seconds = 1;
+  /// pictures: one is drawn in a piece and does not listen, so the program may end in its middle
+  bool draws = false;
 };
 
 /// How far the work is, for a bar or a line.
@@ -36,8 +38,8 @@ Standing standing(const std::vector<Phase>& phases, std::size_t current, double 
 std::string bar_text(const Standing& standing, const std::string& label, int width);
 
 /// Watches phases from a thread of its own: shows progress on stderr (a bar on a terminal, a line a
-/// tenth elsewhere), passes an interrupt on to the current phase's Watch, and where the work does
-/// not answer in time ends the program.
+/// tenth elsewhere), and passes an interrupt on to the current phase's Watch. Where a picture takes
+/// longer than that may wait, it ends the program.
 class Progress {
  public:
   enum class Show { nothing, lines, bar };

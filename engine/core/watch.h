@@ -26,4 +26,7 @@ class Watch {
   std::atomic<double> progress_{0.0};
 };
 
+/// For work that nobody stops.
+inline const Watch unwatched;
+
 }  // namespace gridshell

@@ -55,8 +55,7 @@ Result<Checkpoint> begin_from_flat(Course& course, const Watch& watch) {
     if (first->end != Outcome::reached) continue;
     const std::vector<Leg> before = std::exchange(course.legs, {});
     Checkpoint start = course.session.save();
-    const bool connected =
-        follow_back(course, {.wanted = false, .through_unstable = true}, watch);
+    const bool connected = follow_back(course, {.wanted = false, .through_unstable = true}, watch);
     if (connected || !found)
       found = std::move(start);
     else

@@ -72,8 +72,8 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
   for (int asked = 0; asked < most_leaders && course.eventful(); ++asked) {
     const auto plan = with_finer_leader(course.session.shell().plan());
     if (!plan || !fits_memory(scene, *plan)) {
-      course.doubt = fmt::format("no mesh finer than {} edges a segment led to confirm it",
-                                 leader_of(course));
+      course.doubt =
+          fmt::format("no mesh finer than {} edges a segment led to confirm it", leader_of(course));
       return course;
     }
     auto fine = follow(*plan, watch);
@@ -92,9 +92,8 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
     }
     fine->session.charge(course.session.effort());
     fine->seconds_setup += course.seconds_setup;
-    fine->doubt =
-        fmt::format("leading meshes of {} and {} edges a segment do not agree: {}",
-                    leader_of(course), leader_of(*fine), *differs);
+    fine->doubt = fmt::format("leading meshes of {} and {} edges a segment do not agree: {}",
+                              leader_of(course), leader_of(*fine), *differs);
     course = std::move(*fine);
     if (!course.eventful()) course.doubt.clear();
   }

@@ -66,19 +66,21 @@ Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& 
   for (;;) {
     if (auto fits = fits_memory(scene, plan); !fits) return tl::unexpected<Error>(fits.error());
     auto course = follow(plan, watch);
-    if (!course) return course;
+    if (!course || watch.cancelled()) return course;
     course->seconds_setup += setup;
     course->session.charge(spent);
     const double worst = worst_estimate_mm(*course);
     if (asked) return course;
     if (!(worst > allowed)) return confirmed(scene, std::move(*course), follow, watch);
     const auto next = finer(plan);
-    if (!next)
-      return fail(Fault::no_equilibrium,
-                  fmt::format("the tolerance {:g} is not met: {} edges a segment leave an "
-                              "estimated error of {:.2g} mm, {:.2g} of the length scale",
-                              scene.tolerance, plan.edges_per_segment.back(), worst,
-                              worst / scene.length_scale_mm));
+    const auto fits = next ? fits_memory(scene, *next) : Result<void>{};
+    if (!next || !fits)
+      return fail(
+          Fault::no_equilibrium,
+          fmt::format("the tolerance {:g} is not met: {} edges a segment leave an "
+                      "estimated error of {:.2g} mm, {:.2g} of the length scale{}",
+                      scene.tolerance, plan.edges_per_segment.back(), worst,
+                      worst / scene.length_scale_mm, fits ? "" : "; " + fits.error().message));
     plan = *next;
     spent = course->session.effort();
     setup = course->seconds_setup;

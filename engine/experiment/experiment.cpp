@@ -42,10 +42,13 @@ std::vector<double> even_samples(const preset::Preset& preset, bool stills) {
   return progress;
 }
 
-/// Passes frames on, and keeps the layout and the last frame for the summary.
+Error stopped() { return {Fault::cancelled, "stopped"}; }
+
+/// Passes frames on, and keeps the layout and the last frame for the summary. What solvers say once
+/// they were stopped holds for nothing, so no frame passes after that.
 class LastFrame final : public record::Sink {
  public:
-  explicit LastFrame(record::Sink& next) : next_(next) {}
+  LastFrame(record::Sink& next, const Watch& watch) : next_(next), watch_(watch) {}
   Result<void> begin(record::Layout layout) override {
     net_joints_ = layout.net_nodes.leftCols(
         std::min(layout.net_nodes.cols(), Eigen::Index(layout.joints.size())));
@@ -54,6 +57,7 @@ class LastFrame final : public record::Sink {
     return next_.begin(std::move(layout));
   }
   Result<void> take(record::Frame frame) override {
+    if (watch_.cancelled()) return tl::unexpected<Error>(stopped());
     if (!frame_ || frame.index >= frame_->index) frame_ = frame;
     return next_.take(std::move(frame));
   }
@@ -63,6 +67,7 @@ class LastFrame final : public record::Sink {
 
  private:
   record::Sink& next_;
+  const Watch& watch_;
   std::optional<record::Frame> frame_;
   Eigen::Matrix3Xd net_joints_;
   double scale_mm_ = 1;
@@ -197,6 +202,7 @@ Result<void> follow(const preset::Preset& preset, std::shared_ptr<const Scene> s
       preset.indentation.wanted()
           ? run_indentation(scene, preset.indentation, even_samples(preset, stills), sink, watch)
           : run_actuation(scene, samples_of(preset, stills), sink, watch);
+  if (watch.cancelled()) return tl::unexpected<Error>(stopped());
   if (!course) return tl::unexpected<Error>(course.error());
   if (!sink.frame())
     return fail(Fault::no_equilibrium, "no frame was certified: " + course->limit_reason);
@@ -213,7 +219,7 @@ Result<record::Summary> run(const preset::Preset& preset, bool stills, record::S
   auto built = scene_of(preset);
   if (!built) return tl::unexpected<Error>(built.error());
   const auto scene = std::make_shared<const Scene>(std::move(*built));
-  LastFrame seen(sink);
+  LastFrame seen(sink, watch);
   record::Summary summary;
   if (scene->rung != preset::Rung::net) {
     const auto followed = follow(preset, scene, stills, seen, watch, summary);

@@ -101,7 +101,7 @@ At at_depth(double depth_mm) {
 }
 
 /// Where the path that was lost turns back, as the arc length says.
-std::string turning_back(Session& session, const Leg& leg, double depth_mm) {
+std::string turning_back(Session& session, const Leg& leg, double depth_mm, const Watch& watch) {
   const Event& event = leg.report.events.front();
   const Station* last = nullptr;
   for (const Station& station : leg.trail.stations)
@@ -109,13 +109,13 @@ std::string turning_back(Session& session, const Leg& leg, double depth_mm) {
   if (!last) return {};
   const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
   const auto turn = turning_point(session.shell().system(0), session.shell().motion(0), last->point,
-                                  leg.way(), fine);
+                                  leg.way(), fine, watch);
   return turn ? fmt::format(" (its path turns back at {:.3f} mm)", *turn * depth_mm)
               : std::string();
 }
 
 /// Why the push stopped, or what it came past: the first leg to which anything happened.
-void tell(Pushed& pushed) {
+void tell(Pushed& pushed, const Watch& watch) {
   Course& course = pushed.course;
   const At at = at_depth(pushed.depth_mm);
   tell_limit(course, at);
@@ -131,7 +131,7 @@ void tell(Pushed& pushed) {
     reason = fmt::format(
         "held at the joint, the shell lost its {} {}{} and came to rest in another state",
         first.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
-        at(first.t, first.error), turning_back(course.session, leg, pushed.depth_mm));
+        at(first.t, first.error), turning_back(course.session, leg, pushed.depth_mm, watch));
   const double strain = leg.report.certificate.largest_strain;
   if (course.limit == record::Limit::locking && strain > 0)
     reason =
@@ -224,7 +224,7 @@ Result<Course> run_indentation(std::shared_ptr<const Scene> scene,
   if (!course) return course;
   Pushed* kept = &tried.at(course->session.shell().plan().edges_per_segment);
   kept->course = std::move(*course);
-  tell(*kept);
+  tell(*kept, watch);
   auto layout = layout_of(*scene, kept->course.session.shell().finest());
   if (!layout) return tl::unexpected<Error>(layout.error());
   layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};

@@ -31,6 +31,10 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   std::string best;
   int least = std::max<int>(1, int(word.size()) / 3) + 1;
   for (const auto& name : known) {
+    // a word of a million letters is not looked at letter by letter
+    const auto longer = std::max(word.size(), name.size()),
+               shorter = std::min(word.size(), name.size());
+    if (longer - shorter >= std::size_t(least)) continue;
     const int distance = edit_distance(word, name);
     if (distance < least) {
       least = distance;

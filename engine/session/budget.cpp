@@ -45,7 +45,7 @@ Result<void> fits_memory(const Scene& scene, const LevelPlan& plan) {
                             : "half of the machine's memory ([accuracy] "
                               "memory_GB changes that)",
                   scene.edges_per_segment > 0 ? "a smaller [accuracy] edges_per_segment"
-                                                        : "a larger [accuracy] tolerance"));
+                                              : "a larger [accuracy] tolerance"));
 }
 
 }  // namespace gridshell

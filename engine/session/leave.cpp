@@ -57,13 +57,16 @@ Result<State> rest_beyond(NestedShell& shell, const Scene& scene, const PathPoin
   if (!scene.snap.wanted) return leave_branch(system, motion, last, there, departure, watch);
   motion.load_up(system, last.t);
   system.at(last.state, false);
-  const Eigen::Matrix3Xd mode = softest_mode(system, departure.start);
+  const Eigen::Matrix3Xd mode = softest_mode(system, departure.start, watch);
   State state = last.state;
   motion.impose(system, there, state);
   auto moved = rest_in_time(
       shell, scene, pushed_off(system, state, mode, departure.side),
       {.still_N = 1e-4, .still_mJ = 1e-7},
-      [&](const MovingState& now) { moments.push_back({now.time, now.state}); }, watch);
+      [&](const MovingState& now) {
+        moments.push_back({now.time, now.state});
+      },
+      watch);
   if (!moved) return moved;
   if (minimise(system, *moved, {}, watch).outcome != Outcome::reached)
     return fail(Fault::no_equilibrium, "the motion did not end near a rest");

@@ -28,7 +28,6 @@ Result<State> rest_beyond(NestedShell& shell, const Scene& scene, const PathPoin
 /// Errors: as rest_beyond().
 Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& from,
                            const RestOptions& rest,
-                           const std::function<void(const MovingState&)>& seen,
-                           const Watch& watch);
+                           const std::function<void(const MovingState&)>& seen, const Watch& watch);
 
 }  // namespace gridshell

@@ -27,13 +27,13 @@ void ArcFollower::take_tangent(ArcPoint& at, const State* before, double before_
   turn_t_ = 1 / length;
 }
 
-Outcome ArcFollower::start(double t, State state, double direction) {
+Outcome ArcFollower::start(double t, State state, double direction, const Watch& watch) {
   now_.point.t = t;
   now_.point.state = std::move(state);
   motion_.impose(system_, t, now_.point.state);
   NewtonOptions options;
   options.tolerance_mm = options_.tolerance_mm;
-  const NewtonReport report = newton(system_, now_.point.state, options);
+  const NewtonReport report = newton(system_, now_.point.state, options, watch);
   if (report.outcome != Outcome::reached) return report.outcome;
   now_.inertia = system_.at(now_.point.state);
   if (!now_.inertia.usable) return Outcome::not_finite;
@@ -42,12 +42,13 @@ Outcome ArcFollower::start(double t, State state, double direction) {
 }
 
 /// Newton on positions and parameter, at right angles to the tangent of the point before.
-bool ArcFollower::corrected(ArcPoint& next, int& iterations) {
+bool ArcFollower::corrected(ArcPoint& next, int& iterations, const Watch& watch) {
   PathPoint& point = next.point;
   const State& tangent = now_.point.velocity;
   Eigen::Matrix3Xd dx;
   State with_t;
   for (iterations = 1; iterations <= most_corrections; ++iterations) {
+    if (watch.cancelled()) return false;
     motion_.impose(system_, point.t, point.state);
     next.inertia = system_.at(point.state);
     if (!next.inertia.usable) return false;
@@ -65,7 +66,7 @@ bool ArcFollower::corrected(ArcPoint& next, int& iterations) {
   return false;
 }
 
-Outcome ArcFollower::step() {
+Outcome ArcFollower::step(const Watch& watch) {
   for (; step_mm_ >= options_.smallest_mm; step_mm_ /= 2) {
     ArcPoint next;
     next.point.t = now_.point.t + step_mm_ * turn_t_;
@@ -74,7 +75,10 @@ Outcome ArcFollower::step() {
     move_to(system_.model(), now_.point.state.x + step_mm_ * now_.point.velocity.x,
             next.point.state);
     int iterations = 0;
-    if (!corrected(next, iterations)) continue;
+    if (!corrected(next, iterations, watch)) {
+      if (watch.cancelled()) return Outcome::cancelled;
+      continue;
+    }
     const State before = std::move(now_.point.velocity);
     const double before_t = turn_t_;
     take_tangent(next, &before, before_t);
@@ -88,13 +92,13 @@ Outcome ArcFollower::step() {
 
 std::optional<double> turning_point(Linearisation& system, const PinnedMotion& motion,
                                     const PathPoint& begin, double direction,
-                                    const ArcOptions& options) {
+                                    const ArcOptions& options, const Watch& watch) {
   constexpr int most_steps = 40;
   ArcFollower path(system, motion, options);
-  if (path.start(begin.t, begin.state, direction) != Outcome::reached) return std::nullopt;
+  if (path.start(begin.t, begin.state, direction, watch) != Outcome::reached) return std::nullopt;
   double farthest = begin.t;
   for (int k = 0; k < most_steps; ++k) {
-    if (path.step() != Outcome::reached) return std::nullopt;
+    if (path.step(watch) != Outcome::reached) return std::nullopt;
     const double t = path.at().point.t;
     if (direction * (t - farthest) < 0) return farthest;
     farthest = t;

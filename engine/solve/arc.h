@@ -33,16 +33,16 @@ class ArcFollower {
 
   /// Takes an equilibrium at t; the path goes on with t growing (direction 1) or falling (-1).
   /// Outcomes as newton().
-  Outcome start(double t, State state, double direction = 1);
+  Outcome start(double t, State state, double direction = 1, const Watch& watch = unwatched);
 
   /// One step, halved until it succeeds; lost where that ends in steps that are too small: the
   /// point is then the last good one.
-  Outcome step();
+  Outcome step(const Watch& watch = unwatched);
 
   const ArcPoint& at() const { return now_; }
 
  private:
-  bool corrected(ArcPoint& next, int& iterations);
+  bool corrected(ArcPoint& next, int& iterations, const Watch& watch);
   double product(const State& a, double at, const State& b, double bt) const;
   void take_tangent(ArcPoint& at, const State* before, double before_t);
 
@@ -55,10 +55,10 @@ class ArcFollower {
 };
 
 /// Where the path from the equilibrium `begin` turns back: its farthest parameter in `direction`,
-/// looked for over some steps. Empty when it goes on (what was lost is stability, at a bifurcation)
-/// or cannot be followed.
+/// looked for over some steps. Empty when it goes on (what was lost is stability, at a
+/// bifurcation), cannot be followed, or is no longer wanted.
 std::optional<double> turning_point(Linearisation& system, const PinnedMotion& motion,
                                     const PathPoint& begin, double direction,
-                                    const ArcOptions& options);
+                                    const ArcOptions& options, const Watch& watch);
 
 }  // namespace gridshell

@@ -41,9 +41,10 @@ double DampedMotion::residual(const State& state) { return largest_column(forces
 
 /// Newton's method for dE/dx + stiffness m (x - aim) = force, from the state.
 bool DampedMotion::implicit(const Eigen::Matrix3Xd& aim, const Eigen::Matrix3Xd& force,
-                            double stiffness, State& state) {
+                            double stiffness, State& state, const Watch& watch) {
   Eigen::Matrix3Xd dx;
   for (int iteration = 0; iteration < options_.most_iterations; ++iteration) {
+    if (watch.cancelled()) return false;
     assemble_hessian(model_, state, outside_, {}, assembly_);
     if (!std::isfinite(assembly_.energies.total()) || assembly_.smallest_cosine < -0.9)
       return false;
@@ -65,7 +66,7 @@ bool DampedMotion::implicit(const Eigen::Matrix3Xd& aim, const Eigen::Matrix3Xd&
   return false;
 }
 
-bool DampedMotion::step(MovingState& moving) {
+bool DampedMotion::step(MovingState& moving, const Watch& watch) {
   const double h = options_.step_s, c = options_.damping_per_s;
   const double w = (1 - M_SQRT1_2) * h, stiffness = 1 / (w * w) + c / w;
   const Eigen::Matrix3Xd &x0 = moving.state.x, &v0 = moving.velocity;
@@ -79,7 +80,7 @@ bool DampedMotion::step(MovingState& moving) {
 
   // m ((x1 - x0)/w^2 - 2 v0/w) + c m (x1 - x0)/w = F(x0) + F(x1)
   State first = predicted(moving.state, gamma * h * v0);
-  if (!implicit(x0, forces(moving.state) + mass_.cwiseProduct(2 / w * v0), stiffness, first))
+  if (!implicit(x0, forces(moving.state) + mass_.cwiseProduct(2 / w * v0), stiffness, first, watch))
     return false;
   const Eigen::Matrix3Xd& x1 = first.x;
   const Eigen::Matrix3Xd v1 = (x1 - x0) / w - v0;
@@ -88,7 +89,7 @@ bool DampedMotion::step(MovingState& moving) {
   const double a = 1 / (gamma * (2 - gamma)), b = (1 - gamma) * (1 - gamma) * a;
   const Eigen::Matrix3Xd X = a * x1 - b * x0, V = a * v1 - b * v0;
   State second = predicted(first, (1 - gamma) * h * v1);
-  if (!implicit(X, mass_.cwiseProduct(V / w), stiffness, second)) return false;
+  if (!implicit(X, mass_.cwiseProduct(V / w), stiffness, second, watch)) return false;
   moving.velocity = (second.x - X) / w;
   clear_held(model_, moving.velocity);
   moving.state = std::move(second);
@@ -107,7 +108,7 @@ Result<void> DampedMotion::settle(MovingState& moving, const RestOptions& rest,
   } back{options_.step_s, wanted};
   while (moving.time < end) {
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while a snap came to rest");
-    if (!step(moving)) {
+    if (!step(moving, watch)) {
       options_.step_s /= 2;
       if (options_.step_s < 1e-6 * wanted)
         return fail(Fault::no_equilibrium,

@@ -28,8 +28,8 @@ class DampedMotion {
   DampedMotion(const Model& model, Eigen::Matrix3Xd mass, const DynamicsOptions& options,
                const Outside& outside = {}, std::vector<Hold> holds = {});
 
-  /// One step; on failure (false) the motion is unchanged.
-  bool step(MovingState& moving);
+  /// One step; on failure (false), also of one that is stopped, the motion is unchanged.
+  bool step(MovingState& moving, const Watch& watch = unwatched);
 
   /// Steps to rest; one that fails is halved, good ones grow again. `seen` is called after each.
   /// Errors: no_equilibrium (not at rest in time, or a step too small), cancelled.
@@ -42,7 +42,7 @@ class DampedMotion {
 
  private:
   bool implicit(const Eigen::Matrix3Xd& aim, const Eigen::Matrix3Xd& force, double stiffness,
-                State& state);
+                State& state, const Watch& watch);
   Eigen::Matrix3Xd forces(const State& state);
   void clear_prescribed(Eigen::Matrix3Xd& v) const;
 

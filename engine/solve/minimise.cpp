@@ -9,8 +9,8 @@ namespace {
 /// The way down: what changes between its steps.
 class Descent {
  public:
-  Descent(Linearisation& system, State& state, const MinimiseOptions& options)
-      : system_(system), state_(state), options_(options) {}
+  Descent(Linearisation& system, State& state, const MinimiseOptions& options, const Watch& watch)
+      : system_(system), state_(state), options_(options), watch_(watch) {}
 
   /// Factorises the mixed form at the state, or what is near it and positive definite.
   Inertia factorise() {
@@ -24,14 +24,14 @@ class Descent {
         shift_ = 0;
         return inertia;
       }
-      if (weakening_ >= 1) break;
+      if (weakening_ >= 1 || watch_.cancelled()) break;
       weakening_ = weakening_ == 0 ? 0.1 : 1.0;
     }
     Inertia inertia;
     do {
       shift_ = std::max(4 * shift_, 1e-6);
       inertia = system_.shifted(shift_);
-    } while (!inertia.positive_definite() && shift_ < 1e8);
+    } while (!inertia.positive_definite() && shift_ < 1e8 && !watch_.cancelled());
     return inertia;
   }
 
@@ -68,6 +68,7 @@ class Descent {
   Linearisation& system_;
   State& state_;
   const MinimiseOptions& options_;
+  const Watch& watch_;
   State trial_;
   double weakening_ = 0, shift_ = 0;
 };
@@ -86,7 +87,7 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
                       const Watch& watch) {
   NewtonReport report;
   Eigen::Matrix3Xd dx;
-  Descent descent(system, state, options);
+  Descent descent(system, state, options, watch);
   for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
     if (watch.cancelled()) {
       report.outcome = Outcome::cancelled;
@@ -97,7 +98,7 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
     system.correction(dx);
     const double move = largest_column(dx);
     if (!report.inertia.positive_definite() || !std::isfinite(move)) {
-      report.outcome = Outcome::not_finite;
+      report.outcome = watch.cancelled() ? Outcome::cancelled : Outcome::not_finite;
       return report;
     }
     if (report.iterations == 1) report.first_move_mm = move;

@@ -135,14 +135,14 @@ void NestedShell::forget() {
   for (auto& level : levels_) level->added.clear();
 }
 
-NestedReport NestedShell::place(double t, const State& coarse) {
+NestedReport NestedShell::place(double t, const State& coarse, const Watch& watch) {
   forget();
   path_->allow_unstable(options_.allow_unstable);
-  return {path_->start(t, coarse).end, t};
+  return {path_->start(t, coarse, watch).end, t};
 }
 
 NestedReport NestedShell::start(double t, const State& coarse, const Watch& watch) {
-  const NestedReport report = place(t, coarse);
+  const NestedReport report = place(t, coarse, watch);
   if (report.end != Outcome::reached) return report;
   return certify(t, path_->point(), path_->last(), watch);
 }
@@ -213,11 +213,12 @@ void NestedShell::remember(Level& level, double t, const State& base, const Stat
   if (level.added.size() > 2) level.added.erase(level.added.begin());
 }
 
-bool NestedShell::correct(Level& level, const State& coarser, State& state, NewtonReport& report) {
+bool NestedShell::correct(Level& level, const State& coarser, State& state, NewtonReport& report,
+                          const Watch& watch) {
   NewtonOptions options;
   options.tolerance_mm = options_.tolerance_mm;
   options.widest_turn = options_.widest_turn;
-  report = newton(*level.system, state, options);
+  report = newton(*level.system, state, options, watch);
   if (report.outcome != Outcome::reached) return false;
   // a finer mesh moves the joints by less than a cell, or it went to another state
   const int joints = level.mesh.joints;
@@ -261,13 +262,13 @@ bool NestedShell::refine(std::size_t k, double t, const State& coarser, State& s
   const State base = level.from_coarser->carry(coarser);
   state = guess(level, k, t, base);
   level.motion.impose(*level.system, t, state);
-  bool found = correct(level, coarser, state, report);
+  bool found = correct(level, coarser, state, report, watch);
   for (bool down : {false, true}) {
     if (found || watch.cancelled()) break;
     state = base;
     level.motion.impose(*level.system, t, state);
     if (down) minimise(*level.system, state, {.most_iterations = 60}, watch);
-    found = correct(level, coarser, state, report);
+    found = correct(level, coarser, state, report, watch);
   }
   if (found) remember(level, t, base, state);
   return found;

@@ -58,7 +58,7 @@ class NestedShell {
   NestedReport start(double t, const State& coarse, const Watch& watch);
   /// The same without a certificate: only the coarsest level is brought to rest, to follow the path
   /// on.
-  NestedReport place(double t, const State& coarse);
+  NestedReport place(double t, const State& coarse, const Watch& watch = unwatched);
   /// Follows the path to t and certifies there. The current state stays the last good one on
   /// failure.
   NestedReport advance(double t, const Watch& watch);
@@ -131,7 +131,8 @@ class NestedShell {
   State guess(const Level& level, std::size_t k, double t, const State& base) const;
   bool refine(std::size_t k, double t, const State& coarser, State& state, NewtonReport& report,
               const Watch& watch);
-  bool correct(Level& level, const State& coarser, State& state, NewtonReport& report);
+  bool correct(Level& level, const State& coarser, State& state, NewtonReport& report,
+               const Watch& watch);
   void remember(Level& level, double t, const State& base, const State& state);
   void finish(const NewtonReport& report);
   void polish(Level& finest, State& found);

@@ -5,7 +5,8 @@
 
 namespace gridshell {
 
-NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& options) {
+NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& options,
+                    const Watch& watch) {
   NewtonReport report;
   Eigen::Matrix3Xd dx;
   const auto end = [&](Outcome outcome) {
@@ -15,6 +16,7 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
   bool factor = true;
   double before = 0;
   for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
+    if (watch.cancelled()) return end(Outcome::cancelled);
     if (factor)
       report.inertia = system.at(state);
     else

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/outcome.h"
+#include "engine/core/watch.h"
 #include "engine/solve/linearisation.h"
 
 namespace gridshell {
@@ -19,9 +20,10 @@ struct NewtonOptions {
 };
 
 struct NewtonReport {
-  Outcome outcome = Outcome::not_converged;  ///< reached, folded, lost, not_finite, not_converged
-  int iterations = 0;        ///< corrections, with a new factorisation or an old one
-  double first_move_mm = 0;  ///< of the first correction: how good the guess was
+  Outcome outcome =
+      Outcome::not_converged;  ///< reached, folded, lost, not_finite, not_converged, cancelled
+  int iterations = 0;          ///< corrections, with a new factorisation or an old one
+  double first_move_mm = 0;    ///< of the first correction: how good the guess was
   double last_move_mm = 0;
   double factored_move_mm =
       0;            ///< since the last factorisation, the first correction with it included
@@ -30,7 +32,8 @@ struct NewtonReport {
 
 /// Full mixed Newton steps from `state`, what is held held; a factorisation is used again for as
 /// long as its corrections shrink tenfold. On success `state` is the equilibrium, else it is the
-/// last iterate and the report says what happened.
-NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& options);
+/// last iterate and the report says what happened. A cancel is answered between corrections.
+NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& options,
+                    const Watch& watch = unwatched);
 
 }  // namespace gridshell

@@ -9,18 +9,17 @@ void PathFollower::take_velocity(PathPoint& point) {
   motion_.velocity(system_, point.t, point.state, point.velocity);
 }
 
-PathReport PathFollower::start(double t, State state) {
+PathReport PathFollower::start(double t, State state, const Watch& watch) {
   PathReport report;
   // from the same point the same path, whatever was followed before
   has_before_ = false;
   step_ = first_step;
-  now_.t = t;
-  now_.state = std::move(state);
+  now_ = {t, std::move(state), {}};
   NewtonOptions options;
   options.tolerance_mm = options_.tolerance_mm;
   options.widest_turn = options_.widest_turn;
   motion_.load_up(system_, t);
-  report.last = newton(system_, now_.state, options);
+  report.last = newton(system_, now_.state, options, watch);
   report.t = t;
   last_ = report.last;
   report.end = report.last.outcome;
@@ -37,6 +36,11 @@ State PathFollower::predict(double t) const {
   // the change of the tangent since the point before gives the curvature of the path
   const double bend = has_before_ ? 0.5 * h * h / (now_.t - before_.t) : 0.0;
   State guess = now_.state;
+  // a start that failed knows no tangent
+  if (now_.velocity.x.size() == 0) {
+    motion_.impose(system_, t, guess);
+    return guess;
+  }
   guess.force += h * now_.velocity.force;
   Eigen::Matrix3Xd x = guess.x + h * now_.velocity.x;
   if (has_before_) {
@@ -48,7 +52,7 @@ State PathFollower::predict(double t) const {
   return guess;
 }
 
-Outcome PathFollower::step(double t, bool converge, NewtonReport& report) {
+Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const Watch& watch) {
   PathPoint next;
   next.t = t;
   next.state = predict(t);
@@ -62,14 +66,14 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report) {
   newton_options.farthest_mm = allowed;
   newton_options.trust_quadratic = true;
   newton_options.widest_turn = options_.widest_turn;
-  report = newton(system_, next.state, newton_options);
+  report = newton(system_, next.state, newton_options, watch);
   if (report.outcome != Outcome::reached)
     return report.outcome == Outcome::not_converged ? Outcome::lost : report.outcome;
   if (!options_.allow_unstable && !report.inertia.positive_definite()) return Outcome::unstable;
   take_velocity(next);
   last_ = report;
   before_ = std::move(now_);
-  has_before_ = true;
+  has_before_ = before_.velocity.x.size() > 0;
   now_ = std::move(next);
   return Outcome::reached;
 }
@@ -87,7 +91,7 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     double h = std::min({step_, options_.largest_step, std::abs(left)});
     if (h < std::abs(left) && 2 * h > std::abs(left)) h = std::abs(left) / 2;
     const double target = h == std::abs(left) ? t : now_.t + std::copysign(h, left);
-    const Outcome outcome = step(target, target == t, report.last);
+    const Outcome outcome = step(target, target == t, report.last, watch);
     ++report.steps;
     if (outcome == Outcome::reached) {
       report.t = now_.t;

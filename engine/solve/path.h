@@ -44,7 +44,7 @@ class PathFollower {
 
   /// Takes an equilibrium at t and works out its tangent. The state is first corrected to
   /// tolerance.
-  PathReport start(double t, State state);
+  PathReport start(double t, State state, const Watch& watch = unwatched);
 
   /// Follows the path to t and converges there. On failure the current point is the last good one.
   PathReport advance(double t, const Watch& watch);
@@ -64,7 +64,7 @@ class PathFollower {
   const PinnedMotion& motion() const { return motion_; }
 
  private:
-  Outcome step(double t, bool converge, NewtonReport& report);
+  Outcome step(double t, bool converge, NewtonReport& report, const Watch& watch);
   void take_velocity(PathPoint& point);
 
   Linearisation& system_;

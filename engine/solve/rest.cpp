@@ -24,9 +24,11 @@ Eigen::Matrix3Xd any_direction(Eigen::Index columns) {
 
 }  // namespace
 
-Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& start) {
+Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& start,
+                              const Watch& watch) {
   double shift = 1e-6;
-  while (!system.shifted(shift).positive_definite() && shift < 1e6) shift *= 4;
+  while (!system.shifted(shift).positive_definite() && shift < 1e6 && !watch.cancelled())
+    shift *= 4;
   Eigen::Matrix3Xd mode = start.size() > 0 ? start : any_direction(system.model().columns());
   for (int k = 0; k < 20; ++k) {
     system.solve(mode);
@@ -43,7 +45,7 @@ Result<State> rest_below(Linearisation& system, State state, const Watch& watch,
   // nothing moves any more, but a mode without stiffness keeps it from being a minimum
   if (down.outcome == Outcome::not_converged && down.last_move_mm < 1e-3) {
     system.at(state, false);
-    return settle(system, state, softest_mode(system, departure.start), departure, watch);
+    return settle(system, state, softest_mode(system, departure.start, watch), departure, watch);
   }
   return fail(Fault::no_equilibrium,
               fmt::format("no equilibrium after {} iterations; the last moved a node by {:.2g} mm",
@@ -56,7 +58,7 @@ Result<State> rest_near(Linearisation& system, const State& state, double farthe
   NewtonOptions options;
   options.farthest_mm = farthest_mm;
   options.tolerance_mm = 1e-7;
-  const NewtonReport report = newton(system, found, options);
+  const NewtonReport report = newton(system, found, options, watch);
   if (report.outcome == Outcome::reached && system.at(found, false).positive_definite())
     return found;
   return rest_below(system, state, watch);
@@ -103,7 +105,7 @@ Result<State> leave_branch(Linearisation& system, const PinnedMotion& motion, co
                            double beyond, const Departure& departure, const Watch& watch) {
   motion.load_up(system, last.t);
   system.at(last.state, false);
-  const Eigen::Matrix3Xd mode = softest_mode(system, departure.start);
+  const Eigen::Matrix3Xd mode = softest_mode(system, departure.start, watch);
   State state = last.state;
   motion.impose(system, beyond, state);
   return settle(system, state, mode, departure, watch);

@@ -21,9 +21,10 @@ struct Departure {
 };
 
 /// Softest mode of the Hessian last assembled in `system` by inverse iteration from `start` (empty:
-/// any): unit vector over all columns, zero at what is held. Its side, and the mixture where several
-/// modes are equally soft, are those of the start's projection on them.
-Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& start = {});
+/// any): unit vector over all columns, zero at what is held. Its side, and the mixture where
+/// several modes are equally soft, are those of the start's projection on them.
+Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& start,
+                              const Watch& watch);
 
 /// From `state` to rest near it: full Newton steps that move no node further than `farthest_mm` and
 /// end in a minimum, else down the energy, else off a saddle along its softest mode. Errors:

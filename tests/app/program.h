@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,16 +19,18 @@
 struct Ended {
   int code = 0;  ///< exit code; 128 + n when signal n ended it
   std::string out, err;
+  double peak_MB = 0;  ///< of memory
 };
 
 /// A run of `gridshell ARGUMENTS` that has begun, with `folder` as its working directory.
 class Running {
  public:
-  Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder)
+  Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+          const char* program = GRIDSHELL_PROGRAM)
       : folder_(folder) {
     pid_ = fork();
     if (pid_ != 0) return;
-    std::vector<char*> words{const_cast<char*>(GRIDSHELL_PROGRAM)};
+    std::vector<char*> words{const_cast<char*>(program)};
     for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
     words.push_back(nullptr);
     const bool ready = chdir(folder.c_str()) == 0 && divert("stdout.txt", STDOUT_FILENO) &&
@@ -38,11 +41,37 @@ class Running {
 
   void signal(int number) const { kill(pid_, number); }
 
+  /// Waits until it has taken signals into its own hands: before its first line nobody can.
+  void until_it_listens() const {
+    const auto about = "/proc/" + std::to_string(pid_) + "/status";
+    for (int k = 0; k < 1000; ++k) {
+      std::ifstream lines(about);
+      for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("SigCgt:") && std::stoull(line.substr(7), nullptr, 16) >> 1 & 1)
+          return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  /// Whether it ends within so many seconds; it is not waited for by that.
+  bool ends_within(double seconds) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    for (;;) {
+      siginfo_t about{};
+      waitid(P_PID, id_t(pid_), &about, WEXITED | WNOHANG | WNOWAIT);
+      if (about.si_pid == pid_) return true;
+      if (std::chrono::steady_clock::now() > end) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+
   Ended wait() const {
     int status = 0;
-    waitpid(pid_, &status, 0);
+    rusage used{};
+    wait4(pid_, &status, 0, &used);
     Ended ended;
     ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    ended.peak_MB = double(used.ru_maxrss) / 1024;
     ended.out = take("stdout.txt");
     ended.err = take("stderr.txt");
     return ended;

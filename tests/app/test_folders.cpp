@@ -3,13 +3,11 @@
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "engine/core/atomic_file.h"
-#include "engine/record/journal.h"
-#include "engine/record/trajectory_file.h"
 #include "render/image/png.h"
 #include "tests/app/program.h"
+#include "tests/app/unfinished_run.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
@@ -55,19 +53,6 @@ int shell(const Bench& bench, const std::string& line) {
                      "' \"$@\"; } && " + line;
   const int status = std::system(whole.c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
-// the journal that a run would have left when it was killed after `count` frames
-void cut_short(const fs::path& whole, const fs::path& partial, std::size_t count,
-               gridshell::record::Kind kind = gridshell::record::Kind::run) {
-  const auto run = gridshell::record::read_trajectory(whole / "trajectory.h5");
-  REQUIRE(run);
-  fs::create_directories(partial);
-  fs::copy_file(whole / "preset.toml", partial / "preset.toml");
-  auto journal = gridshell::record::JournalWriter::create(partial / gridshell::record::journal_name,
-                                                          {"small", kind}, run->layout);
-  REQUIRE(journal);
-  for (std::size_t k = 0; k < count; ++k) REQUIRE(journal->append(std::as_const(run->frames)[k]));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 
+#include "engine/core/atomic_file.h"
+#include "engine/record/journal.h"
 #include "render/image/png.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
@@ -96,6 +98,34 @@ TEST_CASE("a killed movie leaves no half file, and the run before it stays") {
   check_all_whole(folder.path());
   CHECK(fs::last_write_time(folder.path() / "out/s1_actuation/summary.json") == before);
   CHECK_FALSE(fs::exists(folder.path() / "out/s1_actuation/frames"));
+}
+
+TEST_CASE("of a run that is killed near its end nearly all frames are drawn", "[full]") {
+  const TemporaryFolder folder;
+  const Running running({"run", "s1_actuation", "--frames", "60", "--quiet", "--set",
+                         "accuracy.edges_per_segment=16", "-o", "run"},
+                        folder.path());
+  fs::path partial;
+  REQUIRE(wait_until([&] {
+    const auto journals = files_under(folder.path(), gridshell::record::journal_name);
+    if (journals.empty()) return false;
+    partial = journals.front().parent_path();
+    return gridshell::record::frames_in_journal(partial) >= 54;
+  }));
+  running.signal(SIGKILL);
+  CHECK(running.wait().code == 128 + SIGKILL);
+  CHECK_FALSE(fs::exists(folder.path() / "run"));
+  const auto frames = gridshell::record::frames_in_journal(partial);
+  CHECK(frames >= 54);
+  CHECK(frames < 60);
+  const auto drawn = gridshell_program({"render", partial.filename(), "-o", "drawn", "--size",
+                                        "64x48", "--quality", "draft", "--quiet"},
+                                       folder.path());
+  CHECK(drawn.code == 0);
+  CHECK_THAT(drawn.err, Catch::Contains("is not finished: " + std::to_string(frames) + " frames"));
+  CHECK(files_under(folder.path() / "drawn/frames", ".png").size() == frames);
+  CHECK_THAT(gridshell::read_whole(folder.path() / "drawn/summary.json").value(),
+             Catch::Contains("\"finished\": false"));
 }
 
 TEST_CASE("a full disk fails with 1 and leaves nothing half-written under a final name") {

@@ -150,6 +150,29 @@ TEST_CASE("something called summary.json makes no run") {
   CHECK_FALSE(StagedFolder::create(run));
 }
 
+TEST_CASE("whether a folder is a run is seen from its top, whatever lies below") {
+  const TemporaryFolder folder;
+  const auto top = folder.path() / "top";
+  SECTION("a tree that is too large to look through") {
+    // each folder of it stands in all others
+    for (const char* name : {"a", "b", "c", "d"}) {
+      REQUIRE(make_folder(top / name));
+      for (const char* other : {"a", "b", "c", "d"})
+        fs::create_directory_symlink(top / other, top / name / other);
+    }
+    CHECK_THAT(app::refusal_to_write(top), Catch::Contains("it exists and is no run"));
+  }
+  SECTION("one that says it is its own case") {
+    const auto name = GENERATE(".", "..", "");
+    REQUIRE(make_folder(top));
+    REQUIRE(
+        write_atomically(top / "summary.json",
+                         std::string(R"({"preset": "x", "cases": [{"name": ")") + name + "\"}]}"));
+    REQUIRE(write_atomically(top / "thesis.tex", "years of work"));
+    CHECK_THAT(app::refusal_to_write(top), Catch::Contains("'thesis.tex'"));
+  }
+}
+
 TEST_CASE("a run of version 0.1, which has no list of its files, may be replaced") {
   const TemporaryFolder folder;
   const auto run = folder.path() / "run";

@@ -8,7 +8,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
+#include <memory>
 #include <new>
+
+#include "engine/solve/linear_solver.h"
 
 namespace {
 
@@ -70,6 +74,39 @@ extern "C" int mkdir(const char* path, mode_t mode) {
   static const auto real = next<int (*)(const char*, mode_t)>("mkdir");
   if (fails(Call::mkdir)) return errno = EIO, -1;
   return real(path, mode);
+}
+
+namespace {
+
+using namespace gridshell;
+
+class FailingSolver final : public LinearSolver {
+ public:
+  explicit FailingSolver(std::unique_ptr<LinearSolver> real) : real_(std::move(real)) {}
+  Inertia factor(const BlockHessian& hessian, double shift) override {
+    const Inertia inertia = real_->factor(hessian, shift);
+    return fails(Call::factorisation) ? Inertia{} : inertia;
+  }
+  void solve(Eigen::Matrix3Xd& right_hand_side) const override {
+    real_->solve(right_hand_side);
+    if (fails(Call::solve)) right_hand_side.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  long long blocks() const override { return real_->blocks(); }
+
+ private:
+  std::unique_ptr<LinearSolver> real_;
+};
+
+}  // namespace
+
+// the linker (--wrap, tests/tests.cmake) leads every call of make_linear_solver here, and calls of
+// the second name to the real one
+std::unique_ptr<LinearSolver> real_linear_solver(const Model& model) __asm__(
+    "__real__ZN9gridshell18make_linear_solverERKNS_5ModelE");
+std::unique_ptr<LinearSolver> failing_linear_solver(const Model& model) __asm__(
+    "__wrap__ZN9gridshell18make_linear_solverERKNS_5ModelE");
+std::unique_ptr<LinearSolver> failing_linear_solver(const Model& model) {
+  return std::make_unique<FailingSolver>(real_linear_solver(model));
 }
 
 void* operator new(std::size_t size) {

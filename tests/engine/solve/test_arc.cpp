@@ -41,7 +41,8 @@ TEST_CASE("by arc length an arch is followed over the limit of its load and back
   const PinnedMotion motion{arch.x, Eigen::Matrix3Xd::Zero(3, model.nodes), Pace::even};
   ArcFollower path(system, motion, {.step_mm = 0.1, .largest_mm = 0.2, .parameter_mm = 20});
   const PathPoint begin{0, arch, {}};
-  const auto turn = turning_point(system, motion, begin, 1, {.step_mm = 0.5, .parameter_mm = 20});
+  const auto turn =
+      turning_point(system, motion, begin, 1, {.step_mm = 0.5, .parameter_mm = 20}, unwatched);
   REQUIRE(path.start(0, arch) == Outcome::reached);
   CHECK(path.at().inertia.positive_definite());
 

@@ -1,0 +1,169 @@
+// Which bits of a run are equal over what (engine/README.md, "The same bits").
+#include <gnu/libc-version.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <sstream>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/trajectory_file.h"
+#include "tests/app/program.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using gridshell::read_whole;
+
+namespace {
+
+struct Scene {
+  const char *kind, *preset;
+};
+// one of each kind, on coarse meshes
+constexpr Scene scenes[] = {{"circle", "s1_actuation"},    {"curve", "curve_ellipse"},
+                            {"cap", "fig3_hemisphere"},    {"revolution", "net_barrel"},
+                            {"assemblage", "fig5_peanut"}, {"push", "s3_pole_inward"},
+                            {"twist", "model_clamped"},    {"loads", "model_loads"}};
+
+// the C library's functions as they are on every x86-64, whichever this is
+class PlainLibrary {
+ public:
+  PlainLibrary() { setenv("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-AVX512F,-FMA,-FMA4", 1); }
+  ~PlainLibrary() { unsetenv("GLIBC_TUNABLES"); }
+  PlainLibrary(const PlainLibrary&) = delete;
+  PlainLibrary& operator=(const PlainLibrary&) = delete;
+};
+
+fs::path run(const Scene& scene, const fs::path& at, const std::string& name,
+             std::vector<std::string> more = {}, const char* program = GRIDSHELL_PROGRAM) {
+  std::vector<std::string> arguments{"run",     scene.preset, "--frames",
+                                     "3",       "--set",      "accuracy.edges_per_segment=4",
+                                     "--quiet", "-o",         name};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const auto ended = Running(arguments, at, program).wait();
+  INFO(scene.kind << ": " << ended.err);
+  REQUIRE(ended.code == 0);
+  return at / name;
+}
+
+// of all numbers of all frames, as its trajectory bears it
+std::string hash_of(const fs::path& run) {
+  const auto text = read_whole(run / "trajectory.h5").value();
+  const std::string before = "FNV-1a ";
+  const auto at = text.find(before);
+  REQUIRE(at < 200);
+  return text.substr(at + before.size(), 16);
+}
+
+#ifdef GRIDSHELL_BASELINE_PROGRAM
+constexpr bool has_clones = true;
+constexpr const char* baseline = GRIDSHELL_BASELINE_PROGRAM;
+bool runs_fast_clones() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+         __builtin_cpu_supports("bmi2");
+}
+#else
+constexpr bool has_clones = false;
+constexpr const char* baseline = GRIDSHELL_PROGRAM;
+bool runs_fast_clones() { return false; }
+#endif
+
+const fs::path table = fs::path(GRIDSHELL_SOURCE_DIR) / "tests/app/golden_hashes.txt";
+
+// what the hashes hang on besides the sources
+std::string made_with() {
+  return std::string("# ") + GRIDSHELL_BUILT_WITH + ", glibc " + gnu_get_libc_version() + "\n";
+}
+
+std::string hashes_now(const fs::path& at) {
+  const PlainLibrary library;
+  std::string lines;
+  for (const Scene& scene : scenes) {
+    const std::string kind = scene.kind;
+    lines += kind + " x86-64 " + hash_of(run(scene, at, kind + "_a", {}, baseline)) + "\n";
+    if (runs_fast_clones())
+      lines += kind + " x86-64-v3 " + hash_of(run(scene, at, kind + "_b")) + "\n";
+  }
+  return lines;
+}
+
+}  // namespace
+
+TEST_CASE("a run gives the same bits again, on any number of threads", "[full]") {
+  const TemporaryFolder folder;
+  for (const Scene& scene : scenes) {
+    INFO(scene.kind);
+    const auto first = hash_of(run(scene, folder.path(), "first"));
+    CHECK(hash_of(run(scene, folder.path(), "again", {"--threads", "1"})) == first);
+    CHECK(hash_of(run(scene, folder.path(), "again", {"--threads", "3"})) == first);
+  }
+}
+
+TEST_CASE("pictures have the same bits in every context", "[full]") {
+  const TemporaryFolder folder;
+  const auto draw = [&](const std::string& context) {
+    return gridshell_program(
+        {"movie", "s1_actuation", "--frames", "2", "--size", "160x90", "--quiet", "--set",
+         "accuracy.edges_per_segment=4", "--context", context, "-o", context},
+        folder.path());
+  };
+  REQUIRE(draw("osmesa").code == 0);
+  if (const auto other = draw("egl"); other.code != 0) {
+    WARN("no EGL here: " << other.err);
+    return;
+  }
+  const auto pictures = files_under(folder.path() / "osmesa", ".png");
+  REQUIRE(pictures.size() == 2);
+  for (const auto& picture : pictures) {
+    INFO(picture);
+    const auto other = folder.path() / "egl/frames" / picture.filename();
+    CHECK(read_whole(picture).value() == read_whole(other).value());
+  }
+  CHECK(hash_of(folder.path() / "osmesa") == hash_of(folder.path() / "egl"));
+}
+
+TEST_CASE("both clones of the code come to the same states", "[full]") {
+  if (!has_clones || !runs_fast_clones()) return;
+  const TemporaryFolder folder;
+  for (const Scene& scene : scenes) {
+    INFO(scene.kind);
+    const auto a = run(scene, folder.path(), "fast"),
+               b = run(scene, folder.path(), "plain", {}, baseline);
+    // else it is one clone that ran twice
+    CHECK(hash_of(a) != hash_of(b));
+    const auto fast = gridshell::record::read_trajectory(a / "trajectory.h5"),
+               plain = gridshell::record::read_trajectory(b / "trajectory.h5");
+    REQUIRE(fast);
+    REQUIRE(plain);
+    REQUIRE(fast->frames.size() == plain->frames.size());
+    for (std::size_t k = 0; k < fast->frames.size(); ++k) {
+      const gridshell::record::Frame &one = std::as_const(fast->frames)[k],
+                                     &two = std::as_const(plain->frames)[k];
+      CHECK((one.nodes - two.nodes).cwiseAbs().maxCoeff() < 1e-9 * fast->layout.length_scale_mm);
+      CHECK(one.energies.total() == Approx(two.energies.total()).epsilon(1e-9).margin(1e-9));
+      CHECK(one.negative_pivots == two.negative_pivots);
+    }
+  }
+}
+
+TEST_CASE("golden hashes of all kinds of runs", "[full]") {
+  const TemporaryFolder folder;
+  const auto now = hashes_now(folder.path());
+  if (std::getenv("GRIDSHELL_GOLDEN")) {
+    REQUIRE(has_clones);
+    REQUIRE(runs_fast_clones());
+    REQUIRE(gridshell::write_atomically(table, made_with() + now));
+    return;
+  }
+  const auto kept = read_whole(table).value();
+  if (!has_clones || !kept.starts_with(made_with())) {
+    WARN("not compared: the table was made with " << kept.substr(0, kept.find('\n')));
+    return;
+  }
+  INFO("If the change is meant: GRIDSHELL_GOLDEN=1 build/test_app \"golden hashes*\" writes\n"
+       << now);
+  std::istringstream lines(now);
+  for (std::string line; std::getline(lines, line);) {
+    INFO(line);
+    CHECK(kept.find(line + "\n") != std::string::npos);
+  }
+}

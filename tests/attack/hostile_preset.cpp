@@ -1,0 +1,284 @@
+#include "tests/attack/hostile_preset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "engine/core/atomic_file.h"
+#include "engine/preset/field_table.h"
+
+namespace fs = std::filesystem;
+using gridshell::preset::Field;
+
+namespace {
+
+using Lines = std::vector<std::string>;
+
+const std::vector<std::string>& shipped() {
+  static const auto texts = [] {
+    std::vector<std::string> names, all;
+    for (const auto& entry : fs::directory_iterator(fs::path(GRIDSHELL_SOURCE_DIR) / "presets"))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path());
+    std::sort(names.begin(), names.end());
+    for (const auto& name : names) all.push_back(gridshell::read_whole(name).value());
+    return all;
+  }();
+  return texts;
+}
+
+std::string repeated(const std::string& word, std::size_t count) {
+  std::string text;
+  for (std::size_t k = 0; k < count; ++k) text += word;
+  return text;
+}
+
+// what a number, a word or a list should never be
+std::string hostile_value(Draw& draw) {
+  static const std::vector<std::string> values{"0",
+                                               "-0.0",
+                                               "1",
+                                               "-1",
+                                               "2",
+                                               "3",
+                                               "7.5",
+                                               "1e-320",
+                                               "5e-324",
+                                               "1e-300",
+                                               "1e-160",
+                                               "1e-12",
+                                               "1e-5",
+                                               "0.499999",
+                                               "0.5",
+                                               "90",
+                                               "179.999",
+                                               "1e4",
+                                               "1e6",
+                                               "1e9",
+                                               "1e160",
+                                               "1e300",
+                                               "1e308",
+                                               "-1e308",
+                                               "nan",
+                                               "-nan",
+                                               "inf",
+                                               "-inf",
+                                               "2147483647",
+                                               "2147483648",
+                                               "-2147483649",
+                                               "9223372036854775807",
+                                               "9223372036854775808",
+                                               "99999999999999999999999",
+                                               "0x7fffffff",
+                                               "0b1010",
+                                               "1_000_000",
+                                               "true",
+                                               "false",
+                                               "2024-01-01",
+                                               "12:30:00",
+                                               "\"\"",
+                                               "\"x\"",
+                                               "\"nan\"",
+                                               "\"fifo\"",
+                                               "\"/dev/zero\"",
+                                               "\"/dev/stdin\"",
+                                               "\"/etc/passwd\"",
+                                               "\"../../x\"",
+                                               "\".\"",
+                                               "\"\\u0000\"",
+                                               "\"\\u202e\"",
+                                               "\"\xf0\x9f\x90\x8d\"",
+                                               "'\xff\xfe'",
+                                               "[]",
+                                               "{}",
+                                               "[[]]",
+                                               "[nan]",
+                                               "[1]",
+                                               "[1, 2]",
+                                               "[-1, 1e300]",
+                                               "[1, \"x\"]",
+                                               "[1, [2]]",
+                                               "[16384, 16384]",
+                                               "[1, 1]",
+                                               "[[0, 0]]",
+                                               "[[0, 0], [1, 0], [0, 1]]",
+                                               "[[0, 0], [0, 0], [0, 0], [0, 0]]",
+                                               "[[0, 0], [60, 60], [60, 0], [0, 60]]",
+                                               "[[1e300, 0], [-1e300, 1], [0, 1e300]]",
+                                               "[[0, 0, 0], [1, 0, 0], [0, 1, 0], [1e9, 1, 1]]",
+                                               "[[nan, inf], [1, 2], [3, 4]]",
+                                               "{a = 1}",
+                                               "[{name = \"a\"}]",
+                                               "\"twist\"",
+                                               "\"net\"",
+                                               "\"bend\"",
+                                               "\"curve\"",
+                                               "\"blocks\"",
+                                               "\"circle\"",
+                                               "\"clamped\"",
+                                               "\"spring\"",
+                                               "\"on_axis\"",
+                                               "\"cylinder\"",
+                                               "\"spool\"",
+                                               "\"beltrami\"",
+                                               "\"profile\"",
+                                               "\"translation\"",
+                                               "\"spline\"",
+                                               "\"polygon\"",
+                                               "\"highest\"",
+                                               "\"flat\"",
+                                               "\"held\""};
+  if (draw.one_in(30)) return fmt::format("\"{}\"", repeated("long ", 200000));
+  if (draw.one_in(30)) return fmt::format("{}1{}", repeated("[", 3000), repeated("]", 3000));
+  if (draw.one_in(30)) return fmt::format("[{}[0.0, 0.0]]", repeated("[1.0, 2.0], ", 50000));
+  return draw.of(values);
+}
+
+// a value of the key's own type, anywhere in its range or at the edge of it
+std::string fitting_value(const Field& field, Draw& draw) {
+  if (const auto* word = std::get_if<gridshell::preset::Word>(&field.kind))
+    return fmt::format("\"{}\"", draw.of(word->words));
+  if (std::holds_alternative<gridshell::preset::Flag>(field.kind))
+    return draw.one_in(2) ? "true" : "false";
+  static const std::vector<double> sizes{1e-9, 1e-4, 0.01, 0.1, 0.5, 0.9, 1, 1.5, 3, 10, 40, 200};
+  const double size = draw.of(sizes);
+  if (std::holds_alternative<gridshell::preset::Integer>(field.kind))
+    return fmt::format("{}", int(size));
+  return fmt::format("{:g}", size);
+}
+
+std::size_t some_line(const Lines& lines, Draw& draw) { return draw.below(lines.size()); }
+
+void change_value(Lines& lines, Draw& draw) {
+  for (int tries = 0; tries < 20; ++tries) {
+    std::string& line = lines[some_line(lines, draw)];
+    const auto equals = line.find('=');
+    if (equals == line.npos || line.starts_with('#')) continue;
+    line = fmt::format("{} {}", line.substr(0, equals + 1), hostile_value(draw));
+    return;
+  }
+}
+
+// a key under its own table, which may stand there already
+void add_key(Lines& lines, Draw& draw) {
+  const Field& field = draw.of(gridshell::preset::field_table());
+  const auto value = draw.one_in(2) ? fitting_value(field, draw) : hostile_value(draw);
+  const auto header = fmt::format("[{}]", field.table);
+  const auto at = std::find(lines.begin(), lines.end(), header);
+  const auto entry = fmt::format("{} = {}", field.key, value);
+  if (field.table.empty()) {
+    lines.insert(lines.begin(), entry);
+  } else if (at != lines.end()) {
+    // in the place of the one that stands there
+    auto end = std::find_if(at + 1, lines.end(), [](const auto& l) { return l.starts_with('['); });
+    const auto old =
+        std::find_if(at + 1, end, [&](const auto& l) { return l.starts_with(field.key + " "); });
+    if (old != end)
+      *old = entry;
+    else
+      lines.insert(at + 1, entry);
+  } else {
+    lines.emplace_back(header);
+    lines.emplace_back(entry);
+  }
+}
+
+void rearrange(Lines& lines, Draw& draw) {
+  const auto a = some_line(lines, draw), b = some_line(lines, draw);
+  switch (draw.below(4)) {
+    case 0:
+      lines.erase(lines.begin() + std::ptrdiff_t(a));
+      break;
+    case 1:
+      lines.insert(lines.begin() + std::ptrdiff_t(b), lines[a]);
+      break;
+    case 2:
+      std::swap(lines[a], lines[b]);
+      break;
+    case 3:
+      lines[a] = lines[a].substr(0, draw.below(lines[a].size() + 1));
+      break;
+  }
+  if (lines.empty()) lines.emplace_back();
+}
+
+void add_tables(Lines& lines, Draw& draw) {
+  const std::size_t many = draw.one_in(10) ? 3000 : 3;
+  switch (draw.below(6)) {
+    case 0:
+      for (std::size_t k = 0; k < many; ++k)
+        lines.emplace_back(fmt::format("[[case]]\nname = \"c{}\"", k));
+      break;
+    case 1:
+      for (std::size_t k = 0; k < many; ++k) lines.emplace_back("[[block]]\nname = \"b\"");
+      break;
+    case 2:
+      lines.emplace_back(
+          "[[case]]\nname = \"../x\"\n[[case]]\nname = \"..\"\n[[case]]\nname = \"\"");
+      break;
+    case 3:
+      lines.emplace_back(fmt::format("[{}a]\nb = 1", repeated("a.", many)));
+      break;
+    case 4:
+      lines.emplace_back("[footprint]\n[footprint]\n[[footprint]]");
+      break;
+    case 5:
+      lines.emplace_back(fmt::format("[[case]]\nname = \"a\"\n{}.x = {}",
+                                     draw.of(gridshell::preset::field_table()).table,
+                                     hostile_value(draw)));
+      break;
+  }
+}
+
+// what is no TOML any more, and perhaps no text
+void damage(std::string& text, Draw& draw) {
+  switch (draw.below(5)) {
+    case 0:
+      for (std::size_t k = 1 + draw.below(20); k > 0 && !text.empty(); --k)
+        text[draw.below(text.size())] = draw.byte();
+      break;
+    case 1:
+      text.resize(draw.below(text.size() + 1));
+      break;
+    case 2:
+      text.insert(draw.below(text.size() + 1), repeated(draw.one_in(2) ? "{" : "[", 20000));
+      break;
+    case 3:
+      text = "\xef\xbb\xbf" + text;
+      break;
+    case 4:
+      text.insert(draw.below(text.size() + 1), std::string("\0\r\n\x1b[2J\"\"\"", 10));
+      break;
+  }
+}
+
+}  // namespace
+
+std::string hostile_preset(Draw& draw) {
+  Lines lines;
+  std::istringstream text(draw.of(shipped()));
+  for (std::string line; std::getline(text, line);) lines.emplace_back(line);
+  for (std::size_t ways = 1 + draw.below(4); ways > 0; --ways) switch (draw.below(8)) {
+      case 0:
+      case 1:
+        change_value(lines, draw);
+        break;
+      case 2:
+      case 3:
+      case 4:
+      case 5:
+        add_key(lines, draw);
+        break;
+      case 6:
+        rearrange(lines, draw);
+        break;
+      case 7:
+        add_tables(lines, draw);
+        break;
+    }
+  std::string whole;
+  for (const auto& line : lines) whole += line + "\n";
+  if (draw.one_in(12)) damage(whole, draw);
+  return whole;
+}

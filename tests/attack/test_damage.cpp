@@ -1,0 +1,237 @@
+// Run folders from somebody else, damaged in every way that one can think of, through `render` and
+// `compare`: an answer in time, nothing written but what was asked for, memory within bounds.
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/checksum.h"
+#include "tests/app/program.h"
+#include "tests/app/unfinished_run.h"
+#include "tests/attack/trials.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using gridshell::read_whole;
+using gridshell::write_atomically;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string small = R"(title = "small"
+[footprint]
+rods = 2
+radius_mm = 25.0
+[actuation]
+radius_mm = 22.0
+[accuracy]
+edges_per_segment = 2
+[movie]
+frames = 3
+size = [48, 32]
+quality = "draft"
+)";
+
+// as trajectory_file.cpp seals its files: this damage is meant
+std::string sealed(std::string hdf5) {
+  gridshell::record::Checksum sum;
+  sum.add(hdf5);
+  auto seal =
+      fmt::format("gridshell trajectory 1\n{} bytes, FNV-1a {:016x}\n", hdf5.size(), sum.value());
+  seal.resize(512, '\0');
+  return seal + hdf5;
+}
+
+fs::path some_file(const fs::path& run, Draw& draw) {
+  const auto files = files_under(run, "");
+  std::vector<fs::path> plain;
+  for (const auto& file : files)
+    if (fs::is_regular_file(file)) plain.push_back(file);
+  // half of the attacks on what is read
+  for (const char* name : {"trajectory.h5", "summary.json", "preset.toml", "frames.journal"})
+    if (draw.one_in(6) && fs::exists(run / name)) return run / name;
+  return draw.of(plain);
+}
+
+void change_bytes(const fs::path& file, Draw& draw) {
+  auto bytes = read_whole(file).value();
+  const bool seal_again = file.filename() == "trajectory.h5" && !draw.one_in(4);
+  if (seal_again) bytes = bytes.substr(512);
+  for (std::size_t k = std::size_t(1) << draw.below(6); k > 0 && !bytes.empty(); --k) {
+    char& at = bytes[draw.below(bytes.size())];
+    at = draw.one_in(3) ? char(at ^ (1 << draw.below(8))) : draw.one_in(2) ? '\xff' : draw.byte();
+  }
+  if (draw.one_in(8)) bytes.resize(draw.below(bytes.size() + 1));
+  REQUIRE(write_atomically(file, seal_again ? sealed(bytes) : bytes));
+}
+
+void replace_file(const fs::path& file, const fs::path& run, Draw& draw) {
+  const auto other = some_file(run, draw);
+  const auto bytes = read_whole(other).value();
+  fs::remove(file);
+  switch (draw.below(8)) {
+    case 0:
+      break;
+    case 1:
+      fs::create_directory(file);
+      break;
+    case 2:
+      REQUIRE(mkfifo(file.c_str(), 0600) == 0);
+      break;
+    case 3:
+      fs::create_symlink("/dev/zero", file);
+      break;
+    case 4:
+      fs::create_symlink("/etc/passwd", file);
+      break;
+    case 5:
+      fs::create_symlink(file.filename(), file);
+      break;
+    case 6:
+      REQUIRE(write_atomically(file, ""));
+      break;
+    case 7:
+      REQUIRE(write_atomically(file, bytes));
+      break;
+  }
+}
+
+Json hostile_json(Draw& draw) {
+  static const std::vector<std::string> values{"null",
+                                               "-1",
+                                               "0",
+                                               "1e308",
+                                               "1e999",
+                                               "18446744073709551615",
+                                               "true",
+                                               "\"\"",
+                                               "\"x\"",
+                                               "\"..\"",
+                                               "\"../victim\"",
+                                               "\"/tmp/gridshell-victim\"",
+                                               "\"a/b\"",
+                                               "\"frames\"",
+                                               "[]",
+                                               "{}",
+                                               "[[[[1]]]]",
+                                               "\"\\u0000\"",
+                                               "\"\\u001b[2J\"",
+                                               "\"movie\"",
+                                               "\"figure\""};
+  if (draw.one_in(12)) return std::string(100000, 'x');
+  return Json::parse(draw.of(values), nullptr, false);
+}
+
+void change_summary(const fs::path& run, Draw& draw) {
+  const auto file = run / "summary.json";
+  if (!fs::exists(file)) return;
+  auto json = Json::parse(read_whole(file).value(), nullptr, false);
+  if (json.contains("cases") && !draw.one_in(4)) {
+    auto& one = json["cases"][draw.below(json["cases"].size())];
+    one[draw.one_in(2) ? "name" : "preset"] = hostile_json(draw);
+  } else if (json.is_object() && !json.empty()) {
+    auto at = json.begin();
+    std::advance(at, draw.below(json.size()));
+    *at = hostile_json(draw);
+  }
+  if (draw.one_in(10)) json["cases"] = hostile_json(draw);
+  const auto text = json.dump(1, ' ', false, Json::error_handler_t::replace);
+  REQUIRE(write_atomically(file, text));
+}
+
+void damage(const fs::path& run, Draw& draw) {
+  switch (draw.below(4)) {
+    case 0:
+    case 1:
+      return change_bytes(some_file(run, draw), draw);
+    case 2:
+      return replace_file(some_file(run, draw), run, draw);
+    case 3:
+      return change_summary(run, draw);
+  }
+}
+
+// every file and its bytes; of links and pipes their kind
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const auto kind = entry.symlink_status().type();
+    all[entry.path()] = kind == fs::file_type::regular ? read_whole(entry.path()).value()
+                                                       : std::to_string(int(kind));
+  }
+  return all;
+}
+
+class Bench {
+ public:
+  Bench() {
+    REQUIRE(write_atomically(at / "small.toml", small));
+    REQUIRE(write_atomically(at / "cases.toml",
+                             small + "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n"));
+    for (const char* name : {"small", "cases"})
+      REQUIRE(run({"movie", std::string(name) + ".toml", "-o", name}).code == 0);
+    cut_short(at / "small", at / "cut", 2);
+  }
+  Ended run(const std::vector<std::string>& arguments) const {
+    const Running running(arguments, at);
+    const bool in_time = running.ends_within(20);
+    CHECK(in_time);
+    if (!in_time) running.signal(SIGKILL);
+    return running.wait();
+  }
+
+  TemporaryFolder folder;
+  fs::path at = folder.path();
+};
+
+void check_answer(const Ended& ended, std::initializer_list<int> codes) {
+  INFO(ended.code << ": " << ended.err.substr(0, 2000));
+  CHECK(std::find(codes.begin(), codes.end(), ended.code) != codes.end());
+  CHECK(ended.peak_MB < 400);
+  if (ended.code == 1 || ended.code == 2) CHECK_FALSE(ended.err.empty());
+  for (const char* raw : {"std::", "basic_string", "vector::", "json.exception", "HDF5-DIAG"})
+    CHECK(ended.err.find(raw) == std::string::npos);
+  // a terminal must not be steered by what stands in a file
+  CHECK(std::ranges::all_of(ended.err, [](unsigned char c) { return c == '\n' || c >= 0x20; }));
+}
+
+}  // namespace
+
+TEST_CASE("damaged run folders are answered, and nothing else is touched", "[full][damage]") {
+  const Bench bench;
+  const auto& at = bench.at;
+  const auto before = contents(at);
+  std::map<int, int> codes;
+  for (int trial = 0; trial < trials(60); ++trial) {
+    Draw draw(trial);
+    INFO("trial " << trial);
+    const auto source = draw.of(std::vector<std::string>{"small", "cases", "cut"});
+    fs::copy(at / source, at / "r", fs::copy_options::recursive);
+    for (std::size_t k = draw.one_in(4) ? 3 : 1; k > 0; --k) damage(at / "r", draw);
+    const auto damaged = contents(at / "r");
+    std::vector<std::string> arguments{"render", "r", "--quiet"};
+    const bool in_place = draw.one_in(3);
+    if (!in_place) arguments.insert(arguments.end(), {"-o", "o"});
+    if (draw.one_in(4)) arguments.push_back("--unsealed");
+    const auto ended = bench.run(arguments);
+    check_answer(ended, {0, 1, 2});
+    ++codes[ended.code];
+    if (!in_place || ended.code != 0) CHECK(contents(at / "r") == damaged);
+    const auto picture = files_under(at / "r", ".png");
+    if (!picture.empty() && draw.one_in(2))
+      check_answer(bench.run({"compare", draw.of(picture), "small/frames/frame_00001.png"}),
+                   {0, 2, 3});
+    fs::remove_all(at / "r");
+    fs::remove_all(at / "o");
+    for (const auto& name : bench.folder.entries())
+      if (name.starts_with("o.partial-") || name.starts_with("r.partial-"))
+        fs::remove_all(at / name);
+    REQUIRE(contents(at) == before);
+    REQUIRE_FALSE(fs::exists("/tmp/gridshell-victim"));
+  }
+  tell(codes, "render");
+}

@@ -1,0 +1,94 @@
+// Hostile presets through `check` and `run`: an answer in time, an exit code of the table, a
+// sentence that names the file, memory under its budget, nothing left behind.
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "engine/core/atomic_file.h"
+#include "tests/app/program.h"
+#include "tests/attack/hostile_preset.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using gridshell::write_atomically;
+
+namespace {
+
+// what a program does that takes too long: it answers a signal within a second
+Ended run_and_stop(const std::vector<std::string>& arguments, const fs::path& folder,
+                   double seconds) {
+  const Running running(arguments, folder);
+  if (!running.ends_within(seconds)) {
+    running.signal(SIGINT);
+    const bool answered = running.ends_within(1);
+    CHECK(answered);
+    if (!answered) running.signal(SIGKILL);
+    auto ended = running.wait();
+    CHECK(ended.code == 130);
+    return ended;
+  }
+  return running.wait();
+}
+
+// a sentence of the program's, not of a library's
+void check_told(const Ended& ended) {
+  INFO(ended.err.substr(0, 2000));
+  CHECK_FALSE(ended.err.empty());
+  for (const char* raw : {"std::", "basic_string", "vector::", "what():", "Assertion", "nan mm"})
+    CHECK(ended.err.find(raw) == std::string::npos);
+  // a terminal must not be steered by what stands in a file
+  CHECK(std::ranges::all_of(ended.err, [](unsigned char c) { return c == '\n' || c >= 0x20; }));
+}
+
+constexpr double allowed_MB = 500;
+
+}  // namespace
+
+TEST_CASE("hostile presets are answered", "[full][presets]") {
+  const TemporaryFolder folder;
+  const auto& at = folder.path();
+  REQUIRE(mkfifo((at / "fifo").c_str(), 0600) == 0);
+  std::map<int, int> checked, ran;
+  for (int trial = 0; trial < trials(120); ++trial) {
+    Draw draw(trial);
+    const auto preset = hostile_preset(draw);
+    INFO("trial " << trial);
+    REQUIRE(write_atomically(at / "hostile.toml", preset));
+    // to look at one that fails
+    if (const char* keep = std::getenv("GRIDSHELL_KEEP"))
+      REQUIRE(write_atomically(fs::path(keep) / (std::to_string(trial) + ".toml"), preset));
+    const auto seen = run_and_stop({"check", "hostile.toml"}, at, 20);
+    INFO("check: " << seen.code << " " << seen.err.substr(0, 500));
+    ++checked[seen.code];
+    CHECK((seen.code == 0 || seen.code == 2 || seen.code == 130));
+    CHECK(seen.peak_MB < allowed_MB);
+    if (seen.code == 2) {
+      check_told(seen);
+      CHECK(seen.err.find("hostile") != std::string::npos);
+    }
+    // all that may run, and some of what may not
+    if (seen.code != 0 && !draw.one_in(20)) continue;
+    const auto run = run_and_stop({"run", "hostile.toml", "--frames", "2", "--quiet", "-o", "out",
+                                   "--set", "accuracy.memory_GB=0.4"},
+                                  at, 10);
+    INFO("run: " << run.code << " " << run.err.substr(0, 500));
+    ++ran[run.code];
+    CHECK((run.code == 0 || run.code == 1 || run.code == 2 || run.code == 130));
+    CHECK(run.peak_MB < allowed_MB);
+    if (run.code != 0) check_told(run);
+    // whatever `run` refuses, `check` refuses
+    if (seen.code == 2) CHECK(run.code == 2);
+    if (seen.code == 0 && run.code == 2) CHECK(run.err.find("memory_GB") != std::string::npos);
+    CHECK((run.code == 0 || run.code == 1 || !fs::exists(at / "out")));
+    for (const auto& name : folder.entries()) {
+      if (name == "fifo" || name == "hostile.toml") continue;
+      INFO(name);
+      CHECK((name == "out" || name.starts_with("out.partial-")));
+      fs::remove_all(at / name);
+    }
+  }
+  tell(checked, "check");
+  tell(ran, "run");
+}

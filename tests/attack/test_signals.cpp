@@ -1,0 +1,100 @@
+// Signals at any moment of every command: an answer within a second, an exit code of the table, and
+// nothing lost.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "app/manifest.h"
+#include "engine/core/atomic_file.h"
+#include "engine/record/journal.h"
+#include "render/image/png.h"
+#include "tests/app/program.h"
+#include "tests/attack/trials.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using gridshell::read_whole;
+using gridshell::write_atomically;
+
+namespace {
+
+const std::string small = R"([footprint]
+rods = 4
+radius_mm = 45.0
+[actuation]
+radius_mm = 40.0
+[movie]
+frames = 24
+size = [320, 180]
+)";
+
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) all[entry.path()] = read_whole(entry.path()).value();
+  return all;
+}
+
+// what was finished is whole, and what was not bears a partial name
+void check_left(const fs::path& folder, bool killed) {
+  for (const auto& file : files_under(folder, "")) {
+    INFO(file);
+    const bool hidden = file.filename().string().starts_with('.');
+    if (!killed) CHECK_FALSE(hidden);
+    if (file.extension() == ".png" && !hidden) CHECK(gridshell::render::read_png(file));
+    if (file.filename() == gridshell::record::journal_name)
+      CHECK(gridshell::record::read_journal_of(file.parent_path()));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("signals at any moment are answered, and nothing is lost", "[full][signals]") {
+  const TemporaryFolder folder;
+  const auto& at = folder.path();
+  REQUIRE(write_atomically(at / "small.toml", small));
+  REQUIRE(gridshell_program({"run", "small.toml", "-o", "old", "--quiet"}, at).code == 0);
+  const std::vector<std::vector<std::string>> commands{
+      {"run", "small.toml", "-o", "old"},        {"movie", "small.toml", "-o", "old"},
+      {"figure", "small.toml", "-o", "old"},     {"render", "old"},
+      {"check", "small.toml", "-o", "old"},      {"run", "s1_actuation", "-o", "new"},
+      {"figure", "fig1_actuation", "-o", "new"}, {"run", "model_clamped", "-o", "new"},
+      {"run", "s3_pole_inward", "-o", "new"},    {"render", "old", "-o", "new"}};
+  std::map<int, int> codes;
+  double slowest = 0;
+  for (int trial = 0; trial < trials(40); ++trial) {
+    Draw draw(trial);
+    const auto command = draw.of(commands);
+    const int number = draw.of(std::vector<int>{SIGINT, SIGTERM, SIGHUP, SIGINT, SIGKILL});
+    INFO("trial " << trial << ": " << command[0] << " " << command[1] << ", signal " << number);
+    const auto before = contents(at / "old");
+    const Running running(command, at);
+    running.until_it_listens();
+    static const std::vector<double> longest{0.01, 0.1, 0.5, 2};
+    std::this_thread::sleep_for(std::chrono::duration<double>(draw.share() * draw.of(longest)));
+    running.signal(number);
+    const auto asked = std::chrono::steady_clock::now();
+    const bool answered = running.ends_within(2);
+    CHECK(answered);
+    slowest = std::max(
+        slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count());
+    if (!answered) running.signal(SIGKILL);
+    const auto ended = running.wait();
+    INFO(ended.code << ": " << ended.err.substr(0, 1000));
+    ++codes[ended.code];
+    const bool killed = number == SIGKILL;
+    CHECK((ended.code == 0 || ended.code == (killed ? 128 + SIGKILL : 130)));
+    // done, or as it was
+    CHECK(gridshell::app::no_run_because(at / "old").empty());
+    if (ended.code != 0 && !killed) CHECK(contents(at / "old") == before);
+    check_left(at, killed);
+    for (const auto& name : folder.entries()) {
+      if (name == "small.toml" || name == "old") continue;
+      INFO(name);
+      CHECK((name == "new" || name.find(".partial-") != name.npos ||
+             name.find(".old-") != name.npos));
+      fs::remove_all(at / name);
+    }
+  }
+  tell(codes, "slowest answer " + std::to_string(slowest) + " s; codes");
+}

@@ -1,0 +1,49 @@
+// How many attacks a test draws, and from which seed: few in the suite, as many as asked by hand.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+/// GRIDSHELL_TRIALS, or `few`.
+inline int trials(int few) {
+  const char* asked = std::getenv("GRIDSHELL_TRIALS");
+  return asked ? std::atoi(asked) : few;
+}
+
+/// Draws, the same ones from the same seed (GRIDSHELL_SEED, or 1) and number of the trial: one that
+/// fails is drawn again alone.
+class Draw {
+ public:
+  explicit Draw(int trial) {
+    const char* seed = std::getenv("GRIDSHELL_SEED");
+    std::seed_seq all{seed ? std::atoi(seed) : 1, trial};
+    random_.seed(all);
+  }
+
+  /// From 0 to n - 1.
+  std::size_t below(std::size_t n) { return std::size_t(random_() % n); }
+  bool one_in(std::size_t n) { return below(n) == 0; }
+  /// From 0 to 1.
+  double share() { return double(random_()) / double(std::mt19937_64::max()); }
+  char byte() { return char(below(256)); }
+
+  template <class T>
+  const T& of(const std::vector<T>& all) {
+    return all[below(all.size())];
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// Exit codes and how often they came, where more than the few were asked for.
+inline void tell(const std::map<int, int>& codes, const std::string& whose) {
+  if (!std::getenv("GRIDSHELL_TRIALS")) return;
+  std::printf("%s:", whose.c_str());
+  for (const auto& [code, count] : codes) std::printf(" %d x %d", count, code);
+  std::printf("\n");
+}
