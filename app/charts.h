@@ -10,9 +10,10 @@ namespace gridshell::app {
 /// What to chart and how much to spend on it.
 struct ChartOptions {
   Options common;
-  std::string kind;     ///< "accuracy" or "stability"
-  double limit_s = 30;  ///< of one run of a method
-  int edges = 32;       ///< a segment of the finest mesh that methods are given
+  std::string kind;            ///< "accuracy", "stability" or "trust"
+  double limit_s = 0;          ///< of one run; 0: as the study has it
+  int edges = 32;              ///< a segment of the finest mesh that methods are given
+  int scenes = 600, seed = 1;  ///< of a study of trust
 };
 
 /// Studies a preset, or each of its cases, and writes tables and pictures. The exit code.

@@ -1,5 +1,5 @@
-// What happens on a path belongs to the shell, not to the mesh that led: it is looked for on a finer
-// leader too.
+// What happens on a path belongs to the shell, not to the mesh that led: it is looked for on a
+// finer leader too.
 #pragma once
 
 #include "engine/experiment/course.h"
@@ -11,9 +11,9 @@ namespace gridshell::experiment {
 std::optional<std::string> disagreement(const Course& coarse, const Course& fine);
 
 /// A course on which something happened, followed once more with leading meshes of twice the edges.
-/// Where both tell the same, the events' places are extrapolated (the error falls fourfold), with an
-/// error; where they do not, the finer one is asked against a still finer one, at most three times.
-/// What remains in doubt is said. Errors: cancelled.
+/// Where both tell the same, the events' places are extrapolated (the error falls fourfold), with
+/// an error; where they do not, the finer one is asked against a still finer one, at most three
+/// times. What remains in doubt is said. Errors: cancelled.
 Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow,
                          const Watch& watch);
 

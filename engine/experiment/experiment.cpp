@@ -216,9 +216,13 @@ Result<void> follow(const preset::Preset& preset, std::shared_ptr<const Scene> s
 
 Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
                             Watch& watch) {
-  auto built = scene_of(preset);
-  if (!built) return tl::unexpected<Error>(built.error());
-  const auto scene = std::make_shared<const Scene>(std::move(*built));
+  auto scene = scene_of(preset);
+  if (!scene) return tl::unexpected<Error>(scene.error());
+  return run(preset, std::make_shared<const Scene>(std::move(*scene)), stills, sink, watch);
+}
+
+Result<record::Summary> run(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
+                            bool stills, record::Sink& sink, Watch& watch) {
   LastFrame seen(sink, watch);
   record::Summary summary;
   if (scene->rung != preset::Rung::net) {

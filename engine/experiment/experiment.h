@@ -1,6 +1,7 @@
 // From a preset to a trajectory: the one entry point behind every command that simulates.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "engine/record/sink.h"
 #include "engine/record/snapshot.h"
 #include "engine/record/summary.h"
+#include "engine/scene/scene.h"
 
 namespace gridshell::experiment {
 
@@ -43,6 +45,10 @@ Result<Plan> plan(const preset::Preset& preset);
 /// bad_input, no_equilibrium, cancelled, and what the sink says.
 Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
                             Watch& watch);
+
+/// The same on a scene of that preset which was changed: other meshes, other load steps.
+Result<record::Summary> run(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
+                            bool stills, record::Sink& sink, Watch& watch);
 
 /// The same with all frames kept in memory.
 Result<Outcome> run(const preset::Preset& preset, bool stills, Watch& watch);

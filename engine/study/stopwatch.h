@@ -35,6 +35,7 @@ class TimeLimit {
   TimeLimit& operator=(const TimeLimit&) = delete;
 
   const Watch& watch() const { return watch_; }
+  Watch& watch() { return watch_; }
   /// Whether the time ran out, and not the patience of the user.
   bool ran_out() const { return watch_.cancelled() && !outer_.cancelled(); }
 

@@ -12,6 +12,7 @@ namespace {
 preset::Preset fig1(int frames, double tolerance) {
   preset::Preset p;
   p.movie.frames = frames;
+  p.imperfection.size = 0;
   p.accuracy.tolerance = tolerance;
   return p;
 }

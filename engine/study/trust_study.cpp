@@ -1,0 +1,164 @@
+#include "engine/study/trust_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <thread>
+
+#include "engine/experiment/experiment.h"
+#include "engine/scene/scene.h"
+#include "engine/study/random_preset.h"
+#include "engine/study/stopwatch.h"
+
+namespace gridshell::study {
+namespace {
+
+using experiment::Outcome;
+using record::TrustClass;
+
+constexpr int frames = 5, fine_frames = 9, other_frames = 8;
+
+/// One run, and what the program would exit with.
+struct Trial {
+  std::optional<Outcome> outcome;
+  std::string refused;  ///< why there is none
+  int exit = 0;
+  bool too_slow = false;
+
+  bool whole() const {
+    const auto limit = outcome->summary.limit;
+    return limit == record::Limit::none || limit == record::Limit::snap;
+  }
+  bool snapped() const { return outcome->summary.limit == record::Limit::snap; }
+};
+
+Trial try_scene(preset::Preset preset, int count, bool fine, const TrustOptions& options,
+                const Watch& watch) {
+  Trial trial;
+  TimeLimit limit(options.seconds, watch);
+  preset.movie.frames = count;
+  auto scene = scene_of(preset);
+  if (!scene) {
+    trial.exit = 2;
+    trial.refused = scene.error().message;
+    return trial;
+  }
+  if (fine) {
+    scene->leading_edges = 5;
+    scene->load_step = 0.5;
+    scene->tolerance /= 8;
+  }
+  record::MemorySink sink;
+  auto summary = experiment::run(preset, std::make_shared<const Scene>(std::move(*scene)), false,
+                                 sink, limit.watch());
+  trial.too_slow = limit.ran_out();
+  if (!summary) {
+    trial.exit = summary.error().fault == Fault::bad_input ? 2 : 1;
+    trial.refused = summary.error().message;
+    return trial;
+  }
+  trial.outcome = Outcome{std::move(sink.trajectory()), std::move(*summary)};
+  trial.exit = trial.whole() && trial.outcome->summary.stable ? 0 : 1;
+  return trial;
+}
+
+/// A frame that is no shell and does not say so: rods that stretch where they should bend, or a
+/// state that is not stable without a word.
+bool unphysical(const record::Frame& frame) {
+  if (frame.negative_pivots > 0 && frame.event.empty()) return true;
+  const double bend = frame.energies[Term::bend], stretch = frame.energies[Term::stretch];
+  return stretch > 0.2 * bend + 1e-3;
+}
+
+/// Largest distance of the joints of two frames over the length scale.
+double distance(const Outcome& a, const record::Frame& in_a, const record::Frame& in_b) {
+  const Eigen::Index joints = Eigen::Index(a.trajectory.layout.joints.size());
+  return (in_a.nodes.leftCols(joints) - in_b.nodes.leftCols(joints)).colwise().norm().maxCoeff() /
+         a.trajectory.layout.length_scale_mm;
+}
+
+/// The frame of both at which the error is the most estimates.
+void compare(const Outcome& asked, const Outcome& fine, record::TrustRow& row) {
+  double worst = -1;
+  for (const record::Frame& frame : asked.trajectory.frames)
+    for (const record::Frame& other : fine.trajectory.frames) {
+      if (std::abs(frame.progress - other.progress) > 1e-9) continue;
+      // where the path ended early the frames are of other states
+      if (frame.event == "locking" || other.event == "locking") continue;
+      const double error = distance(asked, frame, other);
+      const double estimate = frame.error_estimate_mm / asked.trajectory.layout.length_scale_mm;
+      const double many = error / std::max(estimate, 1e-9);
+      if (many <= worst) continue;
+      worst = many;
+      row.error = error;
+      row.estimate = estimate;
+    }
+}
+
+TrustClass judge(const Trial& asked, const Trial& fine, const Trial& other, record::TrustRow& row) {
+  constexpr double branch = 0.02;  // of the length scale: further apart states are others
+  if (asked.too_slow) return TrustClass::too_slow;
+  if (asked.exit == 2) return TrustClass::refused;
+  if (!asked.outcome || !asked.whole())
+    return !fine.outcome || !fine.whole() ? TrustClass::limited : TrustClass::limited_only_default;
+  for (const record::Frame& frame : asked.outcome->trajectory.frames)
+    if (unphysical(frame)) return TrustClass::inner_unphysical;
+  const bool same_end =
+      other.too_slow || (other.outcome && other.exit == asked.exit &&
+                         distance(*asked.outcome, asked.outcome->trajectory.frames.back(),
+                                  other.outcome->trajectory.frames.back()) < 1e-9);
+  if (!same_end) return TrustClass::frame_dependent;
+  if (!fine.outcome) return TrustClass::right;  // nothing to judge by
+  compare(*asked.outcome, *fine.outcome, row);
+  if (!(row.error > 2 * row.estimate + 1e-7)) return TrustClass::right;
+  if (row.error < branch && row.error < 20 * row.estimate) return TrustClass::estimate_small;
+  return asked.snapped() ? TrustClass::after_snap : TrustClass::other_branch;
+}
+
+TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
+  constexpr int kinds = int(words(SceneKind{}).size());
+  const auto kind = SceneKind(index % kinds);
+  // a generator a scene, so that any scene can be drawn by itself
+  std::mt19937 random{std::uint32_t(options.seed) * 100003u + std::uint32_t(index)};
+  TrustScene scene;
+  scene.preset = random_preset(kind, random);
+  scene.preset.name = fmt::format("scene_{:04d}", index);
+  scene.preset.title = fmt::format("Scene {} of the study of trust: {}", index, word_of(kind));
+  scene.row.scene = index;
+  scene.row.kind = word_of(kind);
+  const Trial asked = try_scene(scene.preset, frames, false, options, watch);
+  const Trial fine = try_scene(scene.preset, fine_frames, true, options, watch);
+  const Trial other = try_scene(scene.preset, other_frames, false, options, watch);
+  scene.row.exit_default = asked.exit;
+  scene.row.exit_fine = fine.exit;
+  scene.row.found = judge(asked, fine, other, scene.row);
+  scene.preset.movie.frames = frames;
+  // why, for whoever opens the preset
+  scene.preset.description = asked.outcome ? asked.outcome->summary.limit_reason : asked.refused;
+  return scene;
+}
+
+}  // namespace
+
+Result<std::vector<TrustScene>> trust_study(const TrustOptions& options, Watch& watch) {
+  keep_blas_on_one_thread();
+  std::vector<TrustScene> scenes(std::size_t(options.scenes));
+  std::atomic<int> next{0}, done{0};
+  const auto work = [&] {
+    for (int k = next++; k < options.scenes && !watch.cancelled(); k = next++) {
+      scenes[std::size_t(k)] = judged(k, options, watch);
+      watch.report(double(++done) / options.scenes);
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (int k = 1; k < options.threads; ++k) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+  return scenes;
+}
+
+}  // namespace gridshell::study
