@@ -28,7 +28,7 @@ struct Findings {
   Json summary = Json::object();
 };
 
-constexpr double wide_mm = 178, high_mm = 105, low_mm = 80;
+constexpr double wide_mm = 178, high = 105 / wide_mm, low = 80 / wide_mm;  // of a page
 
 Result<Findings> draw_accuracy(const preset::Preset& preset, const ChartOptions& options,
                                const fs::path& folder, Watch& watch) {
@@ -48,15 +48,15 @@ Result<Findings> draw_accuracy(const preset::Preset& preset, const ChartOptions&
           .and_then([&] { return write("scaling.csv", record::scaling_csv(found->scaling)); })
           .and_then([&] {
             return render::write_plot(folder / "accuracy",
-                                      render::accuracy_plot(found->rows, title), wide_mm, high_mm);
+                                      render::accuracy_plot(found->rows, title), {wide_mm}, high);
           })
           .and_then([&] {
             return render::write_plot(folder / "unknowns",
-                                      render::unknowns_plot(found->rows, title), wide_mm, high_mm);
+                                      render::unknowns_plot(found->rows, title), {wide_mm}, high);
           })
           .and_then([&] {
             return render::write_plot(folder / "scaling",
-                                      render::scaling_plot(found->scaling, title), wide_mm, low_mm);
+                                      render::scaling_plot(found->scaling, title), {wide_mm}, low);
           });
   if (!written) return tl::unexpected(written.error());
   Findings findings;

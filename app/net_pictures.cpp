@@ -57,10 +57,6 @@ Result<void> draw_block_pictures(const CaseRecord& one, const render::MovieStyle
 Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::Renderer& renderer,
                                const fs::path& stem, Watch& watch) {
   const auto style = style_of(records.front().preset, Pictures::stills);
-  Eigen::Matrix3Xd scan(3, records.front().preset.figure.scan.size());
-  for (Eigen::Index k = 0; k < scan.cols(); ++k)
-    for (int axis = 0; axis < 3; ++axis)
-      scan(axis, k) = records.front().preset.figure.scan[std::size_t(k)].at(std::size_t(axis));
   std::vector<render::NetRun> shells, shades;
   std::vector<render::NamedRun> named;
   for (const CaseRecord& one : records) {
@@ -68,9 +64,12 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
     const double largest =
         render::deviation_of_nodes(one.run).head(long(one.run.layout.joints.size())).maxCoeff();
     // said once, what the colours are
-    const char* over =
+    std::string over =
         one.run.layout.parts.empty() ? "shell dark, net blue" : "shell dark, blocks in colour";
-    shells.push_back({&one.run, shells.empty() ? fmt::format("{}: {}", name, over) : name});
+    const Eigen::Matrix3Xd scanned = scan_of(one.preset);
+    if (scanned.cols() > 0) over += ", joints scanned red";
+    shells.push_back(
+        {&one.run, shells.empty() ? fmt::format("{}: {}", name, over) : name, scanned});
     const auto unit = render::deviation_unit(one.run.layout);
     shades.push_back({&one.run, fmt::format("{}: at most {:.2f} {}", name, unit.factor * largest,
                                             one.run.layout.parts.empty() ? "%" : "mm")});
@@ -107,7 +106,7 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
       .and_then([&]() -> Result<void> {
         if (records.size() > 1 || !render::on_sphere(records.front().run.layout)) return {};
         return render::write_plot(with_suffix(stem, "_latitude"),
-                                  titled(render::latitude_plot(named.front(), scan)), style.print);
+                                  titled(render::latitude_plot(named.front(), shells.front().scanned)), style.print);
       });
 }
 

@@ -58,7 +58,8 @@ class PageMaker {
     style_.title.clear();
     for (const CaseRecord& one : records) {
       const bool push = one.preset.indentation.wanted();
-      (push ? pushes_ : shells_).push_back({&one.run, render::plain(one.preset.title)});
+      (push ? pushes_ : shells_)
+          .push_back({&one.run, render::plain(one.preset.title), scan_of(one.preset)});
       (push ? named_pushes_ : named_shells_).push_back({&one.run, render::plain(one.preset.title)});
     }
   }
@@ -135,12 +136,8 @@ class PageMaker {
     auto over = render::draw_over_nets({shells_.front()}, style_, renderer_, watch_);
     if (!over) return tl::unexpected(over.error());
     page.add_image("C", "", {2, 54, 84, 40}, std::move(*over));
-    const preset::Points& points = records_.front().preset.figure.scan;
-    Eigen::Matrix3Xd scan(3, points.size());
-    for (Eigen::Index k = 0; k < scan.cols(); ++k)
-      for (int axis = 0; axis < 3; ++axis)
-        scan(axis, k) = points[std::size_t(k)].at(std::size_t(axis));
-    page.add_plot("", {90, 54, 86, 40}, render::latitude_plot(named_shells_.front(), scan));
+    page.add_plot("", {90, 54, 86, 40},
+                  render::latitude_plot(named_shells_.front(), shells_.front().scanned));
     auto caps = render::draw_deviations(shells_, style_, renderer_, watch_);
     if (!caps) return tl::unexpected(caps.error());
     page.add_image("D", "", {2, 96, 174, 33}, std::move(*caps));

@@ -143,6 +143,15 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures) {
   return style;
 }
 
+Eigen::Matrix3Xd scan_of(const preset::Preset& preset) {
+  const preset::Points& points = preset.figure.scan;
+  Eigen::Matrix3Xd scan(3, points.size());
+  for (Eigen::Index k = 0; k < scan.cols(); ++k)
+    for (int axis = 0; axis < 3; ++axis)
+      scan(axis, k) = points[std::size_t(k)].at(std::size_t(axis));
+  return scan;
+}
+
 Result<Artist> Artist::create(const std::string& context, int threads, const std::string& font) {
   if (auto chosen = render::use_font(font); !chosen) return tl::unexpected(chosen.error());
   const auto kind = find_word<render::ContextKind>(context);

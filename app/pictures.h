@@ -33,6 +33,9 @@ std::vector<SharedBar> shared_bars(const std::vector<CaseRecord>& records, Pictu
 /// How the preset wants its run shown.
 render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
 
+/// The joints that were measured on a real shell, 3 x n, mm.
+Eigen::Matrix3Xd scan_of(const preset::Preset& preset);
+
 /// Draws runs; holds the OpenGL context, so it stays on the thread that made it.
 class Artist {
  public:

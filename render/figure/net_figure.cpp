@@ -11,7 +11,8 @@
 namespace gridshell::render {
 namespace {
 
-constexpr Colour shell_ink{0.10f, 0.10f, 0.12f, 1}, net_ink{0.16f, 0.42f, 0.78f, 1};
+constexpr Colour shell_ink{0.10f, 0.10f, 0.12f, 1}, net_ink{0.16f, 0.42f, 0.78f, 1},
+    scan_ink{0.80f, 0.16f, 0.12f, 1};
 
 /// The last frame alone, its boundary where it is held.
 record::Trajectory final_state(const record::Trajectory& run) {
@@ -29,7 +30,7 @@ MovieStyle plain_style(MovieStyle style) {
   return style;
 }
 
-using Dress = std::function<void(const record::Trajectory&, Drawing&)>;
+using Dress = std::function<void(const NetRun&, Drawing&)>;
 
 /// One panel a run, the drawing of each changed by `dress`.
 Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
@@ -47,7 +48,7 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
     const Stage stage(last, style);
     Drawing drawing = stage.drawing(last.frames.front());
     drawing.ground = false;
-    dress(last, drawing);
+    dress(runs[k], drawing);
     auto picture =
         renderer.draw(drawing, stage.camera(0), draw_quality(style), style.width, style.height);
     if (!picture) return tl::unexpected(picture.error());
@@ -85,10 +86,12 @@ bool on_sphere(const record::Layout& layout) {
 
 Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
                              Renderer& renderer, Watch& watch) {
-  const auto dress = [](const record::Trajectory& run, Drawing& drawing) {
+  const auto dress = [](const NetRun& one, Drawing& drawing) {
+    for (const auto& joint : one.scanned.colwise())
+      drawing.marks.push_back({joint, std::max(3.0, 3 * drawing.rod_diameter_mm), scan_ink});
     drawing.rod_colour = shell_ink;
     drawing.joint_diameter_mm = 0;
-    const record::Layout& layout = run.layout;
+    const record::Layout& layout = one.run->layout;
     // blocks each on a net of its own
     for (std::size_t k = 0; k < layout.parts.size(); ++k)
       drawing.ghosts.push_back(
@@ -112,9 +115,9 @@ Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle&
   for (const NetRun& one : runs)
     largest = std::max(largest, unit.factor * deviation_of_nodes(*one.run).maxCoeff());
   const ColourScale scale{ColourMap::sequential, 0, round_end(largest), 0.2};
-  const auto dress = [&](const record::Trajectory& run, Drawing& drawing) {
-    const Eigen::VectorXd deviation = deviation_of_nodes(run);
-    for (double one : deviation) drawing.node_colours.push_back(scale(unit.factor * one));
+  const auto dress = [&](const NetRun& one, Drawing& drawing) {
+    const Eigen::VectorXd deviation = deviation_of_nodes(*one.run);
+    for (double share : deviation) drawing.node_colours.push_back(scale(unit.factor * share));
     drawing.rod_diameter_mm *= 1.8;
     drawing.sheen = 0.2;
     drawing.joint_diameter_mm = 0;

@@ -15,7 +15,8 @@ namespace gridshell::render {
 /// A run whose layout knows its net, shown by its last frame.
 struct NetRun {
   const record::Trajectory* run = nullptr;
-  std::string caption;  ///< marked text
+  std::string caption;            ///< marked text
+  Eigen::Matrix3Xd scanned = {};  ///< joints measured on a real shell, mm, in the net's frame
 };
 
 /// Distance of every node of the last frame from its place on the net, over rho.
@@ -32,7 +33,8 @@ DeviationUnit deviation_unit(const record::Layout& layout);
 /// Whether the net is a part of a sphere about the origin, of radius rho.
 bool on_sphere(const record::Layout& layout);
 
-/// The shells, dark, over their nets, blue, side by side. Progress and errors as write_stills.
+/// The shells, dark, over their nets, blue, with the joints scanned, red, side by side. Progress and
+/// errors as write_stills.
 Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
                              Renderer& renderer, Watch& watch);
 

@@ -16,7 +16,8 @@ std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::F
     const int node = layout.joints.at(std::size_t(load.joint)).node;
     if (node >= frame.nodes.cols()) continue;
     const Eigen::Vector3d at = frame.nodes.col(node);
-    const bool away = load.direction.dot(at - middle) > 0;
+    // clearly so: in a flat shell round-off must not choose
+    const bool away = load.direction.dot(at - middle) > 0.02 * layout.length_scale_mm;
     const Eigen::Vector3d near = at + (away ? gap_mm : -gap_mm) * load.direction;
     const Eigen::Vector3d far = near + (away ? length : -length) * load.direction;
     arrows.push_back(away ? LoadArrow{node, near, far} : LoadArrow{node, far, near});

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "render/movie/boundary.h"
 #include "render/movie/load_marks.h"
@@ -13,15 +12,26 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// evenly spread directions (a Fibonacci lattice on the sphere), one a row
-Eigen::MatrixX3d even_directions(int count) {
-  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-  Eigen::MatrixX3d directions(count, 3);
-  for (int k = 0; k < count; ++k) {
-    const double z = 1 - (2 * k + 1.0) / count, r = std::sqrt(1 - z * z);
-    directions.row(k) << r * std::cos(golden * k), r * std::sin(golden * k), z;
-  }
-  return directions;
+// every so many that at most `most` are left
+std::size_t stride(std::size_t count, std::size_t most) {
+  return std::max<std::size_t>(1, (count + most - 1) / most);
+}
+
+// what stands for a frame: joints, nodes between them, and the arrows of loads
+Eigen::Matrix3Xd points_of(const record::Layout& layout, const record::Frame& frame) {
+  constexpr std::size_t most = 300;
+  const auto count = std::size_t(frame.nodes.cols());
+  std::vector<Eigen::Vector3d> points;
+  const auto add = [&](const Eigen::Vector3d& point) {
+    if (point.allFinite()) points.push_back(point);
+  };
+  for (std::size_t k = 0; k < layout.joints.size(); k += stride(layout.joints.size(), most))
+    if (std::size_t(layout.joints[k].node) < count) add(frame.nodes.col(layout.joints[k].node));
+  for (std::size_t n = 0; n < count; n += stride(count, most)) add(frame.nodes.col(long(n)));
+  for (const LoadArrow& arrow : load_arrows(layout, frame)) add(arrow.from), add(arrow.to);
+  Eigen::Matrix3Xd all(3, points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) all.col(long(k)) = points[k];
+  return all;
 }
 
 double lowest(const Eigen::Matrix3Xd& points) {
@@ -66,20 +76,11 @@ FrameSource source_of(const record::Trajectory& run) {
 
 Survey::Survey(const record::Layout& layout)
     : lowest_z_mm(std::min(lowest(layout.original_boundary), lowest(layout.actuated_boundary))),
-      layout_(&layout),
-      directions_(even_directions(128)),
-      farthest_(Eigen::VectorXd::Constant(directions_.rows(), -infinity)),
-      extremes_(Eigen::Matrix3Xd::Zero(3, directions_.rows())) {}
+      layout_(&layout) {}
 
 void Survey::take(const record::Frame& frame) {
   if (frames == 0) first = frame;
-  // rods are smooth: every few nodes bound them well enough
-  const long stride = std::max<long>(1, frame.nodes.cols() / 600);
-  for (long n = 0; n < frame.nodes.cols(); n += stride) take_point(frame.nodes.col(n));
-  for (const LoadArrow& arrow : load_arrows(*layout_, frame)) {
-    take_point(arrow.from);
-    take_point(arrow.to);
-  }
+  keep_points(frame);
   lowest_z_mm = std::min(lowest_z_mm, lowest(frame.nodes));
   if (frame.depth_mm > depth_mm) depth_mm = frame.depth_mm;
   for (long k = 0; k < frame.K_bins.rows(); ++k)
@@ -98,19 +99,31 @@ void Survey::take(const record::Frame& frame) {
   ++frames;
 }
 
-void Survey::take_point(const Eigen::Vector3d& point) {
-  if (!point.allFinite()) return;
-  const Eigen::VectorXd reach = directions_ * point;
-  for (long d = 0; d < reach.size(); ++d)
-    if (reach[d] > farthest_[d]) farthest_[d] = reach[d], extremes_.col(d) = point;
+void Survey::keep_points(const record::Frame& frame) {
+  last_ = points_of(*layout_, frame);
+  if (frames % every_ != 0) return;
+  kept_.push_back(last_);
+  constexpr std::size_t most_frames = 32;
+  if (kept_.size() <= most_frames) return;
+  // shells move smoothly: every other one of these bounds them as well
+  for (std::size_t k = 1; 2 * k < kept_.size(); ++k) kept_[k] = std::move(kept_[2 * k]);
+  kept_.resize((kept_.size() + 1) / 2);
+  every_ *= 2;
 }
 
 Eigen::Matrix3Xd Survey::bounds() const {
   const bool shown = frames == 0 || shows_original(first);
-  const Eigen::Matrix3Xd& original =
-      shown ? layout_->original_boundary : layout_->actuated_boundary;
-  Eigen::Matrix3Xd all(3, extremes_.cols() + original.cols() + layout_->actuated_boundary.cols());
-  all << extremes_, original, layout_->actuated_boundary;
+  std::vector<const Eigen::Matrix3Xd*> parts{&layout_->actuated_boundary, &last_};
+  if (shown) parts.push_back(&layout_->original_boundary);
+  for (const Eigen::Matrix3Xd& points : kept_) parts.push_back(&points);
+  long count = 0;
+  for (const Eigen::Matrix3Xd* part : parts) count += part->cols();
+  Eigen::Matrix3Xd all(3, count);
+  count = 0;
+  for (const Eigen::Matrix3Xd* part : parts) {
+    all.middleCols(count, part->cols()) = *part;
+    count += part->cols();
+  }
   return all;
 }
 

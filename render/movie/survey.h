@@ -1,5 +1,6 @@
 // What the pictures of a run have to know of all its frames before the first is drawn: ranges,
-// bounds and events. Frames are looked at once, one at a time, and none but the first is kept.
+// bounds and events. Frames are looked at once, one at a time, and none but the first is kept, but
+// for some of their points.
 #pragma once
 
 #include <functional>
@@ -53,17 +54,18 @@ class Survey {
   double largest_move_mm = 0;            ///< of a joint, from where it was in the first frame
   std::vector<Mark> marks;               ///< in order
 
-  /// Points that bound all frames, what is drawn of both boundaries, and the arrows of loads: the
-  /// farthest along some hundred directions, and the boundaries themselves. 3 x n, mm.
+  /// Points that bound all frames, what is drawn of both boundaries, and the arrows of loads: some
+  /// hundreds of some dozen frames, and the boundaries themselves. Which ones is a matter of their
+  /// numbers alone: round-off must not choose, or the whole picture would move with it. 3 x n, mm.
   Eigen::Matrix3Xd bounds() const;
 
  private:
-  void take_point(const Eigen::Vector3d& point);
+  void keep_points(const record::Frame& frame);
 
   const record::Layout* layout_;
-  Eigen::MatrixX3d directions_;
-  Eigen::VectorXd farthest_;
-  Eigen::Matrix3Xd extremes_;
+  int every_ = 1;                       ///< frame whose points are kept
+  std::vector<Eigen::Matrix3Xd> kept_;  ///< of every so many frames
+  Eigen::Matrix3Xd last_;               ///< of the last frame
 };
 
 /// Of all frames of a source; those of a failing source: its error.

@@ -187,8 +187,9 @@ void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
     legend.draw_in_corner(canvas, frame, corner);
 }
 
-Result<void> write_plot(const std::filesystem::path& stem, const Plot& plot, const Print& print) {
-  constexpr double column_mm = 88, height_over_width = 62.0 / 88;
+Result<void> write_plot(const std::filesystem::path& stem, const Plot& plot, const Print& print,
+                        double height_over_width) {
+  constexpr double column_mm = 88;
   const double width = (print.width_mm > 0 ? print.width_mm : column_mm) * points_per_mm;
   const double height = height_over_width * width;
   return write_figure(

@@ -86,6 +86,6 @@ void draw_plot(Canvas& canvas, const Box& box, const Plot& plot);
 /// A plot of its own as `<stem>.png`, `<stem>.svg` and `<stem>.pdf`, as wide as printed or 88 mm, a
 /// journal's column.
 Result<void> write_plot(const std::filesystem::path& stem, const Plot& plot,
-                        const Print& print = {});
+                        const Print& print = {}, double height_over_width = 62.0 / 88);
 
 }  // namespace gridshell::render

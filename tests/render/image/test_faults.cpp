@@ -25,7 +25,12 @@ struct Subject {
   int at = 7;
 
   Subject() {
-    run.layout.loaded_joints = {{60, -Eigen::Vector3d::UnitZ()}};
+    // on the near side
+    const auto& joints = run.layout.joints;
+    const auto pushed = std::find_if(joints.begin(), joints.end(), [](const record::Joint& joint) {
+      return joint.i == 2 && joint.j == 1;
+    });
+    run.layout.loaded_joints = {{int(pushed - joints.begin()), -Eigen::Vector3d::UnitZ()}};
     run.frames[3].negative_pivots = 1;
     style.width = 480;
     style.height = 270;
