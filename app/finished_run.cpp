@@ -131,14 +131,7 @@ record::Summary summary_of(const record::Journal& journal, const preset::Preset&
   s.rods = int(run.layout.rods.size());
   s.joints = int(run.layout.joints.size());
   s.cells = int(run.layout.cells.size());
-  const record::Frame& last = run.frames.back();
-  s.negative_pivots = std::max(last.negative_pivots, 0);
-  s.stable = last.negative_pivots == 0;
-  s.residual_N = last.residual_N;
-  s.error_estimate_mm = last.error_estimate_mm;
-  s.energies = last.energies;
-  s.height_mm = last.height_mm;
-  s.total_K = last.total_K;
+  s.take_state(run.frames.back());
   return s;
 }
 

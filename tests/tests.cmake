@@ -20,8 +20,13 @@ function(gridshell_tests folder)
   target_precompile_headers(${target} PRIVATE <catch2/catch.hpp> <Eigen/Core>)
   # a name that CMake tears apart (at a semicolon) must fail instead of matching no test
   set(strict EXTRA_ARGS --warn NoTests)
-  catch_discover_tests(${target} TEST_SPEC "~[full]" TEST_LIST ${target}_quick ${strict}
+  catch_discover_tests(${target} TEST_SPEC "~[full]~[alone]" TEST_LIST ${target}_quick ${strict}
     PROPERTIES LABELS quick TIMEOUT 60)
+  if(folder STREQUAL app)
+    # those that look at a clock
+    catch_discover_tests(${target} TEST_SPEC "~[full][alone]" TEST_LIST ${target}_alone ${strict}
+      PROPERTIES LABELS quick TIMEOUT 60 RUN_SERIAL ON)
+  endif()
   catch_discover_tests(${target} TEST_SPEC "[full]" TEST_LIST ${target}_full ${strict}
     PROPERTIES LABELS full TIMEOUT 600)
 endfunction()

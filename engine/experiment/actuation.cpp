@@ -163,6 +163,7 @@ Result<Course> run_actuation(std::shared_ptr<const Scene> scene,
   tell_limit(*course, at_progress);
   auto layout = layout_of(*scene, course->session.shell().finest());
   if (!layout) return tl::unexpected<Error>(layout.error());
+  layout->extrapolated = course->session.shell().plan().extrapolate;
   if (auto begun = sink.begin(std::move(*layout)); !begun)
     return tl::unexpected<Error>(begun.error());
   Sampler sampler(*course, caption_of(*scene), sink, watch, progress.size());

@@ -73,16 +73,6 @@ class LastFrame final : public record::Sink {
   double scale_mm_ = 1;
 };
 
-void put_state(const record::Frame& last, record::Summary& s) {
-  s.negative_pivots = std::max(last.negative_pivots, 0);
-  s.stable = last.negative_pivots == 0;
-  s.residual_N = last.residual_N;
-  s.error_estimate_mm = last.error_estimate_mm;
-  s.energies = last.energies;
-  s.height_mm = last.height_mm;
-  s.total_K = last.total_K;
-}
-
 void put_deviation(const LastFrame& seen, record::Summary& s) {
   if (seen.net_joints().size() == 0) return;
   const Deviation deviation(seen.frame()->nodes.leftCols(seen.net_joints().cols()),
@@ -125,7 +115,7 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
   s.rods = int(scene.footprint.rods.size());
   s.joints = int(scene.footprint.joints.size());
   s.cells = int(scene.footprint.cells.size());
-  put_state(*seen.frame(), s);
+  s.take_state(*seen.frame());
   put_deviation(seen, s);
   put_seams(scene, s);
   return s;

@@ -228,6 +228,7 @@ Result<Course> run_indentation(std::shared_ptr<const Scene> scene,
   auto layout = layout_of(*scene, kept->course.session.shell().finest());
   if (!layout) return tl::unexpected<Error>(layout.error());
   layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
+  layout->extrapolated = kept->course.session.shell().plan().extrapolate;
   if (auto begun = sink.begin(std::move(*layout)); !begun)
     return tl::unexpected<Error>(begun.error());
   const Checkpoint end = kept->course.session.save();

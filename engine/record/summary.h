@@ -46,6 +46,9 @@ struct Summary {
   double seconds_setup = 0, seconds_simulation = 0, seconds_render = 0;
   Kind kind = Kind::unknown;
   bool finished = true;  ///< false: it was cut short, and the folder holds the frames found so far
+
+  /// Takes over what the last frame says of its state.
+  void take_state(const Frame& last);
 };
 
 }  // namespace gridshell::record

@@ -120,10 +120,15 @@ void write_bins(hdf5::Writer& file, const std::vector<Frame>& heads) {
                values.data(), "rad, rad, cells");
 }
 
-void write_frames(hdf5::Writer& file, const FrameList& frames, hsize_t cells) {
+void write_frames(hdf5::Writer& file, const FrameList& frames, hsize_t cells, bool extrapolated) {
   const hsize_t count = frames.size();
   const hsize_t nodes = frames.empty() ? 0 : frames.front().nodes.cols();
   file.dataset("/nodes", H5T_NATIVE_DOUBLE, {count, nodes, 3}, nullptr, "mm");
+  file.attribute("/nodes", "meaning",
+                 extrapolated
+                     ? "extrapolated over the last two meshes, as energies and K are; residuals "
+                       "and pivots are those of the finest mesh"
+                     : "of the finest mesh");
   file.dataset("/cell_K", H5T_NATIVE_DOUBLE, {count, cells}, nullptr, "rad");
   std::vector<Frame> heads;
   hsize_t k = 0;
@@ -142,7 +147,8 @@ Result<void> write_sealed(int descriptor, const AtomicFile& target, const Trajec
   hdf5::Writer file(stream);
   file.attribute("/", "format", format_name);
   write_layout(file, trajectory.layout);
-  write_frames(file, trajectory.frames, trajectory.layout.cells.size());
+  write_frames(file, trajectory.frames, trajectory.layout.cells.size(),
+               trajectory.layout.extrapolated);
   file.finish();
   const auto failed = [](int code) {
     return fail(Fault::io, std::generic_category().message(code));

@@ -94,14 +94,19 @@ void translation(Draw& draw, Preset& p) {
 void blocks(Draw& draw, Preset& p) {
   p.footprint.kind = preset::FootprintKind::blocks;
   p.footprint.placement = preset::Placement::on_axis;
-  preset::Block a{.name = "a", .net = {}, .east = 0, .west = {}, .north = {}, .south = {}}, b = a;
-  b.name = "b";
-  b.west = 0;
-  b.east.reset();
-  a.net.radius_mm = b.net.radius_mm = draw.between(70, 120);
-  a.net.cut_height = b.net.cut_height = draw.between(0, 0.5);
-  p.block = {a, b};
-  p.join = {{"a.east", "b.west"}};
+  const double radius = draw.between(70, 120), cut = draw.between(0, 0.5);
+  p.block.resize(2);
+  for (preset::Block& block : p.block) {
+    block.net.radius_mm = radius;
+    block.net.cut_height = cut;
+  }
+  p.block[0].name = "a";
+  p.block[0].east = 0;
+  p.block[1].name = "b";
+  p.block[1].west = 0;
+  p.join.resize(1);
+  p.join[0].first = "a.east";
+  p.join[0].second = "b.west";
   p.actuation.start = preset::Start::net;
 }
 

@@ -289,6 +289,32 @@ TEST_CASE("list has a line a preset, and every one of them is sound") {
   CHECK(presets == int(files_under(fs::path(GRIDSHELL_SOURCE_DIR) / "presets", ".toml").size()));
 }
 
+TEST_CASE("every preset that comes with the program runs to its end", "[full]") {
+  const TemporaryFolder folder;
+  std::istringstream lines(gridshell_program({"list"}, folder.path()).out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto name = line.substr(0, line.find(' '));
+    INFO(name);
+    const auto ended = gridshell_program({"run", name, "--frames", "5", "--quiet"}, folder.path());
+    INFO(ended.err);
+    CHECK(ended.code == 0);
+  }
+}
+
+TEST_CASE("chart trust judges random scenes and keeps what was silently wrong") {
+  const TemporaryFolder folder;
+  const auto said =
+      gridshell_program({"chart", "trust", "--scenes", "2", "--seed", "3"}, folder.path());
+  INFO(said.err);
+  CHECK(said.code == 0);
+  CHECK_THAT(said.out, Catch::Contains("2 scenes, 0 silently wrong"));
+  const auto trust = folder.path() / "out/trust";
+  CHECK(names_in(trust) == listed({"errors.pdf", "errors.png", "errors.svg", "summary.json",
+                                   "trust.csv", "trust.pdf", "trust.png", "trust.svg"}));
+  CHECK(gridshell_program({"chart", "trust", "s1_actuation"}, folder.path()).code == 2);
+  CHECK(gridshell_program({"chart", "accuracy"}, folder.path()).code == 2);
+}
+
 TEST_CASE("compare tells the same from the different by its exit code") {
   const TemporaryFolder folder;
   gridshell::render::Image plain(64, 64), rod = plain;

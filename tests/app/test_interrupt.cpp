@@ -33,7 +33,7 @@ void check_all_whole(const fs::path& folder) {
 
 }  // namespace
 
-TEST_CASE("Ctrl-C and SIGTERM stop within a second and leave finished frames whole") {
+TEST_CASE("Ctrl-C and SIGTERM stop within a second and leave finished frames whole", "[alone]") {
   const int number = GENERATE(SIGINT, SIGTERM);
   const TemporaryFolder folder;
   const Running running(movie, folder.path());
@@ -51,7 +51,7 @@ TEST_CASE("Ctrl-C and SIGTERM stop within a second and leave finished frames who
     CHECK_FALSE(file.filename().string().starts_with('.'));
 }
 
-TEST_CASE("a picture that takes long does not hold up Ctrl-C") {
+TEST_CASE("a picture that takes long does not hold up Ctrl-C", "[alone]") {
   const TemporaryFolder folder;
   const Running running(
       {"movie", "s1_actuation", "--frames", "2", "--quality", "figure", "--size", "3840x2160"},
@@ -67,7 +67,7 @@ TEST_CASE("a picture that takes long does not hold up Ctrl-C") {
   CHECK(files_under(folder.path(), "trajectory.h5").size() == 1);
 }
 
-TEST_CASE("Ctrl-C before anything is finished leaves nothing") {
+TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
   const TemporaryFolder folder;
   // minutes of simulation
   const Running running(

@@ -195,6 +195,7 @@ TEST_CASE("unloading follows the way back, after a snap on another branch", "[fu
     CHECK((frames[k].nodes - frames[8 - k].nodes).cwiseAbs().maxCoeff() < 1e-6);
 
   preset::Preset fig1;
+  fig1.imperfection.size = 0;  // the state with two mirrors
   fig1.indentation.at = preset::IndentationPlace::highest;
   fig1.indentation.depth = 0.5;
   fig1.indentation.unload = true;

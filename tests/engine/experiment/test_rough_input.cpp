@@ -11,6 +11,7 @@ namespace {
 
 std::shared_ptr<const Scene> fig1(double tolerance = 1e-4) {
   preset::Preset p;
+  p.imperfection.size = 0;  // the state with two mirrors
   p.accuracy.tolerance = tolerance;
   return std::make_shared<const Scene>(scene_of(p).value());
 }

@@ -1,0 +1,41 @@
+// Random scenes of every kind: what a run says is true.
+#include "engine/study/trust_study.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "engine/preset/reader.h"
+#include "engine/preset/writer.h"
+#include "engine/study/random_preset.h"
+
+using namespace gridshell;
+
+TEST_CASE("random presets are the same from the same seed, of every kind, and read as written") {
+  for (const auto& kind : words(study::SceneKind{})) {
+    std::mt19937 first(7), second(7), third(8);
+    const auto text = preset::to_toml(study::random_preset(kind.value, first));
+    CAPTURE(kind.word);
+    CHECK(text == preset::to_toml(study::random_preset(kind.value, second)));
+    CHECK(text != preset::to_toml(study::random_preset(kind.value, third)));
+    const auto read = preset::read_preset_text(text, "random.toml", "random");
+    if (!read) FAIL(read.error().message);
+    CHECK(preset::to_toml(read->base) == text);
+  }
+}
+
+TEST_CASE("sixty random scenes: none is silently wrong", "[full]") {
+  Watch watch;
+  const auto scenes = study::trust_study({.scenes = 60, .seed = 20, .seconds = 30}, watch).value();
+  REQUIRE(scenes.size() == 60);
+  std::set<std::string> kinds;
+  int judged = 0;
+  for (const auto& scene : scenes) {
+    kinds.insert(scene.row.kind);
+    judged += scene.row.error > 0;
+    CAPTURE(scene.row.scene, scene.row.kind, word_of(scene.row.found), scene.row.error,
+            scene.row.estimate, scene.preset.description);
+    CHECK_FALSE(record::silently_wrong(scene.row.found));
+  }
+  CHECK(kinds.size() == words(study::SceneKind{}).size());
+  CHECK(judged > 30);
+}
