@@ -214,7 +214,7 @@ TEST_CASE("damaged run folders are answered, and nothing else is touched", "[ful
   const auto& at = bench.at;
   const auto before = contents(at);
   std::map<int, int> codes;
-  for (int trial = 0; trial < trials(60); ++trial) {
+  for (int trial = 0; trial < trials(40); ++trial) {
     Draw draw(trial);
     INFO("trial " << trial);
     const auto source = draw.of(std::vector<std::string>{"small", "cases", "cut"});

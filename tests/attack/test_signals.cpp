@@ -61,7 +61,7 @@ TEST_CASE("signals at any moment are answered, and nothing is lost", "[full][sig
       {"run", "s3_pole_inward", "-o", "new"},    {"render", "old", "-o", "new"}};
   std::map<int, int> codes;
   double slowest = 0;
-  for (int trial = 0; trial < trials(40); ++trial) {
+  for (int trial = 0; trial < trials(30); ++trial) {
     Draw draw(trial);
     const auto command = draw.of(commands);
     const int number = draw.of(std::vector<int>{SIGINT, SIGTERM, SIGHUP, SIGINT, SIGKILL});
