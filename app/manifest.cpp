@@ -24,7 +24,9 @@ std::vector<std::string> contents(const fs::path& folder, std::error_code& error
   std::vector<std::string> found;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
        at.increment(error)) {
-    const bool inner = at->is_directory() && !at->is_symlink() && !fs::is_empty(at->path(), error);
+    // a link is a file of its own, also one that leads in a circle
+    const bool inner =
+        !at->is_symlink(error) && at->is_directory(error) && !fs::is_empty(at->path(), error);
     if (!inner) found.push_back(at->path().lexically_relative(folder).generic_string());
   }
   std::sort(found.begin(), found.end());

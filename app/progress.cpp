@@ -110,7 +110,7 @@ void Progress::stop_if_asked() {
   }
   // what is finished is whole, so the program may end
   const bool draws = !watches_.empty() && phases_[watches_.size() - 1].draws;
-  if (interrupted_ && draws && seconds_since(interrupted_at_) > 0.7) {
+  if (interrupted_ && draws && seconds_since(interrupted_at_) > 0.5) {
     if (bar_open_) std::fputs("\r\033[K", stderr);
     try {
       last_words_();

@@ -95,18 +95,17 @@ void blocks(Draw& draw, Preset& p) {
   p.footprint.kind = preset::FootprintKind::blocks;
   p.footprint.placement = preset::Placement::on_axis;
   const double radius = draw.between(70, 120), cut = draw.between(0, 0.5);
-  p.block.resize(2);
-  for (preset::Block& block : p.block) {
+  const std::string names[] = {"a", "b"};
+  for (const std::string& name : names) {
+    preset::Block& block = p.block.emplace_back();
+    block.name = name;
     block.net.radius_mm = radius;
     block.net.cut_height = cut;
   }
-  p.block[0].name = "a";
-  p.block[0].east = 0;
-  p.block[1].name = "b";
-  p.block[1].west = 0;
-  p.join.resize(1);
-  p.join[0].first = "a.east";
-  p.join[0].second = "b.west";
+  p.block[0].east = p.block[1].west = 0;
+  preset::Join& seam = p.join.emplace_back();
+  seam.first = names[0] + ".east";
+  seam.second = names[1] + ".west";
   p.actuation.start = preset::Start::net;
 }
 

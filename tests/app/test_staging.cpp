@@ -162,6 +162,12 @@ TEST_CASE("whether a folder is a run is seen from its top, whatever lies below")
     }
     CHECK_THAT(app::refusal_to_write(top), Catch::Contains("it exists and is no run"));
   }
+  SECTION("links that lead in circles") {
+    make_run(top);
+    fs::remove(top / app::manifest_name);
+    fs::create_symlink(app::manifest_name, top / app::manifest_name);
+    CHECK_THAT(app::refusal_to_write(top), Catch::Contains("it exists and is no run"));
+  }
   SECTION("one that says it is its own case") {
     const auto name = GENERATE(".", "..", "");
     REQUIRE(make_folder(top));

@@ -160,6 +160,23 @@ void change_value(Lines& lines, Draw& draw) {
   }
 }
 
+// a number of it, a little or far from what it was
+void scale_value(Lines& lines, Draw& draw) {
+  for (int tries = 0; tries < 20; ++tries) {
+    std::string& line = lines[some_line(lines, draw)];
+    const auto digit = line.find_first_of("0123456789", line.find('='));
+    if (line.find('=') == line.npos || digit == line.npos || line.find('"') < digit) continue;
+    std::size_t length = 0;
+    const double before = std::stod(line.substr(digit), &length);
+    static const std::vector<double> factors{0.01, 0.1, 0.5, 0.8, 0.95, 1.05, 1.3, 2, 4, 10};
+    double value = before * draw.of(factors);
+    const bool whole = line.substr(digit, length).find('.') == std::string::npos;
+    line.replace(digit, length,
+                 whole ? fmt::format("{}", int(value)) : fmt::format("{:.6f}", value));
+    return;
+  }
+}
+
 // a key under its own table, which may stand there already
 void add_key(Lines& lines, Draw& draw) {
   const Field& field = draw.of(gridshell::preset::field_table());
@@ -259,7 +276,7 @@ std::string hostile_preset(Draw& draw) {
   Lines lines;
   std::istringstream text(draw.of(shipped()));
   for (std::string line; std::getline(text, line);) lines.emplace_back(line);
-  for (std::size_t ways = 1 + draw.below(4); ways > 0; --ways) switch (draw.below(8)) {
+  for (std::size_t ways = 1 + draw.below(3); ways > 0; --ways) switch (draw.below(18)) {
       case 0:
       case 1:
         change_value(lines, draw);
@@ -276,9 +293,11 @@ std::string hostile_preset(Draw& draw) {
       case 7:
         add_tables(lines, draw);
         break;
+      default:
+        scale_value(lines, draw);
     }
   std::string whole;
   for (const auto& line : lines) whole += line + "\n";
-  if (draw.one_in(12)) damage(whole, draw);
+  if (draw.one_in(20)) damage(whole, draw);
   return whole;
 }

@@ -46,14 +46,19 @@ std::string sealed(std::string hdf5) {
   return seal + hdf5;
 }
 
+// a link that leads in a circle is no file that one could ask about
+bool is_plain(const fs::path& file) {
+  return fs::symlink_status(file).type() == fs::file_type::regular;
+}
+
 fs::path some_file(const fs::path& run, Draw& draw) {
   const auto files = files_under(run, "");
   std::vector<fs::path> plain;
   for (const auto& file : files)
-    if (fs::is_regular_file(file)) plain.push_back(file);
+    if (is_plain(file)) plain.push_back(file);
   // half of the attacks on what is read
   for (const char* name : {"trajectory.h5", "summary.json", "preset.toml", "frames.journal"})
-    if (draw.one_in(6) && fs::exists(run / name)) return run / name;
+    if (draw.one_in(6) && is_plain(run / name)) return run / name;
   return draw.of(plain);
 }
 
@@ -128,12 +133,14 @@ Json hostile_json(Draw& draw) {
 
 void change_summary(const fs::path& run, Draw& draw) {
   const auto file = run / "summary.json";
-  if (!fs::exists(file)) return;
+  if (!is_plain(file)) return;
   auto json = Json::parse(read_whole(file).value(), nullptr, false);
-  if (json.contains("cases") && !draw.one_in(4)) {
+  if (!json.is_object()) return;
+  const bool cases = json.contains("cases") && json["cases"].is_array() && !json["cases"].empty();
+  if (cases && !draw.one_in(4)) {
     auto& one = json["cases"][draw.below(json["cases"].size())];
-    one[draw.one_in(2) ? "name" : "preset"] = hostile_json(draw);
-  } else if (json.is_object() && !json.empty()) {
+    if (one.is_object()) one[draw.one_in(2) ? "name" : "preset"] = hostile_json(draw);
+  } else if (!json.empty()) {
     auto at = json.begin();
     std::advance(at, draw.below(json.size()));
     *at = hostile_json(draw);
@@ -193,7 +200,8 @@ void check_answer(const Ended& ended, std::initializer_list<int> codes) {
   CHECK(std::find(codes.begin(), codes.end(), ended.code) != codes.end());
   CHECK(ended.peak_MB < 400);
   if (ended.code == 1 || ended.code == 2) CHECK_FALSE(ended.err.empty());
-  for (const char* raw : {"std::", "basic_string", "vector::", "json.exception", "HDF5-DIAG"})
+  for (const char* raw :
+       {"filesystem error", "std::", "basic_string", "vector::", "json.exception", "HDF5-DIAG"})
     CHECK(ended.err.find(raw) == std::string::npos);
   // a terminal must not be steered by what stands in a file
   CHECK(std::ranges::all_of(ended.err, [](unsigned char c) { return c == '\n' || c >= 0x20; }));
@@ -206,7 +214,7 @@ TEST_CASE("damaged run folders are answered, and nothing else is touched", "[ful
   const auto& at = bench.at;
   const auto before = contents(at);
   std::map<int, int> codes;
-  for (int trial = 0; trial < trials(60); ++trial) {
+  for (int trial = 0; trial < trials(40); ++trial) {
     Draw draw(trial);
     INFO("trial " << trial);
     const auto source = draw.of(std::vector<std::string>{"small", "cases", "cut"});

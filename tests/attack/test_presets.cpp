@@ -16,13 +16,14 @@ using gridshell::write_atomically;
 
 namespace {
 
-// what a program does that takes too long: it answers a signal within a second
+// what a program does that takes too long: it answers a signal, within a second where the machine
+// is its own (tests/app/test_interrupt.cpp)
 Ended run_and_stop(const std::vector<std::string>& arguments, const fs::path& folder,
                    double seconds) {
   const Running running(arguments, folder);
   if (!running.ends_within(seconds)) {
     running.signal(SIGINT);
-    const bool answered = running.ends_within(1);
+    const bool answered = running.ends_within(5);
     CHECK(answered);
     if (!answered) running.signal(SIGKILL);
     auto ended = running.wait();
@@ -36,7 +37,8 @@ Ended run_and_stop(const std::vector<std::string>& arguments, const fs::path& fo
 void check_told(const Ended& ended) {
   INFO(ended.err.substr(0, 2000));
   CHECK_FALSE(ended.err.empty());
-  for (const char* raw : {"std::", "basic_string", "vector::", "what():", "Assertion", "nan mm"})
+  for (const char* raw :
+       {"filesystem error", "std::", "basic_string", "vector::", "what():", "Assertion", "nan mm"})
     CHECK(ended.err.find(raw) == std::string::npos);
   // a terminal must not be steered by what stands in a file
   CHECK(std::ranges::all_of(ended.err, [](unsigned char c) { return c == '\n' || c >= 0x20; }));
@@ -51,7 +53,7 @@ TEST_CASE("hostile presets are answered", "[full][presets]") {
   const auto& at = folder.path();
   REQUIRE(mkfifo((at / "fifo").c_str(), 0600) == 0);
   std::map<int, int> checked, ran;
-  for (int trial = 0; trial < trials(120); ++trial) {
+  for (int trial = 0; trial < trials(80); ++trial) {
     Draw draw(trial);
     const auto preset = hostile_preset(draw);
     INFO("trial " << trial);
