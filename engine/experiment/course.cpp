@@ -156,7 +156,8 @@ void tell_limit(Course& course, const At& at) {
   for (const Leg& leg : course.legs) {
     const auto ended = limit_of(leg.report.end);
     if (ended != record::Limit::none) {
-      course.limit = leg.back ? record::Limit::no_equilibrium : ended;
+      const bool on_its_way = leg.back && ended != record::Limit::locking;
+      course.limit = on_its_way ? record::Limit::no_equilibrium : ended;
       course.limit_reason = how_it_ended(leg, at);
       break;
     }

@@ -37,7 +37,7 @@ std::vector<Field> shell_fields() {
        "side to which the flat shell buckles"},
       {"actuation", "seed_diagonal", "", word<&P::actuation, &Actuation::seed_diagonal>(),
        "of the corner pairs on the two diagonals, the one whose joints lie lower"},
-      {"imperfection", "size", "", real<&P::imperfection, &Imperfection::size>(between(0, 0.01)),
+      {"imperfection", "size", "", real<&P::imperfection, &Imperfection::size>(between(0, 0.05)),
        "with which a branch is entered that leaves a path where it loses its stability, of d; it "
        "only chooses, each state being one of the perfect shell; 0: the symmetric branch, whose "
        "frames say where it is not stable"},
@@ -127,7 +127,8 @@ std::vector<Field> picture_fields() {
       {"figure", "scale_bar_mm", "mm", real<&P::figure, &Figure::scale_bar_mm>(at_least(0)),
        "length of the scale bar; 0: none"},
       {"figure", "scan", "", points<&P::figure, &Figure::scan>({"x", "y", "z"}),
-       "joints measured by others, mm, in the frame of the net: red over shells on their nets, and in the latitude plot"},
+       "joints measured by others, mm, in the frame of the net: red over shells on their nets, and "
+       "in the latitude plot"},
   };
 }
 

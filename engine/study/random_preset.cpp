@@ -142,6 +142,7 @@ void rods(Draw& draw, Preset& p) {
       p.ends.kind = preset::EndKind::tangent;
       break;
     case 3:
+      p.rod.shear_GPa = 31;
       p.joints.shear_Nmm = draw.between(0.01, 1);
       break;
     case 4:

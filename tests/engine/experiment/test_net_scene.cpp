@@ -88,7 +88,9 @@ TEST_CASE("from flat, through snaps, and from the net a saddle comes to the same
   const Eigen::Index joints = net.summary.joints;
   const auto& a = net.trajectory.frames.back().nodes;
   const auto& b = flat.trajectory.frames.back().nodes;
-  CHECK((a.leftCols(joints) - b.leftCols(joints)).colwise().norm().maxCoeff() < 1e-6 * 120);
+  // what happened on the way from flat asked for finer meshes
+  CHECK((a.leftCols(joints) - b.leftCols(joints)).colwise().norm().maxCoeff() <
+        net.summary.error_estimate_mm + flat.summary.error_estimate_mm);
 }
 
 TEST_CASE("Beltrami's pseudosphere: stable, its cells negative on the whole") {
