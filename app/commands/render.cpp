@@ -152,8 +152,7 @@ int render(const Options& options, bool unsealed) {
         {"drawing point loads",
          double(runs->size()) * expected_seconds(Pictures::stills, runs->front().preset)});
   const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
-    auto artist =
-        Artist::create(options.context, options.threads, runs->front().preset.style.font);
+    auto artist = Artist::create(options.context, options.threads, runs->front().preset.style.font);
     if (!artist) return tl::unexpected(artist.error());
     std::vector<CaseRecord> all;
     for (const auto& run : *runs) all.push_back({run.preset, run.trajectory});

@@ -118,7 +118,8 @@ std::vector<Field> picture_fields() {
       {"figure", "scale_bar_mm", "mm", real<&P::figure, &Figure::scale_bar_mm>(at_least(0)),
        "length of the scale bar; 0: none"},
       {"figure", "scan", "", points<&P::figure, &Figure::scan>({"x", "y", "z"}),
-       "joints measured by others, mm, in the frame of the net: red over shells on their nets, and in the latitude plot"},
+       "joints measured by others, mm, in the frame of the net: red over shells on their nets, and "
+       "in the latitude plot"},
   };
 }
 
