@@ -105,8 +105,9 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
       })
       .and_then([&]() -> Result<void> {
         if (records.size() > 1 || !render::on_sphere(records.front().run.layout)) return {};
-        return render::write_plot(with_suffix(stem, "_latitude"),
-                                  titled(render::latitude_plot(named.front(), shells.front().scanned)), style.print);
+        return render::write_plot(
+            with_suffix(stem, "_latitude"),
+            titled(render::latitude_plot(named.front(), shells.front().scanned)), style.print);
       });
 }
 

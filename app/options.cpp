@@ -59,7 +59,7 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
   }
   if (!options.frames.empty()) overrides.push_back({"--frames", "movie.frames", options.frames});
   if (!options.quality.empty())
-    for (const char* key : {"movie.quality", "figure.quality"})
+    for (const char* key : {"figure.quality", "movie.quality"})
       overrides.push_back({"--quality", key, options.quality});
   if (!options.width.empty()) {
     std::smatch part;

@@ -174,7 +174,9 @@ void draw_block_footprints(Canvas& canvas, const Box& box, const record::Traject
 
 Result<void> write_block_footprints(const std::filesystem::path& stem,
                                     const record::Trajectory& run, const Print& print) {
-  constexpr double width = 340, margin = 12;
+  // text keeps its size however wide the figure is printed
+  const double printed = print.width_mm * 72 / 25.4, width = printed > 0 ? printed : 340;
+  constexpr double margin = 12;
   const BlockSheet sheet(run.layout);
   const double scale = (width - 2 * margin) / sheet.wide();
   const double height = 2 * margin + scale * sheet.high() + between + bar_height;

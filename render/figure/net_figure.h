@@ -33,8 +33,8 @@ DeviationUnit deviation_unit(const record::Layout& layout);
 /// Whether the net is a part of a sphere about the origin, of radius rho.
 bool on_sphere(const record::Layout& layout);
 
-/// The shells, dark, over their nets, blue, with the joints scanned, red, side by side. Progress and
-/// errors as write_stills.
+/// The shells, dark, over their nets, blue, with the joints scanned, red, side by side. Progress
+/// and errors as write_stills.
 Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
                              Renderer& renderer, Watch& watch);
 

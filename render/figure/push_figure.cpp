@@ -79,7 +79,7 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
 
 Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
                              const Print& print) {
-  constexpr double font = 7.5, column = 186, height = 190;  // points
+  constexpr double font = 7.5, usual = 186, least = 150, height = 190;  // points
   std::vector<Plot> plots;
   double low = 0, high = 0;
   for (const NamedRun& one : runs) {
@@ -95,12 +95,19 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
     plot.y.low = low;
     plot.y.high = high;
   }
-  const double width = column * double(plots.size());
+  // as many beside one another as stay readable
+  const double printed = print.width_mm * 72 / 25.4;
+  const double width = printed > 0 ? printed : usual * double(plots.size());
+  const std::size_t columns = std::clamp<std::size_t>(std::size_t(width / least), 1, plots.size());
+  const std::size_t rows = (plots.size() + columns - 1) / columns;
+  const double column = width / double(columns);
   return write_figure(
-      stem, width, height, "K of the cells in bins of x/L",
+      stem, width, height * double(rows), "K of the cells in bins of x/L",
       [&](Canvas& canvas) {
-        for (std::size_t k = 0; k < plots.size(); ++k)
-          draw_plot(canvas, {column * double(k) + 3, 3, column - 6, height - 6}, plots[k]);
+        for (std::size_t k = 0; k < plots.size(); ++k) {
+          const double x = column * double(k % columns), y = height * double(k / columns);
+          draw_plot(canvas, {x + 3, y + 3, column - 6, height - 6}, plots[k]);
+        }
       },
       print);
 }

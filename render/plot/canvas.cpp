@@ -290,8 +290,7 @@ std::string text_element(PangoLayout* layout, const std::vector<TextRun>& runs, 
       "font-family=\"{}, sans-serif\"{} fill=\"{}\" fill-opacity=\"{:.3g}\"{} "
       "xml:space=\"preserve\">{}</text>\n",
       scale, anchor.x, anchor.y, -style.angle_deg, xml_text(font_family()),
-      style.bold ? " font-weight=\"bold\"" : "",
-      hex(style.colour), style.colour.a, halo, spans);
+      style.bold ? " font-weight=\"bold\"" : "", hex(style.colour), style.colour.a, halo, spans);
 }
 
 }  // namespace

@@ -64,8 +64,11 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid) {
       canvas.text(
           panel.letter, {box.x + 0.4 * em, box.y + 0.2 * em},
           {.size = 1.2 * em, .bold = true, .align_y = AlignY::top, .halo = {1, 1, 1, 0.8f}});
-    canvas.text(panel.caption, {box.middle().x, box.bottom() + grid.caption / 2},
-                {.size = em, .align_x = AlignX::centre, .align_y = AlignY::middle});
+    // a caption wider than its panel is set smaller
+    TextStyle caption{.size = em, .align_x = AlignX::centre, .align_y = AlignY::middle};
+    caption.size *=
+        std::min(1.0, box.width / std::max(1.0, canvas.measure(panel.caption, caption).width));
+    canvas.text(panel.caption, {box.middle().x, box.bottom() + grid.caption / 2}, caption);
   }
   const Box last = grid.panel(grid.columns - 1);
   if (grid.foot > 0) {
@@ -74,7 +77,9 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid) {
     draw_scale_bar(canvas, row, figure.scale_bar_mm, figure.pixels_per_mm, em);
   }
   if (figure.colour_bar) {
-    const double height = std::min(grid.rows * grid.height, 16 * em);
+    // beside flat panels it goes on beside their captions
+    const double least = std::min(grid.total_height() - 2 * grid.margin - grid.head, 9 * em);
+    const double height = std::clamp(16 * em, least, std::max(least, grid.rows * grid.height));
     draw_colour_bar(canvas,
                     {last.right() + grid.gap, grid.margin + grid.head, grid.bar - grid.gap, height},
                     *figure.colour_bar, em);

@@ -103,9 +103,9 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
       options.input = embedded.name;
       options.output = folder.path() / "run";
       options.quiet = true;
-      options.size = pictures == app::Pictures::movie ? "480x270" : "640x360";
-      options.quality = "draft";
-      options.frames = "2";
+      options.size.append(pictures == app::Pictures::movie ? "480x270" : "640x360");
+      options.quality.append("draft");
+      options.frames.append("2");
       options.set = {"accuracy.tolerance=0.01"};
       INFO(embedded.name << (pictures == app::Pictures::movie ? ", movie" : ", figure"));
       int words = 0;

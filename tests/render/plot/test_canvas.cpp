@@ -194,8 +194,9 @@ TEST_CASE("a figure is written as PNG, SVG and PDF, whose words stay words") {
 }
 
 TEST_CASE("characters that XML forbids do not break an SVG") {
-  const std::string svg =
-      draw_svg(90, 20, "bell \a", [](Canvas& c) { c.text("a\x01 < b", {5, 10}, {}); });
+  const std::string svg = draw_svg(90, 20, "bell \a", [](Canvas& c) {
+    c.text("a\x01 < b", {5, 10}, {});
+  });
   CHECK(svg.find_first_of("\a\x01") == std::string::npos);
   CHECK(svg.find("bell ") != std::string::npos);
 }
@@ -214,8 +215,9 @@ TEST_CASE("the font is chosen by name, and one that is not there is refused") {
   CHECK(width() == usual);
   REQUIRE(use_font("DejaVu Sans Mono"));
   CHECK(width() > 1.5 * usual);
-  CHECK(draw_svg(9, 9, "", [](Canvas& c) { c.text("a", {1, 8}, {}); }).find("\"DejaVu Sans Mono,") !=
-        std::string::npos);
+  CHECK(draw_svg(9, 9, "", [](Canvas& c) {
+          c.text("a", {1, 8}, {});
+        }).find("\"DejaVu Sans Mono,") != std::string::npos);
   REQUIRE(use_font(""));
   CHECK(width() == usual);
 }
