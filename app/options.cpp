@@ -58,8 +58,12 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
     overrides.push_back(*change);
   }
   if (!options.frames.empty()) overrides.push_back({"--frames", "movie.frames", options.frames});
+  // one word for two keys is wrong once
+  if (!options.quality.empty() && !find_word<preset::Quality>(options.quality))
+    return fail(Fault::bad_input,
+                fmt::format("--quality {}: must be draft, movie or figure", options.quality));
   if (!options.quality.empty())
-    for (const char* key : {"figure.quality", "movie.quality"})
+    for (const char* key : {"movie.quality", "figure.quality"})
       overrides.push_back({"--quality", key, options.quality});
   if (!options.width.empty()) {
     std::smatch part;

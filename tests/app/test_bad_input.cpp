@@ -64,8 +64,7 @@ TEST_CASE("a bad preset is refused in a sentence, and leaves nothing behind") {
        "--size wide: must be WxH, for example 1280x720\n"},
       {"",
        {"movie", "s1_actuation", "--quality", "best"},
-       "--quality: [movie] quality = \"best\": unknown word, must be \"draft\", \"movie\" or "
-       "\"figure\"\n"},
+       "--quality best: must be draft, movie or figure\n"},
       {"",
        {"run", "s1_actuation", "-o", "bad.toml"},
        "cannot write the folder 'bad.toml': it is a file\n"},
