@@ -18,12 +18,6 @@ namespace {
 constexpr double first_shortening[] = {0.02, 0.01, 0.005, 0.0025};
 constexpr double flat_shortening = 1e-3;  // how near to the flat the path is followed
 
-std::string at_progress(double t, std::optional<double> error) {
-  auto text = fmt::format("at progress {:.4f}", t * t);
-  if (error) text += fmt::format(" ± {:.1g}", 2 * t * *error);
-  return text;
-}
-
 Error stopped() { return {Fault::cancelled, "stopped"}; }
 
 /// Back from the first state towards the flat; whether it came there.
@@ -85,6 +79,12 @@ void follow_from_flat(Course& course, const Checkpoint& first, double to, const 
 }
 
 }  // namespace
+
+std::string at_progress(double t, std::optional<double> error) {
+  auto text = fmt::format("at progress {:.4f}", t * t);
+  if (error) text += fmt::format(" ± {:.1g}", 2 * t * *error);
+  return text;
+}
 
 Result<Course> follow_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
                                 bool inner, double to, const Watch& watch) {

@@ -10,6 +10,9 @@
 
 namespace gridshell::experiment {
 
+/// "at progress 0.0183 ± 0.0005", of a path parameter of an actuation.
+std::string at_progress(double t, std::optional<double> error);
+
 /// Follows the actuation of a scene. From flat the path is found the patient way: a first buckled
 /// state where the rods are 2 % shorter than flat on average (or less, where that state does not
 /// hang together with the flat), from there back towards the flat and on to progress `to`. Where

@@ -41,12 +41,12 @@ std::optional<std::string> leg_disagreement(const Leg& a, const Leg& b) {
   return std::nullopt;
 }
 
-/// The places of a course's events, extrapolated with those of a leader of twice the edges.
-void extrapolate_events(const Course& fine, Course& course) {
-  for (std::size_t k = 0; k < course.legs.size(); ++k) {
-    auto& events = course.legs[k].report.events;
+/// The places of events, extrapolated with those of a leader of twice the edges.
+void extrapolate_events(const std::vector<Leg>& fine, std::vector<Leg>& legs) {
+  for (std::size_t k = 0; k < legs.size(); ++k) {
+    auto& events = legs[k].report.events;
     for (std::size_t e = 0; e < events.size(); ++e) {
-      const double t = fine.legs[k].report.events[e].t, step = t - events[e].t;
+      const double t = fine[k].report.events[e].t, step = t - events[e].t;
       // of a lock the finest mesh decides, and the state that is kept is its own
       if (events[e].kind != Event::Kind::locked) events[e].t = t + step / 3;
       events[e].error = std::abs(step) / 3;
@@ -57,9 +57,12 @@ void extrapolate_events(const Course& fine, Course& course) {
 }  // namespace
 
 std::optional<std::string> disagreement(const Course& coarse, const Course& fine) {
-  if (coarse.legs.size() != fine.legs.size()) return "another way from the flat";
-  for (std::size_t k = 0; k < coarse.legs.size(); ++k)
-    if (auto found = leg_disagreement(coarse.legs[k], fine.legs[k])) return found;
+  for (const auto legs : {&Course::earlier, &Course::legs}) {
+    const auto &a = coarse.*legs, &b = fine.*legs;
+    if (a.size() != b.size()) return "another way from the flat";
+    for (std::size_t k = 0; k < a.size(); ++k)
+      if (auto found = leg_disagreement(a[k], b[k])) return found;
+  }
   if (coarse.legs.empty() || coarse.legs.back().end() != fine.legs.back().end())
     return std::nullopt;  // both ended early, at states of their own
   const double apart = distance(coarse, fine), d = coarse.session.scene().footprint.spacing;
@@ -85,7 +88,8 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
     }
     const auto differs = disagreement(course, *fine);
     if (!differs) {
-      extrapolate_events(*fine, course);
+      extrapolate_events(fine->legs, course.legs);
+      extrapolate_events(fine->earlier, course.earlier);
       course.session.charge(fine->session.effort());
       course.doubt.clear();
       return course;

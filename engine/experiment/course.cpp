@@ -41,9 +41,11 @@ double worst_estimate_mm(const Course& course) {
 }  // namespace
 
 bool Course::eventful() const {
-  return std::any_of(legs.begin(), legs.end(), [](const Leg& leg) {
+  const auto any = [](const Leg& leg) {
     return !leg.report.events.empty() || leg.report.end != Outcome::reached;
-  });
+  };
+  return std::any_of(legs.begin(), legs.end(), any) ||
+         std::any_of(earlier.begin(), earlier.end(), any);
 }
 
 Leg& follow_leg(Course& course, double to, const Leaving& leaving, const Watch& watch) {
@@ -123,14 +125,6 @@ record::Limit limit_of(Outcome end) {
   return record::Limit::branch_lost;
 }
 
-/// Where a leg left a branch for a rest further on.
-std::string places_left(const Leg& leg, const At& at) {
-  std::string places;
-  for (const Event& event : leg.report.events)
-    if (event.to) places += (places.empty() ? "" : " and ") + at(event.t, event.error);
-  return places;
-}
-
 /// How a leg ended before its end.
 std::string how_it_ended(const Leg& leg, const At& at) {
   const Report& report = leg.report;
@@ -150,6 +144,14 @@ std::string how_it_ended(const Leg& leg, const At& at) {
 
 }  // namespace
 
+std::string places_left(const std::vector<Leg>& legs, const At& at) {
+  std::string places;
+  for (const Leg& leg : legs)
+    for (const Event& event : leg.report.events)
+      if (event.to) places += (places.empty() ? "" : " and ") + at(event.t, event.error);
+  return places;
+}
+
 void tell_limit(Course& course, const At& at) {
   course.limit = record::Limit::none;
   course.limit_reason.clear();
@@ -161,7 +163,7 @@ void tell_limit(Course& course, const At& at) {
       course.limit_reason = how_it_ended(leg, at);
       break;
     }
-    const auto places = places_left(leg, at);
+    const auto places = places_left({leg}, at);
     if (places.empty() || course.limit != record::Limit::none) continue;
     course.limit = record::Limit::snap;
     course.limit_reason =

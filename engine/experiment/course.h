@@ -26,6 +26,7 @@ struct Leg {
 struct Course {
   Session session;
   std::vector<Leg> legs = {};
+  std::vector<Leg> earlier = {};  ///< of a push: those of the actuation before it
   double seconds_setup = 0;
   std::string doubt = {};  ///< what meshes do not agree on, a sentence; empty: nothing is known
   record::Limit limit = record::Limit::none;
@@ -65,6 +66,9 @@ Report stand_at(Course& course, const Sample& sample, const Watch& watch);
 /// Says where a path parameter lies, in the experiment's own words: "at progress 0.4312", with its
 /// error where it is known.
 using At = std::function<std::string(double t, std::optional<double> error)>;
+
+/// Where legs left a branch for a rest further on: "at progress 0.0183 and at ..."; empty: nowhere.
+std::string places_left(const std::vector<Leg>& legs, const At& at);
 
 /// Tells as a limit and a sentence how the legs ended and what they came past: the first that ended
 /// before its end, else the snaps.

@@ -114,15 +114,14 @@ std::string turning_back(Session& session, const Leg& leg, double depth_mm, cons
               : std::string();
 }
 
-/// Why the push stopped, or what it came past: the first leg to which anything happened.
-void tell(Pushed& pushed, const Watch& watch) {
+/// Why the push stopped, or what it came past, in its own words: the first leg to which anything
+/// happened; empty where the common ones serve.
+std::string reason_of(Pushed& pushed, const At& at, const Watch& watch) {
   Course& course = pushed.course;
-  const At at = at_depth(pushed.depth_mm);
-  tell_limit(course, at);
   const auto told = std::find_if(course.legs.begin(), course.legs.end(), [](const Leg& leg) {
     return !leg.report.events.empty() || leg.report.end != Outcome::reached;
   });
-  if (told == course.legs.end() || told->report.events.empty()) return;
+  if (told == course.legs.end() || told->report.events.empty()) return {};
   const Leg& leg = *told;
   const Scene& scene = course.session.scene();
   const Event& first = leg.report.events.front();
@@ -141,8 +140,27 @@ void tell(Pushed& pushed, const Watch& watch) {
                     strain > 0.99 * scene.max_strain
                         ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
                         : "the push meets 100 times its first stiffness");
-  if (reason.empty()) return;
-  course.limit_reason = reason + (course.doubt.empty() ? "" : "; ") + course.doubt;
+  return reason;
+}
+
+void tell(Pushed& pushed, const Watch& watch) {
+  Course& course = pushed.course;
+  const At at = at_depth(pushed.depth_mm);
+  const auto doubt = std::exchange(course.doubt, {});
+  tell_limit(course, at);
+  if (auto reason = reason_of(pushed, at, watch); !reason.empty())
+    course.limit_reason = std::move(reason);
+  const auto say = [&](const std::string& more) {
+    course.limit_reason += (course.limit_reason.empty() ? "" : "; ") + more;
+  };
+  // which shell was pushed hangs on what happened before
+  if (const auto places = places_left(course.earlier, at_progress); !places.empty()) {
+    if (course.limit == record::Limit::none) course.limit = record::Limit::snap;
+    say("before the push the path lost its stability " + places +
+        " and came to rest in another state");
+  }
+  if (!doubt.empty()) say(doubt);
+  course.doubt = doubt;
 }
 
 Result<Pushed> follow_push(const std::shared_ptr<const Scene>& scene,
@@ -159,6 +177,7 @@ Result<Pushed> follow_push(const std::shared_ptr<const Scene>& scene,
   Pushed pushed{std::move(*actuated), *push, push->displacement.norm(), {}};
   Course& course = pushed.course;
   pushed.before = course.session.nodes().leftCols(Eigen::Index(scene->footprint.joints.size()));
+  course.earlier = std::move(course.legs);
   course.legs.clear();
   Hold hold{push->joint};
   if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();

@@ -355,14 +355,15 @@ void NestedShell::estimate() {
   const int joints = finest.mesh.joints;
   const Eigen::Matrix3Xd step = state_.x.leftCols(joints) - coarser.leftCols(joints);
   if (!plan_.extrapolate || last < 2) {
-    state_.error_estimate_mm = margin * largest_column(step) / 3;
+    state_.error_estimate_mm = margin * largest_column(step) / 3 + options_.tolerance_mm;
     return;
   }
   // (4 fine - coarse)/3 of these two meshes less that of the two before
   const Eigen::Matrix3Xd before = coarser.leftCols(joints) - nodes(last - 2).leftCols(joints);
   state_.error_estimate_mm =
       std::max(margin_extrapolated * largest_column((4 * step - before) / 3) / 15,
-               margin * left_by_order(step, before));
+               margin * left_by_order(step, before)) +
+      options_.tolerance_mm;  // corrections stop there
   // the correction is known at the coarser nodes; between them it is interpolated
   Eigen::Matrix3Xd on_coarser, correction;
   finest.to_coarser->nodes(state_.x, on_coarser);

@@ -60,15 +60,17 @@ void revolution(Draw& draw, Preset& p) {
       : which == 1 ? preset::NetKind::spool
                    : preset::NetKind::beltrami);
   p.net.radius_mm = which == 0 ? draw.between(60, 110) : draw.between(90, 140);
-  p.net.length_mm = draw.between(110, 240);
+  // longer ones fold
+  const double longest[] = {2.2, 1.4, 0.5};
+  p.net.length_mm = p.net.radius_mm * longest[which] * draw.between(0.7, 1);
   if (which > 0) p.net.waist = draw.between(0.5, 0.8);
   p.actuation.start = draw.once_in(2) ? preset::Start::net : preset::Start::flat;
 }
 
 void profile(Draw& draw, Preset& p) {
   net(draw, p, preset::NetKind::profile);
-  const double radius = draw.between(70, 110), swell = draw.between(-20, 25),
-               half = draw.between(60, 120);
+  const double radius = draw.between(80, 110), swell = draw.between(-15, 25),
+               half = draw.between(70, 115);
   for (int k = -3; k <= 3; ++k)
     p.net.profile.push_back({radius + swell * std::cos(k * M_PI / 6), half * k / 3.0});
   p.net.length_mm = 0;
