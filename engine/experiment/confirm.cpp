@@ -24,6 +24,13 @@ double distance(const Course& a, const Course& b) {
   return largest_column(a.session.nodes().leftCols(joints) - b.session.nodes().leftCols(joints));
 }
 
+/// Whether every leg came to its end, or to a limit of the rods.
+bool whole(const Course& course) {
+  return std::all_of(course.legs.begin(), course.legs.end(), [](const Leg& leg) {
+    return leg.report.end == Outcome::reached || leg.report.end == Outcome::locked;
+  });
+}
+
 std::optional<std::string> leg_disagreement(const Leg& a, const Leg& b) {
   const auto &seen = a.report.events, &found = b.report.events;
   if (seen.size() != found.size())
@@ -72,7 +79,9 @@ std::optional<std::string> disagreement(const Course& coarse, const Course& fine
 
 Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow,
                          const Watch& watch) {
-  for (int asked = 0; asked < most_leaders && course.eventful(); ++asked) {
+  // the first buckling is a choice too, which the coarsest mesh made
+  const auto chose = [&] { return course.eventful() || !scene.from_net; };
+  for (int asked = 0; asked < most_leaders && chose(); ++asked) {
     const auto plan = with_finer_leader(course.session.shell().plan());
     if (!plan || !fits_memory(scene, *plan)) {
       course.doubt =
@@ -94,12 +103,19 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
       course.doubt.clear();
       return course;
     }
+    // a path that came through is not given up for one that did not
+    if (whole(course) && !whole(*fine)) {
+      course.doubt = fmt::format("a leading mesh of {} edges a segment did not come so far: {}",
+                                 leader_of(*fine), *differs);
+      course.session.charge(fine->session.effort());
+      return course;
+    }
     fine->session.charge(course.session.effort());
     fine->seconds_setup += course.seconds_setup;
     fine->doubt = fmt::format("leading meshes of {} and {} edges a segment do not agree: {}",
                               leader_of(course), leader_of(*fine), *differs);
     course = std::move(*fine);
-    if (!course.eventful()) course.doubt.clear();
+    if (!chose()) course.doubt.clear();
   }
   return course;
 }

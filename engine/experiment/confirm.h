@@ -10,7 +10,8 @@ namespace gridshell::experiment {
 /// lie near each other, to the same end. Otherwise a sentence says what they differ in.
 std::optional<std::string> disagreement(const Course& coarse, const Course& fine);
 
-/// A course on which something happened, followed once more with leading meshes of twice the edges.
+/// A course that began in a buckled state out of the flat, or on which something happened, followed
+/// once more with leading meshes of twice the edges.
 /// Where both tell the same, the events' places are extrapolated (the error falls fourfold), with
 /// an error; where they do not, the finer one is asked against a still finer one, at most three
 /// times. What remains in doubt is said. Errors: cancelled.

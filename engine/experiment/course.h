@@ -45,10 +45,10 @@ using Follow = std::function<Result<Course>(const LevelPlan&, const Watch&)>;
 /// The meshes that the tolerance asks for, or those asked for by themselves.
 LevelPlan first_plan(const Scene& scene);
 
-/// The path on the coarsest plan whose estimate meets the scene's tolerance. What happens on it is
-/// confirmed (confirm.h) where the tolerance chooses the meshes. Errors: those of `follow`;
-/// no_equilibrium where the finest meshes do not meet it; bad_input where they do not fit the
-/// memory.
+/// The path on the coarsest plan whose estimate meets the scene's tolerance. Its choices
+/// and events are confirmed (confirm.h) where the tolerance chooses the meshes. Errors: those of
+/// `follow`; no_equilibrium where the finest meshes do not meet it; bad_input where they do not fit
+/// the memory.
 Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& watch);
 
 /// A sample of a leg.

@@ -89,7 +89,9 @@ void compare(const Outcome& asked, const Outcome& fine, record::TrustRow& row) {
       // where the path ended early the frames are of other states
       if (frame.event == "locking" || other.event == "locking") continue;
       const double error = distance(asked, frame, other);
-      const double estimate = frame.error_estimate_mm / asked.trajectory.layout.length_scale_mm;
+      // what the finer one is judged by is not exact either
+      const double estimate = (frame.error_estimate_mm + 0.5 * other.error_estimate_mm) /
+                              asked.trajectory.layout.length_scale_mm;
       const double many = error / std::max(estimate, 1e-9);
       if (many <= worst) continue;
       worst = many;
