@@ -192,7 +192,8 @@ class Idle {
     if (preset_.imperfection.size == 0)
       for (const char* key : {"seed", "form"})
         add("imperfection", key, {"[imperfection] size"},
-            "with [imperfection] size = 0 nothing is chosen: the path stays on the symmetric branch");
+            "with [imperfection] size = 0 nothing is chosen: the path stays on the symmetric "
+            "branch");
   }
 
   void pictures() {
