@@ -102,15 +102,19 @@ At at_depth(double depth_mm) {
 
 /// Where the path that was lost turns back, as the arc length says.
 std::string turning_back(Session& session, const Leg& leg, double depth_mm, const Watch& watch) {
+  // the last one before the jump: the event's own place may be extrapolated past what came after it
   const Event& event = leg.report.events.front();
   const Station* last = nullptr;
-  for (const Station& station : leg.trail.stations)
-    if (leg.way() * (event.t - station.point.t) >= 0) last = &station;
+  for (const Station& station : leg.trail.stations) {
+    if (event.to && station.point.t == *event.to) break;
+    last = &station;
+  }
   if (!last) return {};
   const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
   const auto turn = turning_point(session.shell().system(0), session.shell().motion(0), last->point,
                                   leg.way(), fine, watch);
-  return turn ? fmt::format(" (its path turns back at {:.3f} mm)", *turn * depth_mm)
+  return turn ? fmt::format(" (on the leading mesh its path turns back at {:.3f} mm)",
+                            *turn * depth_mm)
               : std::string();
 }
 
