@@ -17,7 +17,8 @@ function(gridshell_tests folder)
     Catch2::Catch2WithMain)
   target_include_directories(${target} SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
   target_compile_definitions(${target} PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_precompile_headers(${target} PRIVATE <catch2/catch.hpp> <Eigen/Core>)
+  gridshell_read_once(${target} <catch2/catch.hpp>)
+  gridshell_compile_lightly(${target})
   # a name that CMake tears apart (at a semicolon) must fail instead of matching no test
   set(strict EXTRA_ARGS --warn NoTests)
   catch_discover_tests(${target} TEST_SPEC "~[full]~[alone]" TEST_LIST ${target}_quick ${strict}

@@ -3,13 +3,9 @@
 
 #include <Eigen/Core>
 
-namespace gridshell {
+#include "engine/rod/edge.h"
 
-/// An edge vector with what every energy needs of it.
-struct EdgeGeometry {
-  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  ///< unit
-  double length = 0;                                   ///< current length, mm
-};
+namespace gridshell {
 
 /// E = EI/(2l) |kb|^2 = (2EI/l) (1 - c)/(1 + c), c = t_e . t_f, with the curvature binormal
 /// kb = 2 t_e x t_f / (1 + c) and l the mean rest length of the two edges. E grows without bound

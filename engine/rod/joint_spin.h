@@ -1,9 +1,6 @@
 // The spin of a rod at a joint that passes twist: its director beside the joint's normal.
 #pragma once
 
-#include <cmath>
-#include <complex>
-
 #include "engine/rod/energies.h"
 #include "engine/rod/pair.h"
 
@@ -12,12 +9,8 @@ namespace gridshell {
 /// phi = theta_e - alpha - side pi/2, in (-pi, pi]: the angle about t from the joint's normal to
 /// the rod's director m1. alpha is that of the other rod's tangent s in the reference frame d1, d2
 /// of e; the normal is side * t x s, `side` +1 or -1.
-inline double joint_spin(int side, double theta, const EdgeGeometry& e,
-                         const Eigen::Vector3d& director, const EdgeGeometry& f) {
-  const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
-  const double alpha = std::atan2(s.dot(t.cross(director)), s.dot(director));
-  return std::remainder(theta - alpha - side * M_PI / 2, 2 * M_PI);
-}
+double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,
+                  const EdgeGeometry& f);
 
 /// E = stiffness/2 phi^2 (mJ): returns it and adds gradient and Hessian by edge vectors and angles.
 /// With the complex director d = d1 + i d2 and z = d/(s.d), alpha = Im log(s.d), and d carried in
@@ -25,43 +18,8 @@ inline double joint_spin(int side, double theta, const EdgeGeometry& e,
 ///   (s.d)'/(s.d)  = z.Qq - c z.p,
 ///   (s.d)''/(s.d) = 2 [c (t.p)(z.p) - (s.q)(z.Qq) - (z.p)(t.Qq + s.Pp/2)] + a real part,
 /// p = de/|e|, q = df/|f|.
-inline double add_joint_spin(double stiffness, int side, double theta, const EdgeGeometry& e,
-                             const Eigen::Vector3d& director, const EdgeGeometry& f,
-                             PairEnergy& out) {
-  using Complex = Eigen::Vector3cd;
-  const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
-  const double phi = joint_spin(side, theta, e, director, f), c = t.dot(s);
-  const Complex d = director.cast<std::complex<double>>() +
-                    std::complex<double>(0, 1) * t.cross(director).cast<std::complex<double>>();
-  const std::complex<double> sd(s.dot(director), s.dot(t.cross(director)));
-  const Complex z = d / sd;
-  const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - t * t.transpose(),
-                        Q = Eigen::Matrix3d::Identity() - s * s.transpose();
-  const Complex gp = -c * z, gq = Q * z;
-  const Eigen::Vector3d zi = z.imag(), qzi = gq.imag(), ps = P * s, qt = Q * t;
-
-  PairVector slope = PairVector::Zero();  // of phi
-  slope.head<3>() = -gp.imag();
-  slope.segment<3>(3) = -gq.imag();
-  slope[6] = 1;
-  Eigen::Matrix<double, 8, 8> curvature = PairMatrix::Zero();  // of alpha
-  const auto squares = [](const Complex& a, const Complex& b) -> Eigen::Matrix3d {
-    return (a * b.transpose()).imag();
-  };
-  curvature.block<3, 3>(0, 0) = c * (t * zi.transpose() + zi * t.transpose()) -
-                                0.5 * (zi * ps.transpose() + ps * zi.transpose()) - squares(gp, gp);
-  curvature.block<3, 3>(3, 3) = -(s * qzi.transpose() + qzi * s.transpose()) - squares(gq, gq);
-  curvature.block<3, 3>(0, 3) = -zi * qt.transpose() - squares(gp, gq);
-  curvature.block<3, 3>(3, 0) = curvature.block<3, 3>(0, 3).transpose();
-
-  PairEnergy here;
-  here.gradient = stiffness * phi * slope;
-  here.hessian = stiffness * (slope * slope.transpose() - phi * curvature);
-  scale_to_edges(e.length, f.length, here);
-  out.gradient += here.gradient;
-  out.hessian += here.hessian;
-  return 0.5 * stiffness * phi * phi;
-}
+double add_joint_spin(double stiffness, int side, double theta, const EdgeGeometry& e,
+                      const Eigen::Vector3d& director, const EdgeGeometry& f, PairEnergy& out);
 
 /// The joint's resistance to the spin of the first of two edges beside the normal: of four pairs of
 /// edges at a joint each holds both rods, k/8 phi^2 a rod and pair, so that k is the joint's.
@@ -70,13 +28,8 @@ struct JointSpin {
   double stiffness = 0;  ///< k/4, N mm/rad
   int side = 1;          ///< +1: the normal is t_e x t_f; -1: t_f x t_e
 
-  double value(const PairGeometry& at) const {
-    const double phi = joint_spin(side, at.angle_e, at.e, at.director_e, at.f);
-    return 0.5 * stiffness * phi * phi;
-  }
-  double add(const PairGeometry& at, PairEnergy& out) const {
-    return add_joint_spin(stiffness, side, at.angle_e, at.e, at.director_e, at.f, out);
-  }
+  double value(const PairGeometry& at) const;
+  double add(const PairGeometry& at, PairEnergy& out) const;
 };
 
 }  // namespace gridshell

@@ -12,22 +12,52 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// every so many that at most `most` are left
-std::size_t stride(std::size_t count, std::size_t most) {
-  return std::max<std::size_t>(1, (count + most - 1) / most);
+// at most `most` of them, evenly
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
+  const std::size_t stride = std::max<std::size_t>(1, (all.size() + most - 1) / most);
+  std::vector<T> some;
+  for (std::size_t k = 0; k < all.size(); k += stride) some.push_back(all[k]);
+  return some;
 }
 
-// what stands for a frame: joints, nodes between them, and the arrows of loads
-Eigen::Matrix3Xd points_of(const record::Layout& layout, const record::Frame& frame) {
-  constexpr std::size_t most = 300;
-  const auto count = std::size_t(frame.nodes.cols());
+// eighths of what lies between two joints of a rod, or a joint and the rod's end, and that end
+void add_rod_points(const std::vector<int>& rod, const std::vector<char>& joint,
+                    std::vector<RodPoint>& points) {
+  constexpr std::size_t parts = 8;
+  for (std::size_t from = 0, to = 1; to < rod.size(); ++to) {
+    if (!joint[std::size_t(rod[to])] && to + 1 < rod.size()) continue;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::size_t eighths = (to - from) * part, node = from + eighths / parts;
+      points.push_back({rod[node], rod[node + 1], double(eighths % parts) / parts});
+    }
+    from = to;
+  }
+  if (!rod.empty()) points.push_back({rod.back(), rod.back(), 0});
+}
+
+std::vector<RodPoint> rod_points(const record::Layout& layout) {
+  int last = -1;
+  for (const auto& rod : layout.rods)
+    for (int node : rod) last = std::max(last, node);
+  std::vector<char> joint(std::size_t(last + 1), 0);
+  for (const record::Joint& at : layout.joints)
+    if (at.node <= last) joint[std::size_t(at.node)] = 1;
+  std::vector<RodPoint> points;
+  for (const auto& rod : layout.rods) add_rod_points(rod, joint, points);
+  return points;
+}
+
+// what stands for a frame: joints, points of the rods, and the arrows of loads
+Eigen::Matrix3Xd points_of(const record::Layout& layout, const std::vector<RodPoint>& rods,
+                           const record::Frame& frame) {
   std::vector<Eigen::Vector3d> points;
   const auto add = [&](const Eigen::Vector3d& point) {
     if (point.allFinite()) points.push_back(point);
   };
-  for (std::size_t k = 0; k < layout.joints.size(); k += stride(layout.joints.size(), most))
-    if (std::size_t(layout.joints[k].node) < count) add(frame.nodes.col(layout.joints[k].node));
-  for (std::size_t n = 0; n < count; n += stride(count, most)) add(frame.nodes.col(long(n)));
+  for (const RodPoint& at : rods)
+    if (std::max(at.from, at.to) < frame.nodes.cols())
+      add((1 - at.part) * frame.nodes.col(at.from) + at.part * frame.nodes.col(at.to));
   for (const LoadArrow& arrow : load_arrows(layout, frame)) add(arrow.from), add(arrow.to);
   Eigen::Matrix3Xd all(3, points.size());
   for (std::size_t k = 0; k < points.size(); ++k) all.col(long(k)) = points[k];
@@ -76,7 +106,8 @@ FrameSource source_of(const record::Trajectory& run) {
 
 Survey::Survey(const record::Layout& layout)
     : lowest_z_mm(std::min(lowest(layout.original_boundary), lowest(layout.actuated_boundary))),
-      layout_(&layout) {}
+      layout_(&layout),
+      rod_points_(thinned(rod_points(layout), 600)) {}
 
 void Survey::take(const record::Frame& frame) {
   if (frames == 0) first = frame;
@@ -100,7 +131,7 @@ void Survey::take(const record::Frame& frame) {
 }
 
 void Survey::keep_points(const record::Frame& frame) {
-  last_ = points_of(*layout_, frame);
+  last_ = points_of(*layout_, rod_points_, frame);
   if (frames % every_ != 0) return;
   kept_.push_back(last_);
   constexpr std::size_t most_frames = 32;

@@ -36,6 +36,12 @@ struct Mark {
   MarkKind kind = MarkKind::other;
 };
 
+/// A point of a rod between two of its nodes, or at one.
+struct RodPoint {
+  int from = 0, to = 0;  ///< columns of Frame::nodes
+  double part = 0;       ///< of the way between them
+};
+
 class Survey {
  public:
   /// The layout outlives the survey.
@@ -55,14 +61,16 @@ class Survey {
   std::vector<Mark> marks;               ///< in order
 
   /// Points that bound all frames, what is drawn of both boundaries, and the arrows of loads: some
-  /// hundreds of some dozen frames, and the boundaries themselves. Which ones is a matter of their
-  /// numbers alone: round-off must not choose, or the whole picture would move with it. 3 x n, mm.
+  /// hundreds of some dozen frames, and the boundaries themselves. They lie at the same places of
+  /// the rods on every mesh, and round-off does not choose them: the whole picture would move with
+  /// them. 3 x n, mm.
   Eigen::Matrix3Xd bounds() const;
 
  private:
   void keep_points(const record::Frame& frame);
 
   const record::Layout* layout_;
+  std::vector<RodPoint> rod_points_;    ///< the same places of the rods on every mesh
   int every_ = 1;                       ///< frame whose points are kept
   std::vector<Eigen::Matrix3Xd> kept_;  ///< of every so many frames
   Eigen::Matrix3Xd last_;               ///< of the last frame

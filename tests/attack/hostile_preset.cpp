@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -166,13 +168,16 @@ void scale_value(Lines& lines, Draw& draw) {
     std::string& line = lines[some_line(lines, draw)];
     const auto digit = line.find_first_of("0123456789", line.find('='));
     if (line.find('=') == line.npos || digit == line.npos || line.find('"') < digit) continue;
-    std::size_t length = 0;
-    const double before = std::stod(line.substr(digit), &length);
+    char* end = nullptr;
+    const double before = std::strtod(line.c_str() + digit, &end);
+    const auto length = std::size_t(end - line.c_str()) - digit;
     static const std::vector<double> factors{0.01, 0.1, 0.5, 0.8, 0.95, 1.05, 1.3, 2, 4, 10};
     double value = before * draw.of(factors);
     const bool whole = line.substr(digit, length).find('.') == std::string::npos;
     line.replace(digit, length,
-                 whole ? fmt::format("{}", int(value)) : fmt::format("{:.6f}", value));
+                 !(std::abs(value) < 1e9) ? fmt::format("{:g}", value)
+                 : whole                  ? fmt::format("{}", int(value))
+                                          : fmt::format("{:.6f}", value));
     return;
   }
 }
