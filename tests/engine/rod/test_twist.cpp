@@ -2,9 +2,11 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "engine/rod/bend.h"
 #include "engine/rod/bend_material.h"
 #include "engine/rod/frame.h"
 #include "engine/rod/material.h"
+#include "engine/rod/twist.h"
 #include "tests/engine/rod/jet.h"
 
 using namespace gridshell;
