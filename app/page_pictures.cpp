@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "app/pictures.h"
@@ -14,6 +15,7 @@
 #include "render/movie/bins_plot.h"
 #include "render/movie/stage.h"
 #include "render/movie/stills.h"
+#include "render/plot/legend.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
@@ -56,6 +58,8 @@ class PageMaker {
     style_.look.letters = false;
     style_.scale_bar_mm = 0;
     style_.title.clear();
+    // a floor would end at every panel's edge
+    if (records.front().preset.style.floor == preset::Shown::automatic) style_.look.floor = false;
     for (const CaseRecord& one : records) {
       const bool push = one.preset.indentation.wanted();
       (push ? pushes_ : shells_)
@@ -81,6 +85,18 @@ class PageMaker {
   }
 
  private:
+  /// The style of a figure of so many panels side by side, captions below and perhaps a colour bar,
+  /// that fills its place: its text is then as large as the page's.
+  render::MovieStyle filling(const Box& box_mm, int columns, bool colour_bar = false) const {
+    constexpr double letter = 3.5, bar = 14, around = 7, between = 1.5;  // mm
+    const double width = (box_mm.width - letter - (colour_bar ? bar : 0)) / columns - between;
+    render::MovieStyle style = style_;
+    style.print = {box_mm.width - letter, 0};
+    style.width = std::max(16, int(width * records_.front().preset.figure.dpi / 25.4));
+    style.height = std::max(16, int(style.width * (box_mm.height - around) / width));
+    return style;
+  }
+
   Result<void> add_photo(Page& page, const std::string& letter, const Box& box_mm) {
     const std::string& file = records_.front().preset.page.photo;
     if (file.empty()) {
@@ -95,33 +111,37 @@ class PageMaker {
 
   /// A photograph, and the shell on its way, all at one scale.
   Result<Page> fig1() {
-    Page page{178, 92, {}};
-    if (auto placed = add_photo(page, "A", {2, 2, 56, 88}); !placed)
+    Page page{178, 120, {}};
+    if (auto placed = add_photo(page, "A", {2, 2, 92, 116}); !placed)
       return tl::unexpected(placed.error());
     const record::Trajectory& run = records_.front().run;
     render::MovieStyle style = style_;
     style.captions = style.inset = style.legends = false;
     style.turn_deg = 0;
+    constexpr double width = 62, caption = 12 * 25.4 / 72;
+    const int count = int(run.frames.size());
+    const double height = 116.0 / count;
+    style.width = std::max(16, int(width * records_.front().preset.figure.dpi / 25.4));
+    style.height = std::max(16, int(style.width * (height - caption) / width));
     const render::Stage stage(run, style);
-    const int count = stage.frames();
-    const double width = 116, height = 88.0 / count;
+    // what pictures show of a millimetre is the same for all, points
+    const double units = (height - caption) * 72 / 25.4 * stage.pixels_per_mm() / style.height;
     for (int k = 0; k < count; ++k) {
       const record::Frame& frame = run.frames[std::size_t(k)];
       auto picture = stage.draw_views(renderer_, {frame, k});
       if (!picture) return tl::unexpected(picture.error());
-      // pictures are as high as their place: what they show of a millimetre is the same for all
-      const double units = (height * 72 / 25.4 - 12) * stage.pixels_per_mm() / style.height;
-      page.add("B" + std::to_string(k + 1), render::still_caption(frame),
-               {60, 2 + k * height, width, height},
-               [image = std::move(*picture), units, last = k + 1 == count](Canvas& canvas,
-                                                                           const Box& box) {
-                 render::draw_fitted(canvas, box, image);
-                 if (last)
-                   render::draw_scale_bar(canvas, {box.right() - 70, box.bottom() - 16, 70, 16}, 20,
-                                          units, plot_font);
-               });
+      page.add_image("B" + std::to_string(k + 1), render::still_caption(frame),
+                     {97, 2 + k * height, width, height}, std::move(*picture));
       watch_.report(double(k + 1) / count);
     }
+    if (const auto& bar = stage.colour_bar())
+      page.add("", "", {162, 4, 14, 48}, [bar = *bar](Canvas& canvas, const Box& box) {
+        render::draw_colour_bar(canvas, box, bar, plot_font);
+      });
+    const double bar_mm = records_.front().preset.figure.scale_bar_mm;
+    page.add("", "", {160, 106, 16, 10}, [bar_mm, units](Canvas& canvas, const Box& box) {
+      render::draw_scale_bar(canvas, box, bar_mm, units, plot_font);
+    });
     return page;
   }
 
@@ -133,27 +153,33 @@ class PageMaker {
     page.add("B", "", {56, 2, 120, 50}, [runs = named_shells_](Canvas& canvas, const Box& box) {
       render::draw_footprints(canvas, box, runs);
     });
-    auto over = render::draw_over_nets({shells_.front()}, style_, renderer_, watch_);
+    const Box left{2, 54, 84, 40}, below{2, 96, 174, 33};
+    auto over = render::draw_over_nets({shells_.front()}, filling(left, 1), renderer_, watch_);
     if (!over) return tl::unexpected(over.error());
-    page.add_image("C", "", {2, 54, 84, 40}, std::move(*over));
+    page.add_image("C", "", left, std::move(*over));
     page.add_plot("", {90, 54, 86, 40},
                   render::latitude_plot(named_shells_.front(), shells_.front().scanned));
-    auto caps = render::draw_deviations(shells_, style_, renderer_, watch_);
+    const int columns = std::min(6, int(shells_.size()));
+    auto caps =
+        render::draw_deviations(shells_, filling(below, columns, true), renderer_, watch_, columns);
     if (!caps) return tl::unexpected(caps.error());
-    page.add_image("D", "", {2, 96, 174, 33}, std::move(*caps));
+    page.add_image("D", "", below, std::move(*caps));
     return page;
   }
 
   /// Shells over their nets, K of their cells, and one of them under point loads.
   Result<Page> fig4() {
     Page page{178, 190, {}};
-    auto over = render::draw_over_nets(shells_, style_, renderer_, watch_);
+    const Box above{2, 2, 174, 44}, middle{2, 94, 174, 50};
+    auto over = render::draw_over_nets(shells_, filling(above, std::min(3, int(shells_.size()))),
+                                       renderer_, watch_);
     if (!over) return tl::unexpected(over.error());
-    page.add_image("A", "", {2, 2, 174, 44}, std::move(*over));
+    page.add_image("A", "", above, std::move(*over));
     page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
-    auto pushes = render::draw_pushes(pushes_, style_, renderer_, watch_);
+    auto pushes = render::draw_pushes(
+        pushes_, filling(middle, std::clamp(int(pushes_.size()), 1, 3), true), renderer_, watch_);
     if (!pushes) return tl::unexpected(pushes.error());
-    page.add_image("C", "", {2, 94, 174, 50}, std::move(*pushes));
+    page.add_image("C", "", middle, std::move(*pushes));
     for (std::size_t k = 0; k < named_pushes_.size(); ++k) {
       const record::Trajectory& run = *named_pushes_[k].run;
       render::Plot plot = render::bins_plot(render::survey_of(run), long(run.layout.cells.size()),
@@ -168,15 +194,16 @@ class PageMaker {
   Result<Page> fig5() {
     Page page{178, 116, {}};
     const record::Trajectory& run = records_.front().run;
-    auto blocks = render::draw_blocks(run, style_, renderer_, watch_);
+    const Box left{2, 2, 86, 54}, below{2, 58, 112, 57};
+    auto blocks = render::draw_blocks(run, filling(left, 1), renderer_, watch_);
     if (!blocks) return tl::unexpected(blocks.error());
-    page.add_image("A", "", {2, 2, 86, 54}, std::move(*blocks));
+    page.add_image("A", "", left, std::move(*blocks));
     page.add("B", "", {92, 2, 84, 54}, [&run](Canvas& canvas, const Box& box) {
       render::draw_block_footprints(canvas, box, run);
     });
-    auto over = render::draw_over_nets(shells_, style_, renderer_, watch_);
+    auto over = render::draw_over_nets(shells_, filling(below, 1), renderer_, watch_);
     if (!over) return tl::unexpected(over.error());
-    page.add_image("C", "", {2, 58, 112, 57}, std::move(*over));
+    page.add_image("C", "", below, std::move(*over));
     page.add_plot("D", {116, 58, 60, 57}, render::curvature_plot(named_shells_));
     return page;
   }

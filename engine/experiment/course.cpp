@@ -48,6 +48,13 @@ bool Course::eventful() const {
          std::any_of(earlier.begin(), earlier.end(), any);
 }
 
+bool in_a_jump(const Leg& leg, double t) {
+  const double after = station_after(leg, t).point.t;
+  return leg.way() * (after - t) > 0 &&
+         std::any_of(leg.report.events.begin(), leg.report.events.end(),
+                     [&](const Event& event) { return event.to && *event.to == after; });
+}
+
 Leg& follow_leg(Course& course, double to, const Leaving& leaving, const Watch& watch) {
   Leg leg{course.session.shell().state().t, to, {}, {}};
   leg.report = course.session.go(to, watch, leaving, &leg.trail);

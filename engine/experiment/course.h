@@ -59,6 +59,10 @@ struct Sample {
   double progress = 0;  ///< of the experiment
 };
 
+/// Whether a path parameter lies where a leg jumped from one branch to the next: between the last
+/// state of the one and the first of the other, where there may be none of either.
+bool in_a_jump(const Leg& leg, double t);
+
 /// Certifies the course at a sample and leaves the session there; what the path itself found is
 /// not changed by it. Outcomes as of a path.
 Report stand_at(Course& course, const Sample& sample, const Watch& watch);

@@ -261,14 +261,12 @@ Result<Course> run_indentation(std::shared_ptr<const Scene> scene,
     Result<bool> taken = false;
     if (came_to(kept->course, sample)) taken = sampler.at(sample);
     if (!taken) return tl::unexpected<Error>(taken.error());
-    if (*taken) continue;
-    if (kept->course.limit == record::Limit::locking) {
-      // the state in which the rods came to their length
-      kept->course.session.restore(end);
-      sample.t = end.state.t;
-      if (auto last = sampler.stand(sample, "locking"); !last)
-        return tl::unexpected<Error>(last.error());
-    }
+    if (*taken || kept->course.limit != record::Limit::locking) continue;
+    // the state in which the rods came to their length
+    kept->course.session.restore(end);
+    sample.t = end.state.t;
+    if (auto last = sampler.stand(sample, "locking"); !last)
+      return tl::unexpected<Error>(last.error());
     break;
   }
   return std::move(kept->course);

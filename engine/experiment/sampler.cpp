@@ -11,7 +11,9 @@ Result<bool> Sampler::at(const Sample& sample) {
   const Report report = stand_at(course_, sample, watch_);
   if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
   if (report.end != Outcome::reached) {
-    if (course_.limit == record::Limit::none || course_.limit == record::Limit::snap) {
+    if (in_a_jump(course_.legs[sample.leg], sample.t)) {
+      course_.limit_reason += "; there is no state to show " + caption_.at(sample.t, {});
+    } else if (course_.limit == record::Limit::none || course_.limit == record::Limit::snap) {
       course_.limit = record::Limit::branch_lost;
       course_.limit_reason =
           fmt::format("{} {}", words_of(report.end).what, caption_.at(sample.t, {}));

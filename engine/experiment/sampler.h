@@ -23,8 +23,9 @@ class Sampler {
   Sampler(Course& course, Caption caption, record::Sink& sink, Watch& watch, std::size_t count)
       : course_(course), caption_(std::move(caption)), sink_(sink), watch_(watch), count_(count) {}
 
-  /// One sample; false where it could not be certified, which is then the course's limit. Errors:
-  /// cancelled, the sink's.
+  /// One sample; false where it could not be certified, which is then the course's limit, or lies
+  /// in a jump that is its limit already, whose reason then tells it. Errors: cancelled, the
+  /// sink's.
   Result<bool> at(const Sample& sample);
   /// The state that the session stands in as a frame, with an event of its own.
   Result<void> stand(const Sample& sample, const std::string& event);

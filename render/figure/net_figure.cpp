@@ -34,12 +34,12 @@ using Dress = std::function<void(const NetRun&, Drawing&)>;
 
 /// One panel a run, the drawing of each changed by `dress`.
 Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
-                              Renderer& renderer, Watch& watch, const Dress& dress) {
+                              Renderer& renderer, Watch& watch, int columns, const Dress& dress) {
   const MovieStyle style = plain_style(movie_style);
   PanelFigure figure;
   if (style.print.width_mm > 0) figure.print = style.print;
   figure.title = style.title;
-  figure.columns = std::min(3, int(runs.size()));
+  figure.columns = std::min(columns, int(runs.size()));
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
     if (auto showable = check_showable(*runs[k].run, style); !showable)
@@ -85,7 +85,7 @@ bool on_sphere(const record::Layout& layout) {
 }
 
 Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
-                             Renderer& renderer, Watch& watch) {
+                             Renderer& renderer, Watch& watch, int columns) {
   const auto dress = [](const NetRun& one, Drawing& drawing) {
     for (const auto& joint : one.scanned.colwise())
       drawing.marks.push_back({joint, std::max(3.0, 3 * drawing.rod_diameter_mm), scan_ink});
@@ -99,7 +99,7 @@ Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& 
     if (layout.parts.empty())
       drawing.ghosts.push_back({layout.net_nodes, layout.rods, drawing.rod_diameter_mm, net_ink});
   };
-  return panels_of(runs, style, renderer, watch, dress).and_then(draw_panels);
+  return panels_of(runs, style, renderer, watch, columns, dress).and_then(draw_panels);
 }
 
 DeviationUnit deviation_unit(const record::Layout& layout) {
@@ -109,7 +109,7 @@ DeviationUnit deviation_unit(const record::Layout& layout) {
 }
 
 Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
-                              Renderer& renderer, Watch& watch) {
+                              Renderer& renderer, Watch& watch, int columns) {
   double largest = 0;
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
   for (const NetRun& one : runs)
@@ -122,7 +122,7 @@ Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle&
     drawing.sheen = 0.2;
     drawing.joint_diameter_mm = 0;
   };
-  auto figure = panels_of(runs, style, renderer, watch, dress);
+  auto figure = panels_of(runs, style, renderer, watch, columns, dress);
   if (!figure) return tl::unexpected(figure.error());
   figure->colour_bar = ColourBar{unit.label, scale};
   return draw_panels(*figure);

@@ -33,13 +33,13 @@ DeviationUnit deviation_unit(const record::Layout& layout);
 /// Whether the net is a part of a sphere about the origin, of radius rho.
 bool on_sphere(const record::Layout& layout);
 
-/// The shells, dark, over their nets, blue, with the joints scanned, red, side by side. Progress
-/// and errors as write_stills.
+/// The shells, dark, over their nets, blue, with the joints scanned, red, at most `columns` side by
+/// side. Progress and errors as write_stills.
 Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
-                             Renderer& renderer, Watch& watch);
+                             Renderer& renderer, Watch& watch, int columns = 3);
 
 /// The shells coloured by their deviation, side by side with one colour bar.
 Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
-                              Renderer& renderer, Watch& watch);
+                              Renderer& renderer, Watch& watch, int columns = 3);
 
 }  // namespace gridshell::render
