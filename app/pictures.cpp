@@ -20,8 +20,7 @@ namespace {
 
 // "#rrggbb", which the preset's reader has looked at
 render::Colour colour_of(const std::string& text) {
-  const long rgb = std::strtol(text.c_str() + 1, nullptr, 16);
-  return {float(rgb >> 16 & 255) / 255, float(rgb >> 8 & 255) / 255, float(rgb & 255) / 255, 1};
+  return render::hex_colour(std::strtol(text.c_str() + 1, nullptr, 16));
 }
 
 void choose(render::Colour& colour, const std::string& wish) {
