@@ -173,8 +173,7 @@ Result<void> write_lines(const record::Trajectory& run, render::MovieStyle style
   style.turn_deg = 0;
   const render::Stage stage(run, style);
   const int last = stage.frames() - 1;
-  const double points =
-      style.print.width_mm > 0 ? style.print.width_mm * 72 / 25.4 : 0.5 * style.width;
+  const double points = style.print.width_pt(0.5 * style.width);
   const auto drawing = stage.drawing(run.frames.back());
   return render::write_figure(fs::path(stem) += "_lines", points,
                               points * style.height / style.width, style.title,
