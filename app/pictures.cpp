@@ -20,8 +20,7 @@ namespace {
 
 // "#rrggbb", which the preset's reader has looked at
 render::Colour colour_of(const std::string& text) {
-  const long rgb = std::strtol(text.c_str() + 1, nullptr, 16);
-  return {float(rgb >> 16 & 255) / 255, float(rgb >> 8 & 255) / 255, float(rgb & 255) / 255, 1};
+  return render::hex_colour(std::strtol(text.c_str() + 1, nullptr, 16));
 }
 
 void choose(render::Colour& colour, const std::string& wish) {
@@ -174,8 +173,7 @@ Result<void> write_lines(const record::Trajectory& run, render::MovieStyle style
   style.turn_deg = 0;
   const render::Stage stage(run, style);
   const int last = stage.frames() - 1;
-  const double points =
-      style.print.width_mm > 0 ? style.print.width_mm * 72 / 25.4 : 0.5 * style.width;
+  const double points = style.print.width_pt(0.5 * style.width);
   const auto drawing = stage.drawing(run.frames.back());
   return render::write_figure(fs::path(stem) += "_lines", points,
                               points * style.height / style.width, style.title,

@@ -70,22 +70,24 @@ std::vector<Phase> phases_of(const std::vector<Job>& jobs, Pictures pictures) {
   }
   for (const auto& job : jobs)
     if (pictures != Pictures::none && !drawn_beside(job, pictures))
-      phases.push_back({"drawing" + (job.name.empty() ? "" : " " + job.name),
-                        expected_seconds(pictures, job.preset), true});
+      phases.push_back(drawing("drawing" + (job.name.empty() ? "" : " " + job.name),
+                               expected_seconds(pictures, job.preset)));
   if (drawn_beside(jobs.front(), pictures))
-    phases.push_back({"drawing", expected_seconds(pictures, jobs.front().preset), true});
+    phases.push_back(drawing("drawing", expected_seconds(pictures, jobs.front().preset)));
   const bool stills = pictures == Pictures::stills;
   if (stills && jobs.front().preset.page.kind != preset::PageKind::none) {
-    phases.push_back({"drawing the page",
-                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset), true});
+    phases.push_back(drawing(
+        "drawing the page", double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)));
     return phases;
   }
   if (stills && std::any_of(jobs.begin(), jobs.end(), has_net))
-    phases.push_back({"drawing shells over nets",
-                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset), true});
+    phases.push_back(
+        drawing("drawing shells over nets",
+                double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)));
   if (stills && std::any_of(jobs.begin(), jobs.end(), is_pushed))
-    phases.push_back({"drawing point loads",
-                      double(jobs.size()) * expected_seconds(pictures, jobs.front().preset), true});
+    phases.push_back(
+        drawing("drawing point loads",
+                double(jobs.size()) * expected_seconds(pictures, jobs.front().preset)));
   return phases;
 }
 

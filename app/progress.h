@@ -23,6 +23,10 @@ struct Phase {
   bool draws = false;
 };
 
+inline Phase drawing(std::string label, double expected_seconds) {
+  return {std::move(label), expected_seconds, true};
+}
+
 /// How far the work is, for a bar or a line.
 struct Standing {
   double fraction = 0;      ///< of all phases

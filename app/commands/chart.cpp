@@ -21,12 +21,11 @@ void add_chart(CLI::App& program, Action& action) {
   add_preset_options(*command, options->common);
   command->get_option("PRESET")->required(false);
   add_work_options(*command, options->common,
-                   "folder to write, by default out/<preset>_<accuracy or stability>");
+                   "folder to write, by default out/<preset>_<KIND>, or out/trust");
   command
       ->add_option("--limit", options->limit_s,
                    "seconds after which a run is too slow: by default 30 for accuracy, 4 for "
-                   "stability, 20 for "
-                   "trust")
+                   "stability, 20 for trust")
       ->check(CLI::Range(0.01, 1e6));
   command
       ->add_option("--edges", options->edges,

@@ -134,24 +134,23 @@ int render(const Options& options, bool unsealed) {
   std::vector<Phase> phases;
   for (const auto& run : *runs)
     if (!drawn_beside(run))
-      phases.push_back({"drawing" + (run.name.empty() ? "" : " " + run.name),
-                        expected_seconds(run.pictures, run.preset), true});
+      phases.push_back(drawing("drawing" + (run.name.empty() ? "" : " " + run.name),
+                               expected_seconds(run.pictures, run.preset)));
   const bool page = runs->front().preset.page.kind != preset::PageKind::none;
   if (page && is_still(runs->front()))
     phases.push_back(
-        {"drawing the page",
-         double(runs->size()) * expected_seconds(Pictures::stills, runs->front().preset), true});
+        drawing("drawing the page",
+                double(runs->size()) * expected_seconds(Pictures::stills, runs->front().preset)));
   if (!page && std::any_of(runs->begin(), runs->end(), shows_net))
-    phases.push_back(
-        {"drawing shells over nets",
-         2 * double(runs->size()) * expected_seconds(runs->front().pictures, runs->front().preset),
-         true});
+    phases.push_back(drawing(
+        "drawing shells over nets",
+        2 * double(runs->size()) * expected_seconds(runs->front().pictures, runs->front().preset)));
   if (drawn_beside(runs->front()))
-    phases.push_back({"drawing", expected_seconds(Pictures::movie, runs->front().preset), true});
+    phases.push_back(drawing("drawing", expected_seconds(Pictures::movie, runs->front().preset)));
   if (!page && std::any_of(runs->begin(), runs->end(), shows_push))
     phases.push_back(
-        {"drawing point loads",
-         double(runs->size()) * expected_seconds(Pictures::stills, runs->front().preset), true});
+        drawing("drawing point loads",
+                double(runs->size()) * expected_seconds(Pictures::stills, runs->front().preset)));
   const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
     auto artist = Artist::create(options.context, options.threads, runs->front().preset.style.font);
     if (!artist) return tl::unexpected(artist.error());

@@ -47,13 +47,13 @@ Result<Checkpoint> begin_from_flat(Course& course, const Watch& watch) {
     if (!first && found) break;
     if (!first) return tl::unexpected<Error>(first.error());
     if (first->end != Outcome::reached) continue;
-    const std::vector<Leg> before = std::exchange(course.legs, {});
+    std::vector<Leg> before = std::exchange(course.legs, {});
     Checkpoint start = course.session.save();
     const bool connected = follow_back(course, {.wanted = false, .through_unstable = true}, watch);
     if (connected || !found)
       found = std::move(start);
     else
-      course.legs = before;
+      course.legs = std::move(before);
     if (connected || watch.cancelled()) break;
   }
   return found;

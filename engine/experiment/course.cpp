@@ -100,12 +100,13 @@ Report stand_at(Course& course, const Sample& sample, const Watch& watch) {
   const Leg& leg = course.legs[sample.leg];
   const Station &before = station_before(leg, sample.t), &after = station_after(leg, sample.t);
   Report report = course.session.sample(sample.t, before, false, watch);
-  // where a branch was left the state belongs to the next one, where that does not come so far
-  // back to the rest beside it, and else it is an equilibrium that says what it is
+  // a branch was left in between: it may be a state of the next one
   if (report.end != Outcome::reached && !watch.cancelled())
     report = course.session.sample(sample.t, after, false, watch);
+  // or, where the next one does not come back so far, the rest to which the shell went
   if (report.end == Outcome::unstable || report.end == Outcome::lost)
     report = course.session.sample_rest(sample.t, before, watch);
+  // or any equilibrium, which says what it is
   if (report.end != Outcome::reached && !watch.cancelled())
     report = course.session.sample(sample.t, before, true, watch);
   return report;
@@ -151,7 +152,7 @@ std::string how_it_ended(const Leg& leg, const At& at) {
 
 }  // namespace
 
-std::string places_left(const std::vector<Leg>& legs, const At& at) {
+std::string places_left(std::span<const Leg> legs, const At& at) {
   std::string places;
   for (const Leg& leg : legs)
     for (const Event& event : leg.report.events)
@@ -170,7 +171,7 @@ void tell_limit(Course& course, const At& at) {
       course.limit_reason = how_it_ended(leg, at);
       break;
     }
-    const auto places = places_left({leg}, at);
+    const auto places = places_left({&leg, 1}, at);
     if (places.empty() || course.limit != record::Limit::none) continue;
     course.limit = record::Limit::snap;
     course.limit_reason =

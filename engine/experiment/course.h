@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,7 +73,7 @@ Report stand_at(Course& course, const Sample& sample, const Watch& watch);
 using At = std::function<std::string(double t, std::optional<double> error)>;
 
 /// Where legs left a branch for a rest further on: "at progress 0.0183 and at ..."; empty: nowhere.
-std::string places_left(const std::vector<Leg>& legs, const At& at);
+std::string places_left(std::span<const Leg> legs, const At& at);
 
 /// Tells as a limit and a sentence how the legs ended and what they came past: the first that ended
 /// before its end, else the snaps.

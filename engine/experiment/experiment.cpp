@@ -18,28 +18,29 @@
 namespace gridshell::experiment {
 namespace {
 
-std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
+/// From 0 to 1, both among them.
+std::vector<double> evenly(int frames) {
   std::vector<double> progress;
+  for (int k = 0; k < frames; ++k) progress.push_back(double(k) / (frames - 1));
+  return progress;
+}
+
+std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
   // only a circle's boundary has a radius all the way
   if (stills && preset.footprint.kind != preset::FootprintKind::circle) return {1.0};
   if (stills && !preset.figure.radii_mm.empty()) {
+    std::vector<double> progress;
     const double from = preset.footprint.radius_mm, to = preset.actuation.radius_mm;
     for (double radius : preset.figure.radii_mm) progress.push_back((from - radius) / (from - to));
     std::sort(progress.begin(), progress.end());
     return progress;
   }
-  const int frames = preset.movie.frames;
-  if (frames == 1) return {1.0};
-  for (int k = 0; k < frames; ++k) progress.push_back(double(k) / (frames - 1));
-  return progress;
+  return preset.movie.frames == 1 ? std::vector{1.0} : evenly(preset.movie.frames);
 }
 
 /// Of a push: all frames of a movie, or enough for the curve of its force.
-std::vector<double> even_samples(const preset::Preset& preset, bool stills) {
-  const int frames = stills ? 11 : std::max(2, preset.movie.frames);
-  std::vector<double> progress;
-  for (int k = 0; k < frames; ++k) progress.push_back(double(k) / (frames - 1));
-  return progress;
+std::vector<double> samples_of_push(const preset::Preset& preset, bool stills) {
+  return evenly(stills ? 11 : std::max(2, preset.movie.frames));
 }
 
 Error stopped() { return {Fault::cancelled, "stopped"}; }
@@ -149,14 +150,13 @@ double seconds_for(const Scene& scene, const preset::Preset& preset) {
 Result<Plan> plan(const preset::Preset& preset) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
-  if (auto fits = fits_memory(*scene, first_plan(*scene)); !fits)
-    return tl::unexpected<Error>(fits.error());
+  const LevelPlan levels = first_plan(*scene);
+  if (auto fits = fits_memory(*scene, levels); !fits) return tl::unexpected<Error>(fits.error());
   // what the run would only find out later
   if (preset.indentation.wanted() && preset.indentation.joint.size() == 2)
     if (auto joint = pushed_joint(preset.indentation, scene->footprint, {}); !joint)
       return tl::unexpected<Error>(joint.error());
   Plan plan;
-  const LevelPlan levels = first_plan(*scene);
   plan.model = word_of(scene->rung);
   plan.memory_GB = memory_GB(scene->footprint, scene->rung, levels);
   plan.model_reason = preset::model_reason(preset);
@@ -190,7 +190,7 @@ Result<void> follow(const preset::Preset& preset, std::shared_ptr<const Scene> s
   const double begin = seconds_now();
   auto course =
       preset.indentation.wanted()
-          ? run_indentation(scene, preset.indentation, even_samples(preset, stills), sink, watch)
+          ? run_indentation(scene, preset.indentation, samples_of_push(preset, stills), sink, watch)
           : run_actuation(scene, samples_of(preset, stills), sink, watch);
   if (watch.cancelled()) return tl::unexpected<Error>(stopped());
   if (!course) return tl::unexpected<Error>(course.error());

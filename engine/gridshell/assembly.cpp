@@ -21,9 +21,6 @@ inline EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge
 }
 
 /// a nan must survive: comparisons with it are false, so the test is the other way round
-inline void keep_largest(double& largest, double value) {
-  if (!(value <= largest)) largest = value;
-}
 inline void keep_smallest(double& smallest, double value) {
   if (!(value >= smallest)) smallest = value;
 }

@@ -54,12 +54,12 @@ Result<State> rest_beyond(NestedShell& shell, const Scene& scene, const PathPoin
   Linearisation& system = shell.system(0);
   const PinnedMotion& motion = shell.motion(0);
   const Departure departure = departure_for(kind, scene, shell);
-  if (!scene.snap.wanted) return leave_branch(system, motion, last, there, departure, watch);
   motion.load_up(system, last.t);
   system.at(last.state, false);
   const Eigen::Matrix3Xd mode = softest_mode(system, departure.start, watch);
   State state = last.state;
   motion.impose(system, there, state);
+  if (!scene.snap.wanted) return settle(system, state, mode, departure, watch);
   auto moved = rest_in_time(
       shell, scene, pushed_off(system, state, mode, departure.side),
       {.still_N = 1e-4, .still_mJ = 1e-7},

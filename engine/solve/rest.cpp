@@ -66,7 +66,7 @@ Result<State> rest_near(Linearisation& system, const State& state, double farthe
 
 namespace {
 
-/// To rest from beside an unstable state, `way` along its mode.
+/// To rest from beside an unstable state, pushed `along`, whose largest column is 1.
 std::optional<State> rest_beside(Linearisation& system, const State& unstable,
                                  const Eigen::Matrix3Xd& along, const Departure& departure,
                                  const Watch& watch) {
@@ -99,16 +99,6 @@ Result<State> settle(Linearisation& system, const State& unstable, const Eigen::
     best = std::move(*state);
   }
   return best;
-}
-
-Result<State> leave_branch(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
-                           double beyond, const Departure& departure, const Watch& watch) {
-  motion.load_up(system, last.t);
-  system.at(last.state, false);
-  const Eigen::Matrix3Xd mode = softest_mode(system, departure.start, watch);
-  State state = last.state;
-  motion.impose(system, beyond, state);
-  return settle(system, state, mode, departure, watch);
 }
 
 }  // namespace gridshell

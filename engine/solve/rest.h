@@ -44,9 +44,4 @@ Result<State> rest_below(Linearisation& system, State state, const Watch& watch,
 Result<State> settle(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& mode,
                      const Departure& departure, const Watch& watch);
 
-/// From the last point of a path that lost its stability or turned back: with the motion a little
-/// further, at `beyond`, along the mode that went soft. Errors as settle().
-Result<State> leave_branch(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
-                           double beyond, const Departure& departure, const Watch& watch);
-
 }  // namespace gridshell

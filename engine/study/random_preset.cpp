@@ -2,24 +2,12 @@
 
 #include <cmath>
 
+#include "engine/study/draw.h"
+
 namespace gridshell::study {
 namespace {
 
 using preset::Preset;
-
-/// Draws values, not by the library's distributions, which differ from one to another.
-class Draw {
- public:
-  explicit Draw(std::mt19937& random) : random_(random) {}
-  double between(double low, double high) {
-    return low + (high - low) * double(random_() >> 5) / double(1 << 27);
-  }
-  int integer(int low, int high) { return std::min(int(between(low, high + 1)), high); }
-  bool once_in(int n) { return integer(1, n) == 1; }
-
- private:
-  std::mt19937& random_;
-};
 
 void circle(Draw& draw, Preset& p) {
   p.footprint.rods = draw.integer(4, 14);

@@ -80,7 +80,7 @@ double distance(const Outcome& a, const record::Frame& in_a, const record::Frame
          a.trajectory.layout.length_scale_mm;
 }
 
-/// The frame of both at which the error is the most estimates.
+/// Of the frames that both have, the one whose error is the most times its estimate.
 void compare(const Outcome& asked, const Outcome& fine, record::TrustRow& row) {
   double worst = -1;
   for (const record::Frame& frame : asked.trajectory.frames)
@@ -89,7 +89,7 @@ void compare(const Outcome& asked, const Outcome& fine, record::TrustRow& row) {
       // where the path ended early the frames are of other states
       if (frame.event == "locking" || other.event == "locking") continue;
       const double error = distance(asked, frame, other);
-      // what the finer one is judged by is not exact either
+      // the finer one, by which it is judged, is not exact either
       const double estimate = (frame.error_estimate_mm + 0.5 * other.error_estimate_mm) /
                               asked.trajectory.layout.length_scale_mm;
       const double many = error / std::max(estimate, 1e-9);

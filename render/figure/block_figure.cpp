@@ -175,7 +175,7 @@ void draw_block_footprints(Canvas& canvas, const Box& box, const record::Traject
 Result<void> write_block_footprints(const std::filesystem::path& stem,
                                     const record::Trajectory& run, const Print& print) {
   // text keeps its size however wide the figure is printed
-  const double printed = print.width_mm * 72 / 25.4, width = printed > 0 ? printed : 340;
+  const double width = print.width_pt(340);
   constexpr double margin = 12;
   const BlockSheet sheet(run.layout);
   const double scale = (width - 2 * margin) / sheet.wide();

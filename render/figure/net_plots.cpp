@@ -218,8 +218,8 @@ void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>
 Result<void> write_footprints(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
                               const Print& print) {
   // text keeps its size however wide the figure is printed
-  const double printed = print.width_mm * 72 / 25.4, usual = all_caps(runs) ? 470 : 250;
-  const double width = printed > 0 ? printed : usual, height = 250 * width / usual;
+  const double usual = all_caps(runs) ? 470 : 250, width = print.width_pt(usual),
+               height = 250 * width / usual;
   return write_figure(
       stem, width, height, "Original boundaries",
       [&](Canvas& canvas) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "render/plot/legend.h"
+#include "render/plot/text.h"
 #include "render/plot/ticks.h"
 
 namespace gridshell::render {
@@ -24,11 +26,6 @@ constexpr RunOutcome outcomes[] = {RunOutcome::right,         RunOutcome::refuse
                                    RunOutcome::not_converged, RunOutcome::blow_up,
                                    RunOutcome::too_slow,      RunOutcome::planar_saddle,
                                    RunOutcome::other_state,   RunOutcome::silent_wrong};
-
-std::string spaced(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 /// 0.95, 30, 10^{−6}
 std::string number(double value) {
@@ -150,41 +147,35 @@ void draw_panel(Canvas& canvas, const Panel& panel, Point at) {
 }
 
 void draw_legend(Canvas& canvas, Point at, double width) {
-  const double column = width / 4;
-  for (std::size_t k = 0; k < std::size(outcomes); ++k) {
-    // what a user would notice above, what not below
-    const double x = at.x + column * double(k % 4), y = at.y + 15 * double(k / 4);
-    draw_cell(canvas, {x, y, 18, 10}, outcomes[k]);
-    canvas.text(outcome_label(outcomes[k]), {x + 22, y + 5},
-                {.size = size, .align_y = AlignY::middle});
-  }
+  // what a user would notice above, what not below
+  Patches patches{.row_width = width, .row_height = 15, .font_size = size};
+  patches.draw = [&](std::size_t k, const Box& box) { draw_cell(canvas, box, outcomes[k]); };
+  for (const RunOutcome outcome : outcomes) patches.names.push_back(outcome_label(outcome));
+  draw_patches(canvas, {at.x, at.y, 18, 10}, patches);
 }
 
 }  // namespace
 
 Colour outcome_colour(RunOutcome outcome) {
-  const auto hex = [](int c) {
-    return Colour{float(c >> 16) / 255, float(c >> 8 & 255) / 255, float(c & 255) / 255, 1};
-  };
   switch (outcome) {
     case RunOutcome::right:
-      return hex(0x8CC7A1);
+      return hex_colour(0x8CC7A1);
     case RunOutcome::refused:
-      return hex(0xC9CDD3);
+      return hex_colour(0xC9CDD3);
     case RunOutcome::not_converged:
-      return hex(0xF0E2A8);
+      return hex_colour(0xF0E2A8);
     case RunOutcome::blow_up:
-      return hex(0xF2B36B);
+      return hex_colour(0xF2B36B);
     case RunOutcome::too_slow:
-      return hex(0xA9C4E6);
+      return hex_colour(0xA9C4E6);
     case RunOutcome::planar_saddle:
-      return hex(0x7A3B8F);
+      return hex_colour(0x7A3B8F);
     case RunOutcome::other_state:
-      return hex(0xB0417C);
+      return hex_colour(0xB0417C);
     case RunOutcome::silent_wrong:
       break;
   }
-  return hex(0xC0262B);
+  return hex_colour(0xC0262B);
 }
 
 std::string outcome_label(RunOutcome outcome) {

@@ -96,8 +96,7 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
     plot.y.high = high;
   }
   // as many beside one another as stay readable
-  const double printed = print.width_mm * 72 / 25.4;
-  const double width = printed > 0 ? printed : usual * double(plots.size());
+  const double width = print.width_pt(usual * double(plots.size()));
   const std::size_t columns = std::clamp<std::size_t>(std::size_t(width / least), 1, plots.size());
   const std::size_t rows = (plots.size() + columns - 1) / columns;
   const double column = width / double(columns);

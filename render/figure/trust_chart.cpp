@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "render/plot/legend.h"
+#include "render/plot/text.h"
+
 namespace gridshell::render {
 namespace {
 
@@ -13,11 +16,7 @@ using record::TrustRow;
 constexpr double size = 7.5, bar_height = 13, row_height = 18, label_room = 88, title_room = 22,
                  legend_line = 14, width = 504, margin = 6;
 
-std::string label(TrustClass found) {
-  std::string name(word_of(found));
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
+std::string label(TrustClass found) { return spaced(std::string(word_of(found))); }
 
 std::vector<std::string> kinds_of(const std::vector<TrustRow>& rows) {
   std::vector<std::string> kinds;
@@ -50,45 +49,40 @@ void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::stri
 }
 
 void draw_legend(Canvas& canvas, Point at) {
-  const double column = (width - 2 * margin) / 4;
-  int k = 0;
-  for (const auto& one : words(TrustClass{})) {
-    const double x = at.x + column * (k % 4), y = at.y + legend_line * (k / 4);
-    canvas.rectangle({x, y, 16, 9}, trust_colour(one.value));
-    canvas.text(label(one.value), {x + 20, y + 4.5}, {.size = size, .align_y = AlignY::middle});
-    ++k;
-  }
+  Patches patches{.row_width = width - 2 * margin, .row_height = legend_line, .font_size = size};
+  patches.draw = [&](std::size_t k, const Box& box) {
+    canvas.rectangle(box, trust_colour(TrustClass(k)));
+  };
+  for (const auto& one : words(TrustClass{})) patches.names.push_back(label(one.value));
+  draw_patches(canvas, {at.x, at.y, 16, 9}, patches);
 }
 
 }  // namespace
 
 Colour trust_colour(TrustClass found) {
-  const auto hex = [](int c) {
-    return Colour{float(c >> 16) / 255, float(c >> 8 & 255) / 255, float(c & 255) / 255, 1};
-  };
   switch (found) {
     case TrustClass::right:
-      return hex(0x8CC7A1);
+      return hex_colour(0x8CC7A1);
     case TrustClass::estimate_small:
-      return hex(0xE08A8D);
+      return hex_colour(0xE08A8D);
     case TrustClass::other_branch:
-      return hex(0xC0262B);
+      return hex_colour(0xC0262B);
     case TrustClass::after_snap:
-      return hex(0xF0E2A8);
+      return hex_colour(0xF0E2A8);
     case TrustClass::limited:
-      return hex(0xC9CDD3);
+      return hex_colour(0xC9CDD3);
     case TrustClass::limited_only_default:
-      return hex(0xA3A9B3);
+      return hex_colour(0xA3A9B3);
     case TrustClass::inner_unphysical:
-      return hex(0xB0417C);
+      return hex_colour(0xB0417C);
     case TrustClass::frame_dependent:
-      return hex(0x9A6FB0);
+      return hex_colour(0x9A6FB0);
     case TrustClass::refused:
-      return hex(0xE3E5E8);
+      return hex_colour(0xE3E5E8);
     case TrustClass::too_slow:
       break;
   }
-  return hex(0xA9C4E6);
+  return hex_colour(0xA9C4E6);
 }
 
 Result<void> write_trust_bars(const std::filesystem::path& stem,

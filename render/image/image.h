@@ -25,4 +25,9 @@ struct Colour {
   bool operator==(const Colour&) const = default;
 };
 
+/// 0xRRGGBB.
+constexpr Colour hex_colour(long rgb) {
+  return {float(rgb >> 16 & 255) / 255, float(rgb >> 8 & 255) / 255, float(rgb & 255) / 255, 1};
+}
+
 }  // namespace gridshell::render

@@ -1,6 +1,6 @@
 // What the pictures of a run have to know of all its frames before the first is drawn: ranges,
-// bounds and events. Frames are looked at once, one at a time, and none but the first is kept, but
-// for some of their points.
+// bounds and events. Frames are looked at once, one at a time; the first is kept, and of some
+// others some points.
 #pragma once
 
 #include <functional>

@@ -157,6 +157,8 @@ struct Print {
   double width_mm = 0;  ///< 0: the figure's own
   double dpi = 300;
 
+  /// Width in points; `usual` where it is the figure's own.
+  double width_pt(double usual) const { return width_mm > 0 ? width_mm * 72 / 25.4 : usual; }
   bool operator==(const Print&) const = default;
 };
 

@@ -103,4 +103,16 @@ bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double uni
   return true;
 }
 
+void draw_patches(Canvas& canvas, const Box& first, const Patches& patches) {
+  constexpr std::size_t columns = 4;
+  for (std::size_t k = 0; k < patches.names.size(); ++k) {
+    Box box = first;
+    box.x += patches.row_width / columns * double(k % columns);
+    box.y += patches.row_height * double(k / columns);
+    patches.draw(k, box);
+    canvas.text(patches.names[k], {box.right() + 4, box.middle().y},
+                {.size = patches.font_size, .align_y = AlignY::middle});
+  }
+}
+
 }  // namespace gridshell::render

@@ -1,7 +1,9 @@
-// What a picture needs to be read: a colour bar, a scale bar.
+// What a picture needs to be read: a colour bar, a scale bar, patches with their names.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "render/plot/canvas.h"
 #include "render/plot/colour_map.h"
@@ -26,5 +28,15 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
 /// Returns whether it was drawn.
 bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
                     double font_size);
+
+/// Patches, four to a row, each with its name beside it.
+struct Patches {
+  std::vector<std::string> names = {};  ///< marked text
+  std::function<void(std::size_t k, const Box&)> draw = {};
+  double row_width = 0, row_height = 0, font_size = 0;
+};
+
+/// `first` is the first of the patches, all of one size.
+void draw_patches(Canvas& canvas, const Box& first, const Patches& patches);
 
 }  // namespace gridshell::render

@@ -146,7 +146,7 @@ Result<void> write_figure(const std::filesystem::path& stem, double width_pt, do
   const auto file = [&](const char* kind) { return std::filesystem::path(stem) += kind; };
   // text is plain in a title
   const std::string name = without_marks(title);
-  const double wished = print.width_mm * 72 / 25.4, scale = wished > 0 ? wished / width_pt : 1;
+  const double scale = print.width_pt(width_pt) / width_pt;
   const DrawOn enlarged = [&](Canvas& canvas) { canvas.enlarged(scale, [&] { draw(canvas); }); };
   const double width = scale * width_pt, height = scale * height_pt;
   const Image image = draw_picture(width, height, print.dpi / 72, {1, 1, 1, 1}, enlarged);

@@ -1,5 +1,6 @@
 #include "render/plot/text.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "render/plot/canvas.h"
@@ -71,6 +72,11 @@ std::string without_marks(const std::string& marked) {
   std::string letters;
   for (const TextRun& run : parse_marked(marked)) letters += run.text;
   return letters;
+}
+
+std::string spaced(std::string word) {
+  std::replace(word.begin(), word.end(), '_', ' ');
+  return word;
 }
 
 std::string xml_text(std::string_view letters) {

@@ -5,7 +5,9 @@
 #include "engine/core/atomic_file.h"
 #include "engine/record/trajectory_file.h"
 #include "render/image/png.h"
+#include "tests/app/bench.h"
 #include "tests/app/program.h"
+#include "tests/small_preset.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
@@ -14,20 +16,7 @@ using gridshell::write_atomically;
 
 namespace {
 
-// four rods a direction
-const std::string small = R"(title = "small"
-[footprint]
-rods = 4
-radius_mm = 45.0
-[actuation]
-radius_mm = 40.0
-[accuracy]
-edges_per_segment = 2
-[movie]
-frames = 3
-size = [160, 120]
-quality = "draft"
-)";
+const std::string small = small_preset({.frames = 3});
 
 const std::vector<std::string> data_files{"bins.csv",     "cells.csv",   "frames.csv",
                                           "joints.csv",   "preset.toml", "summary.json",
@@ -67,28 +56,10 @@ int width_of(const fs::path& file) {
   return picture->width;
 }
 
-// a folder with small.toml in it
-struct Bench {
-  TemporaryFolder folder;
-  fs::path at = folder.path();
-
-  Bench() { REQUIRE(write_atomically(at / "small.toml", small)); }
-  Ended run(const std::vector<std::string>& arguments) const {
-    return gridshell_program(arguments, at);
-  }
-  // runs, and shows why when it does not end well
-  Ended good(const std::vector<std::string>& arguments) const {
-    const auto ended = run(arguments);
-    INFO(ended.err);
-    REQUIRE(ended.code == 0);
-    return ended;
-  }
-};
-
 }  // namespace
 
 TEST_CASE("run writes a whole run folder and replaces the one before") {
-  const Bench bench;
+  const Bench bench(small);
   bench.good({"run", "small.toml"});
   const auto run = bench.at / "out/small";
   CHECK(names_in(run) == listed(data_files));
@@ -108,7 +79,7 @@ TEST_CASE("run writes a whole run folder and replaces the one before") {
 }
 
 TEST_CASE("the same preset gives the same frames, from the run's own preset.toml too") {
-  const Bench bench;
+  const Bench bench(small);
   bench.good({"run", "small.toml", "-o", "a", "--set", "rod.diameter_mm=0.3"});
   bench.good({"run", "a/preset.toml", "-o", "b"});
   CHECK(text_of(bench.at / "a/frames.csv") == text_of(bench.at / "b/frames.csv"));
@@ -118,7 +89,7 @@ TEST_CASE("the same preset gives the same frames, from the run's own preset.toml
 }
 
 TEST_CASE("a printed config (--print-config) comes to the same, and nothing runs") {
-  const Bench bench;
+  const Bench bench(small);
   const auto first = bench.good({"movie", "small.toml", "--set", "actuation.seed=down", "--size",
                                  "320x200", "--frames", "9", "--print-config"});
   CHECK_THAT(first.out, Catch::Contains("seed = \"down\"") &&
@@ -129,7 +100,7 @@ TEST_CASE("a printed config (--print-config) comes to the same, and nothing runs
 }
 
 TEST_CASE("movie draws a frame each, and render draws them again without simulating") {
-  const Bench bench;
+  const Bench bench(small);
   const auto said = bench.good({"movie", "small.toml", "-o", "run"});
   CHECK_THAT(said.out, Catch::StartsWith("run: "));
   const auto frames = files_under(bench.at / "run/frames", ".png");
@@ -155,7 +126,7 @@ TEST_CASE("movie draws a frame each, and render draws them again without simulat
 }
 
 TEST_CASE("pictures do not depend on the number of threads") {
-  const Bench bench;
+  const Bench bench(small);
   bench.good({"movie", "small.toml", "-o", "one", "--threads", "1"});
   bench.good({"movie", "small.toml", "-o", "three", "--threads", "3"});
   for (const char* frame : {"frames/frame_00000.png", "frames/frame_00002.png"})
@@ -164,7 +135,7 @@ TEST_CASE("pictures do not depend on the number of threads") {
 }
 
 TEST_CASE("figure draws a still a radius and all in one") {
-  const Bench bench;
+  const Bench bench(small);
   bench.good({"figure", "small.toml", "-o", "run", "--set", "figure.radii_mm=[45.0, 42.0]"});
   std::vector<std::string> names;
   for (const auto& file : files_under(bench.at / "run", ".png"))
@@ -180,7 +151,7 @@ TEST_CASE("figure draws a still a radius and all in one") {
 }
 
 TEST_CASE("figures of building blocks, drawn again from the run") {
-  const Bench bench;
+  const Bench bench(small);
   REQUIRE(write_atomically(bench.at / "dome.toml", R"(
 [footprint]
 kind = "blocks"
@@ -219,7 +190,7 @@ quality = "draft"
 }
 
 TEST_CASE("every case is a whole run folder, and summary.json on top lists them") {
-  const Bench bench;
+  const Bench bench(small);
   const std::string cases =
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
@@ -243,7 +214,7 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
 }
 
 TEST_CASE("cases are shown beside one another in one movie, drawn again by render") {
-  const Bench bench;
+  const Bench bench(small);
   const std::string cases =
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
@@ -259,7 +230,7 @@ TEST_CASE("cases are shown beside one another in one movie, drawn again by rende
 }
 
 TEST_CASE("a path that ends early is written as far as it is certified, and exits with 1") {
-  const Bench bench;
+  const Bench bench(small);
   const auto ended = bench.run({"run", "small.toml", "--set", "limits.max_strain=1e-7"});
   CHECK(ended.code == 1);
   CHECK_THAT(ended.err, Catch::Contains("the path ended early, limit \"locking\": "));
@@ -267,7 +238,7 @@ TEST_CASE("a path that ends early is written as far as it is certified, and exit
 }
 
 TEST_CASE("check explains what would run and writes nothing") {
-  const Bench bench;
+  const Bench bench(small);
   const auto said = bench.good({"check", "small.toml"});
   CHECK_THAT(said.out, Catch::Contains("small: small") && Catch::Contains("model") &&
                            Catch::Contains("unknowns") && Catch::Contains("8 rods"));
@@ -346,7 +317,7 @@ TEST_CASE("usage errors exit with 2, help with 0") {
 }
 
 TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", "[full]") {
-  const Bench bench;
+  const Bench bench(small);
   const auto said =
       bench.good({"chart", "accuracy", "small.toml", "--limit", "0.05", "--edges", "4"});
   CHECK_THAT(said.out, Catch::Contains("auto at 1e-06: error"));

@@ -6,9 +6,10 @@
 
 #include "engine/core/atomic_file.h"
 #include "render/image/png.h"
+#include "tests/app/bench.h"
 #include "tests/app/program.h"
 #include "tests/app/unfinished_run.h"
-#include "tests/temporary_folder.h"
+#include "tests/small_preset.h"
 
 namespace fs = std::filesystem;
 using Catch::Contains;
@@ -17,35 +18,7 @@ using gridshell::write_atomically;
 
 namespace {
 
-// four rods a direction
-const std::string small = R"(title = "small"
-[footprint]
-rods = 4
-radius_mm = 45.0
-[actuation]
-radius_mm = 40.0
-[accuracy]
-edges_per_segment = 2
-[movie]
-frames = 4
-size = [160, 120]
-quality = "draft"
-)";
-
-struct Bench {
-  TemporaryFolder folder;
-  fs::path at = folder.path();
-  Bench() { REQUIRE(write_atomically(at / "small.toml", small)); }
-  Ended run(const std::vector<std::string>& arguments) const {
-    return gridshell_program(arguments, at);
-  }
-  Ended good(const std::vector<std::string>& arguments) const {
-    const auto ended = run(arguments);
-    INFO(ended.err);
-    REQUIRE(ended.code == 0);
-    return ended;
-  }
-};
+const std::string small = small_preset({.frames = 4});
 
 // runs a line of the shell, `gridshell` standing for the program
 int shell(const Bench& bench, const std::string& line) {
@@ -58,7 +31,7 @@ int shell(const Bench& bench, const std::string& line) {
 }  // namespace
 
 TEST_CASE("a folder with somebody's summary.json is not replaced") {
-  const Bench bench;
+  const Bench bench(small);
   fs::create_directory(bench.at / "proj");
   REQUIRE(write_atomically(bench.at / "proj/summary.json", "{\"webpack\":1}"));
   REQUIRE(write_atomically(bench.at / "proj/thesis.tex", "thesis"));
@@ -73,7 +46,7 @@ TEST_CASE("a folder with somebody's summary.json is not replaced") {
 }
 
 TEST_CASE("a file put into a run keeps it from being replaced or drawn over") {
-  const Bench bench;
+  const Bench bench(small);
   bench.good({"run", "small.toml", "-o", "r"});
   REQUIRE(write_atomically(bench.at / "r/notes.txt", "mine"));
   for (const auto& arguments :
@@ -88,7 +61,7 @@ TEST_CASE("a file put into a run keeps it from being replaced or drawn over") {
 }
 
 TEST_CASE("a run is written through a link, which stays") {
-  const Bench bench;
+  const Bench bench(small);
   fs::create_directories(bench.at / "disk/real");
   fs::create_directory_symlink("disk/real", bench.at / "link");
   bench.good({"run", "small.toml", "-o", "link"});
@@ -101,7 +74,7 @@ TEST_CASE("a run is written through a link, which stays") {
 }
 
 TEST_CASE("closed streams do not become files of results") {
-  const Bench bench;
+  const Bench bench(small);
   bench.good({"run", "small.toml", "-o", "open"});
   for (const std::string closed : {"2>&-", ">&-", "<&- >&- 2>&-"}) {
     INFO(closed);
@@ -113,7 +86,7 @@ TEST_CASE("closed streams do not become files of results") {
 }
 
 TEST_CASE("what stdout does not take is noticed") {
-  const Bench bench;
+  const Bench bench(small);
   CHECK(shell(bench, "gridshell list > /dev/full 2> err") == 1);
   CHECK(read_whole(bench.at / "err").value() ==
         "cannot write to standard output: No space left on device\n");
@@ -122,7 +95,7 @@ TEST_CASE("what stdout does not take is noticed") {
 }
 
 TEST_CASE("inputs that are no regular files, or too large, are refused at once") {
-  const Bench bench;
+  const Bench bench(small);
   REQUIRE(mkfifo((bench.at / "fifo").c_str(), 0600) == 0);
   const std::string curve = "[footprint]\nkind = \"curve\"\nboundary = \"polygon\"\npoints_mm = ";
   REQUIRE(write_atomically(bench.at / "pipe.toml", curve + "\"fifo\"\n"));
@@ -147,7 +120,7 @@ TEST_CASE("inputs that are no regular files, or too large, are refused at once")
 }
 
 TEST_CASE("frames of a run that was cut short are drawn, and it says that it is unfinished") {
-  const Bench bench;
+  const Bench bench(small);
   bench.good({"movie", "small.toml", "-o", "whole"});
   cut_short(bench.at / "whole", bench.at / "r.partial-7", 3);
   const auto drawn = bench.good({"render", "r.partial-7"});
@@ -172,7 +145,7 @@ TEST_CASE("frames of a run that was cut short are drawn, and it says that it is 
 }
 
 TEST_CASE("cases of a run that was cut short are drawn as far as they came") {
-  const Bench bench;
+  const Bench bench(small);
   const std::string cases =
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_atomically(bench.at / "cases.toml", small + cases));
@@ -189,7 +162,7 @@ TEST_CASE("cases of a run that was cut short are drawn as far as they came") {
 }
 
 TEST_CASE("an interrupted run says how to draw what it found, and the next run names it") {
-  const Bench bench;
+  const Bench bench(small);
   bench.good({"run", "small.toml", "-o", "whole"});
   cut_short(bench.at / "whole", bench.at / "out/small.partial-7", 3);
   const auto next = bench.good({"run", "small.toml"});
@@ -202,7 +175,7 @@ TEST_CASE("an interrupted run says how to draw what it found, and the next run n
 }
 
 TEST_CASE("a run folder of somebody else cannot write outside of -o") {
-  const Bench bench;
+  const Bench bench(small);
   const std::string cases = "[[case]]\nname = \"near\"\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
   bench.good({"run", "small.toml", "-o", "r"});
@@ -220,7 +193,7 @@ TEST_CASE("a run folder of somebody else cannot write outside of -o") {
 }
 
 TEST_CASE("names of cases that would meet a run's files are refused") {
-  const Bench bench;
+  const Bench bench(small);
   for (const auto& [name, sentence] : std::vector<std::pair<std::string, std::string>>{
            {"frames", "is the folder of a movie's pictures"},
            {"movie.mp4", "must not end in .mp4"},
@@ -236,7 +209,7 @@ TEST_CASE("names of cases that would meet a run's files are refused") {
 }
 
 TEST_CASE("values whose products leave the numbers are refused by their key") {
-  const Bench bench;
+  const Bench bench(small);
   for (const std::string key :
        {"footprint.radius_mm", "footprint.spacing_mm", "rod.diameter_mm", "rod.young_GPa",
         "rod.curvature_per_mm", "dynamics.step_s", "loads.field_N_per_mm", "net.radius_mm"})
@@ -249,7 +222,7 @@ TEST_CASE("values whose products leave the numbers are refused by their key") {
 }
 
 TEST_CASE("meshes that do not fit into memory are refused with what they would take") {
-  const Bench bench;
+  const Bench bench(small);
   for (const char* command : {"check", "run"}) {
     const auto ended = bench.run({command, "small.toml", "--set", "accuracy.memory_GB=0.0001"});
     CHECK(ended.code == 2);
@@ -262,7 +235,7 @@ TEST_CASE("meshes that do not fit into memory are refused with what they would t
 }
 
 TEST_CASE("a picture larger than any of ours is not read") {
-  const Bench bench;
+  const Bench bench(small);
   // a header of 1000000 x 1000000 pixels, with its checksum
   const unsigned char header[] = {0x89, 'P',  'N',  'G',  13,  10,  26, 10,   0,    0,
                                   0,    13,   'I',  'H',  'D', 'R', 0,  0x0f, 0x42, 0x40,
@@ -284,7 +257,7 @@ TEST_CASE("a picture larger than any of ours is not read") {
 }
 
 TEST_CASE("a signal ends commands that draw no progress, at once") {
-  const Bench bench;
+  const Bench bench(small);
   const int number = GENERATE(SIGINT, SIGTERM, SIGHUP);
   // a net of a thousand rods takes seconds to plan
   const Running running({"check", "fig3_hemisphere", "--set", "footprint.spacing_mm=0.3", "--set",
@@ -302,7 +275,7 @@ TEST_CASE("a signal ends commands that draw no progress, at once") {
 }
 
 TEST_CASE("a run folder of version 0.1 is drawn, and replaced as a run") {
-  const Bench bench;
+  const Bench bench(small);
   fs::copy(fs::path(GRIDSHELL_SOURCE_DIR) / "tests/app/version_0_1", bench.at / "old");
   const auto drawn = bench.good({"render", "old", "-o", "drawn"});
   CHECK_THAT(drawn.err, !Contains("not finished"));

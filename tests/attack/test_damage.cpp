@@ -13,6 +13,8 @@
 #include "tests/app/program.h"
 #include "tests/app/unfinished_run.h"
 #include "tests/attack/trials.h"
+#include "tests/folder_contents.h"
+#include "tests/small_preset.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
@@ -22,19 +24,8 @@ using Json = nlohmann::json;
 
 namespace {
 
-const std::string small = R"(title = "small"
-[footprint]
-rods = 2
-radius_mm = 25.0
-[actuation]
-radius_mm = 22.0
-[accuracy]
-edges_per_segment = 2
-[movie]
-frames = 3
-size = [48, 32]
-quality = "draft"
-)";
+const std::string small =
+    small_preset({.rods = 2, .radius_mm = 25, .actuated_mm = 22, .width = 48, .height = 32});
 
 // as trajectory_file.cpp seals its files: this damage is meant
 std::string sealed(std::string hdf5) {
@@ -160,17 +151,6 @@ void damage(const fs::path& run, Draw& draw) {
     case 3:
       return change_summary(run, draw);
   }
-}
-
-// every file and its bytes; of links and pipes their kind
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> all;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const auto kind = entry.symlink_status().type();
-    all[entry.path()] = kind == fs::file_type::regular ? read_whole(entry.path()).value()
-                                                       : std::to_string(int(kind));
-  }
-  return all;
 }
 
 class Bench {

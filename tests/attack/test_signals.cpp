@@ -9,6 +9,8 @@
 #include "render/image/png.h"
 #include "tests/app/program.h"
 #include "tests/attack/trials.h"
+#include "tests/folder_contents.h"
+#include "tests/small_preset.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
@@ -17,22 +19,8 @@ using gridshell::write_atomically;
 
 namespace {
 
-const std::string small = R"([footprint]
-rods = 4
-radius_mm = 45.0
-[actuation]
-radius_mm = 40.0
-[movie]
-frames = 24
-size = [320, 180]
-)";
-
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> all;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) all[entry.path()] = read_whole(entry.path()).value();
-  return all;
-}
+const std::string small =
+    small_preset({.edges = 0, .frames = 24, .width = 320, .height = 180, .quality = "movie"});
 
 // what was finished is whole, and what was not bears a partial name
 void check_left(const fs::path& folder, bool killed) {

@@ -19,6 +19,8 @@
 #include "engine/record/trajectory_file.h"
 #include "render/image/png.h"
 #include "tests/faults/faults.h"
+#include "tests/folder_contents.h"
+#include "tests/small_preset.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
@@ -26,26 +28,8 @@ using namespace gridshell;
 
 namespace {
 
-const std::string small = R"([footprint]
-rods = 2
-radius_mm = 25.0
-[actuation]
-radius_mm = 22.0
-[accuracy]
-edges_per_segment = 2
-[movie]
-frames = 2
-size = [48, 32]
-quality = "draft"
-)";
-
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file())
-      files[entry.path().lexically_relative(folder)] = read_whole(entry.path()).value();
-  return files;
-}
+const std::string small = small_preset(
+    {.rods = 2, .radius_mm = 25, .actuated_mm = 22, .frames = 2, .width = 48, .height = 32});
 
 /// what the program does, in a process of its own; its exit code, or 128 + the signal that ended
 /// it, and how many calls it made

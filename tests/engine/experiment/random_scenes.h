@@ -11,6 +11,7 @@
 
 #include "engine/experiment/actuation.h"
 #include "engine/experiment/experiment.h"
+#include "engine/study/draw.h"
 
 namespace gridshell {
 
@@ -25,16 +26,14 @@ struct EstimateTrial {
 /// n of 4 to 16, placement by its parity, longest leg 0.2 to 2.5 d, R_a/R_o 0.6 to 0.95, tolerance
 /// 1e-2 to 1e-6, all from one generator.
 inline preset::Preset random_scene(std::mt19937& random) {
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * double(random() >> 5) / double(1 << 27);
-  };
+  study::Draw draw(random);
   preset::Preset p;
-  p.footprint.rods = int(uniform(4, 17));
+  p.footprint.rods = draw.integer(4, 16);
   p.footprint.placement =
       p.footprint.rods % 2 ? preset::Placement::on_axis : preset::Placement::half;
-  p.footprint.radius_mm = 20 * ((p.footprint.rods - 1) / 2.0 + uniform(0.2, 2.5));
-  p.actuation.radius_mm = p.footprint.radius_mm * uniform(0.6, 0.95);
-  p.accuracy.tolerance = std::pow(10, uniform(-6, -2));
+  p.footprint.radius_mm = 20 * ((p.footprint.rods - 1) / 2.0 + draw.between(0.2, 2.5));
+  p.actuation.radius_mm = p.footprint.radius_mm * draw.between(0.6, 0.95);
+  p.accuracy.tolerance = std::pow(10, draw.between(-6, -2));
   return p;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "engine/experiment/experiment.h"
+#include "tests/engine/experiment/run.h"
 
 using namespace gridshell;
 
@@ -15,13 +16,6 @@ preset::Preset fig1(int frames, double tolerance) {
   p.imperfection.size = 0;
   p.accuracy.tolerance = tolerance;
   return p;
-}
-
-experiment::Outcome run(const preset::Preset& p) {
-  Watch watch;
-  auto outcome = experiment::run(p, false, watch);
-  if (!outcome) FAIL(outcome.error().message);
-  return std::move(*outcome);
 }
 
 Eigen::Matrix3Xd joints_of(const record::Trajectory& trajectory) {

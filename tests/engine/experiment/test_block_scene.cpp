@@ -3,6 +3,7 @@
 
 #include "engine/experiment/experiment.h"
 #include "engine/preset/reader.h"
+#include "tests/engine/experiment/run.h"
 
 using namespace gridshell;
 
@@ -12,13 +13,6 @@ preset::Preset read(const std::string& text) {
   const auto presets = preset::read_preset_text(text, "blocks.toml", "blocks");
   if (!presets) FAIL(presets.error().message);
   return presets->base;
-}
-
-experiment::Outcome run(const preset::Preset& p) {
-  Watch watch;
-  auto outcome = experiment::run(p, true, watch);
-  if (!outcome) FAIL(outcome.error().message);
-  return std::move(*outcome);
 }
 
 const std::string two_quarters = R"(
@@ -43,13 +37,13 @@ start = "net"
 }  // namespace
 
 TEST_CASE("two quarter-spheres come to rest as the hemisphere does") {
-  const auto joined = run(read(two_quarters)).summary;
+  const auto joined = run_stills(read(two_quarters)).summary;
   preset::Preset hemisphere;
   hemisphere.footprint.kind = preset::FootprintKind::net;
   hemisphere.footprint.placement = preset::Placement::on_axis;
   hemisphere.actuation.start = preset::Start::net;
-  const auto whole = run(hemisphere);
-  const double scale = run(read(two_quarters)).trajectory.layout.length_scale_mm;
+  const auto whole = run_stills(hemisphere);
+  const double scale = run_stills(read(two_quarters)).trajectory.layout.length_scale_mm;
   CHECK(joined.stable);
   CHECK(joined.joints == whole.summary.joints);
   CHECK(joined.max_deviation * scale == Approx(whole.summary.max_deviation * 120).margin(1e-3));
@@ -84,7 +78,7 @@ second = "middle.west"
 
   auto stadium = read(open + text.substr(0, text.find("[[join]]")) +
                       "[[join]]\nfirst = \"middle.east\"\nsecond = \"b.west\"\n");
-  const auto outcome = run(stadium);
+  const auto outcome = run_stills(stadium);
   const auto& layout = outcome.trajectory.layout;
   CHECK(outcome.summary.stable);
   CHECK(outcome.summary.limit == record::Limit::none);
@@ -96,7 +90,7 @@ second = "middle.west"
 
   // from flat it comes to the same state
   stadium.actuation.start = preset::Start::flat;
-  const auto flat = run(stadium);
+  const auto flat = run_stills(stadium);
   CHECK(flat.summary.limit == record::Limit::none);
   const Eigen::Index joints = outcome.summary.joints;
   const Eigen::Matrix3Xd off = flat.trajectory.frames.back().nodes.leftCols(joints) -

@@ -4,6 +4,7 @@
 
 #include "engine/experiment/experiment.h"
 #include "engine/scene/scene.h"
+#include "tests/engine/experiment/run.h"
 
 using namespace gridshell;
 
@@ -22,13 +23,6 @@ std::string refused(const preset::Preset& p) {
   if (scene) return "";
   CHECK(scene.error().fault == Fault::bad_input);
   return scene.error().message;
-}
-
-record::Summary run(const preset::Preset& p) {
-  Watch watch;
-  const auto outcome = experiment::run(p, true, watch);
-  if (!outcome) FAIL(outcome.error().message);
-  return outcome->summary;
 }
 
 }  // namespace
@@ -95,16 +89,16 @@ TEST_CASE("a cylinder from a table of points is the cylinder") {
   p.net.kind = preset::NetKind::cylinder;
   p.net.radius_mm = 80;
   p.net.length_mm = 200;
-  const record::Summary known = run(p);
+  const record::Summary known = run_stills(p).summary;
   p.net.kind = preset::NetKind::profile;
   for (double z = -150; z <= 150; z += 50) p.net.profile.push_back({80, z});
-  const record::Summary table = run(p);
+  const record::Summary table = run_stills(p).summary;
   CHECK(table.joints == known.joints);
   CHECK(table.energies[Term::bend] == Approx(known.energies[Term::bend]).epsilon(1e-9));
   CHECK(table.max_deviation == Approx(known.max_deviation).margin(1e-9));
   // all of the profile, and more than there is of it
   p.net.length_mm = 0;
-  CHECK(run(p).joints > known.joints);
+  CHECK(run_stills(p).summary.joints > known.joints);
   p.net.length_mm = 301;
   CHECK_THAT(refused(p), Catch::Contains("the profile of 7 points ends"));
 }
@@ -119,7 +113,7 @@ TEST_CASE(
     p.net.curve_u.push_back({40.0 * k, 0, 54 * (1 - k * k / 9.0)});
     p.net.curve_v.push_back({0, 30.0 * k, -20 * (1 - k * k / 9.0)});
   }
-  const record::Summary s = run(p);
+  const record::Summary s = run_stills(p).summary;
   CHECK(s.stable);
   CHECK(s.limit == record::Limit::none);
   CHECK(s.max_deviation < 0.005);
@@ -140,7 +134,7 @@ TEST_CASE("a translation net from two arches: on both, certified, near the net")
   // the flat footprint lies square to the curves
   CHECK(scene->flat.axes.col(0).x() == Approx(1));
   CHECK(scene->flat.axes.col(1).y() == Approx(1));
-  const record::Summary s = run(p);
+  const record::Summary s = run_stills(p).summary;
   CHECK(s.stable);
   CHECK(s.max_deviation < 0.01);
   std::swap(p.net.curve_u, p.net.curve_v);

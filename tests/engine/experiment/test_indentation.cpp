@@ -6,6 +6,7 @@
 #include "engine/measure/gauss.h"
 #include "engine/measure/symmetry.h"
 #include "engine/scene/scene.h"
+#include "tests/engine/experiment/run.h"
 
 using namespace gridshell;
 
@@ -25,13 +26,6 @@ preset::Preset hemisphere(Case which, double radius_mm, preset::Placement placem
   if (which == Case::oblique_inward) p.indentation.latitude_deg = p.indentation.longitude_deg = 45;
   p.movie.frames = frames;
   return p;
-}
-
-experiment::Outcome run(const preset::Preset& preset) {
-  Watch watch;
-  auto outcome = experiment::run(preset, false, watch);
-  if (!outcome) FAIL(outcome.error().message);
-  return std::move(*outcome);
 }
 
 Eigen::Matrix3Xd joints_of(const record::Trajectory& run, std::size_t frame) {

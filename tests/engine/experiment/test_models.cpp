@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/experiment/experiment.h"
+#include "tests/engine/experiment/run.h"
 
 using namespace gridshell;
 
@@ -19,13 +20,6 @@ preset::Preset circle(int rods, int edges) {
   p.movie.frames = 2;
   p.accuracy.edges_per_segment = edges;
   return p;
-}
-
-experiment::Outcome run(const preset::Preset& p) {
-  Watch watch;
-  auto outcome = experiment::run(p, false, watch);
-  if (!outcome) FAIL(outcome.error().message);
-  return std::move(*outcome);
 }
 
 double distance(const experiment::Outcome& a, const experiment::Outcome& b) {

@@ -4,6 +4,7 @@
 
 #include "engine/experiment/experiment.h"
 #include "engine/scene/scene.h"
+#include "tests/engine/experiment/run.h"
 
 using namespace gridshell;
 
@@ -28,13 +29,6 @@ preset::Preset surface(preset::NetKind kind, double radius, double length) {
   return p;
 }
 
-experiment::Outcome run(const preset::Preset& p, bool stills = true) {
-  Watch watch;
-  auto outcome = experiment::run(p, stills, watch);
-  if (!outcome) FAIL(outcome.error().message);
-  return std::move(*outcome);
-}
-
 }  // namespace
 
 TEST_CASE("the scene of a cap: its boundary maps to the circle at z*, edge points with it") {
@@ -54,7 +48,7 @@ TEST_CASE("the scene of a cap: its boundary maps to the circle at z*, edge point
 TEST_CASE("the hemisphere on the axes, converged: deviation, total curvature and energy") {
   preset::Preset p = cap(0, preset::Placement::on_axis, preset::Start::net);
   p.accuracy.tolerance = 1e-7;
-  const record::Summary s = run(p).summary;
+  const record::Summary s = run_stills(p).summary;
   CHECK(s.stable);
   CHECK(s.limit == record::Limit::none);
   CHECK(100 * s.max_deviation == Approx(3.1029).margin(5e-5));
@@ -66,8 +60,8 @@ TEST_CASE("the hemisphere on the axes, converged: deviation, total curvature and
 
 TEST_CASE("from flat and from the net a cap comes to the same state") {
   for (const auto placement : {preset::Placement::on_axis, preset::Placement::half}) {
-    const experiment::Outcome net = run(cap(0.5, placement, preset::Start::net));
-    const experiment::Outcome flat = run(cap(0.5, placement, preset::Start::flat));
+    const experiment::Outcome net = run_stills(cap(0.5, placement, preset::Start::net));
+    const experiment::Outcome flat = run_stills(cap(0.5, placement, preset::Start::flat));
     const auto& a = net.trajectory.frames.back().nodes;
     const auto& b = flat.trajectory.frames.back().nodes;
     REQUIRE(a.cols() == b.cols());
@@ -79,9 +73,9 @@ TEST_CASE("from flat and from the net a cap comes to the same state") {
 TEST_CASE("from flat, through snaps, and from the net a saddle comes to the same state") {
   preset::Preset p = surface(preset::NetKind::spool, 120, 180);
   p.net.waist = 0.6;
-  const experiment::Outcome net = run(p);
+  const experiment::Outcome net = run_stills(p);
   p.actuation.start = preset::Start::flat;
-  const experiment::Outcome flat = run(p);
+  const experiment::Outcome flat = run_stills(p);
   CHECK(net.summary.limit == record::Limit::none);
   CHECK(flat.summary.limit == record::Limit::snap);
   CHECK(flat.summary.stable);
@@ -97,7 +91,7 @@ TEST_CASE("Beltrami's pseudosphere: stable, its cells negative on the whole") {
   preset::Preset p = surface(preset::NetKind::beltrami, 120, 70);
   p.net.waist = 0.6;
   p.net.crossing_deg = 60;
-  const experiment::Outcome shell = run(p);
+  const experiment::Outcome shell = run_stills(p);
   CHECK(shell.summary.stable);
   CHECK(shell.summary.limit == record::Limit::none);
   CHECK(shell.summary.total_K < 0);
@@ -110,7 +104,7 @@ TEST_CASE("a cylinder whose ends are held along the helices is its net, to secon
     preset::Preset p = surface(preset::NetKind::cylinder, 80, 200);
     p.ends.kind = preset::EndKind::tangent;
     p.accuracy.edges_per_segment = edges;
-    const record::Summary s = run(p).summary;
+    const record::Summary s = run_stills(p).summary;
     CHECK(s.stable);
     if (before > 0) CHECK(std::log2(before / s.max_deviation) == Approx(2).margin(0.15));
     before = s.max_deviation;
@@ -121,15 +115,15 @@ TEST_CASE("a cylinder whose ends are held along the helices is its net, to secon
 TEST_CASE("a saddle's cells are negative over most of the arch, a cylinder's near zero") {
   preset::Preset p = surface(preset::NetKind::spool, 120, 180);
   p.net.waist = 0.6;
-  const experiment::Outcome saddle = run(p);
+  const experiment::Outcome saddle = run_stills(p);
   const auto K = [](const experiment::Outcome& outcome) -> Eigen::ArrayXd {
     return outcome.trajectory.frames.back().cell_K.array();
   };
   CHECK(saddle.summary.stable);
   CHECK((K(saddle) < 0).count() > 0.6 * double(K(saddle).size()));
-  const experiment::Outcome cylinder = run(surface(preset::NetKind::cylinder, 80, 200));
+  const experiment::Outcome cylinder = run_stills(surface(preset::NetKind::cylinder, 80, 200));
   CHECK(std::abs(K(cylinder).mean()) < 0.2 * std::abs(K(saddle).mean()));
-  CHECK((K(run(cap(0, preset::Placement::on_axis, preset::Start::net))) > 0).all());
+  CHECK((K(run_stills(cap(0, preset::Placement::on_axis, preset::Start::net))) > 0).all());
 }
 
 TEST_CASE("end rings let go: their ends are free, the others still held, the state stable") {
@@ -148,7 +142,7 @@ TEST_CASE("end rings let go: their ends are free, the others still held, the sta
     }
   }
   CHECK(free > 4);
-  const record::Summary s = run(p).summary;
+  const record::Summary s = run_stills(p).summary;
   CHECK(s.stable);
   CHECK(s.residual_N < 1e-8);
 }

@@ -5,17 +5,11 @@
 
 #include "engine/experiment/actuation.h"
 #include "engine/experiment/experiment.h"
+#include "tests/engine/experiment/run.h"
 
 using namespace gridshell;
 
 namespace {
-
-experiment::Outcome run(const preset::Preset& p) {
-  Watch watch;
-  auto outcome = experiment::run(p, false, watch);
-  if (!outcome) FAIL(outcome.error().message);
-  return std::move(*outcome);
-}
 
 preset::Preset circle(int rods, double radius_mm, double to_mm, int frames = 2) {
   preset::Preset p;
@@ -44,16 +38,27 @@ preset::Preset ellipse(int frames) {
   return p;
 }
 
-preset::Preset saddle(preset::Start start, int frames) {
-  preset::Preset p;
+// the same on a net, the cap of a sphere where it is not told otherwise
+preset::Preset on_net(preset::Preset p, preset::Start start = preset::Start::net) {
   p.footprint.kind = preset::FootprintKind::net;
   p.footprint.placement = preset::Placement::on_axis;
-  p.net.kind = preset::NetKind::spool;
-  p.net.radius_mm = 120;
-  p.net.waist = 0.6;
-  p.net.length_mm = 180;
   p.actuation.start = start;
+  return p;
+}
+
+preset::Preset revolved(preset::NetKind kind, double length_mm, int frames,
+                        preset::Start start = preset::Start::net) {
+  preset::Preset p = on_net({}, start);
+  p.net.kind = kind;
+  p.net.radius_mm = 120;
+  p.net.length_mm = length_mm;
   p.movie.frames = frames;
+  return p;
+}
+
+preset::Preset saddle(preset::Start start, int frames) {
+  preset::Preset p = revolved(preset::NetKind::spool, 180, frames, start);
+  p.net.waist = 0.6;
   return p;
 }
 
@@ -79,10 +84,7 @@ void check_frames(const experiment::Outcome& outcome, int asked) {
 }  // namespace
 
 TEST_CASE("the last frame asked for is there, or the run says why not") {
-  preset::Preset p = fig1(2);
-  p.footprint.kind = preset::FootprintKind::net;
-  p.footprint.placement = preset::Placement::on_axis;
-  p.actuation.start = preset::Start::net;
+  preset::Preset p = on_net(fig1(2));
   p.rod.diameter_mm = 2;
   const auto outcome = run(p);
   if (outcome.summary.limit == record::Limit::none)
@@ -100,15 +102,7 @@ TEST_CASE("a circle drawn in by less than two per cent is checked like any other
 }
 
 TEST_CASE("inner frames of a shell begun on its net are shells, or the run says why not") {
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::net;
-  p.footprint.placement = preset::Placement::on_axis;
-  p.net.kind = preset::NetKind::cylinder;
-  p.net.radius_mm = 120;
-  p.net.length_mm = 125;
-  p.actuation.start = preset::Start::net;
-  p.movie.frames = 3;
-  const auto outcome = run(p);
+  const auto outcome = run(revolved(preset::NetKind::cylinder, 125, 3));
   check_frames(outcome, 3);
   for (const auto& frame : outcome.trajectory.frames) CHECK(frame.negative_pivots == 0);
 }
@@ -146,10 +140,7 @@ TEST_CASE("frames change nothing of a push: 5 and 11 of them end in one state", 
 }
 
 TEST_CASE("the frame at the rods' length lies on the branch that led there") {
-  preset::Preset p = fig1(9);
-  p.footprint.kind = preset::FootprintKind::net;
-  p.footprint.placement = preset::Placement::on_axis;
-  p.actuation.start = preset::Start::net;
+  preset::Preset p = on_net(fig1(9));
   p.indentation.depth = 0.4;
   p.indentation.direction = preset::Direction::outward;
   const auto outcome = run(p);

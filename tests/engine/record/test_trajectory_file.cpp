@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "engine/core/atomic_file.h"
-#include "engine/record/frame_columns.h"
 #include "engine/record/trajectory_file.h"
-#include "tests/engine/record/sample_run.h"
+#include "tests/engine/record/changed_file.h"
+#include "tests/engine/record/same_run.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -17,91 +17,6 @@ using namespace gridshell::record;
 namespace fs = std::filesystem;
 
 namespace {
-
-void check_same_layout(const Layout& a, const Layout& b) {
-  CHECK(same_bits(a.spacing_mm, b.spacing_mm));
-  CHECK(same_bits(a.rod_diameter_mm, b.rod_diameter_mm));
-  CHECK(same_bits(a.length_scale_mm, b.length_scale_mm));
-  CHECK(a.rods == b.rods);
-  CHECK(a.edge_points == b.edge_points);
-  CHECK(same_bits(a.original_boundary, b.original_boundary));
-  CHECK(same_bits(a.actuated_boundary, b.actuated_boundary));
-  REQUIRE(a.joints.size() == b.joints.size());
-  for (std::size_t k = 0; k < a.joints.size(); ++k) {
-    const Joint &x = a.joints[k], &y = b.joints[k];
-    CHECK((x.i == y.i && x.j == y.j && x.node == y.node));
-    CHECK((same_bits(x.u_mm, y.u_mm) && same_bits(x.v_mm, y.v_mm)));
-  }
-  REQUIRE(a.cells.size() == b.cells.size());
-  for (std::size_t k = 0; k < a.cells.size(); ++k) {
-    const Cell &x = a.cells[k], &y = b.cells[k];
-    CHECK((x.i == y.i && x.j == y.j && x.joints == y.joints));
-    CHECK((same_bits(x.u_mm, y.u_mm) && same_bits(x.v_mm, y.v_mm)));
-  }
-  REQUIRE(a.parts.size() == b.parts.size());
-  for (std::size_t k = 0; k < a.parts.size(); ++k) {
-    CHECK((a.parts[k].name == b.parts[k].name && a.parts[k].rods == b.parts[k].rods));
-    CHECK(same_bits(a.parts[k].net, b.parts[k].net));
-    CHECK(same_bits(a.parts[k].flat, b.parts[k].flat));
-  }
-  REQUIRE(a.loaded_joints.size() == b.loaded_joints.size());
-  for (std::size_t k = 0; k < a.loaded_joints.size(); ++k) {
-    CHECK(a.loaded_joints[k].joint == b.loaded_joints[k].joint);
-    CHECK(a.loaded_joints[k].direction == b.loaded_joints[k].direction);
-  }
-  REQUIRE(a.seam_rods.size() == b.seam_rods.size());
-  for (std::size_t k = 0; k < a.seam_rods.size(); ++k) {
-    const SeamRod &x = a.seam_rods[k], &y = b.seam_rods[k];
-    CHECK((x.seam == y.seam && x.family == y.family));
-    CHECK((same_bits(x.line_mm, y.line_mm) && same_bits(x.gap_mm, y.gap_mm)));
-    CHECK(same_bits(x.kink_deg, y.kink_deg));
-  }
-}
-
-bool same(int a, int b) { return a == b; }
-bool same(double a, double b) { return same_bits(a, b); }
-bool same(const std::string& a, const std::string& b) { return a == b; }
-
-void check_same_frame(const Frame& a, const Frame& b) {
-  CHECK(same_bits(a.nodes, b.nodes));
-  CHECK(same_bits(a.cell_K, b.cell_K));
-  CHECK(same_bits(a.K_bins, b.K_bins));
-  CHECK(same_bits(a.actuation, b.actuation));
-  for (const FrameColumn& column : frame_columns) {
-    INFO(column.name);
-    visit_column(column, a, [&]<class T>(const T& x) {
-      visit_column(column, b, [&]<class U>(const U& y) {
-        if constexpr (std::is_same_v<T, U>) CHECK(same(x, y));
-      });
-    });
-  }
-}
-
-/// the message with which a file of these bytes is refused
-std::string refusal(const std::string& bytes, bool unsealed = false) {
-  TemporaryFolder folder;
-  const fs::path path = folder.path() / "trajectory.h5";
-  REQUIRE(write_atomically(path, bytes));
-  const auto read = read_trajectory(path, {.unsealed = unsealed});
-  REQUIRE_FALSE(read);
-  CHECK(read.error().fault == Fault::bad_input);
-  const std::string start = "'" + path.string() + "' is no trajectory of a run: ";
-  CHECK(read.error().message.substr(0, start.size()) == start);
-  return read.error().message.substr(start.size());
-}
-
-/// a trajectory as another program would leave it, without a seal, changed by `change(file)`
-template <class Change>
-std::string changed(Change change, const Trajectory& run = sample_trajectory()) {
-  TemporaryFolder folder;
-  const fs::path path = folder.path() / "a.h5";
-  REQUIRE(write_trajectory(path, run));
-  REQUIRE(write_atomically(path, read_whole(path)->substr(512)));
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  change(file);
-  H5Fclose(file);
-  return read_whole(path).value();
-}
 
 std::string bytes_of(const Trajectory& run) {
   TemporaryFolder folder;
@@ -197,20 +112,6 @@ TEST_CASE("a file that is missing, foreign or cut short is refused in a sentence
   CHECK(refusal(whole.substr(512, 2000), true) == "it is cut short or damaged");
 }
 
-TEST_CASE("an HDF5 file of something else is refused") {
-  TemporaryFolder folder;
-  const fs::path path = folder.path() / "other.h5";
-  H5Fclose(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  CHECK(refusal(read_whole(path).value(), true) == "it does not say \"gridshell trajectory 1\"");
-}
-
-TEST_CASE("a trajectory that lacks a dataset is refused by its name") {
-  for (const std::string name : {"/rods", "/nodes", "/joints", "/cell_K", "/layout/edge_points"}) {
-    const auto without = [&](hid_t file) { H5Ldelete(file, name.c_str(), H5P_DEFAULT); };
-    CHECK(refusal(changed(without), true) == name + " is missing, or a link");
-  }
-}
-
 TEST_CASE("parts that do not fit each other are neither written nor read") {
   TemporaryFolder folder;
   const fs::path path = folder.path() / "a.h5";
@@ -276,87 +177,6 @@ TEST_CASE("a trajectory that another program rewrote is read only where that is 
   const auto back = read_trajectory(path, {.unsealed = true});
   REQUIRE(back);
   CHECK(same_bits(back->frames[2].nodes, run.frames[2].nodes));
-}
-
-TEST_CASE("objects that are not what they should be are refused before anything of them is read") {
-  const auto put = [](hid_t file, const char* name, hid_t type, std::vector<hsize_t> dims,
-                      hid_t how = H5P_DEFAULT) {
-    H5Ldelete(file, name, H5P_DEFAULT);
-    const hid_t space = H5Screate_simple(int(dims.size()), dims.data(), nullptr);
-    H5Dclose(H5Dcreate2(file, name, type, space, H5P_DEFAULT, how, H5P_DEFAULT));
-    H5Sclose(space);
-  };
-  const auto after = [&](auto change) { return refusal(changed(change), true); };
-  SECTION("an attribute of many numbers") {
-    CHECK(after([](hid_t file) {
-            std::vector<double> many(2000, 1.0);
-            H5Adelete_by_name(file, "/layout", "spacing_mm", H5P_DEFAULT);
-            const hsize_t size = many.size();
-            const hid_t space = H5Screate_simple(1, &size, nullptr);
-            const hid_t made = H5Acreate_by_name(file, "/layout", "spacing_mm", H5T_NATIVE_DOUBLE,
-                                                 space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-            H5Awrite(made, H5T_NATIVE_DOUBLE, many.data());
-            H5Aclose(made), H5Sclose(space);
-          }) == "/layout has no number spacing_mm");
-  }
-  SECTION("a text of many elements") {
-    CHECK(after([](hid_t file) {
-            H5Adelete(file, "format");
-            const hid_t type = H5Tcopy(H5T_C_S1);
-            H5Tset_size(type, 22);
-            const hsize_t size = 100;
-            const hid_t space = H5Screate_simple(1, &size, nullptr);
-            H5Aclose(H5Acreate2(file, "format", type, space, H5P_DEFAULT, H5P_DEFAULT));
-            H5Sclose(space), H5Tclose(type);
-          }) == "it does not say \"gridshell trajectory 1\"");
-  }
-  SECTION("text where numbers are due") {
-    CHECK(after([&](hid_t file) {
-            const hid_t type = H5Tcopy(H5T_C_S1);
-            H5Tset_size(type, 8);
-            put(file, "/nodes", type, {3, 12, 3});
-          }) == "/nodes is of another type");
-  }
-  SECTION("another number of dimensions") {
-    CHECK(after([&](hid_t file) {
-            const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
-            H5Pset_alloc_time(how, H5D_ALLOC_TIME_EARLY);
-            put(file, "/nodes", H5T_NATIVE_DOUBLE, {3, 36}, how);
-          }) == "/nodes has 2 dimensions, expected 3");
-  }
-  SECTION("more rows than the file has bytes") {
-    CHECK(after([&](hid_t file) {
-            put(file, "/nodes", H5T_NATIVE_DOUBLE, {hsize_t(1) << 50, 12, 3});
-          }) == "/nodes claims to hold more than the file does");
-  }
-  SECTION("numbers in another file") {
-    CHECK(after([&](hid_t file) {
-            const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
-            H5Pset_external(how, "/etc/hostname", 0, H5F_UNLIMITED);
-            put(file, "/nodes", H5T_NATIVE_DOUBLE, {3, 12, 3}, how);
-          }) == "/nodes is not stored plainly in this file");
-  }
-  SECTION("a link to another file") {
-    CHECK(after([](hid_t file) {
-            H5Ldelete(file, "/nodes", H5P_DEFAULT);
-            H5Lcreate_external("/tmp/other.h5", "/nodes", file, "/nodes", H5P_DEFAULT, H5P_DEFAULT);
-          }) == "/nodes is missing, or a link");
-  }
-  SECTION("a rod of three million nodes") {
-    CHECK_THAT(after([](hid_t file) {
-                 std::vector<int> nodes(3000000, 1);
-                 hvl_t list{nodes.size(), nodes.data()};
-                 const hid_t type = H5Tvlen_create(H5T_NATIVE_INT);
-                 const hsize_t one = 1;
-                 const hid_t space = H5Screate_simple(1, &one, nullptr);
-                 H5Ldelete(file, "/rods", H5P_DEFAULT);
-                 const hid_t set =
-                     H5Dcreate2(file, "/rods", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-                 H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &list);
-                 H5Dclose(set), H5Sclose(space), H5Tclose(type);
-               }),
-               Catch::Contains("nodes of 12"));
-  }
 }
 
 TEST_CASE("a trajectory that cannot be written says why and leaves the old one") {

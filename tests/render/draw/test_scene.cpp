@@ -19,56 +19,64 @@ double depth(const Mesh& mesh, std::size_t index, const Eigen::Vector3d& forward
   return forward.dot(sum.cast<double>() / 3);
 }
 
+// a square net seen from so high
+struct View {
+  View(int rods, int edges, double elevation_deg)
+      : shell(test::square_shell(rods, edges)), drawing(test::square_drawing(shell)) {
+    camera.elevation_deg = elevation_deg;
+    auto made = make_scene(drawing, camera, 0.3);
+    REQUIRE(made);
+    scene = std::move(*made);
+  }
+
+  test::SquareShell shell;
+  Drawing drawing;
+  Camera camera;
+  Scene scene;
+};
+
 }  // namespace
 
 TEST_CASE("every piece stands in one layer, and layers go from far to near", "[scene]") {
-  const auto shell = test::square_shell(9, 6);
-  const Drawing drawing = test::square_drawing(shell);
-  Camera camera;
-  camera.elevation_deg = 35;
-  const auto scene = make_scene(drawing, camera, 0.3);
-  REQUIRE(scene);
-  const Eigen::Vector3d forward = camera_axes(camera).forward;
-  const auto& layers = scene->layers;
+  const View view(9, 6, 35);
+  const Scene& scene = view.scene;
+  const Eigen::Vector3d forward = camera_axes(view.camera).forward;
+  const auto& layers = scene.layers;
   REQUIRE(layers.size() > 8);
   CHECK(layers.front().sheets + layers.front().ribbons + layers.front().beads == 0);
-  CHECK(layers.back().sheets == scene->sheets.indices.size());
-  CHECK(layers.back().ribbons == scene->ribbons.indices.size());
-  CHECK(layers.back().beads == scene->beads.indices.size());
+  CHECK(layers.back().sheets == scene.sheets.indices.size());
+  CHECK(layers.back().ribbons == scene.ribbons.indices.size());
+  CHECK(layers.back().beads == scene.beads.indices.size());
   double before = INFINITY;
   for (std::size_t k = 0; k + 1 < layers.size(); ++k) {
     double nearest = INFINITY;
     for (std::size_t i = layers[k].sheets; i < layers[k + 1].sheets; i += 3)
-      nearest = std::min(nearest, depth(scene->sheets, i, forward));
+      nearest = std::min(nearest, depth(scene.sheets, i, forward));
     // a cell is as deep as it is wide: two neighbours overlap by less than a cell's diagonal
     if (std::isfinite(nearest)) {
-      CHECK(nearest < before + 1.5 * shell.layout.spacing_mm);
+      CHECK(nearest < before + 1.5 * view.shell.layout.spacing_mm);
       before = std::min(before, nearest);
     }
   }
 }
 
 TEST_CASE("a rod comes after the cells beside it, a joint after its rods", "[scene]") {
-  const auto shell = test::square_shell(6, 4);
-  const Drawing drawing = test::square_drawing(shell);
-  Camera camera;
-  camera.elevation_deg = 25;
-  const auto scene = make_scene(drawing, camera, 0.3);
-  REQUIRE(scene);
+  const View view(6, 4, 25);
+  const Scene& scene = view.scene;
   // the layer in which a triangle that touches a point is painted, the last one
   const auto last_layer = [&](const Mesh& mesh, std::size_t Layer::*kind,
                               const Eigen::Vector3f& at) {
     int found = -1;
-    for (std::size_t k = 0; k + 1 < scene->layers.size(); ++k)
-      for (std::size_t i = scene->layers[k].*kind; i < scene->layers[k + 1].*kind; ++i)
+    for (std::size_t k = 0; k + 1 < scene.layers.size(); ++k)
+      for (std::size_t i = scene.layers[k].*kind; i < scene.layers[k + 1].*kind; ++i)
         if ((mesh.vertices[mesh.indices[i]].position - at).norm() < 1e-3f) found = int(k);
     return found;
   };
-  for (const auto& joint : shell.layout.joints) {
-    const Eigen::Vector3f at = drawing.nodes.col(joint.node).cast<float>();
-    const int sheet = last_layer(scene->sheets, &Layer::sheets, at);
-    const int ribbon = last_layer(scene->ribbons, &Layer::ribbons, at);
-    const int bead = last_layer(scene->beads, &Layer::beads, at);
+  for (const auto& joint : view.shell.layout.joints) {
+    const Eigen::Vector3f at = view.drawing.nodes.col(joint.node).cast<float>();
+    const int sheet = last_layer(scene.sheets, &Layer::sheets, at);
+    const int ribbon = last_layer(scene.ribbons, &Layer::ribbons, at);
+    const int bead = last_layer(scene.beads, &Layer::beads, at);
     CHECK(ribbon >= sheet);
     CHECK(bead >= ribbon);
   }

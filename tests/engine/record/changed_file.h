@@ -1,0 +1,43 @@
+// Trajectories changed behind the program's back, and how they are refused.
+#pragma once
+
+#include <hdf5.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <string>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/trajectory_file.h"
+#include "tests/engine/record/sample_run.h"
+#include "tests/temporary_folder.h"
+
+namespace gridshell::record {
+
+/// The message with which a file of these bytes is refused
+inline std::string refusal(const std::string& bytes, bool unsealed = false) {
+  TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "trajectory.h5";
+  REQUIRE(write_atomically(path, bytes));
+  const auto read = read_trajectory(path, {.unsealed = unsealed});
+  REQUIRE_FALSE(read);
+  CHECK(read.error().fault == Fault::bad_input);
+  const std::string start = "'" + path.string() + "' is no trajectory of a run: ";
+  CHECK(read.error().message.substr(0, start.size()) == start);
+  return read.error().message.substr(start.size());
+}
+
+/// A trajectory as another program would leave it, without a seal, changed by `change(file)`
+template <class Change>
+std::string changed(Change change, const Trajectory& run = sample_trajectory()) {
+  TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "a.h5";
+  REQUIRE(write_trajectory(path, run));
+  REQUIRE(write_atomically(path, read_whole(path)->substr(512)));
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  change(file);
+  H5Fclose(file);
+  return read_whole(path).value();
+}
+
+}  // namespace gridshell::record

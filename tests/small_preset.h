@@ -1,0 +1,35 @@
+// Text of a preset small enough to run in a moment, for tests of the whole program.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+/// A circle, and what a test asks of it.
+struct SmallPreset {
+  int rods = 4;  ///< a direction
+  double radius_mm = 45, actuated_mm = 40;
+  int edges = 2;  ///< a segment; 0: chosen from the tolerance
+  int frames = 3;
+  int width = 160, height = 120;  ///< of a picture
+  const char* quality = "draft";
+};
+
+inline std::string small_preset(const SmallPreset& asked) {
+  return fmt::format(
+      R"(title = "small"
+[footprint]
+rods = {}
+radius_mm = {}
+[actuation]
+radius_mm = {}
+[accuracy]
+edges_per_segment = {}
+[movie]
+frames = {}
+size = [{}, {}]
+quality = "{}"
+)",
+      asked.rods, asked.radius_mm, asked.actuated_mm, asked.edges, asked.frames, asked.width,
+      asked.height, asked.quality);
+}
