@@ -14,7 +14,6 @@
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
-using gridshell::read_whole;
 using gridshell::write_atomically;
 
 namespace {
