@@ -18,7 +18,10 @@ function(gridshell_tests folder)
   target_include_directories(${target} SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
   target_compile_definitions(${target} PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gridshell_read_once(${target} <catch2/catch.hpp>)
-  gridshell_compile_lightly(${target})
+  # there GCC 12 sees strings overrun at -O1 that do not (PR 105329)
+  if(NOT folder STREQUAL app)
+    gridshell_compile_lightly(${target})
+  endif()
   # a name that CMake tears apart (at a semicolon) must fail instead of matching no test
   set(strict EXTRA_ARGS --warn NoTests)
   catch_discover_tests(${target} TEST_SPEC "~[full]~[alone]" TEST_LIST ${target}_quick ${strict}

@@ -63,8 +63,9 @@ TEST_CASE("stability: dynamic relaxation holds to its limit step") {
 }
 
 TEST_CASE("stability: Newton's full steps need many load steps, a shift fewer, the default none") {
-  const auto rows = outcomes_of(newton_map(small_case(), {1, 3, 30}, {2, 4}));
-  for (double edges : {2.0, 4.0}) {
+  // on 2 edges a segment it hangs on round-off whether three full steps arrive
+  const auto rows = outcomes_of(newton_map(small_case(), {1, 3, 30}, {4, 8}));
+  for (double edges : {4.0, 8.0}) {
     for (double steps : {1.0, 3.0, 30.0})
       CHECK(at(rows, default_solver, steps, edges) == RunOutcome::right);
     // in one step both come to rest elsewhere, and say nothing
