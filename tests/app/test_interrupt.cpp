@@ -69,12 +69,13 @@ TEST_CASE("a picture that takes long does not hold up Ctrl-C", "[alone]") {
 
 TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
   const TemporaryFolder folder;
-  // minutes of simulation
-  const Running running(
-      {"run", "s1_actuation", "--set", "accuracy.edges_per_segment=32", "--frames", "5000"},
-      folder.path());
+  // its path alone, before the first frame, takes a second and more
+  const Running running({"run", "s1_actuation", "--set", "accuracy.edges_per_segment=64", "--set",
+                         "footprint.rods=20", "--set", "footprint.radius_mm=206", "--set",
+                         "actuation.radius_mm=155", "--frames", "5000"},
+                        folder.path());
   REQUIRE(wait_until([&] { return fs::exists(folder.path() / "out"); }));
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
   const auto asked = std::chrono::steady_clock::now();
   running.signal(SIGINT);
   const auto ended = running.wait();
