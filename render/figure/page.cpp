@@ -30,9 +30,7 @@ Result<void> write_page(const std::filesystem::path& stem, const std::string& ti
       const Box& mm = panel.box_mm;
       Box box{points_per_mm * mm.x, points_per_mm * mm.y, points_per_mm * mm.width,
               points_per_mm * mm.height};
-      if (!panel.letter.empty())
-        canvas.text(panel.letter, {box.x, box.y},
-                    {.size = 9.5, .bold = true, .align_y = AlignY::top});
+      const Point corner{box.x, box.y};
       box.x += letter_room;
       box.width -= letter_room;
       if (!panel.caption.empty()) {
@@ -41,6 +39,9 @@ Result<void> write_page(const std::filesystem::path& stem, const std::string& ti
                     {.size = 7.5, .align_x = AlignX::centre, .align_y = AlignY::middle});
       }
       panel.draw(canvas, box);
+      // over what was drawn: "B1" is wider than the room beside it
+      if (!panel.letter.empty())
+        canvas.text(panel.letter, corner, {.size = 9.5, .bold = true, .align_y = AlignY::top});
     }
   };
   return write_figure(stem, points_per_mm * width_mm, points_per_mm * height_mm, title, draw,
