@@ -89,11 +89,17 @@ class PageMaker {
   /// that fills its place: its text is then as large as the page's.
   render::MovieStyle filling(const Box& box_mm, int columns, bool colour_bar = false) const {
     constexpr double letter = 3.5, bar = 14, around = 7, between = 1.5;  // mm
-    const double width = (box_mm.width - letter - (colour_bar ? bar : 0)) / columns - between;
-    render::MovieStyle style = style_;
+    const double width =
+        (box_mm.width - letter - (colour_bar ? bar : 0)) / std::max(1, columns) - between;
+    render::MovieStyle style = sized(style_, width, box_mm.height - around);
     style.print = {box_mm.width - letter, 0};
-    style.width = std::max(16, int(width * records_.front().preset.figure.dpi / 25.4));
-    style.height = std::max(16, int(style.width * (box_mm.height - around) / width));
+    return style;
+  }
+
+  /// A style whose pictures are so large on the page, pixel by pixel as it is printed.
+  render::MovieStyle sized(render::MovieStyle style, double width_mm, double height_mm) const {
+    style.width = std::max(16, int(width_mm * records_.front().preset.figure.dpi / 25.4));
+    style.height = std::max(16, int(style.width * height_mm / width_mm));
     return style;
   }
 
@@ -115,14 +121,12 @@ class PageMaker {
     if (auto placed = add_photo(page, "A", {2, 2, 92, 116}); !placed)
       return tl::unexpected(placed.error());
     const record::Trajectory& run = records_.front().run;
-    render::MovieStyle style = style_;
-    style.captions = style.inset = style.legends = false;
-    style.turn_deg = 0;
     constexpr double width = 62, caption = 12 * 25.4 / 72;
     const int count = int(run.frames.size());
     const double height = 116.0 / count;
-    style.width = std::max(16, int(width * records_.front().preset.figure.dpi / 25.4));
-    style.height = std::max(16, int(style.width * (height - caption) / width));
+    render::MovieStyle style = sized(style_, width, height - caption);
+    style.captions = style.inset = style.legends = false;
+    style.turn_deg = 0;
     const render::Stage stage(run, style);
     // what pictures show of a millimetre is the same for all, points
     const double units = (height - caption) * 72 / 25.4 * stage.pixels_per_mm() / style.height;
@@ -177,7 +181,7 @@ class PageMaker {
     page.add_image("A", "", above, std::move(*over));
     page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
     auto pushes = render::draw_pushes(
-        pushes_, filling(middle, std::clamp(int(pushes_.size()), 1, 3), true), renderer_, watch_);
+        pushes_, filling(middle, std::min(3, int(pushes_.size())), true), renderer_, watch_);
     if (!pushes) return tl::unexpected(pushes.error());
     page.add_image("C", "", middle, std::move(*pushes));
     for (std::size_t k = 0; k < named_pushes_.size(); ++k) {

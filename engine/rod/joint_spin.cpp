@@ -45,8 +45,7 @@ double add_joint_spin(double stiffness, int side, double theta, const EdgeGeomet
   here.gradient = stiffness * phi * slope;
   here.hessian = stiffness * (slope * slope.transpose() - phi * curvature);
   scale_to_edges(e.length, f.length, here);
-  out.gradient += here.gradient;
-  out.hessian += here.hessian;
+  out += here;
   return 0.5 * stiffness * phi * phi;
 }
 

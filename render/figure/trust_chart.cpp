@@ -50,10 +50,11 @@ void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::stri
 
 void draw_legend(Canvas& canvas, Point at) {
   Patches patches{.row_width = width - 2 * margin, .row_height = legend_line, .font_size = size};
+  constexpr auto classes = words(TrustClass{});
   patches.draw = [&](std::size_t k, const Box& box) {
-    canvas.rectangle(box, trust_colour(TrustClass(k)));
+    canvas.rectangle(box, trust_colour(classes[k].value));
   };
-  for (const auto& one : words(TrustClass{})) patches.names.push_back(label(one.value));
+  for (const auto& one : classes) patches.names.push_back(label(one.value));
   draw_patches(canvas, {at.x, at.y, 16, 9}, patches);
 }
 

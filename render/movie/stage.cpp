@@ -32,15 +32,6 @@ double least_pixels(const MovieStyle& style) {
   return std::max(1.1, 1.5 * std::min(style.height / 720.0, style.width / 1000.0));
 }
 
-// one more than the largest node that the layout names
-long nodes_named(const record::Layout& layout) {
-  int largest = -1;
-  for (const std::vector<int>& rod : layout.rods)
-    for (int node : rod) largest = std::max(largest, node);
-  for (const record::Joint& joint : layout.joints) largest = std::max(largest, joint.node);
-  return long(largest) + 1;
-}
-
 bool by_cells(ColourBy by) { return by == ColourBy::K || by == ColourBy::K_change; }
 
 // columns of equal width; a single view has the whole picture to itself, so that the ground goes on
@@ -78,7 +69,7 @@ std::vector<Framing> framings_of(const std::vector<Box>& panels, const Box& view
 
 // everything beside the box in one colour
 void clear_beside(Image& image, const Box& box, Colour colour) {
-  const auto byte = [](float c) { return std::uint8_t(255 * c + 0.5f); };
+  const auto byte = [](float c) { return std::uint8_t(std::lround(255 * c)); };
   const std::uint8_t rgba[] = {byte(colour.r), byte(colour.g), byte(colour.b), byte(colour.a)};
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)

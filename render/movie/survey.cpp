@@ -37,12 +37,8 @@ void add_rod_points(const std::vector<int>& rod, const std::vector<char>& joint,
 }
 
 std::vector<RodPoint> rod_points(const record::Layout& layout) {
-  int last = -1;
-  for (const auto& rod : layout.rods)
-    for (int node : rod) last = std::max(last, node);
-  std::vector<char> joint(std::size_t(last + 1), 0);
-  for (const record::Joint& at : layout.joints)
-    if (at.node <= last) joint[std::size_t(at.node)] = 1;
+  std::vector<char> joint(std::size_t(nodes_named(layout)), 0);
+  for (const record::Joint& at : layout.joints) joint[std::size_t(at.node)] = 1;
   std::vector<RodPoint> points;
   for (const auto& rod : layout.rods) add_rod_points(rod, joint, points);
   return points;
@@ -102,6 +98,14 @@ FrameSource source_of(const record::Trajectory& run) {
             if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
             return frame;
           }};
+}
+
+long nodes_named(const record::Layout& layout) {
+  int largest = -1;
+  for (const std::vector<int>& rod : layout.rods)
+    for (int node : rod) largest = std::max(largest, node);
+  for (const record::Joint& joint : layout.joints) largest = std::max(largest, joint.node);
+  return long(largest) + 1;
 }
 
 Survey::Survey(const record::Layout& layout)

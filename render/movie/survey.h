@@ -36,6 +36,9 @@ struct Mark {
   MarkKind kind = MarkKind::other;
 };
 
+/// One more than the largest node that rods and joints name.
+long nodes_named(const record::Layout& layout);
+
 /// A point of a rod between two of its nodes, or at one.
 struct RodPoint {
   int from = 0, to = 0;  ///< columns of Frame::nodes
