@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/geometry/root.h"
+
 namespace gridshell {
 namespace {
 
@@ -41,28 +43,18 @@ class Cap final : public Domain {
   /// distance from `start`, which is above the plane, along `direction` to the plane
   double crossing(const Eigen::Vector2d& start, const Eigen::Vector2d& direction,
                   double guess) const {
-    // height above the plane and its slope; beyond a fold counts as below
+    // depth below the plane and its slope; beyond a fold counts as below
     const auto look = [&](double at) -> Eigen::Vector2d {
       const Eigen::Vector2d uv = start + at * direction;
       const auto point = net_.at(uv[0], uv[1]);
-      if (!point) return {-1, 0};
+      if (!point) return {1, 0};
       const Eigen::Vector3d along =
           direction[0] * point->tangent_u + direction[1] * point->tangent_v;
-      return {point->position.z() - height_, along.z()};
+      return {height_ - point->position.z(), -along.z()};
     };
-    double low = 0, high = guess;
-    while (look(high)[0] > 0) high *= 1.05;
-    double at = high;
-    for (int iteration = 0; iteration < 100; ++iteration) {
-      const Eigen::Vector2d here = look(at);
-      (here[0] > 0 ? low : high) = at;
-      double next = at - here[0] / here[1];
-      if (!(next >= low && next <= high)) next = (low + high) / 2;
-      const double step = std::abs(next - at);
-      at = next;
-      if (step <= 1e-15 * net_.radius()) break;
-    }
-    return at;
+    double high = guess;
+    while (look(high)[0] < 0) high *= 1.05;
+    return bracketed_root(look, 0, high, high, 1e-15 * net_.radius());
   }
 
   SphereNet net_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/geometry/root.h"
+
 namespace gridshell {
 namespace {
 
@@ -84,20 +86,13 @@ double Antiderivative::operator()(double t) const {
 double Antiderivative::inverse(double value) const {
   const auto after = std::upper_bound(values_.begin() + 1, values_.end() - 1, value);
   const auto k = static_cast<std::size_t>(after - values_.begin()) - 1;
-  double low = ends_[k], high = ends_[k + 1];
-  const double width = high - low;
-  double t = low + (high - low) * (value - values_[k]) / (values_[k + 1] - values_[k]);
-  for (int iteration = 0; iteration < 100; ++iteration) {
-    const double miss = values_[k] + panel(ends_[k], t) - value;
-    (miss > 0 ? high : low) = t;
-    double next = t - miss / f_(t);
-    if (!(next >= low && next <= high)) next = (low + high) / 2;
-    const double step = std::abs(next - t);
-    t = next;
-    // Newton squares its error: the next step would be lost in round-off
-    if (step <= 1e-10 * width) break;
-  }
-  return t;
+  const double low = ends_[k], high = ends_[k + 1];
+  const auto miss = [&](double t) -> Eigen::Vector2d {
+    return {values_[k] + panel(low, t) - value, f_(t)};
+  };
+  const double guess = low + (high - low) * (value - values_[k]) / (values_[k + 1] - values_[k]);
+  // Newton squares its error: a step after one of 1e-10 would be lost in round-off
+  return bracketed_root(miss, low, high, guess, 1e-10 * (high - low));
 }
 
 }  // namespace gridshell

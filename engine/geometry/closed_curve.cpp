@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/root.h"
 #include "engine/geometry/spline_curve.h"
 
 namespace gridshell {
@@ -14,21 +15,11 @@ using Eigen::Vector2d;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// root of g in [low, high], where g changes sign: bracketed Newton iteration, g = {value, slope}
+/// root of g = {value, slope} in [low, high], where it changes sign
 double root(const std::function<Vector2d(double)>& g, double low, double high) {
-  const bool rising = g(low)[0] < 0;
-  const double width = high - low;
-  double t = (low + high) / 2;
-  for (int iteration = 0; iteration < 200; ++iteration) {
-    const Vector2d here = g(t);
-    ((here[0] >= 0) == rising ? high : low) = t;
-    double next = t - here[0] / here[1];
-    if (!(next >= low && next <= high)) next = (low + high) / 2;
-    const double step = std::abs(next - t);
-    t = next;
-    if (step <= 1e-16 * width || high - low <= 1e-16 * width) break;
-  }
-  return t;
+  const double sign = g(low)[0] < 0 ? 1 : -1;
+  const auto rising = [&](double t) -> Vector2d { return sign * g(t); };
+  return bracketed_root(rising, low, high, (low + high) / 2, 1e-16 * (high - low));
 }
 
 /// The points without a repeated first one, counter-clockwise; at least three, all of them finite.

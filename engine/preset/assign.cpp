@@ -56,21 +56,56 @@ std::string type_text(const toml::node& value) {
   return "a date or time";
 }
 
-std::string put(const Real& kind, const toml::node& value, Preset& preset) {
+// a number of the range, or what is wrong; `is` begins the sentence on what stands there instead
+std::string read(const toml::node& value, const Range& range, const char* is, double& number) {
   const auto real = real_of(value);
-  if (!real) return "is " + type_text(value);
-  if (!kind.range.holds(*real)) return "out of range";
-  if (auto wrong = magnitude_fault(*real); !wrong.empty()) return wrong;
-  kind.in(preset) = *real;
+  if (!real) return is + type_text(value);
+  if (!range.holds(*real)) return "out of range";
+  number = *real;
+  return magnitude_fault(*real);
+}
+
+std::string read(const toml::node& value, const Range& range, const char* is, int& number) {
+  const auto* integer = value.as_integer();
+  if (!integer) return is + type_text(value);
+  if (!range.holds(double(integer->get()))) return "out of range";
+  number = int(integer->get());
   return "";
 }
 
-std::string put(const Integer& kind, const toml::node& value, Preset& preset) {
-  const auto* integer = value.as_integer();
-  if (!integer) return "is " + type_text(value);
-  if (!kind.range.holds(double(integer->get()))) return "out of range";
-  kind.in(preset) = int(integer->get());
+template <class Number>
+std::string read(const toml::node& value, const Range& range, const char* is,
+                 std::vector<Number>& numbers) {
+  const auto* list = value.as_array();
+  if (!list) return is + type_text(value);
+  for (const auto& item : *list)
+    if (auto wrong = read(item, range, "is a list with ", numbers.emplace_back()); !wrong.empty())
+      return wrong;
   return "";
+}
+
+template <class Number, class Kind>
+std::string put_numbers(const Kind& kind, const toml::node& value, Preset& preset) {
+  Number number{};
+  auto wrong = read(value, kind.range, "is ", number);
+  if (wrong.empty()) kind.in(preset) = std::move(number);
+  return wrong;
+}
+
+std::string put(const Real& kind, const toml::node& value, Preset& preset) {
+  return put_numbers<double>(kind, value, preset);
+}
+
+std::string put(const Integer& kind, const toml::node& value, Preset& preset) {
+  return put_numbers<int>(kind, value, preset);
+}
+
+std::string put(const IntegerList& kind, const toml::node& value, Preset& preset) {
+  return put_numbers<std::vector<int>>(kind, value, preset);
+}
+
+std::string put(const RealList& kind, const toml::node& value, Preset& preset) {
+  return put_numbers<std::vector<double>>(kind, value, preset);
 }
 
 std::string put(const Flag& kind, const toml::node& value, Preset& preset) {
@@ -108,58 +143,17 @@ std::string put(const Word& kind, const toml::node& value, Preset& preset) {
 }
 
 std::string put(const IntegerPair& kind, const toml::node& value, Preset& preset) {
-  const auto* list = value.as_array();
-  if (!list) return "is " + type_text(value);
-  if (list->size() != 2) return "is a list of " + std::to_string(list->size());
-  std::array<int, 2> pair{};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const auto* integer = (*list)[k].as_integer();
-    if (!integer) return "is a list with " + type_text((*list)[k]);
-    if (!kind.range.holds(double(integer->get()))) return "out of range";
-    pair[k] = int(integer->get());
-  }
-  kind.in(preset) = pair;
-  return "";
-}
-
-std::string put(const IntegerList& kind, const toml::node& value, Preset& preset) {
-  const auto* list = value.as_array();
-  if (!list) return "is " + type_text(value);
   std::vector<int> numbers;
-  for (const auto& item : *list) {
-    const auto* integer = item.as_integer();
-    if (!integer) return "is a list with " + type_text(item);
-    if (!kind.range.holds(double(integer->get()))) return "out of range";
-    numbers.push_back(int(integer->get()));
-  }
-  kind.in(preset) = std::move(numbers);
-  return "";
-}
-
-std::string put(const RealList& kind, const toml::node& value, Preset& preset) {
-  const auto* list = value.as_array();
-  if (!list) return "is " + type_text(value);
-  std::vector<double> numbers;
-  for (const auto& item : *list) {
-    const auto real = real_of(item);
-    if (!real) return "is a list with " + type_text(item);
-    if (!kind.range.holds(*real)) return "out of range";
-    if (auto wrong = magnitude_fault(*real); !wrong.empty()) return wrong;
-    numbers.push_back(*real);
-  }
-  kind.in(preset) = std::move(numbers);
+  if (auto wrong = read(value, kind.range, "is ", numbers); !wrong.empty()) return wrong;
+  if (numbers.size() != 2) return "is a list of " + std::to_string(numbers.size());
+  kind.in(preset) = {numbers[0], numbers[1]};
   return "";
 }
 
 std::string put(const OptionalInteger& kind, const toml::node& value, Preset& preset) {
-  if (const auto* text = value.as_string(); text && text->get() == "none") {
-    kind.in(preset).reset();
-    return "";
-  }
-  const auto* integer = value.as_integer();
-  if (!integer) return "is " + type_text(value);
-  if (!kind.range.holds(double(integer->get()))) return "out of range";
-  kind.in(preset) = int(integer->get());
+  if (const auto* text = value.as_string(); !text || text->get() != "none")
+    return put_numbers<int>(kind, value, preset);
+  kind.in(preset).reset();
   return "";
 }
 

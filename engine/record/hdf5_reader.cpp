@@ -173,36 +173,32 @@ bool Reader::lists_fit(const std::string& name, hid_t set, hid_t type, hid_t spa
   return false;
 }
 
-std::vector<std::string> Reader::strings(const std::string& name) {
-  std::vector<std::string> values;
-  const Handle type = string_type();
+template <class Pointer, class Take>
+void Reader::read_lists(const std::string& name, const Handle& type, const Take& take) {
   const Dims extents = dims(name, 1, type);
-  if (!good()) return values;
+  if (!good()) return;
   const Handle set = dataset(name, type), space = space_of(extents);
-  if (!lists_fit(name, set, type, space)) return values;
-  std::vector<char*> pointers(extents[0]);
+  if (!lists_fit(name, set, type, space)) return;
+  std::vector<Pointer> pointers(extents[0]);
   read(name, type, pointers.data());
   if (good())
-    for (const char* text : pointers) values.emplace_back(text ? text : "");
+    for (const Pointer& item : pointers) take(item);
   H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
+}
+
+std::vector<std::string> Reader::strings(const std::string& name) {
+  std::vector<std::string> values;
+  read_lists<char*>(name, string_type(),
+                    [&](const char* text) { values.emplace_back(text ? text : ""); });
   return values;
 }
 
 Lists Reader::lists(const std::string& name) {
   Lists values;
-  const Handle type = list_type();
-  const Dims extents = dims(name, 1, type);
-  if (!good()) return values;
-  const Handle set = dataset(name, type), space = space_of(extents);
-  if (!lists_fit(name, set, type, space)) return values;
-  std::vector<hvl_t> pointers(extents[0]);
-  read(name, type, pointers.data());
-  if (good())
-    for (const hvl_t& list : pointers) {
-      const int* first = static_cast<const int*>(list.p);
-      values.emplace_back(first, first + list.len);
-    }
-  H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
+  read_lists<hvl_t>(name, list_type(), [&](const hvl_t& list) {
+    const int* first = static_cast<const int*>(list.p);
+    values.emplace_back(first, first + list.len);
+  });
   return values;
 }
 

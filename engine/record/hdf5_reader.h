@@ -47,6 +47,9 @@ class Reader : public File {
   Handle attribute_of(const std::string& object, const char* name, H5T_class_t kind);
   /// whether the lists or texts of `set` come to less than the file
   bool lists_fit(const std::string& name, hid_t set, hid_t type, hid_t space);
+  /// take(item) for every list or text of a dataset
+  template <class Pointer, class Take>
+  void read_lists(const std::string& name, const Handle& type, const Take& take);
 
   std::uintmax_t file_bytes_ = 0;
 };

@@ -49,13 +49,17 @@ Result<void> build_circle(const preset::Preset& preset, Scene& scene) {
   return {};
 }
 
+Result<void> cut_from(const Domain& domain, const preset::Preset& preset, Scene& scene) {
+  auto footprint = cut_footprint(domain, preset.footprint.spacing_mm, placement_of(preset));
+  if (!footprint) return tl::unexpected<Error>(footprint.error());
+  scene.footprint = std::move(*footprint);
+  return {};
+}
+
 Result<void> build_curve(const preset::Preset& preset, Scene& scene) {
   auto design = curve_design(preset);
   if (!design) return tl::unexpected<Error>(design.error());
-  auto footprint =
-      cut_footprint(*design->domain, preset.footprint.spacing_mm, placement_of(preset));
-  if (!footprint) return tl::unexpected<Error>(footprint.error());
-  scene.footprint = std::move(*footprint);
+  if (auto cut = cut_from(*design->domain, preset, scene); !cut) return cut;
   scene.length_scale_mm = design->scale_mm;
   const Eigen::Matrix2Xd ring = design->domain->boundary(boundary_points);
   const Eigen::Matrix2Xd ends = edge_points(scene.footprint);
@@ -106,10 +110,7 @@ Result<void> build_net(const preset::Preset& preset, Scene& scene) {
   auto design = preset.footprint.kind == preset::FootprintKind::blocks ? block_design(preset)
                                                                        : net_design(preset.net);
   if (!design) return tl::unexpected<Error>(design.error());
-  auto footprint =
-      cut_footprint(*design->domain, preset.footprint.spacing_mm, placement_of(preset));
-  if (!footprint) return tl::unexpected<Error>(footprint.error());
-  scene.footprint = std::move(*footprint);
+  if (auto cut = cut_from(*design->domain, preset, scene); !cut) return cut;
   scene.net = design->net;
   scene.blocks = design->blocks;
   scene.flat = design->flat;

@@ -9,6 +9,8 @@
 namespace gridshell {
 namespace {
 
+constexpr int choosing_edges = 4;  // a segment, of the mesh that finds the first buckled state
+
 /// By how much the joints far out on y = -x lie higher than those on y = x, mm.
 double lower_on_diagonal(const RodMesh& mesh, const Eigen::Matrix3Xd& nodes) {
   Eigen::VectorXd weight(mesh.joints);
@@ -37,18 +39,22 @@ Result<State> buckled_dome(Linearisation& system, const RodMesh& mesh, const Pin
 Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellRods& rods, double t,
                             const Watch& watch) {
   const RodMesh& mesh = shell.mesh(0);
-  const PinnedMotion& motion = shell.motion(0);
-  if (scene.mechanics() == Rung::bend)
-    return buckled_dome(shell.system(0), mesh, motion, t, scene, watch);
-  const auto bend = build_model(mesh, rods, Rung::bend);
-  if (!bend) return tl::unexpected<Error>(bend.error());
-  Linearisation system(*bend);
-  const auto shape = buckled_dome(system, mesh, motion, t, scene, watch);
+  if (scene.mechanics() == Rung::bend && shell.plan().edges_per_segment[0] == choosing_edges)
+    return buckled_dome(shell.system(0), mesh, shell.motion(0), t, scene, watch);
+  auto chooser = NestedShell::make(scene.footprint, rods, Rung::bend, scene.motion,
+                                   {.edges_per_segment = {choosing_edges}}, {});
+  if (!chooser) return tl::unexpected<Error>(chooser.error());
+  const auto shape =
+      buckled_dome(chooser->system(0), chooser->mesh(0), chooser->motion(0), t, scene, watch);
+  shell.system(0).effort() += chooser->effort();
   if (!shape) return shape;
+  Eigen::Matrix3Xd nodes;
+  MeshTransfer(chooser->mesh(0), mesh)
+      .nodes(nodes_of(chooser->mesh(0), chooser->model(0), shape->x), nodes);
   const Model& model = shell.model(0);
-  State state = flat_state(model, mesh, motion, scene.flat);
-  move_to(model, columns_of(mesh, model, shape->x), state);
-  motion.impose(shell.system(0), t, state);
+  State state = flat_state(model, mesh, shell.motion(0), scene.flat);
+  move_to(model, columns_of(mesh, model, nodes), state);
+  shell.motion(0).impose(shell.system(0), t, state);
   return rest_below(shell.system(0), std::move(state), watch);
 }
 

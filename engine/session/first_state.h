@@ -8,8 +8,9 @@
 
 namespace gridshell {
 
-/// The seed's buckled state of the coarsest mesh at t, at rest. Every rung starts from the shape of
-/// the bend rung: what twist and springs add does not choose the branch. Of the two diagonals the
+/// The seed's buckled state of the coarsest mesh at t, at rest. Every rung and mesh starts from the
+/// shape of the bend rung on 4 edges a segment: neither what twist and springs add nor the mesh
+/// asked for chooses the branch. Of the two diagonals the
 /// one asked for lies lower; a dome that went to the other is begun from the other seed, which for
 /// symmetric footprints is its mirror image. Errors: no_equilibrium, cancelled, bad_input (rods
 /// that the rung cannot take).

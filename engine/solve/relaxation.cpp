@@ -28,6 +28,22 @@ bool grown(const Assembly& assembly) {
   return !(std::abs(assembly.largest_strain) < 0.5) || !std::isfinite(assembly.energies.total());
 }
 
+/// assembles the gradient, and whether that ends the way: at rest, beyond all bounds or cancelled
+bool ended(const Model& model, const State& state, const BaselineOptions& options,
+           const Watch& watch, Assembly& assembly, BaselineReport& report) {
+  assemble_gradient(model, state, {}, assembly);
+  report.residual_N = residual_of(model, assembly.gradient);
+  if (grown(assembly))
+    report.end = Outcome::not_finite;
+  else if (report.residual_N < options.tolerance_N)
+    report.end = Outcome::reached;
+  else if (watch.cancelled())
+    report.end = Outcome::cancelled;
+  else
+    return false;
+  return true;
+}
+
 /// one implicit step; false where Newton's method does not solve it, the motion is then unchanged
 bool euler_step(const Model& model, const Eigen::Matrix3Xd& mass, double h, double inertia,
                 LinearSolver& solver, Assembly& assembly, MovingState& moving) {
@@ -76,11 +92,7 @@ BaselineReport explicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass
   const double h = options.step * courant_step(model, mass);
   const double keep = 1 / (1 + h * options.damping_per_s);
   for (report.steps = 0; report.steps < options.most_steps; ++report.steps) {
-    assemble_gradient(model, moving.state, {}, assembly);
-    report.residual_N = residual_of(model, assembly.gradient);
-    if (grown(assembly)) return report.end = Outcome::not_finite, report;
-    if (report.residual_N < options.tolerance_N) return report.end = Outcome::reached, report;
-    if (watch.cancelled()) return report.end = Outcome::cancelled, report;
+    if (ended(model, moving.state, options, watch, assembly, report)) return report;
     kick_and_drift(model, mass, h, h, keep, assembly, moving.state.x, moving.velocity);
     moving.time += h;
   }
@@ -107,11 +119,7 @@ BaselineReport dynamic_relaxation(const Model& model, State& state, const Baseli
   double before = 0;
   bool from_rest = true;
   for (report.steps = 0; report.steps < options.most_steps; ++report.steps) {
-    assemble_gradient(model, state, {}, assembly);
-    report.residual_N = residual_of(model, assembly.gradient);
-    if (grown(assembly)) return report.end = Outcome::not_finite, report;
-    if (report.residual_N < options.tolerance_N) return report.end = Outcome::reached, report;
-    if (watch.cancelled()) return report.end = Outcome::cancelled, report;
+    if (ended(model, state, options, watch, assembly, report)) return report;
     // velocities stand half a step after positions: the first from rest is half a kick; a whole one
     // would feed the fast modes at every restart
     const double kick = from_rest ? 0.5 * h : h;
