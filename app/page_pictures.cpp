@@ -88,7 +88,7 @@ class PageMaker {
   /// The style of a figure of so many panels side by side, captions below and perhaps a colour bar,
   /// that fills its place: its text is then as large as the page's.
   render::MovieStyle filling(const Box& box_mm, int columns, bool colour_bar = false) const {
-    constexpr double letter = 3.5, bar = 14, around = 7, between = 1.5;  // mm
+    constexpr double letter = 3.5, bar = 14, around = 11, between = 1.5;  // mm
     const double width =
         (box_mm.width - letter - (colour_bar ? bar : 0)) / std::max(1, columns) - between;
     render::MovieStyle style = sized(style_, width, box_mm.height - around);

@@ -91,6 +91,13 @@ Colour block_colour(std::size_t index) {
   return colours[index % std::size(colours)];
 }
 
+std::vector<ColourKey> block_keys(const record::Layout& layout) {
+  std::vector<ColourKey> keys;
+  for (std::size_t k = 0; k < layout.parts.size(); ++k)
+    keys.push_back({block_colour(k), plain(layout.parts[k].name)});
+  return keys;
+}
+
 Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& movie_style,
                           Renderer& renderer, Watch& watch) {
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
@@ -111,14 +118,12 @@ Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& movie
   auto picture =
       renderer.draw(drawing, stage.camera(0), draw_quality(style), style.width, style.height);
   if (!picture) return tl::unexpected(picture.error());
-  std::string names;
-  for (const record::Part& part : run.layout.parts)
-    names += (names.empty() ? "" : ", ") + plain(part.name);
   PanelFigure figure;
   if (style.print.width_mm > 0) figure.print = style.print;
   figure.title = style.title;
   figure.columns = 1;
-  figure.panels.push_back({std::move(*picture), "", names});
+  figure.panels.push_back({std::move(*picture), "", ""});
+  figure.keys = block_keys(run.layout);
   figure.scale_bar_mm = style.scale_bar_mm;
   figure.pixels_per_mm = stage.pixels_per_mm();
   return draw_panels(figure);

@@ -8,12 +8,16 @@
 #include "engine/record/snapshot.h"
 #include "render/draw/renderer.h"
 #include "render/movie/style.h"
+#include "render/plot/legend.h"
 #include "render/plot/plot.h"
 
 namespace gridshell::render {
 
 /// The colour of a block in all pictures.
 Colour block_colour(std::size_t index);
+
+/// The blocks of a layout by name.
+std::vector<ColourKey> block_keys(const record::Layout& layout);
 
 /// The blocks of a run on their nets, drawn apart in one picture. Errors as write_stills.
 Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& style,

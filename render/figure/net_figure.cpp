@@ -71,6 +71,20 @@ double round_end(double largest) {
   return 10 * power;
 }
 
+/// What the colours over nets stand for.
+std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
+  std::vector<ColourKey> keys{{shell_ink, "shell at rest"}};
+  const record::Layout& layout = runs.front().run->layout;
+  if (layout.parts.empty()) keys.push_back({net_ink, "its net"});
+  for (ColourKey key : block_keys(layout)) {
+    key.name.insert(0, "net of ");
+    keys.push_back(std::move(key));
+  }
+  if (std::any_of(runs.begin(), runs.end(), [](const NetRun& one) { return one.scanned.size(); }))
+    keys.push_back({scan_ink, "joints measured"});
+  return keys;
+}
+
 }  // namespace
 
 Eigen::VectorXd deviation_of_nodes(const record::Trajectory& run) {
@@ -99,7 +113,10 @@ Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& 
     if (layout.parts.empty())
       drawing.ghosts.push_back({layout.net_nodes, layout.rods, drawing.rod_diameter_mm, net_ink});
   };
-  return panels_of(runs, style, renderer, watch, columns, dress).and_then(draw_panels);
+  return panels_of(runs, style, renderer, watch, columns, dress).and_then([&](PanelFigure figure) {
+    figure.keys = over_net_keys(runs);
+    return draw_panels(figure);
+  });
 }
 
 DeviationUnit deviation_unit(const record::Layout& layout) {

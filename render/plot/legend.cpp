@@ -103,6 +103,29 @@ bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double uni
   return true;
 }
 
+void draw_colour_keys(Canvas& canvas, const Box& box, const std::vector<ColourKey>& keys,
+                      double font_size) {
+  // in units of the font's size
+  constexpr double dash = 1.6, thickness = 0.22, after_dash = 0.5, between = 1.6;
+  const auto width_of = [&](double size) {
+    double width = -between * size;
+    for (const ColourKey& key : keys)
+      width +=
+          (dash + after_dash + between) * size + canvas.measure(key.name, {.size = size}).width;
+    return width;
+  };
+  const double size = font_size * std::min(1.0, box.width / std::max(1.0, width_of(font_size)));
+  Point at{box.middle().x - width_of(size) / 2, box.middle().y};
+  for (const ColourKey& key : keys) {
+    canvas.rectangle({at.x, at.y - thickness * size / 2, dash * size, thickness * size},
+                     key.colour);
+    at.x += (dash + after_dash) * size;
+    const TextStyle style{.size = size, .align_y = AlignY::middle};
+    canvas.text(key.name, at, style);
+    at.x += canvas.measure(key.name, style).width + between * size;
+  }
+}
+
 void draw_patches(Canvas& canvas, const Box& first, const Patches& patches) {
   constexpr std::size_t columns = 4;
   for (std::size_t k = 0; k < patches.names.size(); ++k) {

@@ -29,6 +29,16 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
 bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
                     double font_size);
 
+/// A colour and what it stands for.
+struct ColourKey {
+  Colour colour;
+  std::string name;  ///< marked text
+};
+
+/// The keys in one row in the middle of `box`, smaller where they would not fit into it.
+void draw_colour_keys(Canvas& canvas, const Box& box, const std::vector<ColourKey>& keys,
+                      double font_size);
+
 /// Patches, four to a row, each with its name beside it.
 struct Patches {
   std::vector<std::string> names = {};  ///< marked text

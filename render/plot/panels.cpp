@@ -12,11 +12,11 @@ namespace {
 struct Grid {
   int columns, rows;
   double width, height;  // of a panel
-  double em, gap, head, caption, margin, foot, bar;
+  double em, gap, head, caption, margin, keys, foot, bar;
 
   double total_width() const { return 2 * margin + columns * width + (columns - 1) * gap + bar; }
   double total_height() const {
-    return 2 * margin + head + rows * (height + caption) + (rows - 1) * gap + foot;
+    return 2 * margin + head + rows * (height + caption) + (rows - 1) * gap + keys + foot;
   }
   Box panel(int index) const {
     return {std::round(margin + (index % columns) * (width + gap)),
@@ -41,6 +41,7 @@ Grid make_grid(const PanelFigure& figure) {
                                     [](const Panel& p) { return !p.caption.empty(); });
   grid.caption = captions ? std::round(1.7 * grid.em) : 0;
   grid.head = figure.title.empty() ? 0 : std::round(1.7 * grid.em);
+  grid.keys = figure.keys.empty() ? 0 : std::round(1.7 * grid.em);
   grid.foot = figure.scale_bar_mm > 0 ? std::round(1.9 * grid.em) : 0;
   if (figure.colour_bar)
     draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
@@ -71,9 +72,12 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid) {
     canvas.text(panel.caption, {box.middle().x, box.bottom() + grid.caption / 2}, caption);
   }
   const Box last = grid.panel(grid.columns - 1);
+  const double bottom = grid.total_height() - grid.margin;
+  draw_colour_keys(
+      canvas, {grid.margin, bottom - grid.foot - grid.keys, last.right() - grid.margin, grid.keys},
+      figure.keys, em);
   if (grid.foot > 0) {
-    const Box row{grid.margin, grid.total_height() - grid.margin - grid.foot,
-                  last.right() - grid.margin, grid.foot};
+    const Box row{grid.margin, bottom - grid.foot, last.right() - grid.margin, grid.foot};
     draw_scale_bar(canvas, row, figure.scale_bar_mm, figure.pixels_per_mm, em);
   }
   if (figure.colour_bar) {

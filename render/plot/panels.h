@@ -1,5 +1,5 @@
-// Pictures side by side as one figure: letters, a caption under each, one scale bar and one colour
-// bar for all.
+// Pictures side by side as one figure: letters, a caption under each, one scale bar, one colour bar
+// and one row of colour keys for all.
 #pragma once
 
 #include <optional>
@@ -24,6 +24,7 @@ struct PanelFigure {
   double scale_bar_mm = 0;   ///< 0: none
   double pixels_per_mm = 0;  ///< of the panels' pictures
   std::optional<ColourBar> colour_bar;
+  std::vector<ColourKey> keys = {};  ///< in a row below all panels
   Print print{178, 0};  ///< text is 8.5 pt at that width; with a dpi the figure is that wide
 };
 

@@ -63,3 +63,28 @@ TEST_CASE("a scale bar that does not fit is not drawn at all") {
   });
   CHECK(test::ink_box(image).empty());
 }
+
+TEST_CASE(
+    "colour keys stand in the middle of their row, all of them, smaller where room is short") {
+  const std::vector<ColourKey> keys{{{0.8f, 0.1f, 0.1f, 1}, "shell at rest"},
+                                    {{0.1f, 0.2f, 0.8f, 1}, "its net"}};
+  for (const double width : {300.0, 120.0}) {
+    const Image image = draw_picture(width, 40, 1, white, [&](Canvas& c) {
+      draw_colour_keys(c, {4, 4, width - 8, 32}, keys, 14);
+      CHECK(c.texts() == std::vector<std::string>{"shell at rest", "its net"});
+    });
+    const Box ink = test::ink_box(image);
+    INFO("room of " << width << ", ink of " << ink.width);
+    CHECK(Box{4, 4, width - 8, 32}.inset(-1).contains(ink));
+    CHECK(ink.middle().x == Approx(width / 2).margin(2));
+    // each dash bears its colour, the first one on the left
+    int red = 0, blue = 0;
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* pixel = image.pixel(x, 20);
+      red += pixel[0] > 150 && pixel[2] < 80 && blue == 0;
+      blue += pixel[2] > 150 && pixel[0] < 80;
+    }
+    CHECK(red > 8);
+    CHECK(blue > 8);
+  }
+}
