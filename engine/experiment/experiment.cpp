@@ -142,6 +142,10 @@ double seconds_for(const Scene& scene, const preset::Preset& preset) {
     if (seconds == 0) seconds = to_rest * dof;
     seconds += (twist ? a_twist_frame : a_frame) * dof * preset.movie.frames;
   }
+  // a trial ends on a mesh of 4 edges a segment; measured on 8 to 20 rods
+  constexpr double a_trial = 2e-5;
+  const preset::Jitter& jitter = preset.jitter;
+  if (jitter.wanted()) seconds = a_trial * dof_of(scene, 4) * (jitter.trials + jitter.confined);
   return seconds;
 }
 

@@ -70,6 +70,13 @@ std::vector<Conflict> conflicts(const Preset& preset) {
     }
     last = radius;
   }
+  if (preset.jitter.wanted() && preset.indentation.wanted())
+    found.push_back(
+        {"jitter",
+         "trials",
+         {"[indentation] depth", "[indentation] depth_mm", "[jitter] confined"},
+         "states are looked for of a shell that nothing pushes, must be 0, or the depth "
+         "of [indentation]"});
   for (auto& conflict : physics_conflicts(preset)) found.push_back(std::move(conflict));
   if (const auto count = preset.indentation.joint.size(); count != 0 && count != 2)
     found.push_back(

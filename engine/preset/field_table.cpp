@@ -1,6 +1,7 @@
 #include "engine/preset/field_table.h"
 
 #include "engine/preset/field_makers.h"
+#include "engine/preset/jitter_fields.h"
 #include "engine/preset/physics_fields.h"
 #include "engine/preset/shape_fields.h"
 #include "engine/preset/style_fields.h"
@@ -153,6 +154,7 @@ const std::vector<Table>& tables() {
       {"dynamics", "How a shell moves that has lost its stability."},
       {"limits", "Where the model stops being valid."},
       {"accuracy", "How exact the answer is to be."},
+      {"jitter", "How the states of a shell are looked for."},
       {"movie", "The frames of `gridshell movie` and their camera."},
       {"style", "How pictures look."},
       {"figure", "The stills of `gridshell figure`."},
@@ -166,7 +168,7 @@ const std::vector<Field>& field_table() {
     auto fields = shell_fields();
     for (auto& more :
          {rod_fields(), joint_fields(), boundary_fields(), net_fields(), indentation_fields(),
-          load_fields(), numerics_fields(), picture_fields(), style_fields()})
+          load_fields(), numerics_fields(), jitter_fields(), picture_fields(), style_fields()})
       fields.insert(fields.end(), more.begin(), more.end());
     return fields;
   }();

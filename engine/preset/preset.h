@@ -214,6 +214,30 @@ struct Limits {
   double max_strain = 1e-3;
 };
 
+/// How a shell is shaken out of the state it would rest in.
+enum class JitterMode { gravity, random, poke };
+constexpr auto words(JitterMode) {
+  return word_table<JitterMode>({{JitterMode::gravity, "gravity"},
+                                 {JitterMode::random, "random"},
+                                 {JitterMode::poke, "poke"}});
+}
+/// The search for all states of a shell.
+struct Jitter {
+  JitterMode mode = JitterMode::random;
+  int trials = 0;  ///< 0: no search
+  int seed = 1;
+  std::vector<double> levels;    ///< progress of the actuation; empty: as the mode has it
+  double field_N_per_mm = 1e-3;  ///< largest artificial gravity, on a millimetre of rod
+  double amplitude = 1;          ///< of a random field, of d
+  double depth = 3;              ///< of a poke, of d
+  int confined = 0;              ///< trials begun from symmetric forms
+  double tolerance = 0.02;       ///< of d: joints of one and the same state
+  int drawn = 6;                 ///< states in the picture
+  int transitions = 0;           ///< states whose ways to others are followed
+
+  bool wanted() const { return trials > 0 || confined > 0; }
+};
+
 /// Of the model ladder.
 enum class Rung { automatic, net, bend, twist };
 constexpr auto words(Rung) {
@@ -353,6 +377,7 @@ struct Preset {
   Imperfection imperfection;
   Limits limits;
   Accuracy accuracy;
+  Jitter jitter;
   Movie movie;
   Style style;
   Figure figure;

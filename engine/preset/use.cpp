@@ -73,6 +73,7 @@ class Idle {
     if (preset_.rod_v.differs) rods("rod_v", preset_.rod_v);
     push();
     motion();
+    jitter();
     pictures();
     return std::move(found_);
   }
@@ -194,6 +195,25 @@ class Idle {
         add("imperfection", key, {"[imperfection] size"},
             "with [imperfection] size = 0 nothing is chosen: the path stays on the symmetric "
             "branch");
+  }
+
+  void jitter() {
+    const Jitter& jitter = preset_.jitter;
+    if (!jitter.wanted()) {
+      for (const Field& field : field_table())
+        if (field.table == "jitter" && field.key != "trials" && field.key != "confined")
+          add("jitter", field.key.c_str(), {"[jitter] trials", "[jitter] confined"},
+              "no states are looked for: [jitter] trials and confined are 0");
+      return;
+    }
+    const std::string why =
+        fmt::format("[jitter] mode = \"{}\" does not use it, only ", word_of(jitter.mode));
+    if (jitter.mode != JitterMode::gravity)
+      add("jitter", "field_N_per_mm", {"[jitter] mode"}, why + "\"gravity\"");
+    if (jitter.mode != JitterMode::random && jitter.confined == 0)
+      add("jitter", "amplitude", {"[jitter] mode", "[jitter] confined"}, why + "\"random\"");
+    if (jitter.mode != JitterMode::poke && jitter.transitions == 0)
+      add("jitter", "depth", {"[jitter] mode", "[jitter] transitions"}, why + "\"poke\"");
   }
 
   void pictures() {

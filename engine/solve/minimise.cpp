@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gridshell {
 namespace {
@@ -10,26 +11,33 @@ namespace {
 class Descent {
  public:
   Descent(Linearisation& system, State& state, const MinimiseOptions& options, const Watch& watch)
-      : system_(system), state_(state), options_(options), watch_(watch) {}
+      : system_(system), state_(state), options_(options), watch_(watch) {
+    for (const ModelEdge& edge : system.model().edges)
+      near_mm_ += 0.1 * edge.rest_length / double(system.model().edges.size());
+  }
 
-  /// Factorises the mixed form at the state, or what is near it and positive definite.
-  Inertia factorise() {
-    shift_ /= 4;
-    weakening_ = weakening_ < 0.01 ? 0 : weakening_ / 4;
-    for (;;) {
-      State weakened = state_;
-      weakened.force = state_.force.cwiseMax((1 - weakening_) * state_.force);
-      const Inertia inertia = system_.at(weakened, true, 0, options_.EA_scale);
-      if (inertia.positive_definite()) {
-        shift_ = 0;
-        return inertia;
-      }
-      if (weakening_ >= 1 || watch_.cancelled()) break;
-      weakening_ = weakening_ == 0 ? 0.1 : 1.0;
+  /// Factorises the mixed form at the state, or what is near it and positive definite. What served
+  /// last comes first, a little nearer to the form as it is; after failures that waits a while.
+  Inertia factorise(double last_move_mm) {
+    const double served = weakening_;
+    if (shift_ > 0)
+      shift_ = shift_ > least_shift ? shift_ / 8 : 0;
+    else if (--wait_ <= 0 || last_move_mm < near_mm_)
+      weakening_ = weakening_ > least_weakening ? weakening_ / 4 : 0;
+    Inertia inertia = assemble();
+    if (inertia.positive_definite()) {
+      if (weakening_ < served) patience_ = 1;
+      return inertia;
     }
-    Inertia inertia;
+    if (weakening_ < served) wait_ = patience_ = std::min(2 * patience_, 8);
+    while (weakening_ < 1) {
+      const double more = std::clamp(4 * weakening_, 4 * least_weakening, 1.0);
+      weakening_ = weakening_ < served ? served : more;
+      inertia = assemble();
+      if (inertia.positive_definite() || watch_.cancelled()) return inertia;
+    }
     do {
-      shift_ = std::max(4 * shift_, 1e-6);
+      shift_ = std::max(4 * shift_, least_shift);
       inertia = system_.shifted(shift_);
     } while (!inertia.positive_definite() && shift_ < 1e8 && !watch_.cancelled());
     return inertia;
@@ -59,6 +67,14 @@ class Descent {
   }
 
  private:
+  static constexpr double least_weakening = 0.015, least_shift = 1e-4;  // of 1, N/mm
+
+  Inertia assemble() {
+    State weakened = state_;
+    weakened.force = state_.force.cwiseMax((1 - weakening_) * state_.force);
+    return system_.at(weakened, true, shift_, options_.EA_scale);
+  }
+
   double energy_at(const State& state) const {
     Energies energies = energies_of(system_.model(), state, system_.outside);
     energies[Term::stretch] *= options_.EA_scale;
@@ -71,6 +87,8 @@ class Descent {
   const Watch& watch_;
   State trial_;
   double weakening_ = 0, shift_ = 0;
+  int wait_ = 0, patience_ = 1;  // steps before less weakening is tried again
+  double near_mm_ = 0;           // corrections below this are near the end
 };
 
 /// Whether the energy's Hessian is positive definite, but for round-off: a rod between two pins may
@@ -88,15 +106,16 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
   NewtonReport report;
   Eigen::Matrix3Xd dx;
   Descent descent(system, state, options, watch);
+  double move = std::numeric_limits<double>::infinity();
   for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
     if (watch.cancelled()) {
       report.outcome = Outcome::cancelled;
       return report;
     }
-    report.inertia = descent.factorise();
+    report.inertia = descent.factorise(move);
     ++system.effort().newton_iterations;
     system.correction(dx);
-    const double move = largest_column(dx);
+    move = largest_column(dx);
     if (!report.inertia.positive_definite() || !std::isfinite(move)) {
       report.outcome = watch.cancelled() ? Outcome::cancelled : Outcome::not_finite;
       return report;

@@ -1,0 +1,203 @@
+#include "engine/experiment/jitter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/experiment/actuation.h"
+#include "engine/experiment/state_measures.h"
+
+namespace gridshell::experiment {
+namespace {
+
+using preset::JitterMode;
+
+const LevelPlan judged_plan{{judged_edges}, false};
+
+/// What tells the generators of trials apart.
+enum class Purpose : std::uint32_t { trial, confined, poke };
+
+/// A generator a trial, so that any trial can be made by itself.
+std::mt19937 generator(int seed, Purpose purpose, int k) {
+  std::seed_seq seeds{std::uint32_t(seed), std::uint32_t(purpose), std::uint32_t(k)};
+  return std::mt19937(seeds);
+}
+
+/// Evenly in [-1, 1); not by std::uniform_real_distribution, whose numbers differ from library to
+/// library.
+double even(std::mt19937& random) { return double(random()) / double(1u << 31) - 1; }
+double share(std::mt19937& random) { return 0.5 * (1 + even(random)); }
+
+/// A direction, all alike.
+Eigen::Vector3d direction(std::mt19937& random) {
+  const double z = even(random), angle = M_PI * even(random), r = std::sqrt(1 - z * z);
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+tl::unexpected<Error> no_rest(std::string why) {
+  return fail(Fault::no_equilibrium, std::move(why));
+}
+tl::unexpected<Error> stopped() { return fail(Fault::cancelled, "stopped"); }
+
+/// Errors of solvers name numbers; trials are counted by what happened.
+Result<State> in_few_words(Result<State> rest, const char* why) {
+  if (!rest && rest.error().fault == Fault::no_equilibrium) return no_rest(why);
+  return rest;
+}
+
+std::vector<double> levels_of(const preset::Jitter& jitter) {
+  if (!jitter.levels.empty()) return jitter.levels;
+  if (jitter.mode == JitterMode::gravity) return {0.02, 0.05, 0.1, 0.2, 0.35, 0.5};
+  return {1};
+}
+
+}  // namespace
+
+Result<std::vector<PartlyActuated>> forms_to_shake(const std::shared_ptr<const Scene>& scene,
+                                                   const preset::Jitter& jitter,
+                                                   const Watch& watch) {
+  std::vector<PartlyActuated> forms;
+  Result<void> last;
+  for (const double level : levels_of(jitter)) {
+    forms.push_back({std::sqrt(level), {}});
+    if (jitter.mode == JitterMode::random) continue;
+    auto course = follow_actuation(scene, judged_plan, level < 1, level, watch);
+    if (watch.cancelled()) return stopped();
+    if (course && scene->from_net) course->session.go(forms.back().t, watch);
+    const bool there = course && course->session.shell().state().t == forms.back().t;
+    if (there)
+      forms.back().state = course->session.shell().state().levels[0];
+    else
+      forms.pop_back();
+    if (!course) last = tl::unexpected<Error>(course.error());
+  }
+  if (!forms.empty()) return forms;
+  if (!last) return tl::unexpected<Error>(last.error());
+  return no_rest("the actuation comes to none of [jitter] levels");
+}
+
+Jitter::Jitter(std::shared_ptr<const Scene> scene, const preset::Jitter& jitter,
+               const std::vector<PartlyActuated>& forms, Cascade cascade, Session session)
+    : scene_(std::move(scene)),
+      jitter_(jitter),
+      forms_(&forms),
+      symmetries_(symmetries_of_shell(*scene_, cascade.symmetries())),
+      groups_(subgroups(symmetries_)),
+      cascade_(std::move(cascade)),
+      session_(std::move(session)) {
+  // what lies between joints counts half to each
+  const RodMesh mesh = mesh_rods(scene_->footprint, 1);
+  joint_length_ = lumped(mesh, std::vector<double>(mesh.rods.size(), 1.0)).head(mesh.joints);
+}
+
+Result<Jitter> Jitter::make(std::shared_ptr<const Scene> scene, const preset::Jitter& jitter,
+                            const std::vector<PartlyActuated>& forms) {
+  auto cascade = Cascade::make(scene->footprint, scene->rods, scene->mechanics(), scene->motion,
+                               scene->flat, judged_edges);
+  if (!cascade) return tl::unexpected<Error>(cascade.error());
+  auto session = Session::open(scene, judged_plan);
+  if (!session) return tl::unexpected<Error>(session.error());
+  return Jitter(std::move(scene), jitter, forms, std::move(*cascade), std::move(*session));
+}
+
+Eigen::Matrix3Xd Jitter::thrown_nodes(double t, std::mt19937& random) const {
+  Eigen::Matrix3Xd nodes = cascade_.stretched_flat(t);
+  const double reach = jitter_.amplitude * scene_->footprint.spacing;
+  for (double& coordinate : nodes.reshaped()) coordinate += reach * even(random);
+  return nodes;
+}
+
+Result<State> Jitter::thrown(const PartlyActuated& form, std::mt19937& random, const Watch& watch) {
+  return in_few_words(cascade_.rest(form.t, thrown_nodes(form.t, random), watch),
+                      "did not come to rest");
+}
+
+Result<State> Jitter::pulled(const PartlyActuated& form, std::mt19937& random, const Watch& watch) {
+  const Eigen::Vector3d field = jitter_.field_N_per_mm * share(random) * direction(random);
+  std::vector<NodeAction> forces;
+  for (int joint = 0; joint < joint_length_.size(); ++joint)
+    forces.push_back({joint, joint_length_[joint] * field});
+  auto under = in_few_words(cascade_.rest_under(forces, form.t, form.state, watch),
+                            "did not come to rest under the field");
+  if (!under) return under;
+  return in_few_words(cascade_.rest_under({}, form.t, std::move(*under), watch),
+                      "did not come to rest after the field");
+}
+
+Result<State> Jitter::pushed(const PartlyActuated& form, std::mt19937& random, const Watch& watch) {
+  constexpr unsigned most_pushes = 3;
+  if (session_.begin_at(form.t, form.state, watch).end != Outcome::reached)
+    return watch.cancelled() ? Result<State>(stopped())
+                             : Result<State>(no_rest("the form to push is not at rest"));
+  const unsigned pushes = 1 + random() % most_pushes;
+  for (unsigned k = 0; k < pushes; ++k) {
+    const int joint = int(random() % std::uint32_t(scene_->footprint.joints.size()));
+    const double depth = jitter_.depth * scene_->footprint.spacing * share(random);
+    // how far it came is far enough: a hand stops where the rods are at their length
+    session_.push(joint, depth * direction(random), Across::free, watch);
+    if (watch.cancelled()) return stopped();
+    if (session_.release(joint, watch).end != Outcome::reached)
+      return watch.cancelled() ? Result<State>(stopped())
+                               : Result<State>(no_rest("did not come to rest when it was let go"));
+  }
+  return session_.shell().state().levels[0];
+}
+
+/// Where the session goes from where it stands, on the scene's own motion.
+Result<State> Jitter::go(double t, const Watch& watch) {
+  Report report = session_.go(t, watch);
+  // a scene that chooses no branch goes on through states that are not stable
+  if (report.end == Outcome::reached && !report.certificate.stable()) report = session_.rest(watch);
+  if (watch.cancelled()) return stopped();
+  if (report.end == Outcome::locked) return no_rest("the rods came to their length");
+  if (report.end != Outcome::reached || !session_.certificate().stable())
+    return no_rest("the actuation did not come to its end");
+  return session_.shell().state().levels[0];
+}
+
+Result<State> Jitter::drawn_in(double t, Result<State> rest, const Watch& watch) {
+  if (!rest || t == 1) return rest;
+  if (session_.begin_at(t, *rest, watch).end != Outcome::reached)
+    return watch.cancelled() ? Result<State>(stopped())
+                             : Result<State>(no_rest("its rest is not certified"));
+  return go(1, watch);
+}
+
+Result<State> Jitter::trial(int k, const Watch& watch) {
+  std::mt19937 random = generator(jitter_.seed, Purpose::trial, k);
+  const PartlyActuated& form = (*forms_)[std::size_t(k) % forms_->size()];
+  switch (jitter_.mode) {
+    case JitterMode::gravity:
+      return drawn_in(form.t, pulled(form, random, watch), watch);
+    case JitterMode::random:
+      return drawn_in(form.t, thrown(form, random, watch), watch);
+    case JitterMode::poke:
+      return drawn_in(form.t, pushed(form, random, watch), watch);
+  }
+  return no_rest("no such mode");
+}
+
+Result<State> Jitter::confined_trial(int k, const Watch& watch) {
+  if (groups_.empty()) return no_rest("the footprint has no symmetry");
+  std::mt19937 random = generator(jitter_.seed, Purpose::confined, k);
+  const SymmetryGroup& group = groups_[std::size_t(k) % groups_.size()];
+  return in_few_words(cascade_.rest_confined(1, thrown_nodes(1, random), group, watch),
+                      "did not come to rest");
+}
+
+Result<State> Jitter::let_out(const State& from, double to, const Watch& watch) {
+  if (session_.begin_at(1, from, watch).end != Outcome::reached)
+    return watch.cancelled() ? Result<State>(stopped())
+                             : Result<State>(no_rest("its rest is not certified"));
+  if (auto out = go(std::sqrt(to), watch); !out) return out;
+  return go(1, watch);
+}
+
+Result<State> Jitter::poked(const State& from, int k, const Watch& watch) {
+  std::mt19937 random = generator(jitter_.seed, Purpose::poke, k);
+  return pushed({1, from}, random, watch);
+}
+
+}  // namespace gridshell::experiment

@@ -1,0 +1,240 @@
+#include "engine/experiment/states.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/core/clock.h"
+#include "engine/core/parallel.h"
+#include "engine/experiment/frames.h"
+#include "engine/experiment/state_book.h"
+#include "engine/experiment/state_measures.h"
+#include "engine/experiment/transitions.h"
+#include "engine/measure/richness.h"
+#include "engine/preset/rung.h"
+#include "engine/session/budget.h"
+
+namespace gridshell::experiment {
+namespace {
+
+// shares of the work, for the progress
+constexpr double shaken = 0.6, measured = 0.9;
+
+/// What a trial ended in.
+struct Trial {
+  Result<State> rest = tl::unexpected<Error>(Error{Fault::cancelled, "stopped"});
+  double energy_mJ = 0, cpu_s = 0;
+};
+
+/// A state met, on the mesh that states are judged on.
+struct Met {
+  State rest;
+  double energy_mJ = 0;
+  int count = 0, count_confined = 0;
+};
+
+double tolerance_mm(const Scene& scene, const preset::Jitter& jitter) {
+  return jitter.tolerance * scene.footprint.spacing;
+}
+
+Eigen::Matrix3Xd joints_of(const Scene& scene, const Eigen::Matrix3Xd& nodes) {
+  return nodes.leftCols(Eigen::Index(scene.footprint.joints.size()));
+}
+
+Result<std::vector<Trial>> shake(const std::shared_ptr<const Scene>& scene,
+                                 const preset::Jitter& jitter, int threads, Watch& watch) {
+  const auto forms = forms_to_shake(scene, jitter, watch);
+  if (!forms) return tl::unexpected<Error>(forms.error());
+  std::vector<Trial> trials(std::size_t(jitter.trials + jitter.confined));
+  const auto try_one = [&](Jitter& hand, int k) {
+    Trial& trial = trials[std::size_t(k)];
+    const double begin = cpu_seconds_now();
+    trial.rest =
+        k < jitter.trials ? hand.trial(k, watch) : hand.confined_trial(k - jitter.trials, watch);
+    trial.cpu_s = cpu_seconds_now() - begin;
+    if (trial.rest) trial.energy_mJ = hand.cascade().system().energy_at(*trial.rest);
+  };
+  return share_work(
+             int(trials.size()), threads, watch,
+             [&] { return Jitter::make(scene, jitter, *forms); }, try_one,
+             [&](double share) { watch.report(shaken * share); })
+      .map([&] { return std::move(trials); });
+}
+
+/// The states among the ends of trials, in the order of the trials whoever made them.
+std::vector<Met> told_apart(const Scene& scene, const preset::Jitter& jitter,
+                            const std::vector<MeshSymmetry>& symmetries, std::vector<Trial> trials,
+                            record::StateSearch& search) {
+  StateBook book(symmetries, tolerance_mm(scene, jitter));
+  std::vector<Met> met;
+  for (std::size_t k = 0; k < trials.size(); ++k) {
+    Trial& trial = trials[k];
+    const bool confined = k >= std::size_t(jitter.trials);
+    search.cpu_s += trial.cpu_s;
+    if (!trial.rest) {
+      ++search.ended_otherwise[trial.rest.error().message];
+      continue;
+    }
+    ++(confined ? search.confined_at_rest : search.at_rest);
+    const std::size_t at = book.enter(joints_of(scene, trial.rest->x), trial.energy_mJ);
+    if (at == met.size()) met.push_back({std::move(*trial.rest), trial.energy_mJ});
+    ++(confined ? met[at].count_confined : met[at].count);
+  }
+  search.found = int(met.size());
+  return met;
+}
+
+tl::unexpected<Error> none_found(const record::StateSearch& search) {
+  std::string why;
+  for (const auto& [reason, count] : search.ended_otherwise)
+    why += fmt::format("; {} {}", count, reason);
+  return fail(
+      Fault::no_equilibrium,
+      fmt::format("none of {} trials ended in a stable state{}{}",
+                  search.trials + search.confined_trials, why,
+                  search.found == 0 ? "" : "; finer meshes have none of those they ended in"));
+}
+
+using Measures = std::vector<std::optional<Measured>>;
+
+/// Keeps, in the order of their energy and once each, the states that finer meshes have.
+void keep(const Scene& scene, const preset::Jitter& jitter,
+          const std::vector<MeshSymmetry>& symmetries, const std::vector<Met>& met, Measures& all,
+          StateLibrary& library) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k]) order.push_back(k);
+  library.search.finer_lost = int(all.size() - order.size());
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return all[k]->row.energy_mJ(); });
+  StateBook book(symmetries, tolerance_mm(scene, jitter));
+  for (const std::size_t k : order) {
+    Measured& one = *all[k];
+    library.effort += one.effort;
+    const std::size_t at = book.enter(joints_of(scene, one.frame.nodes), one.row.energy_mJ());
+    if (at == library.states.size()) {
+      one.row.state = int(at) + 1;
+      one.frame.index = int(at);
+      one.frame.event = fmt::format("state {}: {}, class {}", one.row.state, one.row.group,
+                                    word_of(one.row.kind));
+      library.states.push_back(
+          {std::move(one.row), std::move(one.frame), std::move(one.rest), met[k].energy_mJ});
+    } else {
+      ++library.search.finer_merged;
+    }
+    library.states[at].row.count += met[k].count;
+    library.states[at].row.count_confined += met[k].count_confined;
+  }
+}
+
+record::Completeness completeness_of(const std::vector<ShellState>& states) {
+  std::vector<int> counts;
+  for (const ShellState& state : states) counts.push_back(state.row.count);
+  const Richness all = chao1(counts);
+  return {all.seen, all.once, all.twice, all.estimate, all.low, all.high};
+}
+
+/// Measures what was met and lays it into the library.
+Result<void> measure(const std::shared_ptr<const Scene>& scene, const preset::Jitter& jitter,
+                     const SearchOptions& options, const std::vector<Met>& met,
+                     StateLibrary& library, Watch& watch) {
+  const auto make = [&] { return StateMeasures::make(scene, tolerance_mm(*scene, jitter)); };
+  const auto first = make();
+  if (!first) return tl::unexpected<Error>(first.error());
+  Measures all(met.size());
+  const auto done = share_work(
+      int(met.size()), options.threads, watch, make,
+      [&](StateMeasures& measures, int k) {
+        all[std::size_t(k)] = measures.of(met[std::size_t(k)].rest, options.lives, watch);
+      },
+      [&](double share) { watch.report(shaken + (measured - shaken) * share); });
+  if (!done) return done;
+  keep(*scene, jitter, first->symmetries(), met, all, library);
+  const NestedShell& shell = first->session().shell();
+  auto layout = layout_of(*scene, shell.finest());
+  if (!layout) return tl::unexpected<Error>(layout.error());
+  library.layout = std::move(*layout);
+  library.layout.extrapolated = shell.plan().extrapolate;
+  library.edges_per_segment = shell.plan().edges_per_segment.back();
+  library.dof = shell.model(shell.levels() - 1).dof();
+  library.search.completeness = completeness_of(library.states);
+  return {};
+}
+
+}  // namespace
+
+Result<StateLibrary> find_states(const std::shared_ptr<const Scene>& scene,
+                                 const preset::Jitter& jitter, const SearchOptions& options,
+                                 Watch& watch) {
+  if (scene->rung == preset::Rung::net)
+    return fail(Fault::bad_input, "the net rung has no states: nothing is solved on it");
+  if (auto fits = fits_memory(*scene, measuring_plan(*scene)); !fits)
+    return tl::unexpected<Error>(fits.error());
+  StateLibrary library;
+  record::StateSearch& search = library.search;
+  search.mode = word_of(jitter.mode);
+  search.seed = jitter.seed;
+  search.trials = jitter.trials;
+  search.confined_trials = jitter.confined;
+  search.judged_edges = judged_edges;
+  auto trials = shake(scene, jitter, options.threads, watch);
+  if (!trials) return tl::unexpected<Error>(trials.error());
+  const RodMesh mesh = mesh_rods(scene->footprint, judged_edges);
+  const auto symmetries =
+      symmetries_of_shell(*scene, symmetries_of(mesh, pinned_motion(mesh, scene->motion).at(1)));
+  const std::vector<Met> met = told_apart(*scene, jitter, symmetries, std::move(*trials), search);
+  if (met.empty()) return none_found(search);
+  if (auto done = measure(scene, jitter, options, met, library, watch); !done)
+    return tl::unexpected<Error>(done.error());
+  if (library.states.empty()) return none_found(search);
+  return library;
+}
+
+namespace {
+
+record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
+                           const StateLibrary& library) {
+  record::Summary s;
+  s.preset = preset.name;
+  s.model = word_of(scene.rung);
+  s.model_reason = preset::model_reason(preset);
+  s.edges_per_segment = library.edges_per_segment;
+  s.dof = library.dof;
+  s.rods = int(scene.footprint.rods.size());
+  s.joints = int(scene.footprint.joints.size());
+  s.cells = int(scene.footprint.cells.size());
+  s.newton_iterations = library.effort.newton_iterations;
+  s.factorizations = library.effort.factorizations;
+  s.take_state(library.states.front().frame);
+  return s;
+}
+
+}  // namespace
+
+Result<StateRun> run_states(const preset::Preset& preset, int threads, record::Sink& sink,
+                            Watch& watch) {
+  const double begin = seconds_now();
+  auto made = scene_of(preset);
+  if (!made) return tl::unexpected<Error>(made.error());
+  const auto scene = std::make_shared<const Scene>(std::move(*made));
+  const double setup = seconds_now() - begin;
+  auto library = find_states(scene, preset.jitter, {.threads = threads}, watch);
+  if (!library) return tl::unexpected<Error>(library.error());
+  auto ways = ways_between(*library, scene, preset.jitter, threads, measured, watch);
+  if (!ways) return tl::unexpected<Error>(ways.error());
+  if (auto begun = sink.begin(library->layout); !begun) return tl::unexpected<Error>(begun.error());
+  StateRun run;
+  run.summary = summary_of(preset, *scene, *library);
+  for (ShellState& state : library->states) {
+    run.tables.rows.push_back(state.row);
+    if (auto taken = sink.take(std::move(state.frame)); !taken)
+      return tl::unexpected<Error>(taken.error());
+  }
+  run.tables.search = library->search;
+  run.tables.transitions = std::move(*ways);
+  run.summary.seconds_setup = setup;
+  run.summary.seconds_simulation = seconds_now() - begin - setup;
+  return run;
+}
+
+}  // namespace gridshell::experiment

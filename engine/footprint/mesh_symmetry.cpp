@@ -1,0 +1,109 @@
+#include "engine/footprint/mesh_symmetry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace gridshell {
+namespace {
+
+constexpr double same_mm = 1e-3;  // places of the flat mesh that are one
+
+std::pair<long long, long long> place_of(const Eigen::Vector2d& p) {
+  return {std::llround(p.x() / same_mm), std::llround(p.y() / same_mm)};
+}
+
+/// Where each node goes, if each goes to the place of a node.
+std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matrix3d& map) {
+  std::map<std::pair<long long, long long>, int> node_at;
+  for (int node = 0; node < mesh.nodes(); ++node) node_at[place_of(mesh.flat.col(node))] = node;
+  std::vector<int> image;
+  for (int node = 0; node < mesh.nodes(); ++node) {
+    const Eigen::Vector2d p = map.topLeftCorner<2, 2>() * mesh.flat.col(node);
+    const auto [u, v] = place_of(p);
+    int found = -1;
+    // round-off may put it beside the place it belongs to
+    for (long long du = -1; du <= 1 && found < 0; ++du)
+      for (long long dv = -1; dv <= 1 && found < 0; ++dv)
+        if (const auto at = node_at.find({u + du, v + dv}); at != node_at.end()) found = at->second;
+    if (found < 0) return std::nullopt;
+    image.push_back(found);
+  }
+  return image;
+}
+
+/// Edge points that something holds, and ghosts.
+std::vector<int> held_nodes(const RodMesh& mesh) {
+  std::vector<int> held;
+  for (int k = 0; k < mesh.edge_points; ++k)
+    if (mesh.ends.empty() || mesh.ends[std::size_t(k)] != RodEnd::free)
+      held.push_back(mesh.joints + k);
+  for (int node = mesh.rod_nodes(); node < mesh.nodes(); ++node) held.push_back(node);
+  return held;
+}
+
+}  // namespace
+
+const std::vector<Eigen::Matrix3d>& square_symmetries() {
+  static const std::vector<Eigen::Matrix3d> all = [] {
+    std::vector<Eigen::Matrix3d> maps;
+    for (const double z : {1.0, -1.0})
+      for (const bool swapped : {false, true})
+        for (const double x : {1.0, -1.0})
+          for (const double y : {1.0, -1.0}) {
+            Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
+            map(0, swapped ? 1 : 0) = x;
+            map(1, swapped ? 0 : 1) = y;
+            map(2, 2) = z;
+            maps.push_back(map);
+          }
+    return maps;
+  }();
+  return all;
+}
+
+Eigen::Matrix3Xd MeshSymmetry::of(const Eigen::Matrix3Xd& x) const {
+  Eigen::Matrix3Xd moved(3, x.cols());
+  for (Eigen::Index k = 0; k < x.cols(); ++k)
+    moved.col(image[std::size_t(k)]) = map * (x.col(k) - centre) + centre;
+  return moved;
+}
+
+std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix3Xd& ends) {
+  const std::vector<int> held = held_nodes(mesh);
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const int node : held) centre.z() += ends(2, node) / double(held.size());
+  std::vector<MeshSymmetry> found;
+  for (std::size_t k = 0; k < square_symmetries().size(); ++k) {
+    MeshSymmetry symmetry{int(k), square_symmetries()[k], centre, {}};
+    auto image = image_of(mesh, symmetry.map);
+    if (!image) continue;
+    symmetry.image = std::move(*image);
+    const Eigen::Matrix3Xd moved = symmetry.of(ends);
+    const bool same = std::all_of(held.begin(), held.end(), [&](int node) {
+      return (moved.col(node) - ends.col(node)).norm() < same_mm;
+    });
+    if (same) found.push_back(std::move(symmetry));
+  }
+  return found;
+}
+
+Eigen::Matrix3Xd symmetric_part(const Eigen::Matrix3Xd& x, const std::vector<MeshSymmetry>& group) {
+  Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, x.cols());
+  for (const MeshSymmetry& symmetry : group) sum += symmetry.of(x);
+  return sum / double(group.size());
+}
+
+double distance_under(const MeshSymmetry& symmetry, const Eigen::Matrix3Xd& x,
+                      const Eigen::Matrix3Xd& y) {
+  double largest = 0;
+  for (Eigen::Index k = 0; k < y.cols(); ++k) {
+    const Eigen::Vector3d moved = symmetry.map * (y.col(k) - symmetry.centre) + symmetry.centre;
+    largest = std::max(largest, (x.col(symmetry.image[std::size_t(k)]) - moved).squaredNorm());
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace gridshell

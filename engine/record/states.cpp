@@ -1,0 +1,211 @@
+#include "engine/record/states.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/csv.h"
+
+namespace gridshell::record {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// visit(name, member) for every column, in order: writer and reader go by it.
+template <class Row, class Visit>
+void each_state_column(Row& row, const Visit& visit) {
+  visit("state", row.state);
+  visit("class", row.kind);
+  visit("group", row.group);
+  visit("energy_bend_mJ", row.energy_bend_mJ);
+  visit("energy_stretch_mJ", row.energy_stretch_mJ);
+  visit("height_mm", row.height_mm);
+  visit("z_max_mm", row.z_max_mm);
+  visit("z_min_mm", row.z_min_mm);
+  visit("inflections", row.inflections);
+  visit("count", row.count);
+  visit("count_confined", row.count_confined);
+  visit("lives_to", row.lives_to);
+  visit("lives_to_radius_mm", row.lives_to_radius_mm);
+  visit("eigenvalue_N_per_mm2", row.eigenvalue_N_per_mm2);
+  visit("error_estimate_mm", row.error_estimate_mm);
+}
+
+template <class Row, class Visit>
+void each_transition_column(Row& row, const Visit& visit) {
+  visit("from", row.from);
+  visit("to", row.to);
+  visit("by", row.by);
+  visit("count", row.count);
+}
+
+template <class Search, class Visit>
+void each_search_key(Search& search, const Visit& visit) {
+  visit("mode", search.mode);
+  visit("seed", search.seed);
+  visit("trials", search.trials);
+  visit("at_rest", search.at_rest);
+  visit("confined_trials", search.confined_trials);
+  visit("confined_at_rest", search.confined_at_rest);
+  visit("ended_otherwise", search.ended_otherwise);
+  visit("judged_edges_per_segment", search.judged_edges);
+  visit("states_found", search.found);
+  visit("states_that_finer_meshes_lose", search.finer_lost);
+  visit("states_that_finer_meshes_merge", search.finer_merged);
+  visit("seen", search.completeness.seen);
+  visit("seen_once", search.completeness.once);
+  visit("seen_twice", search.completeness.twice);
+  visit("chao1", search.completeness.chao1);
+  visit("chao1_low_95", search.completeness.low);
+  visit("chao1_high_95", search.completeness.high);
+  visit("cpu_s", search.cpu_s);
+}
+
+const auto each_state = [](auto& row, const auto& visit) { each_state_column(row, visit); };
+const auto each_transition = [](auto& row, const auto& visit) {
+  each_transition_column(row, visit);
+};
+
+template <class Value>
+auto cell_of(const Value& value) {
+  if constexpr (std::is_enum_v<Value>)
+    return std::string(word_of(value));
+  else
+    return value;
+}
+
+template <class Row, class Each>
+std::string csv_of(const std::vector<Row>& rows, const Each& each) {
+  Csv csv;
+  const Row names;
+  each(names, [&](const char* name, const auto&) { csv.cell(name); });
+  csv.end_line();
+  for (const Row& row : rows) {
+    each(row, [&](const char*, const auto& value) { csv.cell(cell_of(value)); });
+    csv.end_line();
+  }
+  return std::move(csv).text();
+}
+
+template <class Number>
+bool parse(const std::string& text, Number& value) {
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end;
+}
+bool take(const std::string& text, std::string& value) {
+  value = text;
+  return true;
+}
+bool take(const std::string& text, int& value) { return parse(text, value); }
+bool take(const std::string& text, double& value) {
+  value = unknown;
+  return text.empty() || parse(text, value);
+}
+bool take(const std::string& text, StateClass& value) {
+  const auto word = find_word<StateClass>(text);
+  if (word) value = *word;
+  return word.has_value();
+}
+
+/// No cell of these files holds a comma, a quote or a line's end.
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t to = std::min(text.find(at, from), text.size());
+    parts.push_back(text.substr(from, to - from));
+    from = to + 1;
+  }
+  return parts;
+}
+
+template <class Row, class Each>
+Result<std::vector<Row>> read_csv(const std::filesystem::path& file, const Each& each) {
+  const auto text = read_whole(file, largest_text);
+  if (!text) return tl::unexpected(text.error());
+  std::vector<std::string> lines = split(*text, '\n');
+  if (lines.back().empty()) lines.pop_back();
+  const std::string heading = csv_of(std::vector<Row>{}, each);
+  if (lines.empty() || lines.front() + "\n" != heading)
+    return fail(Fault::bad_input, fmt::format("'{}': its first line is not {}", file.string(),
+                                              heading.substr(0, heading.size() - 1)));
+  std::vector<Row> rows;
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    const std::vector<std::string> cells = split(lines[k], ',');
+    std::size_t column = 0;
+    std::string fault;
+    Row row;
+    each(row, [&](const char* name, auto& value) {
+      if (fault.empty() && (column >= cells.size() || !take(cells[column], value))) fault = name;
+      ++column;
+    });
+    if (fault.empty() && column != cells.size()) fault = "number of cells";
+    if (!fault.empty())
+      return fail(Fault::bad_input,
+                  fmt::format("'{}' line {}: its {} cannot be read", file.string(), k + 1, fault));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string states_csv(const std::vector<StateRow>& rows) { return csv_of(rows, each_state); }
+
+std::string transitions_csv(const std::vector<Transition>& rows) {
+  return csv_of(rows, each_transition);
+}
+
+std::string to_json(const StateSearch& search) {
+  Json json = Json::object();
+  each_search_key(search, [&](const char* key, const auto& value) { json[key] = value; });
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+namespace {
+
+Result<StateSearch> read_search(const std::filesystem::path& file) {
+  const auto text = read_whole(file, largest_text);
+  if (!text) return tl::unexpected(text.error());
+  const Json json = Json::parse(*text, nullptr, false);
+  StateSearch search;
+  try {
+    each_search_key(search, [&](const char* key, auto& value) { json.at(key).get_to(value); });
+  } catch (const Json::exception& error) {
+    return fail(Fault::bad_input,
+                fmt::format("'{}' is no search for states: {}", file.string(), error.what()));
+  }
+  return search;
+}
+
+}  // namespace
+
+Result<void> write_state_tables(const std::filesystem::path& folder, const StateTables& tables) {
+  return write_atomically(folder / states_name, states_csv(tables.rows))
+      .and_then([&] { return write_atomically(folder / search_name, to_json(tables.search)); })
+      .and_then([&]() -> Result<void> {
+        if (tables.transitions.empty()) return {};
+        return write_atomically(folder / transitions_name, transitions_csv(tables.transitions));
+      });
+}
+
+Result<StateTables> read_state_tables(const std::filesystem::path& folder) {
+  StateTables tables;
+  auto rows = read_csv<StateRow>(folder / states_name, each_state);
+  if (!rows) return tl::unexpected(rows.error());
+  tables.rows = std::move(*rows);
+  auto search = read_search(folder / search_name);
+  if (!search) return tl::unexpected(search.error());
+  tables.search = std::move(*search);
+  std::error_code error;
+  if (!std::filesystem::exists(folder / transitions_name, error)) return tables;
+  auto ways = read_csv<Transition>(folder / transitions_name, each_transition);
+  if (!ways) return tl::unexpected(ways.error());
+  tables.transitions = std::move(*ways);
+  return tables;
+}
+
+}  // namespace gridshell::record

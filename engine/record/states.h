@@ -1,0 +1,95 @@
+// The states that a shell was found in: a line of states.csv each, and states.json for the search
+// as a whole. Their shapes are the frames of the run's trajectory, in the same order.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/words.h"
+#include "engine/record/frame.h"
+
+namespace gridshell::record {
+
+/// The kinds of state of [Baek 2018, Fig. 2]: full symmetry and rods of the first mode; two
+/// mirrors; turns by 90 degrees alone; full symmetry and rods of higher modes; none of these.
+enum class StateClass { i, ii, iii, iv, other };
+constexpr auto words(StateClass) {
+  return word_table<StateClass>({{StateClass::i, "i"},
+                                 {StateClass::ii, "ii"},
+                                 {StateClass::iii, "iii"},
+                                 {StateClass::iv, "iv"},
+                                 {StateClass::other, "other"}});
+}
+
+/// One state.
+struct StateRow {
+  int state = 0;  ///< from 1, in the order of elastic energy
+  StateClass kind = StateClass::other;
+  std::string group;                                 ///< of symmetries, by Schoenflies' name
+  double energy_bend_mJ = 0, energy_stretch_mJ = 0;  ///< extrapolated over two meshes
+  double height_mm = 0;                              ///< highest joint above the boundary's plane
+  double z_max_mm = 0, z_min_mm = 0;                 ///< highest and lowest point of a rod
+  std::string inflections;                ///< of every rod, u rods first: "0 0 2 2 | 0 1 1 0"
+  int count = 0;                          ///< trials that ended in it
+  int count_confined = 0;                 ///< of those begun in symmetric forms
+  double lives_to = unknown;              ///< progress: nearer to the flat it is not there
+  double lives_to_radius_mm = unknown;    ///< of a circular boundary there
+  double eigenvalue_N_per_mm2 = unknown;  ///< lowest, against lumped length of rod
+  double error_estimate_mm = unknown;     ///< of the joints
+
+  double energy_mJ() const { return energy_bend_mJ + energy_stretch_mJ; }
+};
+
+/// How many states there are, from how often each was met.
+struct Completeness {
+  int seen = 0, once = 0, twice = 0;    ///< of the trials that are counted
+  double chao1 = 0, low = 0, high = 0;  ///< estimate of all, and its interval of 95 %
+};
+
+/// The search as a whole.
+struct StateSearch {
+  std::string mode;
+  int seed = 0;
+  int trials = 0, at_rest = 0;  ///< and how many of them ended at rest
+  int confined_trials = 0, confined_at_rest = 0;
+  std::map<std::string, int> ended_otherwise;  ///< why, and how often
+  int judged_edges = 0;                        ///< a segment of the mesh that tells states apart
+  int found = 0;                               ///< states on it
+  int finer_lost = 0;                          ///< of them, that finer meshes do not have
+  int finer_merged = 0;                        ///< and that are one on finer meshes
+  Completeness completeness;
+  double cpu_s = 0;  ///< of all trials
+};
+
+/// A way from state to state.
+struct Transition {
+  int from = 0, to = 0;  ///< StateRow::state; 0: one that the search did not meet
+  std::string by;        ///< "let out" or "poked"
+  int count = 0;
+};
+
+/// Everything of a search but the shapes.
+struct StateTables {
+  StateSearch search;
+  std::vector<StateRow> rows;
+  std::vector<Transition> transitions;
+};
+
+std::string states_csv(const std::vector<StateRow>& rows);
+std::string transitions_csv(const std::vector<Transition>& rows);
+std::string to_json(const StateSearch& search);
+
+inline constexpr const char* states_name = "states.csv";
+inline constexpr const char* search_name = "states.json";
+inline constexpr const char* transitions_name = "transitions.csv";
+
+/// Writes these three into a run's folder, transitions.csv only where ways were followed. Errors:
+/// io.
+Result<void> write_state_tables(const std::filesystem::path& folder, const StateTables& tables);
+/// What that wrote. Errors: io; bad_input naming file and line.
+Result<StateTables> read_state_tables(const std::filesystem::path& folder);
+
+}  // namespace gridshell::record

@@ -1,0 +1,155 @@
+#include "engine/solve/cascade.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "engine/solve/buckle.h"
+#include "engine/solve/minimise.h"
+
+namespace gridshell {
+namespace {
+
+constexpr double coarse_mm = 0.03;  // to which coarse meshes come to rest
+constexpr int most_coarse = 200;    // iterations on each of them
+constexpr double push_off = 0.1;    // of d: off an equilibrium that is not stable
+
+void confine(const Model& model, const RodMesh& mesh, const std::vector<MeshSymmetry>& group,
+             State& state) {
+  const Eigen::Matrix3Xd nodes = nodes_of(mesh, model, state.x);
+  Eigen::Matrix3Xd x = state.x;
+  const Eigen::Matrix3Xd columns = columns_of(mesh, model, symmetric_part(nodes, group));
+  x.leftCols(model.nodes) = columns.leftCols(model.nodes);
+  move_to(model, x, state);
+}
+
+std::vector<MeshSymmetry> members(const std::vector<MeshSymmetry>& all,
+                                  const std::vector<int>& group) {
+  std::vector<MeshSymmetry> found;
+  for (const MeshSymmetry& symmetry : all)
+    if (std::ranges::find(group, symmetry.index) != group.end()) found.push_back(symmetry);
+  return found;
+}
+
+}  // namespace
+
+Result<Cascade> Cascade::make(const Footprint& footprint, const ShellRods& rods, Rung rung,
+                              const BoundaryMotion& motion, const FlatFrame& flat, int edges) {
+  Cascade cascade(flat, footprint.spacing);
+  for (int k = 1; k <= edges; k *= 2) {
+    auto level = std::make_unique<Level>();
+    level->mesh = mesh_rods(footprint, k);
+    auto model = build_model(level->mesh, rods, rung);
+    if (!model) return tl::unexpected<Error>(model.error());
+    level->model = std::move(*model);
+    level->motion = pinned_motion(level->mesh, motion);
+    level->system = std::make_unique<Linearisation>(level->model);
+    level->symmetries = symmetries_of(level->mesh, level->motion.at(1));
+    if (k > 1) {
+      const Level& coarser = *cascade.levels_.back();
+      level->from_coarser =
+          std::make_unique<StateTransfer>(coarser.mesh, coarser.model, level->mesh, level->model);
+    }
+    cascade.levels_.push_back(std::move(level));
+  }
+  return cascade;
+}
+
+Eigen::Matrix3Xd Cascade::stretched_flat(double t) const {
+  const RodMesh& mesh = levels_.front()->mesh;
+  const auto with_one = [](const Eigen::Matrix2Xd& flat) {
+    Eigen::MatrixXd rows(flat.cols(), 3);
+    rows << flat.transpose(), Eigen::VectorXd::Ones(flat.cols());
+    return rows;
+  };
+  const Eigen::Matrix3Xd ends =
+      levels_.front()->motion.at(t).middleCols(mesh.joints, mesh.edge_points);
+  const Eigen::MatrixXd affine = with_one(mesh.flat.middleCols(mesh.joints, mesh.edge_points))
+                                     .colPivHouseholderQr()
+                                     .solve(Eigen::MatrixXd(ends.transpose()));
+  return (with_one(mesh.flat) * affine).transpose();
+}
+
+State Cascade::first_state(double t, const Eigen::Matrix3Xd& nodes) const {
+  const Level& level = *levels_.front();
+  State state = flat_state(level.model, level.mesh, level.motion, flat_);
+  move_to(level.model, columns_of(level.mesh, level.model, nodes), state);
+  level.motion.impose(*level.system, t, state);
+  return state;
+}
+
+Result<State> Cascade::rest(double t, const Eigen::Matrix3Xd& nodes, const Watch& watch) {
+  State state = first_state(t, nodes);
+  for (auto& level : levels_) {
+    if (level->from_coarser) {
+      state = level->from_coarser->carry(state);
+      level->motion.impose(*level->system, t, state);
+    }
+    if (level == levels_.back()) break;
+    // a coarse mesh need not come to rest: what it left is smoother in any case
+    minimise(*level->system, state, {.tolerance_mm = coarse_mm, .most_iterations = most_coarse},
+             watch);
+  }
+  return rest_below(*levels_.back()->system, std::move(state), watch);
+}
+
+Result<State> Cascade::rest_under(const std::vector<NodeAction>& forces, double t, State state,
+                                  const Watch& watch) {
+  Level& finest = *levels_.back();
+  finest.motion.impose(*finest.system, t, state);
+  finest.system->outside.steady = &forces;
+  auto rest = rest_below(*finest.system, std::move(state), watch);
+  finest.system->outside.steady = nullptr;
+  return rest;
+}
+
+/// Full steps to the equilibrium nearby, stable or not, if there is one.
+bool Cascade::step_to_equilibrium(Level& level, State& state, const Watch& watch) const {
+  State found = state;
+  NewtonOptions options;
+  options.farthest_mm = 0.25 * spacing_mm_;
+  if (newton(*level.system, found, options, watch).outcome != Outcome::reached) return false;
+  state = std::move(found);
+  return true;
+}
+
+/// Down the energy within the forms that the group leaves as they are, to their equilibrium:
+/// round-off grows along modes that break it, so it is taken away every few steps.
+void Cascade::down(Level& level, const std::vector<MeshSymmetry>& group, State& state,
+                   const Watch& watch) const {
+  constexpr int steps = 10, most_rounds = 20;
+  for (int round = 0; round < most_rounds && !watch.cancelled(); ++round) {
+    confine(level.model, level.mesh, group, state);
+    if (step_to_equilibrium(level, state, watch)) break;
+    const NewtonReport report = minimise(
+        *level.system, state, {.tolerance_mm = coarse_mm, .most_iterations = steps}, watch);
+    if (report.outcome == Outcome::not_finite) break;
+  }
+  confine(level.model, level.mesh, group, state);
+}
+
+Result<State> Cascade::rest_confined(double t, const Eigen::Matrix3Xd& nodes,
+                                     const std::vector<int>& group, const Watch& watch) {
+  State state = first_state(t, nodes);
+  for (auto& level : levels_) {
+    if (level->from_coarser) {
+      state = level->from_coarser->carry(state);
+      level->motion.impose(*level->system, t, state);
+    }
+    down(*level, members(level->symmetries, group), state, watch);
+  }
+  Level& finest = *levels_.back();
+  step_to_equilibrium(finest, state, watch);
+  if (finest.system->at(state, false).positive_definite()) return state;
+  return let_go(finest, std::move(state), watch);
+}
+
+/// Off an equilibrium that is not stable along its softest mode, and down. Which of the states
+/// below it that leads to does not matter, so it need not be the slow way of settle().
+Result<State> Cascade::let_go(Level& level, State state, const Watch& watch) const {
+  Eigen::Matrix3Xd mode = softest_mode(*level.system, {}, watch);
+  mode *= push_off * spacing_mm_ / largest_column(mode);
+  move_to(level.model, state.x + mode, state);
+  return rest_below(*level.system, std::move(state), watch);
+}
+
+}  // namespace gridshell

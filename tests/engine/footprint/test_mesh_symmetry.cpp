@@ -1,0 +1,72 @@
+// The maps of the square that a footprint has.
+#include "engine/footprint/mesh_symmetry.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/scene/scene.h"
+#include "engine/solve/motion.h"
+
+using namespace gridshell;
+
+namespace {
+
+std::vector<MeshSymmetry> found(const preset::Preset& preset, int edges) {
+  const Scene scene = scene_of(preset).value();
+  const RodMesh mesh = mesh_rods(scene.footprint, edges);
+  return symmetries_of(mesh, pinned_motion(mesh, scene.motion).at(1));
+}
+
+preset::Preset circle() {
+  preset::Preset p;
+  p.footprint.rods = 6;
+  p.footprint.radius_mm = 66;
+  p.actuation.radius_mm = 55;
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("mesh symmetries: a circle has all sixteen, on every mesh, the identity first") {
+  for (const int edges : {1, 2, 4}) {
+    const auto all = found(circle(), edges);
+    REQUIRE(all.size() == 16);
+    CHECK(all.front().map.isIdentity(0));
+    for (const MeshSymmetry& one : all) {
+      // each is a permutation that comes back
+      std::vector<int> met(one.image.size(), 0);
+      for (const int node : one.image) ++met[std::size_t(node)];
+      CHECK(std::count(met.begin(), met.end(), 1) == long(met.size()));
+    }
+  }
+}
+
+TEST_CASE("mesh symmetries: an ellipse has eight, a cap of a net does not turn over") {
+  preset::Preset ellipse;
+  ellipse.footprint.kind = preset::FootprintKind::curve;
+  ellipse.footprint.boundary.kind = preset::CurveKind::ellipse;
+  ellipse.footprint.boundary.half_x_mm = 90;
+  ellipse.footprint.boundary.half_y_mm = 65;
+  ellipse.actuation.scale = 0.8;
+  const auto oval = found(ellipse, 2);
+  CHECK(oval.size() == 8);
+  for (const MeshSymmetry& one : oval) CHECK(!one.swaps_families());
+  // the hemisphere's boundary is level: what is known of its ends alone does not tell up from down
+  preset::Preset cap;
+  cap.footprint.kind = preset::FootprintKind::net;
+  cap.net.cut_height = 0.5;
+  CHECK(found(cap, 1).size() == 16);
+}
+
+TEST_CASE("mesh symmetries: the symmetric part is what all of them leave") {
+  const auto all = found(circle(), 2);
+  const Eigen::Matrix3Xd rough = Eigen::Matrix3Xd::Random(3, Eigen::Index(all[0].image.size()));
+  const Eigen::Matrix3Xd part = symmetric_part(rough, all);
+  for (const MeshSymmetry& one : all) {
+    CHECK((one.of(part) - part).norm() < 1e-12);
+    CHECK(distance_under(one, part, part) < 1e-12);
+    CHECK(distance_under(one, one.of(rough), rough) < 1e-12);
+  }
+  CHECK((symmetric_part(part, all) - part).norm() < 1e-12);
+  // nothing is left of z where up and down are one
+  CHECK(part.row(2).cwiseAbs().maxCoeff() < 1e-12);
+}

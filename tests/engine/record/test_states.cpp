@@ -1,0 +1,71 @@
+// states.csv, states.json and transitions.csv read back as they were written.
+#include "engine/record/states.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/core/atomic_file.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+
+namespace {
+
+record::StateTables sample() {
+  record::StateTables tables;
+  record::StateRow row;
+  row.state = 1;
+  row.kind = record::StateClass::iv;
+  row.group = "C4v";
+  row.energy_bend_mJ = 39.91;
+  row.inflections = "2 3 2 | 2 3 2";
+  row.count = 6;
+  row.lives_to = 0.0325;
+  tables.rows = {row, row};
+  tables.rows[1].state = 2;
+  tables.rows[1].kind = record::StateClass::other;
+  tables.search.mode = "random";
+  tables.search.trials = 900;
+  tables.search.ended_otherwise["did not come to rest"] = 3;
+  tables.search.completeness = {2, 1, 1, 2.5, 2.1, 9.0};
+  tables.transitions = {{1, 2, "let out", 1}, {1, 0, "poked", 7}};
+  return tables;
+}
+
+}  // namespace
+
+TEST_CASE("state tables: what is written is read back, what is unknown stays so") {
+  const TemporaryFolder folder;
+  const record::StateTables written = sample();
+  REQUIRE(record::write_state_tables(folder.path(), written));
+  const auto read = record::read_state_tables(folder.path());
+  REQUIRE(read);
+  CHECK(record::states_csv(read->rows) == record::states_csv(written.rows));
+  CHECK(record::transitions_csv(read->transitions) == record::transitions_csv(written.transitions));
+  CHECK(record::to_json(read->search) == record::to_json(written.search));
+  CHECK(std::isnan(read->rows[0].eigenvalue_N_per_mm2));
+  CHECK(read->rows[0].lives_to == 0.0325);
+}
+
+TEST_CASE("state tables: damaged ones are refused with file and line") {
+  const TemporaryFolder folder;
+  const record::StateTables written = sample();
+  REQUIRE(record::write_state_tables(folder.path(), written));
+  const auto refused = [&](const char* name, const std::string& text, const std::string& says) {
+    REQUIRE(write_atomically(folder.path() / name, text));
+    const auto read = record::read_state_tables(folder.path());
+    REQUIRE(!read);
+    CHECK(read.error().fault == Fault::bad_input);
+    CHECK(read.error().message.find(says) != std::string::npos);
+    REQUIRE(record::write_state_tables(folder.path(), written));
+  };
+  const std::string table = record::states_csv(written.rows);
+  refused("states.csv", "", "first line");
+  refused("states.csv", table + "3,iv\n", "line 4");
+  refused("states.csv", table + table.substr(table.find('\n') + 1) + "x", "line 6");
+  auto wrong = table;
+  wrong.replace(wrong.find(",iv,"), 4, ",vi,");
+  refused("states.csv", wrong, "class");
+  refused("states.json", "{", "states.json");
+  refused("states.json", R"({"mode": 3})", "states.json");
+  refused("transitions.csv", "from,to\n", "first line");
+}
