@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "engine/core/words.h"
+
 namespace gridshell {
 
 /// What stores energy in a shell. A term more: a line here, one in `energy_terms`, its energy.
@@ -27,6 +29,14 @@ inline constexpr std::array energy_terms{
     TermName{Term::shear, "shear", "resistance of the joints to shear"},
     TermName{Term::load, "load", "minus the work of loads, and what the shell stands on"},
 };
+
+static_assert(
+    [] {
+      for (std::size_t k = 0; k < energy_terms.size(); ++k)
+        if (energy_terms[k].term != Term(k)) return false;
+      return !is_enumerator<Term(energy_terms.size())>();
+    }(),
+    "every term has its line in energy_terms, in their order");
 
 /// Millijoules by term. Sums, differences and multiples go term by term, so that an extrapolation
 /// over two meshes is (4 * fine - coarse) / 3.

@@ -60,7 +60,9 @@ Result<void> Subject::set_up(const preset::Preset& preset) {
                 "a study compares methods on rods for which the bend rung is exact: " +
                     preset::model_reason(preset));
   if (scene->rods.loaded())
-    return fail(Fault::bad_input, "[loads]: a study compares methods on shells without dead loads");
+    return fail(
+        Fault::bad_input,
+        "a study compares methods on shells that bear no [loads] and stand on their ends alone");
   scene_ = std::make_shared<const Scene>(std::move(*scene));
   pushed_ = preset.indentation;
   task_ = pushed_.wanted() ? Task::push : scene_->from_net ? Task::beside_net : Task::actuation;

@@ -7,6 +7,7 @@
 #include "app/pictures.h"
 #include "engine/core/atomic_file.h"
 #include "engine/preset/field_table.h"
+#include "engine/preset/rung.h"
 #include "tests/app/program.h"
 
 namespace fs = std::filesystem;
@@ -83,5 +84,43 @@ TEST_CASE("every key of [movie] and [style] changes how a movie looks, those of 
     change(field, preset);
     INFO(name_of(field));
     CHECK_FALSE(app::style_of(preset, pictures) == before);
+  }
+}
+
+TEST_CASE("every member of a preset has a key") {
+  const fs::path folder = fs::path(GRIDSHELL_SOURCE_DIR) / "engine/preset";
+  const auto header = read_whole(folder / "preset.h").value();
+  std::string tables;
+  for (const auto& file : files_under(folder, ".cpp")) tables += read_whole(file).value();
+  for (const auto& file : files_under(folder, ".h"))
+    if (file.filename() != "preset.h") tables += read_whole(file).value();
+  // "double half_x_mm = 126.0, half_y_mm = 100.0;"
+  const std::regex line("\\n  (?!return|static|const)[A-Za-z_:<>, ]+? (\\w+[^;(){}]*);");
+  const std::regex declared("(?:^|, )(\\w+)");
+  int members = 0;
+  for (std::sregex_iterator at(header.begin(), header.end(), line), end; at != end; ++at) {
+    const std::string names = (*at)[1];
+    for (std::sregex_iterator one(names.begin(), names.end(), declared); one != end; ++one) {
+      ++members;
+      INFO((*one)[1]);
+      CHECK(std::regex_search(tables, std::regex("::" + std::string((*one)[1]) + "\\b")));
+    }
+  }
+  CHECK(members > 80);
+}
+
+TEST_CASE("every key of joints, ends and loads takes a cap off the net, which knows none of them") {
+  // the one counts for spring joints alone, the other for surfaces with rings
+  const std::set<std::string> harmless{"stiffness_N_per_mm", "rings"};
+  Preset cap;
+  cap.footprint.kind = FootprintKind::net;
+  cap.accuracy.tolerance = 0.05;
+  REQUIRE(rung_of(cap) == Rung::net);
+  for (const auto& field : field_table()) {
+    if (field.table != "joints" && field.table != "ends" && field.table != "loads") continue;
+    Preset preset = cap;
+    change(field, preset);
+    INFO(name_of(field));
+    CHECK((rung_of(preset) == Rung::net) == harmless.contains(field.key));
   }
 }
