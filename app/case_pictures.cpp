@@ -49,7 +49,7 @@ Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, render::
 }
 
 bool shown_on_net(const preset::Preset& preset) {
-  return preset.on_net() && !preset.indentation.wanted();
+  return preset.on_net() && !preset.indentation.wanted() && !preset.jitter.wanted();
 }
 
 Result<void> draw_case_figures(std::vector<CaseRecord> records, render::Renderer& renderer,
@@ -60,7 +60,7 @@ Result<void> draw_case_figures(std::vector<CaseRecord> records, render::Renderer
   for (CaseRecord& one : records) {
     if (one.preset.indentation.wanted())
       pushes.push_back(std::move(one));
-    else if (one.preset.on_net() && one.run.layout.net_nodes.size() > 0)
+    else if (shown_on_net(one.preset) && one.run.layout.net_nodes.size() > 0)
       nets.push_back(std::move(one));
   }
   if (!nets.empty())

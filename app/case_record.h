@@ -3,12 +3,14 @@
 
 #include "engine/preset/preset.h"
 #include "engine/record/snapshot.h"
+#include "engine/record/states.h"
 
 namespace gridshell::app {
 
 struct CaseRecord {
   preset::Preset preset;
   record::Trajectory run;
+  record::StateTables states = {};  ///< of a search for states
 };
 
 }  // namespace gridshell::app

@@ -174,6 +174,15 @@ Result<void> check_memory(const fs::path& folder, const FinishedRun& run) {
                   folder.string(), frames.front().nodes.cols(), wanted, given));
 }
 
+Result<record::StateTables> read_states_of(const fs::path& folder, const FinishedRun& run) {
+  auto tables = as_input(record::read_state_tables(folder));
+  if (tables && tables->rows.size() != run.trajectory.frames.size())
+    return no_run(folder,
+                  fmt::format("{} lists {} states, its trajectory has {}", record::states_name,
+                              tables->rows.size(), run.trajectory.frames.size()));
+  return tables;
+}
+
 Result<FinishedRun> read_run(const fs::path& folder, const std::string& name,
                              const std::vector<preset::Override>& overrides, bool unsealed) {
   FinishedRun run;
@@ -192,6 +201,12 @@ Result<FinishedRun> read_run(const fs::path& folder, const std::string& name,
   if (auto fits = check_memory(folder, run); !fits) return tl::unexpected(fits.error());
   run.preset.name = run.summary.preset;
   run.pictures = pictures_of(run, folder);
+  if (run.preset.jitter.wanted()) {
+    auto tables = read_states_of(folder, run);
+    if (!tables) return tl::unexpected(tables.error());
+    run.states = std::move(*tables);
+    run.pictures = Pictures::stills;
+  }
   run.preset.movie.frames = int(run.trajectory.frames.size());
   return run;
 }

@@ -7,6 +7,7 @@
 
 #include "app/options.h"
 #include "app/pictures.h"
+#include "engine/record/states.h"
 #include "engine/record/summary.h"
 
 namespace gridshell::app {
@@ -18,6 +19,7 @@ struct FinishedRun {
   preset::Preset preset;
   record::Trajectory trajectory;
   record::Summary summary;
+  record::StateTables states = {};  ///< of a search for states
   Pictures pictures = Pictures::movie;
   bool in_journal = false;  ///< its files are still to be made of its journal
 };

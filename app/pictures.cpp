@@ -268,6 +268,7 @@ double expected_seconds(Pictures pictures, const preset::Preset& preset) {
     // the stills, and what stands beside nets and loads
     const bool push = preset.indentation.wanted();
     count = std::max(push ? 2.0 : 1.0, double(preset.figure.radii_mm.size()));
+    if (preset.jitter.wanted()) count = preset.jitter.drawn;
     if (push)
       count += 1;
     else if (preset.on_net())

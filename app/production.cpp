@@ -7,13 +7,16 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "app/case_pictures.h"
 #include "app/console.h"
 #include "app/delivery.h"
 #include "app/loading.h"
 #include "app/net_pictures.h"
+#include "app/state_pictures.h"
 #include "engine/core/atomic_file.h"
+#include "engine/experiment/states.h"
 #include "engine/preset/writer.h"
 #include "engine/record/folder_sink.h"
 #include "engine/record/summary_file.h"
@@ -27,7 +30,8 @@ struct Job {
   std::string name;  // of the case, empty without cases
   preset::Preset preset;
   experiment::Plan plan;
-  record::Summary summary;  // once it has run
+  record::Summary summary;     // once it has run
+  record::StateTables states;  // that a search found
   double length_scale_mm = 0;
 };
 
@@ -42,9 +46,16 @@ preset::Preset with_stills(preset::Preset preset, Pictures pictures) {
 Result<std::vector<Job>> jobs_of(const preset::Presets& presets, Pictures pictures) {
   std::vector<Job> jobs;
   for (const auto& run : runs_of(presets)) {
+    if (run.preset.jitter.wanted() && pictures == Pictures::movie)
+      return fail(
+          Fault::bad_input,
+          fmt::format("{}: a search for states ([jitter] trials or confined above 0) has no "
+                      "movie; 'gridshell figure' draws the states, [jitter] trials = 0 "
+                      "and confined = 0 make the actuation's movie",
+                      run.preset.name));
     auto plan = plan_of(run.preset);
     if (!plan) return tl::unexpected(plan.error());
-    jobs.push_back({run.name, with_stills(run.preset, pictures), *plan, {}, 0});
+    jobs.push_back({run.name, with_stills(run.preset, pictures), *plan, {}, {}, 0});
   }
   return jobs;
 }
@@ -55,6 +66,7 @@ double simulation_guess(const Job& job) { return 0.5 + 0.01 * job.preset.movie.f
 bool has_net(const Job& job) { return shown_on_net(job.preset); }
 bool is_push(const preset::Preset& preset) { return preset.indentation.wanted(); }
 bool is_pushed(const Job& job) { return is_push(job.preset); }
+bool is_search(const preset::Preset& preset) { return preset.jitter.wanted(); }
 
 // what is drawn once all cases have run
 bool drawn_beside(const Job& job, Pictures pictures) {
@@ -122,15 +134,26 @@ std::string help_for(const preset::Preset& preset, record::Limit limit) {
   return "what may help: --set accuracy.edges_per_segment=8";
 }
 
+// one run, a path's or a search for states
+Result<record::Summary> run_job(Job& job, Pictures pictures, int threads, record::Sink& sink,
+                                Watch& watch) {
+  if (!is_search(job.preset))
+    return experiment::run(job.preset, pictures == Pictures::stills, sink, watch);
+  return experiment::run_states(job.preset, threads, sink, watch)
+      .map([&](experiment::StateRun run) {
+        job.states = std::move(run.tables);
+        return run.summary;
+      });
+}
+
 // every frame is on the disk as soon as it is found, and all runs before a picture of one is drawn
-Result<void> simulate(Job& job, Pictures pictures, const fs::path& folder, Progress& progress,
-                      std::vector<CaseRecord>& records) {
+Result<void> simulate(Job& job, Pictures pictures, int threads, const fs::path& folder,
+                      Progress& progress, std::vector<CaseRecord>& records) {
   auto made = make_folder(folder).and_then(
       [&] { return write_atomically(folder / "preset.toml", preset::to_toml(job.preset)); });
   if (!made) return made;
   record::FolderSink sink(folder, {job.preset.name, kind_of(pictures)});
-  auto summary =
-      experiment::run(job.preset, pictures == Pictures::stills, sink, progress.next_phase());
+  auto summary = run_job(job, pictures, threads, sink, progress.next_phase());
   if (!summary) {
     Error error = summary.error();
     if (error.fault == Fault::no_equilibrium)
@@ -142,7 +165,10 @@ Result<void> simulate(Job& job, Pictures pictures, const fs::path& folder, Progr
   auto trajectory = sink.finish(job.summary);
   if (!trajectory) return tl::unexpected(trajectory.error());
   job.length_scale_mm = trajectory->layout.length_scale_mm;
-  if (pictures != Pictures::none) records.push_back({job.preset, std::move(*trajectory)});
+  if (is_search(job.preset))
+    if (auto written = record::write_state_tables(folder, job.states); !written) return written;
+  if (pictures != Pictures::none)
+    records.push_back({job.preset, std::move(*trajectory), job.states});
   return {};
 }
 
@@ -151,6 +177,13 @@ Result<void> draw_alone(Job& job, Pictures pictures, const CaseRecord& one, cons
                         const fs::path& folder, Artist& artist, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const bool curve = pictures == Pictures::stills && is_pushed(job);
+  if (is_search(job.preset)) {
+    auto drawn = draw_states(one, artist.renderer(), folder / fs::path(job.preset.name).filename(),
+                             progress.next_phase());
+    job.summary.seconds_render +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return drawn;
+  }
   const auto draw = [&](const record::Trajectory& run) {
     return artist.draw(pictures, job.preset, run, bar, folder, progress.next_phase());
   };
@@ -201,6 +234,12 @@ Result<void> draw_all(std::vector<Job>& jobs, const preset::Preset& base, Pictur
   return {};
 }
 
+// a search is shared by as many threads as there are cores
+int threads_of(const Options& options) {
+  return options.threads > 0 ? options.threads
+                             : std::max(1, int(std::thread::hardware_concurrency()));
+}
+
 Result<void> do_jobs(std::vector<Job>& jobs, const preset::Presets& presets, Pictures pictures,
                      const Options& options, const fs::path& partial, Progress& progress) {
   const preset::Preset& base = presets.base;
@@ -219,7 +258,8 @@ Result<void> do_jobs(std::vector<Job>& jobs, const preset::Presets& presets, Pic
   std::vector<record::Summary> summaries;
   std::vector<CaseRecord> records;
   for (auto& job : jobs)
-    if (auto ended = simulate(job, pictures, folder_of(partial, job.name), progress, records);
+    if (auto ended = simulate(job, pictures, threads_of(options), folder_of(partial, job.name),
+                              progress, records);
         !ended)
       return ended;
   if (artist)
@@ -257,6 +297,7 @@ void print_result(const Job& job, const fs::path& folder) {
     fmt::print("\n  {:.2f} mm from its blocks at most; seams: gap {:.2f} mm, kink {:.1f} degrees",
                at.max_deviation * job.length_scale_mm, at.max_seam_gap_mm, at.max_seam_kink_deg);
   fmt::print("\n");
+  if (is_search(job.preset)) fmt::print("{}", found_text(job.states));
   fmt::print("{}", how_to_make_movie(folder_of(folder, job.name), job.preset));
 }
 

@@ -33,6 +33,9 @@ void print_plan(const preset::Preset& preset, const experiment::Plan& plan) {
              plan.extrapolated ? ", extrapolated" : "");
   fmt::print("  size            {} rods, {} joints, {} cells, {} unknowns\n", plan.rods,
              plan.joints, plan.cells, plan.dof);
+  if (preset.jitter.wanted())
+    fmt::print("  search          {} trials, mode \"{}\", and {} from symmetric forms\n",
+               preset.jitter.trials, word_of(preset.jitter.mode), preset.jitter.confined);
   fmt::print("  memory          about {:.1g} GB\n", plan.memory_GB);
   fmt::print("  expected error  {}\n", or_unknown(plan.expected_error_mm, "mm"));
   fmt::print("  expected time   {} to simulate, {} to draw the movie, {} the figure\n",

@@ -17,6 +17,7 @@
 #include "app/manifest.h"
 #include "app/options.h"
 #include "app/pictures.h"
+#include "app/state_pictures.h"
 #include "engine/core/atomic_file.h"
 #include "engine/record/run_folder.h"
 #include "engine/record/summary_file.h"
@@ -94,6 +95,9 @@ Result<void> draw_run(FinishedRun& run, const SharedBar& bar, Artist& artist, co
   return make_folder(to)
       .and_then([&] {
         if (drawn_beside(run)) return Result<void>{};
+        if (run.preset.jitter.wanted())
+          return draw_states({run.preset, run.trajectory, run.states}, artist.renderer(),
+                             to / fs::path(run.preset.name).filename(), progress.next_phase());
         const bool curve = shows_push(run);
         const record::Trajectory& all = run.trajectory;
         return artist.draw(run.pictures, run.preset, curve ? ends_of(all) : all, bar, to,

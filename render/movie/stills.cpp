@@ -26,7 +26,8 @@ MovieStyle still_style(MovieStyle style) {
 }
 
 // legends of a single still; its caption stands where a movie has its title
-void finish_still(Image& picture, const Stage& stage, const record::Frame& frame, int index) {
+void finish_still(Image& picture, const Stage& stage, const record::Frame& frame, int index,
+                  const std::string& caption) {
   draw_over(picture, [&](Canvas& canvas) {
     stage.draw_overlay(canvas, {frame, index});
     const double em = stage.layout().font_size;
@@ -34,7 +35,7 @@ void finish_still(Image& picture, const Stage& stage, const record::Frame& frame
     const double room = stage.layout().view.right() - 0.9 * em;
     canvas.text(plain(canvas.shortened(stage.style().title, room, title)), {0.9 * em, 0.9 * em},
                 title);
-    canvas.text(still_caption(frame), {0.9 * em, 2.4 * em}, {.size = em, .align_y = AlignY::top});
+    canvas.text(caption, {0.9 * em, 2.4 * em}, {.size = em, .align_y = AlignY::top});
   });
 }
 
@@ -60,12 +61,10 @@ std::filesystem::path with_suffix(const std::filesystem::path& stem, const std::
 
 std::string still_caption(const record::Frame& frame) { return state_captions(frame).front(); }
 
-Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory& run,
-                                                        const MovieStyle& movie_style,
-                                                        const std::optional<ColourBar>& bar,
-                                                        Renderer& renderer,
-                                                        const std::filesystem::path& stem,
-                                                        Watch& watch) {
+Result<std::vector<std::filesystem::path>> write_stills(
+    const record::Trajectory& run, const MovieStyle& movie_style,
+    const std::optional<ColourBar>& bar, Renderer& renderer, const std::filesystem::path& stem,
+    Watch& watch, const std::vector<std::string>& captions) {
   const MovieStyle style = still_style(movie_style);
   if (auto showable = check_showable(run, style); !showable)
     return tl::unexpected(showable.error());
@@ -86,13 +85,14 @@ Result<std::vector<std::filesystem::path>> write_stills(const record::Trajectory
       return fail(Fault::cancelled,
                   fmt::format("stopped after {} of {} stills", k, stage.frames()));
     const record::Frame& frame = run.frames[std::size_t(k)];
+    const std::string caption = captions.empty() ? still_caption(frame) : captions[std::size_t(k)];
     Result<Image> picture = stage.draw_views(renderer, {frame, k});
     if (!picture) return tl::unexpected(picture.error());
     figure.panels.push_back(
         {around(*picture, stage.shell_box()),
          stage.frames() > 1 && style.look.letters ? std::string(1, char('a' + k % 26)) : "",
-         still_caption(frame)});
-    finish_still(*picture, stage, frame, k);
+         caption});
+    finish_still(*picture, stage, frame, k, caption);
     files.push_back(with_suffix(stem, fmt::format("_{}.png", k + 1)));
     if (auto written = write_png(*picture, files.back(), dpi); !written)
       return tl::unexpected(written.error());

@@ -22,9 +22,11 @@ std::string still_caption(const record::Frame& frame);
 /// bar and scale bar (style.scale_bar_mm) as `<stem>_1.png`, `<stem>_2.png` ..., and all of them
 /// side by side, lettered, with one scale bar and one colour bar, as `<stem>.png`. Returns the
 /// files written. Progress and errors as write_movie.
-/// `bar` is a colour bar that several cases share.
+/// `bar` is a colour bar that several cases share; `captions` (marked text, one a frame) stand in
+/// the place of still_caption().
 Result<std::vector<std::filesystem::path>> write_stills(
     const record::Trajectory& run, const MovieStyle& style, const std::optional<ColourBar>& bar,
-    Renderer& renderer, const std::filesystem::path& stem, Watch& watch);
+    Renderer& renderer, const std::filesystem::path& stem, Watch& watch,
+    const std::vector<std::string>& captions = {});
 
 }  // namespace gridshell::render

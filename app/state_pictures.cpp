@@ -1,0 +1,198 @@
+#include "app/state_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "app/pictures.h"
+#include "render/movie/stills.h"
+#include "render/plot/plot.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+using record::StateClass;
+using record::StateRow;
+
+constexpr double high = 62.0 / 88;  // of a plot, over its width
+
+/// "*C*_{4v}" of "C4v"; the place of mirrors is left to the table.
+std::string group_text(const std::string& group) {
+  const std::string name = group.substr(0, group.find('_'));
+  if (name.size() < 2 || name == "flat") return name;
+  return fmt::format("*{}*_{{{}}}", name.substr(0, 1), name.substr(1));
+}
+
+std::string class_text(StateClass kind) {
+  return kind == StateClass::other ? "other" : "state *" + std::string(word_of(kind)) + "*";
+}
+
+std::string caption_of(const StateRow& row, const record::StateSearch& search) {
+  std::string met = fmt::format("met {} in {}", row.count, search.at_rest);
+  if (row.count == 0) met = "from a symmetric form";
+  return fmt::format("{}, {}: {:.2f} mJ, {}", class_text(row.kind), group_text(row.group),
+                     row.energy_mJ(), met);
+}
+
+/// "153 states in 900 trials; about 214 in all (186 to 262)"
+std::string completeness_text(const record::StateTables& states) {
+  const record::Completeness& all = states.search.completeness;
+  return fmt::format("{} states in {} trials; Chao1: {:.0f} in all (95 %: {:.0f} to {:.0f})",
+                     all.seen, states.search.at_rest, all.chao1, all.low, all.high);
+}
+
+/// One series a class, in the order of the paper.
+template <class Value>
+std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Value& value) {
+  constexpr render::Marker markers[] = {render::Marker::square, render::Marker::triangle,
+                                        render::Marker::diamond, render::Marker::square,
+                                        render::Marker::circle};
+  std::vector<render::Series> all;
+  for (const auto& [kind, word] : words(StateClass{})) {
+    render::Series series;
+    series.name = class_text(kind);
+    series.colour = render::series_colour(std::size_t(kind));
+    series.marker = markers[std::size_t(kind)];
+    series.line_width = 0;
+    series.hollow = kind == StateClass::other;
+    for (const StateRow& row : rows) {
+      if (row.kind != kind) continue;
+      series.x.push_back(row.energy_mJ());
+      series.y.push_back(value(row));
+    }
+    if (!series.x.empty()) all.push_back(std::move(series));
+  }
+  // the many others lie below the paper's few
+  std::ranges::reverse(all);
+  return all;
+}
+
+render::Plot energies_plot(const record::StateTables& states) {
+  render::Plot plot;
+  plot.title = completeness_text(states);
+  plot.x = {.label = "elastic energy (mJ)"};
+  plot.y = {.label = "times met", .logarithmic = true, .low = 0.5};
+  plot.legend = render::LegendPlace::upper_right;
+  std::vector<StateRow> met;
+  std::ranges::copy_if(states.rows, std::back_inserter(met),
+                       [](const StateRow& row) { return row.count > 0; });
+  plot.series = by_class(met, [](const StateRow& row) { return double(row.count); });
+  return plot;
+}
+
+render::Plot lives_plot(const record::StateTables& states) {
+  render::Plot plot;
+  plot.title = "How far back along the path the states live";
+  plot.x = {.label = "elastic energy at the end (mJ)"};
+  const bool circle = std::ranges::none_of(
+      states.rows, [](const StateRow& row) { return std::isnan(row.lives_to_radius_mm); });
+  plot.y = {.label = circle ? "largest *R*_{a} (mm)" : "least progress"};
+  plot.series = by_class(states.rows, [&](const StateRow& row) {
+    return circle ? row.lives_to_radius_mm : row.lives_to;
+  });
+  return plot;
+}
+
+/// A marker a way, from the state on one axis to that on the other.
+render::Plot ways_plot(const record::StateTables& states) {
+  render::Plot plot;
+  plot.title = "Which state goes to which";
+  plot.x = {.label = "from state"};
+  plot.y = {.label = "to state (0: one that was not met)"};
+  plot.legend = render::LegendPlace::above;
+  std::map<std::string, render::Series> series;
+  for (const record::Transition& way : states.transitions) {
+    series[way.by].x.push_back(way.from);
+    series[way.by].y.push_back(way.to);
+  }
+  std::size_t k = 0;
+  for (auto& [by, one] : series) {
+    const bool out = by == "let out";
+    one.name = out ? "boundary let out and drawn in again" : by;
+    one.colour = render::series_colour(k++);
+    one.marker = out ? render::Marker::square : render::Marker::circle;
+    one.hollow = out;
+    one.marker_size = out ? 6.5 : 4;
+    one.line_width = 0;
+    plot.series.push_back(std::move(one));
+  }
+  return plot;
+}
+
+/// The states to draw alone, each in its actuated boundary.
+record::Trajectory drawn(const record::Trajectory& run, const std::vector<std::size_t>& which) {
+  record::Trajectory few;
+  few.layout = run.layout;
+  few.layout.original_boundary = run.layout.actuated_boundary;
+  for (const std::size_t k : which) few.frames.push_back(run.frames[k]);
+  return few;
+}
+
+}  // namespace
+
+std::vector<std::size_t> states_to_draw(const std::vector<StateRow>& rows, int most) {
+  std::vector<std::size_t> order(rows.size()), chosen;
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  const auto choose = [&](std::size_t k) {
+    if (int(chosen.size()) < most && std::ranges::find(chosen, k) == chosen.end())
+      chosen.push_back(k);
+  };
+  for (const auto& [kind, word] : words(StateClass{})) {
+    const auto first = std::ranges::find(rows, kind, &StateRow::kind);
+    if (kind != StateClass::other && first != rows.end()) choose(std::size_t(first - rows.begin()));
+  }
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return rows[k].count; });
+  for (const std::size_t k : order) choose(k);
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
+std::string found_text(const record::StateTables& states) {
+  const record::StateSearch& search = states.search;
+  const record::Completeness& all = search.completeness;
+  std::string text = fmt::format(
+      "  {} of {} trials came to rest, in {} states ({} once, {} twice); Chao1: {:.0f} in all, 95 "
+      "%: "
+      "{:.0f} to {:.0f}\n",
+      search.at_rest, search.trials, all.seen, all.once, all.twice, all.chao1, all.low, all.high);
+  if (search.confined_trials > 0)
+    text += fmt::format("  {} of {} begun in symmetric forms; {} states in all\n",
+                        search.confined_at_rest, search.confined_trials, states.rows.size());
+  if (search.finer_lost + search.finer_merged > 0)
+    text += fmt::format("  of {} on {} edges a segment, finer meshes lose {} and merge {}\n",
+                        search.found, search.judged_edges, search.finer_lost, search.finer_merged);
+  for (const auto& [why, count] : search.ended_otherwise)
+    text += fmt::format("  {} trials: {}\n", count, why);
+  for (const std::size_t k : states_to_draw(states.rows, 4)) {
+    const StateRow& row = states.rows[k];
+    text += fmt::format(
+        "  state {}: {}, class {}, {:.3f} mJ of bending, height {:.2f} mm, met {}\n", row.state,
+        row.group, word_of(row.kind), row.energy_bend_mJ, row.height_mm, row.count);
+  }
+  return text;
+}
+
+Result<void> draw_states(const CaseRecord& one, render::Renderer& renderer, const fs::path& stem,
+                         Watch& watch) {
+  const auto style = style_of(one.preset, Pictures::stills);
+  const record::StateTables& states = one.states;
+  const auto which = states_to_draw(states.rows, one.preset.jitter.drawn);
+  std::vector<std::string> captions;
+  for (const std::size_t k : which) captions.push_back(caption_of(states.rows[k], states.search));
+  const auto plot_at = [&](const char* suffix, const render::Plot& plot) {
+    return render::write_plot(fs::path(stem) += suffix, plot, style.print, high);
+  };
+  return render::write_stills(drawn(one.run, which), style, {}, renderer, stem, watch, captions)
+      .map([](const auto&) {})
+      .and_then([&] { return plot_at("_energies", energies_plot(states)); })
+      .and_then([&] { return plot_at("_lives", lives_plot(states)); })
+      .and_then([&]() -> Result<void> {
+        if (states.transitions.empty()) return {};
+        return plot_at("_ways", ways_plot(states));
+      });
+}
+
+}  // namespace gridshell::app
