@@ -63,14 +63,19 @@ inline void add_bend_gradient(const ModelEdge& e, const ModelEdge& f, const Bend
 /// H of the edge vectors becomes H of the nodes: e = b - a, f = c - b.
 inline void add_bend_hessian(const ModelEdge& e, const ModelEdge& f, BlockSlot second,
                              const BendEnergy& bend, BlockHessian& h) {
-  h.diagonal[std::size_t(e.from)] += bend.hessian_ee;
-  h.diagonal[std::size_t(f.to)] += bend.hessian_ff;
-  const Eigen::Matrix3d ab = bend.hessian_ef - bend.hessian_ee;
-  const Eigen::Matrix3d bc = bend.hessian_ef - bend.hessian_ff;
-  h.diagonal[std::size_t(e.to)] -= ab + bc.transpose();
+  const Block3 &ee = bend.hessian_ee, &ef = bend.hessian_ef, &ff = bend.hessian_ff;
+  Block3 fe, ab = ef, bc = ef, ac = {};
+  transpose(ef, fe);
+  ab -= ee;
+  bc -= ff;
+  ac -= ef;
+  h.diagonal[std::size_t(e.from)] += ee;
+  h.diagonal[std::size_t(f.to)] += ff;
+  Block3& middle = h.diagonal[std::size_t(e.to)];
+  for (int j = 0; j < 3; ++j) middle.column[j] -= ab.column[j] + (fe.column[j] - ff.column[j]);
   h.add(e.slot, ab);
   h.add(f.slot, bc);
-  h.add(second, -bend.hessian_ef);
+  h.add(second, ac);
 }
 
 /// Edges one after another, and every bend with its two edges: on_edge(k, edge, geometry),
@@ -143,15 +148,15 @@ void add_pair_gradient(const Model& model, const Pair<Law>& pair, const PairEner
 /// m stands at (a, b) and transposed at (b, a)
 void add_block(int a, int b, BlockSlot slot, const Eigen::Matrix3d& m, BlockHessian& h) {
   if (a == b)
-    h.diagonal[std::size_t(a)] += m + m.transpose();
+    h.diagonal[std::size_t(a)].matrix() += m + m.transpose();
   else
     h.add(slot, m);
 }
 
 /// An edge vector's own stiffness at its two nodes.
 void add_edge_block(const ModelEdge& edge, const Eigen::Matrix3d& m, BlockHessian& h) {
-  h.diagonal[std::size_t(edge.from)] += m;
-  h.diagonal[std::size_t(edge.to)] += m;
+  h.diagonal[std::size_t(edge.from)].matrix() += m;
+  h.diagonal[std::size_t(edge.to)].matrix() += m;
   h.add(edge.slot, -m);
 }
 
@@ -168,11 +173,11 @@ void add_spin_hessian(const Model& model, const Pair<Law>& pair, const PairMatri
       h.add(pair.slots.spin[end][k], block);
     }
   for (int k = 0; k < 2; ++k)
-    h.diagonal[std::size_t(place[k] / 3)](place[k] % 3, place[k] % 3) +=
+    h.diagonal[std::size_t(place[k] / 3)].matrix()(place[k] % 3, place[k] % 3) +=
         scale * scale * H(6 + k, 6 + k);
   const double across = scale * scale * H(6, 7);
   if (place[0] / 3 == place[1] / 3) {
-    Eigen::Matrix3d& own = h.diagonal[std::size_t(place[0] / 3)];
+    auto own = h.diagonal[std::size_t(place[0] / 3)].matrix();
     own(place[0] % 3, place[1] % 3) += across;
     own(place[1] % 3, place[0] % 3) += across;
   } else {
@@ -212,8 +217,8 @@ void add_others(const Model& model, const State& state, const Outside& outside, 
     out.gradient.col(spring.law.b) += pull;
     if (!with_hessian) continue;
     const Eigen::Matrix3d m = spring.law.stiffness * Eigen::Matrix3d::Identity();
-    out.hessian.diagonal[std::size_t(spring.law.a)] += m;
-    out.hessian.diagonal[std::size_t(spring.law.b)] += m;
+    out.hessian.diagonal[std::size_t(spring.law.a)].matrix() += m;
+    out.hessian.diagonal[std::size_t(spring.law.b)].matrix() += m;
     out.hessian.add(spring.slot, -m);
   }
   each_action(model, outside, [&](const NodeAction& action, double factor) {
@@ -221,7 +226,8 @@ void add_others(const Model& model, const State& state, const Outside& outside, 
     out.energies[action.term] += factor * action.value(x);
     out.gradient.col(action.node) += factor * action.gradient(x);
     if (with_hessian)
-      out.hessian.diagonal[std::size_t(action.node)].diagonal() += factor * action.stiffness;
+      out.hessian.diagonal[std::size_t(action.node)].matrix().diagonal() +=
+          factor * action.stiffness;
   });
 }
 
@@ -274,12 +280,15 @@ void rod_hessian(const Model& model, const State& state, const Stiffness& how, A
         add_stretch(edge, k, EA, g, out);
         add_pull(edge, out.force[k] * g.tangent, out);
         const double geometric = (how.mixed ? state.force[k] : out.force[k]) / g.length;
-        Eigen::Matrix3d stiffness =
-            g.tangent * ((EA / edge.rest_length - geometric) * g.tangent).transpose();
-        stiffness.diagonal().array() += geometric;
+        Column along;
+        load(g.tangent, along);
+        Block3 stiffness, across = {};
+        add_product(along, (EA / edge.rest_length - geometric) * g.tangent, stiffness);
+        add_diagonal(geometric, stiffness);
         h.diagonal[std::size_t(edge.from)] += stiffness;
         h.diagonal[std::size_t(edge.to)] += stiffness;
-        h.add(edge.slot, -stiffness);
+        across -= stiffness;
+        h.add(edge.slot, across);
       },
       [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
         const ModelEdge &edge_e = model.edges[std::size_t(bend.e)],
@@ -337,12 +346,12 @@ void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matr
               Eigen::Matrix3Xd& y) {
   y.resize(3, model.columns());
   for (int column = 0; column < model.columns(); ++column)
-    y.col(column).noalias() = hessian.diagonal[std::size_t(column)] * x.col(column);
+    y.col(column).noalias() = hessian.diagonal[std::size_t(column)].matrix() * x.col(column);
   const auto& pairs = model.pattern.pairs();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [row, column] = pairs[k];
-    y.col(row).noalias() += hessian.pair[k] * x.col(column);
-    y.col(column).noalias() += hessian.pair[k].transpose() * x.col(row);
+    y.col(row).noalias() += hessian.pair[k].matrix() * x.col(column);
+    y.col(column).noalias() += hessian.pair[k].matrix().transpose() * x.col(row);
   }
 }
 

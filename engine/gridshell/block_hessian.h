@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/block3.h"
+
 namespace gridshell {
 
 /// A block's place: its pair's index, twice, plus one where the block is the pair's transposed.
@@ -29,22 +31,32 @@ class BlockPattern {
 
 /// Blocks on the diagonal, one a column, and beside it, one a pair of the pattern. N/mm.
 struct BlockHessian {
-  std::vector<Eigen::Matrix3d> diagonal, pair;
+  std::vector<Block3> diagonal, pair;
 
   void reset(std::size_t columns, std::size_t pairs) {
-    diagonal.assign(columns, Eigen::Matrix3d::Zero());
-    pair.assign(pairs, Eigen::Matrix3d::Zero());
+    diagonal.assign(columns, {});
+    pair.assign(pairs, {});
   }
-  template <class Block>
-  void add(BlockSlot slot, const Block& block) {
+  void add(BlockSlot slot, const Block3& block) {
+    Block3& known = pair[std::size_t(slot >> 1)];
+    if (slot & 1) {
+      Block3 transposed;
+      transpose(block, transposed);
+      known += transposed;
+    } else {
+      known += block;
+    }
+  }
+  template <class Matrix>
+  void add(BlockSlot slot, const Eigen::MatrixBase<Matrix>& block) {
     if (slot & 1)
-      pair[std::size_t(slot >> 1)] += block.transpose();
+      pair[std::size_t(slot >> 1)].matrix() += block.transpose();
     else
-      pair[std::size_t(slot >> 1)] += block;
+      pair[std::size_t(slot >> 1)].matrix() += block;
   }
   void add_entry(BlockSlot slot, int row, int column, double value) {
     if (slot & 1) std::swap(row, column);
-    pair[std::size_t(slot >> 1)](row, column) += value;
+    pair[std::size_t(slot >> 1)].matrix()(row, column) += value;
   }
 };
 

@@ -115,9 +115,11 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, Rung rung
   }
   auto model = build_model(nodes, rods, rung, crossings);
   if (!model) return model;
-  if (rung == Rung::twist) add_joints(mesh, shell.joints, *model);
+  if (rung == Rung::twist) {
+    add_joints(mesh, shell.joints, *model);
+    finish(*model);
+  }
   model->loads = dead_loads(mesh, shell);
-  finish(*model);
   lay_flat(mesh, *model);
   return model;
 }

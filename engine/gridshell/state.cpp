@@ -10,6 +10,13 @@ Eigen::Vector3d tangent_of(const Model& model, const Eigen::Matrix3Xd& x, int ed
   return (x.col(e.to) - x.col(e.from)).normalized();
 }
 
+Eigen::Matrix3Xd tangents_of(const Model& model, const Eigen::Matrix3Xd& x) {
+  Eigen::Matrix3Xd tangents(3, Eigen::Index(model.edges.size()));
+  for (int edge = 0; edge < int(model.edges.size()); ++edge)
+    tangents.col(edge) = tangent_of(model, x, edge);
+  return tangents;
+}
+
 /// the ghost's node `length` beyond the end
 void put_ghost(const Model& model, int ghost, bool at_end, const Eigen::Vector3d& direction,
                Eigen::Matrix3Xd& x) {
@@ -31,11 +38,11 @@ void put_ghosts(const Model& model, Eigen::Matrix3Xd& x) {
   }
 }
 
-void carry_reference_twist(const Model& model, State& state) {
+void carry_reference_twist(const Model& model, const Eigen::Matrix3Xd& tangents, State& state) {
   for (std::size_t k = 0; k < model.bends.size(); ++k) {
-    const auto [e, f] = std::pair(model.bends[k].e, model.bends[k].f);
-    const double now = reference_twist(state.director.col(e), tangent_of(model, state.x, e),
-                                       state.director.col(f), tangent_of(model, state.x, f));
+    const int e = model.bends[k].e, f = model.bends[k].f;
+    const double now = reference_twist(state.director.col(e), tangents.col(e),
+                                       state.director.col(f), tangents.col(f));
     double& known = state.reference_twist[Eigen::Index(k)];
     known = unwrapped(now, known);
   }
@@ -51,17 +58,17 @@ State start_state(const Model& model, const Eigen::Matrix3Xd& x) {
   if (!model.has_spins()) return state;
   state.director.resize(3, edges);
   state.reference_twist = Eigen::VectorXd::Zero(Eigen::Index(model.bends.size()));
+  const Eigen::Matrix3Xd tangents = tangents_of(model, state.x);
   for (const Model::Rod& rod : model.rods) {
-    Eigen::Vector3d before = tangent_of(model, state.x, rod.edges.front());
-    Eigen::Vector3d director = normal_near(rod.director, before);
+    int before = rod.edges.front();
+    Eigen::Vector3d director = normal_near(rod.director, tangents.col(before));
     for (int edge : rod.edges) {
-      const Eigen::Vector3d here = tangent_of(model, state.x, edge);
-      director = carried_director(director, before, here);
+      director = carried_director(director, tangents.col(before), tangents.col(edge));
       state.director.col(edge) = director;
-      before = here;
+      before = edge;
     }
   }
-  carry_reference_twist(model, state);
+  carry_reference_twist(model, tangents, state);
   return state;
 }
 
@@ -70,11 +77,12 @@ void move_to(const Model& model, const Eigen::Matrix3Xd& x, State& state) {
     state.x = x;
     return;
   }
+  const Eigen::Matrix3Xd before = tangents_of(model, state.x), after = tangents_of(model, x);
   for (int edge = 0; edge < int(model.edges.size()); ++edge)
-    state.director.col(edge) = carried_director(
-        state.director.col(edge), tangent_of(model, state.x, edge), tangent_of(model, x, edge));
+    state.director.col(edge) =
+        carried_director(state.director.col(edge), before.col(edge), after.col(edge));
   state.x = x;
-  carry_reference_twist(model, state);
+  carry_reference_twist(model, after, state);
 }
 
 void set_end_direction(const Model& model, int rod, bool at_end, const Eigen::Vector3d& direction,

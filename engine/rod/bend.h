@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "engine/core/block3.h"
 #include "engine/rod/edge.h"
 
 namespace gridshell {
@@ -13,8 +14,8 @@ namespace gridshell {
 /// `stiffness` is 2EI/l (mJ).
 struct BendEnergy {
   double value = 0;
-  Eigen::Vector3d gradient_e, gradient_f;  ///< with respect to the edge vectors e, f (N)
-  Eigen::Matrix3d hessian_ee, hessian_ef, hessian_ff;  ///< N/mm
+  Eigen::Vector3d gradient_e, gradient_f;     ///< with respect to the edge vectors e, f (N)
+  Block3 hessian_ee, hessian_ef, hessian_ff;  ///< N/mm
 };
 
 inline double bend_value(double stiffness, const EdgeGeometry& e, const EdgeGeometry& f) {
@@ -48,23 +49,23 @@ inline void bend_hessian(double stiffness, const EdgeGeometry& e, const EdgeGeom
   out.gradient_f = by_c * q;
 
   // one outer product each: fold the rank-one terms that share a factor
-  const double ce = by_c * c * ie * ie, cf = by_c * c * jf * jf;
-  const Eigen::Vector3d pe = by_cc * p - (by_c * ie) * te, se = ce * te - (by_c * ie) * p;
-  const Eigen::Vector3d qf = by_cc * q - (by_c * jf) * tf, sf = cf * tf - (by_c * jf) * q;
-  out.hessian_ee.noalias() = p * pe.transpose();
-  out.hessian_ee.noalias() += te * se.transpose();
-  out.hessian_ee.diagonal().array() -= ce;
-  out.hessian_ff.noalias() = q * qf.transpose();
-  out.hessian_ff.noalias() += tf * sf.transpose();
-  out.hessian_ff.diagonal().array() -= cf;
-
-  const double cross = by_c * ie * jf;
-  const Eigen::Vector3d on_q = by_cc * p;
-  const Eigen::Vector3d on_tf = cross * (c * te - tf), on_te = -cross * te;
-  out.hessian_ef.noalias() = on_q * q.transpose();
-  out.hessian_ef.noalias() += on_tf * tf.transpose();
-  out.hessian_ef.noalias() += on_te * te.transpose();
-  out.hessian_ef.diagonal().array() += cross;
+  Column along_p, along_q, along_e, along_f;
+  load(p, along_p);
+  load(q, along_q);
+  load(te, along_e);
+  load(tf, along_f);
+  const double ce = by_c * c * ie * ie, cf = by_c * c * jf * jf, cross = by_c * ie * jf;
+  out.hessian_ee = out.hessian_ef = out.hessian_ff = {};
+  add_product(along_p, by_cc * p - (by_c * ie) * te, out.hessian_ee);
+  add_product(along_e, ce * te - (by_c * ie) * p, out.hessian_ee);
+  add_diagonal(-ce, out.hessian_ee);
+  add_product(along_q, by_cc * q - (by_c * jf) * tf, out.hessian_ff);
+  add_product(along_f, cf * tf - (by_c * jf) * q, out.hessian_ff);
+  add_diagonal(-cf, out.hessian_ff);
+  add_product(along_p, by_cc * q, out.hessian_ef);
+  add_product(cross * (c * along_e - along_f), tf, out.hessian_ef);
+  add_product(-cross * along_e, te, out.hessian_ef);
+  add_diagonal(cross, out.hessian_ef);
 }
 
 }  // namespace gridshell

@@ -27,7 +27,7 @@ double material_bend_value(const MaterialBend& bend, const Eigen::Vector2d& w) {
   return 0.5 * (bend.stiffness.array() * (w - bend.rest).array().square()).sum();
 }
 
-void add_binormal_curvature(const Eigen::Vector3d& Y, const CurvatureBinormal& b, PairMatrix& out) {
+void add_binormal_curvature(const Eigen::Vector3d& Y, const BinormalSlopes& b, PairMatrix& out) {
   const double k = Y.dot(b.kb), i = 1 / b.chi;
   const Eigen::Vector3d yp = b.by_p.transpose() * Y, yq = b.by_q.transpose() * Y;
   const Eigen::Vector3d hp = b.P * b.s, hq = b.Q * b.t;  // slopes of chi
@@ -44,8 +44,8 @@ void add_binormal_curvature(const Eigen::Vector3d& Y, const CurvatureBinormal& b
   out.block<3, 3>(3, 0) += pq.transpose();
 }
 
-double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu,
-                         const CurvatureBinormal& b, PairEnergy& out) {
+double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const BinormalSlopes& b,
+                         PairEnergy& out) {
   const Eigen::Vector2d w = mu.transpose() * b.kb;
   const Eigen::Vector2d g = bend.stiffness.array() * (w - bend.rest).array();
   PairVector phi;
@@ -72,13 +72,13 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu,
 
 double SectionBending::value(const PairGeometry& at) const {
   return material_bend_value(
-      bend, frame_of(at).transpose() * curvature_binormal(at.e.tangent, at.f.tangent));
+      bend, frame_of(at).transpose() * curvature_binormal(at.e.tangent, at.f.tangent).kb);
 }
 
 double SectionBending::add(const PairGeometry& at, PairEnergy& out) const {
   PairEnergy here;
-  const double value = add_material_bend(
-      bend, frame_of(at), binormal_with_derivatives(at.e.tangent, at.f.tangent), here);
+  const double value =
+      add_material_bend(bend, frame_of(at), binormal_with_slopes(at.e.tangent, at.f.tangent), here);
   scale_to_edges(at.e.length, at.f.length, here);
   out += here;
   return value;

@@ -27,13 +27,13 @@ HalfwayFrame halfway_frame(const Eigen::Vector3d& tangent, const Eigen::Vector3d
 double material_bend_value(const MaterialBend& bend, const Eigen::Vector2d& w);
 
 /// Y.kb'' for a fixed Y normal to t, as a symmetric matrix (increments), added to `out`.
-void add_binormal_curvature(const Eigen::Vector3d& Y, const CurvatureBinormal& b, PairMatrix& out);
+void add_binormal_curvature(const Eigen::Vector3d& Y, const BinormalSlopes& b, PairMatrix& out);
 
 /// Adds gradient and Hessian in increments; returns the value. With phi' = theta_e' + tau'/2,
 ///   w'  = mu.kb' - i phi' w,
 ///   w'' = mu.kb'' + (mu.p)(kb.p) - 2i phi' mu.kb' - i phi'' w - phi'^2 w.
-double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu,
-                         const CurvatureBinormal& b, PairEnergy& out);
+double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const BinormalSlopes& b,
+                         PairEnergy& out);
 
 /// Bending of a section with axes, or of a rod curved at rest, between two edges that follow one
 /// another.

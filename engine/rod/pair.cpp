@@ -21,16 +21,13 @@ Eigen::Matrix3d symmetric_product(const Eigen::Vector3d& a, const Eigen::Vector3
   return m + m.transpose();
 }
 
-Eigen::Vector3d curvature_binormal(const Eigen::Vector3d& t, const Eigen::Vector3d& s) {
-  return 2 / (1 + t.dot(s)) * t.cross(s);
+CurvatureBinormal curvature_binormal(const Eigen::Vector3d& t, const Eigen::Vector3d& s) {
+  const double chi = 1 + t.dot(s);
+  return {t, s, 2 / chi * t.cross(s), chi};
 }
 
-CurvatureBinormal binormal_with_derivatives(const Eigen::Vector3d& t, const Eigen::Vector3d& s) {
-  CurvatureBinormal b;
-  b.t = t;
-  b.s = s;
-  b.chi = 1 + t.dot(s);
-  b.kb = 2 / b.chi * t.cross(s);
+BinormalSlopes binormal_with_slopes(const Eigen::Vector3d& t, const Eigen::Vector3d& s) {
+  BinormalSlopes b{curvature_binormal(t, s), {}, {}, {}, {}};
   b.P = Eigen::Matrix3d::Identity() - t * t.transpose();
   b.Q = Eigen::Matrix3d::Identity() - s * s.transpose();
   b.by_p.noalias() = -(2 * cross_matrix(s) + b.kb * s.transpose()) / b.chi * b.P;

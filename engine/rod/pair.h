@@ -37,19 +37,22 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 /// (a b^T + b a^T)/2
 Eigen::Matrix3d symmetric_product(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
-/// kb = 2 t x s/chi, chi = 1 + t.s of unit tangents t (of e) and s (of f), and its derivative by
-/// the increments p = de/|e|, q = df/|f|:
-/// by_p = -(2 [s]x + kb s^T) (I - t t^T)/chi, by_q = (2 [t]x - kb t^T) (I - s s^T)/chi.
+/// kb = 2 t x s/chi, chi = 1 + t.s of unit tangents t (of e) and s (of f).
 struct CurvatureBinormal {
   Eigen::Vector3d t, s, kb;
   double chi = 2;
+};
+
+/// Its derivative by the increments p = de/|e|, q = df/|f|:
+/// by_p = -(2 [s]x + kb s^T) (I - t t^T)/chi, by_q = (2 [t]x - kb t^T) (I - s s^T)/chi.
+struct BinormalSlopes : CurvatureBinormal {
   Eigen::Matrix3d P, Q;  ///< I - t t^T, I - s s^T
   Eigen::Matrix3d by_p, by_q;
 };
 
-Eigen::Vector3d curvature_binormal(const Eigen::Vector3d& t, const Eigen::Vector3d& s);
+CurvatureBinormal curvature_binormal(const Eigen::Vector3d& t, const Eigen::Vector3d& s);
 
-CurvatureBinormal binormal_with_derivatives(const Eigen::Vector3d& t, const Eigen::Vector3d& s);
+BinormalSlopes binormal_with_slopes(const Eigen::Vector3d& t, const Eigen::Vector3d& s);
 
 /// From increments p, q to edge vectors: e counts 1/|e|, f counts 1/|f|.
 void scale_to_edges(double length_e, double length_f, PairEnergy& out);

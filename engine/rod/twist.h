@@ -8,13 +8,12 @@ namespace gridshell {
 
 /// Twist tau = theta_f - theta_e + m_ref. With the frames carried along straight lines, by
 /// increments p = de/|e|, q = df/|f|:
-///   tau'  = kb.(p + q)/2 + theta_f' - theta_e',
-///   tau'' = kb'.(P p + Q q)/2 - (t.p)(kb.p) - (s.q)(kb.q).
+///   tau'  = kb.(p + q)/2 + theta_f' - theta_e'.
 /// The printed second derivatives of m_ref are the derivative of kb/(2|e|); that is not symmetric,
-/// as carrying a frame round a loop turns it. The symmetric part is the Hessian.
-PairVector twist_slope(const CurvatureBinormal& b);
-
-/// out += weight * tau'' as a symmetric matrix (increments).
+/// as carrying a frame round a loop turns it. The symmetric part is the Hessian: with m = (t +
+/// s)/chi and sym(a, b) = (a b^T + b a^T)/2,
+///   H_pp = -sym(t + m, kb)/2, H_qq = -sym(s + m, kb)/2, H_pq = ([m]x - sym(m, kb))/2.
+/// out += weight * tau'' (increments).
 void add_twist_curvature(double weight, const CurvatureBinormal& b, PairMatrix& out);
 
 /// E = stiffness/2 (tau - tau_0)^2, `stiffness` = GJ/l (mJ), `excess` = tau - tau_0; in increments.

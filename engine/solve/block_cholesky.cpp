@@ -1,11 +1,11 @@
-// 3x3-block signed Cholesky. The structure is fixed, so every block update has its place worked out
-// once: column k of the factor is finished, then subtracts its outer product from the columns right
-// of it (right-looking), its blocks read in a row and the targets listed one after another.
+// 3x3-block Cholesky L D L^T by panels, columns beside one another that have the same rows below
+// them [supernodes: Ng, Peyton 1993]. The structure is fixed, so every block update has its place
+// worked out once: a panel is finished, then subtracts its outer product from the columns right of
+// it (right-looking), each target read and written once a panel.
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
+#include <utility>
 
+#include "engine/core/block3.h"
 #include "engine/core/clones.h"
 #include "engine/solve/linear_solver.h"
 #include "engine/solve/ordering.h"
@@ -13,116 +13,193 @@
 namespace gridshell {
 namespace {
 
-// x, y, z and a zero. The alignment is stated, as the clones below would each assume their own.
-typedef double Column __attribute__((vector_size(32), aligned(32)));
-
-/// A 3x3 block by columns.
-struct alignas(32) Block3 {
-  Column column[3];
-};
-
 /// A node's part of a right-hand side. (std::vector<Column> would forget the alignment.)
 struct alignas(32) Entry {
   Column value;
 };
-static_assert(alignof(Block3) == 32 && alignof(Entry) == 32 && sizeof(Entry) == sizeof(Column));
+static_assert(alignof(Entry) == 32 && sizeof(Entry) == sizeof(Column));
+
+constexpr int widest_panel = 8;  // columns; wider ones would not stay in the nearest cache
 
 /// The plan and the numbers of one factor; plain arrays for the loops below.
 struct Factor {
   int columns = 0;
   std::vector<int> first;   // columns + 1: first off-diagonal block of each column
   std::vector<int> row;     // its row (in elimination order)
-  std::vector<int> target;  // per pair (a <= b) of a column's rows: block that it updates
-  std::vector<long long> first_target;  // per column
+  std::vector<int> panel;   // first column of each, and columns
+  std::vector<int> target;  // per pair (a <= b) of the rows below a panel: block that it updates
+  std::vector<long long> first_target;  // per panel
   std::vector<Block3> diagonal, below;  // targets < columns are diagonal, the rest is below
-  std::vector<std::array<double, 3>> sign;
+  std::vector<Entry> inverse;           // of the pivots
 };
 
-/// L S L^T of a diagonal block in place (lower part); returns false for a pivot that cannot be
-/// used.
-inline bool factor_diagonal(Block3& d, std::array<double, 3>& sign, Inertia& inertia) {
-  for (int k = 0; k < 3; ++k) {
-    double pivot = d.column[k][k];
-    for (int m = 0; m < k; ++m) pivot -= d.column[m][k] * d.column[m][k] * sign[m];
-    const double size = std::abs(pivot);
-    if (!(size > 1e-300 && size < 1e300)) return false;
-    sign[k] = pivot < 0 ? -1.0 : 1.0;
-    inertia.negative_pivots += pivot < 0;
-    inertia.smallest_pivot = std::min(inertia.smallest_pivot, size);
-    inertia.largest_pivot = std::max(inertia.largest_pivot, size);
-    const double root = std::sqrt(size);
-    d.column[k][k] = root;
-    for (int i = k + 1; i < 3; ++i) {
-      double value = d.column[k][i];
-      for (int m = 0; m < k; ++m) value -= d.column[m][i] * d.column[m][k] * sign[m];
-      d.column[k][i] = value * sign[k] / root;
-    }
+/// L D L^T of a diagonal block in place: L below the diagonal, whose ones are not kept, D on it;
+/// returns false for a pivot that cannot be used. Nothing but the pivots' inverses is divided for,
+/// as columns wait for one another.
+inline bool factor_diagonal(Block3& m, Column& inverse, Inertia& inertia) {
+  Column* d = m.column;
+  inverse[0] = 1 / d[0][0];
+  const double l10 = d[0][1] * inverse[0], l20 = d[0][2] * inverse[0];
+  d[1][1] -= l10 * d[0][1];
+  const double c21 = d[1][2] - l20 * d[0][1];
+  inverse[1] = 1 / d[1][1];
+  const double l21 = c21 * inverse[1];
+  d[2][2] -= l20 * d[0][2] + l21 * c21;
+  inverse[2] = 1 / d[2][2];
+  d[0][1] = l10;
+  d[0][2] = l20;
+  d[1][2] = l21;
+  for (int k = 0; k < 3; ++k) inertia.take(d[k][k]);
+  return inertia.usable;
+}
+
+/// Column k of L, once nothing more is subtracted from it.
+inline bool finish_column(Factor& f, int k, Inertia& inertia) {
+  const Column* d = f.diagonal[k].column;
+  const Column& inverse = f.inverse[k].value;
+  if (!factor_diagonal(f.diagonal[k], f.inverse[k].value, inertia)) return false;
+  const double l10 = d[0][1], l20 = d[0][2], l21 = d[1][2];
+  for (int i = f.first[k]; i < f.first[k + 1]; ++i) {
+    Column* b = f.below[i].column;
+    b[1] -= l10 * b[0];
+    b[2] -= l20 * b[0] + l21 * b[1];
+    for (int j = 0; j < 3; ++j) b[j] *= inverse[j];
   }
   return true;
 }
 
-GRIDSHELL_CLONES
-bool factor_numbers(Factor& f, Inertia& inertia) {
-  for (int k = 0; k < f.columns; ++k) {
-    Block3& d = f.diagonal[k];
-    std::array<double, 3>& s = f.sign[k];
-    if (!factor_diagonal(d, s, inertia)) return false;
-    const double r0 = s[0] / d.column[0][0], r1 = s[1] / d.column[1][1], r2 = s[2] / d.column[2][2];
-    const double l10 = d.column[0][1] * s[0], l20 = d.column[0][2] * s[0],
-                 l21 = d.column[1][2] * s[1];
-    const int begin = f.first[k], end = f.first[k + 1];
-    for (int i = begin; i < end; ++i) {
-      Block3& b = f.below[i];
-      b.column[0] *= r0;
-      b.column[1] = (b.column[1] - l10 * b.column[0]) * r1;
-      b.column[2] = (b.column[2] - l20 * b.column[0] - l21 * b.column[1]) * r2;
-    }
-    const int* target = f.target.data() + f.first_target[k];
-    for (int a = begin; a < end; ++a) {
-      const Block3& la = f.below[a];
-      const Column m0 = la.column[0] * s[0], m1 = la.column[1] * s[1], m2 = la.column[2] * s[2];
-      Block3* place = &f.diagonal[*target++];
-      for (int b = a;;) {
-        const Block3& lb = f.below[b];
-        for (int j = 0; j < 3; ++j)
-          place->column[j] -= lb.column[0] * m0[j] + lb.column[1] * m1[j] + lb.column[2] * m2[j];
-        if (++b == end) break;
-        place = &f.below[*target++];
-      }
+/// L_a D of one block of column k, by entries.
+struct Scaled {
+  double entry[3][3];
+  inline void take(const Factor& f, int k, const Block3& la) {
+    const Column* d = f.diagonal[k].column;
+    for (int i = 0; i < 3; ++i) {
+      const Column m = la.column[i] * d[i][i];
+      for (int j = 0; j < 3; ++j) entry[i][j] = m[j];
     }
   }
-  return true;
+};
+
+/// target -= L_b D L_a^T
+inline void subtract(const Block3& lb, const Scaled& la, Block3& target) {
+  for (int j = 0; j < 3; ++j)
+    target.column[j] -= lb.column[0] * la.entry[0][j] + lb.column[1] * la.entry[1][j] +
+                        lb.column[2] * la.entry[2][j];
+}
+
+/// The same for `tile` targets and the columns of a panel, whose blocks stand at lb[column][0 ...].
+template <int tile>
+inline void subtract_panel(const Block3* const* lb, const Scaled* la, int width, const int* target,
+                           Block3* below) {
+  Column sum[tile][3];
+  for (int t = 0; t < tile; ++t)
+    for (int j = 0; j < 3; ++j) sum[t][j] = below[target[t]].column[j];
+  for (int c = 0; c < width; ++c)
+    for (int i = 0; i < 3; ++i)
+      for (int t = 0; t < tile; ++t)
+        for (int j = 0; j < 3; ++j) sum[t][j] -= lb[c][t].column[i] * la[c].entry[i][j];
+  for (int t = 0; t < tile; ++t)
+    for (int j = 0; j < 3; ++j) below[target[t]].column[j] = sum[t][j];
+}
+
+/// Subtracts a column's outer product from the rest of its panel, which ends before column `end`.
+inline void update_within(Factor& f, int k, int end) {
+  Scaled la;
+  for (int a = k + 1; a < end; ++a) {
+    const Block3* lb = &f.below[f.first[k] + a - k - 1];
+    la.take(f, k, *lb);
+    subtract(*lb, la, f.diagonal[a]);
+    const int rows = f.first[a + 1] - f.first[a];
+    for (int i = 0; i < rows; ++i) subtract(lb[1 + i], la, f.below[f.first[a] + i]);
+  }
+}
+
+/// Subtracts the outer product of a panel of one column.
+inline void update_narrow(Factor& f, int k, const int* target) {
+  Scaled la;
+  for (int a = f.first[k]; a < f.first[k + 1]; ++a) {
+    la.take(f, k, f.below[a]);
+    subtract(f.below[a], la, f.diagonal[*target++]);
+    for (int b = a + 1; b < f.first[k + 1]; ++b) subtract(f.below[b], la, f.below[*target++]);
+  }
+}
+
+/// Subtracts the outer product of the panel of columns `begin` to `end`.
+inline void update_wide(Factor& f, int begin, int end, const int* target) {
+  const int width = end - begin, rows = f.first[end] - f.first[end - 1];
+  const Block3* lb[widest_panel];
+  Scaled la[widest_panel];
+  for (int a = 0; a < rows; ++a) {
+    for (int c = 0; c < width; ++c) {
+      lb[c] = &f.below[f.first[begin + c + 1] - rows + a];
+      la[c].take(f, begin + c, *lb[c]);
+    }
+    const auto next = [&](int tile) {
+      target += tile;
+      for (int c = 0; c < width; ++c) lb[c] += tile;
+    };
+    subtract_panel<1>(lb, la, width, target, f.diagonal.data());
+    next(1);
+    int left = rows - a - 1;
+    for (; left >= 3; left -= 3, next(3)) subtract_panel<3>(lb, la, width, target, f.below.data());
+    for (; left > 0; --left, next(1)) subtract_panel<1>(lb, la, width, target, f.below.data());
+  }
+}
+
+GRIDSHELL_CLONES
+void factor_numbers(Factor& f, Inertia& inertia) {
+  for (std::size_t p = 0; p + 1 < f.panel.size(); ++p) {
+    const int begin = f.panel[p], end = f.panel[p + 1];
+    for (int k = begin; k < end; ++k) {
+      if (!finish_column(f, k, inertia)) return;
+      update_within(f, k, end);
+    }
+    const int* target = f.target.data() + f.first_target[p];
+    if (end - begin == 1)
+      update_narrow(f, begin, target);
+    else
+      update_wide(f, begin, end, target);
+  }
 }
 
 GRIDSHELL_CLONES
 void solve_numbers(const Factor& f, Entry* x) {
   for (int k = 0; k < f.columns; ++k) {
-    const Block3& d = f.diagonal[k];
-    Column v = x[k].value;
-    v[0] = v[0] / d.column[0][0];
-    v[1] = (v[1] - d.column[0][1] * v[0]) / d.column[1][1];
-    v[2] = (v[2] - d.column[0][2] * v[0] - d.column[1][2] * v[1]) / d.column[2][2];
-    x[k].value = v;
+    const Column* d = f.diagonal[k].column;
+    Column& v = x[k].value;
+    v[1] -= d[0][1] * v[0];
+    v[2] -= d[0][2] * v[0] + d[1][2] * v[1];
+    const Column value = v;
     for (int i = f.first[k]; i < f.first[k + 1]; ++i) {
-      const Block3& b = f.below[i];
-      x[f.row[i]].value -= b.column[0] * v[0] + b.column[1] * v[1] + b.column[2] * v[2];
+      const Column* b = f.below[i].column;
+      x[f.row[i]].value -= b[0] * value[0] + b[1] * value[1] + b[2] * value[2];
     }
+    v = value * f.inverse[k].value;
   }
   for (int k = f.columns - 1; k >= 0; --k) {
-    const Block3& d = f.diagonal[k];
+    const Column* d = f.diagonal[k].column;
     Column sum[3] = {};
     for (int i = f.first[k]; i < f.first[k + 1]; ++i) {
-      const Block3& b = f.below[i];
-      const Column y = x[f.row[i]].value;
-      for (int j = 0; j < 3; ++j) sum[j] += b.column[j] * y;
+      const Column* b = f.below[i].column;
+      for (int j = 0; j < 3; ++j) sum[j] += b[j] * x[f.row[i]].value;
     }
-    Column v = x[k].value;
-    for (int j = 0; j < 3; ++j) v[j] = v[j] * f.sign[k][j] - (sum[j][0] + sum[j][1] + sum[j][2]);
-    v[2] = v[2] / d.column[2][2];
-    v[1] = (v[1] - d.column[1][2] * v[2]) / d.column[1][1];
-    v[0] = (v[0] - d.column[0][1] * v[1] - d.column[0][2] * v[2]) / d.column[0][0];
-    x[k].value = v;
+    Column& v = x[k].value;
+    for (int j = 0; j < 3; ++j) v[j] -= sum[j][0] + sum[j][1] + sum[j][2];
+    v[1] -= d[1][2] * v[2];
+    v[0] -= d[0][1] * v[1] + d[0][2] * v[2];
   }
+}
+
+/// Where a block of the Hessian goes: from the pair `from` to the block `to` below the diagonal.
+struct Move {
+  int from, to;
+};
+
+GRIDSHELL_CLONES
+void copy_blocks(const std::vector<Block3>& pair, const std::vector<Move>& straight,
+                 const std::vector<Move>& turned, std::vector<Block3>& below) {
+  for (const auto& [from, to] : straight) below[std::size_t(to)] = pair[std::size_t(from)];
+  for (const auto& [from, to] : turned) transpose(pair[std::size_t(from)], below[std::size_t(to)]);
 }
 
 class BlockCholesky final : public LinearSolver {
@@ -135,17 +212,16 @@ class BlockCholesky final : public LinearSolver {
       place_[order_[k]] = int(k);
       column_.push_back(model.free_columns[std::size_t(order_[k])]);
     }
-    const auto structure = eliminate(graph);
-    lay_out(structure);
-    plan_updates(structure);
-    plan_scatter();
+    find_structure(graph);
+    find_panels();
+    plan_updates();
+    plan_copies();
   }
 
   Inertia factor(const BlockHessian& hessian, double shift) override {
-    scatter(hessian, shift);
-    Inertia inertia;
-    inertia.smallest_pivot = 1e300;
-    inertia.usable = factor_numbers(factor_, inertia);
+    fill(hessian, shift);
+    Inertia inertia = Inertia::of_nothing();
+    factor_numbers(factor_, inertia);
     return inertia;
   }
 
@@ -153,8 +229,7 @@ class BlockCholesky final : public LinearSolver {
     work_.resize(order_.size());
     std::vector<Entry>& x = work_;
     for (std::size_t k = 0; k < order_.size(); ++k) {
-      const auto v = b.col(column_[k]);
-      x[k].value = Column{v[0], v[1], v[2], 0};
+      load(b.col(column_[k]), x[k].value);
       for (int c = 0; partly_[k] && c < 3; ++c)
         if (model_.held[std::size_t(column_[k])] >> c & 1) x[k].value[c] = 0;
     }
@@ -169,39 +244,31 @@ class BlockCholesky final : public LinearSolver {
   }
 
  private:
-  using Structure = std::vector<std::vector<int>>;
-
-  /// rows below the diagonal of each column of L, in elimination order
-  Structure eliminate(const std::vector<std::vector<int>>& graph) const {
+  /// rows below the diagonal of each column of L, in elimination order: the Hessian's own and those
+  /// of the columns whose first row it is, its children in the elimination tree
+  void find_structure(const std::vector<std::vector<int>>& graph) {
     const int n = int(order_.size());
-    Structure structure(n);
-    std::vector<std::vector<int>> children(n);
-    std::vector<int> seen(n, -1);
+    factor_.columns = n;
+    factor_.first.assign(1, 0);
+    std::vector<int>& rows = factor_.row;
+    std::vector<int> last_child(std::size_t(n), -1), child_before(std::size_t(n), -1),
+        seen(std::size_t(n), -1);
     for (int k = 0; k < n; ++k) {
-      std::vector<int>& rows = structure[k];
+      const std::size_t begin = rows.size();
       seen[k] = k;
       const auto take = [&](int row) {
         if (row > k && seen[row] != k) seen[row] = k, rows.push_back(row);
       };
       for (int other : graph[order_[k]]) take(place_[other]);
-      for (int child : children[k])
-        for (int row : structure[child]) take(row);
-      std::sort(rows.begin(), rows.end());
-      if (!rows.empty()) children[rows.front()].push_back(k);
+      for (int child = last_child[k]; child >= 0; child = child_before[child])
+        for (int i = factor_.first[child]; i < factor_.first[child + 1]; ++i) take(rows[i]);
+      std::sort(rows.begin() + long(begin), rows.end());
+      factor_.first.push_back(int(rows.size()));
+      if (rows.size() > begin) child_before[k] = std::exchange(last_child[rows[begin]], k);
     }
-    return structure;
-  }
-
-  void lay_out(const Structure& structure) {
-    factor_.columns = int(structure.size());
-    factor_.first.assign(1, 0);
-    for (const auto& rows : structure) {
-      factor_.row.insert(factor_.row.end(), rows.begin(), rows.end());
-      factor_.first.push_back(int(factor_.row.size()));
-    }
-    factor_.diagonal.resize(structure.size());
-    factor_.below.resize(factor_.row.size());
-    factor_.sign.resize(structure.size());
+    factor_.diagonal.resize(std::size_t(n));
+    factor_.inverse.resize(std::size_t(n));
+    factor_.below.resize(rows.size());
   }
 
   int slot(int row, int column) const {
@@ -210,63 +277,77 @@ class BlockCholesky final : public LinearSolver {
     return int(std::lower_bound(begin, end, row) - factor_.row.begin());
   }
 
-  void plan_updates(const Structure& structure) {
-    for (const auto& rows : structure) {
+  int rows_below(int column) const { return factor_.first[column + 1] - factor_.first[column]; }
+
+  void find_panels() {
+    std::vector<int>& panel = factor_.panel;
+    for (int k = 0; k < factor_.columns; ++k) {
+      const bool same =
+          k > 0 && rows_below(k - 1) == rows_below(k) + 1 && factor_.row[factor_.first[k - 1]] == k;
+      if (!same || k - panel.back() == widest_panel) panel.push_back(k);
+    }
+    panel.push_back(factor_.columns);
+  }
+
+  void plan_updates() {
+    std::size_t updates = 0;
+    for (std::size_t p = 0; p + 1 < factor_.panel.size(); ++p) {
+      const std::size_t rows = std::size_t(rows_below(factor_.panel[p + 1] - 1));
+      updates += rows * (rows + 1) / 2;
+    }
+    factor_.target.reserve(updates);
+    const std::vector<int>& row = factor_.row;
+    for (std::size_t p = 0; p + 1 < factor_.panel.size(); ++p) {
       factor_.first_target.push_back((long long)factor_.target.size());
-      for (std::size_t a = 0; a < rows.size(); ++a) {
-        factor_.target.push_back(rows[a]);
-        // the rows of column rows[a] contain all later rows of this one: walk both at once
-        int at = factor_.first[rows[a]];
-        for (std::size_t b = a + 1; b < rows.size(); ++b) {
-          while (factor_.row[at] != rows[b]) ++at;
+      const int last = factor_.panel[p + 1] - 1, end = factor_.first[last + 1];
+      for (int a = factor_.first[last]; a < end; ++a) {
+        factor_.target.push_back(row[a]);
+        // the rows of column row[a] contain all later rows of this one: walk both at once
+        int at = factor_.first[row[a]];
+        for (int b = a + 1; b < end; ++b) {
+          while (row[at] != row[b]) ++at;
           factor_.target.push_back(at);
         }
       }
     }
   }
 
-  void plan_scatter() {
-    const auto plan = [&](int first, int second) {
-      const int a = model_.free_index[first], b = model_.free_index[second];
-      if (a < 0 || b < 0) return Scatter{-1, false};
-      const int ka = place_[a], kb = place_[b];
-      // the block's row is `first`; it is stored below the diagonal with the later node as row
-      return ka > kb ? Scatter{slot(ka, kb), false} : Scatter{slot(kb, ka), true};
-    };
-    for (const auto& [row, column] : model_.pattern.pairs()) pairs_.push_back(plan(row, column));
+  void plan_copies() {
+    std::vector<char> filled(factor_.below.size(), 0);
+    const auto& pattern = model_.pattern.pairs();
+    for (int k = 0; k < int(pattern.size()); ++k) {
+      const auto [row, column] = pattern[std::size_t(k)];
+      const int a = model_.free_index[std::size_t(row)], b = model_.free_index[std::size_t(column)];
+      if (a < 0 || b < 0) continue;
+      // the block is stored with the later node as row
+      const bool turn = place_[a] < place_[b];
+      const int to = turn ? slot(place_[b], place_[a]) : slot(place_[a], place_[b]);
+      filled[std::size_t(to)] = 1;
+      const bool partly = model_.held[std::size_t(row)] || model_.held[std::size_t(column)];
+      (turn ? turned_ : straight_).push_back({k, to});
+      if (partly) (turn ? partly_turned_ : partly_straight_).push_back({k, to});
+    }
+    for (int to = 0; to < int(filled.size()); ++to)
+      if (!filled[std::size_t(to)]) empty_.push_back(to);
     for (int column : column_) partly_.push_back(model_.held[std::size_t(column)] != 0);
   }
 
-  struct Scatter {
-    int slot;
-    bool transposed;
-  };
-
-  static void put(const Eigen::Matrix3d& m, bool transposed, Block3& b) {
-    for (int c = 0; c < 3; ++c)
-      b.column[c] =
-          transposed ? Column{m(c, 0), m(c, 1), m(c, 2), 0} : Column{m(0, c), m(1, c), m(2, c), 0};
-  }
-
-  bool partly_held(int column) const { return model_.held[std::size_t(column)] != 0; }
-
-  void scatter(const BlockHessian& hessian, double shift) {
-    std::memset(static_cast<void*>(factor_.below.data()), 0, factor_.below.size() * sizeof(Block3));
+  void fill(const BlockHessian& hessian, double shift) {
+    copy_blocks(hessian.pair, straight_, turned_, factor_.below);
+    for (int to : empty_) factor_.below[std::size_t(to)] = {};
+    const auto held_pair = [&](int pair) {
+      const auto [row, column] = model_.pattern.pairs()[std::size_t(pair)];
+      return without_held(model_, row, column, hessian.pair[std::size_t(pair)].matrix());
+    };
+    for (const auto& [from, to] : partly_straight_)
+      factor_.below[std::size_t(to)].matrix() = held_pair(from);
+    for (const auto& [from, to] : partly_turned_)
+      factor_.below[std::size_t(to)].matrix() = held_pair(from).transpose();
     for (std::size_t k = 0; k < column_.size(); ++k) {
       Block3& d = factor_.diagonal[k];
-      const int column = column_[k];
-      const Eigen::Matrix3d& own = hessian.diagonal[std::size_t(column)];
-      put(partly_[k] ? without_held(model_, column, column, own) : own, false, d);
-      for (int c = 0; c < 3; ++c) d.column[c][c] += shift;
-    }
-    const auto& pattern = model_.pattern.pairs();
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      if (pairs_[k].slot < 0) continue;
-      const auto [row, column] = pattern[k];
-      const Eigen::Matrix3d& own = hessian.pair[k];
-      const bool partly = partly_held(row) || partly_held(column);
-      put(partly ? without_held(model_, row, column, own) : own, pairs_[k].transposed,
-          factor_.below[std::size_t(pairs_[k].slot)]);
+      d = hessian.diagonal[std::size_t(column_[k])];
+      if (partly_[k]) d.matrix() = without_held(model_, column_[k], column_[k], d.matrix());
+      add_diagonal(shift, d);
     }
   }
 
@@ -274,7 +355,10 @@ class BlockCholesky final : public LinearSolver {
   std::vector<int> order_, place_;  // elimination order of free columns, and its inverse
   std::vector<int> column_;         // of the model, in elimination order
   std::vector<char> partly_;        // whether some of it is held
-  std::vector<Scatter> pairs_;      // where each pair's block goes
+  // where the blocks of pairs go, as they are or transposed; those of columns that are partly held
+  // go there again without what is held
+  std::vector<Move> straight_, turned_, partly_straight_, partly_turned_;
+  std::vector<int> empty_;  // blocks below the diagonal that the Hessian does not have
   Factor factor_;
   mutable std::vector<Entry> work_;  // of solve()
 };

@@ -143,14 +143,14 @@ class CholmodSolver final : public LinearSolver {
     for (int k = 0; k < model_.free(); ++k) {
       const int column = model_.free_columns[std::size_t(k)];
       const Eigen::Matrix3d d =
-          without_held(model_, column, column, hessian.diagonal[std::size_t(column)]);
+          without_held(model_, column, column, hessian.diagonal[std::size_t(column)].matrix());
       for (int c = 0; c < 3; ++c)
         for (int r = c; r < 3; ++r)
           value[start[3 * k + c] + r - c] = d(r, c) + (r == c ? shift : 0);
     }
     const auto& pattern = model_.pattern.pairs();
     for (std::size_t k = 0; k < pairs_.size(); ++k)
-      put(without_held(model_, pattern[k][0], pattern[k][1], hessian.pair[k]), pairs_[k]);
+      put(without_held(model_, pattern[k][0], pattern[k][1], hessian.pair[k].matrix()), pairs_[k]);
   }
 
   void clear_held_rows(Eigen::Matrix3Xd& b) const {

@@ -50,9 +50,10 @@ bool DampedMotion::implicit(const Eigen::Matrix3Xd& aim, const Eigen::Matrix3Xd&
       return false;
     dx = force - assembly_.gradient - stiffness * mass_.cwiseProduct(state.x - aim);
     for (int column : model_.free_columns)
-      assembly_.hessian.diagonal[std::size_t(column)].diagonal() += stiffness * mass_.col(column);
+      assembly_.hessian.diagonal[std::size_t(column)].matrix().diagonal() +=
+          stiffness * mass_.col(column);
     for (const Hold& hold : holds_)
-      assembly_.hessian.diagonal[std::size_t(hold.node)] +=
+      assembly_.hessian.diagonal[std::size_t(hold.node)].matrix() +=
           stiffness * held_mass * whole_mass_ * hold.directions * hold.directions.transpose();
     clear_prescribed(dx);
     if (!solver_->factor(assembly_.hessian, 0).usable) return false;

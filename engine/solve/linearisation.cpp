@@ -20,7 +20,7 @@ Inertia Linearisation::at(const State& state, bool mixed, double shift, double E
   assemble_hessian(model_, state, outside, {mixed, EA_scale}, assembly_);
   tangents_ = assembly_.tangents;
   for (const Hold& hold : holds_)
-    assembly_.hessian.diagonal[std::size_t(hold.node)] +=
+    assembly_.hessian.diagonal[std::size_t(hold.node)].matrix() +=
         border_stiffness * hold.directions * hold.directions.transpose();
   return shifted(shift);
 }

@@ -56,7 +56,8 @@ bool euler_step(const Model& model, const Eigen::Matrix3Xd& mass, double h, doub
     if (grown(assembly)) return false;
     dx = -assembly.gradient;
     for (int node : model.free_columns) {
-      assembly.hessian.diagonal[std::size_t(node)].diagonal().array() += inertia * mass(0, node);
+      assembly.hessian.diagonal[std::size_t(node)].matrix().diagonal().array() +=
+          inertia * mass(0, node);
       dx.col(node) += mass(0, node) * (moving.velocity.col(node) / h -
                                        inertia * (state.x.col(node) - moving.state.x.col(node)));
     }

@@ -69,7 +69,8 @@ TEST_CASE("bend: value, gradient and Hessian agree with automatic differentiatio
     Six gradient;
     gradient << bend.gradient_e, bend.gradient_f;
     Eigen::Matrix<double, 6, 6> hessian;
-    hessian << bend.hessian_ee, bend.hessian_ef, bend.hessian_ef.transpose(), bend.hessian_ff;
+    hessian << bend.hessian_ee.matrix(), bend.hessian_ef.matrix(),
+        bend.hessian_ef.matrix().transpose(), bend.hessian_ff.matrix();
     CHECK(bend.value == Approx(exact.value).epsilon(1e-9));
     CHECK((gradient - exact.gradient).norm() <= 1e-10 * (1 + exact.gradient.norm()));
     CHECK((hessian - exact.hessian).norm() <= 1e-10 * (1 + exact.hessian.norm()));

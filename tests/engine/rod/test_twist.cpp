@@ -91,7 +91,7 @@ TEST_CASE("twist: gradient and Hessian agree with automatic differentiation") {
     const Sample at = random_sample(random, trial < 30 ? 0.1 : 1);
     if (at.t().dot(at.s()) < -0.8) continue;
     PairEnergy out;
-    add_twist(at.GJ_l, at.tau() - at.tau_0, binormal_with_derivatives(at.t(), at.s()), out);
+    add_twist(at.GJ_l, at.tau() - at.tau_0, binormal_with_slopes(at.t(), at.s()), out);
     scale_to_edges(at.e.norm(), at.f.norm(), out);
     check(out, definitions(at).twist);
   }
@@ -104,8 +104,7 @@ TEST_CASE("material bend: value, gradient and Hessian agree with automatic diffe
     if (at.t().dot(at.s()) < -0.8) continue;
     const HalfwayFrame mu = halfway_frame(at.t(), at.director_e, at.theta_e + at.tau() / 2);
     PairEnergy out;
-    const double value =
-        add_material_bend(at.bend, mu, binormal_with_derivatives(at.t(), at.s()), out);
+    const double value = add_material_bend(at.bend, mu, binormal_with_slopes(at.t(), at.s()), out);
     scale_to_edges(at.e.norm(), at.f.norm(), out);
     const T exact = definitions(at).bend;
     CHECK(value == Approx(exact.v).epsilon(1e-12));
@@ -121,7 +120,7 @@ TEST_CASE("material bend: equal stiffness and no curvature at rest is the round 
     const HalfwayFrame mu = halfway_frame(at.t(), at.director_e, at.theta_e + at.tau() / 2);
     PairEnergy material, round;
     const double value =
-        add_material_bend(at.bend, mu, binormal_with_derivatives(at.t(), at.s()), material);
+        add_material_bend(at.bend, mu, binormal_with_slopes(at.t(), at.s()), material);
     scale_to_edges(at.e.norm(), at.f.norm(), material);
     const EdgeGeometry e{at.t(), at.e.norm()}, f{at.s(), at.f.norm()};
     const double w = 1 / (1 + at.t().dot(at.s()));

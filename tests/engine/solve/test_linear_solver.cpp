@@ -77,8 +77,8 @@ TEST_CASE("factorisations: a singular or infinite matrix is not usable") {
   System system = bent(70, 6, 2);
   const auto solver = make_block_cholesky(system.model);
   for (double bad : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
-    for (auto& block : system.assembly.hessian.diagonal) block.setConstant(bad);
-    for (auto& block : system.assembly.hessian.pair) block.setConstant(bad);
+    for (auto& block : system.assembly.hessian.diagonal) block.matrix().setConstant(bad);
+    for (auto& block : system.assembly.hessian.pair) block.matrix().setConstant(bad);
     CHECK_FALSE(solver->factor(system.assembly.hessian, 0).usable);
   }
 }

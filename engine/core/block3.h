@@ -1,0 +1,62 @@
+// A 3x3 block in registers: what assembly and factorisation spend their time on.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace gridshell {
+
+/// x, y, z and a zero: one register with AVX. The alignment is stated, as clones (clones.h) would
+/// each assume their own. Handed on by reference, as they would not agree on registers either.
+typedef double Column __attribute__((vector_size(32), aligned(32)));
+
+inline void load(const Eigen::Vector3d& v, Column& column) { column = Column{v[0], v[1], v[2], 0}; }
+
+/// A 3x3 block by columns.
+struct alignas(32) Block3 {
+  Column column[3] = {};
+
+  /// The same numbers as a matrix.
+  auto matrix() {
+    return Eigen::Map<Eigen::Matrix3d, Eigen::Unaligned, Eigen::OuterStride<4>>(
+        reinterpret_cast<double*>(column));
+  }
+  auto matrix() const {
+    return Eigen::Map<const Eigen::Matrix3d, Eigen::Unaligned, Eigen::OuterStride<4>>(
+        reinterpret_cast<const double*>(column));
+  }
+};
+static_assert(alignof(Block3) == 32 && sizeof(Block3) == 3 * sizeof(Column));
+
+inline void operator+=(Block3& a, const Block3& b) {
+  for (int j = 0; j < 3; ++j) a.column[j] += b.column[j];
+}
+
+inline void operator-=(Block3& a, const Block3& b) {
+  for (int j = 0; j < 3; ++j) a.column[j] -= b.column[j];
+}
+
+/// m += a b^T
+inline void add_product(const Column& a, const Eigen::Vector3d& b, Block3& m) {
+  for (int j = 0; j < 3; ++j) m.column[j] += a * b[j];
+}
+
+/// m += value I
+inline void add_diagonal(double value, Block3& m) {
+  m.column[0] += Column{value, 0, 0, 0};
+  m.column[1] += Column{0, value, 0, 0};
+  m.column[2] += Column{0, 0, value, 0};
+}
+
+/// out = m^T
+inline void transpose(const Block3& m, Block3& out) {
+  const Column zero = {};
+  const Column even = __builtin_shufflevector(m.column[0], m.column[1], 0, 4, 2, 6),
+               odd = __builtin_shufflevector(m.column[0], m.column[1], 1, 5, 3, 7),
+               last_even = __builtin_shufflevector(m.column[2], zero, 0, 4, 2, 6),
+               last_odd = __builtin_shufflevector(m.column[2], zero, 1, 5, 3, 7);
+  out.column[0] = __builtin_shufflevector(even, last_even, 0, 1, 4, 5);
+  out.column[1] = __builtin_shufflevector(odd, last_odd, 0, 1, 4, 5);
+  out.column[2] = __builtin_shufflevector(even, last_even, 2, 3, 6, 7);
+}
+
+}  // namespace gridshell
