@@ -1,4 +1,5 @@
 // CPU time of what a movie frame costs beside its 3D picture: captions, colour bar, top view, PNG.
+// `--json` writes the figures as JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "render/image/png.h"
 #include "render/movie/stage.h"
+#include "tests/bench/figures.h"
 #include "tests/render/synthetic.h"
 
 using namespace gridshell;
@@ -39,7 +41,8 @@ double median(std::vector<double> times) {
 
 }  // namespace
 
-int main() {
+int main(int count, char** arguments) {
+  Figures figures(count, arguments);
   const record::Trajectory run = synthetic::dome(25, 16);
   for (const auto& [width, height] : {std::pair{1280, 720}, std::pair{1920, 1080}}) {
     render::MovieStyle style;
@@ -60,7 +63,10 @@ int main() {
       encode.push_back(cpu_ms() - finished);
       if (!bytes) return 1;
     }
-    fmt::print("{} x {}: overlay {:.1f} ms, PNG {:.1f} ms CPU (medians of {} frames)\n", width,
+    fmt::print(figures.lines(),
+               "{} x {}: overlay {:.1f} ms, PNG {:.1f} ms CPU (medians of {} frames)\n", width,
                height, median(overlay), median(encode), overlay.size());
+    figures.add(fmt::format("{} x {}, overlay, ms", width, height), median(overlay));
+    figures.add(fmt::format("{} x {}, PNG, ms", width, height), median(encode));
   }
 }

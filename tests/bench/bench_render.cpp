@@ -1,5 +1,6 @@
 // CPU time of a frame by quality, off-screen: medians in ms, their ratios to a plain frame, and the
 // way back from the graphics side. Usage: bench_render [auto|osmesa|egl] [frames]
+// [--json]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "render/context/context.h"
 #include "render/draw/renderer.h"
 #include "render/gl/target.h"
+#include "tests/bench/figures.h"
 #include "tests/render/draw/square_shell.h"
 
 using namespace gridshell;
@@ -52,7 +54,7 @@ struct Case {
   }
 };
 
-void measure(Context& context, int width, int height, int frames) {
+void measure(Context& context, int width, int height, int frames, Figures& figures) {
   const auto shell = test::square_shell(17, 9);
   const Drawing drawing = test::square_drawing(shell);
   Camera camera;
@@ -72,13 +74,15 @@ void measure(Context& context, int width, int height, int frames) {
       if (frame >= 0) c.ms.push_back(cpu_ms() - before);
     }
   const double plain = cases[0].median();
-  for (Case& c : cases)
-    fmt::print("{:>5} x {:<5} {:<14} {:8.1f} ms {:6.2f} of plain\n", width, height, c.name,
-               c.median(), c.median() / plain);
+  for (Case& c : cases) {
+    fmt::print(figures.lines(), "{:>5} x {:<5} {:<14} {:8.1f} ms {:6.2f} of plain\n", width, height,
+               c.name, c.median(), c.median() / plain);
+    figures.add(fmt::format("{} x {}, {}, ms", width, height, c.name), c.median());
+  }
 }
 
 /// The way of a drawn frame into memory alone.
-void measure_read_back(Context& context, int width, int height, int frames) {
+void measure_read_back(Context& context, int width, int height, int frames, Figures& figures) {
   const Gl gl = value(Gl::load(context));
   Target target(gl, Target::Depth::none);
   Image image(width, height);
@@ -93,20 +97,24 @@ void measure_read_back(Context& context, int width, int height, int frames) {
     ms.push_back(cpu_ms() - before);
   }
   std::nth_element(ms.begin(), ms.begin() + frames / 2, ms.end());
-  fmt::print("{:>5} x {:<5} {:<14} {:8.1f} ms\n", width, height, "read-back", ms[frames / 2]);
+  fmt::print(figures.lines(), "{:>5} x {:<5} {:<14} {:8.1f} ms\n", width, height, "read-back",
+             ms[frames / 2]);
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-  const std::string kind = count > 1 ? arguments[1] : "auto";
-  const int frames = count > 2 ? std::max(1, std::atoi(arguments[2])) : 15;
+  Figures figures(count, arguments);
+  const auto& words = figures.words();
+  const std::string kind = words.empty() ? "auto" : words[0];
+  const int frames = words.size() > 1 ? std::max(1, std::atoi(words[1].c_str())) : 15;
   const auto context = value(Context::create(kind == "egl"      ? ContextKind::egl
                                              : kind == "osmesa" ? ContextKind::osmesa
                                                                 : ContextKind::automatic));
-  fmt::print("{}: 4896 rod segments, 289 joints, 256 cells; median CPU time of {} frames\n",
+  fmt::print(figures.lines(),
+             "{}: 4896 rod segments, 289 joints, 256 cells; median CPU time of {} frames\n",
              context->kind_name(), frames);
-  measure(*context, 1280, 720, frames);
-  measure_read_back(*context, 1280, 720, frames);
-  measure(*context, 1920, 1080, std::max(1, frames / 3));
+  measure(*context, 1280, 720, frames, figures);
+  measure_read_back(*context, 1280, 720, frames, figures);
+  measure(*context, 1920, 1080, std::max(1, frames / 3), figures);
 }

@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 
 #include "engine/solve/buckle.h"
 #include "engine/solve/nested.h"
+#include "tests/bench/figures.h"
 
 using namespace gridshell;
 
@@ -80,7 +80,7 @@ double largest_joint_error(const NestedShell& shell, const NestedShell& referenc
   return largest_column(shell.state().x.leftCols(joints) - reference.state().x.leftCols(joints));
 }
 
-void paper_shell(int runs) {
+void paper_shell(int runs, Figures& figures) {
   const Watch watch;
   const Case c = circle(12);
   const LevelPlan fine{{4, 8, 16, 32, 64}, true};
@@ -101,8 +101,9 @@ void paper_shell(int runs) {
   cholmod->factor(hessian, 0);
   const double F = median(20 * runs, [&] { cholmod->factor(hessian, 0); });
   const double block_factor = median(20 * runs, [&] { block->factor(hessian, 0); });
-  fmt::print("F = {:.3f} ms (dof {})   block factorisation {:.2f} F\n", 1e3 * F,
+  fmt::print(figures.lines(), "F = {:.3f} ms (dof {})   block factorisation {:.2f} F\n", 1e3 * F,
              reference.model(0).dof(), block_factor / F);
+  figures.add("block factorisation, F", block_factor / F);
 
   const auto path = [&](const char* name, const LevelPlan& plan, double tolerance, int frames,
                         double goal) {
@@ -121,12 +122,14 @@ void paper_shell(int runs) {
           }
         },
         [&] { shell->place(begin, first); });
-    fmt::print(
-        "{:34} {:6.2f} F (goal {:g}), a frame {:.2f} F, set-up {:.2f} F, error {:.2e} R_o, "
-        "estimate {:.2e} R_o{}\n",
-        name, time / F, goal, time / F / frames, setup / F,
-        largest_joint_error(*shell, reference) / c.radius,
-        shell->state().error_estimate_mm / c.radius, reached ? "" : "  NOT REACHED");
+    fmt::print(figures.lines(),
+               "{:34} {:6.2f} F (goal {:g}), a frame {:.2f} F, set-up {:.2f} F, error {:.2e} R_o, "
+               "estimate {:.2e} R_o{}\n",
+               name, time / F, goal, time / F / frames, setup / F,
+               largest_joint_error(*shell, reference) / c.radius,
+               shell->state().error_estimate_mm / c.radius, reached ? "" : "  NOT REACHED");
+    figures.add(fmt::format("{}, F", name), time / F);
+    figures.add(fmt::format("{}, set-up, F", name), setup / F);
   };
   path("0.98 -> 0.75 to 5e-5", plan_levels(5e-5), 5e-5, 1, 8);
   path("0.98 -> 0.75 to 1e-6", plan_levels(1e-6), 1e-6, 1, 12);
@@ -138,7 +141,8 @@ void paper_shell(int runs) {
                   watch)
         .value();
   });
-  fmt::print("first buckled equilibrium, 4 edges {:6.2f} F (goal 20)\n", flat / F);
+  fmt::print(figures.lines(), "first buckled equilibrium, 4 edges {:6.2f} F (goal 20)\n", flat / F);
+  figures.add("first buckled equilibrium, 4 edges, F", flat / F);
   const double all = median(runs, [&] {
     const State state = first_buckled(coarse.system(0), coarse.mesh(0), coarse.motion(0),
                                       parameter(0.98), {}, {}, watch)
@@ -146,13 +150,15 @@ void paper_shell(int runs) {
     coarse.place(parameter(0.98), state);
     coarse.advance(1, watch);
   });
-  fmt::print("flat -> 0.75 in all, 1e-3          {:6.2f} F (goal 40)\n", all / F);
+  fmt::print(figures.lines(), "flat -> 0.75 in all, 1e-3          {:6.2f} F (goal 40)\n", all / F);
+  figures.add("flat -> 0.75 in all, 1e-3, F", all / F);
 }
 
-void sizes() {
+void sizes(Figures& figures) {
   const Watch watch;
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  fmt::print("\n{:>4} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}  (seconds, 4 edges)\n", "n", "dof",
+  std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
+  fmt::print(figures.lines(),
+             "\n{:>4} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}  (seconds, 4 edges)\n", "n", "dof",
              "set-up", "assembly", "factor", "first", "path");
   std::vector<std::array<double, 6>> rows;
   for (int n : {6, 12, 24, 48, 96}) {
@@ -179,21 +185,26 @@ void sizes() {
       reached = shell.advance(1, watch).end == Outcome::reached;
     }
     const double path = cpu_now() - start;
-    fmt::print("{:4} {:8} {:10.4f} {:10.4f} {:10.4f} {:10.4f} {:10.4f}{}\n", n,
+    fmt::print(figures.lines(), "{:4} {:8} {:10.4f} {:10.4f} {:10.4f} {:10.4f} {:10.4f}{}\n", n,
                shell.model(0).dof(), setup, assemble, factor, buckle, path,
                reached ? "" : "  not reached");
+    figures.add(fmt::format("{} rods, factorisation, s", n), factor);
+    figures.add(fmt::format("{} rods, first equilibrium, s", n), buckle);
+    figures.add(fmt::format("{} rods, path, s", n), path);
     rows.push_back({double(n), setup, assemble, factor, buckle, path});
   }
-  fmt::print("{:>13}", "exponent");
+  fmt::print(figures.lines(), "{:>13}", "exponent");
   for (int column = 1; column < 6; ++column)
-    fmt::print(" {:10.2f}", std::log(rows.back()[column] / rows[1][column]) /
-                                std::log(rows.back()[0] / rows[1][0]));
-  fmt::print("\n");
+    fmt::print(
+        figures.lines(), " {:10.2f}",
+        std::log(rows.back()[column] / rows[1][column]) / std::log(rows.back()[0] / rows[1][0]));
+  fmt::print(figures.lines(), "\n");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  paper_shell(7);
-  if (argc > 1 && std::strcmp(argv[1], "sizes") == 0) sizes();
+  Figures figures(argc, argv);
+  paper_shell(7, figures);
+  if (std::count(figures.words().begin(), figures.words().end(), "sizes") > 0) sizes(figures);
 }
