@@ -73,6 +73,7 @@ class Idle {
     if (preset_.rod_v.differs) rods("rod_v", preset_.rod_v);
     push();
     motion();
+    sweep();
     pictures();
     return std::move(found_);
   }
@@ -194,6 +195,13 @@ class Idle {
         add("imperfection", key, {"[imperfection] size"},
             "with [imperfection] size = 0 nothing is chosen: the path stays on the symmetric "
             "branch");
+  }
+
+  void sweep() {
+    if (preset_.sweep.wanted()) return;
+    // a preset that sweeps nothing needs no line about it
+    add_all("sweep", {"[sweep] over", "[sweep] seeds"},
+            "nothing is swept: [sweep] over is empty and seeds is 1");
   }
 
   void pictures() {
