@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/branches.h"
 #include "app/console.h"
 #include "app/delivery.h"
 #include "app/loading.h"
@@ -21,12 +22,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Lines for the terminal once everything is written, and the summary of a study.
-struct Findings {
-  std::string text;
-  Json summary = Json::object();
-};
 
 constexpr double wide_mm = 178, high = 105 / wide_mm, low = 80 / wide_mm;  // of a page
 
@@ -127,8 +122,9 @@ Result<void> draw(const preset::Case& run, const ChartOptions& options, const fs
   auto made = make_folder(folder).and_then(
       [&] { return write_atomically(folder / "preset.toml", preset::to_toml(run.preset)); });
   if (!made) return made;
-  auto findings = options.kind == "accuracy" ? draw_accuracy(run.preset, options, folder, watch)
-                                             : draw_stability(run.preset, options, folder, watch);
+  auto findings = options.kind == "accuracy"   ? draw_accuracy(run.preset, options, folder, watch)
+                  : options.kind == "branches" ? draw_branches(run.preset, folder, watch)
+                                               : draw_stability(run.preset, options, folder, watch);
   if (!findings) {
     findings.error().message = run.preset.name + ": " + findings.error().message;
     return tl::unexpected(findings.error());

@@ -1,5 +1,5 @@
-// `gridshell chart accuracy|stability PRESET`, `gridshell chart trust`: speed against accuracy;
-// where methods hold and fail; whether results can be trusted.
+// `gridshell chart accuracy|stability|branches PRESET`, `gridshell chart trust`: speed against
+// accuracy; where methods hold and fail; the bifurcation diagram; whether results can be trusted.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -11,13 +11,14 @@ namespace gridshell::app {
 
 void add_chart(CLI::App& program, Action& action) {
   const auto options = std::make_shared<ChartOptions>();
-  auto* command =
-      program.add_subcommand("chart", "speed against accuracy; where methods hold and fail; trust");
+  auto* command = program.add_subcommand(
+      "chart", "speed against accuracy; where methods hold and fail; branches; trust");
   command
       ->add_option("KIND", options->kind,
-                   "accuracy, stability, or trust (random scenes, no PRESET)")
+                   "accuracy, stability, branches (the bifurcation diagram), or trust (random "
+                   "scenes, no PRESET)")
       ->required()
-      ->check(CLI::IsMember({"accuracy", "stability", "trust"}));
+      ->check(CLI::IsMember({"accuracy", "stability", "branches", "trust"}));
   add_preset_options(*command, options->common);
   command->get_option("PRESET")->required(false);
   add_work_options(*command, options->common,

@@ -157,6 +157,24 @@ std::string put(const OptionalInteger& kind, const toml::node& value, Preset& pr
   return "";
 }
 
+std::string put(const TextList& kind, const toml::node& value, Preset& preset) {
+  const auto* list = value.as_array();
+  if (!list) return "is " + type_text(value);
+  std::vector<std::string> texts;
+  for (const auto& item : *list) {
+    const auto* text = item.as_string();
+    if (!text) return "is a list with " + type_text(item);
+    texts.push_back(text->get());
+  }
+  kind.in(preset) = std::move(texts);
+  return "";
+}
+
+// what is in a table is read where its faults have their places: read_axes()
+std::string put(const AxisList&, const toml::node& value, Preset&) {
+  return "is " + type_text(value);
+}
+
 std::string put(const PointList& kind, const toml::node& value, Preset& preset) {
   const auto* list = value.as_array();
   if (!list) return "is " + type_text(value);

@@ -57,6 +57,13 @@ std::string points_text(const Points& points) {
   return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
+std::string axes_text(const std::vector<SweepAxis>& axes) {
+  std::vector<std::string> items;
+  for (const auto& axis : axes)
+    items.push_back(fmt::format("{} = [{}]", axis.key, fmt::join(axis.values, ", ")));
+  return fmt::format("{{{}}}", fmt::join(items, ", "));
+}
+
 }  // namespace
 
 std::string name_of(const Field& field) {
@@ -82,6 +89,11 @@ std::string allowed(const Field& field) {
           },
           [](const OptionalInteger& k) {
             return "an integer" + bounds_text(k.range) + ", or \"none\"";
+          },
+          [](const TextList&) { return std::string("a list of strings"); },
+          [](const AxisList&) {
+            return std::string(
+                "a table of keys in dotted form, each a list of values or { from, to, count }");
           },
           [](const PointList& k) {
             return fmt::format("a list of points [{}], or the name of a file with one a line",
@@ -115,6 +127,12 @@ std::string value_text(const Field& field, const Preset& preset) {
             const auto& value = k.in(from);
             return value ? std::to_string(*value) : std::string("\"none\"");
           },
+          [&](const TextList& k) {
+            std::vector<std::string> items;
+            for (const auto& text : k.in(from)) items.push_back(in_quotes(text));
+            return fmt::format("[{}]", fmt::join(items, ", "));
+          },
+          [&](const AxisList& k) { return axes_text(k.in(from)); },
           [&](const PointList& k) { return points_text(k.in(from)); },
       },
       field.kind);

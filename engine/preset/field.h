@@ -72,6 +72,14 @@ struct OptionalInteger {
   std::optional<int>& (*in)(Preset&);
   Range range;
 };
+/// Texts of any number.
+struct TextList {
+  std::vector<std::string>& (*in)(Preset&);
+};
+/// The keys of a sweep with their values (sweep_axes.h).
+struct AxisList {
+  std::vector<SweepAxis>& (*in)(Preset&);
+};
 /// Points of two or three coordinates, in the preset or in a file beside it.
 struct PointList {
   Points& (*in)(Preset&);
@@ -84,7 +92,7 @@ struct Field {
   std::string key;
   std::string unit;  ///< empty: a pure number or not a number
   std::variant<Real, Integer, Flag, Text, ColourText, Word, IntegerPair, RealList, IntegerList,
-               OptionalInteger, PointList>
+               OptionalInteger, TextList, AxisList, PointList>
       kind;
   std::string meaning;  ///< one sentence without a full stop
 };

@@ -76,6 +76,14 @@ OptionalInteger optional(Range range) {
   return {reach<path...>, range};
 }
 template <auto... path>
+TextList texts() {
+  return {reach<path...>};
+}
+template <auto... path>
+AxisList axes() {
+  return {reach<path...>};
+}
+template <auto... path>
 PointList points(std::vector<std::string> coordinates) {
   return {reach<path...>, std::move(coordinates)};
 }

@@ -94,6 +94,23 @@ std::vector<Field> numerics_fields() {
   };
 }
 
+std::vector<Field> sweep_fields() {
+  return {
+      {"sweep", "over", "", axes<&P::sweep, &Sweep::over>(),
+       "keys that change from run to run, all combinations; `count` values from `from` to `to`, "
+       "both among them, even steps or with `log = true` even factors"},
+      {"sweep", "seeds", "", integer<&P::sweep, &Sweep::seeds>(between(1, 100000)),
+       "runs of each combination: with imperfection.seed and those after it"},
+      {"sweep", "plot", "", texts<&P::sweep, &Sweep::plot>(),
+       "figures of summary.json that are drawn over the keys, a picture each; empty: height_mm"},
+      {"sweep", "x", "", text<&P::sweep, &Sweep::x>(),
+       "figure that is the x axis of line charts; empty: the key that is swept"},
+      {"sweep", "departure", "", real<&P::sweep, &Sweep::departure>(between(0, 10)),
+       "share by which a figure has left its value at the right end of a line chart where that is "
+       "marked; 0: nowhere"},
+  };
+}
+
 std::vector<Field> picture_fields() {
   return {
       {"movie", "frames", "", integer<&P::movie, &Movie::frames>(between(2, 100000)),
@@ -155,6 +172,7 @@ const std::vector<Table>& tables() {
       {"limits", "Where the model stops being valid."},
       {"accuracy", "How exact the answer is to be."},
       {"jitter", "How the states of a shell are looked for."},
+      {"sweep", "Many runs with other values, for `gridshell sweep`."},
       {"movie", "The frames of `gridshell movie` and their camera."},
       {"style", "How pictures look."},
       {"figure", "The stills of `gridshell figure`."},
@@ -166,9 +184,9 @@ const std::vector<Table>& tables() {
 const std::vector<Field>& field_table() {
   static const std::vector<Field> all = [] {
     auto fields = shell_fields();
-    for (auto& more :
-         {rod_fields(), joint_fields(), boundary_fields(), net_fields(), indentation_fields(),
-          load_fields(), numerics_fields(), jitter_fields(), picture_fields(), style_fields()})
+    for (auto& more : {rod_fields(), joint_fields(), boundary_fields(), net_fields(),
+                       indentation_fields(), load_fields(), numerics_fields(), jitter_fields(),
+                       sweep_fields(), picture_fields(), style_fields()})
       fields.insert(fields.end(), more.begin(), more.end());
     return fields;
   }();

@@ -357,6 +357,22 @@ struct Figure {
   Points scan;  ///< (x, y, z) of joints measured by others
 };
 
+/// One key that a sweep changes, and what it is set to in turn.
+struct SweepAxis {
+  std::string key;                  ///< "rod.diameter_mm"
+  std::vector<std::string> values;  ///< as TOML
+};
+/// Many runs of one preset: all combinations of values, each so many times with other seeds.
+struct Sweep {
+  std::vector<SweepAxis> over;    ///< the first changes slowest
+  int seeds = 1;                  ///< runs a combination: imperfection.seed and those after it
+  std::vector<std::string> plot;  ///< figures of a run, a picture each
+  std::string x;                  ///< figure that is the x axis; empty: the first key
+  double departure = 0;           ///< at which a line chart is marked; 0: nowhere
+
+  bool wanted() const { return !over.empty() || seeds > 1; }
+};
+
 struct Preset {
   std::string name;  ///< of the file, without ".toml"
   std::string title, description, source;
@@ -378,6 +394,7 @@ struct Preset {
   Limits limits;
   Accuracy accuracy;
   Jitter jitter;
+  Sweep sweep;
   Movie movie;
   Style style;
   Figure figure;

@@ -11,6 +11,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/preset/assign.h"
 #include "engine/preset/reading.h"
+#include "engine/preset/sweep_grid.h"
 
 namespace gridshell::preset {
 namespace {
@@ -73,6 +74,7 @@ Presets read_presets(const toml::table& root, const std::string& name,
   if (runs.empty()) runs.push_back(whole);
   for (const Draft& draft : runs) check_conflicts(draft, reading.source(), reading.faults());
   check_use(runs, reading.faults());
+  check_sweep(runs, reading.faults());
   return presets;
 }
 

@@ -8,6 +8,7 @@
 #include "engine/preset/assign.h"
 #include "engine/preset/field_table.h"
 #include "engine/preset/suggest.h"
+#include "engine/preset/sweep_axes.h"
 
 namespace gridshell::preset {
 namespace {
@@ -131,6 +132,13 @@ void Reading::lay_table(const toml::key& key, const toml::node& value, Draft& dr
   }
 }
 
+void Reading::lay_axes(const AxisList& list, const toml::table& over, Draft& draft) {
+  std::vector<AxisFault> wrong;
+  list.in(draft.preset) = read_axes(over, wrong);
+  for (auto& fault : wrong) faults_.add(place_of(fault.place), std::move(fault.text));
+  if (!wrong.empty()) draft.faulty.insert("[sweep] over");
+}
+
 void Reading::assign_key(const std::string& table, const toml::key& key, const toml::node& value,
                          Draft& draft, int item) {
   const std::string name(key.str());
@@ -142,6 +150,16 @@ void Reading::assign_key(const std::string& table, const toml::key& key, const t
     return;
   }
   const auto place = place_of(value.source());
+  if (table == "sweep" && place.layer == Layer::one_case) {
+    faults_.add(place, fmt::format("{} = {}: stands outside of cases: a sweep runs all of them",
+                                   full, shown(value)));
+    return;
+  }
+  if (const auto* axes = std::get_if<AxisList>(&field->kind); axes && value.is_table()) {
+    draft.set_at[full] = place_of(key.source());
+    lay_axes(*axes, *value.as_table(), draft);
+    return;
+  }
   const auto wrong = assign(*field, value, draft.preset, override_.empty() ? folder_ : "");
   draft.set_at[full] = place;
   if (wrong.empty()) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/preset/draft.h"
+#include "engine/preset/field.h"
 #include "engine/preset/place.h"
 #include "engine/preset/reader.h"
 
@@ -31,6 +32,8 @@ class Reading {
   void lay_table(const toml::key& key, const toml::node& value, Draft& draft);
   void assign_key(const std::string& table, const toml::key& key, const toml::node& value,
                   Draft& draft, int item = -1);
+
+  void lay_axes(const AxisList& list, const toml::table& over, Draft& draft);
 
   std::string source_;
   std::filesystem::path folder_;  // of the file

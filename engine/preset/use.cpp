@@ -74,6 +74,7 @@ class Idle {
     push();
     motion();
     jitter();
+    sweep();
     pictures();
     return std::move(found_);
   }
@@ -214,6 +215,13 @@ class Idle {
       add("jitter", "amplitude", {"[jitter] mode", "[jitter] confined"}, why + "\"random\"");
     if (jitter.mode != JitterMode::poke && jitter.transitions == 0)
       add("jitter", "depth", {"[jitter] mode", "[jitter] transitions"}, why + "\"poke\"");
+  }
+
+  void sweep() {
+    if (preset_.sweep.wanted()) return;
+    // a preset that sweeps nothing needs no line about it
+    add_all("sweep", {"[sweep] over", "[sweep] seeds"},
+            "nothing is swept: [sweep] over is empty and seeds is 1");
   }
 
   void pictures() {

@@ -32,6 +32,7 @@ struct Summary {
   Limit limit = Limit::none;
   std::string limit_reason;  ///< a sentence when limit is not none
   double residual_N = 0;
+  double largest_strain = unknown;  ///< of an edge along the rod, by size, with its sign
   double error_estimate_mm = unknown;
   Energies energies;  ///< by term, mJ
   double height_mm = 0;

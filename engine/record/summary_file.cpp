@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "engine/core/atomic_file.h"
 
@@ -34,6 +35,7 @@ void each_field(SummaryType& summary, Visit visit) {
   visit("limit", summary.limit);
   visit("limit_reason", summary.limit_reason);
   visit("residual_N", summary.residual_N);
+  visit("largest_strain", summary.largest_strain);
   visit("error_estimate_mm", summary.error_estimate_mm);
   for (const TermName& term : energy_terms)
     visit(fmt::format("energy_{}_mJ", term.name).c_str(), summary.energies[term.term]);
@@ -109,7 +111,8 @@ void forget(T&) {}  // the default is what it was then
 
 /// Whether version 0.1 wrote the key.
 bool always_written(const std::string& key) {
-  return !key.starts_with("energy_") && key != "kind" && key != "finished";
+  return !key.starts_with("energy_") && key != "kind" && key != "finished" &&
+         key != "largest_strain";
 }
 
 }  // namespace
@@ -124,6 +127,22 @@ std::string to_json(const Summary& summary) {
   if (!summary.solved) json["stable"] = json["negative_pivots"] = nullptr;
   // NaN becomes null; a broken UTF-8 sequence in a user's text must not stop a run
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Figures figures_of(const Summary& summary) {
+  static const std::set<std::string> left_out{"preset", "model_reason", "kind", "finished"};
+  Figures figures;
+  each_field(summary, [&](const std::string& key, const auto& value) {
+    if (left_out.contains(key) || key.starts_with("seconds_")) return;
+    const Json json = json_of(value);
+    Figure figure;
+    if (json.is_boolean()) figure = json.get<bool>();
+    if (json.is_string()) figure = json.get<std::string>();
+    if (json.is_number() && std::isfinite(json.get<double>())) figure = json.get<double>();
+    if (!summary.solved && (key == "stable" || key == "negative_pivots")) figure = {};
+    figures.emplace_back(key, std::move(figure));
+  });
+  return figures;
 }
 
 Result<void> write_summary(const std::filesystem::path& path, const Summary& summary) {

@@ -18,7 +18,7 @@ double ArcFollower::product(const State& a, double at, const State& b, double bt
 /// Unit tangent at a point that was just factorised, on along `before`.
 void ArcFollower::take_tangent(ArcPoint& at, const State* before, double before_t) {
   PathPoint& point = at.point;
-  motion_.velocity(system_, point.t, point.state, point.velocity);
+  motion_.velocity(*system_, point.t, point.state, point.velocity);
   double length = std::sqrt(product(point.velocity, 1, point.velocity, 1));
   const double along = before ? product(point.velocity, 1, *before, before_t) : before_t;
   if (along < 0) length = -length;
@@ -30,12 +30,12 @@ void ArcFollower::take_tangent(ArcPoint& at, const State* before, double before_
 Outcome ArcFollower::start(double t, State state, double direction, const Watch& watch) {
   now_.point.t = t;
   now_.point.state = std::move(state);
-  motion_.impose(system_, t, now_.point.state);
+  motion_.impose(*system_, t, now_.point.state);
   NewtonOptions options;
   options.tolerance_mm = options_.tolerance_mm;
-  const NewtonReport report = newton(system_, now_.point.state, options, watch);
+  const NewtonReport report = newton(*system_, now_.point.state, options, watch);
   if (report.outcome != Outcome::reached) return report.outcome;
-  now_.inertia = system_.at(now_.point.state);
+  now_.inertia = system_->at(now_.point.state);
   if (!now_.inertia.usable) return Outcome::not_finite;
   take_tangent(now_, nullptr, direction);
   return Outcome::reached;
@@ -49,17 +49,17 @@ bool ArcFollower::corrected(ArcPoint& next, int& iterations, const Watch& watch)
   State with_t;
   for (iterations = 1; iterations <= most_corrections; ++iterations) {
     if (watch.cancelled()) return false;
-    motion_.impose(system_, point.t, point.state);
-    next.inertia = system_.at(point.state);
+    motion_.impose(*system_, point.t, point.state);
+    next.inertia = system_->at(point.state);
     if (!next.inertia.usable) return false;
-    system_.correction(dx);
-    motion_.velocity(system_, point.t, point.state, with_t);
+    system_->correction(dx);
+    motion_.velocity(*system_, point.t, point.state, with_t);
     const State held{dx, {}};
     const double dt = -product(held, 0, tangent, turn_t_) / product(with_t, 1, tangent, turn_t_);
     dx += dt * with_t.x;
     const double move = largest_column(dx);
     if (!std::isfinite(move) || move > 4 * options_.largest_mm) return false;
-    system_.apply(dx, point.state);
+    system_->apply(dx, point.state);
     point.t += dt;
     if (move <= options_.tolerance_mm) return true;
   }
@@ -72,7 +72,7 @@ Outcome ArcFollower::step(const Watch& watch) {
     next.point.t = now_.point.t + step_mm_ * turn_t_;
     next.point.state = now_.point.state;
     next.point.state.force += step_mm_ * now_.point.velocity.force;
-    move_to(system_.model(), now_.point.state.x + step_mm_ * now_.point.velocity.x,
+    move_to(system_->model(), now_.point.state.x + step_mm_ * now_.point.velocity.x,
             next.point.state);
     int iterations = 0;
     if (!corrected(next, iterations, watch)) {
@@ -88,6 +88,21 @@ Outcome ArcFollower::step(const Watch& watch) {
     return Outcome::reached;
   }
   return Outcome::lost;
+}
+
+Outcome ArcFollower::leave(const PathPoint& from, const Eigen::Matrix3Xd& mode, double mm,
+                           const Watch& watch) {
+  now_.point = from;
+  motion_.impose(*system_, from.t, now_.point.state);
+  if (!system_->at(now_.point.state).usable) return Outcome::not_finite;
+  State& along = now_.point.velocity;
+  along = State{mode, system_->force_change(mode)};
+  const double length = std::sqrt(product(along, 0, along, 0));
+  along.x /= length;
+  along.force /= length;
+  turn_t_ = 0;
+  step_mm_ = mm;
+  return step(watch);
 }
 
 std::optional<double> turning_point(Linearisation& system, const PinnedMotion& motion,

@@ -29,7 +29,7 @@ struct ArcPoint {
 class ArcFollower {
  public:
   ArcFollower(Linearisation& system, const PinnedMotion& motion, const ArcOptions& options)
-      : system_(system), motion_(motion), options_(options), step_mm_(options.step_mm) {}
+      : system_(&system), motion_(motion), options_(options), step_mm_(options.step_mm) {}
 
   /// Takes an equilibrium at t; the path goes on with t growing (direction 1) or falling (-1).
   /// Outcomes as newton().
@@ -39,6 +39,18 @@ class ArcFollower {
   /// point is then the last good one.
   Outcome step(const Watch& watch = unwatched);
 
+  /// Leaves a path at a bifurcation, on to the branch that comes closest to `mm` along a soft mode
+  /// (no parameter): predicted along it and corrected at right angles to it. The path goes on away
+  /// from there. Outcomes: reached, lost, cancelled.
+  Outcome leave(const PathPoint& from, const Eigen::Matrix3Xd& mode, double mm,
+                const Watch& watch = unwatched);
+
+  /// The next step is so long; later ones as ever.
+  void set_step(double mm) { step_mm_ = mm; }
+  double step_mm() const { return step_mm_; }
+  /// Change of the parameter with the arc length: it changes its sign where the path turns back.
+  double turn() const { return turn_t_; }
+
   const ArcPoint& at() const { return now_; }
 
  private:
@@ -46,7 +58,7 @@ class ArcFollower {
   double product(const State& a, double at, const State& b, double bt) const;
   void take_tangent(ArcPoint& at, const State* before, double before_t);
 
-  Linearisation& system_;
+  Linearisation* system_;
   PinnedMotion motion_;
   ArcOptions options_;
   double step_mm_;

@@ -41,7 +41,8 @@ const std::map<std::string, Folders> may_see{
     // methods compared, the engine's own among them, on the scenes of experiments
     {"engine/study",
      {"engine/core", "engine/footprint", "engine/rod", "engine/gridshell", "engine/solve",
-      "engine/measure", "engine/preset", "engine/record", "engine/scene", "engine/experiment"}},
+      "engine/measure", "engine/preset", "engine/record", "engine/scene", "engine/session",
+      "engine/experiment"}},
     // the renderer knows pictures of a run, not how it came to be
     {"render", {"engine/core", "engine/record"}},
     {"app",

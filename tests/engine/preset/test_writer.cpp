@@ -113,6 +113,9 @@ Preset pushed(bool joint) {
   preset.indentation.depth = joint ? 0.07 : 0;
   preset.indentation.depth_mm = joint ? 0 : 1.25;
   if (!joint) preset.indentation.joint.clear();
+  preset.sweep = changed.sweep;
+  preset.sweep.over = {{"rod.young_GPa", {"70.0", "83.5"}}, {"actuation.seed", {"\"down\""}}};
+  preset.sweep.plot = {"total_K", "force_N"};
   // of a free view
   preset.movie.azimuth_deg = 12.5;
   preset.movie.elevation_deg = -3.5;

@@ -53,6 +53,7 @@ TEST_CASE("summary.json has the keys of a run in order, and null for what is unk
                                          "limit",
                                          "limit_reason",
                                          "residual_N",
+                                         "largest_strain",
                                          "error_estimate_mm",
                                          "energy_bend_mJ",
                                          "energy_stretch_mJ",

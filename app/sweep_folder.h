@@ -1,0 +1,36 @@
+// Where a sweep stands on the disk: its folder, the folders of its shards, its log.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "engine/preset/sweep_grid.h"
+#include "engine/record/sweep_log.h"
+
+namespace gridshell::app {
+
+/// One part of a sweep that is spread over machines.
+struct Shard {
+  int index = 1, count = 1;  ///< from 1
+
+  std::string folder() const;  ///< "shard_2_of_8"
+};
+
+/// "2/8". Errors: bad_input for anything else.
+Result<Shard> parse_shard(const std::string& text);
+
+/// The log of a sweep in `folder`, which is made if need be, locked. Errors (bad_input): the folder
+/// holds what no sweep wrote there, and those of SweepLog::open().
+Result<record::SweepLog> open_sweep(const std::filesystem::path& folder,
+                                    const preset::Presets& presets, const preset::SweepGrid& grid);
+
+/// What a point is set to, as the files say it.
+record::PointKeys keys_of(const preset::SweepGrid& grid, std::size_t point);
+
+/// Adds what the shards in `folder` found to its log. Errors: bad_input where there is no shard or
+/// one is of another preset; io.
+Result<void> gather_shards(const std::filesystem::path& folder, record::SweepLog& log,
+                           const preset::Presets& presets, const preset::SweepGrid& grid);
+
+}  // namespace gridshell::app

@@ -1,0 +1,243 @@
+#include "app/sweeps.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <thread>
+
+#include "app/console.h"
+#include "app/interrupt.h"
+#include "app/loading.h"
+#include "app/manifest.h"
+#include "app/progress.h"
+#include "app/sweep_folder.h"
+#include "engine/core/atomic_file.h"
+#include "engine/experiment/point.h"
+#include "engine/preset/suggest.h"
+#include "engine/preset/writer.h"
+#include "engine/study/sweep_study.h"
+#include "render/figure/sweep_chart.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double wide_mm = 130, high = 0.62;  // of a line chart
+
+/// A sweep in hand.
+struct Work {
+  const SweepOptions& options;
+  const preset::Presets& presets;
+  const preset::SweepGrid& grid;
+  fs::path folder;
+  std::optional<Shard> shard;
+
+  bool quiet() const { return options.common.quiet; }
+  std::vector<std::size_t> points() const {
+    const Shard part = shard.value_or(Shard{});
+    return study::points_of_shard(grid.size(), part.index, part.count);
+  }
+};
+
+std::vector<std::string> plots_of(const preset::SweepGrid& grid) {
+  const auto& plots = grid.sweep().plot;
+  return plots.empty() ? std::vector<std::string>{"height_mm"} : plots;
+}
+
+/// What there is to sweep, and whether the figures asked for are some of a run.
+Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid& grid) {
+  if (grid.size() == 0)
+    return fail(
+        Fault::bad_input,
+        fmt::format("{}: sweeps nothing: must have [sweep] over or seeds, for example --set "
+                    "'sweep.over={{rod.diameter_mm=[0.2,0.3]}}'",
+                    presets.base.name));
+  const auto names = experiment::figure_names();
+  auto asked = plots_of(grid);
+  if (!grid.sweep().x.empty()) asked.push_back(grid.sweep().x);
+  for (const auto& name : asked)
+    if (std::ranges::find(names, name) == names.end())
+      return fail(Fault::bad_input,
+                  fmt::format("{}: [sweep] plot or x = \"{}\": is no figure of a run{}",
+                              presets.base.name, name, preset::did_you_mean(name, names)));
+  return {};
+}
+
+record::SweepTable table_of(const Work& work, const record::SweepLog& log) {
+  record::SweepTable table;
+  for (const auto& axis : work.grid.sweep().over) table.axes.push_back(axis.key);
+  table.has_cases = work.grid.has_cases();
+  table.has_seeds = work.grid.sweep().seeds > 1;
+  for (const std::size_t point : work.points())
+    table.rows.push_back({keys_of(work.grid, point), log.found().at(point)});
+  return table;
+}
+
+/// Pictures of figures that are not asked for any more would be of no sweep.
+void remove_other_pictures(const fs::path& folder, const std::vector<std::string>& drawn) {
+  std::error_code error;
+  for (const auto& name : experiment::figure_names()) {
+    if (std::ranges::find(drawn, name) != drawn.end()) continue;
+    for (const char* kind : {".png", ".svg", ".pdf"}) fs::remove(folder / (name + kind), error);
+  }
+}
+
+Result<void> draw(const Work& work, const record::SweepTable& table) {
+  const preset::Preset& base = work.presets.base;
+  const auto plots = plots_of(work.grid);
+  remove_other_pictures(work.folder, plots);
+  for (const auto& name : plots) {
+    const render::SweepView view{name, base.sweep.x, base.sweep.departure, base.title};
+    const auto stem = work.folder / name;
+    const double width = base.figure.width_mm > 0 ? base.figure.width_mm : wide_mm;
+    auto drawn = table.axes.size() == 2 ? render::write_sweep_map(stem, table, view)
+                                        : render::write_plot(stem, render::sweep_plot(table, view),
+                                                             {width, base.figure.dpi}, high);
+    if (!drawn) return drawn;
+  }
+  return {};
+}
+
+/// "20 points: 18 done (2 ended early: locking; 1 not stable), 2 no_equilibrium"
+std::string told(const record::SweepTable& table) {
+  int done = 0, limited = 0, unstable = 0, none = 0, refused = 0;
+  std::set<std::string> limits;
+  for (const auto& row : table.rows) {
+    const auto& result = row.result;
+    done += result.outcome == record::PointOutcome::done;
+    none += result.outcome == record::PointOutcome::no_equilibrium;
+    refused += result.outcome == record::PointOutcome::refused;
+    const auto* stable = result.figure("stable");
+    unstable += stable && record::number_of(*stable) == 0;
+    const auto* limit = result.figure("limit");
+    if (const auto* word = limit ? std::get_if<std::string>(limit) : nullptr;
+        word && *word != "none") {
+      ++limited;
+      limits.insert(*word);
+    }
+  }
+  auto text = fmt::format("{} point{}: {} done", table.rows.size(),
+                          table.rows.size() == 1 ? "" : "s", done);
+  if (limited > 0)
+    text += fmt::format(", {} of them ended early ({})", limited, fmt::join(limits, ", "));
+  if (unstable > 0) text += fmt::format(", {} of them not stable", unstable);
+  if (none > 0) text += fmt::format("; {} without an equilibrium", none);
+  if (refused > 0) text += fmt::format("; {} refused", refused);
+  return text;
+}
+
+Result<std::string> finish(const Work& work, const record::SweepLog& log) {
+  const auto table = table_of(work, log);
+  auto written =
+      write_atomically(work.folder / "sweep.csv", record::sweep_csv(table))
+          .and_then([&] {
+            return write_atomically(work.folder / "preset.toml", preset::to_toml(work.presets));
+          })
+          // a part of the points makes no picture
+          .and_then([&] {
+            const bool drawable = !work.shard && table.axes.size() <= 2;
+            return drawable ? draw(work, table) : Result<void>{};
+          })
+          .and_then([&] { return write_manifest(work.folder); });
+  if (!written) return tl::unexpected(written.error());
+  const bool any = std::ranges::any_of(
+      table.rows, [](const auto& row) { return row.result.outcome == record::PointOutcome::done; });
+  if (!any && !work.shard)
+    return fail(Fault::no_equilibrium, fmt::format("no point came to a state; the first: {}",
+                                                   table.rows.front().result.reason));
+  return told(table);
+}
+
+void tell_damage(const Work& work, const record::SweepLog& log) {
+  const auto file = (work.folder / record::sweep_log_name).string();
+  if (log.cut_off())
+    std::fprintf(stderr, "the last line of '%s' was cut off and is dropped\n", file.c_str());
+  if (log.damaged() > 0)
+    std::fprintf(stderr, "%zu line%s of '%s' damaged: what they held is computed again\n",
+                 log.damaged(), log.damaged() == 1 ? " is" : "s are", file.c_str());
+}
+
+std::vector<std::size_t> missing(const Work& work, const record::SweepLog& log) {
+  auto points = work.points();
+  std::erase_if(points, [&](std::size_t point) { return log.found().contains(point); });
+  return points;
+}
+
+std::string standing_of(const Work& work, const record::SweepLog& log) {
+  const auto all = work.points().size();
+  return fmt::format("{} of {} points are in '{}'", all - missing(work, log).size(), all,
+                     work.folder.string());
+}
+
+/// Computes what is missing.
+Result<void> compute(const Work& work, record::SweepLog& log) {
+  const auto todo = missing(work, log);
+  if (todo.empty()) return {};
+  if (!work.quiet() && todo.size() < work.points().size())
+    std::fprintf(stderr, "going on: %s\n", standing_of(work, log).c_str());
+  int jobs = work.options.jobs;
+  if (jobs == 0) jobs = std::max(1u, std::thread::hardware_concurrency());
+  const auto stands = [&] {
+    return "stopped: " + standing_of(work, log) + "; the same command goes on";
+  };
+  Result<void> done;
+  {
+    // what is logged is whole whenever the program ends
+    Progress progress({{"sweeping", 100}}, Progress::show_for(work.quiet()), [] {
+      std::fputs("stopped: what was finished is in the log; the same command goes on\n", stderr);
+    });
+    done = study::run_points(
+        work.grid, todo, jobs, [&](record::PointResult result) { return log.append(result); },
+        progress.next_phase());
+  }
+  if (!done && done.error().fault == Fault::cancelled) done.error().message = stands();
+  return done;
+}
+
+Result<std::string> carry_out(const Work& work) {
+  auto log = open_sweep(work.folder, work.presets, work.grid);
+  if (!log) return tl::unexpected(log.error());
+  tell_damage(work, *log);
+  if (work.options.merge) {
+    if (auto gathered = gather_shards(work.folder, *log, work.presets, work.grid); !gathered)
+      return tl::unexpected(gathered.error());
+    if (!missing(work, *log).empty())
+      return fail(Fault::no_equilibrium,
+                  fmt::format("{}; shards go on where they stopped, and without --merge the rest "
+                              "is computed here",
+                              standing_of(work, *log)));
+  } else if (auto computed = compute(work, *log); !computed) {
+    return tl::unexpected(computed.error());
+  }
+  return finish(work, *log);
+}
+
+}  // namespace
+
+int sweep(const SweepOptions& options) {
+  const auto presets = load(options.common);
+  if (!presets) return report(presets.error());
+  if (options.common.print_config) {
+    fmt::print("{}", preset::to_toml(*presets));
+    return ExitCode::done;
+  }
+  const preset::SweepGrid grid(*presets);
+  if (auto asked = check_asked(*presets, grid); !asked) return report(asked.error());
+  Work work{options, *presets, grid, output_of(options.common, presets->base), std::nullopt};
+  if (!options.shard.empty()) {
+    const auto shard = parse_shard(options.shard);
+    if (!shard) return report(shard.error());
+    work.shard = *shard;
+    work.folder /= shard->folder();
+  }
+  const Guarded guarded;
+  const auto done = carry_out(work);
+  if (!done) return report(done.error());
+  if (!options.common.quiet) fmt::print("{}: {}\n", work.folder.string(), *done);
+  return ExitCode::done;
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,25 @@
+// What a sweep computes at a point.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/preset/preset.h"
+#include "engine/record/sweep.h"
+
+namespace gridshell::experiment {
+
+/// What a preset asks to be computed: its keys say it.
+enum class PointKind {
+  run,  ///< one experiment, of which the last state counts
+};
+PointKind kind_of(const preset::Preset& preset);
+
+/// The figures of a preset. Of a run: those of summary.json but for its seconds, the depth and the
+/// force of a push (depth_mm, force_N), and what its rods are: stiffness_ratio, EA d^2/EI. Errors:
+/// bad_input, no_equilibrium, cancelled.
+Result<record::Figures> figures_of(const preset::Preset& preset, Watch& watch);
+
+/// The names of all figures that figures_of() can give.
+std::vector<std::string> figure_names();
+
+}  // namespace gridshell::experiment

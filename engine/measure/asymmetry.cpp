@@ -1,0 +1,82 @@
+#include "engine/measure/asymmetry.h"
+
+#include <cmath>
+#include <optional>
+
+namespace gridshell {
+namespace {
+
+/// The eight symmetries of the square: turns by right angles, and a mirror before them.
+std::vector<Eigen::Matrix2d> square_group() {
+  Eigen::Matrix2d quarter, mirror;
+  quarter << 0, -1, 1, 0;
+  mirror << 1, 0, 0, -1;
+  std::vector<Eigen::Matrix2d> group;
+  Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();
+  for (int k = 0; k < 4; ++k, turn = quarter * turn) {
+    group.push_back(turn);
+    group.push_back(turn * mirror);
+  }
+  return group;
+}
+
+/// Which point each point is mapped to; nothing where one has no image among them.
+std::optional<std::vector<Eigen::Index>> images(const Eigen::Matrix2Xd& points,
+                                                const Eigen::Matrix2d& turn) {
+  const double same = 1e-6 * std::sqrt(points.colwise().squaredNorm().maxCoeff());
+  std::vector<Eigen::Index> image;
+  for (Eigen::Index k = 0; k < points.cols(); ++k) {
+    Eigen::Index at = 0;
+    const Eigen::Vector2d there = turn * points.col(k);
+    const double off = (points.colwise() - there).colwise().squaredNorm().minCoeff(&at);
+    if (!(std::sqrt(off) <= same)) return std::nullopt;
+    image.push_back(at);
+  }
+  return image;
+}
+
+/// About its own middle in the plane.
+template <class Points>
+Points centred(Points points) {
+  const Eigen::Vector2d middle = points.template topRows<2>().rowwise().mean();
+  points.template topRows<2>().colwise() -= middle;
+  return points;
+}
+
+}  // namespace
+
+SharedSymmetry::SharedSymmetry(const Eigen::Matrix2Xd& flat, const Eigen::Matrix3Xd& shape,
+                               double within_mm) {
+  const Eigen::Matrix2Xd points = centred(flat);
+  const Eigen::Matrix3Xd joints = centred(shape);
+  for (const Eigen::Matrix2d& turn : square_group()) {
+    auto image = images(points, turn);
+    if (!image) continue;
+    Element element{turn, std::move(*image)};
+    const double off = (moved(element, joints) - joints).colwise().norm().maxCoeff();
+    if (off <= within_mm) elements_.push_back(std::move(element));
+  }
+}
+
+Eigen::Matrix3Xd SharedSymmetry::moved(const Element& element, const Eigen::Matrix3Xd& joints) {
+  Eigen::Matrix3Xd there(3, joints.cols());
+  for (Eigen::Index k = 0; k < joints.cols(); ++k) {
+    auto to = there.col(element.image[std::size_t(k)]);
+    to.head<2>() = element.turn * joints.col(k).head<2>();
+    to.z() = joints(2, k);
+  }
+  return there;
+}
+
+Eigen::Matrix3Xd SharedSymmetry::broken(const Eigen::Matrix3Xd& shape) const {
+  const Eigen::Matrix3Xd joints = centred(shape);
+  Eigen::Matrix3Xd mean = Eigen::Matrix3Xd::Zero(3, joints.cols());
+  for (const Element& element : elements_) mean += moved(element, joints);
+  return joints - mean / double(order());
+}
+
+double root_mean_square(const Eigen::Matrix3Xd& columns) {
+  return columns.size() == 0 ? 0 : std::sqrt(columns.squaredNorm() / double(columns.cols()));
+}
+
+}  // namespace gridshell

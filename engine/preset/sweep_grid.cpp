@@ -1,0 +1,158 @@
+#include "engine/preset/sweep_grid.h"
+
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "engine/preset/assign.h"
+#include "engine/preset/consistency.h"
+#include "engine/preset/field_table.h"
+#include "engine/preset/use.h"
+
+namespace gridshell::preset {
+namespace {
+
+constexpr double most_points = 100000;
+
+const Field& field_of(const std::string& key) {
+  const auto dot = key.find('.');
+  return *find_field(key.substr(0, dot), key.substr(dot + 1));
+}
+
+double combinations(const Sweep& sweep) {
+  double count = sweep.seeds;
+  for (const SweepAxis& axis : sweep.over) count *= double(axis.values.size());
+  return count;
+}
+
+/// "rod.diameter_mm = 0.2, actuation.radius_mm = 90.0"
+std::string setting(const Sweep& sweep, const SweepPoint& point) {
+  std::string text;
+  for (std::size_t k = 0; k < sweep.over.size(); ++k)
+    text += fmt::format("{}{} = {}", k == 0 ? "" : ", ", sweep.over[k].key, point.values[k]);
+  return text;
+}
+
+}  // namespace
+
+SweepGrid::SweepGrid(const Presets& presets) : cases_(presets.cases) {
+  if (cases_.empty()) cases_.push_back({"", presets.base});
+  if (sweep().wanted()) size_ = cases_.size() * std::size_t(combinations(sweep()));
+}
+
+SweepPoint SweepGrid::at(std::size_t point) const {
+  const Sweep& sweep = this->sweep();
+  const std::size_t a_case = size_ / cases_.size();
+  const Case& one = cases_[point / a_case];
+  SweepPoint found{one.name, std::vector<std::string>(sweep.over.size()), 0, one.preset};
+  std::size_t rest = point % a_case;
+  if (sweep.seeds > 1) {
+    found.seed = one.preset.imperfection.seed + int(rest % std::size_t(sweep.seeds));
+    found.preset.imperfection.seed = found.seed;
+  }
+  rest /= std::size_t(sweep.seeds);
+  for (std::size_t k = sweep.over.size(); k-- > 0;) {
+    const SweepAxis& axis = sweep.over[k];
+    found.values[k] = axis.values[rest % axis.values.size()];
+    rest /= axis.values.size();
+    const auto value = toml::parse("x = " + found.values[k]);
+    assign(field_of(axis.key), *value.get("x"), found.preset, "");
+  }
+  return found;
+}
+
+namespace {
+
+/// Checks the points of one run of the file.
+class SweepCheck {
+ public:
+  SweepCheck(const Draft& draft, PlacedFaults& faults)
+      : draft_(draft), sweep_(draft.preset.sweep), faults_(faults) {}
+
+  void keys_set_elsewhere() {
+    for (const SweepAxis& axis : sweep_.over) {
+      const auto set = draft_.set_at.find(name_of(field_of(axis.key)));
+      if (set == draft_.set_at.end() || set->second.layer == Layer::file) continue;
+      faults_.add(
+          set->second,
+          fmt::format("{}: is swept by [sweep] over, must not be set {} too",
+                      name_of(field_of(axis.key)),
+                      set->second.layer == Layer::one_case ? "by a case" : "by the command line"));
+    }
+  }
+
+  void points(std::map<std::string, std::string>& idle) {
+    const SweepGrid grid({draft_.preset, {}});
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+      const SweepPoint point = grid.at(k);
+      for (const Conflict& conflict : conflicts(point.preset)) {
+        const Field* field = find_field(conflict.table, conflict.key);
+        faults_.add(place("over"),
+                    fmt::format("[sweep] over: at {}: {} = {}: {}", setting(sweep_, point),
+                                bracketed(conflict.table, conflict.key, conflict.item),
+                                field ? value_text(*field, point.preset) : "", conflict.what));
+        return;  // the first says enough
+      }
+      forget_used(point, idle);
+    }
+  }
+
+ private:
+  Place place(const char* key) const {
+    const auto at = draft_.set_at.find(fmt::format("[sweep] {}", key));
+    return at == draft_.set_at.end() ? Place{} : at->second;
+  }
+
+  /// Of the keys that may count for nothing, those that count for something here.
+  static void forget_used(const SweepPoint& point, std::map<std::string, std::string>& idle) {
+    if (idle.empty()) return;
+    std::map<std::string, std::string> still;
+    for (const IdleKey& key : idle_keys(point.preset))
+      if (const auto name = bracketed(key.table, key.key, key.item); idle.contains(name))
+        still[name] = key.why;
+    idle = std::move(still);
+  }
+
+  const Draft& draft_;
+  const Sweep& sweep_;
+  PlacedFaults& faults_;
+};
+
+}  // namespace
+
+void check_sweep(const std::vector<Draft>& runs, PlacedFaults& faults) {
+  const Draft& first = runs.front();
+  const Sweep& sweep = first.preset.sweep;
+  if (!sweep.wanted() || first.faulty.contains("[sweep] over")) return;
+  const auto place = [&](const char* key) {
+    const auto at = first.set_at.find(fmt::format("[sweep] {}", key));
+    return at == first.set_at.end() ? Place{} : at->second;
+  };
+  const Place over = sweep.over.empty() ? place("seeds") : place("over");
+  if (const double count = combinations(sweep) * double(runs.size()); count > most_points)
+    return faults.add(
+        over, fmt::format("[sweep] over: comes to {:.0f} runs, must be at most {:.0f}", count,
+                          most_points));
+  std::map<std::string, std::string> idle;  // until a point uses them
+  for (const SweepAxis& axis : sweep.over) idle[name_of(field_of(axis.key))] = "";
+  const char* drawn = "[imperfection] seed";
+  if (sweep.seeds > 1 && idle.contains(drawn))
+    faults.add(over, fmt::format("[sweep] seeds = {}: {} is swept too, must be one of the two",
+                                 sweep.seeds, drawn));
+  if (sweep.seeds > 1) idle[drawn] = "";
+  for (const Draft& run : runs) {
+    SweepCheck check(run, faults);
+    check.keys_set_elsewhere();
+    check.points(idle);
+  }
+  for (const auto& [key, why] : idle)
+    if (!why.empty())
+      faults.add(
+          key == drawn ? place("seeds") : over,
+          fmt::format("[sweep] over: {} counts for nothing in any of the runs: {}", key, why));
+}
+
+}  // namespace gridshell::preset

@@ -1,0 +1,40 @@
+// The runs of a sweep: every case, every combination of values, every seed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/preset/draft.h"
+#include "engine/preset/reader.h"
+
+namespace gridshell::preset {
+
+/// One run of a sweep.
+struct SweepPoint {
+  std::string case_name;            ///< empty where the preset has no cases
+  std::vector<std::string> values;  ///< as TOML, one an axis
+  int seed = 0;                     ///< that it runs with, where the sweep has several
+  Preset preset;                    ///< what runs
+};
+
+/// The points in their order: cases change slowest, then the axes from first to last, seeds
+/// fastest.
+class SweepGrid {
+ public:
+  explicit SweepGrid(const Presets& presets);
+
+  std::size_t size() const { return size_; }
+  SweepPoint at(std::size_t point) const;
+  const Sweep& sweep() const { return cases_.front().preset.sweep; }
+  bool has_cases() const { return !cases_.front().name.empty(); }
+
+ private:
+  std::vector<Case> cases_;
+  std::size_t size_ = 0;
+};
+
+/// What a sweep's values come to that no run can have: values that do not agree with other keys,
+/// keys that count for nothing in any run, keys that a case or the command line sets too.
+void check_sweep(const std::vector<Draft>& runs, PlacedFaults& faults);
+
+}  // namespace gridshell::preset

@@ -1,0 +1,229 @@
+#include "engine/record/sweep_log.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/checksum.h"
+
+namespace gridshell::record {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t sum_length = 26;  // of ,"sum":"0123456789abcdef"}
+
+/// A JSON object as a line that ends with the checksum of all before it.
+std::string sealed(const Json& json) {
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  text.pop_back();
+  Checksum sum;
+  sum.add(text);
+  return text + fmt::format(",\"sum\":\"{:016x}\"}}\n", sum.value());
+}
+
+/// The object of a line, or nothing where its checksum is wrong.
+std::optional<Json> unsealed(std::string_view line) {
+  if (line.size() <= sum_length) return std::nullopt;
+  const auto text = line.substr(0, line.size() - sum_length);
+  Checksum sum;
+  sum.add(text);
+  if (line.substr(text.size()) != fmt::format(",\"sum\":\"{:016x}\"}}", sum.value()))
+    return std::nullopt;
+  Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  return json;
+}
+
+Json json_of(const Figure& figure) {
+  if (const auto* flag = std::get_if<bool>(&figure)) return *flag;
+  if (const auto* number = std::get_if<double>(&figure)) return *number;
+  if (const auto* text = std::get_if<std::string>(&figure)) return *text;
+  return nullptr;
+}
+
+Figure figure_of(const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number()) return json.get<double>();
+  if (json.is_string()) return json.get<std::string>();
+  return {};
+}
+
+std::string first_line(const SweepName& name) {
+  Json json = Json::object();
+  json["sweep"] = name.preset;
+  json["config"] = fmt::format("{:016x}", name.config);
+  json["points"] = name.points;
+  return sealed(json);
+}
+
+std::optional<SweepName> name_of(std::string_view line) {
+  const auto json = unsealed(line);
+  if (!json || !json->contains("sweep") || !json->contains("config") || !json->contains("points") ||
+      !json->at("points").is_number_unsigned())
+    return std::nullopt;
+  const auto config = json->value("config", "");
+  SweepName name{json->value("sweep", ""), 0, json->at("points").get<std::size_t>()};
+  const auto read = std::from_chars(config.data(), config.data() + config.size(), name.config, 16);
+  if (read.ec != std::errc()) return std::nullopt;
+  return name;
+}
+
+std::string point_line(const std::vector<std::string>& axes, const PointKeys& keys,
+                       const PointResult& result) {
+  Json json = Json::object();
+  json["point"] = result.point;
+  if (!keys.case_name.empty()) json["case"] = keys.case_name;
+  json["keys"] = Json::object();
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    // numbers, words and lists are written alike in TOML and JSON
+    Json value = Json::parse(keys.values[k], nullptr, false);
+    json["keys"][axes[k]] = value.is_discarded() ? Json(keys.values[k]) : std::move(value);
+  }
+  if (keys.seed != 0) json["seed"] = keys.seed;
+  json["outcome"] = word_of(result.outcome);
+  if (!result.reason.empty()) json["reason"] = result.reason;
+  json["figures"] = Json::object();
+  for (const auto& [name, figure] : result.figures) json["figures"][name] = json_of(figure);
+  return sealed(json);
+}
+
+std::optional<PointResult> point_of(std::string_view line, std::size_t points) {
+  const auto json = unsealed(line);
+  const auto is = [&](const char* key, auto kind) {
+    return json->contains(key) && (json->at(key).*kind)();
+  };
+  if (!json || !is("point", &Json::is_number_unsigned) || !is("outcome", &Json::is_string) ||
+      !is("figures", &Json::is_object))
+    return std::nullopt;
+  const auto outcome = find_word<PointOutcome>(json->at("outcome").get<std::string>());
+  PointResult result;
+  result.point = json->at("point").get<std::size_t>();
+  if (!outcome || result.point >= points) return std::nullopt;
+  result.outcome = *outcome;
+  if (is("reason", &Json::is_string)) result.reason = json->at("reason").get<std::string>();
+  for (const auto& [name, figure] : json->at("figures").items())
+    result.figures.emplace_back(name, figure_of(figure));
+  return result;
+}
+
+}  // namespace
+
+Result<SweepContents> read_sweep_log(const fs::path& file) {
+  const auto text = read_whole(file);
+  if (!text) return tl::unexpected(text.error());
+  SweepContents contents;
+  std::string_view rest = *text;
+  for (bool first = true; !rest.empty(); first = false) {
+    const auto end = rest.find('\n');
+    if (end == std::string_view::npos) {
+      contents.cut_off = true;
+      break;
+    }
+    const auto line = rest.substr(0, end);
+    rest.remove_prefix(end + 1);
+    if (first) {
+      const auto name = name_of(line);
+      if (!name)
+        return fail(Fault::bad_input,
+                    fmt::format("'{}' is no log of a sweep: its first line does not name one",
+                                file.string()));
+      contents.name = *name;
+    } else if (auto point = point_of(line, contents.name.points)) {
+      contents.found.try_emplace(point->point, std::move(*point));
+    } else {
+      ++contents.damaged;
+    }
+    contents.whole_bytes += end + 1;
+  }
+  return contents;
+}
+
+Result<SweepLog> SweepLog::open(const fs::path& file, const SweepName& name,
+                                std::vector<std::string> axes, KeysOf keys) {
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  SweepLog log(file, descriptor);
+  if (descriptor < 0) return log.refuse(Fault::io, std::generic_category().message(errno));
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    return log.refuse(Fault::bad_input, errno == EWOULDBLOCK
+                                            ? "another sweep is writing it"
+                                            : std::generic_category().message(errno));
+  log.axes_ = std::move(axes);
+  log.keys_ = std::move(keys);
+  if (auto taken = log.take_up(name); !taken) return tl::unexpected(taken.error());
+  return log;
+}
+
+/// Reads what is there, drops what was cut off, and begins where there is nothing.
+Result<void> SweepLog::take_up(const SweepName& name) {
+  auto contents = read_sweep_log(file_);
+  if (!contents) return tl::unexpected(contents.error());
+  contents_ = std::move(*contents);
+  if (contents_.whole_bytes == 0) {
+    // a first line that was cut off is a part of the one that belongs there, or another's text
+    const auto text = read_whole(file_);
+    if (!text) return tl::unexpected(text.error());
+    if (!first_line(name).starts_with(*text))
+      return refuse(Fault::bad_input, "it is no log of a sweep");
+  } else if (!contents_.name.same_sweep(name)) {
+    return refuse(Fault::bad_input,
+                  fmt::format("it is of another preset ('{}', {} points), or of other values; "
+                              "choose another folder with -o",
+                              contents_.name.preset, contents_.name.points));
+  }
+  if (contents_.cut_off && ::ftruncate(fd_, off_t(contents_.whole_bytes)) != 0)
+    return refuse(Fault::io, std::generic_category().message(errno));
+  if (contents_.whole_bytes == 0) return put(first_line(name));
+  return {};
+}
+
+Result<void> SweepLog::append(const PointResult& result) {
+  auto written = put(point_line(axes_, keys_(result.point), result));
+  if (written) contents_.found.try_emplace(result.point, result);
+  return written;
+}
+
+Result<void> SweepLog::put(const std::string& line) {
+  for (std::size_t done = 0; done < line.size();) {
+    const ssize_t now = ::write(fd_, line.data() + done, line.size() - done);
+    if (now < 0 && errno == EINTR) continue;
+    if (now <= 0) {
+      const int code = now < 0 ? errno : ENOSPC;
+      // what others find is whole
+      if (::ftruncate(fd_, off_t(contents_.whole_bytes)) != 0) contents_.cut_off = true;
+      return refuse(Fault::io, std::generic_category().message(code));
+    }
+    done += std::size_t(now);
+  }
+  contents_.whole_bytes += line.size();
+  if (::fdatasync(fd_) != 0 && errno != EINVAL)
+    return refuse(Fault::io, std::generic_category().message(errno));
+  return {};
+}
+
+tl::unexpected<Error> SweepLog::refuse(Fault fault, const std::string& why) const {
+  return fail(fault, fmt::format("cannot write '{}': {}", file_.string(), why));
+}
+
+SweepLog::SweepLog(SweepLog&& other) noexcept
+    : file_(std::move(other.file_)),
+      fd_(std::exchange(other.fd_, -1)),
+      contents_(std::move(other.contents_)),
+      axes_(std::move(other.axes_)),
+      keys_(std::move(other.keys_)) {}
+
+SweepLog::~SweepLog() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+}  // namespace gridshell::record

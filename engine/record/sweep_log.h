@@ -1,0 +1,76 @@
+// The log of a sweep, `sweep.jsonl`: a line that names the sweep, then a line a finished point,
+// each JSON with a checksum, only ever appended to. Whoever writes holds its lock.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/record/sweep.h"
+
+namespace gridshell::record {
+
+inline constexpr const char* sweep_log_name = "sweep.jsonl";
+
+/// Which sweep a log is of.
+struct SweepName {
+  std::string preset;        ///< for whoever reads the log
+  std::uint64_t config = 0;  ///< hash of what its numbers depend on
+  std::size_t points = 0;    ///< in all
+
+  bool same_sweep(const SweepName& other) const {
+    return config == other.config && points == other.points;
+  }
+};
+
+/// What stands in a log.
+struct SweepContents {
+  SweepName name;
+  std::map<std::size_t, PointResult> found;  ///< by the point; the first line of one counts
+  std::size_t damaged = 0;                   ///< lines whose checksum is wrong
+  bool cut_off = false;                      ///< the last line was not written to its end
+  std::uintmax_t whole_bytes = 0;            ///< up to the end of the last whole line
+};
+
+/// Reads a log that others may be writing. Errors (bad_input): no log of a sweep, naming the file.
+Result<SweepContents> read_sweep_log(const std::filesystem::path& file);
+
+/// A log in hand, locked while it lives.
+class SweepLog {
+ public:
+  /// What a point was set to, for its line.
+  using KeysOf = std::function<PointKeys(std::size_t point)>;
+
+  /// Begins a log, or goes on with one: a last line that was cut off is dropped. Errors
+  /// (bad_input): another program holds it, it is of another sweep, it is no log; io.
+  static Result<SweepLog> open(const std::filesystem::path& file, const SweepName& name,
+                               std::vector<std::string> axes, KeysOf keys);
+
+  SweepLog(SweepLog&& other) noexcept;
+  SweepLog& operator=(SweepLog&&) = delete;
+  ~SweepLog();
+
+  const std::map<std::size_t, PointResult>& found() const { return contents_.found; }
+  std::size_t damaged() const { return contents_.damaged; }
+  bool cut_off() const { return contents_.cut_off; }
+
+  /// A line on the disk, or none. Errors: io.
+  Result<void> append(const PointResult& result);
+
+ private:
+  SweepLog(std::filesystem::path file, int descriptor) : file_(std::move(file)), fd_(descriptor) {}
+  Result<void> take_up(const SweepName& name);
+  Result<void> put(const std::string& line);
+  tl::unexpected<Error> refuse(Fault fault, const std::string& why) const;
+
+  std::filesystem::path file_;
+  int fd_ = -1;
+  SweepContents contents_;
+  std::vector<std::string> axes_;
+  KeysOf keys_;
+};
+
+}  // namespace gridshell::record

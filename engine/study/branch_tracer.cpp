@@ -1,0 +1,191 @@
+#include "engine/study/branch_tracer.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/solve/newton.h"
+
+namespace gridshell::study {
+namespace {
+
+using record::BranchEvent;
+
+TracedPoint traced(const ArcPoint& at, BranchEvent event = BranchEvent::none) {
+  return {at.point, at.inertia.negative_pivots, event};
+}
+
+/// One branch in the making.
+class Tracer {
+ public:
+  Tracer(Linearisation& system, const PinnedMotion& motion, ArcFollower path,
+         const TraceOptions& options, const Met& met, const Watch& watch)
+      : system_(system),
+        motion_(motion),
+        path_(std::move(path)),
+        options_(options),
+        met_(met),
+        watch_(watch) {}
+
+  std::vector<TracedPoint> run() {
+    points_.push_back(traced(path_.at()));
+    for (int k = 0; k < options_.most_steps && !watch_.cancelled(); ++k)
+      if (!step()) break;
+    return std::move(points_);
+  }
+
+ private:
+  /// Whether the branch goes on.
+  bool step() {
+    const ArcFollower before = path_;
+    if (path_.step(watch_) != Outcome::reached) return end(BranchEvent::lost);
+    if (path_.turn() * before.turn() < 0) return turn(before);
+    if (path_.at().inertia.negative_pivots != before.at().inertia.negative_pivots &&
+        !bifurcations(before))
+      return false;
+    const double t = path_.at().point.t;
+    if (t >= options_.to || t <= options_.from) return arrive(t >= options_.to);
+    points_.push_back(traced(path_.at()));
+    if (std::abs(system_.assembly().largest_strain) > options_.max_strain)
+      return end(BranchEvent::locking);
+    return path_.at().inertia.negative_pivots <= options_.most_pivots || end(BranchEvent::lost);
+  }
+
+  bool end(BranchEvent event) {
+    if (!watch_.cancelled()) points_.back().event = event;
+    return false;
+  }
+
+  /// Goes from `before` on in small steps to just past where the path turns back.
+  bool turn(const ArcFollower& before) {
+    constexpr int parts = 8;
+    const double step = length_between(before, path_) / parts;
+    ArcFollower slow = before;
+    for (int k = 0; k < 2 * parts; ++k) {
+      slow.set_step(step);
+      if (slow.step(watch_) != Outcome::reached) return end(BranchEvent::lost);
+      const bool past = slow.turn() * before.turn() < 0;
+      points_.push_back(traced(slow.at()));
+      if (past) break;
+    }
+    points_.back().event = BranchEvent::turn;
+    slow.set_step(step * parts);
+    path_ = slow;
+    return true;
+  }
+
+  /// Every place between `before` and the path's point where a pivot changes its sign; false where
+  /// the branch met another one.
+  bool bifurcations(const ArcFollower& before) {
+    constexpr int most = 4;
+    ArcFollower low = before;
+    const int last = path_.at().inertia.negative_pivots;
+    double left = length_between(before, path_);
+    for (int k = 0; k < most && low.at().inertia.negative_pivots != last; ++k) {
+      const int here = low.at().inertia.negative_pivots;
+      const double smallest = options_.locate * left;
+      double done = 0;
+      ArcFollower high = path_;
+      for (double step = left / 2; step > smallest && !watch_.cancelled(); step /= 2) {
+        ArcFollower middle = low;
+        middle.set_step(step);
+        if (middle.step(watch_) != Outcome::reached) break;
+        if (middle.at().inertia.negative_pivots == here) {
+          low = middle;
+          done += step;
+        } else {
+          high = middle;
+        }
+      }
+      TracedPoint found = traced(low.at(), BranchEvent::bifurcation);
+      found.beyond = high.at().inertia.negative_pivots;
+      if (met_(found)) found.event = BranchEvent::joins;
+      const bool joins = found.event == BranchEvent::joins;
+      points_.push_back(std::move(found));
+      if (joins) return false;
+      left -= done;
+      low = high;
+    }
+    return true;
+  }
+
+  /// The point at the end of the range itself, if there is one.
+  bool arrive(bool at_end) {
+    const double t = at_end ? options_.to : options_.from;
+    const PathPoint& beyond = path_.at().point;
+    const PathPoint& before = points_.back().at;
+    const double part = (t - before.t) / (beyond.t - before.t);
+    TracedPoint last;
+    last.at.t = t;
+    last.at.state = before.state;
+    move_to(system_.model(), before.state.x + part * (beyond.state.x - before.state.x),
+            last.at.state);
+    last.at.state.force += part * (beyond.state.force - before.state.force);
+    motion_.impose(system_, t, last.at.state);
+    NewtonOptions newton_options;
+    newton_options.tolerance_mm = options_.arc.tolerance_mm;
+    newton_options.farthest_mm = options_.arc.largest_mm;
+    if (newton(system_, last.at.state, newton_options, watch_).outcome != Outcome::reached)
+      return false;
+    last.negative_pivots = system_.at(last.at.state).negative_pivots;
+    points_.push_back(std::move(last));
+    return false;
+  }
+
+  double length_between(const ArcFollower& a, const ArcFollower& b) const {
+    const PathPoint &from = a.at().point, &to = b.at().point;
+    const double moved = (to.state.x - from.state.x).squaredNorm() / double(from.state.x.cols());
+    const double turned = options_.arc.parameter_mm * (to.t - from.t);
+    return std::sqrt(moved + turned * turned);
+  }
+
+  Linearisation& system_;
+  const PinnedMotion& motion_;
+  ArcFollower path_;
+  const TraceOptions& options_;
+  const Met& met_;
+  const Watch& watch_;
+  std::vector<TracedPoint> points_;
+};
+
+}  // namespace
+
+std::vector<TracedPoint> trace(Linearisation& system, const PinnedMotion& motion, ArcFollower path,
+                               const TraceOptions& options, const Met& met, const Watch& watch) {
+  return Tracer(system, motion, std::move(path), options, met, watch).run();
+}
+
+std::vector<Eigen::Matrix3Xd> crossing_modes(Linearisation& system, const PinnedMotion& motion,
+                                             const TracedPoint& crossing, const Watch& watch) {
+  constexpr int rounds = 40, more = 2;  // vectors beyond those asked for make it converge
+  const auto [low, high] = std::minmax(crossing.negative_pivots, crossing.beyond);
+  State state = crossing.at.state;
+  motion.impose(system, crossing.at.t, state);
+  system.at(state, false);
+  double shift = 1e-6;
+  while (!system.shifted(shift).positive_definite() && shift < 1e6 && !watch.cancelled())
+    shift *= 2;
+  const Eigen::Index columns = system.model().columns();
+  Eigen::MatrixXd basis(3 * columns, high + more), turned = basis;
+  for (Eigen::Index k = 0; k < basis.cols(); ++k)
+    for (Eigen::Index row = 0; row < basis.rows(); ++row)
+      basis(row, k) = std::sin(1 + double(row) * (1.3 + 0.61 * double(k)));
+  for (int round = 0; round < rounds && !watch.cancelled(); ++round) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis);
+    basis = qr.householderQ() * Eigen::MatrixXd::Identity(basis.rows(), basis.cols());
+    for (Eigen::Index k = 0; k < basis.cols(); ++k) {
+      Eigen::Matrix3Xd column = basis.col(k).reshaped(3, columns);
+      system.solve(column);
+      turned.col(k) = column.reshaped();
+    }
+    // the largest of the inverse are the softest
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> inner(basis.transpose() * turned);
+    basis = turned * inner.eigenvectors().rowwise().reverse();
+  }
+  std::vector<Eigen::Matrix3Xd> modes;
+  for (int k = low; k < high; ++k)
+    modes.emplace_back(basis.col(k).normalized().reshaped(3, columns));
+  return modes;
+}
+
+}  // namespace gridshell::study

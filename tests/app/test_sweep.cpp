@@ -1,0 +1,167 @@
+// `gridshell sweep` as a user runs it: killed, spread, gathered, attacked.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <random>
+
+#include "engine/core/atomic_file.h"
+#include "tests/app/program.h"
+#include "tests/small_preset.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using namespace gridshell;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A sweep of `count` radii in small.toml.
+void write_sweep(const fs::path& folder, int count, const std::string& more = "") {
+  const auto text = small_preset({}) + more +
+                    fmt::format(
+                        "[sweep.over]\nactuation.radius_mm = {{ from = 44, to = 40, count = "
+                        "{} }}\n",
+                        count);
+  REQUIRE(write_atomically(folder / "small.toml", text));
+}
+
+std::string text_of(const fs::path& file) { return read_whole(file).value_or(""); }
+
+std::size_t lines_in(const fs::path& file) {
+  const auto text = text_of(file);
+  return std::size_t(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// What must be the same however a sweep was computed.
+std::vector<std::string> products(const fs::path& folder) {
+  std::vector<std::string> texts;
+  for (const char* name : {"sweep.csv", "preset.toml", "height_mm.png", "height_mm.svg"})
+    texts.push_back(text_of(folder / name));
+  return texts;
+}
+
+Ended sweep(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"sweep", "small.toml", "--quiet"});
+  return gridshell_program(arguments, folder.path());
+}
+
+}  // namespace
+
+TEST_CASE("a sweep is the same with one job or more, and finished it draws again at once") {
+  const TemporaryFolder folder;
+  write_sweep(folder.path(), 4, "[sweep]\nseeds = 2\n");
+  REQUIRE(sweep(folder, {"-o", "one", "--jobs", "1"}).code == 0);
+  REQUIRE(sweep(folder, {"-o", "two", "--jobs", "2"}).code == 0);
+  const auto one = products(folder.path() / "one");
+  for (const auto& text : one) CHECK_FALSE(text.empty());
+  CHECK(one == products(folder.path() / "two"));
+  CHECK(lines_in(folder.path() / "one/sweep.jsonl") == 9);
+  CHECK_THAT(one[0], Contains("point,actuation.radius_mm,seed,outcome,") && Contains("height_mm"));
+  // other pictures of the same numbers
+  REQUIRE(sweep(folder, {"-o", "one", "--set", "sweep.plot=[\"total_K\"]"}).code == 0);
+  CHECK(fs::exists(folder.path() / "one/total_K.png"));
+  CHECK_FALSE(fs::exists(folder.path() / "one/height_mm.png"));
+  CHECK(lines_in(folder.path() / "one/sweep.jsonl") == 9);
+}
+
+TEST_CASE("killing a sweep at any moment loses nothing that was logged") {
+  const TemporaryFolder folder;
+  write_sweep(folder.path(), 24);
+  REQUIRE(sweep(folder, {"-o", "whole"}).code == 0);
+  const auto log = folder.path() / "cut/sweep.jsonl";
+  std::mt19937 random(15);
+  std::string before;
+  for (int kill = 0; kill < 20; ++kill) {
+    const Running running({"sweep", "small.toml", "-o", "cut", "--jobs", "2", "--quiet"},
+                          folder.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 60));
+    running.signal(SIGKILL);
+    running.wait();
+    // whole lines of before stand where they stood
+    const auto now = text_of(log);
+    const auto whole = before.substr(0, before.rfind('\n') + 1);
+    REQUIRE(now.starts_with(whole));
+    before = now;
+  }
+  REQUIRE(sweep(folder, {"-o", "cut"}).code == 0);
+  CHECK(text_of(log).starts_with(before.substr(0, before.rfind('\n') + 1)));
+  CHECK(products(folder.path() / "cut") == products(folder.path() / "whole"));
+}
+
+TEST_CASE("shards merge to the same bytes as the whole") {
+  const TemporaryFolder folder;
+  write_sweep(folder.path(), 7);
+  REQUIRE(sweep(folder, {"-o", "whole"}).code == 0);
+  for (const char* shard : {"3/3", "1/3"})
+    REQUIRE(sweep(folder, {"-o", "parts", "--shard", shard}).code == 0);
+  CHECK(fs::exists(folder.path() / "parts/shard_3_of_3/sweep.csv"));
+  const auto early = sweep(folder, {"-o", "parts", "--merge"});
+  CHECK(early.code == 1);
+  CHECK_THAT(early.err, Contains("5 of 7 points are in 'parts'"));
+  REQUIRE(sweep(folder, {"-o", "parts", "--shard", "2/3"}).code == 0);
+  REQUIRE(sweep(folder, {"-o", "parts", "--merge"}).code == 0);
+  CHECK(products(folder.path() / "parts") == products(folder.path() / "whole"));
+  // gathered twice is gathered once
+  REQUIRE(sweep(folder, {"-o", "parts", "--merge"}).code == 0);
+  CHECK(lines_in(folder.path() / "parts/sweep.jsonl") == 8);
+}
+
+TEST_CASE("GNU parallel spreads a sweep over shards") {
+  if (std::system("parallel --version > /dev/null 2>&1") != 0) {
+    WARN("GNU parallel is not installed");
+    return;
+  }
+  const TemporaryFolder folder;
+  write_sweep(folder.path(), 5);
+  const auto line = fmt::format(
+      "cd '{}' && parallel -j 2 '{}' sweep small.toml -o out --quiet --shard '{{}}/3' ::: 1 2 3",
+      folder.path().string(), GRIDSHELL_PROGRAM);
+  REQUIRE(std::system(line.c_str()) == 0);
+  REQUIRE(sweep(folder, {"-o", "out", "--merge"}).code == 0);
+  REQUIRE(sweep(folder, {"-o", "whole"}).code == 0);
+  CHECK(products(folder.path() / "out") == products(folder.path() / "whole"));
+}
+
+TEST_CASE("two sweeps into one folder do not meet, another preset is refused") {
+  const TemporaryFolder folder;
+  write_sweep(folder.path(), 200);
+  const Running first({"sweep", "small.toml", "-o", "out", "--jobs", "1", "--quiet"},
+                      folder.path());
+  const auto log = folder.path() / "out/sweep.jsonl";
+  REQUIRE(wait_until([&] { return lines_in(log) > 1; }));
+  fs::create_directories(folder.path() / "second");
+  const auto preset = (folder.path() / "small.toml").string();
+  const auto out = (folder.path() / "out").string();
+  const auto second = gridshell_program({"sweep", preset, "-o", out}, folder.path() / "second");
+  CHECK(second.code == 2);
+  CHECK_THAT(second.err, Contains("another sweep is writing it"));
+  first.signal(SIGINT);
+  const auto stopped = first.wait();
+  CHECK(stopped.code == 130);
+  CHECK_THAT(stopped.err, Contains("of 200 points are in 'out'; the same command goes on"));
+  const auto other = sweep(folder, {"-o", "out", "--set", "rod.young_GPa=70"});
+  CHECK(other.code == 2);
+  CHECK_THAT(other.err, Contains("of another preset"));
+}
+
+TEST_CASE("what a sweep is asked for in vain is told") {
+  const TemporaryFolder folder;
+  write_sweep(folder.path(), 3);
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& why) {
+    const auto ended = sweep(folder, arguments);
+    INFO(ended.err);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains(why));
+  };
+  refused({"--set", "sweep.plot=[\"height\"]"}, "did you mean 'height_mm'?");
+  refused({"--set", "sweep.over={}"}, "sweeps nothing");
+  refused({"--shard", "4/3"}, "--shard 4/3: must be i/N");
+  refused({"--shard", "x"}, "must be i/N");
+  refused({"-o", "out", "--merge"}, "holds no shard");
+  refused({"-o", "."}, "it is no sweep, and holds '");
+  refused({"-o", "small.toml"}, "it is a file");
+  CHECK(fs::exists(folder.path() / "small.toml"));
+  REQUIRE(write_atomically(folder.path() / "bad.toml", "[sweep.over]\nrod.diameter_mm = []\n"));
+  const auto bad = gridshell_program({"sweep", "bad.toml"}, folder.path());
+  CHECK(bad.code == 2);
+  CHECK_THAT(bad.err, Contains("bad.toml:2:") && Contains("rod.diameter_mm"));
+}

@@ -1,0 +1,153 @@
+#include "engine/record/sweep_log.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "engine/core/atomic_file.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::record;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const SweepName name{"a preset", 0x1234, 10};
+
+Result<SweepLog> open(const std::filesystem::path& file, const SweepName& of = name) {
+  return SweepLog::open(file, of, {"rod.diameter_mm", "actuation.seed"}, [](std::size_t point) {
+    return PointKeys{"", {std::to_string(point) + ".5", "\"up\""}, 0};
+  });
+}
+
+PointResult result(std::size_t point) {
+  PointResult made;
+  made.point = point;
+  made.figures = {{"height_mm", 0.1 * double(point)},
+                  {"stable", true},
+                  {"limit", "none"},
+                  {"force_N", std::monostate{}}};
+  return made;
+}
+
+std::string text_of(const std::filesystem::path& file) { return read_whole(file).value(); }
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+}  // namespace
+
+TEST_CASE("a log gives back what was put into it, to the bit") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "sweep.jsonl";
+  {
+    auto log = open(file);
+    REQUIRE(log);
+    for (const std::size_t point : {3u, 1u}) REQUIRE(log->append(result(point)));
+    PointResult none;
+    none.point = 2;
+    none.outcome = PointOutcome::no_equilibrium;
+    none.reason = "no \"rest\"\nthere";
+    REQUIRE(log->append(none));
+  }
+  auto log = open(file);
+  REQUIRE(log);
+  REQUIRE(log->found().size() == 3);
+  const auto& three = log->found().at(3);
+  CHECK(three.figures == result(3).figures);
+  CHECK(log->found().at(2).reason == "no \"rest\"\nthere");
+  CHECK(log->found().at(2).outcome == PointOutcome::no_equilibrium);
+  CHECK_FALSE(log->cut_off());
+  CHECK_THAT(text_of(file), Contains(R"("keys":{"rod.diameter_mm":3.5,"actuation.seed":"up"})"));
+}
+
+TEST_CASE("a log that was cut anywhere keeps every whole line, and goes on") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "sweep.jsonl";
+  {
+    auto log = open(file);
+    for (std::size_t point = 0; point < 3; ++point) REQUIRE(log->append(result(point)));
+  }
+  const std::string whole = text_of(file);
+  for (std::size_t length = 0; length <= whole.size();
+       length += length + 40 < whole.size() ? 37 : 1) {
+    write(file, whole.substr(0, length));
+    const auto lines = std::size_t(std::count(whole.begin(), whole.begin() + long(length), '\n'));
+    auto log = open(file);
+    INFO(length);
+    REQUIRE(log);
+    CHECK(log->found().size() == (lines > 0 ? lines - 1 : 0));
+    for (std::size_t point = 0; point < 3; ++point)
+      if (!log->found().contains(point)) REQUIRE(log->append(result(point)));
+    CHECK(text_of(file) == whole);
+  }
+}
+
+TEST_CASE("a line that was changed is not believed") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "sweep.jsonl";
+  {
+    auto log = open(file);
+    for (std::size_t point = 0; point < 3; ++point) REQUIRE(log->append(result(point)));
+  }
+  std::string text = text_of(file);
+  text[text.find("\"point\":1") + 8] = '7';
+  write(file, text);
+  auto log = open(file);
+  REQUIRE(log);
+  CHECK(log->damaged() == 1);
+  CHECK(log->found().size() == 2);
+  CHECK_FALSE(log->found().contains(7));
+}
+
+TEST_CASE("a log is of one sweep and in one hand") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "sweep.jsonl";
+  {
+    auto log = open(file);
+    REQUIRE(log);
+    const auto second = open(file);
+    REQUIRE_FALSE(second);
+    CHECK_THAT(second.error().message, Contains("another sweep is writing it"));
+  }
+  SweepName other = name;
+  other.config = 1;
+  const auto refused = open(file, other);
+  REQUIRE_FALSE(refused);
+  CHECK_THAT(refused.error().message, Contains("of another preset"));
+  // what is none is left as it is
+  for (const char* text : {"my notes", "my notes\n", "{\"sweep\":1}\n"}) {
+    write(file, text);
+    REQUIRE_FALSE(open(file));
+    CHECK(text_of(file) == text);
+  }
+}
+
+TEST_CASE("a full disk loses the point, not the log") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "sweep.jsonl";
+  auto log = open(file);
+  REQUIRE(log->append(result(0)));
+  {
+    const FileSizeLimit limit(text_of(file).size() + 20);
+    CHECK_FALSE(log->append(result(1)));
+  }
+  CHECK(text_of(file).ends_with("}\n"));
+  REQUIRE(log->append(result(1)));
+  CHECK(read_sweep_log(file)->found.size() == 2);
+}
+
+TEST_CASE("a sweep as a table") {
+  SweepTable table{{"rod.diameter_mm"}, false, false, {}};
+  table.rows.push_back({{"", {"0.5"}, 0}, result(0)});
+  PointResult none;
+  none.point = 1;
+  none.outcome = PointOutcome::refused;
+  none.reason = "too thick, by far";
+  table.rows.push_back({{"", {"30.0"}, 0}, none});
+  CHECK(sweep_csv(table) ==
+        "point,rod.diameter_mm,outcome,height_mm,stable,limit,force_N,reason\n"
+        "0,0.5,done,0,true,none,,\n"
+        "1,30.0,refused,,,,,\"too thick, by far\"\n");
+}

@@ -1,0 +1,62 @@
+#include "engine/study/branches_study.h"
+
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "engine/preset/reader.h"
+#include "tests/small_preset.h"
+
+using namespace gridshell;
+using namespace gridshell::study;
+using record::BranchEvent;
+using record::BranchPoint;
+
+namespace {
+
+Result<BranchDiagram> diagram_of(const std::string& text) {
+  Watch watch;
+  return branches_study(preset::read_preset_text(text, "a.toml", "a").value().base, {}, watch);
+}
+
+double ratio(const BranchPoint& point) { return point.boundary_radius_mm / 126; }
+
+}  // namespace
+
+TEST_CASE("the shell of Fig. 1 loses its two mirrors near the flat", "[full]") {
+  const auto found = diagram_of("[accuracy]\nedges_per_segment = 4\n");
+  REQUIRE(found);
+  CHECK(found->symmetry_order == 4);
+  CHECK(found->all_followed);
+  std::map<int, std::vector<BranchPoint>> branches;
+  for (const BranchPoint& point : found->points) branches[point.branch].push_back(point);
+  // the path is unstable in one gap alone, between two bifurcations, and keeps its symmetry
+  double first = 0, last = 1;
+  for (const BranchPoint& point : branches[0]) {
+    CHECK(std::abs(point.amplitude) < 1e-6);
+    if (point.stable()) continue;
+    first = std::max(first, ratio(point));
+    last = std::min(last, ratio(point));
+  }
+  CHECK(first == Approx(0.9953).margin(1.5e-3));
+  CHECK(last == Approx(0.9901).margin(1.5e-3));
+  // a pair of mirror images leaves there and stays stable to the end, lower in energy
+  int to_the_end = 0;
+  for (const auto& [number, points] : branches) {
+    const BranchPoint& end = points.back();
+    if (number == 0 || std::abs(end.progress - 1) > 1e-9 || !end.stable()) continue;
+    ++to_the_end;
+    CHECK(std::abs(end.amplitude) > 0.01);
+  }
+  CHECK(to_the_end >= 2);
+  CHECK(branches[1].back().energy_mJ == Approx(branches[2].back().energy_mJ).epsilon(1e-6));
+  CHECK(branches[1].back().amplitude == Approx(-branches[2].back().amplitude).epsilon(1e-4));
+}
+
+TEST_CASE("a diagram that there is no path for is refused with the reason") {
+  const auto net = diagram_of(
+      "[footprint]\nkind = \"net\"\n[actuation]\nstart = \"net\"\n[accuracy]\nmodel = \"net\"\n"
+      "tolerance = 0.1\n");
+  REQUIRE_FALSE(net);
+  CHECK(net.error().fault == Fault::bad_input);
+  CHECK_THAT(net.error().message, Catch::Matchers::Contains("not the net itself"));
+}
