@@ -9,6 +9,8 @@
 namespace gridshell::experiment {
 namespace {
 
+constexpr int samples = 41;  // of a path from the flat
+
 /// Keeps the last frame alone.
 class LastFrameSink final : public record::Sink {
  public:
@@ -39,7 +41,8 @@ record::Figures more_of(const Scene* scene, const record::Frame& last) {
     const double d = scene->footprint.spacing;
     ratio = rod.EA * d * d / std::min(rod.EI1, rod.EI2);
   }
-  return {{"depth_mm", known(last.depth_mm)},
+  return {{"progress", known(last.progress)},
+          {"depth_mm", known(last.depth_mm)},
           {"force_N", known(last.force_N)},
           {"stiffness_ratio", ratio}};
 }
@@ -48,10 +51,12 @@ Result<record::Figures> run_figures(preset::Preset preset, Watch& watch) {
   auto made = scene_of(preset);
   if (!made) return tl::unexpected<Error>(made.error());
   const auto scene = std::make_shared<const Scene>(std::move(*made));
-  // the last state is what counts
+  // the last state is what counts: the end, or where a path ends early the last sample before that
   preset.figure.radii_mm.clear();
+  preset.movie.frames = samples;
+  const bool end_alone = preset.actuation.start == preset::Start::net;
   LastFrameSink sink;
-  const auto summary = run(preset, scene, true, sink, watch);
+  const auto summary = run(preset, scene, end_alone, sink, watch);
   if (!summary) return tl::unexpected<Error>(summary.error());
   auto figures = record::figures_of(*summary);
   for (auto& more : more_of(scene.get(), sink.last())) figures.push_back(std::move(more));

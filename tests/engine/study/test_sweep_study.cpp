@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "engine/experiment/point.h"
 #include "tests/small_preset.h"
 
 using namespace gridshell;
@@ -50,6 +51,26 @@ TEST_CASE("points are the same however many are computed at a time") {
   };
   CHECK(bend(1) / bend(0) == Approx(std::pow(0.3 / 0.25, 4)).epsilon(5e-3));
   CHECK(bend(4) > bend(2));
+}
+
+TEST_CASE("a path that ends early counts as far as it came, whatever the movie's frames") {
+  const auto figures = [](int frames) {
+    auto preset =
+        preset::read_preset_text(small_preset({.rods = 8, .radius_mm = 82, .actuated_mm = 40}) +
+                                     "[rod]\ndiameter_mm = 0.5\n",
+                                 "thick.toml", "thick")
+            .value()
+            .base;
+    preset.movie.frames = frames;
+    Watch watch;
+    return experiment::figures_of(preset, watch).value();
+  };
+  const auto found = figures(2);
+  CHECK(found == figures(90));
+  const std::map<std::string, record::Figure> named(found.begin(), found.end());
+  CHECK(std::get<std::string>(named.at("limit")) == "locking");
+  CHECK(record::number_of(named.at("progress")) > 0.5);
+  CHECK(record::number_of(named.at("progress")) < 1);
 }
 
 TEST_CASE("shards take every point once") {
