@@ -56,7 +56,7 @@ int main(int count, char** arguments) {
     for (int k = 0; k < stage.frames(); ++k) {
       render::Image picture = blank;
       const double start = cpu_ms();
-      stage.finish(picture, k);
+      stage.finish(picture, {run.frames[std::size_t(k)], k});
       const double finished = cpu_ms();
       const auto bytes = render::encode_png(picture);
       overlay.push_back(finished - start);

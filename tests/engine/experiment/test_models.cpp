@@ -137,8 +137,10 @@ TEST_CASE("a strip lies down or stands up, and an arched rod rises by itself") {
   // curved as the dome is, it has less to bend; in the flat it is not at rest straight
   CHECK(arched.trajectory.frames.front().height_mm > 0.01);
   CHECK(arched.trajectory.frames.front().residual_N < 1e-6);
+  // the other way round its rods roll over, as their ends spin freely, and come to the same
   p.rod.curvature_per_mm = -0.005;
-  CHECK(run(p).summary.energies[Term::bend] > arched.summary.energies[Term::bend]);
+  CHECK(run(p).summary.energies[Term::bend] ==
+        Approx(arched.summary.energies[Term::bend]).epsilon(1e-9));
   p.rod.curvature_per_mm = 0;
   p.rod.width_mm = 0.5;
   p.rod.thickness_mm = 0.15;
