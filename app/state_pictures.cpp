@@ -31,10 +31,8 @@ std::string class_text(StateClass kind) {
 }
 
 std::string caption_of(const StateRow& row, const record::StateSearch& search) {
-  std::string met = fmt::format("met {} in {}", row.count, search.at_rest);
-  if (row.count == 0) met = "from a symmetric form";
-  return fmt::format("{}, {}: {:.2f} mJ, {}", class_text(row.kind), group_text(row.group),
-                     row.energy_mJ(), met);
+  return fmt::format("{}, {}: {:.2f} mJ, met {} in {}", class_text(row.kind), group_text(row.group),
+                     row.energy_mJ(), row.count, search.at_rest);
 }
 
 /// "153 states in 900 trials; about 214 in all (186 to 262)"
@@ -90,6 +88,7 @@ render::Plot lives_plot(const record::StateTables& states) {
   const bool circle = std::ranges::none_of(
       states.rows, [](const StateRow& row) { return std::isnan(row.lives_to_radius_mm); });
   plot.y = {.label = circle ? "largest *R*_{a} (mm)" : "least progress"};
+  plot.legend = render::LegendPlace::above;
   plot.series = by_class(states.rows, [&](const StateRow& row) {
     return circle ? row.lives_to_radius_mm : row.lives_to;
   });
@@ -101,7 +100,7 @@ render::Plot ways_plot(const record::StateTables& states) {
   render::Plot plot;
   plot.title = "Which state goes to which";
   plot.x = {.label = "from state"};
-  plot.y = {.label = "to state (0: one that was not met)"};
+  plot.y = {.label = "to state (0: not met)"};
   plot.legend = render::LegendPlace::above;
   std::map<std::string, render::Series> series;
   for (const record::Transition& way : states.transitions) {

@@ -33,8 +33,8 @@ std::vector<Field> jitter_fields() {
       {"jitter", "drawn", "", integer<&P::jitter, &Jitter::drawn>(between(1, 24)),
        "states in the picture"},
       {"jitter", "transitions", "", integer<&P::jitter, &Jitter::transitions>(between(0, 1000)),
-       "states, the drawn ones first, of which is found out where they go when the boundary is let "
-       "out and drawn in again and when they are poked"},
+       "states, from the lowest in energy on, of which is found out where they go when the "
+       "boundary is let out and drawn in again and when they are poked"},
   };
 }
 

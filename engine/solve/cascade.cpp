@@ -22,6 +22,12 @@ void confine(const Model& model, const RodMesh& mesh, const std::vector<MeshSymm
   move_to(model, x, state);
 }
 
+/// Down the energy the fast way; where that does not end at rest, on from there the slow one.
+Result<State> rest_from_rough(Linearisation& system, State state, const Watch& watch) {
+  if (minimise(system, state, {.rough = true}, watch).outcome == Outcome::reached) return state;
+  return rest_below(system, std::move(state), watch);
+}
+
 std::vector<MeshSymmetry> members(const std::vector<MeshSymmetry>& all,
                                   const std::vector<int>& group) {
   std::vector<MeshSymmetry> found;
@@ -86,10 +92,10 @@ Result<State> Cascade::rest(double t, const Eigen::Matrix3Xd& nodes, const Watch
     }
     if (level == levels_.back()) break;
     // a coarse mesh need not come to rest: what it left is smoother in any case
-    minimise(*level->system, state, {.tolerance_mm = coarse_mm, .most_iterations = most_coarse},
-             watch);
+    minimise(*level->system, state,
+             {.tolerance_mm = coarse_mm, .most_iterations = most_coarse, .rough = true}, watch);
   }
-  return rest_below(*levels_.back()->system, std::move(state), watch);
+  return rest_from_rough(*levels_.back()->system, std::move(state), watch);
 }
 
 Result<State> Cascade::rest_under(const std::vector<NodeAction>& forces, double t, State state,
@@ -97,7 +103,7 @@ Result<State> Cascade::rest_under(const std::vector<NodeAction>& forces, double 
   Level& finest = *levels_.back();
   finest.motion.impose(*finest.system, t, state);
   finest.system->outside.steady = &forces;
-  auto rest = rest_below(*finest.system, std::move(state), watch);
+  auto rest = rest_from_rough(*finest.system, std::move(state), watch);
   finest.system->outside.steady = nullptr;
   return rest;
 }
@@ -120,8 +126,9 @@ void Cascade::down(Level& level, const std::vector<MeshSymmetry>& group, State& 
   for (int round = 0; round < most_rounds && !watch.cancelled(); ++round) {
     confine(level.model, level.mesh, group, state);
     if (step_to_equilibrium(level, state, watch)) break;
-    const NewtonReport report = minimise(
-        *level.system, state, {.tolerance_mm = coarse_mm, .most_iterations = steps}, watch);
+    const NewtonReport report =
+        minimise(*level.system, state,
+                 {.tolerance_mm = coarse_mm, .most_iterations = steps, .rough = true}, watch);
     if (report.outcome == Outcome::not_finite) break;
   }
   confine(level.model, level.mesh, group, state);
@@ -149,7 +156,7 @@ Result<State> Cascade::let_go(Level& level, State state, const Watch& watch) con
   Eigen::Matrix3Xd mode = softest_mode(*level.system, {}, watch);
   mode *= push_off * spacing_mm_ / largest_column(mode);
   move_to(level.model, state.x + mode, state);
-  return rest_below(*level.system, std::move(state), watch);
+  return rest_from_rough(*level.system, std::move(state), watch);
 }
 
 }  // namespace gridshell

@@ -16,31 +16,9 @@ class Descent {
       near_mm_ += 0.1 * edge.rest_length / double(system.model().edges.size());
   }
 
-  /// Factorises the mixed form at the state, or what is near it and positive definite. What served
-  /// last comes first, a little nearer to the form as it is; after failures that waits a while.
+  /// Factorises the mixed form at the state, or what is near it and positive definite.
   Inertia factorise(double last_move_mm) {
-    const double served = weakening_;
-    if (shift_ > 0)
-      shift_ = shift_ > least_shift ? shift_ / 8 : 0;
-    else if (--wait_ <= 0 || last_move_mm < near_mm_)
-      weakening_ = weakening_ > least_weakening ? weakening_ / 4 : 0;
-    Inertia inertia = assemble();
-    if (inertia.positive_definite()) {
-      if (weakening_ < served) patience_ = 1;
-      return inertia;
-    }
-    if (weakening_ < served) wait_ = patience_ = std::min(2 * patience_, 8);
-    while (weakening_ < 1) {
-      const double more = std::clamp(4 * weakening_, 4 * least_weakening, 1.0);
-      weakening_ = weakening_ < served ? served : more;
-      inertia = assemble();
-      if (inertia.positive_definite() || watch_.cancelled()) return inertia;
-    }
-    do {
-      shift_ = std::max(4 * shift_, least_shift);
-      inertia = system_.shifted(shift_);
-    } while (!inertia.positive_definite() && shift_ < 1e8 && !watch_.cancelled());
-    return inertia;
+    return options_.rough ? from_what_served(last_move_mm) : from_the_form_itself();
   }
 
   /// Whether the last matrix was the mixed form as it is.
@@ -68,6 +46,53 @@ class Descent {
 
  private:
   static constexpr double least_weakening = 0.015, least_shift = 1e-4;  // of 1, N/mm
+
+  /// The form as it is comes first at every step.
+  Inertia from_the_form_itself() {
+    const double shift = shift_ / 4;
+    shift_ = 0;
+    weakening_ = weakening_ < 0.01 ? 0 : weakening_ / 4;
+    for (;;) {
+      const Inertia inertia = assemble();
+      if (inertia.positive_definite()) return inertia;
+      if (weakening_ >= 1 || watch_.cancelled()) break;
+      weakening_ = weakening_ == 0 ? 0.1 : 1.0;
+    }
+    shift_ = shift;
+    return shifted(1e-6);
+  }
+
+  /// What served last comes first, a little nearer to the form; after failures that waits a while.
+  Inertia from_what_served(double last_move_mm) {
+    const double served = weakening_;
+    if (shift_ > 0)
+      shift_ = shift_ > least_shift ? shift_ / 8 : 0;
+    else if (--wait_ <= 0 || last_move_mm < near_mm_)
+      weakening_ = weakening_ > least_weakening ? weakening_ / 4 : 0;
+    Inertia inertia = assemble();
+    if (inertia.positive_definite()) {
+      if (weakening_ < served) patience_ = 1;
+      return inertia;
+    }
+    if (weakening_ < served) wait_ = patience_ = std::min(2 * patience_, 8);
+    while (weakening_ < 1) {
+      const double more = std::clamp(4 * weakening_, 4 * least_weakening, 1.0);
+      weakening_ = weakening_ < served ? served : more;
+      inertia = assemble();
+      if (inertia.positive_definite() || watch_.cancelled()) return inertia;
+    }
+    return shifted(least_shift);
+  }
+
+  /// With the least shift, fourfold from the last one on, that serves.
+  Inertia shifted(double least) {
+    Inertia inertia;
+    do {
+      shift_ = std::max(4 * shift_, least);
+      inertia = system_.shifted(shift_);
+    } while (!inertia.positive_definite() && shift_ < 1e8 && !watch_.cancelled());
+    return inertia;
+  }
 
   Inertia assemble() {
     State weakened = state_;

@@ -10,6 +10,10 @@ struct MinimiseOptions {
   double tolerance_mm = 1e-5;
   int most_iterations = 400;
   double EA_scale = 1;  ///< rods made softer: a way to a state near that of rods as they are
+  /// From a state that no state is near to: what made the matrix positive definite is remembered
+  /// from step to step. Four times as fast there, but long steps may leave the valley they began
+  /// in, which a seed or a branch has chosen.
+  bool rough = false;
 };
 
 /// Newton's corrections of the mixed form with a line search: the energy falls at every step, and

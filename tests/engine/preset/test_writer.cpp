@@ -54,6 +54,7 @@ Preset all_changed() {
     if (auto* k = std::get_if<PointList>(&kind))
       for (int n = 0; n < 4; ++n) k->in(preset).emplace_back(k->coordinates.size(), 0.1 - 1e-7 * n);
   }
+  preset.jitter.levels = {0.25, 1e0 / 3};
   preset.movie.target_mm = {1.5, -2, 1e2 / 3};
   preset.movie.bins_range = preset.style.range = {-0.02, 0.07};
   // each is checked apart: only circles have radii, only the bend rung pushes and snaps
