@@ -14,7 +14,6 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     return report;
   };
   bool factor = true;
-  int served = 0;  // corrections by the present factorisation
   double before = 0;
   for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
     if (watch.cancelled()) return end(Outcome::cancelled);
@@ -39,11 +38,9 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     report.factored_move_mm = factor ? move : report.factored_move_mm + move;
     const double next = factor && options.trust_quadratic ? move * std::min(move, 1.0) : move;
     if (next <= options.tolerance_mm) return end(Outcome::reached);
-    // an old factorisation serves near the end only, and while it shrinks the corrections; its
-    // first one also takes back what the straight step before it stretched, so it may be longer
-    served = factor ? 1 : served + 1;
-    const double longest = served == 2 ? 0.5 : 0.1;  // of the one before
-    factor = move >= options.near_mm || (served > 1 && move > longest * before);
+    // an old factorisation serves near the end only, and while it shrinks the corrections
+    const bool near = move < options.near_mm;
+    factor = !near || (!factor && move > 0.1 * before);
     before = move;
   }
   return report;

@@ -95,7 +95,8 @@ TEST_CASE("every member of a preset has a key") {
   for (const auto& file : files_under(folder, ".h"))
     if (file.filename() != "preset.h") tables += read_whole(file).value();
   // "double half_x_mm = 126.0, half_y_mm = 100.0;"
-  const std::regex line("\\n  (?!return|static|const)[A-Za-z_:<>, ]+? (\\w+[^;(){}]*);");
+  const std::regex line(
+      "\\n  (?!return|static|const)[A-Za-z_][\\w:<>]*(?: [A-Za-z]+>)? (\\w+[^;(){}]*);");
   const std::regex declared("(?:^|, )(\\w+)");
   int members = 0;
   for (std::sregex_iterator at(header.begin(), header.end(), line), end; at != end; ++at) {
@@ -103,7 +104,7 @@ TEST_CASE("every member of a preset has a key") {
     for (std::sregex_iterator one(names.begin(), names.end(), declared); one != end; ++one) {
       ++members;
       INFO((*one)[1]);
-      CHECK(std::regex_search(tables, std::regex("::" + std::string((*one)[1]) + "\\b")));
+      CHECK(std::regex_search(tables, std::regex("(::|\\.)" + std::string((*one)[1]) + "\\b")));
     }
   }
   CHECK(members > 80);

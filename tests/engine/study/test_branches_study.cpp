@@ -15,7 +15,8 @@ namespace {
 
 Result<BranchDiagram> diagram_of(const std::string& text) {
   Watch watch;
-  return branches_study(preset::read_preset_text(text, "a.toml", "a").value().base, {}, watch);
+  return branches_study(preset::read_preset_text(text, "a.toml", "a").value().base,
+                        {.most_branches = 40}, watch);
 }
 
 double ratio(const BranchPoint& point) { return point.boundary_radius_mm / 126; }
