@@ -266,7 +266,13 @@ TEST_CASE("every preset that comes with the program runs to its end", "[full]") 
   for (std::string line; std::getline(lines, line);) {
     const auto name = line.substr(0, line.find(' '));
     INFO(name);
-    const auto ended = gridshell_program({"run", name, "--frames", "5", "--quiet"}, folder.path());
+    std::vector<std::string> arguments{"run", name, "--frames", "5", "--quiet"};
+    // a search for states: each kind of trial, some times
+    if (name == "fig2_states")
+      for (const char* fewer :
+           {"jitter.trials=12", "jitter.confined=14", "jitter.transitions=1", "jitter.drawn=2"})
+        arguments.insert(arguments.end(), {"--set", fewer});
+    const auto ended = gridshell_program(arguments, folder.path());
     INFO(ended.err);
     CHECK(ended.code == 0);
   }
