@@ -4,12 +4,12 @@
 
 using namespace gridshell;
 
-// ten of the scenes that bench_engine_estimate goes through
+// six of the scenes that bench_engine_estimate goes through
 TEST_CASE("random circles: the error estimate is honest and useful, the tolerance is met",
           "[full]") {
   std::mt19937 random(2018);
   int judged = 0;
-  for (int k = 0; k < 10; ++k) {
+  for (int k = 0; k < 6; ++k) {
     const EstimateTrial t = try_estimate(random_scene(random));
     INFO(t.scene << " " << t.refused << " error " << t.truth << " estimate " << t.estimate);
     if (!t.refused.empty()) continue;
@@ -18,5 +18,5 @@ TEST_CASE("random circles: the error estimate is honest and useful, the toleranc
     CHECK(t.estimate <= 5 * t.truth);
     CHECK(t.truth <= t.tolerance);
   }
-  CHECK(judged >= 8);
+  CHECK(judged >= 5);
 }
