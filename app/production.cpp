@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "app/case_pictures.h"
 #include "app/console.h"
@@ -16,6 +15,7 @@
 #include "app/net_pictures.h"
 #include "app/state_pictures.h"
 #include "engine/core/atomic_file.h"
+#include "engine/core/parallel.h"
 #include "engine/experiment/states.h"
 #include "engine/preset/writer.h"
 #include "engine/record/folder_sink.h"
@@ -177,17 +177,16 @@ Result<void> draw_alone(Job& job, Pictures pictures, const CaseRecord& one, cons
                         const fs::path& folder, Artist& artist, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const bool curve = pictures == Pictures::stills && is_pushed(job);
-  if (is_search(job.preset)) {
-    auto drawn = draw_states(one, artist.renderer(), folder / fs::path(job.preset.name).filename(),
-                             progress.next_phase());
-    job.summary.seconds_render +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return drawn;
-  }
   const auto draw = [&](const record::Trajectory& run) {
     return artist.draw(pictures, job.preset, run, bar, folder, progress.next_phase());
   };
-  auto drawn = curve ? draw(ends_of(one.run)) : draw(one.run);
+  const auto draw_it = [&] {
+    if (is_search(job.preset))
+      return draw_states(one, artist.renderer(), folder / fs::path(job.preset.name).filename(),
+                         progress.next_phase());
+    return curve ? draw(ends_of(one.run)) : draw(one.run);
+  };
+  auto drawn = draw_it();
   job.summary.seconds_render +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return drawn;
@@ -234,12 +233,6 @@ Result<void> draw_all(std::vector<Job>& jobs, const preset::Preset& base, Pictur
   return {};
 }
 
-// a search is shared by as many threads as there are cores
-int threads_of(const Options& options) {
-  return options.threads > 0 ? options.threads
-                             : std::max(1, int(std::thread::hardware_concurrency()));
-}
-
 Result<void> do_jobs(std::vector<Job>& jobs, const preset::Presets& presets, Pictures pictures,
                      const Options& options, const fs::path& partial, Progress& progress) {
   const preset::Preset& base = presets.base;
@@ -258,8 +251,8 @@ Result<void> do_jobs(std::vector<Job>& jobs, const preset::Presets& presets, Pic
   std::vector<record::Summary> summaries;
   std::vector<CaseRecord> records;
   for (auto& job : jobs)
-    if (auto ended = simulate(job, pictures, threads_of(options), folder_of(partial, job.name),
-                              progress, records);
+    if (auto ended = simulate(job, pictures, threads_or_cores(options.threads),
+                              folder_of(partial, job.name), progress, records);
         !ended)
       return ended;
   if (artist)

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <set>
-#include <thread>
 
 #include "app/console.h"
 #include "app/interrupt.h"
@@ -15,6 +14,7 @@
 #include "app/progress.h"
 #include "app/sweep_folder.h"
 #include "engine/core/atomic_file.h"
+#include "engine/core/parallel.h"
 #include "engine/experiment/point.h"
 #include "engine/preset/suggest.h"
 #include "engine/preset/writer.h"
@@ -178,8 +178,7 @@ Result<void> compute(const Work& work, record::SweepLog& log) {
   if (todo.empty()) return {};
   if (!work.quiet() && todo.size() < work.points().size())
     std::fprintf(stderr, "going on: %s\n", standing_of(work, log).c_str());
-  int jobs = work.options.jobs;
-  if (jobs == 0) jobs = std::max(1u, std::thread::hardware_concurrency());
+  const int jobs = threads_or_cores(work.options.jobs);
   const auto stands = [&] {
     return "stopped: " + standing_of(work, log) + "; the same command goes on";
   };

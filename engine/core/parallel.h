@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -13,38 +15,68 @@
 
 namespace gridshell {
 
+/// As many threads as asked for; 0: as there are cores.
+inline int threads_or_cores(int asked) {
+  return asked > 0 ? asked : std::max(1, int(std::thread::hardware_concurrency()));
+}
+
 /// Calls `make()`, a Result, once a thread and on that thread, and `task(worker, k)` with what it
 /// returned for every k from 0 to `count`, each once; `done(share)`, one call at a time, with the
 /// share of all that is done. Results are to be kept by k, so that they do not hang on the number
-/// of threads. Errors: the first of `make`; cancelled.
+/// of threads. What fails (`make`, or a task that returns a Result) or throws cancels the rest.
+/// Errors: the first of those; cancelled. What was thrown is thrown again here.
 template <class Make, class Task, class Done>
-Result<void> share_work(int count, int threads, const Watch& watch, const Make& make,
-                        const Task& task, const Done& done) {
+Result<void> share_work(int count, int threads, Watch& watch, const Make& make, const Task& task,
+                        const Done& done) {
   std::atomic<int> next{0};
   int finished = 0;
   std::mutex guard;
   std::optional<Error> fault;
+  std::exception_ptr thrown;
+  const auto fails = [&](const Error& error) {
+    const std::lock_guard lock(guard);
+    // others that were cancelled for it may come first
+    if (!fault || fault->fault == Fault::cancelled) fault = error;
+    watch.cancel();
+  };
   const auto work = [&] {
     auto worker = make();
-    if (!worker) {
-      const std::lock_guard lock(guard);
-      if (!fault) fault = worker.error();
-      return;
-    }
+    if (!worker) return fails(worker.error());
     for (int k = next++; k < count && !watch.cancelled(); k = next++) {
-      task(*worker, k);
+      if constexpr (std::is_void_v<decltype(task(*worker, k))>)
+        task(*worker, k);
+      else if (auto ended = task(*worker, k); !ended)
+        return fails(ended.error());
       const std::lock_guard lock(guard);
       done(double(++finished) / count);
     }
   };
+  const auto guarded = [&] {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(guard);
+      if (!thrown) thrown = std::current_exception();
+      watch.cancel();
+    }
+  };
   {
     std::vector<std::jthread> helpers;
-    for (int k = 1; k < std::min(threads, count); ++k) helpers.emplace_back(work);
-    work();
+    for (int k = 1; k < std::min(threads, count); ++k) helpers.emplace_back(guarded);
+    guarded();
   }
+  if (thrown) std::rethrow_exception(thrown);
   if (fault) return tl::unexpected<Error>(*fault);
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
   return {};
+}
+
+/// The same where threads need nothing of their own: `task(k)`.
+template <class Task, class Done>
+Result<void> share_work(int count, int threads, Watch& watch, const Task& task, const Done& done) {
+  return share_work(
+      count, threads, watch, [] { return Result<bool>(true); },
+      [&](bool, int k) { return task(k); }, done);
 }
 
 }  // namespace gridshell

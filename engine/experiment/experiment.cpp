@@ -8,6 +8,7 @@
 
 #include "engine/core/clock.h"
 #include "engine/experiment/actuation.h"
+#include "engine/experiment/frames.h"
 #include "engine/experiment/indentation.h"
 #include "engine/experiment/net_sample.h"
 #include "engine/measure/deviation.h"
@@ -109,14 +110,7 @@ void put_course(const Course& course, record::Summary& s) {
 
 record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
                            const LastFrame& seen) {
-  record::Summary s;
-  s.preset = preset.name;
-  s.model = word_of(scene.rung);
-  s.model_reason = preset::model_reason(preset);
-  s.solved = scene.rung != preset::Rung::net;
-  s.rods = int(scene.footprint.rods.size());
-  s.joints = int(scene.footprint.joints.size());
-  s.cells = int(scene.footprint.cells.size());
+  record::Summary s = summary_before(preset, scene);
   s.take_state(*seen.frame());
   put_deviation(seen, s);
   put_seams(scene, s);

@@ -2,6 +2,7 @@
 
 #include "engine/measure/bins.h"
 #include "engine/measure/gauss.h"
+#include "engine/preset/rung.h"
 #include "engine/scene/net_design.h"
 
 namespace gridshell::experiment {
@@ -66,6 +67,18 @@ Result<void> record_blocks(const Assemblage& blocks, const FlatFrame& flat,
 }
 
 }  // namespace
+
+record::Summary summary_before(const preset::Preset& preset, const Scene& scene) {
+  record::Summary s;
+  s.preset = preset.name;
+  s.model = word_of(scene.rung);
+  s.model_reason = preset::model_reason(preset);
+  s.solved = scene.rung != preset::Rung::net;
+  s.rods = int(scene.footprint.rods.size());
+  s.joints = int(scene.footprint.joints.size());
+  s.cells = int(scene.footprint.cells.size());
+  return s;
+}
 
 Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
   record::Layout layout;

@@ -1,10 +1,16 @@
 // What a certified state leaves in the record.
 #pragma once
 
+#include "engine/preset/preset.h"
 #include "engine/record/snapshot.h"
+#include "engine/record/summary.h"
 #include "engine/session/session.h"
 
 namespace gridshell::experiment {
+
+/// What a summary says before anything is solved: the preset, its model and why, rods, joints,
+/// cells.
+record::Summary summary_before(const preset::Preset& preset, const Scene& scene);
 
 /// What of a run does not change: the nodes of `mesh` (ghosts are no part of it), the net, the
 /// boundaries. Errors: those of the net.

@@ -47,7 +47,10 @@ record::Figures more_of(const Scene* scene, const record::Frame& last) {
           {"stiffness_ratio", ratio}};
 }
 
-Result<record::Figures> run_figures(preset::Preset preset, Watch& watch) {
+}  // namespace
+
+Result<record::Figures> figures_of(const preset::Preset& asked, Watch& watch) {
+  preset::Preset preset = asked;
   auto made = scene_of(preset);
   if (!made) return tl::unexpected<Error>(made.error());
   const auto scene = std::make_shared<const Scene>(std::move(*made));
@@ -61,18 +64,6 @@ Result<record::Figures> run_figures(preset::Preset preset, Watch& watch) {
   auto figures = record::figures_of(*summary);
   for (auto& more : more_of(scene.get(), sink.last())) figures.push_back(std::move(more));
   return figures;
-}
-
-}  // namespace
-
-PointKind kind_of(const preset::Preset&) { return PointKind::run; }
-
-Result<record::Figures> figures_of(const preset::Preset& preset, Watch& watch) {
-  switch (kind_of(preset)) {
-    case PointKind::run:
-      break;
-  }
-  return run_figures(preset, watch);
 }
 
 std::vector<std::string> figure_names() {

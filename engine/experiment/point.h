@@ -8,15 +8,9 @@
 
 namespace gridshell::experiment {
 
-/// What a preset asks to be computed: its keys say it.
-enum class PointKind {
-  run,  ///< one experiment, of which the last state counts
-};
-PointKind kind_of(const preset::Preset& preset);
-
-/// The figures of a preset. Of a run: those of summary.json but for its seconds, for its last
-/// state; how far that is (progress, below 1 where the path ended early), the depth and the force
-/// of a push (depth_mm, force_N), and what its rods are: stiffness_ratio, EA d^2/EI. `[movie]` and
+/// The figures of a preset's run: those of summary.json but for its seconds, for its last state;
+/// how far that is (progress, below 1 where the path ended early), the depth and the force of a
+/// push (depth_mm, force_N), and what its rods are: stiffness_ratio, EA d^2/EI. `[movie]` and
 /// `[figure]` change none of them. Errors: bad_input, no_equilibrium, cancelled.
 Result<record::Figures> figures_of(const preset::Preset& preset, Watch& watch);
 

@@ -12,7 +12,6 @@
 #include "engine/experiment/state_measures.h"
 #include "engine/experiment/transitions.h"
 #include "engine/measure/richness.h"
-#include "engine/preset/rung.h"
 #include "engine/session/budget.h"
 
 namespace gridshell::experiment {
@@ -194,15 +193,9 @@ namespace {
 
 record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
                            const StateLibrary& library) {
-  record::Summary s;
-  s.preset = preset.name;
-  s.model = word_of(scene.rung);
-  s.model_reason = preset::model_reason(preset);
+  record::Summary s = summary_before(preset, scene);
   s.edges_per_segment = library.edges_per_segment;
   s.dof = library.dof;
-  s.rods = int(scene.footprint.rods.size());
-  s.joints = int(scene.footprint.joints.size());
-  s.cells = int(scene.footprint.cells.size());
   s.newton_iterations = library.effort.newton_iterations;
   s.factorizations = library.effort.factorizations;
   s.take_state(library.states.front().frame);

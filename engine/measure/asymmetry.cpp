@@ -3,22 +3,10 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/footprint/mesh_symmetry.h"
+
 namespace gridshell {
 namespace {
-
-/// The eight symmetries of the square: turns by right angles, and a mirror before them.
-std::vector<Eigen::Matrix2d> square_group() {
-  Eigen::Matrix2d quarter, mirror;
-  quarter << 0, -1, 1, 0;
-  mirror << 1, 0, 0, -1;
-  std::vector<Eigen::Matrix2d> group;
-  Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();
-  for (int k = 0; k < 4; ++k, turn = quarter * turn) {
-    group.push_back(turn);
-    group.push_back(turn * mirror);
-  }
-  return group;
-}
 
 /// Which point each point is mapped to; nothing where one has no image among them.
 std::optional<std::vector<Eigen::Index>> images(const Eigen::Matrix2Xd& points,
@@ -49,7 +37,9 @@ SharedSymmetry::SharedSymmetry(const Eigen::Matrix2Xd& flat, const Eigen::Matrix
                                double within_mm) {
   const Eigen::Matrix2Xd points = centred(flat);
   const Eigen::Matrix3Xd joints = centred(shape);
-  for (const Eigen::Matrix2d& turn : square_group()) {
+  for (const Eigen::Matrix3d& map : square_symmetries()) {
+    if (map(2, 2) < 0) continue;  // it turns the shape over
+    const Eigen::Matrix2d turn = map.topLeftCorner<2, 2>();
     auto image = images(points, turn);
     if (!image) continue;
     Element element{turn, std::move(*image)};

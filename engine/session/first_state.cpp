@@ -4,6 +4,7 @@
 
 #include "engine/scene/net_design.h"
 #include "engine/solve/buckle.h"
+#include "engine/solve/meshed_shell.h"
 #include "engine/solve/rest.h"
 
 namespace gridshell {
@@ -41,16 +42,15 @@ Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellR
   const RodMesh& mesh = shell.mesh(0);
   if (scene.mechanics() == Rung::bend && shell.plan().edges_per_segment[0] == choosing_edges)
     return buckled_dome(shell.system(0), mesh, shell.motion(0), t, scene, watch);
-  auto chooser = NestedShell::make(scene.footprint, rods, Rung::bend, scene.motion,
-                                   {.edges_per_segment = {choosing_edges}}, {});
-  if (!chooser) return tl::unexpected<Error>(chooser.error());
-  const auto shape =
-      buckled_dome(chooser->system(0), chooser->mesh(0), chooser->motion(0), t, scene, watch);
-  shell.system(0).effort() += chooser->effort();
+  MeshedShell chooser;
+  if (auto built = chooser.build(scene.footprint, rods, Rung::bend, scene.motion, choosing_edges);
+      !built)
+    return tl::unexpected<Error>(built.error());
+  const auto shape = buckled_dome(*chooser.system, chooser.mesh, chooser.motion, t, scene, watch);
+  shell.system(0).effort() += chooser.system->effort();
   if (!shape) return shape;
   Eigen::Matrix3Xd nodes;
-  MeshTransfer(chooser->mesh(0), mesh)
-      .nodes(nodes_of(chooser->mesh(0), chooser->model(0), shape->x), nodes);
+  MeshTransfer(chooser.mesh, mesh).nodes(nodes_of(chooser.mesh, chooser.model, shape->x), nodes);
   const Model& model = shell.model(0);
   State state = flat_state(model, mesh, shell.motion(0), scene.flat);
   move_to(model, columns_of(mesh, model, nodes), state);

@@ -43,12 +43,8 @@ Result<Cascade> Cascade::make(const Footprint& footprint, const ShellRods& rods,
   Cascade cascade(flat, footprint.spacing);
   for (int k = 1; k <= edges; k *= 2) {
     auto level = std::make_unique<Level>();
-    level->mesh = mesh_rods(footprint, k);
-    auto model = build_model(level->mesh, rods, rung);
-    if (!model) return tl::unexpected<Error>(model.error());
-    level->model = std::move(*model);
-    level->motion = pinned_motion(level->mesh, motion);
-    level->system = std::make_unique<Linearisation>(level->model);
+    if (auto built = level->build(footprint, rods, rung, motion, k); !built)
+      return tl::unexpected<Error>(built.error());
     level->symmetries = symmetries_of(level->mesh, level->motion.at(1));
     if (k > 1) {
       const Level& coarser = *cascade.levels_.back();

@@ -10,7 +10,7 @@
 #include "engine/footprint/flat_frame.h"
 #include "engine/footprint/mesh_symmetry.h"
 #include "engine/gridshell/state_transfer.h"
-#include "engine/solve/motion.h"
+#include "engine/solve/meshed_shell.h"
 #include "engine/solve/rest.h"
 
 namespace gridshell {
@@ -48,11 +48,7 @@ class Cascade {
   Linearisation& system() { return *levels_.back()->system; }
 
  private:
-  struct Level {
-    RodMesh mesh;
-    Model model;
-    PinnedMotion motion;
-    std::unique_ptr<Linearisation> system;
+  struct Level : MeshedShell {
     std::unique_ptr<StateTransfer> from_coarser;
     std::vector<MeshSymmetry> symmetries;
   };

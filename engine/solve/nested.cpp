@@ -38,12 +38,8 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
   shell.boundary_ = motion;
   for (int edges : plan.edges_per_segment) {
     auto level = std::make_unique<Level>();
-    level->mesh = mesh_rods(footprint, edges);
-    auto model = build_model(level->mesh, rods, rung);
-    if (!model) return tl::unexpected<Error>(model.error());
-    level->model = std::move(*model);
-    level->motion = pinned_motion(level->mesh, motion);
-    level->system = std::make_unique<Linearisation>(level->model);
+    if (auto built = level->build(footprint, rods, rung, motion, edges); !built)
+      return tl::unexpected<Error>(built.error());
     level->system->outside.steady = &level->steady;
     level->system->outside.field = &level->field;
     if (!shell.levels_.empty()) {

@@ -9,6 +9,7 @@
 #include "engine/core/result.h"
 #include "engine/gridshell/state_transfer.h"
 #include "engine/solve/level_plan.h"
+#include "engine/solve/meshed_shell.h"
 #include "engine/solve/path.h"
 
 namespace gridshell {
@@ -107,11 +108,7 @@ class NestedShell {
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }
 
  private:
-  struct Level {
-    RodMesh mesh;
-    Model model;
-    PinnedMotion motion;
-    std::unique_ptr<Linearisation> system;
+  struct Level : MeshedShell {
     std::unique_ptr<StateTransfer> from_coarser;
     std::optional<MeshTransfer> to_coarser;
     std::vector<NodeAction> steady, field;

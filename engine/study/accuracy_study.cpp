@@ -1,10 +1,9 @@
 #include "engine/study/accuracy_study.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 
+#include "engine/core/parallel.h"
 #include "engine/study/judge.h"
 
 namespace gridshell::study {
@@ -96,29 +95,27 @@ std::vector<Ladder> other_ladders(const AccuracyOptions& options) {
 }
 
 /// Runs ladders on several threads; rows come back in the order of the ladders.
-std::vector<AccuracyRow> climb(Subject& study, const std::vector<Ladder>& ladders, int threads,
-                               const AccuracyOptions& options, Watch& watch, double from,
-                               double to) {
+Result<std::vector<AccuracyRow>> climb(Subject& study, const std::vector<Ladder>& ladders,
+                                       int threads, const AccuracyOptions& options, Watch& watch,
+                                       double from, double to) {
   std::vector<std::vector<AccuracyRow>> rows(ladders.size());
-  std::atomic<std::size_t> next{0}, done{0};
-  const auto work = [&] {
-    for (std::size_t k = next++; k < ladders.size(); k = next++) {
-      for (const Method& method : ladders[k].rungs) {
-        if (watch.cancelled()) return;
-        const Measured measured = measure(study, method, ladders[k].allowed, options, watch);
-        rows[k].push_back(row_of(study, method, measured));
-        if (measured.outcome == RunOutcome::too_slow) break;
-      }
-      watch.report(from + (to - from) * double(++done) / double(ladders.size()));
+  const auto climb_one = [&](int k) {
+    const Ladder& ladder = ladders[std::size_t(k)];
+    for (const Method& method : ladder.rungs) {
+      if (watch.cancelled()) return;
+      const Measured measured = measure(study, method, ladder.allowed, options, watch);
+      rows[std::size_t(k)].push_back(row_of(study, method, measured));
+      if (measured.outcome == RunOutcome::too_slow) break;
     }
   };
-  std::vector<std::thread> helpers;
-  for (int k = 1; k < threads; ++k) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
-  std::vector<AccuracyRow> all;
-  for (const auto& some : rows) all.insert(all.end(), some.begin(), some.end());
-  return all;
+  const auto gathered = [&] {
+    std::vector<AccuracyRow> all;
+    for (const auto& some : rows) all.insert(all.end(), some.begin(), some.end());
+    return all;
+  };
+  return share_work(int(ladders.size()), threads, watch, climb_one,
+                    [&](double share) { watch.report(from + (to - from) * share); })
+      .map(gathered);
 }
 
 bool is_auto(const AccuracyRow& row) { return row.method.starts_with("auto "); }
@@ -208,10 +205,13 @@ Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const Accurac
     (void)study.problem(k, watch);  // a mesh without one is refused where it is used
   AccuracyStudy result;
   result.reference_error = study.reference_error();
-  result.rows = climb(study, own_ladders(options), 1, options, watch, 0.02, 0.05);
+  auto own = climb(study, own_ladders(options), 1, options, watch, 0.02, 0.05);
+  if (!own) return tl::unexpected<Error>(own.error());
+  result.rows = std::move(*own);
   const auto others = climb(study, other_ladders(options), std::max(1, options.threads), options,
                             watch, 0.05, options.scaling ? 0.75 : 1);
-  result.rows.insert(result.rows.end(), others.begin(), others.end());
+  if (!others) return tl::unexpected<Error>(others.error());
+  result.rows.insert(result.rows.end(), others->begin(), others->end());
   result.standings = standings_of(result.rows);
   if (options.scaling) result.scaling = scaling_of(preset, options, watch);
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped");

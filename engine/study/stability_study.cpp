@@ -1,26 +1,18 @@
 #include "engine/study/stability_study.h"
 
-#include <atomic>
-#include <thread>
-
+#include "engine/core/parallel.h"
 #include "engine/study/stopwatch.h"
 
 namespace gridshell::study {
 
-void run_cells(Cells& cells, const StabilityOptions& options, Watch& watch) {
-  std::atomic<std::size_t> next{0}, done{0};
-  const auto work = [&] {
-    for (std::size_t k = next++; k < cells.size() && !watch.cancelled(); k = next++) {
-      const TimeLimit limit(options.seconds, watch);
-      cells[k].row.outcome = cells[k].run(limit.watch());
-      // a reference that is not found in time is no method's failure
-      watch.report(double(++done) / double(cells.size()));
-    }
+Result<void> run_cells(Cells& cells, const StabilityOptions& options, Watch& watch) {
+  const auto run = [&](int k) {
+    Cell& cell = cells[std::size_t(k)];
+    const TimeLimit limit(options.seconds, watch);
+    cell.row.outcome = cell.run(limit.watch());
   };
-  std::vector<std::thread> helpers;
-  for (int k = 1; k < options.threads; ++k) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
+  return share_work(int(cells.size()), options.threads, watch, run,
+                    [&](double share) { watch.report(share); });
 }
 
 Result<std::vector<record::StabilityRow>> stability_study(const preset::Preset& preset,
@@ -47,8 +39,7 @@ Result<std::vector<record::StabilityRow>> stability_study(const preset::Preset& 
   add(leg_map(preset, {1e-4, 1e-3, 1e-2, 0.1, 0.2}, {3, 10}, 4));
   add(seed_map(study, {1e-12, 1e-6, 1e-3, 1, 10}, {2, 4}));
   add(joint_map(study, {0.01, 1, 1e2, 1e4, 1e6}, {3, 10, 30}, 1));
-  run_cells(cells, options, watch);
-  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+  if (auto ran = run_cells(cells, options, watch); !ran) return tl::unexpected<Error>(ran.error());
   std::vector<record::StabilityRow> rows;
   for (Cell& cell : cells) rows.push_back(std::move(cell.row));
   return rows;

@@ -65,7 +65,7 @@ Cells joint_map(const std::shared_ptr<Subject>& study, const std::vector<double>
                 const std::vector<double>& load_steps, int edges);
 
 /// Runs cells on several threads; outcomes are filled in, in place.
-void run_cells(Cells& cells, const StabilityOptions& options, Watch& watch);
+Result<void> run_cells(Cells& cells, const StabilityOptions& options, Watch& watch);
 
 /// All maps of a preset. Errors: those of Subject::create; bad_input where nothing is actuated.
 Result<std::vector<record::StabilityRow>> stability_study(const preset::Preset& preset,

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <optional>
-#include <thread>
 
+#include "engine/core/parallel.h"
 #include "engine/experiment/experiment.h"
 #include "engine/scene/scene.h"
 #include "engine/study/random_preset.h"
@@ -148,19 +147,11 @@ TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
 Result<std::vector<TrustScene>> trust_study(const TrustOptions& options, Watch& watch) {
   keep_blas_on_one_thread();
   std::vector<TrustScene> scenes(std::size_t(options.scenes));
-  std::atomic<int> next{0}, done{0};
-  const auto work = [&] {
-    for (int k = next++; k < options.scenes && !watch.cancelled(); k = next++) {
-      scenes[std::size_t(k)] = judged(k, options, watch);
-      watch.report(double(++done) / options.scenes);
-    }
-  };
-  std::vector<std::thread> helpers;
-  for (int k = 1; k < options.threads; ++k) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
-  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
-  return scenes;
+  return share_work(
+             options.scenes, options.threads, watch,
+             [&](int k) { scenes[std::size_t(k)] = judged(k, options, watch); },
+             [&](double share) { watch.report(share); })
+      .map([&] { return std::move(scenes); });
 }
 
 }  // namespace gridshell::study

@@ -26,7 +26,7 @@ std::vector<record::StabilityRow> outcomes_of(Cells cells, double seconds = 10) 
   StabilityOptions options;
   options.seconds = seconds;
   options.threads = 1;
-  run_cells(cells, options, watch);
+  REQUIRE(run_cells(cells, options, watch));
   std::vector<record::StabilityRow> rows;
   for (Cell& cell : cells) rows.push_back(cell.row);
   for (const auto& row : rows)

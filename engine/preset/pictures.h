@@ -1,0 +1,117 @@
+// The part of a preset that says what its pictures look like: movies, stills and pages.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/core/words.h"
+#include "engine/preset/points.h"
+
+namespace gridshell::preset {
+
+enum class Quality { draft, movie, figure };
+constexpr auto words(Quality) {
+  return word_table<Quality>(
+      {{Quality::draft, "draft"}, {Quality::movie, "movie"}, {Quality::figure, "figure"}});
+}
+enum class ColourBy { none, K, displacement, K_change };
+constexpr auto words(ColourBy) {
+  return word_table<ColourBy>({{ColourBy::none, "none"},
+                               {ColourBy::K, "K"},
+                               {ColourBy::displacement, "displacement"},
+                               {ColourBy::K_change, "K_change"}});
+}
+enum class View { free, front, side, top, corner };
+constexpr auto words(View) {
+  return word_table<View>({{View::free, "free"},
+                           {View::front, "front"},
+                           {View::side, "side"},
+                           {View::top, "top"},
+                           {View::corner, "corner"}});
+}
+enum class Pace { even, eased };
+constexpr auto words(Pace) {
+  return word_table<Pace>({{Pace::even, "even"}, {Pace::eased, "eased"}});
+}
+struct Movie {
+  int frames = 240;
+  std::array<int, 2> size{1280, 720};
+  int fps = 30;
+  Quality quality = Quality::movie;
+  ColourBy colour_by = ColourBy::K;
+  double azimuth_deg = 30;    ///< camera at the first frame, from +x towards +y
+  double elevation_deg = 22;  ///< camera, above the boundary's plane
+  double turn_deg = 40;       ///< camera turn over the whole movie
+  double zoom = 1;
+  bool inset = true;  ///< the small top view
+  bool bins = false;  ///< the plot of K in bins
+  bool captions = true;
+  bool beside = true;             ///< cases beside one another in each frame
+  View view = View::free;         ///< a standard one, in the place of azimuth and elevation
+  std::vector<double> target_mm;  ///< (x, y, z) in the middle of the panel; empty: all that moves
+  bool orthographic = false;
+  std::vector<double> bins_range;  ///< (low, high) of the axis of the bins, rad; empty: the run's
+  Points views;                    ///< (azimuth, elevation) of more views in each frame
+  double seconds = 0;              ///< of the movie without hold and title; 0: frames / fps
+  double hold_s = 0;               ///< of the last frame
+  double title_s = 0;              ///< of a title card at the begin
+  Pace pace = Pace::even;
+  bool webm = false, gif = false, poster = false;  ///< files beside movie.mp4
+};
+
+enum class Theme { screen, paper };
+constexpr auto words(Theme) {
+  return word_table<Theme>({{Theme::screen, "screen"}, {Theme::paper, "paper"}});
+}
+enum class ColourMap { automatic, diverging, sequential, grey };
+constexpr auto words(ColourMap) {
+  return word_table<ColourMap>({{ColourMap::automatic, "auto"},
+                                {ColourMap::diverging, "diverging"},
+                                {ColourMap::sequential, "sequential"},
+                                {ColourMap::grey, "grey"}});
+}
+enum class Shown { automatic, on, off };  ///< automatic: as the theme has it
+constexpr auto words(Shown) {
+  return word_table<Shown>({{Shown::automatic, "auto"}, {Shown::on, "on"}, {Shown::off, "off"}});
+}
+/// How pictures look. An empty colour and a width of 0 are the theme's.
+struct Style {
+  Theme theme = Theme::screen;
+  double rod_width_mm = 0, joint_width_mm = 0, ring_width_mm = 0;
+  std::string rod_colour, joint_colour, ring_colour, background;
+  ColourMap colour_map = ColourMap::automatic;
+  std::vector<double> range;  ///< (low, high) of the colours; empty: of all cases together
+  Shown cells = Shown::automatic, joints = Shown::automatic, rings = Shown::automatic,
+        floor = Shown::automatic, shadow = Shown::automatic;
+  double far_fade = 0.25;  ///< by how much the far side pales
+  bool letters = true;     ///< of the panels of a figure
+  std::string font;        ///< family of all text; empty: the usual one
+  double font_size = 1;    ///< of all text, over its usual size
+};
+
+enum class PageKind { none, fig1, fig3, fig4, fig5 };
+constexpr auto words(PageKind) {
+  return word_table<PageKind>({{PageKind::none, "none"},
+                               {PageKind::fig1, "fig1"},
+                               {PageKind::fig3, "fig3"},
+                               {PageKind::fig4, "fig4"},
+                               {PageKind::fig5, "fig5"}});
+}
+/// A page that shows a figure of the paper.
+struct Page {
+  PageKind kind = PageKind::none;
+  std::string photo;  ///< a PNG for the photograph's place
+};
+
+struct Figure {
+  Quality quality = Quality::figure;
+  double width_mm = 0;  ///< as printed; 0: as many pixels as movie.size says
+  double dpi = 300;
+  bool vector = false;           ///< shells as lines beside the pictures of them
+  std::vector<double> radii_mm;  ///< boundary radii of the stills
+  double scale_bar_mm = 20;
+  Points scan;  ///< (x, y, z) of joints measured by others
+};
+
+}  // namespace gridshell::preset
