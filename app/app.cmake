@@ -15,8 +15,8 @@ list(FILTER APP_SOURCES EXCLUDE REGEX "/app/main\\.cpp$")
 add_library(gridshell_app STATIC ${APP_SOURCES} ${embedded_presets})
 target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
   PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json Threads::Threads)
-gridshell_read_once(gridshell_app <CLI/CLI.hpp>)
-gridshell_compile_lightly(gridshell_app)
+gridshell_read_once(gridshell_app)
+gridshell_compile_lightly(gridshell_app -O1)
 
 add_executable(gridshell app/main.cpp)
 target_link_libraries(gridshell PRIVATE gridshell_app CLI11::CLI11)

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "app/branches.h"
 #include "app/console.h"
@@ -21,7 +20,7 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::ordered_json;
+using record::Json;
 
 constexpr double wide_mm = 178, high = 105 / wide_mm, low = 80 / wide_mm;  // of a page
 
@@ -132,7 +131,7 @@ Result<void> draw(const preset::Case& run, const ChartOptions& options, const fs
   summary = {{"preset", run.preset.name}, {"chart", options.kind}};
   summary.update(findings->summary);
   text += (run.name.empty() ? "" : run.name + ":\n") + findings->text;
-  return write_atomically(folder / "summary.json", summary.dump(2) + "\n");
+  return write_atomically(folder / "summary.json", record::text_of(summary));
 }
 
 }  // namespace
@@ -163,7 +162,7 @@ int chart(const ChartOptions& options) {
           all["cases"].push_back(std::move(summary));
         }
         if (runs.front().name.empty()) return {};
-        return write_atomically(partial / "summary.json", all.dump(2) + "\n");
+        return write_atomically(partial / "summary.json", record::text_of(all));
       });
   if (code == ExitCode::done && !options.common.quiet)
     fmt::print("{}: {}\n{}", folder.string(), options.kind, text);

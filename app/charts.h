@@ -1,10 +1,10 @@
 // The work behind `chart`: studies of methods, their tables and pictures.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "app/options.h"
+#include "engine/record/json.h"
 
 namespace gridshell::app {
 
@@ -20,7 +20,7 @@ struct ChartOptions {
 /// Lines for the terminal once everything is written, and the summary of a study.
 struct Findings {
   std::string text;
-  nlohmann::ordered_json summary = nlohmann::ordered_json::object();
+  record::Json summary = record::Json::object();
 };
 
 /// Studies a preset, or each of its cases, and writes tables and pictures. The exit code.

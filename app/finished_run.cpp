@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "app/console.h"
 #include "app/loading.h"
@@ -12,6 +11,7 @@
 #include "engine/core/memory.h"
 #include "engine/preset/rung.h"
 #include "engine/record/journal.h"
+#include "engine/record/json.h"
 #include "engine/record/summary_file.h"
 #include "engine/record/trajectory_file.h"
 
@@ -39,8 +39,7 @@ std::vector<std::string> cases_begun(const fs::path& folder) {
 
 // a word of somebody else's, safe to print
 std::string shown(const std::string& word) {
-  const auto text =
-      nlohmann::json(word).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  const auto text = record::line_of(record::Json(word), true);
   return text.size() <= 80 ? text : text.substr(0, 77) + "...";
 }
 
@@ -53,7 +52,7 @@ Result<std::vector<std::string>> case_names(const fs::path& folder) {
     if (auto begun = cases_begun(folder); !begun.empty()) return begun;
     return no_run(folder, text.error().message);
   }
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
+  const auto json = record::parsed(*text);
   if (!json.is_object() || !json.contains("cases")) return std::vector<std::string>{""};
   std::vector<std::string> names;
   for (const auto& one : json["cases"]) {

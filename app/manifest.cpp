@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
 #include <set>
@@ -12,6 +11,7 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/record/journal.h"
+#include "engine/record/json.h"
 #include "engine/record/states.h"
 
 namespace gridshell::app {
@@ -61,7 +61,7 @@ std::optional<Unlisted> named(const fs::path& folder) {
     if (run.stems.contains("")) run.stems.erase("");
   };
   const auto text = read_whole(folder / "summary.json", largest_text);
-  const auto json = text ? nlohmann::json::parse(*text, nullptr, false) : nlohmann::json();
+  const auto json = text ? record::parsed(*text) : record::Json();
   const auto holds = [&](const char* key) { return json.is_object() && json.contains(key); };
   if (holds("preset") && json["preset"].is_string() &&
       (holds("negative_pivots") || holds("cases") || holds("chart"))) {

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "app/case_pictures.h"
 #include "app/console.h"
@@ -19,6 +18,7 @@
 #include "engine/experiment/states.h"
 #include "engine/preset/writer.h"
 #include "engine/record/folder_sink.h"
+#include "engine/record/json.h"
 #include "engine/record/summary_file.h"
 
 namespace gridshell::app {
@@ -311,14 +311,14 @@ std::string shortcoming(const record::Summary& summary, bool allow_unstable) {
 
 std::string summary_of_cases(const std::string& preset, const std::vector<std::string>& names,
                              const std::vector<record::Summary>& summaries) {
-  using Json = nlohmann::ordered_json;
+  using record::Json;
   Json all{{"preset", preset}, {"cases", Json::array()}};
   for (std::size_t k = 0; k < names.size(); ++k) {
     Json one{{"name", names[k]}};
-    one.update(Json::parse(record::to_json(summaries[k])));
+    one.update(record::parsed(record::to_json(summaries[k])));
     all["cases"].push_back(std::move(one));
   }
-  return all.dump(2) + "\n";
+  return record::text_of(all);
 }
 
 int produce(const Options& options, Pictures pictures) {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "app/console.h"
 #include "app/delivery.h"
 #include "engine/core/atomic_file.h"
 #include "engine/preset/writer.h"
+#include "engine/record/json.h"
 #include "engine/study/trust_study.h"
 #include "render/figure/trust_chart.h"
 
@@ -16,7 +16,7 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::ordered_json;
+using record::Json;
 
 Result<void> write_worst(const std::vector<study::TrustScene>& scenes, const fs::path& folder) {
   for (const auto& scene : scenes) {
@@ -71,7 +71,7 @@ int chart_trust(const ChartOptions& options) {
                     })
                     .and_then([&] { return write_worst(*scenes, partial / "worst"); })
                     .and_then([&] {
-                      return write_atomically(partial / "summary.json", summary.dump(2) + "\n");
+                      return write_atomically(partial / "summary.json", record::text_of(summary));
                     });
               });
   if (code != ExitCode::done) return code;

@@ -11,8 +11,8 @@ struct FlatFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 3, 2> axes = Eigen::Matrix<double, 3, 2>::Identity();
 
-  Eigen::Vector3d at(const Eigen::Vector2d& uv) const { return origin + axes * uv; }
-  Eigen::Matrix3Xd all(const Eigen::Matrix2Xd& uv) const { return (axes * uv).colwise() + origin; }
+  Eigen::Vector3d at(const Eigen::Vector2d& uv) const;
+  Eigen::Matrix3Xd all(const Eigen::Matrix2Xd& uv) const;
 };
 
 }  // namespace gridshell

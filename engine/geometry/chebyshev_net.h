@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include "engine/core/result.h"
 
@@ -18,7 +17,7 @@ struct NetPoint {
   double K = 0;               ///< Gauss curvature, mm^-2; Gauss' equation: omega_uv = -K sin omega
 
   /// C_u x C_v / sin omega, unit
-  Eigen::Vector3d normal() const { return tangent_u.cross(tangent_v).normalized(); }
+  Eigen::Vector3d normal() const;
 };
 
 /// A smooth Chebyshev net in a frame of its own, z up; u, v and positions in mm.

@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <nlohmann/json.hpp>
 #include <type_traits>
 
 #include "engine/core/atomic_file.h"
 #include "engine/record/csv.h"
+#include "engine/record/json.h"
 
 namespace gridshell::record {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// visit(name, member) for every column, in order: writer and reader go by it.
 template <class Row, class Visit>
@@ -136,14 +134,14 @@ Result<std::vector<Row>> read_csv(const std::filesystem::path& file, const Each&
   for (std::size_t k = 1; k < lines.size(); ++k) {
     const std::vector<std::string> cells = split(lines[k], ',');
     std::size_t column = 0;
-    std::string fault;
+    const char* fault = nullptr;
     Row row;
     each(row, [&](const char* name, auto& value) {
-      if (fault.empty() && (column >= cells.size() || !take(cells[column], value))) fault = name;
+      if (!fault && (column >= cells.size() || !take(cells[column], value))) fault = name;
       ++column;
     });
-    if (fault.empty() && column != cells.size()) fault = "number of cells";
-    if (!fault.empty())
+    if (!fault && column != cells.size()) fault = "number of cells";
+    if (fault)
       return fail(Fault::bad_input,
                   fmt::format("'{}' line {}: its {} cannot be read", file.string(), k + 1, fault));
     rows.push_back(std::move(row));
@@ -162,7 +160,7 @@ std::string transitions_csv(const std::vector<Transition>& rows) {
 std::string to_json(const StateSearch& search) {
   Json json = Json::object();
   each_search_key(search, [&](const char* key, const auto& value) { json[key] = value; });
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(json);
 }
 
 namespace {
@@ -170,7 +168,7 @@ namespace {
 Result<StateSearch> read_search(const std::filesystem::path& file) {
   const auto text = read_whole(file, largest_text);
   if (!text) return tl::unexpected(text.error());
-  const Json json = Json::parse(*text, nullptr, false);
+  const Json json = parsed(*text);
   StateSearch search;
   try {
     each_search_key(search, [&](const char* key, auto& value) { json.at(key).get_to(value); });

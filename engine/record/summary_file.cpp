@@ -4,15 +4,13 @@
 
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "engine/core/atomic_file.h"
+#include "engine/record/json.h"
 
 namespace gridshell::record {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 5> limit_names{"none", "locking", "snap", "branch_lost",
                                                  "no_equilibrium"};
@@ -125,8 +123,7 @@ std::string to_json(const Summary& summary) {
   Json json = Json::object();  // made by [] it would not survive a failed allocation
   each_field(summary, [&](const char* key, const auto& value) { json[key] = json_of(value); });
   if (!summary.solved) json["stable"] = json["negative_pivots"] = nullptr;
-  // NaN becomes null; a broken UTF-8 sequence in a user's text must not stop a run
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(json);
 }
 
 Figures figures_of(const Summary& summary) {
@@ -152,7 +149,7 @@ Result<void> write_summary(const std::filesystem::path& path, const Summary& sum
 Result<Summary> read_summary(const std::filesystem::path& path) {
   const auto text = read_whole(path, largest_text);
   if (!text) return tl::unexpected(text.error());
-  Json json = Json::parse(*text, nullptr, false);
+  Json json = parsed(*text);
   if (!json.is_object())
     return fail(Fault::bad_input,
                 fmt::format("'{}' is no summary of a run: not a JSON object", path.string()));
@@ -172,7 +169,7 @@ Result<Summary> read_summary(const std::filesystem::path& path) {
     else if (!json.contains(key))
       forget(value);
     else if (!take(json[key], value, expected))
-      fault = fmt::format("\"{}\" is {}, expected {}", key, json[key].dump(), expected);
+      fault = fmt::format("\"{}\" is {}, expected {}", key, line_of(json[key]), expected);
   });
   if (!fault.empty())
     return fail(Fault::bad_input,

@@ -7,25 +7,23 @@
 
 #include <cerrno>
 #include <charconv>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include "engine/core/atomic_file.h"
 #include "engine/record/checksum.h"
+#include "engine/record/json.h"
 
 namespace gridshell::record {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr std::size_t sum_length = 26;  // of ,"sum":"0123456789abcdef"}
 
 /// A JSON object as a line that ends with the checksum of all before it.
 std::string sealed(const Json& json) {
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = line_of(json);
   text.pop_back();
   Checksum sum;
   sum.add(text);
@@ -40,7 +38,7 @@ std::optional<Json> unsealed(std::string_view line) {
   sum.add(text);
   if (line.substr(text.size()) != fmt::format(",\"sum\":\"{:016x}\"}}", sum.value()))
     return std::nullopt;
-  Json json = Json::parse(line, nullptr, false);
+  Json json = parsed(line);
   if (!json.is_object()) return std::nullopt;
   return json;
 }
@@ -87,7 +85,7 @@ std::string point_line(const std::vector<std::string>& axes, const PointKeys& ke
   json["keys"] = Json::object();
   for (std::size_t k = 0; k < axes.size(); ++k) {
     // numbers, words and lists are written alike in TOML and JSON
-    Json value = Json::parse(keys.values[k], nullptr, false);
+    Json value = parsed(keys.values[k]);
     json["keys"][axes[k]] = value.is_discarded() ? Json(keys.values[k]) : std::move(value);
   }
   if (keys.seed != 0) json["seed"] = keys.seed;

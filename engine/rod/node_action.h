@@ -16,12 +16,8 @@ struct NodeAction {
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();     ///< a, mm
   Term term = Term::load;
 
-  double value(const Eigen::Vector3d& x) const {
-    return -force.dot(x) + 0.5 * (stiffness.array() * (x - anchor).array().square()).sum();
-  }
-  Eigen::Vector3d gradient(const Eigen::Vector3d& x) const {
-    return -force + stiffness.cwiseProduct(x - anchor);
-  }
+  double value(const Eigen::Vector3d& x) const;
+  Eigen::Vector3d gradient(const Eigen::Vector3d& x) const;
 };
 
 }  // namespace gridshell

@@ -198,9 +198,4 @@ std::unique_ptr<LinearSolver> make_cholmod(const Model& model, const CholmodOpti
   return std::make_unique<CholmodSolver>(model, options);
 }
 
-std::unique_ptr<LinearSolver> make_linear_solver(const Model& model) {
-  constexpr int crossover = 200000;  // degrees of freedom
-  return model.dof() <= crossover ? make_block_cholesky(model) : make_cholmod(model);
-}
-
 }  // namespace gridshell

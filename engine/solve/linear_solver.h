@@ -61,15 +61,6 @@ std::unique_ptr<LinearSolver> make_cholmod(const Model& model, const CholmodOpti
 
 /// Rows and columns of `block`, whose row is column `row` of the model and whose column is
 /// `column`, that are held: zero, and one on the diagonal.
-inline Eigen::Matrix3d without_held(const Model& model, int row, int column,
-                                    const Eigen::Matrix3d& block) {
-  Eigen::Matrix3d m = block;
-  for (int k = 0; k < 3; ++k) {
-    if (model.held[std::size_t(row)] >> k & 1) m.row(k).setZero();
-    if (model.held[std::size_t(column)] >> k & 1) m.col(k).setZero();
-    if (row == column && model.held[std::size_t(row)] >> k & 1) m(k, k) = 1;
-  }
-  return m;
-}
+Eigen::Matrix3d without_held(const Model& model, int row, int column, const Eigen::Matrix3d& block);
 
 }  // namespace gridshell

@@ -12,6 +12,10 @@ constexpr double border_stiffness = 1;  // g, N/mm
 
 }  // namespace
 
+Eigen::Vector3d Hold::part(const Eigen::Vector3d& v) const {
+  return directions * (directions.transpose() * v);
+}
+
 Linearisation::Linearisation(const Model& model, std::unique_ptr<LinearSolver> solver)
     : model_(model), solver_(solver ? std::move(solver) : make_linear_solver(model)) {}
 

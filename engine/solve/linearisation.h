@@ -19,9 +19,7 @@ struct Hold {
   Eigen::Matrix3Xd directions = Eigen::Matrix3d::Identity();  ///< orthonormal columns, 1 to 3
 
   /// The prescribed part of a vector at the node.
-  Eigen::Vector3d part(const Eigen::Vector3d& v) const {
-    return directions * (directions.transpose() * v);
-  }
+  Eigen::Vector3d part(const Eigen::Vector3d& v) const;
 };
 
 /// Counts of the costly operations, for reports.

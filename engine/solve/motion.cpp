@@ -2,6 +2,12 @@
 
 namespace gridshell {
 
+Eigen::Matrix3Xd PinnedMotion::at(double t) const { return begin + come(t) * change; }
+
+Eigen::Vector3d PinnedMotion::at(double t, int node) const {
+  return begin.col(node) + come(t) * change.col(node);
+}
+
 void PinnedMotion::load_up(Linearisation& system, double t) const {
   system.outside.load = grown(load, t);
   system.outside.field_factor = grown(field, t);

@@ -31,10 +31,8 @@ struct PinnedMotion {
 
   double come(double t) const { return pace == Pace::square ? t * t : t; }
   double speed(double t) const { return pace == Pace::square ? 2 * t : 1.0; }
-  Eigen::Matrix3Xd at(double t) const { return begin + come(t) * change; }
-  Eigen::Vector3d at(double t, int node) const {
-    return begin.col(node) + come(t) * change.col(node);
-  }
+  Eigen::Matrix3Xd at(double t) const;
+  Eigen::Vector3d at(double t, int node) const;
   double grown(const Growth& growth, double t) const {
     return growth.begin + come(t) * growth.change;
   }

@@ -20,8 +20,9 @@ namespace {
 
 using record::BranchEvent;
 
-constexpr double step_size = 0.006, symmetric_within = 1e-4;  // of the length scale
-constexpr double flat_shortening = 1e-3;                      // how near to the flat it is followed
+// of the length scale
+constexpr double step_size = 0.006, symmetric_within = 1e-4, round_off = 1e-9;
+constexpr double flat_shortening = 1e-3;  // how near to the flat it is followed
 constexpr double first_shortening[] = {0.02, 0.01, 0.005, 0.0025};
 
 /// What is followed, where it begins and how far it goes.
@@ -257,8 +258,8 @@ class Diagram {
     made.height_mm = joints.row(2).maxCoeff() - scene.flat.origin.z();
     const Eigen::Matrix3Xd broken = symmetry_->broken(joints);
     const bool against = branch.side.size() > 0 && broken.cwiseProduct(branch.side).sum() < 0;
-    made.amplitude =
-        branch.sign * (against ? -1 : 1) * root_mean_square(broken) / scene.length_scale_mm;
+    const double size = root_mean_square(broken) / scene.length_scale_mm;
+    made.amplitude = size > round_off ? branch.sign * (against ? -size : size) : 0;
     motion_.load_up(system_, point.at.t);
     made.energy_mJ = system_.energy_at(point.at.state);
     made.negative_pivots = point.negative_pivots;

@@ -164,7 +164,8 @@ Plot part_of(Plot plot, const std::pair<double, double>& x) {
   }
   plot.x.low = x.first;
   plot.x.high = x.second;
-  const double room = std::max(0.06 * (high - low), 1e-9);
+  // what stays level is no picture of round-off
+  const double room = std::max(0.06 * (high - low), 1e-3);
   plot.y.low = low - room;
   plot.y.high = high + room;
   plot.x.ticks = 4;
