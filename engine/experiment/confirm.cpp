@@ -81,8 +81,9 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
                          const Watch& watch) {
   // the first buckling is a choice too, which the coarsest mesh made
   const auto chose = [&] { return course.eventful() || !scene.from_net; };
+  auto plan = std::optional(course.session.shell().plan());
   for (int asked = 0; asked < most_leaders && chose(); ++asked) {
-    const auto plan = with_finer_leader(course.session.shell().plan());
+    plan = with_finer_leader(*plan);
     if (!plan || !fits_memory(scene, *plan)) {
       course.doubt =
           fmt::format("no mesh finer than {} edges a segment led to confirm it", leader_of(course));
@@ -103,12 +104,12 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
       course.doubt.clear();
       return course;
     }
-    // a path that came through is not given up for one that did not
+    // a path that came through is not given up for one that did not: a still finer one is asked
     if (whole(course) && !whole(*fine)) {
       course.doubt = fmt::format("a leading mesh of {} edges a segment did not come so far: {}",
                                  leader_of(*fine), *differs);
       course.session.charge(fine->session.effort());
-      return course;
+      continue;
     }
     fine->session.charge(course.session.effort());
     fine->seconds_setup += course.seconds_setup;

@@ -209,16 +209,16 @@ void NestedShell::remember(Level& level, double t, const State& base, const Stat
   if (level.added.size() > 2) level.added.erase(level.added.begin());
 }
 
-bool NestedShell::correct(Level& level, const State& coarser, State& state, NewtonReport& report,
+bool NestedShell::correct(Level& level, const State& base, State& state, NewtonReport& report,
                           const Watch& watch) {
   NewtonOptions options;
   options.tolerance_mm = options_.tolerance_mm;
   options.widest_turn = options_.widest_turn;
   report = newton(*level.system, state, options, watch);
   if (report.outcome != Outcome::reached) return false;
-  // a finer mesh moves the joints by less than a cell, or it went to another state
-  const int joints = level.mesh.joints;
-  return largest_column(state.x.leftCols(joints) - coarser.x.leftCols(joints)) <
+  // a finer mesh moves no node by a cell, or it went to another state
+  const int nodes = level.model.nodes;
+  return largest_column(state.x.leftCols(nodes) - base.x.leftCols(nodes)) <
          0.5 * options_.spacing_mm;
 }
 
@@ -258,13 +258,13 @@ bool NestedShell::refine(std::size_t k, double t, const State& coarser, State& s
   const State base = level.from_coarser->carry(coarser);
   state = guess(level, k, t, base);
   level.motion.impose(*level.system, t, state);
-  bool found = correct(level, coarser, state, report, watch);
+  bool found = correct(level, base, state, report, watch);
   for (bool down : {false, true}) {
     if (found || watch.cancelled()) break;
     state = base;
     level.motion.impose(*level.system, t, state);
     if (down) minimise(*level.system, state, {.most_iterations = 60}, watch);
-    found = correct(level, coarser, state, report, watch);
+    found = correct(level, base, state, report, watch);
   }
   if (found) remember(level, t, base, state);
   return found;

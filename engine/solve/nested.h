@@ -128,7 +128,7 @@ class NestedShell {
   State guess(const Level& level, std::size_t k, double t, const State& base) const;
   bool refine(std::size_t k, double t, const State& coarser, State& state, NewtonReport& report,
               const Watch& watch);
-  bool correct(Level& level, const State& coarser, State& state, NewtonReport& report,
+  bool correct(Level& level, const State& base, State& state, NewtonReport& report,
                const Watch& watch);
   void remember(Level& level, double t, const State& base, const State& state);
   void finish(const NewtonReport& report);

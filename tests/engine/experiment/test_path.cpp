@@ -222,3 +222,22 @@ TEST_CASE("the diagonal asked for lies lower, whatever the dome went to first") 
     CHECK(lower * (diagonal == preset::SeedDiagonal::y_eq_x ? -1 : 1) > 0);
   }
 }
+
+TEST_CASE(
+    "the last frame is the state that the path came to, not one whose legs flipped between "
+    "joints") {
+  // sampled without what the path remembered, Newton's method on 8 edges left 1 mm beside the
+  // joints and 12 mm inside of a leg, for an equilibrium that is not stable
+  preset::Preset p = ellipse(3);
+  p.footprint.boundary.half_x_mm = 133.62545281648636;
+  p.footprint.boundary.half_y_mm = 85.78375160704122;
+  p.actuation.scale = 0.7903740280121565;
+  p.actuation.correspondence = preset::Correspondence::arc_length;
+  p.accuracy.edges_per_segment = 8;
+  const auto outcome = run(p);
+  const auto& last = outcome.trajectory.frames.back();
+  CHECK(last.progress == 1);
+  CHECK(last.negative_pivots == 0);
+  // between those of the 4 edges, 42.92 mJ, and of the 16, 43.32 mJ
+  CHECK(last.energies[Term::bend] == Approx(43.24).margin(0.02));
+}
