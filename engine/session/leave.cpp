@@ -1,8 +1,10 @@
 #include "engine/session/leave.h"
 
+#include <optional>
 #include <random>
 
 #include "engine/solve/minimise.h"
+#include "engine/solve/newton.h"
 
 namespace gridshell {
 namespace {
@@ -27,6 +29,19 @@ Departure departure_for(Event::Kind kind, const Scene& scene, const NestedShell&
   // a path that turns back has one way on
   if (kind != Event::Kind::stability_lost) departure.side = Leave::lower;
   return departure;
+}
+
+/// The branch that lost its stability, a little beyond, where it goes on: a push off it stays on
+/// its side. From a state that is no equilibrium the first corrections take the push back, and
+/// which side it ends on is left to chance.
+std::optional<State> unstable_branch(Linearisation& system, State state, double farthest_mm,
+                                     const Watch& watch) {
+  NewtonOptions options;
+  options.farthest_mm = farthest_mm;
+  if (newton(system, state, options, watch).outcome != Outcome::reached) return std::nullopt;
+  const Inertia inertia = system.at(state, false);
+  if (!inertia.usable || inertia.positive_definite()) return std::nullopt;
+  return state;
 }
 
 }  // namespace
@@ -54,11 +69,14 @@ Result<State> rest_beyond(NestedShell& shell, const Scene& scene, const PathPoin
   Linearisation& system = shell.system(0);
   const PinnedMotion& motion = shell.motion(0);
   const Departure departure = departure_for(kind, scene, shell);
+  // the mode that went soft first, of several that are unstable beyond
   motion.load_up(system, last.t);
   system.at(last.state, false);
   const Eigen::Matrix3Xd mode = softest_mode(system, departure.start, watch);
   State state = last.state;
   motion.impose(system, there, state);
+  if (kind == Event::Kind::stability_lost)
+    state = unstable_branch(system, state, 0.1 * scene.footprint.spacing, watch).value_or(state);
   if (!scene.snap.wanted) return settle(system, state, mode, departure, watch);
   auto moved = rest_in_time(
       shell, scene, pushed_off(system, state, mode, departure.side),
