@@ -50,17 +50,22 @@ Result<void> AtomicFile::commit() {
   return {};
 }
 
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(descriptor, bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) return put < 0 ? errno : ENOSPC;
+    bytes.remove_prefix(std::size_t(put));
+  }
+  return 0;
+}
+
 Result<void> write_atomically(const std::filesystem::path& path, std::string_view bytes) {
   AtomicFile target(path);
   Descriptor file(
       ::open(target.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (file.number < 0) return fail_io("write", path, errno);
-  while (!bytes.empty()) {
-    const ssize_t put = ::write(file.number, bytes.data(), bytes.size());
-    if (put < 0 && errno == EINTR) continue;
-    if (put <= 0) return fail_io("write", path, put < 0 ? errno : ENOSPC);
-    bytes.remove_prefix(std::size_t(put));
-  }
+  if (const int code = write_all(file.number, bytes)) return fail_io("write", path, code);
   // what is still on its way may meet the full disk only now
   if (::close(std::exchange(file.number, -1)) != 0) return fail_io("write", path, errno);
   return target.commit();

@@ -37,6 +37,9 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+/// Writes all of `bytes` to an open file. 0, or the system's error number, ENOSPC for a full disk.
+int write_all(int descriptor, std::string_view bytes);
+
 /// Writes `bytes` to `path` as one AtomicFile; a full disk is noticed at write, flush or close.
 /// Errors: Fault::io, "cannot write 'path': reason".
 Result<void> write_atomically(const std::filesystem::path& path, std::string_view bytes);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "engine/experiment/actuation.h"
 #include "engine/experiment/frames.h"
@@ -82,14 +83,34 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, con
   return push;
 }
 
+Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
+                               const preset::Indentation& asked, const LevelPlan& plan,
+                               const Watch& watch) {
+  auto actuated = follow_actuation(scene, plan, false, 1, watch);
+  if (!actuated) return tl::unexpected<Error>(actuated.error());
+  if (actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
+    return fail(Fault::no_equilibrium,
+                "there is no actuated shell to push: " + actuated->limit_reason);
+  Session& session = actuated->session;
+  const auto push = push_of(asked, *scene, session.shell().finest(), session.nodes());
+  if (!push) return tl::unexpected<Error>(push.error());
+  const auto joints = Eigen::Index(scene->footprint.joints.size());
+  Eigen::Matrix3Xd before = session.nodes().leftCols(joints);
+  HeldShell held{std::move(*actuated), *push, std::move(before)};
+  held.course.earlier = std::exchange(held.course.legs, {});
+  Hold hold{push->joint};
+  if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
+  const Report taken = held.course.session.take_hold({hold}, {push->displacement}, watch);
+  if (taken.end != Outcome::reached)
+    return fail(Fault::no_equilibrium, "the unloaded shell cannot be held at the joint pushed");
+  return held;
+}
+
 namespace {
 
 /// One push of one shell, with what its frames need to know.
-struct Pushed {
-  Course course;
-  PushOf push;
+struct Pushed : HeldShell {
   double depth_mm = 0;
-  Eigen::Matrix3Xd before;  // joints of the unloaded shell
 };
 
 At at_depth(double depth_mm) {
@@ -170,24 +191,11 @@ void tell(Pushed& pushed, const Watch& watch) {
 Result<Pushed> follow_push(const std::shared_ptr<const Scene>& scene,
                            const preset::Indentation& asked, const LevelPlan& plan,
                            const Watch& watch) {
-  auto actuated = follow_actuation(scene, plan, false, 1, watch);
-  if (!actuated) return tl::unexpected<Error>(actuated.error());
-  if (actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
-    return fail(Fault::no_equilibrium,
-                "there is no actuated shell to push: " + actuated->limit_reason);
-  Session& session = actuated->session;
-  const auto push = push_of(asked, *scene, session.shell().finest(), session.nodes());
-  if (!push) return tl::unexpected<Error>(push.error());
-  Pushed pushed{std::move(*actuated), *push, push->displacement.norm(), {}};
+  auto held = hold_to_push(scene, asked, plan, watch);
+  if (!held) return tl::unexpected<Error>(held.error());
+  const double depth_mm = held->push.displacement.norm();
+  Pushed pushed{std::move(*held), depth_mm};
   Course& course = pushed.course;
-  pushed.before = course.session.nodes().leftCols(Eigen::Index(scene->footprint.joints.size()));
-  course.earlier = std::move(course.legs);
-  course.legs.clear();
-  Hold hold{push->joint};
-  if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
-  const Report held = course.session.take_hold({hold}, {push->displacement}, watch);
-  if (held.end != Outcome::reached)
-    return fail(Fault::no_equilibrium, "the unloaded shell cannot be held at the joint pushed");
   for (double to : asked.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
     const Leg& leg = follow_leg(course, to, {}, watch);
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped");

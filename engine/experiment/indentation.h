@@ -28,6 +28,19 @@ struct PushOf {
 Result<PushOf> push_of(const preset::Indentation& indentation, const Scene& scene,
                        const RodMesh& mesh, const Eigen::Matrix3Xd& nodes);
 
+/// An actuated shell that is held at the joint to be pushed, and what is to be done to it.
+struct HeldShell {
+  Course course;
+  PushOf push;
+  Eigen::Matrix3Xd before;  ///< joints of the unloaded shell, 3 x n
+};
+
+/// Actuates on the meshes of `plan` and takes hold. Errors: bad_input as push_of(), no_equilibrium
+/// (no shell to push, or it cannot be held), cancelled.
+Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
+                               const preset::Indentation& indentation, const LevelPlan& plan,
+                               const Watch& watch);
+
 /// Actuates, then pushes. Frames sample the push at `progress` in [0, 1] (of the depth; with
 /// `unload` of the way there and back), the first being the unloaded shell; the solver takes load
 /// steps of its own in between. Every frame is certified: the residual is that of all forces but

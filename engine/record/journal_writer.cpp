@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "engine/core/atomic_file.h"
 #include "engine/record/checksum.h"
 #include "engine/record/journal.h"
 #include "engine/record/journal_records.h"
@@ -31,8 +32,7 @@ Result<JournalWriter> JournalWriter::create(const fs::path& path, const RunName&
                                        std::generic_category().message(code)));
   };
   if (descriptor < 0) return refuse(errno);
-  const ssize_t put = ::write(descriptor, journal_first_line.data(), journal_first_line.size());
-  if (put != ssize_t(journal_first_line.size())) return refuse(put < 0 ? errno : ENOSPC);
+  if (const int code = write_all(descriptor, journal_first_line)) return refuse(code);
   journal.end_ = journal_first_line.size();
   if (auto headed = journal.put(head_record, packed_head(name, layout)); !headed)
     return tl::unexpected(headed.error());
@@ -75,17 +75,11 @@ Result<void> JournalWriter::put(std::uint32_t kind, const std::string& payload) 
   Packer last;
   last.number(sum.value());
   bytes += last.bytes();
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t now = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
-    if (now < 0 && errno == EINTR) continue;
-    if (now <= 0) {
-      const int code = now < 0 ? errno : ENOSPC;
-      // what others find is whole
-      if (::ftruncate(descriptor_, off_t(end_)) == 0) ::lseek(descriptor_, off_t(end_), SEEK_SET);
-      return fail(Fault::io, fmt::format("cannot write '{}': {}", path_.string(),
-                                         std::generic_category().message(code)));
-    }
-    done += std::size_t(now);
+  if (const int code = write_all(descriptor_, bytes)) {
+    // what others find is whole
+    if (::ftruncate(descriptor_, off_t(end_)) == 0) ::lseek(descriptor_, off_t(end_), SEEK_SET);
+    return fail(Fault::io, fmt::format("cannot write '{}': {}", path_.string(),
+                                       std::generic_category().message(code)));
   }
   end_ += bytes.size();
   return {};

@@ -192,16 +192,10 @@ Result<void> SweepLog::append(const PointResult& result) {
 }
 
 Result<void> SweepLog::put(const std::string& line) {
-  for (std::size_t done = 0; done < line.size();) {
-    const ssize_t now = ::write(fd_, line.data() + done, line.size() - done);
-    if (now < 0 && errno == EINTR) continue;
-    if (now <= 0) {
-      const int code = now < 0 ? errno : ENOSPC;
-      // what others find is whole
-      if (::ftruncate(fd_, off_t(contents_.whole_bytes)) != 0) contents_.cut_off = true;
-      return refuse(Fault::io, std::generic_category().message(code));
-    }
-    done += std::size_t(now);
+  if (const int code = write_all(fd_, line)) {
+    // what others find is whole
+    if (::ftruncate(fd_, off_t(contents_.whole_bytes)) != 0) contents_.cut_off = true;
+    return refuse(Fault::io, std::generic_category().message(code));
   }
   contents_.whole_bytes += line.size();
   if (::fdatasync(fd_) != 0 && errno != EINVAL)

@@ -41,18 +41,9 @@ struct Branch {
 
 Result<Course> begin_push(std::shared_ptr<const Scene> scene, const preset::Indentation& asked,
                           const LevelPlan& plan, const Watch& watch) {
-  auto actuated = experiment::follow_actuation(scene, plan, false, 1, watch);
-  if (!actuated) return tl::unexpected<Error>(actuated.error());
-  if (actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
-    return fail(Fault::bad_input, "there is no actuated shell to push: " + actuated->limit_reason);
-  Session& session = actuated->session;
-  const auto push = experiment::push_of(asked, *scene, session.shell().finest(), session.nodes());
-  if (!push) return tl::unexpected<Error>(push.error());
-  Hold hold{push->joint};
-  if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
-  if (session.take_hold({hold}, {push->displacement}, watch).end != Outcome::reached)
-    return fail(Fault::no_equilibrium, "the unloaded shell cannot be held at the joint pushed");
-  return Course{std::move(session), 0, 1, true};
+  auto held = experiment::hold_to_push(scene, asked, plan, watch);
+  if (!held) return tl::unexpected<Error>(held.error());
+  return Course{std::move(held->course.session), 0, 1, true};
 }
 
 Result<Course> begin_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
