@@ -1,6 +1,7 @@
 # The renderer: OpenGL is found at run time, so only headers are needed here. Sees record/ alone of
 # the engine.
 find_package(PNG REQUIRED)
+pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(PANGOCAIRO REQUIRED IMPORTED_TARGET pangocairo)
 find_path(GL_CORE_INCLUDE_DIR GL/glcorearb.h REQUIRED)
 find_path(OSMESA_INCLUDE_DIR GL/osmesa.h REQUIRED)
@@ -23,5 +24,5 @@ target_include_directories(gridshell_render SYSTEM PRIVATE
   ${GL_CORE_INCLUDE_DIR} ${OSMESA_INCLUDE_DIR} ${EGL_INCLUDE_DIR}
   ${GLFW_INCLUDE_DIR})
 target_link_libraries(gridshell_render PUBLIC gridshell_engine
-  PRIVATE PNG::PNG PkgConfig::PANGOCAIRO ${CMAKE_DL_LIBS})
+  PRIVATE PNG::PNG PkgConfig::DEFLATE PkgConfig::PANGOCAIRO ${CMAKE_DL_LIBS})
 gridshell_read_once(gridshell_render)

@@ -1,5 +1,5 @@
-in vec3 world;
 in vec3 surface;
+in vec4 shade, half_way;
 in vec3 right, up, axis;
 in vec2 place;
 in vec2 half_axes;
@@ -19,5 +19,7 @@ void main() {
   float z = (-b + sqrt(max(b * b - a * c, 0.0))) / a;
   vec3 q = p.x * right + p.y * up + z * sight;
   vec3 n = normalize(q + k * dot(q, axis) * axis);
-  fragment = metal(world, n, vec4(surface, 1.0)) * cover;
+  fragment = metal(Metal(vec4(surface, 1.0), shade.w, half_way.w, shade.xyz),
+                   dot(n, light_direction), dot(n, half_way.xyz), dot(n, sight), n.z) *
+             cover;
 }

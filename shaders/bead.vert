@@ -4,8 +4,9 @@ layout(location = 1) in vec4 direction;  // axis, and radius with the sign of th
 layout(location = 2) in vec4 colour;     // alpha in thirds: bit 0 the other side, bit 1 a ball
 uniform mat4 view_projection;
 uniform float ground_z;
-out vec3 world;
 out vec3 surface;
+out vec4 shade;     // place on the shadow map, and the shine's hue
+out vec4 half_way;  // to the light, and the haze
 out vec3 right, up, axis;
 out vec2 place;   // on the card, over the outline's half axes
 out vec2 half_axes;  // in samples
@@ -29,7 +30,8 @@ void main() {
   place = corner * (half_axes + 1.0) / half_axes;
   shape = vec2(1.0 / (flatness * flatness) - 1.0, high / radius);
   surface = colour.rgb;
-  world = position;
+  shade = vec4(on_map(position), shine_hue(colour.rgb));
+  half_way = vec4(normalize(sight + light_direction), haze_at(position));
   vec3 at = position + place.x * radius * right + place.y * high * up;
   gl_Position = view_projection * vec4(at, 1.0);
   gl_ClipDistance[0] = position.z - ground_z;

@@ -1,4 +1,4 @@
-// The mean of the passes summed so far.
+// A share of what was drawn so far.
 uniform sampler2D sum;
 uniform float share;
 out vec4 fragment;

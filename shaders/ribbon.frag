@@ -1,6 +1,5 @@
-in vec3 world;
 in vec4 surface;
-in vec3 across, facing;
+in vec4 shade, light_and_up, gloss_and_eye;
 in vec2 place;
 out vec4 fragment;
 
@@ -9,6 +8,9 @@ void main() {
   float off = abs(place.x), radius = place.y;
   float cover = clamp(radius - off + 0.5, 0.0, 1.0) - clamp(-radius - off + 0.5, 0.0, 1.0);
   float t = clamp(place.x / radius, -1.0, 1.0);
-  vec3 n = normalize(t * across + sqrt(1.0 - t * t) * facing);
-  fragment = metal(world, n, surface) * cover;
+  vec2 normal = vec2(t, sqrt(1.0 - t * t));  // across, and towards the eye
+  fragment = metal(Metal(surface, shade.w, gloss_and_eye.w, shade.xyz),
+                   dot(normal, light_and_up.xy), dot(normal, gloss_and_eye.xy),
+                   normal.y * gloss_and_eye.z, dot(normal, light_and_up.zw)) *
+             cover;
 }

@@ -4,24 +4,17 @@
 #include <map>
 
 #include "engine/core/result.h"
+#include "render/draw/ground.h"
 #include "render/draw/lighting.h"
-#include "render/draw/scene.h"
 #include "render/draw/shadow_map.h"
+#include "render/draw/shot.h"
 #include "render/draw/tiles.h"
 
 namespace gridshell::render {
 
-/// Everything that one picture is made from.
-struct Shot {
-  const Scene& scene;
-  const Drawing& drawing;
-  const Camera& camera;
-  const DrawQuality& quality;
-  int width, height;
-};
-
-/// Samples of the shell go into a layer of their own (premultiplied, linear light), which is then
-/// averaged over each pixel and laid over the ground; the ground is computed once a pixel.
+/// The ground is drawn first, then the shell over it from far to near. With several samples a pixel
+/// the shell's go into a layer of their own (premultiplied, linear light), whose mean over each
+/// pixel is laid over the ground.
 class Painter {
  public:
   /// `gl` outlives it.
@@ -35,24 +28,32 @@ class Painter {
 
  private:
   struct Programs {
-    Program sheet, ribbon, bead, mean;
+    Program sheet, ribbon, bead;
   };
-  Painter(const Gl& gl, Programs programs, ShadowMap shadow);
+  Painter(const Gl& gl, Program mean, Ground ground, ShadowMap shadow);
 
-  Result<void> paint_layer(const Shot& shot, const Tile& tile, const Lighting& light);
+  Result<Programs> create_programs(int taps) const;
+  Result<void> prepare(const DrawQuality& quality);
+
+  Result<void> paint_pass(const Shot& shot, const Tile& tile, const Lighting& light, Target& to);
+  void lay_over(int per_side, const Tile& tile) const;
+  void show(GLuint texture, float share) const;
   void set_light(const Program& program, const Shot& shot, const Lighting& light) const;
+  void set_shadow(const Program& program, const Shot& shot, const Lighting& light) const;
   void draw_meshes(const Shot& shot, const Lighting& light, const Eigen::Matrix4f& matrix);
-  void resolve(const Shot& shot, const Tile& tile, const Lighting& light);
   void screen_triangle() const;
-  Eigen::Matrix4d matrix(const Shot& shot, const Tile& tile, const Lighting& light) const;
+  bool many() const { return passes_.size() > 1; }
 
   const Gl* gl_;
-  Programs programs_;
-  std::map<int, Program> resolve_;  ///< by samples along a pixel's side
+  Program mean_;
+  std::map<int, Programs> programs_;  ///< by taps of the shadow that falls on the shell
+  int taps_ = 0;                      ///< of the shot
+  std::map<int, Program> average_;    ///< by samples along a pixel's side
+  Ground ground_;
   ShadowMap shadow_;
   VertexStore sheets_, ribbons_, beads_;
   VertexArray no_vertices_;
-  Target layer_, sum_, pixels_;
+  Target layer_, pass_, sum_, pixels_;
   std::vector<Lighting> passes_;
   int shadow_of_ = -1;  ///< the pass whose shadow the map holds
 };

@@ -26,6 +26,29 @@ std::uint32_t add_ribbon(Mesh& mesh, const Ribbon& ribbon) {
   return first;
 }
 
+int reach(const Ribbon& ribbon, int from, int last, float tolerance_mm) {
+  constexpr float colour_step = 0.004f;
+  const auto count = int(ribbon.points.size());
+  const auto within = [&](int to) {
+    const Eigen::Vector3f &a = ribbon.points[from], &b = ribbon.points[to % count];
+    const Eigen::Vector4f &first = ribbon.colours[from], &second = ribbon.colours[to % count];
+    const Eigen::Vector3f along = b - a;
+    const float length2 = along.squaredNorm();
+    if (length2 == 0) return false;
+    for (int k = from + 1; k < to; ++k) {
+      const Eigen::Vector3f off = ribbon.points[k % count] - a;
+      const float part = off.dot(along) / length2;
+      if ((off - part * along).squaredNorm() > tolerance_mm * tolerance_mm) return false;
+      const Eigen::Vector4f mixed = first + part * (second - first);
+      if ((ribbon.colours[k % count] - mixed).cwiseAbs().maxCoeff() > colour_step) return false;
+    }
+    return true;
+  };
+  int to = from + 1;
+  while (to < last && within(to + 1)) ++to;
+  return to;
+}
+
 void join_points(std::vector<std::uint32_t>& indices, std::uint32_t first, int k, int l) {
   const std::uint32_t a = first + 2 * std::uint32_t(k), b = first + 2 * std::uint32_t(l);
   indices.insert(indices.end(), {a, a + 1, b + 1, a, b + 1, b});

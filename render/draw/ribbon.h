@@ -23,6 +23,11 @@ inline constexpr float widest_radius_mm = 64;
 /// in the normal's fourth component the radius with the side's sign. Returns the first vertex.
 std::uint32_t add_ribbon(Mesh& mesh, const Ribbon& ribbon);
 
+/// How far from point `from` a straight piece may go, at most to `last`: all points between lie
+/// within `tolerance_mm` of it, their colours within a step of a screen's. (`last` may lie beyond
+/// the last point of a closed ribbon.)
+int reach(const Ribbon& ribbon, int from, int last, float tolerance_mm);
+
 /// The two triangles from point `k` to point `l` of a ribbon with this first vertex.
 void join_points(std::vector<std::uint32_t>& indices, std::uint32_t first, int k, int l);
 

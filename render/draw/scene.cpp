@@ -18,6 +18,10 @@
 namespace gridshell::render {
 namespace {
 
+// what pieces longer than the edges of a mesh may miss, in samples: of a rod, whose outline shows
+// it, and of a cell, whose sides are hidden by rods
+constexpr double rod_tolerance_samples = 0.03, cell_tolerance_samples = 0.25;
+
 using Points = std::vector<Eigen::Vector3f>;
 using Colours = std::vector<Eigen::Vector4f>;
 
@@ -118,7 +122,8 @@ class Weaver {
     Colours colours(drawing_.cell_colours.size());
     std::transform(drawing_.cell_colours.begin(), drawing_.cell_colours.end(), colours.begin(),
                    [](const Colour& c) { return to_linear(c); });
-    auto patches = render::add_cells(scene_.sheets, *drawing_.layout, drawing_.nodes, colours);
+    auto patches = render::add_cells(scene_.sheets, *drawing_.layout, drawing_.nodes, colours,
+                                     float(cell_tolerance_samples * mm_per_sample_));
     for (CellPatch& patch : patches) {
       double depth = 0;
       for (int joint : drawing_.layout->cells[patch.cell].joints)
@@ -143,7 +148,8 @@ class Weaver {
       Colours colours;
       for (int node : rod) colours.push_back(of_node.empty() ? plain : of_node[node]);
       const Points points = points_of(drawing_.nodes, rod);
-      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}});
+      const Ribbon ribbon{points, colours, {&radius, 1}};
+      const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
       for (std::size_t begin = 0; begin + 1 < rod.size();) {
         std::size_t end = begin + 1;
         while (end + 1 < rod.size() && !neighbours.joint(rod[end])) ++end;
@@ -153,7 +159,7 @@ class Weaver {
           depth = std::min(depth, cell_depth_[cell]);
         for (int node : {rod[begin], rod[end]})
           node_depth_[node] = std::min(node_depth_[node], depth);
-        add_stretch(first, int(begin), int(end), depth, true);
+        add_stretch(ribbon, first, int(begin), int(end), depth, true);
         begin = end;
       }
     }
@@ -186,11 +192,14 @@ class Weaver {
       if (points.size() < 3) continue;
       const Colours colours(points.size(), opaque(ring.colour));
       const float radius = radius_of(ring.diameter_mm, mm_per_sample_);
-      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}, true});
-      for (int k = 0, n = int(points.size()); k < n; ++k) {
+      const Ribbon ribbon{points, colours, {&radius, 1}, true};
+      const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
+      for (int k = 0, next = 0, n = int(points.size()); k < n; k = next) {
+        next = reach(ribbon, k, n, rod_tolerance());
         Piece piece{forward_.dot(points[k].cast<double>()), {}};
-        join_points(piece.indices, first, k, (k + 1) % n);
-        if (ring.shadow) insert(scene_.casters, piece.indices);
+        join_points(piece.indices, first, k, next % n);
+        for (int l = k; ring.shadow && l < next; ++l)
+          join_points(scene_.casters, first, l, (l + 1) % n);
         ribbons_.push_back(std::move(piece));
       }
     }
@@ -204,10 +213,11 @@ class Weaver {
         if (rod.size() < 2) continue;
         const Points points = points_of(ghost.nodes, rod);
         const Colours colours(points.size(), to_linear(ghost.colour));
-        const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}});
+        const Ribbon ribbon{points, colours, {&radius, 1}};
+        const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
         for (int begin = 0, last = int(rod.size()) - 1; begin < last; begin += edges) {
           const int end = std::min(begin + edges, last);
-          add_stretch(first, begin, end,
+          add_stretch(ribbon, first, begin, end,
                       0.5 * forward_.dot((points[begin] + points[end]).cast<double>()), false);
         }
       }
@@ -226,9 +236,10 @@ class Weaver {
       const Points points{from, neck, neck, to};
       const std::vector<float> radii{radius, radius, head_width * radius, 0.05f * radius};
       const Colours colours(4, opaque(arrow.colour));
-      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, radii});
+      const Ribbon ribbon{points, colours, radii};
+      const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
       for (const int begin : {0, 2})
-        add_stretch(first, begin, begin + 1, forward_.dot(arrow.to) - radius, true);
+        add_stretch(ribbon, first, begin, begin + 1, forward_.dot(arrow.to) - radius, true);
     }
   }
 
@@ -280,10 +291,16 @@ class Weaver {
     for (; next < pieces.size() && pieces[next].depth >= until; ++next)
       insert(indices, pieces[next].indices);
   }
-  void add_stretch(std::uint32_t first, int begin, int end, double depth, bool casts) {
+  float rod_tolerance() const { return float(rod_tolerance_samples * mm_per_sample_); }
+  void add_stretch(const Ribbon& ribbon, std::uint32_t first, int begin, int end, double depth,
+                   bool casts) {
     Piece piece{depth, {}};
-    for (int k = begin; k < end; ++k) join_points(piece.indices, first, k, k + 1);
-    if (casts) insert(scene_.casters, piece.indices);
+    for (int k = begin, next = begin; k < end; k = next) {
+      next = reach(ribbon, k, end, rod_tolerance());
+      join_points(piece.indices, first, k, next);
+    }
+    // a shadow keeps every edge: where it just touches a rod little decides
+    for (int k = begin; casts && k < end; ++k) join_points(scene_.casters, first, k, k + 1);
     ribbons_.push_back(std::move(piece));
   }
   /// A bead's shadow is that of a short strip as wide as it.

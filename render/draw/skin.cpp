@@ -95,13 +95,36 @@ Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
   return patch;
 }
 
-std::vector<std::uint32_t> add_patch(Mesh& mesh, const Patch& patch,
-                                     const Eigen::Vector4f& colour) {
-  const int n = patch.steps;
+/// How far the points that a grid of every `stride`-th leaves out lie off it, at most.
+float left_out(const Patch& patch, int stride) {
+  float most = 0;
+  for (int v = 0; v <= patch.steps; ++v)
+    for (int u = 0; u <= patch.steps; ++u) {
+      const int u0 = u - u % stride, v0 = v - v % stride;
+      const int u1 = std::min(u0 + stride, patch.steps), v1 = std::min(v0 + stride, patch.steps);
+      const float a = float(u - u0) / float(stride), b = float(v - v0) / float(stride);
+      const Eigen::Vector3f there = (1 - b) * ((1 - a) * patch.at(u0, v0) + a * patch.at(u1, v0)) +
+                                    b * ((1 - a) * patch.at(u0, v1) + a * patch.at(u1, v1));
+      most = std::max(most, (patch.at(u, v) - there).norm());
+    }
+  return most;
+}
+
+/// The coarsest grid within the tolerance.
+int stride_of(const Patch& patch, float tolerance) {
+  for (int stride = patch.steps; stride > 1; --stride)
+    if (patch.steps % stride == 0 && left_out(patch, stride) <= tolerance) return stride;
+  return 1;
+}
+
+std::vector<std::uint32_t> add_patch(Mesh& mesh, const Patch& patch, const Eigen::Vector4f& colour,
+                                     float tolerance) {
+  const int stride = stride_of(patch, tolerance), n = patch.steps / stride;
   const auto first = std::uint32_t(mesh.vertices.size());
   const PackedColour packed = pack(colour);
   for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) mesh.add(patch.at(i, j), patch.normal(i, j), packed);
+    for (int i = 0; i <= n; ++i)
+      mesh.add(patch.at(i * stride, j * stride), patch.normal(i * stride, j * stride), packed);
   std::vector<std::uint32_t> indices;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
@@ -115,13 +138,13 @@ std::vector<std::uint32_t> add_patch(Mesh& mesh, const Patch& patch,
 
 std::vector<CellPatch> add_cells(Mesh& mesh, const record::Layout& layout,
                                  const Eigen::Matrix3Xd& nodes,
-                                 std::span<const Eigen::Vector4f> colours) {
+                                 std::span<const Eigen::Vector4f> colours, float tolerance_mm) {
   const auto where = places(layout, nodes.cols());
   std::vector<CellPatch> patches;
   for (int c = 0; c < int(layout.cells.size()); ++c)
     if (colours[c].w() > 0)
-      patches.push_back(
-          {c, add_patch(mesh, coons_patch(layout, nodes, where, layout.cells[c]), colours[c])});
+      patches.push_back({c, add_patch(mesh, coons_patch(layout, nodes, where, layout.cells[c]),
+                                      colours[c], tolerance_mm)});
   return patches;
 }
 

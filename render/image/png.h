@@ -9,8 +9,8 @@
 
 namespace gridshell::render {
 
-/// The picture as the bytes of an 8-bit PNG: RGB when every pixel is opaque, else RGBA. SUB filter
-/// and run lengths, the fastest that keeps rendered frames small.
+/// The picture as the bytes of an 8-bit PNG: RGB when every pixel is opaque, else RGBA. As fast as
+/// keeps rendered frames small.
 /// Errors: Fault::bad_input for an empty picture.
 /// `dpi` above 0 is written into the file: pixels an inch as printed.
 Result<std::string> encode_png(const Image& image, double dpi = 0);

@@ -39,7 +39,9 @@ std::vector<std::string> output_options(const std::string& kind) {
   std::vector<std::string> options;
   if (kind == ".webm") options = {"-c:v", "libvpx-vp9", "-crf", "28", "-b:v", "0", "-row-mt", "1"};
   if (kind == ".gif") return {"-loop", "0"};
-  if (kind != ".webm") options = {"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart"};
+  // half the work of the usual preset for the same size, and as sharp at one step more quality
+  if (kind != ".webm")
+    options = {"-c:v", "libx264", "-preset", "veryfast", "-crf", "17", "-movflags", "+faststart"};
   options.insert(options.end(), {"-pix_fmt", "yuv420p"});
   options.insert(options.end(), tags.begin(), tags.end());
   return options;

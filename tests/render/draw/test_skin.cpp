@@ -10,7 +10,7 @@ TEST_CASE("a cell's sheet ends on its rods", "[skin]") {
   const auto shell = test::square_shell(2, 4, 50);
   Mesh mesh;
   const std::vector<Eigen::Vector4f> colours{{1, 0, 0, 1}};
-  const auto patches = add_cells(mesh, shell.layout, shell.nodes, colours);
+  const auto patches = add_cells(mesh, shell.layout, shell.nodes, colours, 0);
   REQUIRE(mesh.vertices.size() == 25);
   REQUIRE(patches.size() == 1);
   CHECK(patches[0].indices.size() == 3 * 2 * 16);
@@ -29,7 +29,7 @@ TEST_CASE("cells without alpha are left out", "[skin]") {
   std::vector<Eigen::Vector4f> colours(count, {1, 1, 1, 0.5f});
   colours[4].w() = 0;
   Mesh mesh;
-  const auto patches = add_cells(mesh, shell.layout, shell.nodes, colours);
+  const auto patches = add_cells(mesh, shell.layout, shell.nodes, colours, 0);
   CHECK(patches.size() == count - 1);
   for (const CellPatch& patch : patches) CHECK(patch.cell != 4);
 }

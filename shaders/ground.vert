@@ -1,9 +1,9 @@
-// One triangle over the target, top row first, with the point of the ground behind each pixel.
+// One triangle over the target, with the point of the ground behind each pixel.
 uniform mat4 to_ground;  // its first three rows and columns: (x, y, 1) of clip to (X, Y, 1) / depth
 out vec3 ground_point;
 
 void main() {
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
-  ground_point = mat3(to_ground) * vec3(corner.x, -corner.y, 1.0);
+  ground_point = mat3(to_ground) * vec3(corner, 1.0);
   gl_Position = vec4(corner, 0.0, 1.0);
 }
