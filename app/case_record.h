@@ -1,6 +1,8 @@
 // A finished run of a preset or of one of its cases, kept for the pictures that show several.
 #pragma once
 
+#include <string>
+
 #include "engine/preset/preset.h"
 #include "engine/record/snapshot.h"
 
@@ -9,6 +11,7 @@ namespace gridshell::app {
 struct CaseRecord {
   preset::Preset preset;
   record::Trajectory run;
+  std::string name = {};  ///< what pictures call it; empty: after its net
 };
 
 }  // namespace gridshell::app

@@ -152,6 +152,7 @@ const std::vector<Table>& tables() {
       {"loads", "What pulls on the shell beside its boundary."},
       {"dynamics", "How a shell moves that has lost its stability."},
       {"limits", "Where the model stops being valid."},
+      {"inverse", "What `gridshell design` changes so that the shell meets its surface."},
       {"accuracy", "How exact the answer is to be."},
       {"movie", "The frames of `gridshell movie` and their camera."},
       {"style", "How pictures look."},
@@ -166,7 +167,7 @@ const std::vector<Field>& field_table() {
     auto fields = shell_fields();
     for (auto& more :
          {rod_fields(), joint_fields(), boundary_fields(), net_fields(), indentation_fields(),
-          load_fields(), numerics_fields(), picture_fields(), style_fields()})
+          load_fields(), inverse_fields(), numerics_fields(), picture_fields(), style_fields()})
       fields.insert(fields.end(), more.begin(), more.end());
     return fields;
   }();
