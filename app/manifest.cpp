@@ -103,6 +103,8 @@ bool may_be_of(const Unlisted& run, const std::string& name) {
                                           "seams.csv",          "trajectory.h5",
                                           "movie.mp4",          "accuracy.csv",
                                           "scaling.csv",        "stability.csv",
+                                          "design.json",        "design.csv",
+                                          "ends.csv",           "ends_rounded.csv",
                                           "branches.csv",       record::states_name,
                                           record::search_name,  record::transitions_name,
                                           record::journal_name, record::coarser_journal_name};

@@ -60,7 +60,7 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
   std::vector<render::NetRun> shells, shades;
   std::vector<render::NamedRun> named;
   for (const CaseRecord& one : records) {
-    const std::string name = name_of(one.preset);
+    const std::string name = one.name.empty() ? name_of(one.preset) : one.name;
     const double largest =
         render::deviation_of_nodes(one.run).head(long(one.run.layout.joints.size())).maxCoeff();
     // said once, what the colours are

@@ -9,6 +9,7 @@ void add_commands(CLI::App& program, Action& action) {
   add_render(program, action);
   add_chart(program, action);
   add_sweep(program, action);
+  add_design(program, action);
   add_check(program, action);
   add_compare(program, action);
   add_list(program, action);

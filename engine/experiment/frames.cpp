@@ -3,7 +3,7 @@
 #include "engine/measure/bins.h"
 #include "engine/measure/gauss.h"
 #include "engine/preset/rung.h"
-#include "engine/scene/net_design.h"
+#include "engine/scene/second_ring.h"
 
 namespace gridshell::experiment {
 namespace {
@@ -107,7 +107,7 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
       layout.loaded_joints.push_back({load.joint, load.force.normalized()});
   if (scene.net) {
     const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
-    auto net = points_on(*scene.net, flat);
+    auto net = places_on_net(scene, mesh);
     if (!net) return tl::unexpected<Error>(net.error());
     layout.net_nodes = std::move(*net);
     layout.flat_nodes = scene.flat.all(flat);

@@ -39,6 +39,11 @@ struct FootprintRod {
   Interval span;            ///< edge points
   std::vector<int> joints;  ///< in order along the rod, at least one
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
+  double tail_begin = 0, tail_end = 0;  ///< beyond the edge point to a second pin, mm; 0: none
+  /// of a designed shell: what its legs are longer than those that end on the net's boundary, mm
+  double longer_begin = 0, longer_end = 0;
+
+  bool has_tails() const { return tail_begin > 0 || tail_end > 0; }
 };
 
 /// All rods, joints and complete cells inside an original boundary. Lengths in mm.

@@ -6,9 +6,38 @@
 namespace gridshell {
 namespace {
 
-/// Edges of a leg shorter than d/4.
-int edges_of_short_leg(int edges_per_segment) {
-  return std::max(1, int(std::lround(edges_per_segment / 4.0)));
+/// Where a rod is cut into segments, legs and tails: far end, edge point, joints, edge point, far
+/// end.
+struct Stop {
+  int node;
+  double at;
+};
+
+std::vector<Stop> stops_of(const Footprint& footprint, std::size_t r, int& next, RodMesh& mesh) {
+  const FootprintRod& rod = footprint.rods[r];
+  const int first = mesh.joints + 2 * int(r);
+  std::vector<Stop> stops;
+  const auto far_end = [&](int edge_point, double at) {
+    stops.push_back({next, at});
+    mesh.far_ends.resize(std::size_t(mesh.edge_points), -1);
+    mesh.far_ends[std::size_t(edge_point - mesh.joints)] = next++;
+  };
+  if (rod.tail_begin > 0) far_end(first, rod.span.begin - rod.tail_begin);
+  stops.push_back({first, rod.span.begin});
+  for (int joint : rod.joints) {
+    const FootprintJoint& crossing = footprint.joints[std::size_t(joint)];
+    stops.push_back({joint, rod.family == Family::u ? crossing.u : crossing.v});
+  }
+  stops.push_back({first + 1, rod.span.end});
+  if (rod.tail_end > 0) far_end(first + 1, rod.span.end + rod.tail_end);
+  return stops;
+}
+
+/// Legs and tails shorter than d/4 have fewer edges than a segment.
+int edges_between(const Stop& a, const Stop& b, const Footprint& footprint, const RodMesh& mesh) {
+  const bool segment = a.node < mesh.joints && b.node < mesh.joints;
+  if (segment || !(b.at - a.at < footprint.spacing / 4)) return mesh.edges_per_segment;
+  return std::max(1, int(std::lround(mesh.edges_per_segment / 4.0)));
 }
 
 void add_ghosts(const Footprint& footprint, int& next, RodMesh& mesh) {
@@ -41,30 +70,18 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   for (int r = 0; r < int(footprint.rods.size()); ++r) {
     const FootprintRod& rod = footprint.rods[r];
     mesh.ends.insert(mesh.ends.end(), {rod.begin, rod.end});
-    std::vector<int> stops{mesh.joints + 2 * r};
-    std::vector<double> at{rod.span.begin};
-    for (int joint : rod.joints) {
-      stops.push_back(joint);
-      const FootprintJoint& crossing = footprint.joints[joint];
-      at.push_back(rod.family == Family::u ? crossing.u : crossing.v);
-    }
-    stops.push_back(mesh.joints + 2 * r + 1);
-    at.push_back(rod.span.end);
-
-    std::vector<int> nodes{stops.front()};
-    std::vector<double> position{at.front()};
+    const std::vector<Stop> stops = stops_of(footprint, std::size_t(r), next, mesh);
+    std::vector<int> nodes{stops.front().node};
+    std::vector<double> position{stops.front().at};
     for (std::size_t k = 1; k < stops.size(); ++k) {
-      const bool is_leg = k == 1 || k + 1 == stops.size();
-      const double length = at[k] - at[k - 1];
-      const int edges = is_leg && length < footprint.spacing / 4
-                            ? edges_of_short_leg(edges_per_segment)
-                            : edges_per_segment;
+      const Stop &from = stops[k - 1], &to = stops[k];
+      const int edges = edges_between(from, to, footprint, mesh);
       for (int e = 1; e < edges; ++e) {
         nodes.push_back(next++);
-        position.push_back(at[k - 1] + length * e / edges);
+        position.push_back(from.at + (to.at - from.at) * e / edges);
       }
-      nodes.push_back(stops[k]);
-      position.push_back(at[k]);
+      nodes.push_back(to.node);
+      position.push_back(to.at);
     }
     mesh.rods.push_back(std::move(nodes));
     mesh.position.push_back(std::move(position));

@@ -13,15 +13,17 @@ namespace gridshell {
 /// first or last of their rod, `ghost_length` from the edge point on every mesh.
 /// Joints come first (node = index of the joint, shared by its two rods), then
 /// edge points (rod r has node joints + 2r at its begin, joints + 2r + 1 at its end), then the
-/// nodes inside segments and legs, rod by rod.
+/// nodes inside segments, legs and tails, rod by rod. A rod with a tail begins or ends at the
+/// tail's *far end*, its edge point being one of its inner nodes.
 struct RodMesh {
   int edges_per_segment = 0;
   int joints = 0;
   int edge_points = 0;
-  std::vector<RodEnd> ends;  ///< of every edge point; empty: all pinned
+  std::vector<RodEnd> ends;   ///< of every edge point; empty: all pinned
+  std::vector<int> far_ends;  ///< of every edge point, -1: no tail; empty: none has one
   int ghosts = 0;
   double ghost_length = 0;                    ///< mm
-  std::vector<std::vector<int>> rods;         ///< nodes of each rod from edge point to edge point
+  std::vector<std::vector<int>> rods;         ///< nodes of each rod from end to end
   std::vector<std::vector<double>> position;  ///< of those nodes along their rod in the flat, mm
   Eigen::Matrix2Xd flat;                      ///< (u, v) of every node, mm
 
@@ -30,9 +32,9 @@ struct RodMesh {
   bool is_ghost(int node) const { return node >= rod_nodes(); }
 };
 
-/// Cuts each segment into `edges_per_segment` = k edges, and each leg too; a leg shorter than d/4
-/// is cut into k/4 edges (rounded, at least one). So the meshes of 4, 8, 16 ... edges nest: halving
-/// every edge of one gives the next.
+/// Cuts each segment into `edges_per_segment` = k edges, each leg and tail too; one shorter than
+/// d/4 is cut into k/4 edges (rounded, at least one). So the meshes of 4, 8, 16 ... edges nest:
+/// halving every edge of one gives the next.
 RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment);
 
 /// Carries values between two meshes of one footprint, rod by rod along the flat arc length. The

@@ -115,10 +115,10 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, Rung rung
   }
   auto model = build_model(nodes, rods, rung, crossings);
   if (!model) return model;
-  if (rung == Rung::twist) {
-    add_joints(mesh, shell.joints, *model);
-    finish(*model);
-  }
+  if (rung == Rung::twist) add_joints(mesh, shell.joints, *model);
+  for (std::size_t end = 0; end < mesh.far_ends.size(); ++end)
+    if (mesh.far_ends[end] >= 0) model->pin(mesh.joints + int(end));
+  if (rung == Rung::twist || !mesh.far_ends.empty()) finish(*model);
   model->loads = dead_loads(mesh, shell);
   lay_flat(mesh, *model);
   return model;

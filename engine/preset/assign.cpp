@@ -46,6 +46,15 @@ std::string points_fault(const Points& points) {
 
 bool is_finite_number(const toml::node& value) { return real_of(value).has_value(); }
 
+// the place of a word among those allowed
+std::optional<double> place_of(const toml::node& value, const std::vector<std::string>& words) {
+  const auto* text = value.as_string();
+  if (!text) return std::nullopt;
+  const auto found = std::find(words.begin(), words.end(), text->get());
+  if (found == words.end()) return std::nullopt;
+  return double(found - words.begin());
+}
+
 std::string type_text(const toml::node& value) {
   if (value.is_floating_point()) return is_finite_number(value) ? "a number" : "not finite";
   if (value.is_integer()) return "an integer";
@@ -175,6 +184,21 @@ std::string put(const AxisList&, const toml::node& value, Preset&) {
   return "is " + type_text(value);
 }
 
+std::string put(const WordList& kind, const toml::node& value, Preset& preset) {
+  const auto* list = value.as_array();
+  if (!list) return "is " + type_text(value);
+  std::vector<int> indices;
+  for (const auto& item : *list) {
+    const auto place = place_of(item, kind.words);
+    if (!place) return item.is_string() ? "unknown word" : "is a list with " + type_text(item);
+    if (std::find(indices.begin(), indices.end(), int(*place)) != indices.end())
+      return "names a word twice";
+    indices.push_back(int(*place));
+  }
+  kind.set(preset, indices);
+  return "";
+}
+
 std::string put(const PointList& kind, const toml::node& value, Preset& preset) {
   const auto* list = value.as_array();
   if (!list) return "is " + type_text(value);
@@ -186,7 +210,8 @@ std::string put(const PointList& kind, const toml::node& value, Preset& preset) 
       return "holds a point of " + std::to_string(point->size()) + " coordinates";
     points.emplace_back();
     for (const auto& number : *point) {
-      const auto real = real_of(number);
+      const auto words = kind.words_of(points.back().size());
+      const auto real = words.empty() ? real_of(number) : place_of(number, words);
       if (!real) return "holds a point with " + type_text(number);
       points.back().push_back(*real);
     }
@@ -198,7 +223,7 @@ std::string put(const PointList& kind, const toml::node& value, Preset& preset) 
 
 // the points of a file, or what is wrong with it
 std::string put_file(const PointList& kind, const std::filesystem::path& file, Preset& preset) {
-  auto points = read_points(file, kind.coordinates);
+  auto points = read_points(file, kind.coordinates, kind.words);
   if (!points) return points.error().message;
   if (const auto wrong = points_fault(*points); !wrong.empty()) return file.string() + ": " + wrong;
   kind.in(preset) = std::move(*points);

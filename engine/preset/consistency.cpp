@@ -88,7 +88,7 @@ std::vector<Conflict> conflicts(const Preset& preset) {
   if (const auto count = preset.movie.target_mm.size(); count != 0 && count != 3)
     found.push_back(
         {"movie", "target_mm", {}, fmt::format("a list of {}, must be [x, y, z] or empty", count)});
-  for (auto& more : {shape_conflicts(preset), block_conflicts(preset)})
+  for (auto& more : {shape_conflicts(preset), block_conflicts(preset), end_conflicts(preset)})
     found.insert(found.end(), more.begin(), more.end());
   return found;
 }

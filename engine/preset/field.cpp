@@ -47,11 +47,15 @@ std::string words_text(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string points_text(const Points& points) {
+std::string points_text(const PointList& kind, const Points& points) {
   std::vector<std::string> items;
   for (const auto& point : points) {
     std::vector<std::string> numbers;
-    for (const double value : point) numbers.push_back(real_text(value));
+    for (std::size_t k = 0; k < point.size(); ++k) {
+      const auto words = kind.words_of(k);
+      numbers.push_back(words.empty() ? real_text(point[k])
+                                      : in_quotes(words.at(std::size_t(point[k]))));
+    }
     items.push_back(fmt::format("[{}]", fmt::join(numbers, ", ")));
   }
   return fmt::format("[{}]", fmt::join(items, ", "));
@@ -99,6 +103,7 @@ std::string allowed(const Field& field) {
             return fmt::format("a list of points [{}], or the name of a file with one a line",
                                fmt::join(k.coordinates, ", "));
           },
+          [](const WordList& k) { return "a list of " + words_text(k.words); },
       },
       field.kind);
 }
@@ -133,7 +138,13 @@ std::string value_text(const Field& field, const Preset& preset) {
             return fmt::format("[{}]", fmt::join(items, ", "));
           },
           [&](const AxisList& k) { return axes_text(k.in(from)); },
-          [&](const PointList& k) { return points_text(k.in(from)); },
+          [&](const WordList& k) {
+            std::vector<std::string> items;
+            for (const int index : k.get(preset))
+              items.push_back(in_quotes(k.words.at(std::size_t(index))));
+            return fmt::format("[{}]", fmt::join(items, ", "));
+          },
+          [&](const PointList& k) { return points_text(k, k.in(from)); },
       },
       field.kind);
 }

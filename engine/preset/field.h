@@ -84,6 +84,20 @@ struct AxisList {
 struct PointList {
   Points& (*in)(Preset&);
   std::vector<std::string> coordinates;  ///< their names
+  /// of coordinates that are words: which, the number of one being its place; empty: no words
+  std::vector<std::vector<std::string>> words = {};
+
+  /// The words of a coordinate; none: it is a number.
+  std::vector<std::string> words_of(std::size_t coordinate) const {
+    return coordinate < words.size() ? words[coordinate] : std::vector<std::string>();
+  }
+};
+
+/// Several words of a few, those of an enum.
+struct WordList {
+  std::vector<int> (*get)(const Preset&);
+  void (*set)(Preset&, const std::vector<int>&);
+  std::vector<std::string> words;
 };
 
 /// One key.
@@ -92,7 +106,7 @@ struct Field {
   std::string key;
   std::string unit;  ///< empty: a pure number or not a number
   std::variant<Real, Integer, Flag, Text, ColourText, Word, IntegerPair, RealList, IntegerList,
-               OptionalInteger, TextList, AxisList, PointList>
+               OptionalInteger, TextList, AxisList, PointList, WordList>
       kind;
   std::string meaning;  ///< one sentence without a full stop
 };

@@ -84,8 +84,26 @@ AxisList axes() {
   return {reach<path...>};
 }
 template <auto... path>
-PointList points(std::vector<std::string> coordinates) {
-  return {reach<path...>, std::move(coordinates)};
+PointList points(std::vector<std::string> coordinates,
+                 std::vector<std::vector<std::string>> words = {}) {
+  return {reach<path...>, std::move(coordinates), std::move(words)};
+}
+template <auto... path>
+WordList word_list() {
+  using List = std::remove_reference_t<decltype(reach<path...>(std::declval<Preset&>()))>;
+  using Enum = typename List::value_type;
+  return {[](const Preset& preset) {
+            std::vector<int> indices;
+            for (const Enum one : reach<path...>(const_cast<Preset&>(preset)))
+              indices.push_back(static_cast<int>(one));
+            return indices;
+          },
+          [](Preset& preset, const std::vector<int>& indices) {
+            List& list = reach<path...>(preset);
+            list.clear();
+            for (const int index : indices) list.push_back(static_cast<Enum>(index));
+          },
+          all_words<Enum>()};
 }
 
 }  // namespace gridshell::preset

@@ -170,6 +170,7 @@ const std::vector<Table>& tables() {
       {"loads", "What pulls on the shell beside its boundary."},
       {"dynamics", "How a shell moves that has lost its stability."},
       {"limits", "Where the model stops being valid."},
+      {"inverse", "What `gridshell design` changes so that the shell meets its surface."},
       {"accuracy", "How exact the answer is to be."},
       {"jitter", "How the states of a shell are looked for."},
       {"sweep", "Many runs with other values, for `gridshell sweep`."},
@@ -185,8 +186,8 @@ const std::vector<Field>& field_table() {
   static const std::vector<Field> all = [] {
     auto fields = shell_fields();
     for (auto& more : {rod_fields(), joint_fields(), boundary_fields(), net_fields(),
-                       indentation_fields(), load_fields(), numerics_fields(), jitter_fields(),
-                       sweep_fields(), picture_fields(), style_fields()})
+                       indentation_fields(), load_fields(), inverse_fields(), numerics_fields(),
+                       jitter_fields(), sweep_fields(), picture_fields(), style_fields()})
       fields.insert(fields.end(), more.begin(), more.end());
     return fields;
   }();

@@ -58,6 +58,38 @@ std::vector<Field> joint_fields() {
        "the net's tangents or, in a circle, as in the flat; \"clamped\": spin held too"},
       {"ends", "rings", "", word<&P::ends, &Ends::rings>(),
        "whether the ends on the rings of a surface of revolution are held like the others or free"},
+      {"ends", "second_ring_mm", "mm", real<&P::ends, &Ends::second_ring_mm>(at_least(0)),
+       "length of tails without joints beyond the boundary, their far ends pinned so that the rods "
+       "keep the net's tangents at it; 0: none"},
+      {"ends", "table", "",
+       points<&P::ends, &Ends::table>(
+           {"family", "rod", "end", "x_mm", "y_mm", "z_mm", "leg_mm", "tx", "ty", "tz"},
+           {{"u", "v"}, {}, {"begin", "end"}}),
+       "of a designed shell, in the place of the boundary: where ends are held, how long their "
+       "legs "
+       "are, and along which direction of the rod where one is held"},
+  };
+}
+
+std::vector<Field> inverse_fields() {
+  return {
+      {"inverse", "vary", "", word_list<&P::inverse, &Inverse::vary>(),
+       "what may change so that the shell meets its target: \"pins_radial\": where ends are held, "
+       "along the radius; \"pins\": in the boundary's plane; \"pins_3d\": in space; \"legs\": "
+       "their lengths; \"directions\": along which tangent ends are held; empty: nothing is "
+       "designed"},
+      {"inverse", "target", "", word<&P::inverse, &Inverse::target>(),
+       "\"surface\": the joints on the net's surface; \"net\": each in its place on the net"},
+      {"inverse", "norm", "", real<&P::inverse, &Inverse::norm>(between(2, 32)),
+       "p of the mean of |distance|^p that is made small in the last stage; the first has 2"},
+      {"inverse", "move_limit_mm", "mm", real<&P::inverse, &Inverse::move_limit_mm>(above(0)),
+       "furthest that a pin is moved or a leg's length is changed"},
+      {"inverse", "round_mm", "mm", real<&P::inverse, &Inverse::round_mm>(at_least(0)),
+       "to which a builder measures: the shell must be stable after rounding to it; 0: exact"},
+      {"inverse", "min_stability", "", real<&P::inverse, &Inverse::min_stability>(between(0, 1)),
+       "of the smallest eigenvalue, over that of the shell before"},
+      {"inverse", "max_leg_force_N", "N", real<&P::inverse, &Inverse::max_leg_force_N>(at_least(0)),
+       "largest force in a leg, unless it is larger before; 0: any"},
   };
 }
 

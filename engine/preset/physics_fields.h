@@ -7,8 +7,9 @@
 
 namespace gridshell::preset {
 
-std::vector<Field> rod_fields();    ///< [rod], [rod_v]
-std::vector<Field> joint_fields();  ///< [joints], [ends]
-std::vector<Field> load_fields();   ///< [loads], [dynamics]
+std::vector<Field> rod_fields();      ///< [rod], [rod_v]
+std::vector<Field> joint_fields();    ///< [joints], [ends]
+std::vector<Field> load_fields();     ///< [loads], [dynamics]
+std::vector<Field> inverse_fields();  ///< [inverse]
 
 }  // namespace gridshell::preset

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -31,14 +32,26 @@ std::optional<double> number_of(const std::string& word) {
   return value;
 }
 
+// a number, or the place of a word where a coordinate has words
+std::optional<double> value_of(const std::string& word, std::size_t coordinate,
+                               const std::vector<std::vector<std::string>>& words) {
+  if (coordinate >= words.size() || words[coordinate].empty()) return number_of(word);
+  const auto& allowed = words[coordinate];
+  const auto found = std::find(allowed.begin(), allowed.end(), word);
+  if (found == allowed.end()) return std::nullopt;
+  return double(found - allowed.begin());
+}
+
 }  // namespace
 
 Result<Points> read_points(const std::filesystem::path& file,
-                           const std::vector<std::string>& coordinates) {
+                           const std::vector<std::string>& coordinates,
+                           const std::vector<std::vector<std::string>>& known) {
   const auto text = read_whole(file, largest_text);
   if (!text) return fail(Fault::bad_input, text.error().message);
   const auto wanted =
-      fmt::format("{} numbers: {}", coordinates.size(), fmt::join(coordinates, ", "));
+      fmt::format("{} {}: {}", coordinates.size(), known.empty() ? "numbers" : "values",
+                  fmt::join(coordinates, ", "));
   Points points;
   std::istringstream lines(*text);
   std::string line;
@@ -48,17 +61,18 @@ Result<Points> read_points(const std::filesystem::path& file,
     if (words.empty()) continue;
     const bool first = std::exchange(header, false);
     // a CSV file names its columns first
-    if (first && !number_of(words.front())) continue;
+    if (first && !value_of(words.front(), 0, known)) continue;
     const auto place = fmt::format("{}:{}", file.string(), number);
     if (words.size() != coordinates.size())
       return fail(Fault::bad_input,
                   fmt::format("{}: holds {} values, must be {}", place, words.size(), wanted));
     points.emplace_back();
     for (const auto& word : words) {
-      const auto value = number_of(word);
+      const auto value = value_of(word, points.back().size(), known);
       if (!value)
         return fail(Fault::bad_input,
-                    fmt::format("{}: '{}' is no number, must be {}", place, word, wanted));
+                    fmt::format("{}: '{}' is no {}, must be {}", place, word,
+                                known.empty() ? "number" : "value of its column", wanted));
       points.back().push_back(*value);
     }
   }

@@ -12,9 +12,10 @@ namespace gridshell::preset {
 
 /// Reads a point a line: as many numbers as there are `coordinates`, apart by blanks or commas.
 /// What follows a '#' and empty lines are left out, and a first line of words (a CSV header) too.
-/// Errors (bad_input) as "file:line: what is wrong, must be ..."; a file that cannot be read, or
-/// holds no point.
+/// A coordinate that has `words` is the place of one of them. Errors (bad_input) as "file:line:
+/// what is wrong, must be ..."; a file that cannot be read, or holds no point.
 Result<Points> read_points(const std::filesystem::path& file,
-                           const std::vector<std::string>& coordinates);
+                           const std::vector<std::string>& coordinates,
+                           const std::vector<std::vector<std::string>>& words = {});
 
 }  // namespace gridshell::preset

@@ -52,9 +52,15 @@ enum class Rings { pinned, free };
 constexpr auto words(Rings) {
   return word_table<Rings>({{Rings::pinned, "pinned"}, {Rings::free, "free"}});
 }
+/// Points of a curve, each of as many coordinates as its key says, mm; a coordinate that is a word
+/// is the number of that word among those of its key.
+using Points = std::vector<std::vector<double>>;
+
 struct Ends {
   EndKind kind = EndKind::pinned;
   Rings rings = Rings::pinned;
+  double second_ring_mm = 0;  ///< length of the tails beyond the boundary; 0: none
+  Points table;               ///< a row an end: family, rod, end, x, y, z, leg, tx, ty, tz
 };
 
 enum class CurveKind { circle, ellipse, superellipse, polygon, spline };
@@ -208,6 +214,29 @@ struct Imperfection {
   ImperfectionForm form = ImperfectionForm::random;
 };
 
+/// What an inverse design may change.
+enum class Vary { pins_radial, pins, pins_3d, legs, directions };
+constexpr auto words(Vary) {
+  return word_table<Vary>({{Vary::pins_radial, "pins_radial"},
+                           {Vary::pins, "pins"},
+                           {Vary::pins_3d, "pins_3d"},
+                           {Vary::legs, "legs"},
+                           {Vary::directions, "directions"}});
+}
+enum class Target { surface, net };
+constexpr auto words(Target) {
+  return word_table<Target>({{Target::surface, "surface"}, {Target::net, "net"}});
+}
+struct Inverse {
+  std::vector<Vary> vary;  ///< empty: nothing is designed
+  Target target = Target::surface;
+  double norm = 8;             ///< p of the last stage; the first is 2
+  double move_limit_mm = 5;    ///< of a pin or a leg
+  double round_mm = 0.1;       ///< to which a builder measures; 0: exact
+  double min_stability = 0.5;  ///< of the smallest eigenvalue, over the one before
+  double max_leg_force_N = 0;  ///< 0: any
+};
+
 struct Limits {
   double max_strain = 1e-3;
 };
@@ -285,6 +314,7 @@ struct Preset {
   Loads loads;
   Dynamics dynamics;
   Imperfection imperfection;
+  Inverse inverse;
   Limits limits;
   Accuracy accuracy;
   Jitter jitter;

@@ -74,6 +74,8 @@ std::vector<Demand> beyond_net(const Preset& preset) {
   if (preset.indentation.wanted())
     found.push_back({"indentation", "depth", "a net does not answer a push"});
   if (preset.loads.any()) found.push_back({"loads", "points", "a net does not answer loads"});
+  if (preset.ends.second_ring_mm > 0)
+    found.push_back({"ends", "second_ring_mm", "a net has no tails"});
   if (preset.accuracy.edges_per_segment > 0)
     found.push_back({"accuracy", "edges_per_segment", "a mesh is asked for"});
   return found;

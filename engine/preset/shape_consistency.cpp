@@ -91,6 +91,36 @@ std::vector<Conflict> block_conflicts(const Preset& preset) {
   return found;
 }
 
+std::vector<Conflict> end_conflicts(const Preset& preset) {
+  std::vector<Conflict> found;
+  if (preset.ends.second_ring_mm > 0 && !preset.on_net())
+    found.push_back({"ends",
+                     "second_ring_mm",
+                     {"[footprint] kind"},
+                     "the far ends are pinned along the tangents of a net, and this footprint has "
+                     "none, must be 0, or [footprint] kind = \"net\""});
+  if (preset.ends.second_ring_mm > 0 && preset.ends.kind != EndKind::pinned)
+    found.push_back({"ends",
+                     "second_ring_mm",
+                     {"[ends] kind"},
+                     "a tail holds the direction of its end, which is held already, must be 0, or "
+                     "[ends] kind = \"pinned\""});
+  for (const Vary vary : preset.inverse.vary)
+    if (vary == Vary::directions && preset.ends.kind != EndKind::tangent)
+      found.push_back({"inverse",
+                       "vary",
+                       {"[ends] kind"},
+                       "directions are held alone only with [ends] kind = \"tangent\", must not "
+                       "name \"directions\""});
+  if (!preset.inverse.vary.empty() && !preset.on_net())
+    found.push_back({"inverse",
+                     "vary",
+                     {"[footprint] kind"},
+                     "the footprint has no net, so there is no surface to meet, must be empty, or "
+                     "[footprint] kind = \"net\""});
+  return found;
+}
+
 std::optional<NamedSide> side_named(const Preset& preset, const std::string& name) {
   const auto dot = name.find('.');
   if (dot == std::string::npos) return std::nullopt;

@@ -16,6 +16,9 @@ std::vector<Conflict> shape_conflicts(const Preset& preset);
 /// Blocks without a name of their own, joins of sides that do not exist, no blocks at all.
 std::vector<Conflict> block_conflicts(const Preset& preset);
 
+/// Second rings and designs of what has no net, or whose ends are held otherwise.
+std::vector<Conflict> end_conflicts(const Preset& preset);
+
 /// A side of a block as a join names it.
 struct NamedSide {
   int block = 0;     ///< index in Preset::block

@@ -188,6 +188,10 @@ class Idle {
   }
 
   void motion() {
+    if (preset_.inverse.vary.empty())
+      for (const char* key :
+           {"target", "norm", "move_limit_mm", "round_mm", "min_stability", "max_leg_force_N"})
+        add("inverse", key, {"[inverse] vary"}, "nothing is designed: [inverse] vary is empty");
     if (!preset_.dynamics.snap)
       for (const char* key : {"step_s", "damping_per_s"})
         add("dynamics", key, {"[dynamics] snap"}, "no snap is followed in time without it");

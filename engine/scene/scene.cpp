@@ -8,6 +8,8 @@
 #include "engine/scene/curve_design.h"
 #include "engine/scene/net_design.h"
 #include "engine/scene/scene_rods.h"
+#include "engine/scene/second_ring.h"
+#include "engine/scene/shell_ends.h"
 
 namespace gridshell {
 namespace {
@@ -146,6 +148,11 @@ Result<Scene> scene_of(const preset::Preset& preset) {
                                       clamped ? RodEnd::clamped : RodEnd::tangent, scene);
     if (!held) return tl::unexpected<Error>(held.error());
   }
+  if (preset.ends.second_ring_mm > 0)
+    if (const auto added = add_second_ring(preset.ends.second_ring_mm, scene); !added)
+      return tl::unexpected<Error>(added.error());
+  if (const auto put = put_table(preset.ends.table, scene); !put)
+    return tl::unexpected<Error>(put.error());
   auto rods = scene_rods(preset, scene.footprint);
   if (!rods) return tl::unexpected<Error>(rods.error());
   scene.rods = std::move(rods->shell);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/scene/net_design.h"
+#include "engine/scene/second_ring.h"
 #include "engine/solve/buckle.h"
 #include "engine/solve/meshed_shell.h"
 #include "engine/solve/rest.h"
@@ -61,10 +62,11 @@ Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellR
 Result<State> state_on_net(NestedShell& shell, const Scene& scene, const Watch& watch) {
   const RodMesh& mesh = shell.mesh(0);
   const double spacing = scene.footprint.spacing;
-  const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
+  const Eigen::Matrix2Xd flat = within_boundary(scene.footprint, mesh);
   // blocks that meet with a gap would tear the rods between them
   auto net = scene.blocks ? scene.blocks->closed(flat, 4 * spacing) : points_on(*scene.net, flat);
   if (!net) return tl::unexpected<Error>(net.error());
+  lay_tails(scene, mesh, *net);
   net->conservativeResize(3, mesh.nodes());
   net->rightCols(mesh.ghosts) = shell.motion(0).at(1).middleCols(mesh.rod_nodes(), mesh.ghosts);
   const Model& model = shell.model(0);

@@ -14,11 +14,9 @@ constexpr double tilt = 0.8;  // of the dome towards a diagonal; small ones are 
 
 double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t) {
   double chords = 0, lengths = 0;
-  const auto end = [&](int node) -> Eigen::Vector3d {
-    return motion.begin.col(node) + t * t * motion.change.col(node);
-  };
+  const Eigen::Matrix3Xd x = motion.at(t);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
-    chords += (end(mesh.rods[r].back()) - end(mesh.rods[r].front())).norm();
+    chords += (x.col(mesh.rods[r].back()) - x.col(mesh.rods[r].front())).norm();
     lengths += mesh.position[r].back() - mesh.position[r].front();
   }
   return 1 - chords / lengths;

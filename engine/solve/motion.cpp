@@ -1,11 +1,33 @@
 #include "engine/solve/motion.h"
 
+#include <Eigen/Geometry>
+
 namespace gridshell {
 
-Eigen::Matrix3Xd PinnedMotion::at(double t) const { return begin + come(t) * change; }
+Eigen::Vector3d Turn::at(double t) const {
+  return (1 + t * stretch) * (Eigen::AngleAxisd(t * angle, axis) * arm);
+}
 
-Eigen::Vector3d PinnedMotion::at(double t, int node) const {
-  return begin.col(node) + come(t) * change.col(node);
+Eigen::Vector3d Turn::rate(double t) const {
+  const Eigen::Vector3d turned = Eigen::AngleAxisd(t * angle, axis) * arm;
+  return stretch * turned + (1 + t * stretch) * angle * axis.cross(turned);
+}
+
+Turn turn_between(int node, int about, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::AngleAxisd way(Eigen::Quaterniond::FromTwoVectors(from, to));
+  return {node, about, from, way.axis(), way.angle(), to.norm() / from.norm() - 1};
+}
+
+Eigen::Matrix3Xd PinnedMotion::at(double t) const {
+  Eigen::Matrix3Xd x = begin + come(t) * change;
+  for (const Turn& turn : turns) x.col(turn.node) = x.col(turn.about) + turn.at(t);
+  return x;
+}
+
+Eigen::Matrix3Xd PinnedMotion::rate(double t) const {
+  Eigen::Matrix3Xd x = speed(t) * change;
+  for (const Turn& turn : turns) x.col(turn.node) = x.col(turn.about) + turn.rate(t);
+  return x;
 }
 
 void PinnedMotion::load_up(Linearisation& system, double t) const {
@@ -16,11 +38,12 @@ void PinnedMotion::load_up(Linearisation& system, double t) const {
 void PinnedMotion::impose(Linearisation& system, double t, State& state) const {
   load_up(system, t);
   const Model& model = system.model();
+  const Eigen::Matrix3Xd there = at(t);
   Eigen::Matrix3Xd x = state.x;
   for (int node = 0; node < model.nodes; ++node)
-    if (model.pinned(node)) x.col(node) = at(t, node);
+    if (model.pinned(node)) x.col(node) = there.col(node);
   for (const Hold& hold : system.holds())
-    x.col(hold.node) += hold.part(at(t, hold.node) - x.col(hold.node));
+    x.col(hold.node) += hold.part(there.col(hold.node) - x.col(hold.node));
   move_to(model, x, state);
 }
 
@@ -29,7 +52,7 @@ void PinnedMotion::velocity(Linearisation& system, double t, const State& state,
   Outside growing = system.outside;
   growing.load = speed(t) * load.change;
   growing.field_factor = speed(t) * field.change;
-  system.tangent(speed(t) * change, growing, state, velocity.x);
+  system.tangent(rate(t), growing, state, velocity.x);
   velocity.force = system.force_change(velocity.x);
 }
 
@@ -49,6 +72,14 @@ PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
     const std::vector<int>& node = mesh.rods[r];
     if (mesh.is_ghost(node.front())) place(node.front(), 2 * Eigen::Index(r), -1);
     if (mesh.is_ghost(node.back())) place(node.back(), 2 * Eigen::Index(r) + 1, 1);
+  }
+  for (Eigen::Index end = 0; end < Eigen::Index(mesh.far_ends.size()); ++end) {
+    const int far_end = mesh.far_ends[std::size_t(end)];
+    if (far_end < 0) continue;
+    pinned.begin.col(far_end) = motion.begin_far.col(end);
+    pinned.turns.push_back(turn_between(far_end, mesh.joints + int(end),
+                                        motion.begin_far.col(end) - motion.begin.col(end),
+                                        motion.end_far.col(end) - motion.end.col(end)));
   }
   return pinned;
 }

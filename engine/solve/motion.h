@@ -19,6 +19,22 @@ struct Growth {
   double begin = 0, change = 0;
 };
 
+/// A node on an arm about another one: the arm turns and changes its length evenly in t.
+struct Turn {
+  int node = 0, about = 0;
+  Eigen::Vector3d arm{0, 0, 0};   ///< at t = 0, mm
+  Eigen::Vector3d axis{0, 0, 1};  ///< unit
+  double angle = 0;               ///< to t = 1, rad
+  double stretch = 0;             ///< the arm's length is 1 + t stretch times what it was
+
+  /// The arm at t, and how it changes by t.
+  Eigen::Vector3d at(double t) const;
+  Eigen::Vector3d rate(double t) const;
+};
+
+/// The turn about a node that takes the arm `from` to the arm `to` the shorter way.
+Turn turn_between(int node, int about, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 /// Where the pinned nodes, and of held nodes the held components, are at path parameter t, how fast
 /// they move, and how much of the dead loads and of a field acts. By default loads come on in
 /// proportion: the flat shell carries none.
@@ -28,11 +44,12 @@ struct PinnedMotion {
   Pace pace = Pace::square;
   Growth load{0, 1};
   Growth field{0, 0};
+  std::vector<Turn> turns = {};  ///< these nodes do not move straight
 
   double come(double t) const { return pace == Pace::square ? t * t : t; }
   double speed(double t) const { return pace == Pace::square ? 2 * t : 1.0; }
   Eigen::Matrix3Xd at(double t) const;
-  Eigen::Vector3d at(double t, int node) const;
+  Eigen::Matrix3Xd rate(double t) const;  ///< by t
   double grown(const Growth& growth, double t) const {
     return growth.begin + come(t) * growth.change;
   }
@@ -44,8 +61,8 @@ struct PinnedMotion {
   void velocity(Linearisation& system, double t, const State& state, State& velocity) const;
 };
 
-/// The motion of a mesh's pinned nodes: its edge points and, beyond those whose direction is held,
-/// their ghosts.
+/// The motion of a mesh's pinned nodes: its edge points, the far ends of tails, which turn about
+/// them, and, beyond those whose direction is held, their ghosts.
 PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion);
 
 }  // namespace gridshell

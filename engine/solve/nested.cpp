@@ -175,7 +175,12 @@ void NestedShell::drive(const Drive& drive) {
     const Eigen::Matrix3Xd& x = state_.levels[k].x;
     level.motion = {x, Eigen::Matrix3Xd::Zero(3, x.cols()), Pace::even, drive.load, drive.field};
     if (drive.boundary) {
-      const Eigen::Matrix3Xd there = pinned_motion(level.mesh, *drive.boundary).at(1);
+      const PinnedMotion wanted = pinned_motion(level.mesh, *drive.boundary);
+      const Eigen::Matrix3Xd there = wanted.at(1);
+      for (const Turn& turn : wanted.turns)
+        level.motion.turns.push_back(turn_between(turn.node, turn.about,
+                                                  x.col(turn.node) - x.col(turn.about),
+                                                  there.col(turn.node) - there.col(turn.about)));
       for (int node = 0; node < level.mesh.nodes(); ++node)
         if (level.model.pinned(node)) level.motion.change.col(node) = there.col(node) - x.col(node);
     }

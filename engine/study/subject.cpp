@@ -7,7 +7,7 @@
 
 #include "engine/experiment/indentation.h"
 #include "engine/preset/rung.h"
-#include "engine/scene/net_design.h"
+#include "engine/scene/second_ring.h"
 #include "engine/solve/buckle.h"
 #include "engine/solve/rest.h"
 
@@ -21,7 +21,7 @@ constexpr double exact = 1e-8;      // tolerance of references, over the length 
 /// The net's places of a mesh's nodes; ghosts where the motion ends.
 Result<State> on_net(const Scene& scene, const RodMesh& mesh, const Model& model,
                      const PinnedMotion& motion) {
-  auto net = points_on(*scene.net, mesh.flat.leftCols(mesh.rod_nodes()));
+  auto net = places_on_net(scene, mesh);
   if (!net) return tl::unexpected<Error>(net.error());
   net->conservativeResize(3, mesh.nodes());
   net->rightCols(mesh.ghosts) = motion.at(1).rightCols(mesh.ghosts);

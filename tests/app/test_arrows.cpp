@@ -38,6 +38,10 @@ const std::map<std::string, Folders> may_see{
      {"engine/core", "engine/geometry", "engine/footprint", "engine/rod", "engine/gridshell",
       "engine/solve", "engine/measure", "engine/preset", "engine/record", "engine/scene",
       "engine/session"}},
+    // what is moved so that a shell meets its surface, from the states that experiments reach
+    {"engine/design",
+     {"engine/core", "engine/geometry", "engine/footprint", "engine/rod", "engine/gridshell",
+      "engine/solve", "engine/preset", "engine/scene", "engine/session", "engine/experiment"}},
     // methods compared, the engine's own among them, on the scenes of experiments
     {"engine/study",
      {"engine/core", "engine/footprint", "engine/rod", "engine/gridshell", "engine/solve",
@@ -46,8 +50,8 @@ const std::map<std::string, Folders> may_see{
     // the renderer knows pictures of a run, not how it came to be
     {"render", {"engine/core", "engine/record"}},
     {"app",
-     {"engine/core", "engine/preset", "engine/record", "engine/experiment", "engine/study",
-      "render"}},
+     {"engine/core", "engine/preset", "engine/record", "engine/experiment", "engine/design",
+      "engine/study", "render"}},
 };
 
 // "engine/preset" for engine/preset/reader.h, "render" and "app" for all below them

@@ -52,7 +52,12 @@ Preset all_changed() {
     if (auto* k = std::get_if<OptionalInteger>(&kind)) k->in(preset) = -3;
     if (auto* k = std::get_if<ColourText>(&kind)) k->in(preset) = "#0a1B2c";
     if (auto* k = std::get_if<PointList>(&kind))
-      for (int n = 0; n < 4; ++n) k->in(preset).emplace_back(k->coordinates.size(), 0.1 - 1e-7 * n);
+      for (int n = 0; n < 4; ++n) {
+        k->in(preset).emplace_back(k->coordinates.size(), 0.1 - 1e-7 * n);
+        for (std::size_t c = 0; c < k->words.size(); ++c)
+          if (!k->words[c].empty()) k->in(preset).back()[c] = 1;
+      }
+    if (auto* k = std::get_if<WordList>(&kind)) k->set(preset, {1, 3});
   }
   preset.jitter.levels = {0.25, 1e0 / 3};
   preset.movie.target_mm = {1.5, -2, 1e2 / 3};
@@ -61,6 +66,8 @@ Preset all_changed() {
   preset.figure.radii_mm.clear();
   preset.indentation.depth = preset.indentation.depth_mm = 0;
   preset.dynamics.snap = false;
+  // only pinned ends have tails
+  preset.ends.second_ring_mm = 0;
   preset.footprint.kind = FootprintKind::net;
   preset.net.kind = NetKind::beltrami;
   preset.block.clear();
@@ -80,6 +87,7 @@ Preset of_curve(CurveKind kind, double scale) {
   auto preset = of_net(NetKind::sphere);
   preset.footprint.kind = FootprintKind::curve;
   preset.actuation.start = Start::flat;
+  preset.inverse = {};
   preset.footprint.boundary.kind = preset.actuation.boundary.kind = kind;
   preset.actuation.scale = scale;
   return preset;
@@ -128,6 +136,8 @@ std::vector<Preset> samples() {
   at_highest.indentation.latitude_deg = 90;
   std::vector<Preset> all{Preset{}, pushed(true), pushed(false), at_highest,
                           of_curve(CurveKind::ellipse, 0.77)};
+  all.push_back(of_net(NetKind::sphere));
+  all.back().ends = {.second_ring_mm = 7.5, .table = {}};
   for (const auto& [kind, word] : words(CurveKind{})) all.push_back(of_curve(kind, 0));
   for (const auto& [kind, word] : words(NetKind{})) {
     all.push_back(of_net(kind));

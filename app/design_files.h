@@ -1,0 +1,28 @@
+// The files that say what a design came to.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/core/result.h"
+#include "engine/design/design.h"
+#include "engine/preset/preset.h"
+
+namespace gridshell::app {
+
+/// Whether the designed shell is also reached from the flat: how far its joints are from there
+/// then.
+struct FromFlat {
+  bool reached = false;
+  double off_mm = 0;
+  std::string why;  ///< it was not
+};
+
+/// design.json, design.csv, ends.csv, ends_rounded.csv and preset.toml, which reads ends.csv.
+/// Errors: io.
+Result<void> write_design(const std::filesystem::path& folder, const preset::Preset& designed,
+                          const Designed& found, const FromFlat& from_flat);
+
+/// The same as a few lines for the terminal.
+std::string design_text(const Designed& found, const FromFlat& from_flat);
+
+}  // namespace gridshell::app

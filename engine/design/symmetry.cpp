@@ -1,0 +1,92 @@
+#include "engine/design/symmetry.h"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cmath>
+#include <optional>
+
+namespace gridshell {
+namespace {
+
+/// (u, v) of all joints, then of all ends.
+Eigen::Matrix2Xd places_of(const Footprint& footprint) {
+  const Eigen::Index joints = Eigen::Index(footprint.joints.size());
+  Eigen::Matrix2Xd places(2, joints + 2 * Eigen::Index(footprint.rods.size()));
+  for (Eigen::Index k = 0; k < joints; ++k) {
+    const FootprintJoint& joint = footprint.joints[std::size_t(k)];
+    places.col(k) << joint.u, joint.v;
+  }
+  for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
+    const FootprintRod& rod = footprint.rods[r];
+    for (int side = 0; side < 2; ++side) {
+      const double at = side == 0 ? rod.span.begin : rod.span.end;
+      const bool u = rod.family == Family::u;
+      places.col(joints + 2 * Eigen::Index(r) + side) << (u ? at : rod.line), (u ? rod.line : at);
+    }
+  }
+  return places;
+}
+
+/// Which place each goes to; joints to joints, ends to ends.
+std::optional<std::vector<int>> permutation_of(const Eigen::Matrix2Xd& places, Eigen::Index joints,
+                                               const Eigen::Matrix2d& op, double near_mm) {
+  std::vector<int> to;
+  for (Eigen::Index k = 0; k < places.cols(); ++k) {
+    const Eigen::Vector2d wanted = op * places.col(k);
+    const Eigen::Index first = k < joints ? 0 : joints,
+                       count = k < joints ? joints : places.cols() - joints;
+    Eigen::Index nearest = 0;
+    const double off = (places.middleCols(first, count).colwise() - wanted)
+                           .colwise()
+                           .squaredNorm()
+                           .minCoeff(&nearest);
+    if (off > near_mm * near_mm) return std::nullopt;
+    to.push_back(int(first + nearest));
+  }
+  return to;
+}
+
+/// The rotation or reflection that takes points to others best [Kabsch 1976], if it takes them
+/// there.
+std::optional<Eigen::Matrix3d> motion_between(const Eigen::Matrix3Xd& from,
+                                              const Eigen::Matrix3Xd& to, double near_mm) {
+  const Eigen::Vector3d a = from.rowwise().mean(), b = to.rowwise().mean();
+  const Eigen::Matrix3Xd x = from.colwise() - a, y = to.colwise() - b;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(y * x.transpose(),
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
+  if ((turn * x - y).colwise().norm().maxCoeff() > near_mm) return std::nullopt;
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  if ((turn * up - up).norm() > 1e-3) return std::nullopt;
+  return turn;
+}
+
+}  // namespace
+
+std::vector<ShellSymmetry> symmetries_of(const Scene& scene, const Eigen::Matrix3Xd& joints,
+                                         double near_mm) {
+  const Eigen::Matrix2Xd places = places_of(scene.footprint);
+  Eigen::Matrix3Xd points(3, places.cols());
+  points << joints, scene.motion.end;
+  std::vector<ShellSymmetry> found;
+  for (const bool swap : {false, true})
+    for (const double u : {1.0, -1.0})
+      for (const double v : {1.0, -1.0}) {
+        Eigen::Matrix2d op;
+        op << (swap ? 0 : u), (swap ? u : 0), (swap ? v : 0), (swap ? 0 : v);
+        const auto to = permutation_of(places, joints.cols(), op, near_mm);
+        if (!to) continue;
+        Eigen::Matrix3Xd there(3, points.cols());
+        for (Eigen::Index k = 0; k < points.cols(); ++k)
+          there.col(k) = points.col((*to)[std::size_t(k)]);
+        const auto turn = motion_between(points, there, near_mm);
+        if (!turn) continue;
+        ShellSymmetry one{{}, *turn};
+        for (Eigen::Index k = joints.cols(); k < points.cols(); ++k)
+          one.to.push_back((*to)[std::size_t(k)] - int(joints.cols()));
+        found.push_back(std::move(one));
+      }
+  return found;
+}
+
+}  // namespace gridshell

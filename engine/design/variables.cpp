@@ -1,0 +1,162 @@
+#include "engine/design/variables.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace gridshell {
+namespace {
+
+using preset::Vary;
+
+bool is_pin(Vary kind) {
+  switch (kind) {
+    case Vary::pins_radial:
+    case Vary::pins:
+    case Vary::pins_3d:
+      return true;
+    case Vary::legs:
+    case Vary::directions:
+      break;
+  }
+  return false;
+}
+
+/// The ways in which an end may be moved.
+std::vector<Eigen::Vector3d> ways_of(Vary kind, const ShellEnds& ends, Eigen::Index end) {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY(),
+                        z = Eigen::Vector3d::UnitZ();
+  switch (kind) {
+    case Vary::pins_radial: {
+      Eigen::Vector3d out = ends.at.col(end) - ends.at.rowwise().mean();
+      out.z() = 0;
+      if (out.norm() == 0) return {};
+      return {out.normalized()};
+    }
+    case Vary::pins:
+      return {x, y};
+    case Vary::pins_3d:
+      return {x, y, z};
+    case Vary::legs:
+      return {Eigen::Vector3d::Zero()};
+    case Vary::directions:
+      break;
+  }
+  const Eigen::Vector3d along = ends.direction.col(end), across = along.unitOrthogonal();
+  return {across, along.cross(across)};
+}
+
+/// Whether an end is held so that a variable of this kind does anything.
+bool applies(Vary kind, RodEnd hold) {
+  return kind == Vary::directions ? holds_direction(hold) : hold != RodEnd::free;
+}
+
+/// The projector on what all symmetries leave as it is: the mean of what they do to variables.
+Eigen::MatrixXd projector(const std::vector<DesignVariable>& all,
+                          const std::vector<ShellSymmetry>& symmetries) {
+  const Eigen::Index n = Eigen::Index(all.size());
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(n, n);
+  for (const ShellSymmetry& one : symmetries)
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const DesignVariable& from = all[std::size_t(k)];
+      const int end = one.to[std::size_t(from.end)];
+      // a direction runs along its rod, whose ends a symmetry may swap
+      const double sign = from.kind == Vary::directions && end % 2 != from.end % 2 ? -1 : 1;
+      const Eigen::Vector3d way = sign * (one.turn * from.way);
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const DesignVariable& to = all[std::size_t(j)];
+        if (to.end != end || to.kind != from.kind) continue;
+        mean(j, k) += from.kind == Vary::legs ? 1 : to.way.dot(way);
+      }
+    }
+  return mean / double(symmetries.size());
+}
+
+}  // namespace
+
+DesignVariables::DesignVariables(const Scene& scene, const std::vector<Vary>& vary,
+                                 const std::vector<ShellSymmetry>& symmetries)
+    : begin_(ends_of(scene)) {
+  for (const Vary kind : vary)
+    for (Eigen::Index end = 0; end < begin_.at.cols(); ++end) {
+      const FootprintRod& rod = scene.footprint.rods[std::size_t(end / 2)];
+      if (!applies(kind, end % 2 == 0 ? rod.begin : rod.end)) continue;
+      const auto ways = ways_of(kind, begin_, end);
+      for (std::size_t k = 0; k < ways.size(); ++k)
+        all_.push_back({kind, int(end), int(k), ways[k]});
+    }
+  if (all_.empty()) return;
+  const Eigen::MatrixXd mean = projector(all_, symmetries);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(0.5 * (mean + mean.transpose()));
+  // eigenvalues of a projector are 0 and 1, in ascending order
+  const Eigen::Index free = (own.eigenvalues().array() > 0.5).count();
+  basis_ = own.eigenvectors().rightCols(free);
+}
+
+ShellEnds DesignVariables::ends_at(const Eigen::VectorXd& q) const {
+  ShellEnds ends = begin_;
+  for (Eigen::Index k = 0; k < count(); ++k) {
+    const DesignVariable& one = all_[std::size_t(k)];
+    if (one.kind == Vary::legs)
+      ends.leg[one.end] += q[k];
+    else if (is_pin(one.kind))
+      ends.at.col(one.end) += q[k] * one.way;
+    else
+      ends.direction.col(one.end) += q[k] * one.way;
+  }
+  for (auto direction : ends.direction.colwise()) direction.normalize();  // zero stays zero
+  return ends;
+}
+
+std::vector<DesignVariables::Rate> DesignVariables::rates_at(const Eigen::VectorXd& q) const {
+  Eigen::Matrix3Xd direction = begin_.direction;
+  for (Eigen::Index k = 0; k < count(); ++k)
+    if (all_[std::size_t(k)].kind == Vary::directions)
+      direction.col(all_[std::size_t(k)].end) += q[k] * all_[std::size_t(k)].way;
+  std::vector<Rate> rates;
+  for (const DesignVariable& one : all_) {
+    Rate rate{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0};
+    if (one.kind == Vary::legs) rate.leg = 1;
+    if (is_pin(one.kind)) rate.at = one.way;
+    if (one.kind == Vary::directions) {
+      const double length = direction.col(one.end).norm();
+      const Eigen::Vector3d along = direction.col(one.end) / length;
+      rate.direction = (one.way - along.dot(one.way) * along) / length;
+    }
+    rates.push_back(rate);
+  }
+  return rates;
+}
+
+Eigen::VectorXd DesignVariables::limited(const Eigen::VectorXd& q, double most_mm) const {
+  const ShellEnds ends = ends_at(q);
+  Eigen::VectorXd within = q;
+  for (Eigen::Index k = 0; k < count(); ++k) {
+    const DesignVariable& one = all_[std::size_t(k)];
+    if (one.kind == Vary::directions) continue;
+    const double move = one.kind == Vary::legs
+                            ? std::abs(q[k])
+                            : (ends.at.col(one.end) - begin_.at.col(one.end)).norm();
+    if (move > most_mm) within[k] *= most_mm / move;
+  }
+  return within;
+}
+
+double DesignVariables::largest_move_mm(const Eigen::VectorXd& q) const {
+  const ShellEnds ends = ends_at(q);
+  return std::max((ends.at - begin_.at).colwise().norm().maxCoeff(),
+                  (ends.leg - begin_.leg).cwiseAbs().maxCoeff());
+}
+
+double DesignVariables::largest_turn_deg(const Eigen::VectorXd& q) const {
+  const ShellEnds ends = ends_at(q);
+  double largest = 0;
+  for (Eigen::Index k = 0; k < ends.direction.cols(); ++k)
+    largest =
+        std::max(largest, std::atan2(ends.direction.col(k).cross(begin_.direction.col(k)).norm(),
+                                     ends.direction.col(k).dot(begin_.direction.col(k))));
+  return largest * 180 / M_PI;
+}
+
+}  // namespace gridshell

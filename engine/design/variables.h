@@ -1,0 +1,55 @@
+// What a design changes, as numbers.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/design/symmetry.h"
+#include "engine/preset/preset.h"
+#include "engine/scene/shell_ends.h"
+
+namespace gridshell {
+
+/// One number at one end: a pin's move along `way` (mm), a leg's change of length (mm), or the turn
+/// of a held direction towards `way` (the direction is the old one plus the sum of q `way`, made
+/// unit: rad for small ones).
+struct DesignVariable {
+  preset::Vary kind = preset::Vary::pins;
+  int end = 0;
+  int component = 0;  ///< of those of its kind at its end
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+};
+
+/// All variables of a design. They change together so that the symmetries of the shell stay: q =
+/// basis z, the basis orthonormal, with as many z as the symmetries leave free.
+class DesignVariables {
+ public:
+  /// `vary` at all ends of the scene that are held.
+  DesignVariables(const Scene& scene, const std::vector<preset::Vary>& vary,
+                  const std::vector<ShellSymmetry>& symmetries);
+
+  const std::vector<DesignVariable>& all() const { return all_; }
+  Eigen::Index count() const { return Eigen::Index(all_.size()); }
+  const Eigen::MatrixXd& basis() const { return basis_; }
+  /// The ends that q makes of those of the scene.
+  ShellEnds ends_at(const Eigen::VectorXd& q) const;
+  /// How the ends change with the variables: of each its pin, leg and direction move by d times
+  /// these, at q.
+  struct Rate {
+    Eigen::Vector3d at, direction;
+    double leg;
+  };
+  std::vector<Rate> rates_at(const Eigen::VectorXd& q) const;
+  /// q with no pin and no leg further than `most_mm` from where it was.
+  Eigen::VectorXd limited(const Eigen::VectorXd& q, double most_mm) const;
+  /// Largest move of a pin or a leg, mm, and turn of a direction, degrees.
+  double largest_move_mm(const Eigen::VectorXd& q) const;
+  double largest_turn_deg(const Eigen::VectorXd& q) const;
+
+ private:
+  ShellEnds begin_;
+  std::vector<DesignVariable> all_;
+  Eigen::MatrixXd basis_;
+};
+
+}  // namespace gridshell

@@ -1,0 +1,250 @@
+// Inverse design: sensitivities against differences, symmetry kept, targets met.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/design/design.h"
+#include "engine/scene/net_design.h"
+#include "engine/session/session.h"
+
+using namespace gridshell;
+using preset::Vary;
+
+namespace {
+
+preset::Preset cap(double cut_height) {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::net;
+  p.footprint.placement = preset::Placement::on_axis;
+  p.net.radius_mm = 120;
+  p.net.cut_height = cut_height;
+  p.actuation.start = preset::Start::net;
+  return p;
+}
+
+/// A shell on a mesh, at rest beside its net, that a test moves.
+struct Moved {
+  std::shared_ptr<const Scene> scene;
+  std::unique_ptr<MovedShell> shell;
+};
+
+Moved moved_shell(const preset::Preset& preset, int edges) {
+  auto scene = scene_of(preset);
+  REQUIRE(scene.has_value());
+  Moved moved{std::make_shared<const Scene>(std::move(*scene)), nullptr};
+  auto session = Session::open(moved.scene, plan_of_mesh(edges));
+  REQUIRE(session.has_value());
+  REQUIRE(session->begin_on_net(unwatched).has_value());
+  const NestedShell& shell = session->shell();
+  const int last = shell.levels() - 1;
+  auto made = MovedShell::make(*moved.scene, edges, shell.mesh(last), shell.model(last),
+                               shell.state().levels.back());
+  REQUIRE(made.has_value());
+  moved.shell = std::move(*made);
+  return moved;
+}
+
+std::vector<ShellSymmetry> only_identity(const Scene& scene) {
+  ShellSymmetry same{{}, Eigen::Matrix3d::Identity()};
+  for (int k = 0; k < int(scene.motion.end.cols()); ++k) same.to.push_back(k);
+  return {same};
+}
+
+DesignTarget target_of(const Scene& scene, preset::Target kind) {
+  Eigen::Matrix2Xd uv(2, Eigen::Index(scene.footprint.joints.size()));
+  for (Eigen::Index k = 0; k < uv.cols(); ++k)
+    uv.col(k) << scene.footprint.joints[std::size_t(k)].u, scene.footprint.joints[std::size_t(k)].v;
+  return DesignTarget::make(scene.net, uv, kind).value();
+}
+
+/// any change of the variables
+Eigen::VectorXd some_change(Eigen::Index count) {
+  Eigen::VectorXd change(count);
+  for (Eigen::Index k = 0; k < count; ++k) change[k] = std::sin(1 + 1.7 * double(k));
+  return change / change.norm();
+}
+
+void check_sensitivity(const preset::Preset& preset, const std::vector<Vary>& vary, int edges) {
+  Moved moved = moved_shell(preset, edges);
+  MovedShell& shell = *moved.shell;
+  const DesignVariables variables(*moved.scene, vary, only_identity(*moved.scene));
+  const Eigen::VectorXd q = Eigen::VectorXd::Zero(variables.count()),
+                        way = some_change(variables.count());
+  const Sensitivity found =
+      shell.sensitivity(variables.all(), variables.rates_at(q), Eigen::MatrixXd(way));
+  const MovedShell::Stand stand = shell.stand();
+  const double h = 1e-3;
+  Eigen::Matrix3Xd x[2];
+  Eigen::VectorXd force[2];
+  for (const int side : {0, 1}) {
+    REQUIRE(shell.move(variables.ends_at(side == 0 ? -h * way : h * way), 5).has_value());
+    x[side] = shell.state().x;
+    force[side] = shell.leg_forces();
+    shell.back_to(stand);
+  }
+  const Eigen::Matrix3Xd difference = (x[1] - x[0]) / (2 * h);
+  CHECK((found.x.front() - difference).norm() < 1e-4 * difference.norm());
+  const Eigen::VectorXd by_force = (force[1] - force[0]) / (2 * h);
+  CHECK((found.leg_force.col(0) - by_force).norm() < 1e-4 * by_force.norm());
+}
+
+Designed designed(preset::Preset p, std::vector<Vary> vary, double norm = 8) {
+  p.inverse.norm = norm;
+  p.inverse.vary = std::move(vary);
+  Watch watch;
+  auto found = design(p, watch);
+  if (!found) FAIL(found.error().message);
+  CHECK(int(found->steps.size()) <= 26);
+  CHECK(found->after.back().eigenvalue >= 0.5 * found->before.back().eigenvalue);
+  CHECK(found->rounded.has_value());
+  return std::move(*found);
+}
+
+/// largest and mean distance at 32 edges, per cent of rho
+void check_met(const Designed& found, double largest, double mean) {
+  CHECK(100 * found.after.back().max_mm / found.length_scale_mm <= largest);
+  CHECK(100 * found.after.back().mean_mm / found.length_scale_mm <= mean);
+}
+
+}  // namespace
+
+TEST_CASE("joints and leg forces follow pins, legs and directions as states solved anew do") {
+  check_sensitivity(cap(0.7), {Vary::pins_3d}, 8);
+  check_sensitivity(cap(0.7), {Vary::legs}, 8);
+  auto tangent = cap(0.7);
+  tangent.ends.kind = preset::EndKind::tangent;
+  check_sensitivity(tangent, {Vary::directions, Vary::pins, Vary::legs}, 8);
+  auto ring = cap(0.7);
+  ring.ends.second_ring_mm = 8;
+  check_sensitivity(ring, {Vary::pins_3d, Vary::legs}, 8);
+}
+
+TEST_CASE("the same on the meshes that are designed on and certified", "[full]") {
+  for (const int edges : {16, 32}) {
+    check_sensitivity(cap(0), {Vary::pins}, edges);
+    check_sensitivity(cap(0), {Vary::legs}, edges);
+  }
+}
+
+TEST_CASE("the objective's gradient agrees with differences of states solved anew") {
+  Moved moved = moved_shell(cap(0.7), 8);
+  MovedShell& shell = *moved.shell;
+  const DesignVariables variables(*moved.scene, {Vary::pins, Vary::legs},
+                                  only_identity(*moved.scene));
+  const ObjectiveWeights weights;
+  const Eigen::VectorXd begin = 0.1 * some_change(variables.count());
+  REQUIRE(shell.move(variables.ends_at(begin), 5).has_value());
+  for (const auto kind : {preset::Target::surface, preset::Target::net}) {
+    DesignTarget target = target_of(*moved.scene, kind);
+    for (const double p : {2.0, 8.0}) {
+      const Sensitivity sensitivity =
+          shell.sensitivity(variables.all(), variables.rates_at(begin), variables.basis());
+      const Objective at = objective(target.distances(shell.joints()), begin, shell.leg_forces(),
+                                     variables.basis(), sensitivity, p, weights);
+      const Eigen::VectorXd way = some_change(variables.basis().cols());
+      const MovedShell::Stand stand = shell.stand();
+      const double h = 1e-4;
+      double value[2];
+      for (const int side : {0, 1}) {
+        const Eigen::VectorXd q = begin + (side == 0 ? -h : h) * (variables.basis() * way);
+        REQUIRE(shell.move(variables.ends_at(q), 5).has_value());
+        value[side] =
+            objective_value(target.distances(shell.joints()), q, shell.leg_forces(), p, weights);
+        shell.back_to(stand);
+      }
+      const double by_difference = (value[1] - value[0]) / (2 * h);
+      CHECK(at.gradient.dot(way) == Approx(by_difference).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("a hemisphere on the axes has eight symmetries, and what is varied keeps them") {
+  Moved moved = moved_shell(cap(0.7), 4);
+  const auto symmetries = symmetries_of(*moved.scene, moved.shell->joints(), 2e-3);
+  REQUIRE(symmetries.size() == 8);
+  const DesignVariables variables(*moved.scene, {Vary::pins, Vary::legs}, symmetries);
+  const Eigen::MatrixXd& basis = variables.basis();
+  CHECK((basis.transpose() * basis - Eigen::MatrixXd::Identity(basis.cols(), basis.cols())).norm() <
+        1e-12);
+  CHECK(basis.cols() < variables.count() / 6);
+  const Eigen::VectorXd q = 0.5 * (basis * some_change(basis.cols()));
+  const ShellEnds ends = variables.ends_at(q);
+  REQUIRE(moved.shell->move(ends, 5).has_value());
+  for (const ShellSymmetry& one : symmetries)
+    for (std::size_t k = 0; k < one.to.size(); ++k) {
+      const Eigen::Index to = one.to[k], from = Eigen::Index(k);
+      CHECK((one.turn * ends.at.col(from) - ends.at.col(to)).norm() < 1e-9);
+      CHECK(ends.leg[to] == Approx(ends.leg[from]).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("the nearest point of a surface is found from anywhere near") {
+  const auto scene = scene_of(cap(0.3));
+  REQUIRE(scene.has_value());
+  DesignTarget target = target_of(*scene, preset::Target::surface);
+  Eigen::Matrix3Xd joints(3, Eigen::Index(scene->footprint.joints.size()));
+  for (Eigen::Index k = 0; k < joints.cols(); ++k) {
+    const auto& joint = scene->footprint.joints[std::size_t(k)];
+    const auto at = scene->net->at(joint.u, joint.v);
+    joints.col(k) = at->position * (1 + 0.01 * std::sin(double(k))) + at->tangent_u;
+  }
+  const Distances found = target.distances(joints);
+  const Eigen::VectorXd exact = (joints.colwise().norm().array() - 120).abs().matrix().transpose();
+  // near the rim the net ends before; its tangent plane is 1/240 mm off at 1 mm
+  CHECK((found.size() - exact).cwiseAbs().maxCoeff() < 1e-8);
+}
+
+TEST_CASE("the table of ends gives back the same scene, and says what is wrong with it") {
+  auto p = cap(0.7);
+  const auto scene = scene_of(p);
+  REQUIRE(scene.has_value());
+  ShellEnds ends = ends_of(*scene);
+  ends.at.col(3) += Eigen::Vector3d(0.5, -0.2, 0.1);
+  ends.leg[4] += 0.3;
+  p.ends.table = table_of(*scene, ends);
+  const auto again = scene_of(p);
+  REQUIRE(again.has_value());
+  const ShellEnds back = ends_of(*again);
+  CHECK((back.at - ends.at).norm() < 1e-12);
+  CHECK((back.leg - ends.leg).norm() < 1e-12);
+  // the flat rod is longer by as much
+  CHECK((again->motion.begin - scene->motion.begin).col(4).norm() == Approx(0.3));
+  const auto refused = [&](std::size_t column, double value, const char* reason) {
+    auto wrong = p;
+    wrong.ends.table[2][column] = value;
+    const auto made = scene_of(wrong);
+    REQUIRE_FALSE(made.has_value());
+    CHECK(made.error().message.find(reason) != std::string::npos);
+  };
+  refused(1, 77, "no such end");
+  refused(6, -1, "longer than 0");
+}
+
+TEST_CASE("what cannot be designed is refused") {
+  Watch watch;
+  auto p = cap(0.7);
+  CHECK(design(p, watch).error().fault == Fault::bad_input);
+  p.inverse.vary = {Vary::pins};
+  p.joints.shear_Nmm = 1;
+  p.rod.shear_GPa = 31;
+  const auto twisted = design(p, watch);
+  REQUIRE_FALSE(twisted.has_value());
+  CHECK(twisted.error().message.find("bend rung") != std::string::npos);
+}
+
+TEST_CASE("a hemisphere meets its sphere by its pins in the plane", "[full]") {
+  check_met(designed(cap(0), {Vary::pins}), 0.28, 0.14);
+}
+
+TEST_CASE("a hemisphere meets its sphere by pins moved radially", "[full]") {
+  check_met(designed(cap(0), {Vary::pins_radial}, 5), 0.46, 0.17);
+}
+
+TEST_CASE("a hemisphere meets its sphere by its legs alone", "[full]") {
+  check_met(designed(cap(0), {Vary::legs}, 12), 0.80, 0.38);
+}
+
+TEST_CASE("a hemisphere meets its sphere by the directions of its ends", "[full]") {
+  auto p = cap(0);
+  p.ends.kind = preset::EndKind::tangent;
+  check_met(designed(p, {Vary::directions}), 0.005, 0.005);
+}
