@@ -25,6 +25,8 @@ std::string name_of(const preset::Preset& preset) {
       return "surface of revolution";
     case preset::NetKind::translation:
       return "translation net";
+    case preset::NetKind::surface:
+      return "surface";
     case preset::NetKind::spool:
     case preset::NetKind::beltrami:
       break;

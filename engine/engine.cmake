@@ -3,6 +3,7 @@ find_package(tomlplusplus REQUIRED)
 find_path(EIGEN_INCLUDE_DIR Eigen/Core PATH_SUFFIXES eigen3 REQUIRED)
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+find_library(MUPARSER_LIBRARY muparser REQUIRED)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
 find_library(HDF5_HL_LIBRARY NAMES hdf5_serial_hl hdf5_hl REQUIRED)
 
@@ -13,7 +14,7 @@ target_include_directories(gridshell_engine SYSTEM PUBLIC ${EIGEN_INCLUDE_DIR})
 target_include_directories(gridshell_engine SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
 target_compile_definitions(gridshell_engine PUBLIC EIGEN_DONT_PARALLELIZE)
 target_link_libraries(gridshell_engine PUBLIC fmt::fmt
-  PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY} ${HDF5_HL_LIBRARY} PkgConfig::HDF5)
+  PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY} ${MUPARSER_LIBRARY} ${HDF5_HL_LIBRARY} PkgConfig::HDF5)
 # the two hot loops may contract a*b+c; everything else rounds each operation
 set_source_files_properties(engine/solve/block_cholesky.cpp engine/gridshell/assembly.cpp
   PROPERTIES COMPILE_OPTIONS -ffp-contract=fast SKIP_PRECOMPILE_HEADERS ON)

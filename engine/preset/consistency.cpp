@@ -15,8 +15,9 @@ constexpr const char* actuated_radius = "[actuation] radius_mm";
 constexpr const char* spacing = "[footprint] spacing_mm";
 
 bool has_rings(const Preset& preset) {
-  return preset.footprint.kind == FootprintKind::net && preset.net.kind != NetKind::sphere &&
-         preset.net.kind != NetKind::translation;
+  const NetKind kind = preset.net.kind;
+  return preset.footprint.kind == FootprintKind::net && kind != NetKind::sphere &&
+         kind != NetKind::translation && kind != NetKind::surface;
 }
 
 }  // namespace

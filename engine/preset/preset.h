@@ -99,14 +99,20 @@ struct Footprint {
   Placement placement = Placement::half;
 };
 
-enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation };
+enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation, surface };
 constexpr auto words(NetKind) {
   return word_table<NetKind>({{NetKind::sphere, "sphere"},
                               {NetKind::cylinder, "cylinder"},
                               {NetKind::spool, "spool"},
                               {NetKind::beltrami, "beltrami"},
                               {NetKind::profile, "profile"},
-                              {NetKind::translation, "translation"}});
+                              {NetKind::translation, "translation"},
+                              {NetKind::surface, "surface"}});
+}
+/// What the first rod of a net on a surface sets out along, or turned from it by axis_deg.
+enum class NetAxis { principal, x };
+constexpr auto words(NetAxis) {
+  return word_table<NetAxis>({{NetAxis::principal, "principal"}, {NetAxis::x, "x"}});
 }
 struct Net {
   NetKind kind = NetKind::sphere;
@@ -117,6 +123,13 @@ struct Net {
   double crossing_deg = 90;  ///< omega in the middle of a surface of revolution
   Points profile;            ///< (r, z)
   Points curve_u, curve_v;   ///< (x, y, z) of a translation net
+  std::string implicit;      ///< F(x, y, z) of a surface F = 0
+  std::string height;        ///< h(x, y) of a surface z = h
+  std::string within;        ///< G(x, y, z) < 0 inside the boundary; empty: z > cut_mm
+  double cut_mm = 0;
+  std::vector<double> apex_mm{0, 0};  ///< where the axes cross; z may be left out of a height
+  NetAxis axis = NetAxis::principal;
+  double axis_deg = 0;
 };
 
 /// A building block: a net and the rows of joints at which it is cut.

@@ -42,6 +42,22 @@ void check_net(const std::string& table, const Net& net, int item, std::vector<C
   }
 }
 
+void check_surface(const Net& net, std::vector<Conflict>& found) {
+  const auto wrong = [&](const char* key, std::vector<std::string> others, const char* why) {
+    found.push_back({"net", key, std::move(others), why});
+  };
+  if (net.implicit.empty() && net.height.empty())
+    wrong("implicit", {"[net] height"},
+          "kind = \"surface\" needs an expression, must be F(x, y, z), or height must be h(x, y)");
+  if (!net.implicit.empty() && !net.height.empty())
+    wrong("height", {"[net] implicit"}, "the surface is given twice, must be empty");
+  if (net.implicit.empty() ? net.apex_mm.size() < 2 || net.apex_mm.size() > 3
+                           : net.apex_mm.size() != 3)
+    wrong("apex_mm", {"[net] implicit", "[net] height"},
+          net.implicit.empty() ? "must be [x, y]"
+                               : "must be [x, y, z], a point of the surface where the net begins");
+}
+
 void check_join(const Preset& preset, int item, const char* key, const std::string& name,
                 std::vector<Conflict>& found) {
   if (side_named(preset, name)) return;
@@ -66,6 +82,8 @@ std::vector<Conflict> shape_conflicts(const Preset& preset) {
     if (preset.actuation.scale == 0) check_curve("actuation", preset.actuation.boundary, found);
   }
   if (preset.footprint.kind == FootprintKind::net) check_net("net", preset.net, -1, found);
+  if (preset.footprint.kind == FootprintKind::net && preset.net.kind == NetKind::surface)
+    check_surface(preset.net, found);
   return found;
 }
 
@@ -83,6 +101,13 @@ std::vector<Conflict> block_conflicts(const Preset& preset) {
     else if (!names.insert(block.name).second)
       found.push_back({"block", "name", {}, "used twice, must be unique", k});
     check_net("block", block.net, k, found);
+    if (block.net.kind == NetKind::surface)
+      found.push_back({"block",
+                       "kind",
+                       {},
+                       "blocks are parts of spheres, translation nets and surfaces of revolution, "
+                       "must be one of these",
+                       k});
   }
   for (int k = 0; k < int(preset.join.size()); ++k) {
     check_join(preset, k, "first", preset.join[k].first, found);

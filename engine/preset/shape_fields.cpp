@@ -27,7 +27,8 @@ template <auto... path>
 std::vector<Field> fields_of_net(const std::string& table) {
   return {
       {table, "kind", "", word<path..., &Net::kind>(),
-       "\"sphere\": a cap of Chebyshev's net; \"translation\": the sum of two curves; the others: "
+       "\"sphere\": a cap of Chebyshev's net; \"translation\": the sum of two curves; \"surface\": "
+       "any surface by an expression ([net] alone); the others: "
        "the upper half of a surface of revolution about the x-axis, \"spool\" and \"beltrami\" of "
        "constant K = -1/rho^2"},
       {table, "radius_mm", "mm", real<path..., &Net::radius_mm>(above(0)),
@@ -45,6 +46,28 @@ std::vector<Field> fields_of_net(const std::string& table) {
       {table, "curve_u", "", points<path..., &Net::curve_u>({"x", "y", "z"}),
        "points of the curve X of a translation net X(u) + Y(v), mm"},
       {table, "curve_v", "", points<path..., &Net::curve_v>({"x", "y", "z"}), "and of Y"},
+  };
+}
+
+/// Of a net on any surface.
+std::vector<Field> surface_fields() {
+  return {
+      {"net", "implicit", "", text<&P::net, &Net::implicit>(),
+       "F(x, y, z) of a surface F = 0, mm: \"x^2 + y^2 + z^2 - 120^2\""},
+      {"net", "height", "", text<&P::net, &Net::height>(),
+       "h(x, y) of a surface z = h, mm, in the place of `implicit`"},
+      {"net", "apex_mm", "mm", list<&P::net, &Net::apex_mm>({}),
+       "[x, y, z], a point of the surface where the net's axes cross at right angles; of a height "
+       "[x, y]"},
+      {"net", "axis", "", word<&P::net, &Net::axis>(),
+       "what the u-axis leaves the apex along: the direction in which the surface curves most "
+       "(where it curves alike in all, x), or x"},
+      {"net", "axis_deg", "deg", real<&P::net, &Net::axis_deg>(between(-180, 180)),
+       "how far it is turned from there, to the left as seen from above"},
+      {"net", "cut_mm", "mm", real<&P::net, &Net::cut_mm>({}),
+       "height of the plane that cuts the surface: the net is kept above it"},
+      {"net", "within", "", text<&P::net, &Net::within>(),
+       "G(x, y, z), below zero where the net is kept, in the place of the plane; empty: the plane"},
   };
 }
 
@@ -76,6 +99,7 @@ std::vector<Field> boundary_fields() {
 
 std::vector<Field> net_fields() {
   auto fields = fields_of_net<&P::net>("net");
+  append(fields, surface_fields());
   append(fields, {{"blocks", "max_gap_mm", "mm", real<&P::blocks, &Blocks::max_gap_mm>(at_least(0)),
                    "largest distance in space between two blocks at a joint of their seam"},
                   {"block", "name", "", text<&P::block, &Block::name>(), "of the block, its own"}});

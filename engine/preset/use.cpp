@@ -31,6 +31,17 @@ const std::vector<Use<NetKind>>& uses_of_net() {
   return uses;
 }
 
+/// Of [net] alone: blocks have none of these.
+const std::vector<Use<NetKind>>& uses_of_surface() {
+  using K = NetKind;
+  static const std::vector<Use<K>> uses = {
+      {"implicit", {K::surface}}, {"height", {K::surface}},   {"apex_mm", {K::surface}},
+      {"axis", {K::surface}},     {"axis_deg", {K::surface}}, {"cut_mm", {K::surface}},
+      {"within", {K::surface}},
+  };
+  return uses;
+}
+
 /// `radius_mm` stands beside the curve, for a circle.
 const std::vector<Use<CurveKind>>& uses_of_curve() {
   using K = CurveKind;
@@ -114,7 +125,7 @@ class Idle {
     };
     if (kind != K::circle) add("footprint", "rods", decider, of(K::circle));
     if (kind == K::net)
-      add_unused("net", uses_of_net(), preset_.net.kind, "kind");
+      net();
     else
       add_all("net", decider, of(K::net));
     if (kind != K::blocks) add_all("blocks", decider, of(K::blocks));
@@ -125,6 +136,14 @@ class Idle {
         add_all("block", decider, of(K::blocks), k);
     for (int k = 0; k < int(preset_.join.size()) && kind != K::blocks; ++k)
       add_all("join", decider, of(K::blocks), k);
+  }
+
+  void net() {
+    const Net& net = preset_.net;
+    add_unused("net", uses_of_net(), net.kind, "kind");
+    add_unused("net", uses_of_surface(), net.kind, "kind");
+    if (net.kind == NetKind::surface && !net.within.empty())
+      add("net", "cut_mm", {"[net] within"}, "[net] within is the boundary in the plane's place");
   }
 
   void boundaries() {

@@ -18,7 +18,7 @@ FlatFrame common_frame() {
 }
 
 Result<Block> block_of(const preset::Block& wanted, const preset::Footprint& footprint) {
-  auto design = net_design(wanted.net);
+  auto design = net_design(wanted.net, footprint.spacing_mm);
   if (!design)
     return fail(design.error().fault,
                 fmt::format("block \"{}\": {}", wanted.name, design.error().message));

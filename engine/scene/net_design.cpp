@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/footprint/net_domain.h"
+#include "engine/scene/surface_design.h"
 
 namespace gridshell {
 namespace {
@@ -46,6 +47,7 @@ Result<Profile> profile_of(const preset::Net& wanted) {
       return tabulated_profile(matrix_of<2>(wanted.profile));
     case preset::NetKind::sphere:
     case preset::NetKind::translation:
+    case preset::NetKind::surface:
       break;
   }
   return fail(Fault::bad_input,
@@ -103,7 +105,7 @@ Result<NetDesign> translation(const preset::Net& wanted) {
 
 }  // namespace
 
-Result<NetDesign> net_design(const preset::Net& net) {
+Result<NetDesign> net_design(const preset::Net& net, double spacing_mm) {
   switch (net.kind) {
     case preset::NetKind::sphere:
       return cap(net);
@@ -114,6 +116,8 @@ Result<NetDesign> net_design(const preset::Net& net) {
     case preset::NetKind::beltrami:
     case preset::NetKind::profile:
       break;
+    case preset::NetKind::surface:
+      return surface_design(net, spacing_mm);
   }
   return half_revolution(net);
 }

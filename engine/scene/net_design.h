@@ -22,8 +22,9 @@ struct NetDesign {
   std::shared_ptr<const Assemblage> blocks;  ///< where the net is one of blocks
 };
 
-/// Errors (bad_input): what the net or its boundary cannot be, with where it folds or ends.
-Result<NetDesign> net_design(const preset::Net& net);
+/// `spacing_mm`: d, finer than which nets on any surface are found. Errors (bad_input): what the
+/// net or its boundary cannot be, with where it folds or ends.
+Result<NetDesign> net_design(const preset::Net& net, double spacing_mm);
 
 /// C at every column of `uv`. Errors (bad_input): those of the net.
 Result<Eigen::Matrix3Xd> points_on(const ChebyshevNet& net, const Eigen::Matrix2Xd& uv);

@@ -109,8 +109,9 @@ Result<void> hold_directions(const Eigen::Matrix2Xd& ends, RodEnd hold, Scene& s
 }
 
 Result<void> build_net(const preset::Preset& preset, Scene& scene) {
-  auto design = preset.footprint.kind == preset::FootprintKind::blocks ? block_design(preset)
-                                                                       : net_design(preset.net);
+  auto design = preset.footprint.kind == preset::FootprintKind::blocks
+                    ? block_design(preset)
+                    : net_design(preset.net, preset.footprint.spacing_mm);
   if (!design) return tl::unexpected<Error>(design.error());
   if (auto cut = cut_from(*design->domain, preset, scene); !cut) return cut;
   scene.net = design->net;

@@ -262,7 +262,7 @@ second = "right.west"
        "or \"none\""},
       {start + "kind = \"cone\"",
        "bad.toml:5:8: [[block]] 1 kind = \"cone\": unknown word, must be \"sphere\", \"cylinder\", "
-       "\"spool\", \"beltrami\", \"profile\" or \"translation\""},
+       "\"spool\", \"beltrami\", \"profile\", \"translation\" or \"surface\""},
       {start + "[[join]]\nfirst = \"a.est\"\nsecond = \"a.west\"",
        "bad.toml:6:9: [[join]] 1 first = \"a.est\": no side of a block, must be a block's name and "
        "east, west, north or south with a dot between; did you mean 'a.east'?"},

@@ -79,7 +79,10 @@ Preset of_net(NetKind kind) {
   auto preset = all_changed();
   preset.net.kind = kind;
   // only surfaces of revolution have rings that can be free
-  if (kind == NetKind::sphere || kind == NetKind::translation) preset.ends.rings = Rings::pinned;
+  const bool rings =
+      kind != NetKind::sphere && kind != NetKind::translation && kind != NetKind::surface;
+  if (!rings) preset.ends.rings = Rings::pinned;
+  preset.net.apex_mm = {1.5, -2, 1e2 / 3};
   return preset;
 }
 
@@ -140,9 +143,16 @@ std::vector<Preset> samples() {
   all.back().ends = {.second_ring_mm = 7.5, .table = {}};
   for (const auto& [kind, word] : words(CurveKind{})) all.push_back(of_curve(kind, 0));
   for (const auto& [kind, word] : words(NetKind{})) {
+    if (kind == NetKind::surface) continue;  // below, and no block
     all.push_back(of_net(kind));
     all.push_back(of_blocks(kind));
   }
+  // by either expression, cut by either boundary
+  all.push_back(of_net(NetKind::surface));
+  all.back().net.height.clear();
+  all.push_back(of_net(NetKind::surface));
+  all.back().net.implicit.clear();
+  all.back().net.within.clear();
   return all;
 }
 

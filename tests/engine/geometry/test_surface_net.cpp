@@ -1,0 +1,129 @@
+// Nets on surfaces that are given by an expression, against nets that are known.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/geometry/expression.h"
+#include "engine/geometry/sphere_net.h"
+#include "engine/geometry/surface_net.h"
+#include "tests/engine/geometry/net_checks.h"
+
+using namespace gridshell;
+
+namespace {
+
+constexpr double rho = 120, d = 20;
+
+Surface surface_of(const std::string& text) {
+  const Expression F = Expression::parse(text).value();
+  return {[F](const Eigen::Vector3d& p) { return F.at(p); }, d};
+}
+
+NetPlace on_top(const Eigen::Vector3d& apex, double cut_mm, double turned = 0) {
+  return {apex, Eigen::Vector3d(std::cos(turned), std::sin(turned), 0), Eigen::Vector3d::UnitZ(),
+          [cut_mm](const Eigen::Vector3d& p) { return cut_mm - p.z(); }};
+}
+
+const char* const sphere = "x^2 + y^2 + z^2 - 120^2";
+
+/// largest distance of a net from the sphere's, above the plane z = cut, mm
+double off_sphere(const ChebyshevNet& net, double cut_mm, double turned = 0) {
+  const SphereNet exact(rho);
+  const Eigen::AngleAxisd turn(turned, Eigen::Vector3d::UnitZ());
+  double largest = 0;
+  int compared = 0;
+  for (double u = -186; u <= 186; u += 7.3)
+    for (double v = -186; v <= 186; v += 7.3) {
+      const auto there = exact.at(u, v);
+      if (!there || there->position.z() < cut_mm) continue;
+      ++compared;
+      const auto here = net.at(u, v);
+      REQUIRE(here.has_value());
+      largest = std::max(largest, (here->position - turn * there->position).norm());
+    }
+  CHECK(compared > 100);
+  return largest;
+}
+
+/// the same of the nodes of a grid of equal chords
+double grid_off_sphere(double chord) {
+  const SphereNet exact(rho);
+  const auto grid = ChordGrid::make(surface_of(sphere), on_top({0, 0, rho}, 0), chord, 2, 2000);
+  REQUIRE(grid.has_value());
+  double largest = 0;
+  for (int j = grid->first_v(); j <= grid->last_v(); ++j)
+    for (int i = grid->first_u(); i <= grid->last_u(); ++i)
+      if (grid->inside(i, j))
+        largest =
+            std::max(largest, (grid->at(i, j) - exact.at(i * chord, j * chord)->position).norm());
+  return largest;
+}
+
+std::string refusal(const std::string& text, const NetPlace& place) {
+  const auto net = SurfaceNet::make(surface_of(text), place, d / 8);
+  return net ? "none" : net.error().message;
+}
+
+}  // namespace
+
+TEST_CASE("expressions have values, and what is none says where") {
+  CHECK(Expression::parse("x^2 + 2*y - sin(z)")->at({3, 4, 0}) == 17);
+  CHECK(Expression::parse("x < 2 ? 1 : 5")->at({3, 4, 0}) == 5);
+  CHECK_FALSE(std::isfinite(Expression::parse("1/(x - 3)")->at({3, 4, 0})));
+  const auto wrong = [](const char* text) { return Expression::parse(text).error().message; };
+  CHECK(wrong("x^2 + ").find("at place") != std::string::npos);
+  CHECK(wrong("x^2 + w").find("\"w\"") != std::string::npos);
+  CHECK(wrong("").find("at place") != std::string::npos);
+  CHECK(wrong("x, y").find("2 values") != std::string::npos);
+  CHECK(wrong("x^2 = 3").find("an equation") != std::string::npos);
+}
+
+TEST_CASE("a surface's curvatures are those of the sphere, the saddle and the cylinder") {
+  const auto ball = surface_of(sphere).curvature({0, 0, rho});
+  CHECK(ball.umbilic);
+  CHECK(ball.first == Approx(-1 / rho).epsilon(1e-5));
+  const auto saddle = surface_of("z - (x^2 - y^2)/200").curvature({0, 0, 0});
+  CHECK_FALSE(saddle.umbilic);
+  CHECK(saddle.first == Approx(0.01).epsilon(1e-5));
+  CHECK(saddle.second == Approx(-0.01).epsilon(1e-5));
+  CHECK(std::abs(saddle.axes(0, 0)) == Approx(1).epsilon(1e-6));
+  const auto pipe = surface_of("y^2 + z^2 - 50^2").curvature({0, 0, 50});
+  CHECK(pipe.first == Approx(-0.02).epsilon(1e-5));
+  CHECK(std::abs(pipe.second) < 1e-7);
+  CHECK(std::abs(pipe.axes(1, 0)) == Approx(1).epsilon(1e-6));
+}
+
+TEST_CASE("a grid of equal chords comes to the sphere's net at second order, 0.5 um at d/64") {
+  const double at_8 = grid_off_sphere(d / 8), at_16 = grid_off_sphere(d / 16);
+  CHECK(at_8 / at_16 == Approx(4).epsilon(0.05));
+  CHECK(at_16 / 16 <= 5e-4);  // d/64 takes seconds
+}
+
+TEST_CASE("the net of the sphere by expression is the sphere's own, whatever way it is turned") {
+  for (const double turned : {0.0, 0.4}) {
+    const auto net = SurfaceNet::make(surface_of(sphere), on_top({0, 0, rho}, 0, turned), d / 8);
+    REQUIRE(net.has_value());
+    CHECK(off_sphere(*net, 0, turned) <= 5e-4);
+    const NetPoint here = point_of(*net, 60, -47), there = point_of(SphereNet(rho), 60, -47);
+    CHECK(here.omega == Approx(there.omega).epsilon(1e-6));
+    CHECK(here.K == Approx(there.K).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("a net on a surface has rods of unit speed, and obeys Gauss' equation") {
+  const auto net = SurfaceNet::make(surface_of("(x/140)^2 + (y/110)^2 + (z/90)^2 - 1"),
+                                    on_top({0, 0, 90}, 0), d / 8);
+  REQUIRE(net.has_value());
+  CHECK(unit_residual(*net, 37, -51) < 1e-9);
+  CHECK(mixed_residual(*net, 33, -28, 90) < 1e-4);
+  CHECK(gauss_residual(*net, 33, -28, 90) < 1e-3);
+}
+
+TEST_CASE("where a net folds, or its surface or boundary does not serve, it is refused") {
+  // most of a sphere: beyond the equator the net folds
+  CHECK(refusal(sphere, on_top({0, 0, rho}, -100)).find("the net folds") != std::string::npos);
+  // a boundary that no axis reaches
+  CHECK(refusal("z - 10", on_top({0, 0, 10}, 0)).find("does not cross") != std::string::npos);
+  // a surface that ends before its boundary
+  CHECK(refusal("z - sqrt(120^2 - x^2 - y^2)", on_top({0, 0, rho}, -10)).find("surface ends") !=
+        std::string::npos);
+}

@@ -1,0 +1,115 @@
+// Footprints of surfaces that a preset gives by an expression.
+#include <catch2/catch.hpp>
+
+#include "engine/preset/reader.h"
+#include "engine/scene/scene.h"
+
+using namespace gridshell;
+
+namespace {
+
+preset::Preset on_net() {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::net;
+  p.footprint.placement = preset::Placement::on_axis;
+  p.net.radius_mm = 120;
+  p.net.cut_height = 0.3;
+  p.actuation.start = preset::Start::net;
+  return p;
+}
+
+preset::Preset on_surface() {
+  auto p = on_net();
+  p.net.kind = preset::NetKind::surface;
+  p.net.implicit = "x^2 + y^2 + z^2 - 120^2";
+  p.net.apex_mm = {0, 0, 120};
+  p.net.cut_mm = 36;
+  return p;
+}
+
+void refused(const preset::Preset& p, const std::string& reason) {
+  const auto scene = scene_of(p);
+  REQUIRE_FALSE(scene.has_value());
+  INFO(scene.error().message);
+  CHECK(scene.error().message.find(reason) != std::string::npos);
+}
+
+void same_scene(const Scene& here, const Scene& there) {
+  REQUIRE(here.footprint.joints.size() == there.footprint.joints.size());
+  REQUIRE(here.motion.end.cols() == there.motion.end.cols());
+  CHECK((here.motion.begin - there.motion.begin).colwise().norm().maxCoeff() < 5e-4);
+  CHECK((here.motion.end - there.motion.end).colwise().norm().maxCoeff() < 5e-4);
+}
+
+}  // namespace
+
+TEST_CASE("a cap of a sphere by expression has the sphere's own footprint and boundary") {
+  const auto here = scene_of(on_surface()), there = scene_of(on_net());
+  REQUIRE(here.has_value());
+  REQUIRE(there.has_value());
+  same_scene(*here, *there);
+  CHECK(here->length_scale_mm == Approx(120 * std::sqrt(1 - 0.09)).epsilon(1e-6));
+  // the same surface as a height, the same boundary as a curve
+  auto other = on_surface();
+  other.net.implicit.clear();
+  other.net.height = "sqrt(120^2 - x^2 - y^2)";
+  other.net.apex_mm = {0, 0};
+  other.net.within = "x^2 + y^2 - 120^2 + 36^2";
+  const auto by_height = scene_of(other);
+  REQUIRE(by_height.has_value());
+  same_scene(*by_height, *there);
+}
+
+TEST_CASE("rods on a saddle leave along its principal directions, or along x") {
+  auto p = on_surface();
+  p.net.implicit.clear();
+  p.net.height = "x*y/300";
+  p.net.apex_mm = {0, 0};
+  p.net.within = "x^2 + y^2 - 100^2";
+  const auto along = [&] {
+    const auto scene = scene_of(p);
+    REQUIRE(scene.has_value());
+    const Eigen::Vector3d way = scene->net->at(0, 0)->tangent_u;
+    return std::atan2(way.y(), way.x()) * 180 / M_PI;
+  };
+  CHECK(std::abs(along()) == Approx(45).margin(1e-3));
+  p.net.axis = preset::NetAxis::x;
+  CHECK(along() == Approx(0).margin(1e-3));
+  p.net.axis_deg = 20;
+  CHECK(along() == Approx(20).margin(1e-3));
+}
+
+TEST_CASE("a surface that makes no net is refused with what is wrong") {
+  const auto with = [](auto change) {
+    auto p = on_surface();
+    change(p.net);
+    return p;
+  };
+  refused(with([](auto& n) { n.implicit = "x^2 +"; }), "[net] implicit = \"x^2 +\"");
+  refused(with([](auto& n) { n.implicit = "x^2 + y^2 - sqrt(-1)"; }), "no value");
+  refused(with([](auto& n) { n.implicit = "5"; }), "no slope");
+  refused(with([](auto& n) { n.apex_mm = {0, 0, 110}; }), "lies 10 mm off the surface");
+  refused(with([](auto& n) { n.apex_mm = {120, 0, 0}, n.cut_mm = -10; }), "face up");
+  refused(with([](auto& n) { n.cut_mm = 130; }), "lies outside");
+  refused(with([](auto& n) { n.cut_mm = -200; }), "does not cross");
+  refused(with([](auto& n) { n.within = "z <"; }), "[net] within");
+  // seen from the apex the boundary hides parts of itself
+  refused(
+      with([](auto& n) { n.within = "max(x^2 + y^2 - 100^2, 12^2 - (x - 50)^2 - (y - 50)^2)"; }),
+      "crossed more than once");
+}
+
+TEST_CASE("a preset names the surface once, and a point of it") {
+  const auto wrong = [](const std::string& net, const char* reason) {
+    const auto read = preset::read_preset_text(
+        "[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\n" + net, "p.toml", "p");
+    REQUIRE_FALSE(read.has_value());
+    INFO(read.error().message);
+    CHECK(read.error().message.find(reason) != std::string::npos);
+  };
+  wrong("", "needs an expression");
+  wrong("implicit = \"x\"\nheight = \"x\"\napex_mm = [0, 0, 0]\n", "given twice");
+  wrong("implicit = \"z\"\n", "must be [x, y, z]");
+  wrong("height = \"1\"\napex_mm = [1.0]\n", "must be [x, y]");
+  wrong("height = \"1\"\nradius_mm = 3.0\n", "does not use it");
+}
