@@ -39,8 +39,9 @@ Eigen::Matrix4f on_ground(const Eigen::Matrix4f& light_matrix, double z) {
   return result;
 }
 
-/// Of the light's map along a side: some pixel and a half each, the same in all frames of a movie.
-int texels_for(int height) { return std::clamp(64 * int(std::lround(height / 90.0)), 64, 1024); }
+/// Of the map of light along a side: finer than the narrowest penumbra, and than the pixels; the
+/// same in all frames of a movie.
+int texels_for(int height) { return std::clamp(64 * int(std::lround(height / 90.0)), 512, 1024); }
 
 /// Of level ground in the open.
 float open_light(const Lighting& light) {

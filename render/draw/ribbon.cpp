@@ -27,14 +27,21 @@ std::uint32_t add_ribbon(Mesh& mesh, const Ribbon& ribbon) {
 }
 
 int reach(const Ribbon& ribbon, int from, int last, float tolerance_mm) {
-  constexpr float colour_step = 0.004f;
+  constexpr float colour_step = 0.004f, least_cosine = 0.98f;
   const auto count = int(ribbon.points.size());
+  // the strip is as wide as its ends are square to it: at a corner it stays short
+  const auto goes_along = [&](int edge, const Eigen::Vector3f& along) {
+    if (!ribbon.closed && (edge < 0 || edge + 1 >= count)) return true;
+    const Eigen::Vector3f step =
+        ribbon.points[(edge + 1) % count] - ribbon.points[(edge + count) % count];
+    return step.dot(along) >= least_cosine * step.norm() * along.norm();
+  };
   const auto within = [&](int to) {
     const Eigen::Vector3f &a = ribbon.points[from], &b = ribbon.points[to % count];
     const Eigen::Vector4f &first = ribbon.colours[from], &second = ribbon.colours[to % count];
     const Eigen::Vector3f along = b - a;
     const float length2 = along.squaredNorm();
-    if (length2 == 0) return false;
+    if (length2 == 0 || !goes_along(from - 1, along) || !goes_along(to, along)) return false;
     for (int k = from + 1; k < to; ++k) {
       const Eigen::Vector3f off = ribbon.points[k % count] - a;
       const float part = off.dot(along) / length2;

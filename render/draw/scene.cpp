@@ -183,6 +183,7 @@ class Weaver {
   }
 
   void add_rings() {
+    constexpr int edges = 4;
     for (const Ring& ring : drawing_.rings) {
       Points points(ring.points.cols());
       for (int k = 0; k < int(points.size()); ++k) points[k] = ring.points.col(k).cast<float>();
@@ -195,7 +196,8 @@ class Weaver {
       const Ribbon ribbon{points, colours, {&radius, 1}, true};
       const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
       for (int k = 0, next = 0, n = int(points.size()); k < n; k = next) {
-        next = reach(ribbon, k, n, rod_tolerance());
+        // short pieces, so that each has its place from far to near
+        next = reach(ribbon, k, std::min(n, k + edges), rod_tolerance());
         Piece piece{forward_.dot(points[k].cast<double>()), {}};
         join_points(piece.indices, first, k, next % n);
         for (int l = k; ring.shadow && l < next; ++l)

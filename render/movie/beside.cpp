@@ -1,16 +1,14 @@
 #include "render/movie/beside.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
 
 #include "engine/core/atomic_file.h"
-#include "render/image/png.h"
 #include "render/movie/captions.h"
 #include "render/movie/colour_range.h"
+#include "render/movie/frame_writer.h"
 #include "render/movie/stage.h"
 #include "render/movie/timeline.h"
 
@@ -145,22 +143,20 @@ Result<MovieReport> write_beside(const std::vector<BesideRun>& runs, const Movie
       return tl::unexpected(showable.error());
   if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
   const Beside beside(runs, style);
+  FrameWriter writer(folder, beside.frames(), watch);
   MovieReport report;
   for (int k = 0; k < beside.frames(); ++k) {
-    if (watch.cancelled())
-      return fail(Fault::cancelled,
-                  fmt::format("stopped after {} of {} frames", k, beside.frames()));
+    if (auto wanted = writer.check(); !wanted) return tl::unexpected(wanted.error());
     const double begin = seconds();
-    const auto picture = beside.draw(k, renderer);
+    auto picture = beside.draw(k, renderer);
     if (!picture) return tl::unexpected(picture.error());
     const double drawn = seconds();
-    if (auto written = write_png(*picture, folder / frame_name(k)); !written)
-      return tl::unexpected(written.error());
+    if (auto put = writer.put(std::move(*picture)); !put) return tl::unexpected(put.error());
     report.seconds_draw += drawn - begin;
     report.seconds_write += seconds() - drawn;
-    ++report.frames;
-    watch.report(double(k + 1) / beside.frames());
   }
+  if (auto done = writer.finish(); !done) return tl::unexpected(done.error());
+  report.frames = writer.written();
   return report;
 }
 

@@ -1,11 +1,8 @@
 #include "render/movie/movie_writer.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
 
 #include "engine/core/atomic_file.h"
-#include "render/image/png.h"
 #include "render/movie/stage.h"
 
 namespace gridshell::render {
@@ -22,8 +19,6 @@ Clock::time_point lap(Clock::time_point since, double& total) {
 
 }  // namespace
 
-std::string frame_name(int index) { return fmt::format("frame_{:05d}.png", index); }
-
 Result<MovieReport> write_movie(const FrameSource& source, Survey survey, const MovieStyle& style,
                                 const std::optional<ColourBar>& bar, Renderer& renderer,
                                 const std::filesystem::path& folder, Watch& watch,
@@ -32,10 +27,10 @@ Result<MovieReport> write_movie(const FrameSource& source, Survey survey, const 
   if (source.count < 1) return fail(Fault::bad_input, "the run has no frame to show");
   if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
   const Stage stage(*source.layout, std::move(survey), style, bar);
+  FrameWriter writer(folder, source.count, watch, on_frame);
   MovieReport report;
   for (int k = 0; k < source.count; ++k) {
-    if (watch.cancelled())
-      return fail(Fault::cancelled, fmt::format("stopped after {} of {} frames", k, source.count));
+    if (auto wanted = writer.check(); !wanted) return tl::unexpected(wanted.error());
     auto time = Clock::now();
     const auto frame = source.at(k);
     if (!frame) return tl::unexpected(frame.error());
@@ -46,13 +41,13 @@ Result<MovieReport> write_movie(const FrameSource& source, Survey survey, const 
     time = lap(time, report.seconds_draw);
     stage.finish(*picture, {*frame, k});
     time = lap(time, report.seconds_overlay);
-    if (auto written = write_png(*picture, folder / frame_name(k)); !written)
-      return tl::unexpected(written.error());
+    if (auto put = writer.put(std::move(*picture)); !put) return tl::unexpected(put.error());
     lap(time, report.seconds_write);
-    ++report.frames;
-    watch.report(double(k + 1) / source.count);
-    if (on_frame) on_frame(k, *picture);
   }
+  auto time = Clock::now();
+  if (auto done = writer.finish(); !done) return tl::unexpected(done.error());
+  lap(time, report.seconds_write);
+  report.frames = writer.written();
   return report;
 }
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/record/snapshot.h"
 #include "render/draw/renderer.h"
+#include "render/movie/frame_writer.h"
 #include "render/movie/style.h"
 #include "render/movie/survey.h"
 #include "render/plot/legend.h"
@@ -20,20 +20,14 @@ struct MovieReport {
   int frames = 0;
   double seconds_draw = 0;     ///< the 3D picture
   double seconds_overlay = 0;  ///< captions, colour bar, top view
-  double seconds_write = 0;    ///< PNG and disk
+  double seconds_write = 0;    ///< waiting for PNG and disk, which go on beside drawing
 };
-
-/// "frame_00000.png"
-std::string frame_name(int index);
-
-/// Called after a frame stands on the disk.
-using OnFrame = std::function<void(int index, const Image& picture)>;
 
 /// Writes frame_00000.png ... into `folder` (made if absent), one picture a frame of `source`,
 /// whose survey has been taken; `bar` is a colour bar that several movies share. One frame is in
-/// memory at a time, every file is whole at any time. Progress of `watch` grows from 0 to 1.
-/// Errors: Fault::bad_input for a run without frames or an impossible size, Fault::cancelled
-/// between frames, Fault::io, those of the source.
+/// memory at a time and the picture of the one before, every file is whole at any time. Progress of
+/// `watch` grows from 0 to 1. Errors: Fault::bad_input for a run without frames or an impossible
+/// size, Fault::cancelled between frames, Fault::io, those of the source.
 Result<MovieReport> write_movie(const FrameSource& source, Survey survey, const MovieStyle& style,
                                 const std::optional<ColourBar>& bar, Renderer& renderer,
                                 const std::filesystem::path& folder, Watch& watch,
