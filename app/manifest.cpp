@@ -97,17 +97,29 @@ std::optional<Unlisted> unlisted(const fs::path& folder) {
 bool is_temporary(const std::string& name) { return name.starts_with(".partial-"); }
 
 bool may_be_of(const Unlisted& run, const std::string& name) {
-  static const std::set<std::string> data{"summary.json",       "preset.toml",
-                                          "joints.csv",         "cells.csv",
-                                          "frames.csv",         "bins.csv",
-                                          "seams.csv",          "trajectory.h5",
-                                          "movie.mp4",          "accuracy.csv",
-                                          "scaling.csv",        "stability.csv",
-                                          "design.json",        "design.csv",
-                                          "ends.csv",           "ends_rounded.csv",
-                                          "branches.csv",       record::states_name,
-                                          record::search_name,  record::transitions_name,
-                                          record::journal_name, record::coarser_journal_name};
+  static const std::set<std::string> data{"summary.json",
+                                          "preset.toml",
+                                          "joints.csv",
+                                          "cells.csv",
+                                          "frames.csv",
+                                          "bins.csv",
+                                          "seams.csv",
+                                          "trajectory.h5",
+                                          "movie.mp4",
+                                          "accuracy.csv",
+                                          "scaling.csv",
+                                          "stability.csv",
+                                          "design.json",
+                                          "design.csv",
+                                          "ends.csv",
+                                          "ends_rounded.csv",
+                                          "branches.csv",
+                                          record::states_name,
+                                          record::search_name,
+                                          record::transitions_name,
+                                          record::barriers_name,
+                                          record::journal_name,
+                                          record::coarser_journal_name};
   static const std::regex frame("frames(/frame_[0-9]{5,}\\.png)?");
   if (data.contains(name) || is_temporary(fs::path(name).filename().string()) ||
       std::regex_match(name, frame))

@@ -39,7 +39,7 @@ struct Job {
 preset::Preset with_stills(preset::Preset preset, Pictures pictures) {
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
   if (pictures == Pictures::stills && circle && preset.figure.radii_mm.empty())
-    preset.figure.radii_mm = {preset.actuation.radius_mm};
+    preset.figure.radii_mm = {preset.actuated_radius_mm()};
   return preset;
 }
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <numeric>
 
 #include "app/pictures.h"
+#include "render/figure/barrier_chart.h"
+#include "render/figure/ways_graph.h"
 #include "render/movie/stills.h"
 #include "render/plot/plot.h"
 
@@ -95,32 +95,6 @@ render::Plot lives_plot(const record::StateTables& states) {
   return plot;
 }
 
-/// A marker a way, from the state on one axis to that on the other.
-render::Plot ways_plot(const record::StateTables& states) {
-  render::Plot plot;
-  plot.title = "Which state goes to which";
-  plot.x = {.label = "from state"};
-  plot.y = {.label = "to state (0: not met)"};
-  plot.legend = render::LegendPlace::above;
-  std::map<std::string, render::Series> series;
-  for (const record::Transition& way : states.transitions) {
-    series[way.by].x.push_back(way.from);
-    series[way.by].y.push_back(way.to);
-  }
-  std::size_t k = 0;
-  for (auto& [by, one] : series) {
-    const bool out = by == "let out";
-    one.name = out ? "boundary let out and drawn in again" : by;
-    one.colour = render::series_colour(k++);
-    one.marker = out ? render::Marker::square : render::Marker::circle;
-    one.hollow = out;
-    one.marker_size = out ? 6.5 : 4;
-    one.line_width = 0;
-    plot.series.push_back(std::move(one));
-  }
-  return plot;
-}
-
 /// The states to draw alone, each in its actuated boundary.
 record::Trajectory drawn(const record::Trajectory& run, const std::vector<std::size_t>& which) {
   record::Trajectory few;
@@ -131,23 +105,6 @@ record::Trajectory drawn(const record::Trajectory& run, const std::vector<std::s
 }
 
 }  // namespace
-
-std::vector<std::size_t> states_to_draw(const std::vector<StateRow>& rows, int most) {
-  std::vector<std::size_t> order(rows.size()), chosen;
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  const auto choose = [&](std::size_t k) {
-    if (int(chosen.size()) < most && std::ranges::find(chosen, k) == chosen.end())
-      chosen.push_back(k);
-  };
-  for (const auto& [kind, word] : words(StateClass{})) {
-    const auto first = std::ranges::find(rows, kind, &StateRow::kind);
-    if (kind != StateClass::other && first != rows.end()) choose(std::size_t(first - rows.begin()));
-  }
-  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return rows[k].count; });
-  for (const std::size_t k : order) choose(k);
-  std::ranges::sort(chosen);
-  return chosen;
-}
 
 std::string found_text(const record::StateTables& states) {
   const record::StateSearch& search = states.search;
@@ -165,12 +122,20 @@ std::string found_text(const record::StateTables& states) {
                         search.found, search.judged_edges, search.finer_lost, search.finer_merged);
   for (const auto& [why, count] : search.ended_otherwise)
     text += fmt::format("  {} trials: {}\n", count, why);
-  for (const std::size_t k : states_to_draw(states.rows, 4)) {
+  for (const std::size_t k : record::states_to_draw(states.rows, 4)) {
     const StateRow& row = states.rows[k];
     text += fmt::format(
         "  state {}: {}, class {}, {:.3f} mJ of bending, height {:.2f} mm, met {}\n", row.state,
         row.group, word_of(row.kind), row.energy_bend_mJ, row.height_mm, row.count);
   }
+  if (search.ways_followed > 0)
+    text += fmt::format("  barriers: {} passes found on {} ways\n", search.passes_found,
+                        search.ways_followed);
+  for (const record::Barrier& one : states.barriers)
+    if (one.to != 0)
+      text +=
+          fmt::format("  from state {} to {}: {:.4g} mJ, back {:.4g} mJ (on {} edges a segment)\n",
+                      one.from, one.to, one.barrier_mJ, one.back_mJ, search.judged_edges);
   return text;
 }
 
@@ -178,7 +143,7 @@ Result<void> draw_states(const CaseRecord& one, render::Renderer& renderer, cons
                          Watch& watch) {
   const auto style = style_of(one.preset, Pictures::stills);
   const record::StateTables& states = one.states;
-  const auto which = states_to_draw(states.rows, one.preset.jitter.drawn);
+  const auto which = record::states_to_draw(states.rows, one.preset.jitter.drawn);
   std::vector<std::string> captions;
   for (const std::size_t k : which) captions.push_back(caption_of(states.rows[k], states.search));
   const auto plot_at = [&](const char* suffix, const render::Plot& plot) {
@@ -190,7 +155,11 @@ Result<void> draw_states(const CaseRecord& one, render::Renderer& renderer, cons
       .and_then([&] { return plot_at("_lives", lives_plot(states)); })
       .and_then([&]() -> Result<void> {
         if (states.transitions.empty()) return {};
-        return plot_at("_ways", ways_plot(states));
+        return render::write_ways_graph(fs::path(stem) += "_ways", states, one.run, style.print);
+      })
+      .and_then([&]() -> Result<void> {
+        const auto passes = render::barrier_plot(states);
+        return passes.series.empty() ? Result<void>{} : plot_at("_barriers", passes);
       });
 }
 

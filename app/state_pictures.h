@@ -12,10 +12,6 @@
 
 namespace gridshell::app {
 
-/// Which of the states are drawn: of each of the paper's classes the lowest in energy, then those
-/// met most often, `most` in all. Indices of `rows`, ascending.
-std::vector<std::size_t> states_to_draw(const std::vector<record::StateRow>& rows, int most);
-
 /// Lines for the terminal: how many states a search found, how many there may be, why trials ended
 /// otherwise, and the lowest state of each of the paper's classes.
 std::string found_text(const record::StateTables& states);
@@ -23,7 +19,8 @@ std::string found_text(const record::StateTables& states);
 /// The atlas: the states side by side from one camera with class, group, energy and how often they
 /// were met (`<stem>.png`, each by itself `<stem>_1.png` ...); energy against how often they were
 /// met (`<stem>_energies.*`); how far back along the path they live (`<stem>_lives.*`); which goes
-/// to which (`<stem>_ways.*`), where that was followed.
+/// to which (`<stem>_ways.*`) and the barriers between them (`<stem>_barriers.*`), where that was
+/// found out.
 Result<void> draw_states(const CaseRecord& one, render::Renderer& renderer,
                          const std::filesystem::path& stem, Watch& watch);
 

@@ -18,7 +18,9 @@
 #include "engine/experiment/point.h"
 #include "engine/preset/suggest.h"
 #include "engine/preset/writer.h"
+#include "engine/record/phase_diagram.h"
 #include "engine/study/sweep_study.h"
+#include "render/figure/phase_chart.h"
 #include "render/figure/sweep_chart.h"
 
 namespace gridshell::app {
@@ -26,6 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double wide_mm = 130, high = 0.62;  // of a line chart
+constexpr const char* classes = "classes";    // the picture of which states were found
 
 /// A sweep in hand.
 struct Work {
@@ -47,6 +50,24 @@ std::vector<std::string> plots_of(const preset::SweepGrid& grid) {
   return plots.empty() ? std::vector<std::string>{"height_mm"} : plots;
 }
 
+std::vector<std::string> axes_of(const preset::SweepGrid& grid) {
+  std::vector<std::string> keys;
+  for (const auto& axis : grid.sweep().over) keys.push_back(axis.key);
+  return keys;
+}
+
+/// What can be drawn: the figures that a point has in any case, and of searches for states over leg
+/// and rods which classes were found.
+std::vector<std::string> drawable(const preset::Presets& presets, const preset::SweepGrid& grid) {
+  std::set<std::string> names;
+  for (const auto& run : runs_of(presets)) {
+    const bool search = run.preset.jitter.wanted();
+    for (auto& name : experiment::figure_names(search)) names.insert(std::move(name));
+    if (search && record::makes_phase_diagram(axes_of(grid))) names.insert(classes);
+  }
+  return {names.begin(), names.end()};
+}
+
 /// What there is to sweep, and whether the figures asked for are some of a run.
 Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid& grid) {
   if (grid.size() == 0)
@@ -55,20 +76,23 @@ Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid
         fmt::format("{}: sweeps nothing: must have [sweep] over or seeds, for example --set "
                     "'sweep.over={{rod.diameter_mm=[0.2,0.3]}}'",
                     presets.base.name));
-  const auto names = experiment::figure_names();
+  const auto names = drawable(presets, grid);
   auto asked = plots_of(grid);
   if (!grid.sweep().x.empty()) asked.push_back(grid.sweep().x);
   for (const auto& name : asked)
     if (std::ranges::find(names, name) == names.end())
       return fail(Fault::bad_input,
                   fmt::format("{}: [sweep] plot or x = \"{}\": is no figure of a run{}",
-                              presets.base.name, name, preset::did_you_mean(name, names)));
+                              presets.base.name, name,
+                              name == classes ? ", only of searches for states over "
+                                                "footprint.longest_leg and footprint.rods alone"
+                                              : preset::did_you_mean(name, names)));
   return {};
 }
 
 record::SweepTable table_of(const Work& work, const record::SweepLog& log) {
   record::SweepTable table;
-  for (const auto& axis : work.grid.sweep().over) table.axes.push_back(axis.key);
+  table.axes = axes_of(work.grid);
   table.has_cases = work.grid.has_cases();
   table.has_seeds = work.grid.sweep().seeds > 1;
   for (const std::size_t point : work.points())
@@ -77,22 +101,42 @@ record::SweepTable table_of(const Work& work, const record::SweepLog& log) {
 }
 
 /// Pictures of figures that are not asked for any more would be of no sweep.
-void remove_other_pictures(const fs::path& folder, const std::vector<std::string>& drawn) {
+void remove_other_pictures(const Work& work, const std::vector<std::string>& drawn) {
   std::error_code error;
-  for (const auto& name : experiment::figure_names()) {
+  for (const auto& name : drawable(work.presets, work.grid)) {
     if (std::ranges::find(drawn, name) != drawn.end()) continue;
-    for (const char* kind : {".png", ".svg", ".pdf"}) fs::remove(folder / (name + kind), error);
+    for (const char* kind : {".png", ".svg", ".pdf"})
+      fs::remove(work.folder / (name + kind), error);
   }
+}
+
+/// A diagram a case, and beside it what it says of the paper's sentences.
+Result<void> draw_classes(const Work& work, const record::SweepTable& table,
+                          const render::Print& print) {
+  for (const auto& run : runs_of(work.presets)) {
+    const auto stem = work.folder / (run.name.empty() ? classes : run.name + "_" + classes);
+    const auto diagram = record::phase_diagram_of(table, run.name);
+    auto drawn = render::write_phase_chart(stem, diagram, run.preset.title, print);
+    if (drawn)
+      drawn = write_atomically(fs::path(stem) += "_by_leg.csv",
+                               record::regions_csv(record::regions_of(diagram)));
+    if (!drawn) return drawn;
+  }
+  return {};
 }
 
 Result<void> draw(const Work& work, const record::SweepTable& table) {
   const preset::Preset& base = work.presets.base;
   const auto plots = plots_of(work.grid);
-  remove_other_pictures(work.folder, plots);
+  remove_other_pictures(work, plots);
   for (const auto& name : plots) {
     const render::SweepView view{name, base.sweep.x, base.sweep.departure, base.title};
     const auto stem = work.folder / name;
     const double width = base.figure.width_mm > 0 ? base.figure.width_mm : wide_mm;
+    if (name == classes) {
+      if (auto drawn = draw_classes(work, table, {width, base.figure.dpi}); !drawn) return drawn;
+      continue;
+    }
     auto drawn = table.axes.size() == 2 ? render::write_sweep_map(stem, table, view)
                                         : render::write_plot(stem, render::sweep_plot(table, view),
                                                              {width, base.figure.dpi}, high);
@@ -129,6 +173,26 @@ std::string told(const record::SweepTable& table) {
   return text;
 }
 
+/// "  l_d > 1: 24 points; first order alone at 20, ..." a line a region of the diagram.
+std::string regions_told(const Work& work, const record::SweepTable& table) {
+  using record::StateClass;
+  std::string text;
+  for (const auto& run : runs_of(work.presets))
+    for (const auto& region : record::regions_of(record::phase_diagram_of(table, run.name))) {
+      if (region.points == 0) continue;
+      const auto with = [&](StateClass kind) { return region.with[std::size_t(kind)]; };
+      text += fmt::format(
+          "\n  {}{}{}: {} points; domes of the first order alone at {}, and {} of {} trials end in "
+          "them; several states at {}, broken symmetry at {}; i at {}, ii at {}, iii at {}, iv at "
+          "{}; more states than the paper drew at {} ({})",
+          run.name, run.name.empty() ? "" : ", ", record::name_of(region), region.points,
+          region.dome_alone, region.met_first_order, region.at_rest, region.several, region.broken,
+          with(StateClass::i), with(StateClass::ii), with(StateClass::iii), with(StateClass::iv),
+          region.with_more, region.more_states);
+    }
+  return text;
+}
+
 Result<std::string> finish(const Work& work, const record::SweepLog& log) {
   const auto table = table_of(work, log);
   auto written =
@@ -148,7 +212,9 @@ Result<std::string> finish(const Work& work, const record::SweepLog& log) {
   if (!any && !work.shard)
     return fail(Fault::no_equilibrium, fmt::format("no point came to a state; the first: {}",
                                                    table.rows.front().result.reason));
-  return told(table);
+  const auto plots = plots_of(work.grid);
+  const bool diagram = !work.shard && std::ranges::find(plots, classes) != plots.end();
+  return told(table) + (diagram ? regions_told(work, table) : "");
 }
 
 void tell_damage(const Work& work, const record::SweepLog& log) {

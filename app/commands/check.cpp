@@ -25,8 +25,8 @@ void print_plan(const preset::Preset& preset, const experiment::Plan& plan) {
   fmt::print("{}: {}\n", preset.name, preset.title);
   fmt::print("  footprint       {}\n", plan.footprint);
   if (preset.footprint.kind == preset::FootprintKind::circle)
-    fmt::print("  boundary        {} mm to {} mm\n", preset.footprint.radius_mm,
-               preset.actuation.radius_mm);
+    fmt::print("  boundary        {} mm to {} mm\n", preset.original_radius_mm(),
+               preset.actuated_radius_mm());
   for (const auto& seam : plan.seams) fmt::print("  seam            {}\n", seam);
   fmt::print("  model           {}\n", plan.model_reason);
   fmt::print("  meshes          {} edges a segment{}\n", fmt::join(plan.levels, ", "),

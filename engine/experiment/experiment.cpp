@@ -31,7 +31,7 @@ std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
   if (stills && preset.footprint.kind != preset::FootprintKind::circle) return {1.0};
   if (stills && !preset.figure.radii_mm.empty()) {
     std::vector<double> progress;
-    const double from = preset.footprint.radius_mm, to = preset.actuation.radius_mm;
+    const double from = preset.original_radius_mm(), to = preset.actuated_radius_mm();
     for (double radius : preset.figure.radii_mm) progress.push_back((from - radius) / (from - to));
     std::sort(progress.begin(), progress.end());
     return progress;

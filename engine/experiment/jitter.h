@@ -53,6 +53,7 @@ class Jitter {
   const std::vector<SymmetryGroup>& groups() const { return groups_; }
   const std::vector<MeshSymmetry>& symmetries() const { return symmetries_; }
   Cascade& cascade() { return cascade_; }
+  const Cascade& cascade() const { return cascade_; }
 
  private:
   Jitter(std::shared_ptr<const Scene> scene, const preset::Jitter& jitter,

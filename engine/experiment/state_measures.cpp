@@ -20,9 +20,11 @@ constexpr double flat_shortening = 1e-3;  // of the rods: how near to the flat a
 constexpr double largest_step = 0.05;     // in the path parameter: where a branch is asked for
 constexpr double located = 1e-3;          // in it: to which the end of a branch is located
 
+/// The paper's ii and iii break the symmetry by rods of higher modes: a dome that leans is neither.
 record::StateClass class_of(const std::string& group, bool first_mode) {
   using record::StateClass;
   if (group == "C4v") return first_mode ? StateClass::i : StateClass::iv;
+  if (first_mode) return StateClass::other;
   if (group == "C2v_axes" || group == "C2v_diagonals") return StateClass::ii;
   return group == "C4" ? StateClass::iii : StateClass::other;
 }

@@ -7,6 +7,7 @@
 
 #include "engine/core/clock.h"
 #include "engine/core/parallel.h"
+#include "engine/experiment/barriers.h"
 #include "engine/experiment/frames.h"
 #include "engine/experiment/state_book.h"
 #include "engine/experiment/state_measures.h"
@@ -18,7 +19,7 @@ namespace gridshell::experiment {
 namespace {
 
 // shares of the work, for the progress
-constexpr double shaken = 0.6, measured = 0.9;
+constexpr double shaken = 0.55, measured = 0.8, followed = 0.9;
 
 /// What a trial ended in.
 struct Trial {
@@ -189,8 +190,6 @@ Result<StateLibrary> find_states(const std::shared_ptr<const Scene>& scene,
   return library;
 }
 
-namespace {
-
 record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
                            const StateLibrary& library) {
   record::Summary s = summary_before(preset, scene);
@@ -202,8 +201,6 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
   return s;
 }
 
-}  // namespace
-
 Result<StateRun> run_states(const preset::Preset& preset, int threads, record::Sink& sink,
                             Watch& watch) {
   const double begin = seconds_now();
@@ -213,8 +210,14 @@ Result<StateRun> run_states(const preset::Preset& preset, int threads, record::S
   const double setup = seconds_now() - begin;
   auto library = find_states(scene, preset.jitter, {.threads = threads}, watch);
   if (!library) return tl::unexpected<Error>(library.error());
-  auto ways = ways_between(*library, scene, preset.jitter, threads, measured, watch);
+  auto ways = ways_between(*library, scene, preset.jitter, threads, measured, followed, watch);
   if (!ways) return tl::unexpected<Error>(ways.error());
+  std::vector<record::Barrier> barriers;
+  if (preset.jitter.barriers) {
+    auto found = barriers_between(*library, scene, preset.jitter, threads, followed, 1, watch);
+    if (!found) return tl::unexpected<Error>(found.error());
+    barriers = std::move(*found);
+  }
   if (auto begun = sink.begin(library->layout); !begun) return tl::unexpected<Error>(begun.error());
   StateRun run;
   run.summary = summary_of(preset, *scene, *library);
@@ -225,6 +228,7 @@ Result<StateRun> run_states(const preset::Preset& preset, int threads, record::S
   }
   run.tables.search = library->search;
   run.tables.transitions = std::move(*ways);
+  run.tables.barriers = std::move(barriers);
   run.summary.seconds_setup = setup;
   run.summary.seconds_simulation = seconds_now() - begin - setup;
   return run;

@@ -48,8 +48,12 @@ struct StateRun {
   record::StateTables tables;
 };
 
-/// find_states() of a preset, then the ways between them; the states are handed to `sink` as frames
-/// in the order of energy. Errors: as find_states(), and the sink's.
+/// The state of lowest energy of a library that has one, as a run's summary.
+record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
+                           const StateLibrary& library);
+
+/// find_states() of a preset, then the ways between them and the barriers; the states are handed to
+/// `sink` as frames in the order of energy. Errors: as find_states(), and the sink's.
 Result<StateRun> run_states(const preset::Preset& preset, int threads, record::Sink& sink,
                             Watch& watch);
 

@@ -28,7 +28,7 @@ void count(std::vector<record::Transition>& all, int from, int to, const char* b
 Result<std::vector<record::Transition>> ways_between(const StateLibrary& library,
                                                      const std::shared_ptr<const Scene>& scene,
                                                      const preset::Jitter& jitter, int threads,
-                                                     double begun, Watch& watch) {
+                                                     double begun, double end, Watch& watch) {
   const auto& states = library.states;
   const int followed = std::min(jitter.transitions, int(states.size()));
   const std::vector<PartlyActuated> none;
@@ -48,8 +48,9 @@ Result<std::vector<record::Transition>> ways_between(const StateLibrary& library
     const auto at = book.find(rest->x.leftCols(joints), hand.cascade().system().energy_at(*rest));
     to[std::size_t(k)] = at ? states[*at].row.state : 0;
   };
-  const auto shared = share_work(int(to.size()), threads, watch, make, follow,
-                                 [&](double share) { watch.report(begun + (1 - begun) * share); });
+  const auto shared = share_work(int(to.size()), threads, watch, make, follow, [&](double share) {
+    watch.report(begun + (end - begun) * share);
+  });
   if (!shared) return tl::unexpected<Error>(shared.error());
   std::vector<record::Transition> all;
   for (std::size_t k = 0; k < to.size(); ++k)

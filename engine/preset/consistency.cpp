@@ -10,8 +10,6 @@
 namespace gridshell::preset {
 namespace {
 
-constexpr const char* original_radius = "[footprint] radius_mm";
-constexpr const char* actuated_radius = "[actuation] radius_mm";
 constexpr const char* spacing = "[footprint] spacing_mm";
 
 bool has_rings(const Preset& preset) {
@@ -20,26 +18,49 @@ bool has_rings(const Preset& preset) {
          kind != NetKind::translation && kind != NetKind::surface;
 }
 
+/// Of a circle: from R_o to R_a its boundary shrinks, through the radii of its stills.
+void check_radii(const Preset& preset, std::vector<Conflict>& found) {
+  const double original = preset.original_radius_mm(), actuated = preset.actuated_radius_mm();
+  const bool by_leg = preset.footprint.longest_leg > 0, by_ratio = preset.actuation.ratio > 0;
+  const char* from = by_leg ? "[footprint] longest_leg" : "[footprint] radius_mm";
+  const char* to = by_ratio ? "[actuation] ratio" : "[actuation] radius_mm";
+  const auto is = [](bool indirect, const char* key, const char* name, double radius) {
+    return indirect ? fmt::format("{} = {} by {}", name, radius, key)
+                    : fmt::format("{} = {}", key, radius);
+  };
+  const auto original_is = is(by_leg, from, "R_o", original);
+  if (actuated > original)
+    found.push_back({"actuation",
+                     "radius_mm",
+                     {from},
+                     fmt::format("larger than the footprint, must be at most {}", original_is)});
+  double last = original;
+  for (const double radius : preset.figure.radii_mm) {
+    if (radius > last || radius < actuated) {
+      found.push_back({"figure",
+                       "radii_mm",
+                       {from, to},
+                       fmt::format("{} is not on the way, must fall from at most {} to at least {}",
+                                   radius, original_is, is(by_ratio, to, "R_a", actuated))});
+      break;
+    }
+    last = radius;
+  }
+}
+
 }  // namespace
 
 std::vector<Conflict> conflicts(const Preset& preset) {
   std::vector<Conflict> found;
-  const double original = preset.footprint.radius_mm, actuated = preset.actuation.radius_mm;
   const bool circle = preset.footprint.kind == FootprintKind::circle;
   const bool net = preset.on_net();
-  if (circle && actuated > original)
-    found.push_back({"actuation",
-                     "radius_mm",
-                     {original_radius},
-                     fmt::format("larger than the footprint, must be at most {} = {}",
-                                 original_radius, original)});
+  if (circle) check_radii(preset, found);
   if (preset.rod.diameter_mm >= preset.footprint.spacing_mm)
     found.push_back({"rod",
                      "diameter_mm",
                      {spacing},
                      fmt::format("neighbouring rods would touch, must be less than {} = {}",
                                  spacing, preset.footprint.spacing_mm)});
-  double last = original;
   if (!net && preset.actuation.start == Start::net)
     found.push_back({"actuation",
                      "start",
@@ -59,18 +80,6 @@ std::vector<Conflict> conflicts(const Preset& preset) {
                      {"[footprint] kind"},
                      "only a circle's boundary has a radius all the way, must be empty for "
                      "any other [footprint] kind"});
-  for (const double radius : circle ? preset.figure.radii_mm : std::vector<double>{}) {
-    if (radius > last || radius < actuated) {
-      found.push_back({"figure",
-                       "radii_mm",
-                       {original_radius, actuated_radius},
-                       fmt::format("{} is not on the way, must fall from at most {} = {} to at "
-                                   "least {} = {}",
-                                   radius, original_radius, original, actuated_radius, actuated)});
-      break;
-    }
-    last = radius;
-  }
   if (preset.jitter.wanted() && preset.indentation.wanted())
     found.push_back(
         {"jitter",

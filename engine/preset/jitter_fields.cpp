@@ -35,6 +35,9 @@ std::vector<Field> jitter_fields() {
       {"jitter", "transitions", "", integer<&P::jitter, &Jitter::transitions>(between(0, 1000)),
        "states, from the lowest in energy on, of which is found out where they go when the "
        "boundary is let out and drawn in again and when they are poked"},
+      {"jitter", "barriers", "", flag<&P::jitter, &Jitter::barriers>(),
+       "whether the heights of the barriers between the states in the picture are looked for, on a "
+       "mesh of 4 edges"},
   };
 }
 

@@ -95,6 +95,7 @@ struct Footprint {
   Curve boundary;
   int rods = 12;             ///< a direction
   double radius_mm = 126.0;  ///< R_o
+  double longest_leg = 0;    ///< L_d, of d; 0: `radius_mm` says how large a circle is
   double spacing_mm = 20.0;  ///< d
   Placement placement = Placement::half;
 };
@@ -166,6 +167,7 @@ constexpr auto words(SeedDiagonal) {
 }
 struct Actuation {
   double radius_mm = 94.5;  ///< R_a
+  double ratio = 0;         ///< R_a/R_o of a circle; 0: `radius_mm` says it
   double scale = 0;         ///< of the original boundary; 0: `boundary` is given by itself
   Curve boundary;
   Correspondence correspondence = Correspondence::arc_length;
@@ -274,6 +276,7 @@ struct Jitter {
   double tolerance = 0.02;       ///< of d: joints of one and the same state
   int drawn = 6;                 ///< states in the picture
   int transitions = 0;           ///< states whose ways to others are followed
+  bool barriers = false;         ///< between the states in the picture
 
   bool wanted() const { return trials > 0 || confined > 0; }
 };
@@ -339,6 +342,22 @@ struct Preset {
 
   bool on_net() const {
     return footprint.kind == FootprintKind::net || footprint.kind == FootprintKind::blocks;
+  }
+  /// R_o of a circle: by its longest leg L_d = R_o/d - (n - 1)/2 [Baek 2018], or as it is given.
+  double original_radius_mm() const {
+    const Footprint& of = footprint;
+    if (of.longest_leg == 0) return of.radius_mm;
+    return of.spacing_mm * (of.longest_leg + 0.5 * (of.rods - 1));
+  }
+  /// R_a of a circle.
+  double actuated_radius_mm() const {
+    return actuation.ratio == 0 ? actuation.radius_mm : actuation.ratio * original_radius_mm();
+  }
+  /// The same circle with both radii as they are given.
+  void set_radii(double original_mm, double actuated_mm) {
+    footprint.radius_mm = original_mm;
+    actuation.radius_mm = actuated_mm;
+    footprint.longest_leg = actuation.ratio = 0;
   }
 };
 

@@ -16,6 +16,7 @@ namespace gridshell::preset {
 namespace {
 
 constexpr double most_points = 100000;
+constexpr int largest_seed = 1 << 30;  // of [jitter]
 
 const Field& field_of(const std::string& key) {
   const auto dot = key.find('.');
@@ -26,6 +27,10 @@ double combinations(const Sweep& sweep) {
   double count = sweep.seeds;
   for (const SweepAxis& axis : sweep.over) count *= double(axis.values.size());
   return count;
+}
+
+bool sweeps(const Sweep& sweep, const char* key) {
+  return std::ranges::find(sweep.over, key, &SweepAxis::key) != sweep.over.end();
 }
 
 /// "rod.diameter_mm = 0.2, actuation.radius_mm = 90.0"
@@ -60,6 +65,11 @@ SweepPoint SweepGrid::at(std::size_t point) const {
     rest /= axis.values.size();
     const auto value = toml::parse("x = " + found.values[k]);
     assign(field_of(axis.key), *value.get("x"), found.preset, "");
+  }
+  // searches shake otherwise from point to point, and a point by itself can be made again
+  if (found.preset.jitter.wanted() && !sweeps(sweep, "jitter.seed")) {
+    int& seed = found.preset.jitter.seed;
+    seed = int((std::size_t(seed) + point) % (std::size_t(largest_seed) + 1));
   }
   return found;
 }

@@ -24,6 +24,7 @@ class SweepGrid {
   explicit SweepGrid(const Presets& presets);
 
   std::size_t size() const { return size_; }
+  /// A point that looks for states runs with jitter.seed + point, unless that key is swept.
   SweepPoint at(std::size_t point) const;
   const Sweep& sweep() const { return cases_.front().preset.sweep; }
   bool has_cases() const { return !cases_.front().name.empty(); }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "engine/preset/field_table.h"
 
@@ -162,6 +163,7 @@ class Idle {
                               "points_mm", "correspondence"})
         add("actuation", key, decider, by_kind + "\"curve\"");
     }
+    radii(circle, by_kind);
     if (!curve && !circle)
       for (const char* table : {"footprint", "actuation"})
         add(table, "radius_mm", decider, by_kind + "\"circle\" or \"curve\"");
@@ -172,6 +174,19 @@ class Idle {
            {"radius_mm", "boundary", "half_x_mm", "half_y_mm", "exponent", "points_mm"})
         add("actuation", key, {"[actuation] scale"},
             "the actuated boundary is the original one times [actuation] scale");
+  }
+
+  /// a circle's radii may be given by other keys
+  void radii(bool circle, const std::string& by_kind) {
+    for (const auto& [table, key, value] :
+         {std::tuple("footprint", "longest_leg", preset_.footprint.longest_leg),
+          {"actuation", "ratio", preset_.actuation.ratio}}) {
+      const auto name = bracketed(table, key, -1);
+      if (!circle)
+        add(table, key, {"[footprint] kind"}, by_kind + "\"circle\"");
+      else if (value > 0)
+        add(table, "radius_mm", {name}, name + " takes its place");
+    }
   }
 
   void rods(const char* table, const Rod& rod) {

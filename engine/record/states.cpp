@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <numeric>
 #include <type_traits>
 
 #include "engine/core/atomic_file.h"
@@ -30,6 +32,7 @@ void each_state_column(Row& row, const Visit& visit) {
   visit("lives_to_radius_mm", row.lives_to_radius_mm);
   visit("eigenvalue_N_per_mm2", row.eigenvalue_N_per_mm2);
   visit("error_estimate_mm", row.error_estimate_mm);
+  visit("barrier_mJ", row.barrier_mJ);
 }
 
 template <class Row, class Visit>
@@ -38,6 +41,16 @@ void each_transition_column(Row& row, const Visit& visit) {
   visit("to", row.to);
   visit("by", row.by);
   visit("count", row.count);
+}
+
+template <class Row, class Visit>
+void each_barrier_column(Row& row, const Visit& visit) {
+  visit("from", row.from);
+  visit("to", row.to);
+  visit("energy_mJ", row.energy_mJ);
+  visit("barrier_mJ", row.barrier_mJ);
+  visit("back_mJ", row.back_mJ);
+  visit("residual_N", row.residual_N);
 }
 
 template <class Search, class Visit>
@@ -60,12 +73,15 @@ void each_search_key(Search& search, const Visit& visit) {
   visit("chao1_low_95", search.completeness.low);
   visit("chao1_high_95", search.completeness.high);
   visit("cpu_s", search.cpu_s);
+  visit("ways_followed_for_barriers", search.ways_followed);
+  visit("passes_found", search.passes_found);
 }
 
 const auto each_state = [](auto& row, const auto& visit) { each_state_column(row, visit); };
 const auto each_transition = [](auto& row, const auto& visit) {
   each_transition_column(row, visit);
 };
+const auto each_barrier = [](auto& row, const auto& visit) { each_barrier_column(row, visit); };
 
 template <class Value>
 auto cell_of(const Value& value) {
@@ -151,11 +167,30 @@ Result<std::vector<Row>> read_csv(const std::filesystem::path& file, const Each&
 
 }  // namespace
 
+std::vector<std::size_t> states_to_draw(const std::vector<StateRow>& rows, int most) {
+  std::vector<std::size_t> order(rows.size()), chosen;
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  const auto choose = [&](std::size_t k) {
+    if (int(chosen.size()) < most && std::ranges::find(chosen, k) == chosen.end())
+      chosen.push_back(k);
+  };
+  for (const auto& [kind, word] : words(StateClass{})) {
+    const auto first = std::ranges::find(rows, kind, &StateRow::kind);
+    if (kind != StateClass::other && first != rows.end()) choose(std::size_t(first - rows.begin()));
+  }
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return rows[k].count; });
+  for (const std::size_t k : order) choose(k);
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
 std::string states_csv(const std::vector<StateRow>& rows) { return csv_of(rows, each_state); }
 
 std::string transitions_csv(const std::vector<Transition>& rows) {
   return csv_of(rows, each_transition);
 }
+
+std::string barriers_csv(const std::vector<Barrier>& rows) { return csv_of(rows, each_barrier); }
 
 std::string to_json(const StateSearch& search) {
   Json json = Json::object();
@@ -187,6 +222,10 @@ Result<void> write_state_tables(const std::filesystem::path& folder, const State
       .and_then([&]() -> Result<void> {
         if (tables.transitions.empty()) return {};
         return write_atomically(folder / transitions_name, transitions_csv(tables.transitions));
+      })
+      .and_then([&]() -> Result<void> {
+        if (tables.barriers.empty()) return {};
+        return write_atomically(folder / barriers_name, barriers_csv(tables.barriers));
       });
 }
 
@@ -199,10 +238,16 @@ Result<StateTables> read_state_tables(const std::filesystem::path& folder) {
   if (!search) return tl::unexpected(search.error());
   tables.search = std::move(*search);
   std::error_code error;
-  if (!std::filesystem::exists(folder / transitions_name, error)) return tables;
-  auto ways = read_csv<Transition>(folder / transitions_name, each_transition);
-  if (!ways) return tl::unexpected(ways.error());
-  tables.transitions = std::move(*ways);
+  if (std::filesystem::exists(folder / transitions_name, error)) {
+    auto ways = read_csv<Transition>(folder / transitions_name, each_transition);
+    if (!ways) return tl::unexpected(ways.error());
+    tables.transitions = std::move(*ways);
+  }
+  if (std::filesystem::exists(folder / barriers_name, error)) {
+    auto passes = read_csv<Barrier>(folder / barriers_name, each_barrier);
+    if (!passes) return tl::unexpected(passes.error());
+    tables.barriers = std::move(*passes);
+  }
   return tables;
 }
 

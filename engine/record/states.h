@@ -13,8 +13,9 @@
 
 namespace gridshell::record {
 
-/// The kinds of state of [Baek 2018, Fig. 2]: full symmetry and rods of the first mode; two
-/// mirrors; turns by 90 degrees alone; full symmetry and rods of higher modes; none of these.
+/// The kinds of state of [Baek 2018, Fig. 2]: i, full symmetry and every rod of the first mode;
+/// with rods of higher modes ii, two mirrors, iii, turns by 90 degrees alone, and iv, full
+/// symmetry; none of these.
 enum class StateClass { i, ii, iii, iv, other };
 constexpr auto words(StateClass) {
   return word_table<StateClass>({{StateClass::i, "i"},
@@ -39,6 +40,7 @@ struct StateRow {
   double lives_to_radius_mm = unknown;    ///< of a circular boundary there
   double eigenvalue_N_per_mm2 = unknown;  ///< lowest, against lumped length of rod
   double error_estimate_mm = unknown;     ///< of the joints
+  double barrier_mJ = unknown;            ///< lowest known way out of it, above it
 
   double energy_mJ() const { return energy_bend_mJ + energy_stretch_mJ; }
 };
@@ -61,7 +63,8 @@ struct StateSearch {
   int finer_lost = 0;                          ///< of them, that finer meshes do not have
   int finer_merged = 0;                        ///< and that are one on finer meshes
   Completeness completeness;
-  double cpu_s = 0;  ///< of all trials
+  double cpu_s = 0;                         ///< of all trials
+  int ways_followed = 0, passes_found = 0;  ///< from state to state, for the barriers
 };
 
 /// A way from state to state.
@@ -71,22 +74,39 @@ struct Transition {
   int count = 0;
 };
 
+/// A pass between two states: a saddle of the energy with one way down to either side, on the mesh
+/// that tells states apart.
+struct Barrier {
+  int from = 0, to = 0;         ///< StateRow::state, or an image of it; 0: one that was not met
+  double energy_mJ = 0;         ///< elastic, of the saddle
+  double barrier_mJ = unknown;  ///< of the saddle above `from`
+  double back_mJ = unknown;     ///< and above `to`
+  double residual_N = unknown;  ///< of the saddle
+};
+
 /// Everything of a search but the shapes.
 struct StateTables {
   StateSearch search;
   std::vector<StateRow> rows;
   std::vector<Transition> transitions;
+  std::vector<Barrier> barriers;
 };
+
+/// Which of the states are drawn: of each of the paper's classes the lowest in energy, then those
+/// met most often, `most` in all. Indices of `rows`, ascending.
+std::vector<std::size_t> states_to_draw(const std::vector<StateRow>& rows, int most);
 
 std::string states_csv(const std::vector<StateRow>& rows);
 std::string transitions_csv(const std::vector<Transition>& rows);
+std::string barriers_csv(const std::vector<Barrier>& rows);
 std::string to_json(const StateSearch& search);
 
 inline constexpr const char* states_name = "states.csv";
 inline constexpr const char* search_name = "states.json";
 inline constexpr const char* transitions_name = "transitions.csv";
+inline constexpr const char* barriers_name = "barriers.csv";
 
-/// Writes these three into a run's folder, transitions.csv only where ways were followed. Errors:
+/// Writes these into a run's folder, the last two only where there is something in them. Errors:
 /// io.
 Result<void> write_state_tables(const std::filesystem::path& folder, const StateTables& tables);
 /// What that wrote. Errors: io; bad_input naming file and line.

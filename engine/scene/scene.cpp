@@ -37,12 +37,12 @@ Eigen::Matrix2Xd edge_points(const Footprint& footprint) {
 }
 
 Result<void> build_circle(const preset::Preset& preset, Scene& scene) {
-  auto footprint = circular_footprint(preset.footprint.radius_mm, preset.footprint.rods,
+  auto footprint = circular_footprint(preset.original_radius_mm(), preset.footprint.rods,
                                       preset.footprint.spacing_mm, placement_of(preset));
   if (!footprint) return tl::unexpected<Error>(footprint.error());
   scene.footprint = std::move(*footprint);
-  scene.radius_begin_mm = scene.length_scale_mm = preset.footprint.radius_mm;
-  scene.radius_end_mm = preset.actuation.radius_mm;
+  scene.radius_begin_mm = scene.length_scale_mm = preset.original_radius_mm();
+  scene.radius_end_mm = preset.actuated_radius_mm();
   const double ratio = scene.radius_end_mm / scene.radius_begin_mm;
   scene.original_boundary = scene.flat.all(Disk(scene.radius_begin_mm).boundary(boundary_points));
   scene.actuated_boundary = ratio * scene.original_boundary;

@@ -145,6 +145,7 @@ std::vector<AutoStanding> standings_of(const std::vector<AccuracyRow>& rows) {
 preset::Preset respaced(preset::Preset preset, double factor) {
   auto& footprint = preset.footprint;
   if (footprint.kind == preset::FootprintKind::circle) {
+    preset.set_radii(preset.original_radius_mm(), preset.actuated_radius_mm());
     const double leg = footprint.radius_mm / footprint.spacing_mm - (footprint.rods - 1) / 2.0;
     footprint.rods = std::max(4, int(std::lround(footprint.rods / factor)));
     footprint.placement = footprint.rods % 2 ? preset::Placement::on_axis : preset::Placement::half;

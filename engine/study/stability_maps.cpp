@@ -201,12 +201,13 @@ Cells leg_map(const preset::Preset& preset, const std::vector<double>& legs,
     preset::Preset cut = preset;
     // the outermost rod's last joint stands that far inside the boundary
     const double d = preset.footprint.spacing_mm, outermost = (preset.footprint.rods - 1) / 2.0;
-    const double reach = std::sqrt(
-        std::max(0.0, std::pow(preset.footprint.radius_mm / d, 2) - outermost * outermost));
+    const double original = preset.original_radius_mm();
+    const double reach =
+        std::sqrt(std::max(0.0, std::pow(original / d, 2) - outermost * outermost));
     const double first = preset.footprint.rods % 2 ? 0 : 0.5;
     const double last = first + std::max(0.0, std::floor(reach - first));
-    cut.footprint.radius_mm = d * std::hypot(outermost, last + leg);
-    cut.actuation.radius_mm *= cut.footprint.radius_mm / preset.footprint.radius_mm;
+    const double radius = d * std::hypot(outermost, last + leg);
+    cut.set_radii(radius, preset.actuated_radius_mm() * radius / original);
     const auto lazy = std::make_shared<Lazy>([=] {
       Watch patient;
       return Subject::create(cut, 16, patient);

@@ -268,7 +268,7 @@ TEST_CASE("every preset that comes with the program runs to its end", "[full]") 
     INFO(name);
     std::vector<std::string> arguments{"run", name, "--frames", "5", "--quiet"};
     // a search for states: each kind of trial, some times
-    if (name == "fig2_states")
+    if (name.starts_with("fig2_"))
       for (const char* fewer :
            {"jitter.trials=12", "jitter.confined=14", "jitter.transitions=1", "jitter.drawn=2"})
         arguments.insert(arguments.end(), {"--set", fewer});

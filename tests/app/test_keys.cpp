@@ -19,8 +19,10 @@ namespace {
 // what a person reads in the file itself
 const std::set<std::string> for_people{"description"};
 
-// where the member has another name than the key
-const std::map<std::string, std::string> member_names{{"points_mm", "points"}};
+// where the member has another name than the key, or stands behind what is worked out of it
+const std::map<std::string, std::string> member_names{{"points_mm", "points"},
+                                                      {"longest_leg", "original_radius_mm"},
+                                                      {"ratio", "actuated_radius_mm"}};
 
 // the members that are reached for in sources that work with presets, but for those that read,
 // check and write the keys themselves

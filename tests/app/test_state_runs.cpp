@@ -15,7 +15,7 @@ namespace {
 
 const std::string search =
     small_preset({.rods = 4, .radius_mm = 46, .actuated_mm = 34, .edges = 4}) +
-    "[jitter]\ntrials = 8\nconfined = 4\ntransitions = 1\ndepth = 0.5\n";
+    "[jitter]\ntrials = 8\nconfined = 4\ntransitions = 2\nbarriers = true\ndepth = 0.5\n";
 
 std::string text_of(const fs::path& file) { return read_whole(file).value(); }
 
@@ -38,7 +38,8 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
     CHECK(fs::exists(run / name));
   const Ended two = gridshell_program({"figure", "shell.toml", "--threads", "2", "-o", "two"}, at);
   REQUIRE(two.code == 0);
-  for (const char* name : {"states.csv", "transitions.csv", "frames.csv", "shell.png"})
+  for (const char* name : {"states.csv", "transitions.csv", "barriers.csv", "frames.csv",
+                           "shell.png", "shell_ways.svg", "shell_barriers.svg"})
     if (fs::exists(run / name)) CHECK(text_of(run / name) == text_of(at / "two" / name));
   const Ended again = gridshell_program({"render", "out/shell", "-o", "again"}, at);
   CAPTURE(again.err);

@@ -54,6 +54,28 @@ footprint.rods = 10
   CHECK(grid.at(2).preset.actuation.radius_mm == 100);
 }
 
+TEST_CASE("searches for states shake otherwise at every point, and as before when asked again") {
+  const auto seeds_of = [](const std::string& text) {
+    const auto presets = read(text);
+    REQUIRE(presets);
+    const SweepGrid grid(*presets);
+    std::vector<int> seeds;
+    for (std::size_t k = 0; k < grid.size(); ++k) seeds.push_back(grid.at(k).preset.jitter.seed);
+    return seeds;
+  };
+  const std::string search = "[jitter]\ntrials = 3\nseed = 7\n";
+  CHECK(
+      seeds_of(search + over("footprint.longest_leg = [0.5, 1.0, 2.0]\nactuation.ratio = [0.8]")) ==
+      std::vector<int>{7, 8, 9});
+  CHECK(seeds_of("[jitter]\ntrials = 3\n" + over("jitter.seed = [4, 2]")) ==
+        std::vector<int>{4, 2});
+  // the largest seed there is
+  CHECK(seeds_of("[jitter]\ntrials = 3\nseed = 1073741824\n" + over("rod.young_GPa = [70, 80]")) ==
+        std::vector<int>{1073741824, 0});
+  // what looks for no states has the seed that it says
+  CHECK(seeds_of(over("rod.young_GPa = [70, 80]")) == std::vector<int>{1, 1});
+}
+
 TEST_CASE("values of every kind, ranges of integers, even factors") {
   const auto presets = read(over(R"(actuation.seed = ["up", "down"]
 footprint.rods = { from = 8, to = 16, count = 5 }

@@ -17,6 +17,27 @@ std::string faults_of(const std::string& text, const std::vector<Override>& over
 
 }  // namespace
 
+TEST_CASE("a circle is as large as its radius says, or its longest leg, and not both") {
+  const auto presets = read_preset_text(
+      "[footprint]\nrods = 10\nlongest_leg = 1.5\n[actuation]\nratio = 0.75\n", "leg.toml", "leg");
+  REQUIRE(presets);
+  // R_o = d (L_d + (n - 1)/2)
+  CHECK(presets->base.original_radius_mm() == Approx(120));
+  CHECK(presets->base.actuated_radius_mm() == Approx(90));
+  CHECK_THAT(to_toml(*presets), !Catch::Contains("radius_mm = 126"));
+  CHECK_THAT(faults_of("[footprint]\nlongest_leg = 1.5\nradius_mm = 90\n"),
+             Catch::StartsWith("bad.toml:3:13: [footprint] radius_mm = 90.0: ") &&
+                 Catch::Contains("[footprint] longest_leg takes its place"));
+  CHECK_THAT(faults_of("[actuation]\nratio = 0.5\nradius_mm = 90\n"),
+             Catch::Contains("[actuation] ratio takes its place"));
+  CHECK_THAT(faults_of("[footprint]\nkind = \"net\"\nlongest_leg = 1.5\n"),
+             Catch::Contains("does not use it, only \"circle\""));
+  CHECK_THAT(faults_of("[footprint]\nlongest_leg = -1\n"), Catch::Contains("longest_leg = -1"));
+  CHECK_THAT(faults_of("[actuation]\nratio = 1.5\n"), Catch::Contains("from 0 to 1"));
+  CHECK_THAT(faults_of("[footprint]\nrods = 4\nlongest_leg = 1.0\n"),
+             Catch::Contains("must be at most R_o = 50 by [footprint] longest_leg"));
+}
+
 TEST_CASE("a key that the kind does not use is refused with its place and the reason") {
   CHECK(faults_of("[footprint]\nkind = \"net\"\n[net]\nwaist = 0.4\n") ==
         "bad.toml:4:9: [net] waist = 0.4: counts for nothing here, must be left out: [net] kind = "

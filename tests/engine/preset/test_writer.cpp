@@ -137,8 +137,11 @@ Preset pushed(bool joint) {
 std::vector<Preset> samples() {
   auto at_highest = pushed(false);
   at_highest.indentation.latitude_deg = 90;
-  std::vector<Preset> all{Preset{}, pushed(true), pushed(false), at_highest,
-                          of_curve(CurveKind::ellipse, 0.77)};
+  Preset by_leg;
+  by_leg.footprint.longest_leg = 2.3;
+  by_leg.actuation.ratio = 0.81;
+  std::vector<Preset> all{Preset{},   pushed(true), pushed(false),
+                          at_highest, by_leg,       of_curve(CurveKind::ellipse, 0.77)};
   all.push_back(of_net(NetKind::sphere));
   all.back().ends = {.second_ring_mm = 7.5, .table = {}};
   for (const auto& [kind, word] : words(CurveKind{})) all.push_back(of_curve(kind, 0));

@@ -1,4 +1,4 @@
-// states.csv, states.json and transitions.csv read back as they were written.
+// states.csv, states.json, transitions.csv and barriers.csv read back as they were written.
 #include "engine/record/states.h"
 
 #include <catch2/catch.hpp>
@@ -28,6 +28,8 @@ record::StateTables sample() {
   tables.search.ended_otherwise["did not come to rest"] = 3;
   tables.search.completeness = {2, 1, 1, 2.5, 2.1, 9.0};
   tables.transitions = {{1, 2, "let out", 1}, {1, 0, "poked", 7}};
+  tables.barriers = {{1, 2, 40.5, 0.59, 0.25, 1e-12}, {2, 0, 41.0}};
+  tables.rows[1].barrier_mJ = 0.25;
   return tables;
 }
 
@@ -41,9 +43,22 @@ TEST_CASE("state tables: what is written is read back, what is unknown stays so"
   REQUIRE(read);
   CHECK(record::states_csv(read->rows) == record::states_csv(written.rows));
   CHECK(record::transitions_csv(read->transitions) == record::transitions_csv(written.transitions));
+  CHECK(record::barriers_csv(read->barriers) == record::barriers_csv(written.barriers));
+  CHECK(std::isnan(read->barriers[1].back_mJ));
+  CHECK(read->rows[1].barrier_mJ == 0.25);
+  CHECK(std::isnan(read->rows[0].barrier_mJ));
   CHECK(record::to_json(read->search) == record::to_json(written.search));
   CHECK(std::isnan(read->rows[0].eigenvalue_N_per_mm2));
   CHECK(read->rows[0].lives_to == 0.0325);
+}
+
+TEST_CASE("states to draw: the lowest of each of the paper's classes, then those met most often") {
+  std::vector<record::StateRow> rows(5);
+  for (int k = 0; k < 5; ++k) rows[std::size_t(k)].count = k;
+  rows[0].kind = rows[1].kind = record::StateClass::ii;
+  CHECK(record::states_to_draw(rows, 1) == std::vector<std::size_t>{0});
+  CHECK(record::states_to_draw(rows, 3) == std::vector<std::size_t>{0, 3, 4});
+  CHECK(record::states_to_draw(rows, 9).size() == 5);
 }
 
 TEST_CASE("state tables: damaged ones are refused with file and line") {
@@ -68,4 +83,6 @@ TEST_CASE("state tables: damaged ones are refused with file and line") {
   refused("states.json", "{", "states.json");
   refused("states.json", R"({"mode": 3})", "states.json");
   refused("transitions.csv", "from,to\n", "first line");
+  refused("barriers.csv", "from,to,energy_mJ,barrier_mJ,back_mJ,residual_N\n1,2,x,,,\n",
+          "energy_mJ");
 }

@@ -53,6 +53,50 @@ TEST_CASE("points are the same however many are computed at a time") {
   CHECK(bend(4) > bend(2));
 }
 
+TEST_CASE(
+    "a point that looks for states says how many of each class, the same whatever the threads") {
+  const auto presets = preset::read_preset_text(
+      "[footprint]\nrods = 4\n[actuation]\nratio = 0.75\n[accuracy]\nedges_per_segment = 8\n"
+      "[jitter]\ntrials = 4\nconfined = 7\n[sweep.over]\nfootprint.longest_leg = [0.3, 4.0]\n",
+      "search.toml", "search");
+  REQUIRE(presets);
+  const preset::SweepGrid grid(*presets);
+  const auto found_by = [&](int jobs) {
+    std::map<std::size_t, record::PointResult> found;
+    Watch watch;
+    REQUIRE(run_points(
+        grid, {0, 1}, jobs,
+        [&](record::PointResult result) -> Result<void> {
+          found[result.point] = std::move(result);
+          return {};
+        },
+        watch));
+    return found;
+  };
+  const auto one = found_by(1), two = found_by(2);
+  const auto figure = [&](std::size_t point, const char* name) {
+    const auto* known = one.at(point).figure(name);
+    return known ? record::number_of(*known) : std::nan("");
+  };
+  for (const std::size_t point : {std::size_t(0), std::size_t(1)}) {
+    CHECK(one.at(point).figures == two.at(point).figures);
+    CHECK(figure(point, "at_rest") == 4);
+    CHECK(figure(point, "jitter_seed") == 1 + double(point));
+    const double all = figure(point, "met_i") + figure(point, "met_ii") + figure(point, "met_iii") +
+                       figure(point, "met_iv") + figure(point, "met_other");
+    CHECK(all <= 4);
+    CHECK(all > 0);
+  }
+  // legs longer than two cells leave every rod its first mode
+  CHECK(figure(1, "shortest_leg") > 2);
+  CHECK(figure(1, "states_i") == 1);
+  CHECK(figure(1, "met_first_order") == 4);
+  // every figure that comes is one that can be drawn
+  const auto names = experiment::figure_names(true);
+  for (const auto& [name, value] : one.at(0).figures)
+    CHECK(std::ranges::find(names, name) != names.end());
+}
+
 TEST_CASE("a path that ends early counts as far as it came, whatever the movie's frames") {
   const auto figures = [](int frames) {
     auto preset =

@@ -1,0 +1,118 @@
+#include "engine/record/phase_diagram.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/record/csv.h"
+#include "engine/record/legs.h"
+
+namespace gridshell::record {
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr const char* leg_key = "footprint.longest_leg";
+constexpr const char* rods_key = "footprint.rods";
+
+int whole_figure(const PointResult& result, const char* name) {
+  const Figure* figure = result.figure(name);
+  const double number = figure ? number_of(*figure) : std::nan("");
+  return std::isfinite(number) ? int(number) : 0;
+}
+
+PhasePoint point_of(const SweepTable::Row& row, bool legs_first) {
+  PhasePoint point;
+  point.longest_leg = std::stod(row.keys.values[legs_first ? 0 : 1]);
+  point.rods = std::stoi(row.keys.values[legs_first ? 1 : 0]);
+  point.shortest_leg = shortest_leg(point.longest_leg + 0.5 * (point.rods - 1), point.rods);
+  point.seed = row.keys.seed;
+  const auto first_order = state_count(row.result, "first_order");
+  point.found = first_order.has_value();
+  if (!point.found) return point;
+  point.first_order = *first_order;
+  point.states = whole_figure(row.result, "states");
+  point.at_rest = whole_figure(row.result, "at_rest");
+  for (const auto& [kind, word] : words(StateClass{}))
+    point.classes[std::size_t(kind)] =
+        state_count(row.result, std::string(word)).value_or(StateCount{});
+  return point;
+}
+
+void count(const PhasePoint& point, PhaseRegion& region) {
+  ++region.points;
+  region.dome_alone += point.first_order.states == point.states;
+  region.broken += point.of(StateClass::i).states + point.of(StateClass::iv).states < point.states;
+  region.several += point.states > 1;
+  for (std::size_t k = 0; k < region.with.size(); ++k)
+    region.with[k] += point.classes[k].states > 0;
+  region.at_rest += point.at_rest;
+  region.met_first_order += point.first_order.met;
+  region.with_more += point.beyond_paper() > 0;
+  region.more_states += point.beyond_paper();
+}
+
+}  // namespace
+
+int PhasePoint::beyond_paper() const {
+  int more = 0;
+  for (const auto& [kind, word] : words(StateClass{}))
+    more += kind == StateClass::other ? of(kind).states : std::max(0, of(kind).states - 1);
+  return more;
+}
+
+bool makes_phase_diagram(const std::vector<std::string>& axes) {
+  return axes.size() == 2 && std::ranges::count(axes, leg_key) == 1 &&
+         std::ranges::count(axes, rods_key) == 1;
+}
+
+PhaseDiagram phase_diagram_of(const SweepTable& table, const std::string& case_name) {
+  PhaseDiagram diagram;
+  for (const auto& row : table.rows)
+    if (row.keys.case_name == case_name)
+      diagram.push_back(point_of(row, table.axes.front() == leg_key));
+  return diagram;
+}
+
+std::vector<PhaseRegion> regions_of(const PhaseDiagram& diagram) {
+  std::vector<PhaseRegion> regions;
+  for (const auto& [above, to] : {std::pair(1.0, endless), {0, 1}, {-1, 0}, {-endless, -1}}) {
+    PhaseRegion region{.above = above, .to = to};
+    for (const PhasePoint& point : diagram)
+      if (point.found && point.shortest_leg > above && point.shortest_leg <= to)
+        count(point, region);
+    regions.push_back(region);
+  }
+  return regions;
+}
+
+std::string name_of(const PhaseRegion& region) {
+  if (!std::isfinite(region.to)) return fmt::format("l_d > {}", region.above);
+  if (!std::isfinite(region.above)) return fmt::format("l_d <= {}", region.to);
+  return fmt::format("{} < l_d <= {}", region.above, region.to);
+}
+
+std::string regions_csv(const std::vector<PhaseRegion>& regions) {
+  Csv csv;
+  for (const char* name :
+       {"shortest_leg", "points", "first_order_alone", "symmetry_broken", "several_states"})
+    csv.cell(name);
+  for (const auto& [kind, word] : words(StateClass{})) csv.cell("with_" + std::string(word));
+  for (const char* name : {"at_rest", "met_first_order", "with_more_than_paper", "states_more"})
+    csv.cell(name);
+  csv.end_line();
+  for (const PhaseRegion& region : regions) {
+    csv.cell(name_of(region));
+    for (const int number : {region.points, region.dome_alone, region.broken, region.several})
+      csv.cell(number);
+    for (const int number : region.with) csv.cell(number);
+    for (const int number :
+         {region.at_rest, region.met_first_order, region.with_more, region.more_states})
+      csv.cell(number);
+    csv.end_line();
+  }
+  return std::move(csv).text();
+}
+
+}  // namespace gridshell::record

@@ -1,0 +1,39 @@
+// The lowest way from one stable state to another, and the pass where it goes highest: the height
+// of the barrier between them.
+#pragma once
+
+#include <vector>
+
+#include "engine/core/outcome.h"
+#include "engine/core/watch.h"
+#include "engine/solve/linearisation.h"
+
+namespace gridshell {
+
+struct PassOptions {
+  int images = 16;         ///< states along the way, both ends among them
+  int most_rounds = 500;   ///< of the string
+  double step_mm = 2;      ///< no node moves further in one of them
+  double noise_mm = 0.01;  ///< of the first string, so that no symmetry of both ends holds it
+};
+
+/// A saddle with one way down.
+struct MountainPass {
+  Outcome outcome = Outcome::not_converged;  ///< reached, not_converged, cancelled
+  State saddle;
+  double energy_mJ = 0;
+  double residual_N = 0;
+  Eigen::Matrix3Xd towards_b;  ///< its soft mode, a unit vector, pointing on along the way
+  std::vector<double> way_mJ;  ///< energies of the string, from a to b
+};
+
+/// A string of states that grows from both ends and goes down at right angles to itself, evened out
+/// after every step [E, Ren, Vanden-Eijnden 2007]; from its highest one Newton's method goes to the
+/// saddle, taken where it has one negative pivot and lies on the string. Steps are linearly
+/// implicit, (K + m I) dx = -dE/dx, so that stiff rods keep their lengths. `a` and `b` are stable
+/// states of one model with the same ends. What the saddle's two sides lead to is for the caller to
+/// find out: between them other states may lie.
+MountainPass mountain_pass(Linearisation& system, const State& a, const State& b,
+                           const PassOptions& options, const Watch& watch);
+
+}  // namespace gridshell
