@@ -31,7 +31,10 @@ TEST_CASE("a class that trials met is filled, one of symmetric forms alone is ho
   record::PhaseDiagram diagram{point(1, 10, StateClass::ii, {1, 5, 0}),
                                point(2, 10, StateClass::ii, {1, 0, 3}),
                                point(2, 12, StateClass::other, {7, 9, 0})};
-  diagram.push_back(record::PhasePoint{.longest_leg = 1, .rods = 12});
+  record::PhasePoint nothing;
+  nothing.longest_leg = 1;
+  nothing.rods = 12;
+  diagram.push_back(nothing);
   const Plot plot = phase_plot(diagram, "A diagram");
   const Series* ii = named(plot, "state *ii*");
   REQUIRE(ii);
