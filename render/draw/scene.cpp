@@ -20,7 +20,7 @@ namespace {
 
 // what pieces longer than the edges of a mesh may miss, in samples: of a rod, whose outline shows
 // it, and of a cell, whose sides are hidden by rods
-constexpr double rod_tolerance_samples = 0.03, cell_tolerance_samples = 0.25;
+constexpr double rod_tolerance_samples = 0.02, cell_tolerance_samples = 0.25;
 
 using Points = std::vector<Eigen::Vector3f>;
 using Colours = std::vector<Eigen::Vector4f>;
@@ -183,7 +183,6 @@ class Weaver {
   }
 
   void add_rings() {
-    constexpr int edges = 4;
     for (const Ring& ring : drawing_.rings) {
       Points points(ring.points.cols());
       for (int k = 0; k < int(points.size()); ++k) points[k] = ring.points.col(k).cast<float>();
@@ -193,15 +192,11 @@ class Weaver {
       if (points.size() < 3) continue;
       const Colours colours(points.size(), opaque(ring.colour));
       const float radius = radius_of(ring.diameter_mm, mm_per_sample_);
-      const Ribbon ribbon{points, colours, {&radius, 1}, true};
-      const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
-      for (int k = 0, next = 0, n = int(points.size()); k < n; k = next) {
-        // short pieces, so that each has its place from far to near
-        next = reach(ribbon, k, std::min(n, k + edges), rod_tolerance());
+      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}, true});
+      for (int k = 0, n = int(points.size()); k < n; ++k) {
         Piece piece{forward_.dot(points[k].cast<double>()), {}};
-        join_points(piece.indices, first, k, next % n);
-        for (int l = k; ring.shadow && l < next; ++l)
-          join_points(scene_.casters, first, l, (l + 1) % n);
+        join_points(piece.indices, first, k, (k + 1) % n);
+        if (ring.shadow) insert(scene_.casters, piece.indices);
         ribbons_.push_back(std::move(piece));
       }
     }

@@ -49,3 +49,32 @@ TEST_CASE("a bead is a card whose corners tell side and shape apart", "[mesh]") 
   CHECK(std::vector{code(4), code(5), code(6), code(7)} == std::vector{2, 2, 3, 3});
   CHECK(mesh.vertices[0].normal[3] == -mesh.vertices[1].normal[3]);
 }
+
+TEST_CASE("a straight piece goes as far as it misses nothing", "[mesh]") {
+  // a straight stretch, a corner, and a bow of radius 100
+  std::vector<Eigen::Vector3f> points;
+  for (int k = 0; k <= 4; ++k) points.push_back({float(k), 0, 0});
+  for (int k = 1; k <= 4; ++k) points.push_back({4, float(k), 0});
+  const float radius = 1;
+  std::vector<Eigen::Vector4f> colours(points.size(), {0, 0, 0, 1});
+  const Ribbon bent{points, colours, {&radius, 1}};
+  // at a corner the strip is not square to its end, so the piece before it stays short
+  CHECK(reach(bent, 0, 8, 0.01f) == 3);
+  CHECK(reach(bent, 3, 8, 0.01f) == 4);
+  CHECK(reach(bent, 4, 8, 0.01f) == 5);
+  CHECK(reach(bent, 5, 8, 0.01f) == 8);
+  CHECK(reach(bent, 0, 2, 0.01f) == 2);
+
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const float angle = 0.01f * float(k);
+    points[k] = {100 * std::sin(angle), 0, 100 * std::cos(angle)};
+  }
+  const Ribbon bow{points, colours, {&radius, 1}};
+  // a chord over n edges of 1 mm lies n^2 / 800 mm off
+  CHECK(reach(bow, 0, 8, 0.0005f) == 1);
+  CHECK(reach(bow, 0, 8, 0.02f) == 3);
+  CHECK(reach(bow, 0, 8, 0.1f) == 8);
+  // nor does a piece jump over a colour of its own
+  colours[2] = {1, 0, 0, 1};
+  CHECK(reach(bow, 0, 8, 0.1f) == 1);
+}

@@ -33,3 +33,16 @@ TEST_CASE("cells without alpha are left out", "[skin]") {
   CHECK(patches.size() == count - 1);
   for (const CellPatch& patch : patches) CHECK(patch.cell != 4);
 }
+
+TEST_CASE("a patch is as coarse as the tolerance allows", "[skin]") {
+  const auto shell = test::square_shell(2, 4, 50);
+  const std::vector<Eigen::Vector4f> colours{{1, 0, 0, 1}};
+  std::size_t before = 26;
+  for (const float tolerance : {0.f, 1e3f}) {
+    Mesh mesh;
+    add_cells(mesh, shell.layout, shell.nodes, colours, tolerance);
+    CHECK(mesh.vertices.size() < before);
+    before = mesh.vertices.size();
+  }
+  CHECK(before == 4);
+}
