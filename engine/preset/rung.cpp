@@ -76,6 +76,8 @@ std::vector<Demand> beyond_net(const Preset& preset) {
   if (preset.loads.any()) found.push_back({"loads", "points", "a net does not answer loads"});
   if (preset.ends.second_ring_mm > 0)
     found.push_back({"ends", "second_ring_mm", "a net has no tails"});
+  if (!preset.ends.table.empty())
+    found.push_back({"ends", "table", "a net's ends lie where the net has them"});
   if (preset.accuracy.edges_per_segment > 0)
     found.push_back({"accuracy", "edges_per_segment", "a mesh is asked for"});
   return found;
