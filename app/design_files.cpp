@@ -3,17 +3,17 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "engine/core/atomic_file.h"
 #include "engine/preset/writer.h"
 #include "engine/record/csv.h"
+#include "engine/record/json.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::ordered_json;
+using record::Json;
 
 Json json_of(const DesignedState& state, double scale) {
   Json json = Json::object();
@@ -73,7 +73,7 @@ std::string design_json(const Designed& found, const FromFlat& from_flat) {
                              {"largest_move_mm", step.largest_move_mm},
                              {"taken", step.taken},
                              {"refused", step.refused}});
-  return json.dump(2) + "\n";
+  return record::text_of(json);
 }
 
 /// A line an end, as `[ends] table` reads it.

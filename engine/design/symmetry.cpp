@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/footprint/mesh_symmetry.h"
+
 namespace gridshell {
 namespace {
 
@@ -29,20 +31,11 @@ Eigen::Matrix2Xd places_of(const Footprint& footprint) {
 
 /// Which place each goes to; joints to joints, ends to ends.
 std::optional<std::vector<int>> permutation_of(const Eigen::Matrix2Xd& places, Eigen::Index joints,
-                                               const Eigen::Matrix2d& op, double near_mm) {
-  std::vector<int> to;
-  for (Eigen::Index k = 0; k < places.cols(); ++k) {
-    const Eigen::Vector2d wanted = op * places.col(k);
-    const Eigen::Index first = k < joints ? 0 : joints,
-                       count = k < joints ? joints : places.cols() - joints;
-    Eigen::Index nearest = 0;
-    const double off = (places.middleCols(first, count).colwise() - wanted)
-                           .colwise()
-                           .squaredNorm()
-                           .minCoeff(&nearest);
-    if (off > near_mm * near_mm) return std::nullopt;
-    to.push_back(int(first + nearest));
-  }
+                                               const Eigen::Matrix2d& map, double near_mm) {
+  auto to = images_of(places.leftCols(joints), map, near_mm);
+  const auto ends = images_of(places.rightCols(places.cols() - joints), map, near_mm);
+  if (!to || !ends) return std::nullopt;
+  for (const int end : *ends) to->push_back(int(joints) + end);
   return to;
 }
 
@@ -69,23 +62,20 @@ std::vector<ShellSymmetry> symmetries_of(const Scene& scene, const Eigen::Matrix
   Eigen::Matrix3Xd points(3, places.cols());
   points << joints, scene.motion.end;
   std::vector<ShellSymmetry> found;
-  for (const bool swap : {false, true})
-    for (const double u : {1.0, -1.0})
-      for (const double v : {1.0, -1.0}) {
-        Eigen::Matrix2d op;
-        op << (swap ? 0 : u), (swap ? u : 0), (swap ? v : 0), (swap ? 0 : v);
-        const auto to = permutation_of(places, joints.cols(), op, near_mm);
-        if (!to) continue;
-        Eigen::Matrix3Xd there(3, points.cols());
-        for (Eigen::Index k = 0; k < points.cols(); ++k)
-          there.col(k) = points.col((*to)[std::size_t(k)]);
-        const auto turn = motion_between(points, there, near_mm);
-        if (!turn) continue;
-        ShellSymmetry one{{}, *turn};
-        for (Eigen::Index k = joints.cols(); k < points.cols(); ++k)
-          one.to.push_back((*to)[std::size_t(k)] - int(joints.cols()));
-        found.push_back(std::move(one));
-      }
+  for (const Eigen::Matrix3d& map : square_symmetries()) {
+    if (map(2, 2) < 0) continue;  // it turns the shell over
+    const auto to = permutation_of(places, joints.cols(), map.topLeftCorner<2, 2>(), near_mm);
+    if (!to) continue;
+    Eigen::Matrix3Xd there(3, points.cols());
+    for (Eigen::Index k = 0; k < points.cols(); ++k)
+      there.col(k) = points.col((*to)[std::size_t(k)]);
+    const auto turn = motion_between(points, there, near_mm);
+    if (!turn) continue;
+    ShellSymmetry one{{}, *turn};
+    for (Eigen::Index k = joints.cols(); k < points.cols(); ++k)
+      one.to.push_back((*to)[std::size_t(k)] - int(joints.cols()));
+    found.push_back(std::move(one));
+  }
   return found;
 }
 

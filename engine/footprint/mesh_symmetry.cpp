@@ -46,6 +46,19 @@ std::vector<int> held_nodes(const RodMesh& mesh) {
 
 }  // namespace
 
+std::optional<std::vector<int>> images_of(const Eigen::Matrix2Xd& points,
+                                          const Eigen::Matrix2d& map, double within_mm) {
+  std::vector<int> images;
+  for (Eigen::Index k = 0; k < points.cols(); ++k) {
+    Eigen::Index nearest = 0;
+    const Eigen::Vector2d there = map * points.col(k);
+    const double off = (points.colwise() - there).colwise().squaredNorm().minCoeff(&nearest);
+    if (!(std::sqrt(off) <= within_mm)) return std::nullopt;
+    images.push_back(int(nearest));
+  }
+  return images;
+}
+
 const std::vector<Eigen::Matrix3d>& square_symmetries() {
   static const std::vector<Eigen::Matrix3d> all = [] {
     std::vector<Eigen::Matrix3d> maps;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "engine/footprint/mesh.h"
@@ -12,6 +13,11 @@ namespace gridshell {
 /// The sixteen maps of space that leave the square lattice about the z-axis what it is: signed
 /// permutations of x and y, then the same with z turned over. The identity is the first.
 const std::vector<Eigen::Matrix3d>& square_symmetries();
+
+/// Which of some points each of them goes to under a map of the plane; nothing where one comes to
+/// lie further than `within_mm` from all. For a few hundred points: each looks at all.
+std::optional<std::vector<int>> images_of(const Eigen::Matrix2Xd& points,
+                                          const Eigen::Matrix2d& map, double within_mm);
 
 /// A map of a mesh onto itself: p goes to M (p - c) + c, node k to the place of node image[k].
 struct MeshSymmetry {

@@ -1,27 +1,11 @@
 #include "engine/measure/asymmetry.h"
 
 #include <cmath>
-#include <optional>
 
 #include "engine/footprint/mesh_symmetry.h"
 
 namespace gridshell {
 namespace {
-
-/// Which point each point is mapped to; nothing where one has no image among them.
-std::optional<std::vector<Eigen::Index>> images(const Eigen::Matrix2Xd& points,
-                                                const Eigen::Matrix2d& turn) {
-  const double same = 1e-6 * std::sqrt(points.colwise().squaredNorm().maxCoeff());
-  std::vector<Eigen::Index> image;
-  for (Eigen::Index k = 0; k < points.cols(); ++k) {
-    Eigen::Index at = 0;
-    const Eigen::Vector2d there = turn * points.col(k);
-    const double off = (points.colwise() - there).colwise().squaredNorm().minCoeff(&at);
-    if (!(std::sqrt(off) <= same)) return std::nullopt;
-    image.push_back(at);
-  }
-  return image;
-}
 
 /// About its own middle in the plane.
 template <class Points>
@@ -37,10 +21,11 @@ SharedSymmetry::SharedSymmetry(const Eigen::Matrix2Xd& flat, const Eigen::Matrix
                                double within_mm) {
   const Eigen::Matrix2Xd points = centred(flat);
   const Eigen::Matrix3Xd joints = centred(shape);
+  const double same = 1e-6 * std::sqrt(points.colwise().squaredNorm().maxCoeff());
   for (const Eigen::Matrix3d& map : square_symmetries()) {
     if (map(2, 2) < 0) continue;  // it turns the shape over
     const Eigen::Matrix2d turn = map.topLeftCorner<2, 2>();
-    auto image = images(points, turn);
+    auto image = images_of(points, turn, same);
     if (!image) continue;
     Element element{turn, std::move(*image)};
     const double off = (moved(element, joints) - joints).colwise().norm().maxCoeff();

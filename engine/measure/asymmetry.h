@@ -24,7 +24,7 @@ class SharedSymmetry {
  private:
   struct Element {
     Eigen::Matrix2d turn;
-    std::vector<Eigen::Index> image;  // joint k goes to where joint image[k] is
+    std::vector<int> image;  // joint k goes to where joint image[k] is
   };
   static Eigen::Matrix3Xd moved(const Element& element, const Eigen::Matrix3Xd& joints);
 
