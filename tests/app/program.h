@@ -19,7 +19,12 @@
 struct Ended {
   int code = 0;  ///< exit code; 128 + n when signal n ended it
   std::string out, err;
-  double peak_MB = 0;  ///< of memory
+  double peak_MB = 0;                        ///< of memory
+  double wall_seconds = 0, cpu_seconds = 0;  ///< from the signal of interrupt() to the end
+
+  /// Whether a signal was answered within a second: of the clock, or, on a machine that others keep
+  /// busy, of the processor.
+  bool prompt() const { return wall_seconds < 1 || (cpu_seconds < 1 && wall_seconds < 10); }
 };
 
 /// A run of `gridshell ARGUMENTS` that has begun, with `folder` as its working directory.
@@ -40,6 +45,26 @@ class Running {
   }
 
   void signal(int number) const { kill(pid_, number); }
+
+  /// Sends the signal and waits for the end.
+  Ended interrupt(int number) const {
+    const double before = cpu_so_far();
+    const auto asked = std::chrono::steady_clock::now();
+    signal(number);
+    auto ended = wait();
+    ended.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
+    ended.cpu_seconds -= before;
+    return ended;
+  }
+
+  /// Holds it still (SIGSTOP); whether it is there to be held.
+  bool hold() const {
+    signal(SIGSTOP);
+    siginfo_t about{};
+    waitid(P_PID, id_t(pid_), &about, WEXITED | WSTOPPED | WNOWAIT);
+    return about.si_code == CLD_STOPPED;
+  }
 
   /// Waits until it has taken signals into its own hands: before its first line nobody can.
   void until_it_listens() const {
@@ -76,12 +101,26 @@ class Running {
     Ended ended;
     ended.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     ended.peak_MB = double(used.ru_maxrss) / 1024;
+    for (const auto& time : {used.ru_utime, used.ru_stime})
+      ended.cpu_seconds += double(time.tv_sec) + 1e-6 * double(time.tv_usec);
     ended.out = take("stdout.txt");
     ended.err = take("stderr.txt");
     return ended;
   }
 
  private:
+  /// Of the processor, in seconds, without those of programs that it started.
+  double cpu_so_far() const {
+    std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
+    std::string word;
+    // its name, in brackets, is the second word; utime and stime are the fourteenth and fifteenth
+    std::getline(file, word, ')');
+    for (int k = 3; k < 14; ++k) file >> word;
+    double user = 0, system = 0;
+    file >> user >> system;
+    return (user + system) / double(sysconf(_SC_CLK_TCK));
+  }
+
   static bool divert(const char* file, int to) {
     const int from = open(file, O_WRONLY | O_CREAT | O_TRUNC, 0644);
     return from >= 0 && dup2(from, to) >= 0 && close(from) == 0;
@@ -117,10 +156,10 @@ inline std::vector<std::filesystem::path> files_under(const std::filesystem::pat
   return found;
 }
 
-/// Waits until `ready`, at most ten seconds; whether it came.
+/// Waits until `ready`, at most 50 seconds; whether it came.
 template <class Ready>
 bool wait_until(Ready ready) {
-  for (int k = 0; k < 1000; ++k) {
+  for (int k = 0; k < 5000; ++k) {
     if (ready()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

@@ -34,58 +34,36 @@ void check_all_whole(const fs::path& folder) {
 
 }  // namespace
 
-namespace {
-
-/// The quickest of three answers: on a machine that others use too, one alone says little.
-template <class Answer>
-std::chrono::nanoseconds quickest(const Answer& answer) {
-  auto best = std::chrono::nanoseconds::max();
-  for (int k = 0; k < 3 && best >= std::chrono::seconds(1); ++k) best = std::min(best, answer());
-  return best;
-}
-
-}  // namespace
-
 TEST_CASE("Ctrl-C and SIGTERM stop within a second and leave finished frames whole", "[alone]") {
   const int number = GENERATE(SIGINT, SIGTERM);
-  const auto answer = [&]() -> std::chrono::nanoseconds {
-    const TemporaryFolder folder;
-    const Running running(movie, folder.path());
-    REQUIRE(frames_appear(folder.path()));
-    const auto asked = std::chrono::steady_clock::now();
-    running.signal(number);
-    const auto ended = running.wait();
-    const auto took = std::chrono::steady_clock::now() - asked;
-    CHECK(ended.code == 130);
-    CHECK_THAT(ended.err, Catch::Contains("stopped\n1 run and ") &&
-                              Catch::Contains("each whole, are in 'out/s1_actuation.partial-"));
-    CHECK_FALSE(fs::exists(folder.path() / "out/s1_actuation"));
-    check_all_whole(folder.path());
-    for (const auto& file : files_under(folder.path(), ""))
-      CHECK_FALSE(file.filename().string().starts_with('.'));
-    return took;
-  };
-  CHECK(quickest(answer) < std::chrono::seconds(1));
+  const TemporaryFolder folder;
+  const Running running(movie, folder.path());
+  REQUIRE(frames_appear(folder.path()));
+  const auto ended = running.interrupt(number);
+  CAPTURE(ended.wall_seconds, ended.cpu_seconds);
+  CHECK(ended.prompt());
+  CHECK(ended.code == 130);
+  CHECK_THAT(ended.err, Catch::Contains("stopped\n1 run and ") &&
+                            Catch::Contains("each whole, are in 'out/s1_actuation.partial-"));
+  CHECK_FALSE(fs::exists(folder.path() / "out/s1_actuation"));
+  check_all_whole(folder.path());
+  for (const auto& file : files_under(folder.path(), ""))
+    CHECK_FALSE(file.filename().string().starts_with('.'));
 }
 
 TEST_CASE("a picture that takes long does not hold up Ctrl-C", "[alone]") {
-  const auto answer = []() -> std::chrono::nanoseconds {
-    const TemporaryFolder folder;
-    const Running running(
-        {"movie", "s1_actuation", "--frames", "2", "--quality", "figure", "--size", "3840x2160"},
-        folder.path());
-    REQUIRE(wait_until([&] { return !files_under(folder.path(), "summary.json").empty(); }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    const auto asked = std::chrono::steady_clock::now();
-    running.signal(SIGINT);
-    const auto ended = running.wait();
-    const auto took = std::chrono::steady_clock::now() - asked;
-    CHECK(ended.code == 130);
-    CHECK_THAT(ended.err, Catch::Contains("stopped\n1 run and 0 pictures, each whole, are in "));
-    CHECK(files_under(folder.path(), "trajectory.h5").size() == 1);
-    return took;
-  };
-  CHECK(quickest(answer) < std::chrono::seconds(1));
+  const TemporaryFolder folder;
+  const Running running(
+      {"movie", "s1_actuation", "--frames", "2", "--quality", "figure", "--size", "3840x2160"},
+      folder.path());
+  REQUIRE(wait_until([&] { return !files_under(folder.path(), "summary.json").empty(); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  const auto ended = running.interrupt(SIGINT);
+  CAPTURE(ended.wall_seconds, ended.cpu_seconds);
+  CHECK(ended.prompt());
+  CHECK(ended.code == 130);
+  CHECK_THAT(ended.err, Catch::Contains("stopped\n1 run and 0 pictures, each whole, are in "));
+  CHECK(files_under(folder.path(), "trajectory.h5").size() == 1);
 }
 
 TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
@@ -96,11 +74,9 @@ TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
                          "actuation.radius_mm=155", "--frames", "5000"},
                         folder.path());
   REQUIRE(wait_until([&] { return fs::exists(folder.path() / "out"); }));
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  const auto asked = std::chrono::steady_clock::now();
-  running.signal(SIGINT);
-  const auto ended = running.wait();
-  CHECK(std::chrono::steady_clock::now() - asked < std::chrono::seconds(1));
+  const auto ended = running.interrupt(SIGINT);
+  CAPTURE(ended.wall_seconds, ended.cpu_seconds);
+  CHECK(ended.prompt());
   CHECK(ended.code == 130);
   CHECK_THAT(ended.err,
              Catch::EndsWith("stopped\nnothing was finished, so nothing is left behind\n"));
@@ -122,20 +98,38 @@ TEST_CASE("a killed movie leaves no half file, and the run before it stays") {
   CHECK_FALSE(fs::exists(folder.path() / "out/s1_actuation/frames"));
 }
 
+namespace {
+
+// where a run is that was killed with so many frames or more, but not at its end; it is held still
+// whenever they are counted, so that it cannot slip away between the count and the kill
+fs::path killed_with(std::size_t least, const std::vector<std::string>& run,
+                     const fs::path& folder) {
+  const Running running(run, folder);
+  fs::path partial;
+  while (running.hold()) {
+    const auto journals = files_under(folder, gridshell::record::journal_name);
+    if (!journals.empty()) partial = journals.front().parent_path();
+    if (!journals.empty() && gridshell::record::frames_in_journal(partial) >= least) break;
+    running.signal(SIGCONT);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return running.interrupt(SIGKILL).code == 128 + SIGKILL ? partial : fs::path();
+}
+
+}  // namespace
+
 TEST_CASE("of a run that is killed near its end nearly all frames are drawn", "[full]") {
   const TemporaryFolder folder;
-  const Running running({"run", "s1_actuation", "--frames", "60", "--quiet", "--set",
-                         "accuracy.edges_per_segment=16", "-o", "run"},
-                        folder.path());
   fs::path partial;
-  REQUIRE(wait_until([&] {
-    const auto journals = files_under(folder.path(), gridshell::record::journal_name);
-    if (journals.empty()) return false;
-    partial = journals.front().parent_path();
-    return gridshell::record::frames_in_journal(partial) >= 54;
-  }));
-  running.signal(SIGKILL);
-  CHECK(running.wait().code == 128 + SIGKILL);
+  // where the machine leaves this test no time while the run goes on, it is run again
+  for (int k = 0; k < 5 && partial.empty(); ++k) {
+    fs::remove_all(folder.path() / "run");
+    partial = killed_with(54,
+                          {"run", "s1_actuation", "--frames", "60", "--quiet", "--set",
+                           "accuracy.edges_per_segment=16", "-o", "run"},
+                          folder.path());
+  }
+  REQUIRE_FALSE(partial.empty());
   CHECK_FALSE(fs::exists(folder.path() / "run"));
   const auto frames = gridshell::record::frames_in_journal(partial);
   CHECK(frames >= 54);
