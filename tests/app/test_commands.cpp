@@ -270,7 +270,7 @@ TEST_CASE("every preset that comes with the program runs to its end", "[full]") 
     // a search for states: each kind of trial, some times
     if (name.starts_with("fig2_"))
       for (const char* fewer :
-           {"jitter.trials=12", "jitter.confined=14", "jitter.transitions=1", "jitter.drawn=2"})
+           {"jitter.trials=6", "jitter.confined=7", "jitter.transitions=1", "jitter.drawn=2"})
         arguments.insert(arguments.end(), {"--set", fewer});
     const auto ended = gridshell_program(arguments, folder.path());
     INFO(ended.err);

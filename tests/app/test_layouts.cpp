@@ -110,8 +110,8 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
       options.frames.append("2");
       options.set = {"accuracy.tolerance=0.01"};
       if (states)
-        options.set.insert(options.set.end(), {"jitter.trials=12", "jitter.confined=14",
-                                               "jitter.transitions=1", "jitter.drawn=6"});
+        options.set.insert(options.set.end(), {"jitter.trials=3", "jitter.confined=3",
+                                               "jitter.transitions=1", "jitter.drawn=2"});
       INFO(embedded.name << (pictures == app::Pictures::movie ? ", movie" : ", figure"));
       int words = 0;
       const CanvasWatch watch([&](const Canvas& canvas) {

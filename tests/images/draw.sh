@@ -1,12 +1,18 @@
 #!/bin/sh
 # tests/images/draw.sh PROGRAM FOLDER [OPTIONS]: draws all that list.txt names into FOLDER, pictures
 # alone. To keep them: PROGRAM compare tests/images FOLDER --update --why "..."
+# RUNS=FOLDER keeps the runs that they are of.
 set -e
 program=$1 folder=$2 here=$(dirname "$0")
 shift 2
 mkdir -p "$folder"
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+if [ -n "$RUNS" ]; then
+  work=$RUNS
+  mkdir -p "$work"
+else
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+fi
 grep -v '^#' "$here/list.txt" | while IFS=: read -r name arguments; do
   # shellcheck disable=SC2086
   "$program" $arguments -o "$work/$name" --quiet "$@" || echo "$name: exit code $?" >&2
