@@ -19,6 +19,7 @@
 #include "app/pictures.h"
 #include "app/state_pictures.h"
 #include "engine/core/atomic_file.h"
+#include "engine/preset/reader.h"
 #include "engine/record/run_folder.h"
 #include "engine/record/summary_file.h"
 
@@ -73,6 +74,12 @@ Result<void> copy_data(const fs::path& from, const fs::path& to) {
   return {};
 }
 
+// what all cases together are called: by the preset that lists them, else by their folder
+std::string title_of_cases(const fs::path& from, const std::string& otherwise) {
+  const auto listing = preset::read_preset_file(from / "preset.toml", {});
+  return listing && !listing->base.title.empty() ? listing->base.title : otherwise;
+}
+
 // what shows several runs, as it was made
 Result<void> draw_together(std::vector<FinishedRun>& runs, const fs::path& from, Artist& artist,
                            const fs::path& to, Progress& progress) {
@@ -84,7 +91,8 @@ Result<void> draw_together(std::vector<FinishedRun>& runs, const fs::path& from,
   auto stem = runs.front().name.empty() ? name.filename() : name.parent_path().filename();
   if (stem.empty()) stem = from.filename();
   if (drawn_beside(runs.front()))
-    return draw_beside(records, stem.string(), artist.renderer(), to, progress.next_phase());
+    return draw_beside(records, title_of_cases(from, stem.string()), artist.renderer(), to,
+                       progress.next_phase());
   return draw_case_figures(std::move(records), artist.renderer(), to / stem,
                            [&]() -> Watch& { return progress.next_phase(); });
 }

@@ -218,9 +218,13 @@ TEST_CASE("cases are shown beside one another in one movie, drawn again by rende
   const std::string cases =
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
-  bench.good({"movie", "small.toml", "-o", "run"});
+  bench.good({"movie", "small.toml", "-o", "run", "--set", "title=Two shells"});
   CHECK(names_in(bench.at / "run") ==
         listed({"far", "frames", "near", "preset.toml", "summary.json"}));
+  // the title over all of them too
+  bench.good({"render", "run", "-o", "again"});
+  CHECK(read_whole(bench.at / "run/frames/frame_00002.png").value() ==
+        read_whole(bench.at / "again/frames/frame_00002.png").value());
   CHECK(names_in(bench.at / "run/near") == data_files);
   CHECK(files_under(bench.at / "run/frames", ".png").size() == 3);
   bench.good({"render", "run", "--size", "120x90"});
