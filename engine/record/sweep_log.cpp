@@ -43,6 +43,11 @@ std::optional<Json> unsealed(std::string_view line) {
   return json;
 }
 
+/// Whether a key is there and of that kind.
+bool has(const Json& json, const char* key, bool (Json::*kind)() const noexcept) {
+  return json.contains(key) && (json.at(key).*kind)();
+}
+
 Json json_of(const Figure& figure) {
   if (const auto* flag = std::get_if<bool>(&figure)) return *flag;
   if (const auto* number = std::get_if<double>(&figure)) return *number;
@@ -67,11 +72,11 @@ std::string first_line(const SweepName& name) {
 
 std::optional<SweepName> name_of(std::string_view line) {
   const auto json = unsealed(line);
-  if (!json || !json->contains("sweep") || !json->contains("config") || !json->contains("points") ||
-      !json->at("points").is_number_unsigned())
+  if (!json || !has(*json, "sweep", &Json::is_string) || !has(*json, "config", &Json::is_string) ||
+      !has(*json, "points", &Json::is_number_unsigned))
     return std::nullopt;
-  const auto config = json->value("config", "");
-  SweepName name{json->value("sweep", ""), 0, json->at("points").get<std::size_t>()};
+  const auto config = json->at("config").get<std::string>();
+  SweepName name{json->at("sweep").get<std::string>(), 0, json->at("points").get<std::size_t>()};
   const auto read = std::from_chars(config.data(), config.data() + config.size(), name.config, 16);
   if (read.ec != std::errc()) return std::nullopt;
   return name;
@@ -98,18 +103,15 @@ std::string point_line(const std::vector<std::string>& axes, const PointKeys& ke
 
 std::optional<PointResult> point_of(std::string_view line, std::size_t points) {
   const auto json = unsealed(line);
-  const auto is = [&](const char* key, auto kind) {
-    return json->contains(key) && (json->at(key).*kind)();
-  };
-  if (!json || !is("point", &Json::is_number_unsigned) || !is("outcome", &Json::is_string) ||
-      !is("figures", &Json::is_object))
+  if (!json || !has(*json, "point", &Json::is_number_unsigned) ||
+      !has(*json, "outcome", &Json::is_string) || !has(*json, "figures", &Json::is_object))
     return std::nullopt;
   const auto outcome = find_word<PointOutcome>(json->at("outcome").get<std::string>());
   PointResult result;
   result.point = json->at("point").get<std::size_t>();
   if (!outcome || result.point >= points) return std::nullopt;
   result.outcome = *outcome;
-  if (is("reason", &Json::is_string)) result.reason = json->at("reason").get<std::string>();
+  if (has(*json, "reason", &Json::is_string)) result.reason = json->at("reason").get<std::string>();
   for (const auto& [name, figure] : json->at("figures").items())
     result.figures.emplace_back(name, figure_of(figure));
   return result;

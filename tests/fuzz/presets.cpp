@@ -42,6 +42,7 @@ void points(std::string_view bytes) {
   const InputFile file(bytes);
   (void)preset::read_points(file.path(), {"x", "y"});
   (void)preset::read_points(file.path(), {"x", "y", "z"});
+  (void)preset::read_points(file.path(), {"family", "x"}, {{"u", "v"}, {}});
 }
 
 }  // namespace gridshell::fuzz

@@ -27,11 +27,16 @@ void journal(std::string_view bytes);
 /// Directions for changing a trajectory.h5 object by object, then read. The library's own parser is
 /// not for us to harden: damaged structures are tried in a process of their own.
 void trajectory(std::string_view bytes);
+/// states.csv, states.json, transitions.csv and barriers.csv of one folder, apart by lines of
+/// =====.
+void states(std::string_view bytes);
+/// sweep.jsonl; lines without a checksum get theirs.
+void sweep_log(std::string_view bytes);
 /// A picture for `compare`.
 void png(std::string_view bytes);
 
-inline constexpr Target targets[] = {{"preset", preset},         {"points", points},
-                                     {"summary", summary},       {"journal", journal},
-                                     {"trajectory", trajectory}, {"png", png}};
+inline constexpr Target targets[] = {
+    {"preset", preset},         {"points", points}, {"summary", summary},     {"journal", journal},
+    {"trajectory", trajectory}, {"states", states}, {"sweep_log", sweep_log}, {"png", png}};
 
 }  // namespace gridshell::fuzz

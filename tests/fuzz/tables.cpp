@@ -1,0 +1,59 @@
+// The tables of searches and the logs of sweeps.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/checksum.h"
+#include "engine/record/states.h"
+#include "engine/record/sweep_log.h"
+#include "tests/fuzz/input_file.h"
+#include "tests/fuzz/targets.h"
+#include "tests/temporary_folder.h"
+
+namespace gridshell::fuzz {
+namespace {
+
+using namespace gridshell::record;
+
+/// Takes what stands before the next `end`, and it with that.
+std::string_view taken(std::string_view& bytes, std::string_view end) {
+  const auto at = bytes.find(end);
+  const auto part = bytes.substr(0, at);
+  bytes.remove_prefix(at == bytes.npos ? bytes.size() : at + end.size());
+  return part;
+}
+
+}  // namespace
+
+void states(std::string_view bytes) {
+  static const TemporaryFolder folder;
+  for (const char* name : std::array{states_name, search_name, transitions_name, barriers_name}) {
+    const auto part = taken(bytes, "=====\n");
+    std::filesystem::remove(folder.path() / name);
+    if (!part.empty()) (void)write_atomically(folder.path() / name, std::string(part));
+  }
+  if (const auto tables = read_state_tables(folder.path())) {
+    (void)states_to_draw(tables->rows, 5);
+    (void)write_state_tables(folder.path(), *tables);
+  }
+}
+
+void sweep_log(std::string_view bytes) {
+  // a checksum that nobody guesses would keep all out: it is put under each line that has none
+  std::string text;
+  while (!bytes.empty()) {
+    std::string line(taken(bytes, "\n"));
+    if (line.ends_with('}') && line.find("\"sum\"") == line.npos) {
+      line.pop_back();
+      Checksum sum;
+      sum.add(line);
+      line += fmt::format(",\"sum\":\"{:016x}\"}}", sum.value());
+    }
+    text += line + '\n';
+  }
+  const InputFile file(text);
+  (void)read_sweep_log(file.path());
+}
+
+}  // namespace gridshell::fuzz
