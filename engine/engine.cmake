@@ -7,8 +7,17 @@ find_library(MUPARSER_LIBRARY muparser REQUIRED)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)
 find_library(HDF5_HL_LIBRARY NAMES hdf5_serial_hl hdf5_hl REQUIRED)
 
+# the page of exported runs, embedded
+set(embedded_page ${PROJECT_BINARY_DIR}/generated/embedded_page.cpp)
+set(page_parts ${PROJECT_SOURCE_DIR}/engine/export/page.html
+  ${PROJECT_SOURCE_DIR}/engine/export/embed_page.cmake)
+add_custom_command(OUTPUT ${embedded_page}
+  COMMAND ${CMAKE_COMMAND} -DPAGE=${PROJECT_SOURCE_DIR}/engine/export/page.html
+          -DOUTPUT=${embedded_page} -P ${PROJECT_SOURCE_DIR}/engine/export/embed_page.cmake
+  DEPENDS ${page_parts} VERBATIM)
+
 file(GLOB_RECURSE ENGINE_SOURCES CONFIGURE_DEPENDS engine/*.cpp engine/*.h)
-add_library(gridshell_engine STATIC ${ENGINE_SOURCES})
+add_library(gridshell_engine STATIC ${ENGINE_SOURCES} ${embedded_page})
 target_include_directories(gridshell_engine PUBLIC ${PROJECT_SOURCE_DIR})
 target_include_directories(gridshell_engine SYSTEM PUBLIC ${EIGEN_INCLUDE_DIR})
 target_include_directories(gridshell_engine SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})

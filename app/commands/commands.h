@@ -19,6 +19,7 @@ void add_render(CLI::App& program, Action& action);
 void add_chart(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
 void add_design(CLI::App& program, Action& action);
+void add_export(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
 void add_compare(CLI::App& program, Action& action);
 void add_list(CLI::App& program, Action& action);

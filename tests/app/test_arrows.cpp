@@ -25,6 +25,8 @@ const std::map<std::string, Folders> may_see{
     {"engine/measure", {"engine/core", "engine/geometry", "engine/footprint"}},
     {"engine/preset", {"engine/core"}},
     {"engine/record", {"engine/core", "engine/rod"}},
+    // runs and footprints as files of other programs
+    {"engine/export", {"engine/core", "engine/record"}},
     // what will be formed, and no solver
     {"engine/scene",
      {"engine/core", "engine/geometry", "engine/footprint", "engine/rod", "engine/gridshell",
@@ -36,8 +38,8 @@ const std::map<std::string, Folders> may_see{
     // the one entry point of the engine joins the rest
     {"engine/experiment",
      {"engine/core", "engine/geometry", "engine/footprint", "engine/rod", "engine/gridshell",
-      "engine/solve", "engine/measure", "engine/preset", "engine/record", "engine/scene",
-      "engine/session"}},
+      "engine/solve", "engine/measure", "engine/preset", "engine/record", "engine/export",
+      "engine/scene", "engine/session"}},
     // what is moved so that a shell meets its surface, from the states that experiments reach
     {"engine/design",
      {"engine/core", "engine/geometry", "engine/footprint", "engine/rod", "engine/gridshell",
@@ -48,10 +50,10 @@ const std::map<std::string, Folders> may_see{
       "engine/measure", "engine/preset", "engine/record", "engine/scene", "engine/session",
       "engine/experiment"}},
     // the renderer knows pictures of a run, not how it came to be
-    {"render", {"engine/core", "engine/record"}},
+    {"render", {"engine/core", "engine/record", "engine/export"}},
     {"app",
-     {"engine/core", "engine/preset", "engine/record", "engine/experiment", "engine/design",
-      "engine/study", "render"}},
+     {"engine/core", "engine/preset", "engine/record", "engine/export", "engine/experiment",
+      "engine/design", "engine/study", "render"}},
 };
 
 // "engine/preset" for engine/preset/reader.h, "render" and "app" for all below them

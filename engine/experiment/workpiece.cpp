@@ -1,0 +1,74 @@
+#include "engine/experiment/workpiece.h"
+
+#include <fmt/format.h>
+
+#include "engine/scene/scene.h"
+
+namespace gridshell::experiment {
+namespace {
+
+using exports::CutRod;
+using exports::Pin;
+
+CutRod cut(const FootprintRod& rod, const Scene& scene) {
+  CutRod piece;
+  const bool u = rod.family == Family::u;
+  piece.name = fmt::format("{}{:+}", u ? "u" : "v", rod.index);
+  const double begin = rod.span.begin - rod.tail_begin, end = rod.span.end + rod.tail_end;
+  const auto at = [&](double along) -> Eigen::Vector2d {
+    const Eigen::Vector2d uv =
+        u ? Eigen::Vector2d(along, rod.line) : Eigen::Vector2d(rod.line, along);
+    return scene.flat.at(uv).head<2>();
+  };
+  piece.length_mm = end - begin;
+  piece.begin = at(begin);
+  piece.end = at(end);
+  for (const int joint : rod.joints) {
+    const FootprintJoint& crossing = scene.footprint.joints[std::size_t(joint)];
+    piece.joint_marks_mm.push_back((u ? crossing.u : crossing.v) - begin);
+  }
+  if (rod.tail_begin > 0) piece.pin_marks_mm.push_back(rod.tail_begin);
+  if (rod.tail_end > 0) piece.pin_marks_mm.push_back(rod.span.end - begin);
+  piece.leg_begin_mm = piece.joint_marks_mm.front() - rod.tail_begin;
+  piece.leg_end_mm = piece.length_mm - rod.tail_end - piece.joint_marks_mm.back();
+  piece.free_begin = rod.begin == RodEnd::free;
+  piece.free_end = rod.end == RodEnd::free;
+  return piece;
+}
+
+void add_pins(const FootprintRod& rod, Eigen::Index r, const std::string& name, const Scene& scene,
+              std::vector<Pin>& pins) {
+  const auto add = [&](Eigen::Index end, RodEnd held, double tail, const char* word) {
+    if (held == RodEnd::free) return;
+    pins.push_back({name + " " + word, scene.motion.end.col(end), true});
+    if (tail > 0)
+      pins.push_back({name + " " + word + ", far", scene.motion.end_far.col(end), false});
+  };
+  add(2 * r, rod.begin, rod.tail_begin, "begin");
+  add(2 * r + 1, rod.end, rod.tail_end, "end");
+}
+
+}  // namespace
+
+Result<exports::Workpiece> workpiece_of(const preset::Preset& preset) {
+  const auto scene = scene_of(preset);
+  if (!scene) return tl::unexpected<Error>(scene.error());
+  exports::Workpiece work;
+  work.title = preset.title.empty() ? preset.name : preset.title;
+  work.spacing_mm = scene->footprint.spacing;
+  work.rod_diameter_mm = scene->rod_diameter_mm;
+  for (std::size_t r = 0; r < scene->footprint.rods.size(); ++r) {
+    const FootprintRod& rod = scene->footprint.rods[r];
+    work.rods.push_back(cut(rod, *scene));
+    add_pins(rod, Eigen::Index(r), work.rods.back().name, *scene, work.pins);
+  }
+  for (const FootprintJoint& joint : scene->footprint.joints)
+    work.joints.push_back(scene->flat.at({joint.u, joint.v}).head<2>());
+  work.original_boundary = scene->original_boundary.topRows<2>();
+  work.actuated_boundary = scene->actuated_boundary;
+  work.original_radius_mm = scene->radius_begin_mm;
+  work.actuated_radius_mm = scene->radius_end_mm;
+  return work;
+}
+
+}  // namespace gridshell::experiment

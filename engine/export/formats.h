@@ -1,0 +1,35 @@
+// Shapes as text for other programs: Rhino and Blender (.obj, .dxf), ParaView (.vtp, .pvd, .xdmf),
+// spreadsheets (.csv). Millimetres, z up.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/export/drawing.h"
+#include "engine/export/shape.h"
+
+namespace gridshell::exports {
+
+/// Wavefront: a line element a rod (group `rods`), a point a joint, a face a cell (group `cells`).
+std::string to_obj(const Shape& shape);
+/// The same with rods as tubes of their diameter (8 sides), and without joints.
+std::string to_obj_tubes(const Shape& shape);
+
+/// Rods as 3D polylines (layer `rods`) and the actuated boundary, for to_dxf().
+Drawing rods_in_space(const Shape& shape);
+
+/// VTK PolyData in ASCII: a polyline a rod with points of its own, a polygon a cell. Point data:
+/// `displacement_mm`, `curvature_per_mm`; cell data: `rod` (-1 for a cell), `K_rad` (nan for a
+/// rod); field data: `TimeValue` (progress).
+std::string to_vtp(const Shape& shape);
+/// ParaView's list of such files over progress.
+std::string to_pvd(const std::vector<double>& progress, const std::vector<std::string>& files);
+
+/// XDMF of all frames of `trajectory.h5`, which lies beside it: edges over /nodes at each progress.
+std::string to_xdmf(const record::Layout& layout, const record::FrameList& frames,
+                    const std::string& trajectory);
+
+/// `rod,point,x_mm,y_mm,z_mm,curvature_per_mm`, rod by rod.
+std::string to_csv(const Shape& shape);
+
+}  // namespace gridshell::exports

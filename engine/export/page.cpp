@@ -1,0 +1,140 @@
+#include "engine/export/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/export/colours.h"
+#include "engine/export/page_template.h"
+#include "engine/record/json.h"
+
+namespace gridshell::exports {
+namespace {
+
+using record::Json;
+
+constexpr std::size_t most_bytes = 9'000'000;  // of positions, as written
+
+std::string base64(const std::vector<std::uint16_t>& numbers) {
+  static constexpr char letters[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes, text;
+  for (const std::uint16_t number : numbers) {
+    bytes += char(number & 255);
+    bytes += char(number >> 8);
+  }
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t b = 0; b < 3; ++b)
+      three = three << 8 | (k + b < bytes.size() ? std::uint8_t(bytes[k + b]) : 0);
+    for (std::size_t b = 0; b < 4; ++b)
+      text += k + b < bytes.size() + 1 ? letters[three >> (18 - 6 * b) & 63] : '=';
+  }
+  return text;
+}
+
+/// The box around all frames.
+struct Extent {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY);
+  Eigen::Vector3d high = Eigen::Vector3d::Constant(-INFINITY);
+
+  void take(const record::Frame& frame) {
+    low = low.cwiseMin(frame.nodes.rowwise().minCoeff());
+    high = high.cwiseMax(frame.nodes.rowwise().maxCoeff());
+  }
+  /// mm a step
+  double step() const { return std::max((high - low).maxCoeff() / 65535, 1e-12); }
+};
+
+std::string positions(const record::Frame& frame, const Extent& extent) {
+  std::vector<std::uint16_t> rounded;
+  for (Eigen::Index k = 0; k < frame.nodes.cols(); ++k)
+    for (int c = 0; c < 3; ++c)
+      rounded.push_back(
+          std::uint16_t(std::lround((frame.nodes(c, k) - extent.low[c]) / extent.step())));
+  return base64(rounded);
+}
+
+double three_digits(double value) {
+  return std::isfinite(value) ? std::stod(fmt::format("{:.3g}", value)) : value;
+}
+
+Json figures(const record::Frame& frame) {
+  Json json = Json::object();
+  const auto put = [&](const char* name, double value) {
+    if (std::isfinite(value)) json[name] = std::stod(fmt::format("{:.5g}", value));
+  };
+  put("progress", frame.progress);
+  put("R_a (mm)", frame.boundary_radius_mm);
+  put("depth (mm)", frame.depth_mm);
+  put("force (N)", frame.force_N);
+  put("height (mm)", frame.height_mm);
+  put("bend energy (mJ)", frame.energies[Term::bend]);
+  put("total K (rad)", frame.total_K);
+  put("residual (N)", frame.residual_N);
+  put("error estimate (mm)", frame.error_estimate_mm);
+  if (frame.negative_pivots >= 0) json["negative pivots"] = frame.negative_pivots;
+  if (!frame.event.empty()) json["event"] = frame.event;
+  return json;
+}
+
+Json layout_json(const record::Layout& layout) {
+  Json json = Json::object();
+  json["rods"] = layout.rods;
+  json["joints"] = Json::array();
+  for (const record::Joint& joint : layout.joints) json["joints"].push_back(joint.node);
+  json["cells"] = Json::array();
+  for (const record::Cell& cell : layout.cells) {
+    Json corners = Json::array();
+    for (const int joint : cell.joints) corners.push_back(layout.joints[std::size_t(joint)].node);
+    json["cells"].push_back(std::move(corners));
+  }
+  return json;
+}
+
+}  // namespace
+
+Result<std::string> to_page(const record::Trajectory& run, const std::string& title) {
+  const auto nodes = std::size_t(run.frames.front().nodes.cols());
+  const std::size_t a_frame = 8 * nodes + 8 * run.layout.cells.size() + 400;
+  if (a_frame > most_bytes)
+    return fail(Fault::bad_input,
+                fmt::format("one frame of {} nodes takes more than {} MB in a page", nodes,
+                            most_bytes / 1'000'000));
+  const std::size_t kept = std::min(run.frames.size(), most_bytes / a_frame);
+  const auto index = [&](std::size_t k) {
+    return kept == 1 ? run.frames.size() - 1 : k * (run.frames.size() - 1) / (kept - 1);
+  };
+  Extent extent;
+  for (std::size_t k = 0; k < kept; ++k) extent.take(run.frames[index(k)]);
+
+  Json json = layout_json(run.layout);
+  json["title"] = title;
+  json["low"] = {extent.low.x(), extent.low.y(), extent.low.z()};
+  json["step"] = extent.step();
+  json["K_end"] = three_digits(range_of(run.frames.back().cell_K).end);
+  json["rod_mm"] = run.layout.rod_diameter_mm;
+  json["frames"] = Json::array();
+  for (std::size_t k = 0; k < kept; ++k) {
+    const record::Frame& frame = run.frames[index(k)];
+    Json K = Json::array();
+    for (const double value : frame.cell_K) K.push_back(three_digits(value));
+    json["frames"].push_back({{"index", frame.index},
+                              {"nodes", positions(frame, extent)},
+                              {"K", std::move(K)},
+                              {"figures", figures(frame)}});
+  }
+  if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
+
+  std::string data = record::line_of(json, true);
+  // a script ends at the first "</script", whatever it stands in
+  for (std::size_t at = 0; (at = data.find("</", at)) != data.npos; at += 3)
+    data.replace(at, 2, "<\\/");
+  std::string page = page_template;
+  const std::string place = "/*RUN*/";
+  page.replace(page.find(place), place.size(), data);
+  return page;
+}
+
+}  // namespace gridshell::exports

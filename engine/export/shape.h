@@ -1,0 +1,43 @@
+// One frame of a run as other programs see it: rods as lines or tubes, cells as quadrilaterals.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/record/snapshot.h"
+
+namespace gridshell::exports {
+
+/// What is written; what it refers to must outlive it.
+struct Shape {
+  const record::Layout& layout;
+  const record::Frame& frame;
+  const record::Frame& start;  ///< what displacements are from: the first frame of the run
+  std::string title;
+};
+
+/// A rod's nodes from end to end, 3 x n, mm.
+Eigen::Matrix3Xd rod_points(const record::Layout& layout, const record::Frame& frame,
+                            std::size_t rod);
+
+/// Curvature at each of a rod's points, 1/mm: |2 t x t'| / (1 + t.t') over the mean of the two
+/// edges' lengths, t and t' their unit tangents [Bergou 2008, eq. 1]; 0 at the ends.
+std::vector<double> curvature_per_mm(const Eigen::Matrix3Xd& points);
+
+/// Four corners of a cell, joints in order, 3 x 4, mm.
+Eigen::Matrix<double, 3, 4> cell_corners(const record::Layout& layout, const record::Frame& frame,
+                                         std::size_t cell);
+
+/// A rod as a tube: `sides` vertices around each point, ends closed.
+struct Tube {
+  Eigen::Matrix3Xd vertices, normals;
+  std::vector<std::array<int, 3>> triangles;  ///< anticlockwise from outside
+};
+
+/// The directions around it are carried along without twist. The same number of points gives the
+/// same triangles.
+Tube tube_around(const Eigen::Matrix3Xd& points, double radius_mm, int sides);
+
+}  // namespace gridshell::exports

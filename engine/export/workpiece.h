@@ -1,0 +1,57 @@
+// What is cut, drilled and tied to build a gridshell by hand: rods with their marks, the footprint
+// they lie in, and the pins that hold it. Millimetres.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace gridshell::exports {
+
+/// A leg shorter than this leaves no room between a joint and the boundary: a joint of the paper is
+/// a cylinder of 3 mm [Baek 2018, 'Materials'].
+inline constexpr double shortest_leg_mm = 3;
+
+/// One rod as it is cut. What is measured along it begins at its begin, tail and leg included.
+struct CutRod {
+  std::string name;  ///< "u-3": its family and index
+  double length_mm = 0;
+  std::vector<double> joint_marks_mm;         ///< where it is tied to others
+  std::vector<double> pin_marks_mm;           ///< its edge points, where they are not its ends
+  Eigen::Vector2d begin, end;                 ///< of all of it in the flat
+  double leg_begin_mm = 0, leg_end_mm = 0;    ///< from the edge points to the joints next to them
+  bool free_begin = false, free_end = false;  ///< not pinned
+
+  bool hard_to_build() const {
+    return leg_begin_mm < shortest_leg_mm || leg_end_mm < shortest_leg_mm;
+  }
+};
+
+/// A hole that holds an end of a rod once the shell is actuated.
+struct Pin {
+  std::string name;  ///< "u-3 begin", "u-3 end, far" of a second ring
+  Eigen::Vector3d at;
+  bool in_ring = true;  ///< of the actuated boundary; a far pin of the second ring is not
+};
+
+/// All of it.
+struct Workpiece {
+  std::string title;
+  double spacing_mm = 0, rod_diameter_mm = 0;
+  std::vector<CutRod> rods;
+  std::vector<Eigen::Vector2d> joints;
+  Eigen::Matrix2Xd original_boundary;  ///< closed polyline in the flat
+  Eigen::Matrix3Xd actuated_boundary;  ///< closed polyline
+  double original_radius_mm = std::numeric_limits<double>::quiet_NaN();  ///< of circles
+  double actuated_radius_mm = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Pin> pins;
+
+  double total_length_mm() const {
+    double sum = 0;
+    for (const CutRod& rod : rods) sum += rod.length_mm;
+    return sum;
+  }
+};
+
+}  // namespace gridshell::exports

@@ -1,0 +1,85 @@
+// `gridshell export`: every format of every thing, and what is refused.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "app/exporting.h"
+#include "engine/core/atomic_file.h"
+#include "tests/app/program.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using Catch::Contains;
+using gridshell::read_whole;
+
+namespace {
+
+const std::vector<std::string> small_run{"run",     "s1_actuation", "--frames",
+                                         "3",       "--set",        "accuracy.edges_per_segment=4",
+                                         "--quiet", "-o",           "run"};
+
+}  // namespace
+
+TEST_CASE("export writes a run in every format, and what is for the workshop") {
+  const TemporaryFolder folder;
+  const fs::path& at = folder.path();
+  REQUIRE(gridshell_program(small_run, at).code == 0);
+  const auto before = files_under(at / "run", "");
+  const std::vector<std::pair<std::string, std::string>> wanted{
+      {"", "a.csv"},         {"", "a.dxf"},          {"", "a.glb"},          {"", "a.html"},
+      {"", "a.obj"},         {"", "a.pvd"},          {"", "a.vtp"},          {"", "a.xdmf"},
+      {"tubes", "t.obj"},    {"footprint", "f.svg"}, {"footprint", "f.dxf"}, {"plate", "p.svg"},
+      {"plate", "p.dxf"},    {"plate", "pins.csv"},  {"cutlist", "cut.csv"}, {"cutlist", "cut.pdf"},
+      {"sheet", "sheet.pdf"}};
+  for (const auto& [what, file] : wanted) {
+    std::vector<std::string> arguments{"export", "run", "--to", file};
+    if (!what.empty()) arguments.insert(arguments.end(), {"--what", what});
+    const auto ended = gridshell_program(arguments, at);
+    INFO(file << "\n" << ended.err);
+    CHECK(ended.code == 0);
+    CHECK(fs::file_size(at / file) > 500);
+  }
+  CHECK(files_under(at / "a_frames", ".vtp").size() == 3);
+  CHECK_THAT(read_whole(at / "a.pvd").value(), Contains("file=\"a_frames/frame_00002.vtp\""));
+  CHECK_THAT(read_whole(at / "a.xdmf").value(), Contains("run/trajectory.h5:/nodes"));
+  // the run is as it was
+  CHECK(files_under(at / "run", "") == before);
+  CHECK(gridshell_program({"render", "run", "--size", "64x48", "--quality", "draft", "--quiet"}, at)
+            .code == 0);
+}
+
+TEST_CASE("export of a preset needs no run, of cases one is chosen") {
+  const TemporaryFolder folder;
+  const fs::path& at = folder.path();
+  CHECK(gridshell_program({"export", "ring_hemisphere", "--what", "plate", "--to", "pins.csv"}, at)
+            .code == 0);
+  CHECK_THAT(read_whole(at / "pins.csv").value(), Contains("far") && Contains(",second,"));
+  const auto which =
+      gridshell_program({"export", "fig3_caps", "--what", "cutlist", "--to", "a.csv"}, at);
+  CHECK(which.code == 2);
+  CHECK_THAT(which.err, Contains("choose one with --case"));
+}
+
+TEST_CASE("what cannot be exported is refused with what would do, and writes nothing") {
+  const TemporaryFolder folder;
+  const fs::path& at = folder.path();
+  REQUIRE(gridshell_program(small_run, at).code == 0);
+  const auto refused = [&](std::vector<std::string> arguments, const char* why) {
+    arguments.insert(arguments.begin(), "export");
+    const auto ended = gridshell_program(arguments, at);
+    INFO(ended.err);
+    CHECK(ended.code == 2);
+    CHECK_THAT(ended.err, Contains(why));
+  };
+  refused({"run", "--to", "a.stl"}, "a shape is written as .csv .dxf .glb");
+  refused({"run", "--to", "a"}, "a shape is written as");
+  refused({"run", "--to", "a.obj", "--what", "house"}, "must be one of");
+  refused({"run", "--to", "a.obj", "--what", "plate"}, "a plate is written as .csv .dxf .svg");
+  refused({"run", "--to", "a.obj", "--frame", "3"}, "must be a number from 0 to 2");
+  refused({"run", "--to", "a.obj", "--frame", "-1"}, "must be a number from 0 to 2");
+  refused({"run", "--to", "a.obj", "--case", "x"}, "has no cases, so no 'x'");
+  refused({"run", "--to", "run/a.obj"}, "would lie in the run folder");
+  refused({"run", "--to", "run"}, "is no file");
+  refused({"s1_actuation", "--to", "a.obj"}, "s1_actuation");
+  refused({"nowhere", "--to", "a.svg"}, "nowhere");
+  CHECK(folder.entries() == std::vector<std::string>{"run"});
+}
