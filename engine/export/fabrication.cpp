@@ -43,7 +43,7 @@ Drawing footprint_drawing(const Workpiece& work) {
       const Eigen::Vector2d at = rod.begin + mark * along;
       tails.lines.push_back({{flat(at - across), flat(at + across)}});
     }
-    labels.texts.push_back({rod.begin - 2 * label_height_mm * along, label_height_mm, rod.name});
+    labels.texts.push_back({work.name_place(rod, 2 * label_height_mm), label_height_mm, rod.name});
   }
   const Eigen::Vector2d x(joint_mark_mm / 2, 0), y(0, joint_mark_mm / 2);
   for (const Eigen::Vector2d& at : work.joints) {

@@ -8,8 +8,9 @@
 
 namespace gridshell::exports {
 
-/// The flat footprint. Layers: `rods`, `joints` (a cross each), `boundary`, `labels`, and where
-/// there is a second ring `tails` (a tick across a rod at its edge point).
+/// The flat footprint; u-rods begin at the left, v-rods below. Layers: `rods`, `joints` (a cross
+/// each), `boundary`, `labels`, and where there is a second ring `tails` (a tick across a rod at
+/// its edge point).
 Drawing footprint_drawing(const Workpiece& work);
 
 /// The plate that holds the shell: the actuated boundary and a hole of the rods' diameter for each

@@ -47,6 +47,19 @@ struct Workpiece {
   double actuated_radius_mm = std::numeric_limits<double>::quiet_NaN();
   std::vector<Pin> pins;
 
+  Eigen::Vector2d middle() const {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& joint : joints) sum += joint;
+    return sum / double(joints.size());
+  }
+  /// Where a rod's name stands in the flat, `away` beyond one of its ends: at the begin of those
+  /// left of the middle, seen along the rod, at the end of the others, so that the names of the two
+  /// families lie in quarters of their own.
+  Eigen::Vector2d name_place(const CutRod& rod, double away) const {
+    const Eigen::Vector2d along = (rod.end - rod.begin).normalized(), left(-along.y(), along.x());
+    return left.dot(rod.begin - middle()) >= 0 ? Eigen::Vector2d(rod.begin - away * along)
+                                               : Eigen::Vector2d(rod.end + away * along);
+  }
   double total_length_mm() const {
     double sum = 0;
     for (const CutRod& rod : rods) sum += rod.length_mm;

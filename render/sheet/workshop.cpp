@@ -77,12 +77,11 @@ void draw_footprint(Canvas& canvas, const Workpiece& work, const Box& box) {
   const double size = std::clamp(0.6 * work.spacing_mm * fit.scale(), 3.0, 7.0);
   for (const CutRod& rod : work.rods) {
     canvas.line(fit(rod.begin), fit(rod.end), {rod.hard_to_build() ? red : ink, 0.6});
-    const Eigen::Vector2d along = (rod.end - rod.begin).normalized();
-    const Point at = fit(rod.begin - (1.3 * size / fit.scale()) * along);
+    const Point at = fit(work.name_place(rod, 1.3 * size / fit.scale()));
     canvas.text(rod.name, at, {size, ink, false, AlignX::centre, AlignY::middle});
   }
   for (const Eigen::Vector2d& joint : work.joints) canvas.circle(fit(joint), 1.1, blue);
-  canvas.text("footprint, seen from above; names at the begin of each rod",
+  canvas.text("footprint, seen from above; u-rods begin at the left, v-rods below",
               {box.middle().x, box.bottom()}, {7.5, ink, false, AlignX::centre, AlignY::bottom});
 }
 
@@ -117,9 +116,10 @@ std::vector<std::string> steps(const Workpiece& work) {
   const auto far_pins = long(work.pins.size()) - ring_pins;
   std::vector<std::string> list{
       fmt::format("Cut {} rods of {:g} mm diameter, {:.2f} m in all, to the lengths of the cut "
-                  "list; write its name on each, at its begin.",
+                  "list; write its name on each.",
                   work.rods.size(), work.rod_diameter_mm, 1e-3 * work.total_length_mm()),
-      "Mark the joints on each rod at the distances of the cut list, measured from its begin.",
+      "Mark the joints on each rod at the distances of the cut list, measured from its begin: the "
+      "left of a u-rod, the lower end of a v-rod.",
       fmt::format("Print the footprint at full size (export --what footprint), lay the u-rods on "
                   "it, the v-rods over them, and tie them at all {} crossings so that they can "
                   "turn but not slide.",
