@@ -20,6 +20,8 @@ struct Target {
 void preset(std::string_view bytes);
 /// A file of points.
 void points(std::string_view bytes);
+/// A surface in a file whose name is the first line; a mesh that is read is checked and fitted.
+void surface(std::string_view bytes);
 /// summary.json
 void summary(std::string_view bytes);
 /// frames.journal, all of its frames
@@ -30,8 +32,8 @@ void trajectory(std::string_view bytes);
 /// A picture for `compare`.
 void png(std::string_view bytes);
 
-inline constexpr Target targets[] = {{"preset", preset},         {"points", points},
-                                     {"summary", summary},       {"journal", journal},
-                                     {"trajectory", trajectory}, {"png", png}};
+inline constexpr Target targets[] = {
+    {"preset", preset},   {"points", points},         {"surface", surface}, {"summary", summary},
+    {"journal", journal}, {"trajectory", trajectory}, {"png", png}};
 
 }  // namespace gridshell::fuzz
