@@ -4,11 +4,12 @@ find_package(nlohmann_json REQUIRED)
 find_package(Threads REQUIRED)
 
 file(GLOB preset_files CONFIGURE_DEPENDS presets/*.toml)
+file(GLOB named_files CONFIGURE_DEPENDS presets/*.obj presets/*.csv)
 set(embedded_presets ${PROJECT_BINARY_DIR}/generated/embedded_presets.cpp)
 add_custom_command(OUTPUT ${embedded_presets}
-  COMMAND ${CMAKE_COMMAND} "-DPRESETS=${preset_files}" -DOUTPUT=${embedded_presets}
+  COMMAND ${CMAKE_COMMAND} "-DPRESETS=${preset_files}" "-DFILES=${named_files}" -DOUTPUT=${embedded_presets}
           -P ${PROJECT_SOURCE_DIR}/app/embed_presets.cmake
-  DEPENDS ${preset_files} ${PROJECT_SOURCE_DIR}/app/embed_presets.cmake VERBATIM)
+  DEPENDS ${preset_files} ${named_files} ${PROJECT_SOURCE_DIR}/app/embed_presets.cmake VERBATIM)
 
 file(GLOB_RECURSE APP_SOURCES CONFIGURE_DEPENDS app/*.cpp app/*.h)
 list(FILTER APP_SOURCES EXCLUDE REGEX "/app/main\\.cpp$")

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/core/atomic_file.h"
@@ -41,6 +42,7 @@ std::string design_json(const Designed& found, const FromFlat& from_flat) {
   json["eigenvalue_after"] = found.after.back().eigenvalue;
   json["largest_move_mm"] = found.largest_move_mm;
   json["largest_turn_deg"] = found.largest_turn_deg;
+  json["largest_thickening"] = found.largest_thickening;
   json["iterations"] = int(found.steps.size()) - 1;
   json["cpu_s"] = found.cpu_s;
   json["stable"] = true;  // nothing else is ever delivered
@@ -54,13 +56,16 @@ std::string design_json(const Designed& found, const FromFlat& from_flat) {
   }
   if (found.rounded) json["rounded"] = json_of(*found.rounded, scale);
   json["fabricated"] = Json::array();
-  for (const Fabricated& one : found.fabricated)
-    json["fabricated"].push_back({{"sigma_mm", one.sigma_mm},
-                                  {"samples", one.samples},
-                                  {"lost", one.lost},
-                                  {"max", one.max_mm / scale},
-                                  {"worst", one.worst_mm / scale},
-                                  {"mean", one.mean_mm / scale}});
+  for (const Fabricated& one : found.fabricated) {
+    Json& sample = json["fabricated"].emplace_back(Json::object());
+    sample["sigma_mm"] = one.sigma_mm;
+    sample["samples"] = one.samples;
+    sample["lost"] = one.lost;
+    if (one.lost == one.samples) continue;
+    sample["max"] = one.max_mm / scale;
+    sample["worst"] = one.worst_mm / scale;
+    sample["mean"] = one.mean_mm / scale;
+  }
   json["from_flat"] = {{"reached", from_flat.reached}, {"why_not", from_flat.why}};
   json["steps"] = Json::array();
   for (const DesignStep& step : found.steps)
@@ -90,13 +95,33 @@ std::string ends_csv(const preset::Points& table) {
   return std::move(csv).text();
 }
 
-/// A line a variable; legs before and after are lengths, pins and directions coordinates along the
-/// variable's own axis.
+/// A line a rod, as `[rod] table` reads it.
+std::string rods_csv(const preset::Points& table) {
+  record::Csv csv;
+  csv.line("family", "rod", "diameter_mm");
+  for (const auto& row : table) csv.line(row[0] == 0 ? "u" : "v", int(row[1]), row[2]);
+  return std::move(csv).text();
+}
+
+bool varies_diameters(const preset::Preset& preset) {
+  return std::ranges::find(preset.inverse.vary, preset::Vary::diameters) !=
+         preset.inverse.vary.end();
+}
+
+/// A line a variable; legs and diameters before and after are lengths, pins and directions
+/// coordinates along the variable's own axis.
 std::string design_csv(const Designed& found, const preset::Points& table) {
   record::Csv csv;
   csv.line("kind", "family", "rod", "end", "component", "before", "after");
   for (std::size_t k = 0; k < found.variables.size(); ++k) {
     const DesignVariable& one = found.variables[k];
+    if (one.kind == preset::Vary::diameters) {
+      const std::size_t rod = std::size_t(one.end) / 2;
+      const auto& row = found.rod_table[rod];
+      csv.line(std::string(word_of(one.kind)), row[0] == 0 ? "u" : "v", int(row[1]), "", 0,
+               found.rods_before[rod][2], row[2]);
+      continue;
+    }
     const auto& row = table[std::size_t(found.row_of_end[std::size_t(one.end)])];
     const double q = found.q[Eigen::Index(k)];
     const double after = one.kind == preset::Vary::legs ? row[6]
@@ -109,12 +134,21 @@ std::string design_csv(const Designed& found, const preset::Points& table) {
   return std::move(csv).text();
 }
 
-/// The preset with its table in the file beside it.
-std::string preset_text(preset::Preset designed) {
-  designed.ends.table.clear();
-  std::string text = preset::to_toml(designed);
+/// The text of a preset whose empty `table` in a section is a file's name instead.
+void put_name(std::string& text, const std::string& section, const std::string& file) {
   const std::string none = "\ntable = []";
-  text.replace(text.find(none), none.size(), "\ntable = \"ends.csv\"");
+  const auto at = text.find(none, text.find("\n[" + section + "]"));
+  text.replace(at, none.size(), "\ntable = \"" + file + "\"");
+}
+
+/// The preset with its tables in the files beside it.
+std::string preset_text(preset::Preset designed) {
+  const bool rods = varies_diameters(designed);
+  designed.ends.table.clear();
+  if (rods) designed.rod_table.clear();
+  std::string text = preset::to_toml(designed);
+  put_name(text, "ends", "ends.csv");
+  if (rods) put_name(text, "rod", "rods.csv");
   return text;
 }
 
@@ -129,6 +163,10 @@ Result<void> write_design(const fs::path& folder, const preset::Preset& designed
       .and_then([&] { return write("design.csv", design_csv(found, found.table)); })
       .and_then([&] { return write("ends.csv", ends_csv(found.table)); })
       .and_then([&] { return write("ends_rounded.csv", ends_csv(found.rounded_table)); })
+      .and_then([&] {
+        return varies_diameters(designed) ? write("rods.csv", rods_csv(found.rod_table))
+                                          : Result<void>();
+      })
       .and_then([&] { return write("preset.toml", preset_text(designed)); });
 }
 
@@ -136,9 +174,12 @@ std::string design_text(const Designed& found, const FromFlat& from_flat) {
   const double percent = 100 / found.length_scale_mm;
   std::string text = fmt::format(
       "{} variables, {} of them free under {} symmetries; {} iterations, {:.1f} s of CPU; moved by "
-      "{:.2f} mm and {:.2f} degrees at most\n",
+      "{:.2f} mm and {:.2f} degrees at most{}\n",
       found.q.size(), found.free_variables, found.symmetries, found.steps.size() - 1, found.cpu_s,
-      found.largest_move_mm, found.largest_turn_deg);
+      found.largest_move_mm, found.largest_turn_deg,
+      found.largest_thickening > 0
+          ? fmt::format(", diameters by {:.1f} %", 100 * found.largest_thickening)
+          : "");
   const auto line = [&](const char* name, const DesignedState& state) {
     text += fmt::format(
         "  {:<8} {:>2} edges: largest {:.3f} %, mean {:.3f} % of {:.4g} mm; bend energy {:.3f} mJ, "
@@ -150,11 +191,17 @@ std::string design_text(const Designed& found, const FromFlat& from_flat) {
   for (const DesignedState& state : found.before) line("before", state);
   for (const DesignedState& state : found.after) line("after", state);
   if (found.rounded) line("rounded", *found.rounded);
-  for (const Fabricated& one : found.fabricated)
+  for (const Fabricated& one : found.fabricated) {
+    if (one.lost == one.samples) {
+      text += fmt::format("  built with errors of {:g} mm: all of {} samples lost\n", one.sigma_mm,
+                          one.samples);
+      continue;
+    }
     text += fmt::format(
         "  built with errors of {:g} mm: largest {:.2f} % (worst {:.2f} %), mean {:.2f} %{}\n",
         one.sigma_mm, percent * one.max_mm, percent * one.worst_mm, percent * one.mean_mm,
         one.lost > 0 ? fmt::format("; {} of {} lost", one.lost, one.samples) : "");
+  }
   text += from_flat.reached ? "  reached from the flat too\n"
                             : "  not reached from the flat: " + from_flat.why + "\n";
   return text;

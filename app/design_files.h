@@ -17,7 +17,8 @@ struct FromFlat {
   std::string why;  ///< it was not
 };
 
-/// design.json, design.csv, ends.csv, ends_rounded.csv and preset.toml, which reads ends.csv.
+/// design.json, design.csv, ends.csv, ends_rounded.csv, rods.csv where diameters were varied, and
+/// preset.toml, which reads them.
 /// Errors: io.
 Result<void> write_design(const std::filesystem::path& folder, const preset::Preset& designed,
                           const Designed& found, const FromFlat& from_flat);

@@ -76,6 +76,7 @@ Result<void> work(const preset::Preset& preset, const Options& options, const fs
   if (!found) return tl::unexpected(found.error());
   preset::Preset designed = preset;
   designed.ends.table = found->table;
+  if (found->largest_thickening > 0) designed.rod_table = found->rod_table;
   auto before = end_of(preset, progress.next_phase());
   if (!before) return tl::unexpected(before.error());
   auto after = run_designed(designed, folder, summary, progress.next_phase());

@@ -1,5 +1,5 @@
-# Writes a .cpp that holds every presets/*.toml as text, so that the program stands alone.
-# Arguments: PRESETS (list of files), OUTPUT.
+# Writes a .cpp that holds every presets/*.toml as text, so that the program stands alone, and the
+# files that they name. Arguments: PRESETS and FILES (lists of files), OUTPUT.
 set(text "// Generated from presets/*.toml.\n#include \"app/preset_library.h\"\n\n")
 string(APPEND text "namespace gridshell::app {\n\n")
 string(APPEND text "const std::vector<EmbeddedPreset>& embedded_presets() {\n")
@@ -9,5 +9,13 @@ foreach(file IN LISTS PRESETS)
   file(READ ${file} content)
   string(APPEND text "    {\"${name}\", R\"preset(${content})preset\"},\n")
 endforeach()
-string(APPEND text "  };\n  return presets;\n}\n\n}  // namespace gridshell::app\n")
+string(APPEND text "  };\n  return presets;\n}\n\n")
+string(APPEND text "const std::map<std::string, std::string>& embedded_files() {\n")
+string(APPEND text "  static const std::map<std::string, std::string> files = {\n")
+foreach(file IN LISTS FILES)
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} content)
+  string(APPEND text "    {\"${name}\", R\"preset(${content})preset\"},\n")
+endforeach()
+string(APPEND text "  };\n  return files;\n}\n\n}  // namespace gridshell::app\n")
 file(WRITE ${OUTPUT} "${text}")

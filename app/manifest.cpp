@@ -112,6 +112,7 @@ bool may_be_of(const Unlisted& run, const std::string& name) {
                                           "design.json",
                                           "design.csv",
                                           "ends.csv",
+                                          "rods.csv",
                                           "ends_rounded.csv",
                                           "branches.csv",
                                           record::states_name,

@@ -17,7 +17,8 @@ Result<preset::Presets> load_preset(const std::string& argument,
   std::vector<std::string> names;
   for (const auto& embedded : embedded_presets()) {
     if (embedded.name == argument)
-      return preset::read_preset_text(embedded.text, "built-in " + argument, argument, overrides);
+      return preset::read_preset_text(embedded.text, "built-in " + argument, argument, overrides,
+                                      embedded_files());
     names.push_back(embedded.name);
   }
   if (path.has_parent_path() || path.extension() == ".toml")

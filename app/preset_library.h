@@ -1,6 +1,7 @@
 // Where a PRESET argument leads: a file, or one of the presets that come with the program.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct EmbeddedPreset {
 
 /// All of them, sorted by name.
 const std::vector<EmbeddedPreset>& embedded_presets();
+
+/// The files that they name, as text, by name.
+const std::map<std::string, std::string>& embedded_files();
 
 /// The preset at the path `argument`, else the embedded one of that name. Errors: bad_input, with
 /// every fault of the preset, or the nearest name when there is none.

@@ -12,6 +12,7 @@
 #include "app/delivery.h"
 #include "app/loading.h"
 #include "app/net_pictures.h"
+#include "app/refusals.h"
 #include "app/state_pictures.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/parallel.h"
@@ -329,8 +330,11 @@ int produce(const Options& options, Pictures pictures) {
     return ExitCode::done;
   }
   auto jobs = jobs_of(*presets, pictures);
-  if (!jobs) return report(jobs.error());
   const auto folder = output_of(options, presets->base);
+  if (!jobs) {
+    if (pictures == Pictures::stills) draw_refusals(*presets, folder);
+    return report(jobs.error());
+  }
   const int code = deliver(folder, phases_of(*jobs, pictures), options.quiet,
                            [&](const fs::path& partial, Progress& progress) {
                              return do_jobs(*jobs, *presets, pictures, options, partial, progress);

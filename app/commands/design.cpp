@@ -10,7 +10,7 @@ namespace gridshell::app {
 void add_design(CLI::App& program, Action& action) {
   const auto options = std::make_shared<Options>();
   auto* command = program.add_subcommand(
-      "design", "moves pins, legs or held directions until the shell meets its surface");
+      "design", "moves pins, legs, held directions or diameters until the shell meets its surface");
   add_preset_options(*command, *options);
   add_work_options(*command, *options, "folder to write, by default out/<preset>_design");
   add_picture_options(*command, *options);

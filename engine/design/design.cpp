@@ -23,8 +23,8 @@ constexpr double sigmas_mm[] = {0.1, 0.5};
 Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene) {
   if (preset.inverse.vary.empty())
     return fail(Fault::bad_input,
-                "nothing may change: [inverse] vary must name pins_radial, pins, pins_3d, legs or "
-                "directions");
+                "nothing may change: [inverse] vary must name pins_radial, pins, pins_3d, legs, "
+                "directions or diameters");
   if (!scene.net)
     return fail(Fault::bad_input,
                 "the footprint was not designed on a net, so there is no surface to meet: "
@@ -79,7 +79,8 @@ ShellEnds rounded(ShellEnds ends, double to_mm) {
   if (to_mm == 0) return ends;
   const auto round = [to_mm](double value) { return std::round(value / to_mm) * to_mm; };
   ends.at = ends.at.unaryExpr(round);
-  ends.leg = ends.leg.unaryExpr(round);
+  // no leg is rounded away
+  ends.leg = ends.leg.unaryExpr(round).cwiseMax(to_mm);
   return ends;
 }
 
@@ -106,7 +107,7 @@ Fabricated fabricate(MovedShell& shell, DesignTarget& target, double sigma_mm, d
     shell.back_to(begin);
   }
   const int kept = found.samples - found.lost;
-  found.max_mm /= kept, found.mean_mm /= kept;
+  if (kept > 0) found.max_mm /= kept, found.mean_mm /= kept;
   return found;
 }
 
@@ -161,9 +162,11 @@ Result<Designed> design(const preset::Preset& preset, Watch& watch,
   found.symmetries = int(symmetries.size());
   found.free_variables = int(variables.basis().cols());
   found.variables = variables.all();
+  found.rods_before = rod_table_of(*scene, ends_of(*scene));
 
   OptimiseOptions options;
   options.norm = preset.inverse.norm;
+  options.weights.moves = preset.inverse.mu;
   options.move_limit_mm = preset.inverse.move_limit_mm;
   options.min_stability = preset.inverse.min_stability;
   options.max_leg_force_N = preset.inverse.max_leg_force_N;
@@ -182,10 +185,12 @@ Result<Designed> design(const preset::Preset& preset, Watch& watch,
   found.kept = int(*kept);
   found.largest_move_mm = variables.largest_move_mm(found.q);
   found.largest_turn_deg = variables.largest_turn_deg(found.q);
+  found.largest_thickening = variables.largest_thickening(found.q);
 
   const ShellEnds ends = (*coarse)->ends(), by_hand = rounded(ends, preset.inverse.round_mm);
   found.after = {described(**coarse, *target), described(**fine, *target)};
   found.table = table_of(*scene, ends);
+  found.rod_table = rod_table_of(*scene, ends);
   found.rounded_table = table_of(*scene, by_hand);
   int row = 0;
   for (const FootprintRod& rod : scene->footprint.rods)

@@ -43,9 +43,11 @@ struct Designed {
   int kept = 0;       ///< the step that was: the last that both meshes find stable enough
   int symmetries = 1, free_variables = 0;
   double largest_move_mm = 0, largest_turn_deg = 0;
+  double largest_thickening = 0;  ///< change of a diameter over the one before
   double cpu_s = 0;
-  preset::Points table, rounded_table;  ///< of `[ends] table`
-  std::vector<int> row_of_end;          ///< in them; -1: a free end
+  preset::Points table, rounded_table;    ///< of `[ends] table`
+  std::vector<int> row_of_end;            ///< in them; -1: a free end
+  preset::Points rods_before, rod_table;  ///< of `[rod] table`
 };
 
 /// Designs the shell of a preset as its [inverse] table says: on meshes of 16 edges a segment, for

@@ -37,6 +37,7 @@ Result<std::unique_ptr<MovedShell>> MovedShell::make(const Scene& scene, int edg
   if (!built) return tl::unexpected<Error>(built.error());
   made->model_ = std::move(*built);
   made->ends_ = ends_of(scene);
+  made->diameter_ = made->ends_.diameter;
   made->state_ = mesh.edges_per_segment == edges_per_segment
                      ? state
                      : StateTransfer(mesh, model, made->mesh_, made->model_).carry(state);
@@ -78,6 +79,25 @@ void MovedShell::find_legs() {
       };
       if (within(model_.bends[k].e) || within(model_.bends[k].f)) leg.bends.push_back(int(k));
     }
+  std::vector<std::size_t> rod_of(model_.edges.size(), 0);
+  for (std::size_t r = 0; r < model_.rods.size(); ++r)
+    for (const int edge : model_.rods[r].edges) rod_of[std::size_t(edge)] = r;
+  bends_.resize(model_.rods.size());
+  for (std::size_t k = 0; k < model_.bends.size(); ++k)
+    bends_[rod_of[std::size_t(model_.bends[k].e)]].push_back(int(k));
+}
+
+/// EA goes with the square of a diameter, EI with its fourth power.
+void MovedShell::set_diameters(const ShellEnds& ends) {
+  for (std::size_t r = 0; r < model_.rods.size(); ++r) {
+    double& now = diameter_[Eigen::Index(r)];
+    const double wanted = ends.diameter[Eigen::Index(r)];
+    if (wanted == now) continue;
+    const double square = wanted * wanted / (now * now);
+    for (const int edge : model_.rods[r].edges) model_.edges[std::size_t(edge)].EA *= square;
+    for (const int bend : bends_[r]) model_.bends[std::size_t(bend)].stiffness *= square * square;
+    now = wanted;
+  }
 }
 
 /// Every edge of a leg has its share of the leg's length.
@@ -111,6 +131,7 @@ void MovedShell::impose(const ShellEnds& ends, Eigen::Matrix3Xd& x) const {
 
 void MovedShell::back_to(const Stand& stand) {
   set_legs(stand.ends);
+  set_diameters(stand.ends);
   state_ = stand.state;
   ends_ = stand.ends;
   system_->at(state_, false);
@@ -120,6 +141,7 @@ void MovedShell::back_to(const Stand& stand) {
 Result<void> MovedShell::settle(const ShellEnds& ends, double farthest_mm) {
   const auto failed = [](const std::string& why) { return fail(Fault::no_equilibrium, why); };
   set_legs(ends);
+  set_diameters(ends);
   impose(ends, state_.x);
   const Eigen::Matrix3Xd from = state_.x;
   NewtonOptions options;
@@ -136,7 +158,9 @@ Result<void> MovedShell::move(const ShellEnds& ends, double farthest_mm) {
   const Stand before = stand();
   Eigen::Matrix3Xd there = state_.x;
   impose(ends, there);
-  const Eigen::Matrix3Xd dx = follow(there - state_.x, ends.leg - ends_.leg);
+  const Eigen::Matrix3Xd dx =
+      follow({there - state_.x, ends.leg - ends_.leg,
+              (ends.diameter.array() / ends_.diameter.array()).log().matrix()});
   state_.force += system_->force_change(dx);
   state_.x += dx;
   auto settled = settle(ends, farthest_mm);
@@ -156,6 +180,7 @@ Result<void> MovedShell::move_in_steps(const ShellEnds& ends, double farthest_mm
       there.leg = before.ends.leg + next * (ends.leg - before.ends.leg);
       there.direction = before.ends.direction + next * (ends.direction - before.ends.direction);
       for (auto direction : there.direction.colwise()) direction.normalize();
+      there.diameter = before.ends.diameter + next * (ends.diameter - before.ends.diameter);
     }
     const auto moved = move(there, farthest_mm);
     if (moved) {
@@ -171,17 +196,45 @@ Result<void> MovedShell::move_in_steps(const ShellEnds& ends, double farthest_mm
   return {};
 }
 
-/// How all columns follow, to first order, what is prescribed and legs that grow: dx = -H^-1 dg +
-/// what is prescribed.
-Eigen::Matrix3Xd MovedShell::follow(const Eigen::Matrix3Xd& prescribed,
-                                    const Eigen::VectorXd& longer) const {
+/// How all columns follow, to first order: dx = -H^-1 dg + what is prescribed.
+Eigen::Matrix3Xd MovedShell::follow(const Change& change) const {
   Eigen::Matrix3Xd x;
-  multiply(model_, system_->assembly().hessian, prescribed, x);
+  multiply(model_, system_->assembly().hessian, change.prescribed, x);
   x *= -1;
   for (int end = 0; end < mesh_.edge_points; ++end)
-    if (longer[end] != 0) add_leg_gradient(end, longer[end], x);
+    if (change.longer[end] != 0) add_leg_gradient(end, change.longer[end], x);
+  for (std::size_t r = 0; r < model_.rods.size(); ++r)
+    if (const double thicker = change.thicker[Eigen::Index(r)]; thicker != 0)
+      add_diameter_gradient(r, thicker, x);
   system_->solve(x);
-  return x + prescribed;
+  return x + change.prescribed;
+}
+
+/// -dg/d(ln diameter) = -(4 g_bend + 2 g_stretch) of a rod, times the change.
+void MovedShell::add_diameter_gradient(std::size_t rod, double change,
+                                       Eigen::Matrix3Xd& minus_dg) const {
+  for (const int k : model_.rods[rod].edges) {
+    const ModelEdge& edge = model_.edges[std::size_t(k)];
+    if (edge.EA == 0) continue;  // of a ghost
+    const EdgeGeometry g = geometry_of(state_.x, edge);
+    const Eigen::Vector3d pull =
+        2 * change * edge.EA * (g.length / edge.rest_length - 1) * g.tangent;
+    minus_dg.col(edge.to) -= pull;
+    minus_dg.col(edge.from) += pull;
+  }
+  for (const int k : bends_[rod])
+    add_bend_gradient(model_.bends[std::size_t(k)], -4 * change, minus_dg);
+}
+
+/// A share of a bend's gradient, taken away from dg.
+void MovedShell::add_bend_gradient(const ModelBend& bend, double share,
+                                   Eigen::Matrix3Xd& minus_dg) const {
+  const ModelEdge &e = model_.edges[std::size_t(bend.e)], &f = model_.edges[std::size_t(bend.f)];
+  BendEnergy energy;
+  bend_gradient(bend.stiffness, geometry_of(state_.x, e), geometry_of(state_.x, f), energy);
+  minus_dg.col(e.from) -= share * energy.gradient_e;
+  minus_dg.col(e.to) += share * (energy.gradient_e - energy.gradient_f);
+  minus_dg.col(f.to) += share * energy.gradient_f;
 }
 
 /// -dg/dl of each edge of a leg, times its share of the leg's change: stretch pulls its two nodes
@@ -200,17 +253,11 @@ void MovedShell::add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minu
   }
   for (const int k : leg.bends) {
     const ModelBend& bend = model_.bends[std::size_t(k)];
-    const ModelEdge &e = model_.edges[std::size_t(bend.e)], &f = model_.edges[std::size_t(bend.f)];
     const auto within = [&](int edge) {
       return std::find(leg.edges.begin(), leg.edges.end(), edge) != leg.edges.end();
     };
     const double longer = share * (int(within(bend.e)) + int(within(bend.f)));
-    BendEnergy energy;
-    bend_gradient(bend.stiffness, geometry_of(state_.x, e), geometry_of(state_.x, f), energy);
-    const double softer = longer / lengths_at(model_, bend);
-    minus_dg.col(e.from) -= softer * energy.gradient_e;
-    minus_dg.col(e.to) += softer * (energy.gradient_e - energy.gradient_f);
-    minus_dg.col(f.to) += softer * energy.gradient_f;
+    add_bend_gradient(bend, longer / lengths_at(model_, bend), minus_dg);
   }
 }
 
@@ -221,7 +268,8 @@ Sensitivity MovedShell::sensitivity(const std::vector<DesignVariable>& variables
   found.leg_force = Eigen::MatrixXd::Zero(mesh_.edge_points, changes.cols());
   for (Eigen::Index c = 0; c < changes.cols(); ++c) {
     Eigen::Matrix3Xd prescribed = Eigen::Matrix3Xd::Zero(3, model_.columns());
-    Eigen::VectorXd longer = Eigen::VectorXd::Zero(mesh_.edge_points);
+    Eigen::VectorXd longer = Eigen::VectorXd::Zero(mesh_.edge_points),
+                    thicker = Eigen::VectorXd::Zero(mesh_.edge_points / 2);
     for (std::size_t k = 0; k < variables.size(); ++k) {
       const double change = changes(Eigen::Index(k), c);
       if (change == 0) continue;
@@ -234,15 +282,17 @@ Sensitivity MovedShell::sensitivity(const std::vector<DesignVariable>& variables
         prescribed.col(leg.ghost) +=
             change * (rates[k].at + side * mesh_.ghost_length * rates[k].direction);
       longer[end] += change * rates[k].leg;
+      thicker[end / 2] += change * rates[k].ln_diameter;
     }
-    Eigen::Matrix3Xd x = follow(prescribed, longer);
+    Eigen::Matrix3Xd x = follow({prescribed, longer, thicker});
     for (int end = 0; end < mesh_.edge_points; ++end) {
       const Leg& leg = legs_[std::size_t(end)];
       const ModelEdge& edge = model_.edges[std::size_t(leg.at_end)];
       const EdgeGeometry g = geometry_of(state_.x, edge);
       const double l = edge.rest_length, longer_edge = longer[end] / double(leg.edges.size());
-      found.leg_force(end, c) = edge.EA * (g.tangent.dot(x.col(edge.to) - x.col(edge.from)) / l -
-                                           g.length / (l * l) * longer_edge);
+      found.leg_force(end, c) =
+          edge.EA * (g.tangent.dot(x.col(edge.to) - x.col(edge.from)) / l -
+                     g.length / (l * l) * longer_edge + 2 * thicker[end / 2] * (g.length / l - 1));
     }
     found.x.push_back(std::move(x));
   }

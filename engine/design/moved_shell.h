@@ -17,8 +17,8 @@ struct Sensitivity {
   Eigen::MatrixXd leg_force;        ///< ends x changes, N
 };
 
-/// An equilibrium g(x, q) = dE/dx = 0 on the bend rung and what it becomes when pins, legs and held
-/// directions q change: dx/dq = -H^-1 dg/dq with the factor at hand.
+/// An equilibrium g(x, q) = dE/dx = 0 on the bend rung and what it becomes when pins, legs, held
+/// directions and diameters q change: dx/dq = -H^-1 dg/dq with the factor at hand.
 class MovedShell {
  public:
   /// From a state of the scene's model on a mesh, at rest with the scene's ends. Errors:
@@ -65,10 +65,18 @@ class MovedShell {
   MovedShell(const Scene& scene, RodMesh mesh) : scene_(scene), mesh_(std::move(mesh)) {}
   void find_legs();
   void set_legs(const ShellEnds& ends);
+  void set_diameters(const ShellEnds& ends);
   void impose(const ShellEnds& ends, Eigen::Matrix3Xd& x) const;
-  Eigen::Matrix3Xd follow(const Eigen::Matrix3Xd& prescribed, const Eigen::VectorXd& longer) const;
+  /// What changes at once: columns, legs (one an end), logarithms of diameters (one a rod).
+  struct Change {
+    Eigen::Matrix3Xd prescribed;
+    Eigen::VectorXd longer, thicker;
+  };
+  Eigen::Matrix3Xd follow(const Change& change) const;
   Result<void> settle(const ShellEnds& ends, double farthest_mm);
   void add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minus_dg) const;
+  void add_diameter_gradient(std::size_t rod, double change, Eigen::Matrix3Xd& minus_dg) const;
+  void add_bend_gradient(const ModelBend& bend, double share, Eigen::Matrix3Xd& minus_dg) const;
 
   const Scene& scene_;
   RodMesh mesh_;
@@ -83,6 +91,8 @@ class MovedShell {
     int ghost = -1, far = -1;  ///< nodes beyond its edge point
   };
   std::vector<Leg> legs_;                ///< one an end
+  std::vector<std::vector<int>> bends_;  ///< of each rod
+  Eigen::VectorXd diameter_;             ///< that the model has, one a rod
   std::vector<Eigen::Matrix3Xd> modes_;  ///< the softest ones last found
 };
 

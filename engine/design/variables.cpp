@@ -10,6 +10,8 @@ namespace {
 
 using preset::Vary;
 
+constexpr double per_unit = 0.1;  // of a diameter's logarithm: a tenth weighs as a millimetre does
+
 bool is_pin(Vary kind) {
   switch (kind) {
     case Vary::pins_radial:
@@ -18,6 +20,7 @@ bool is_pin(Vary kind) {
       return true;
     case Vary::legs:
     case Vary::directions:
+    case Vary::diameters:
       break;
   }
   return false;
@@ -39,6 +42,7 @@ std::vector<Eigen::Vector3d> ways_of(Vary kind, const ShellEnds& ends, Eigen::In
     case Vary::pins_3d:
       return {x, y, z};
     case Vary::legs:
+    case Vary::diameters:
       return {Eigen::Vector3d::Zero()};
     case Vary::directions:
       break;
@@ -47,8 +51,10 @@ std::vector<Eigen::Vector3d> ways_of(Vary kind, const ShellEnds& ends, Eigen::In
   return {across, along.cross(across)};
 }
 
-/// Whether an end is held so that a variable of this kind does anything.
-bool applies(Vary kind, RodEnd hold) {
+/// Whether an end is held so that a variable of this kind does anything; a rod's stands at its
+/// begin.
+bool applies(Vary kind, Eigen::Index end, RodEnd hold) {
+  if (kind == Vary::diameters) return end % 2 == 0;
   return kind == Vary::directions ? holds_direction(hold) : hold != RodEnd::free;
 }
 
@@ -66,8 +72,11 @@ Eigen::MatrixXd projector(const std::vector<DesignVariable>& all,
       const Eigen::Vector3d way = sign * (one.turn * from.way);
       for (Eigen::Index j = 0; j < n; ++j) {
         const DesignVariable& to = all[std::size_t(j)];
-        if (to.end != end || to.kind != from.kind) continue;
-        mean(j, k) += from.kind == Vary::legs ? 1 : to.way.dot(way);
+        if (to.kind != from.kind) continue;
+        // a symmetry may take the begin of a rod to the end of one
+        const bool rods = from.kind == Vary::diameters;
+        if (rods ? to.end / 2 != end / 2 : to.end != end) continue;
+        mean(j, k) += rods || from.kind == Vary::legs ? 1 : to.way.dot(way);
       }
     }
   return mean / double(symmetries.size());
@@ -81,7 +90,7 @@ DesignVariables::DesignVariables(const Scene& scene, const std::vector<Vary>& va
   for (const Vary kind : vary)
     for (Eigen::Index end = 0; end < begin_.at.cols(); ++end) {
       const FootprintRod& rod = scene.footprint.rods[std::size_t(end / 2)];
-      if (!applies(kind, end % 2 == 0 ? rod.begin : rod.end)) continue;
+      if (!applies(kind, end, end % 2 == 0 ? rod.begin : rod.end)) continue;
       const auto ways = ways_of(kind, begin_, end);
       for (std::size_t k = 0; k < ways.size(); ++k)
         all_.push_back({kind, int(end), int(k), ways[k]});
@@ -98,7 +107,9 @@ ShellEnds DesignVariables::ends_at(const Eigen::VectorXd& q) const {
   ShellEnds ends = begin_;
   for (Eigen::Index k = 0; k < count(); ++k) {
     const DesignVariable& one = all_[std::size_t(k)];
-    if (one.kind == Vary::legs)
+    if (one.kind == Vary::diameters)
+      ends.diameter[one.end / 2] *= std::exp(per_unit * q[k]);
+    else if (one.kind == Vary::legs)
       ends.leg[one.end] += q[k];
     else if (is_pin(one.kind))
       ends.at.col(one.end) += q[k] * one.way;
@@ -116,8 +127,9 @@ std::vector<DesignVariables::Rate> DesignVariables::rates_at(const Eigen::Vector
       direction.col(all_[std::size_t(k)].end) += q[k] * all_[std::size_t(k)].way;
   std::vector<Rate> rates;
   for (const DesignVariable& one : all_) {
-    Rate rate{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0};
+    Rate rate{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0, 0};
     if (one.kind == Vary::legs) rate.leg = 1;
+    if (one.kind == Vary::diameters) rate.ln_diameter = per_unit;
     if (is_pin(one.kind)) rate.at = one.way;
     if (one.kind == Vary::directions) {
       const double length = direction.col(one.end).norm();
@@ -135,6 +147,11 @@ Eigen::VectorXd DesignVariables::limited(const Eigen::VectorXd& q, double most_m
   for (Eigen::Index k = 0; k < count(); ++k) {
     const DesignVariable& one = all_[std::size_t(k)];
     if (one.kind == Vary::directions) continue;
+    if (one.kind == Vary::diameters) {
+      const double most = std::log(2) / per_unit;
+      within[k] = std::clamp(within[k], -most, most);
+      continue;
+    }
     const double move = one.kind == Vary::legs
                             ? std::abs(q[k])
                             : (ends.at.col(one.end) - begin_.at.col(one.end)).norm();
@@ -157,6 +174,10 @@ double DesignVariables::largest_turn_deg(const Eigen::VectorXd& q) const {
         std::max(largest, std::atan2(ends.direction.col(k).cross(begin_.direction.col(k)).norm(),
                                      ends.direction.col(k).dot(begin_.direction.col(k))));
   return largest * 180 / M_PI;
+}
+
+double DesignVariables::largest_thickening(const Eigen::VectorXd& q) const {
+  return (ends_at(q).diameter.array() / begin_.diameter.array() - 1).abs().maxCoeff();
 }
 
 }  // namespace gridshell

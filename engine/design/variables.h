@@ -12,7 +12,7 @@ namespace gridshell {
 
 /// One number at one end: a pin's move along `way` (mm), a leg's change of length (mm), or the turn
 /// of a held direction towards `way` (the direction is the old one plus the sum of q `way`, made
-/// unit: rad for small ones).
+/// unit: rad for small ones); of a rod, at its begin, its diameter: the old one times exp(q/10).
 struct DesignVariable {
   preset::Vary kind = preset::Vary::pins;
   int end = 0;
@@ -33,18 +33,21 @@ class DesignVariables {
   const Eigen::MatrixXd& basis() const { return basis_; }
   /// The ends that q makes of those of the scene.
   ShellEnds ends_at(const Eigen::VectorXd& q) const;
-  /// How the ends change with the variables: of each its pin, leg and direction move by d times
-  /// these, at q.
+  /// How the ends change with the variables: of each its pin, leg, direction and the logarithm of
+  /// its diameter move by d times these, at q.
   struct Rate {
     Eigen::Vector3d at, direction;
-    double leg;
+    double leg, ln_diameter;
   };
   std::vector<Rate> rates_at(const Eigen::VectorXd& q) const;
-  /// q with no pin and no leg further than `most_mm` from where it was.
+  /// q with no pin and no leg further than `most_mm` from where it was, no rod thicker or thinner
+  /// than twice or half.
   Eigen::VectorXd limited(const Eigen::VectorXd& q, double most_mm) const;
   /// Largest move of a pin or a leg, mm, and turn of a direction, degrees.
   double largest_move_mm(const Eigen::VectorXd& q) const;
   double largest_turn_deg(const Eigen::VectorXd& q) const;
+  /// Largest change of a diameter, over the one before.
+  double largest_thickening(const Eigen::VectorXd& q) const;
 
  private:
   ShellEnds begin_;

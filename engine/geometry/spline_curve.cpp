@@ -6,10 +6,8 @@
 #include <cmath>
 
 namespace gridshell {
-namespace {
 
-/// Second derivatives at the knots: tridiagonal in between, third derivative continuous at the
-/// second and the last but one knot.
+/// Tridiagonal in between.
 Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::MatrixXd& points) {
   const Eigen::Index n = points.cols();
   std::vector<double> h(n - 1);
@@ -42,8 +40,6 @@ Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::Ma
   m.col(n - 1) = m.col(n - 2) * (1 + last) - m.col(n - 3) * last;
   return m;
 }
-
-}  // namespace
 
 Result<SplineCurve> SplineCurve::through(const Eigen::MatrixXd& points) {
   const Eigen::Index n = points.cols();

@@ -3,11 +3,16 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/geometry/antiderivative.h"
 
 namespace gridshell {
+
+/// Second derivatives at the knots t of cubic splines through values (a row each, a column a knot),
+/// not-a-knot: the third derivative is continuous at the second and the last but one of 4 or more.
+Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::MatrixXd& points);
 
 /// Cubic spline through points of the plane or of space (one a column), knots by chord length,
 /// not-a-knot at its ends: twice continuously differentiable, error of fourth order in the spacing.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,8 +42,8 @@ std::string help() {
 
 }  // namespace
 
-Result<SurfaceNet> SurfaceNet::make(const Surface& surface, const NetPlace& place,
-                                    double chord_mm) {
+Result<SurfaceNet> SurfaceNet::make(const Surface& surface, const NetPlace& place, double chord_mm,
+                                    NetSoFar* so_far) {
   auto coarse = ChordGrid::make(surface, place, chord_mm, margin, most_nodes);
   if (!coarse) return tl::unexpected(coarse.error());
   const auto fine = ChordGrid::make(surface, place, chord_mm / 2, 2 * margin, 2 * most_nodes);
@@ -59,7 +60,7 @@ Result<SurfaceNet> SurfaceNet::make(const Surface& surface, const NetPlace& plac
       if (known) coarse->forget(i, j);
     }
   SurfaceNet net(std::move(*coarse), std::move(points));
-  if (auto whole = net.check_whole(); !whole) return tl::unexpected(whole.error());
+  if (auto whole = net.check_whole(so_far); !whole) return tl::unexpected(whole.error());
   return net;
 }
 
@@ -70,8 +71,42 @@ bool SurfaceNet::known_about(int i, int j) const {
   return true;
 }
 
+void SurfaceNet::tell(NetSoFar& so_far) const {
+  constexpr int every = 4;
+  constexpr double narrow = 0.3;  // sine
+  const auto here = [&](int i, int j) {
+    return inside(i, j) && grid_.node(i, j) == ChordGrid::Node::known;
+  };
+  std::vector<Eigen::Vector3d> line, close;
+  const auto end_line = [&] {
+    if (line.size() > 1)
+      so_far.lines.push_back(
+          Eigen::Map<const Eigen::Matrix3Xd>(line.front().data(), 3, Eigen::Index(line.size())));
+    line.clear();
+  };
+  const auto go = [&](int i, int j) {
+    if (here(i, j))
+      line.push_back(point(i, j));
+    else
+      end_line();
+  };
+  for (int j = first_v(); j <= last_v(); ++j, end_line())
+    for (int i = first_u(); i <= last_u() && j % every == 0; ++i) go(i, j);
+  for (int i = first_u(); i <= last_u(); ++i, end_line())
+    for (int j = first_v(); j <= last_v() && i % every == 0; ++j) go(i, j);
+  for (int j = first_v() + 1; j <= last_v(); ++j)
+    for (int i = first_u() + 1; i <= last_u(); ++i) {
+      if (!here(i, j) || !here(i - 1, j) || !here(i, j - 1)) continue;
+      const Eigen::Vector3d a = (point(i, j) - point(i - 1, j)).normalized(),
+                            b = (point(i, j) - point(i, j - 1)).normalized();
+      if (a.cross(b).norm() < narrow) close.push_back(point(i, j));
+    }
+  so_far.narrow.resize(3, Eigen::Index(close.size()));
+  for (std::size_t k = 0; k < close.size(); ++k) so_far.narrow.col(Eigen::Index(k)) = close[k];
+}
+
 /// Around every node that is wanted there must be all that values near it take.
-Result<void> SurfaceNet::check_whole() const {
+Result<void> SurfaceNet::check_whole(NetSoFar* so_far) const {
   for (int j = first_v(); j <= last_v(); ++j)
     for (int i = first_u(); i <= last_u(); ++i) {
       if (!inside(i, j)) continue;
@@ -82,6 +117,10 @@ Result<void> SurfaceNet::check_whole() const {
           const auto node =
               grid_.node(std::clamp(a, first_u(), last_u()), std::clamp(b, first_v(), last_v()));
           const Eigen::Vector3d& p = point(i, j);
+          if (so_far) {
+            tell(*so_far);
+            so_far->end = p;
+          }
           const char* why = node == ChordGrid::Node::folded ? "the net folds, its rods become "
                                                               "parallel,"
                             : node == ChordGrid::Node::lost

@@ -6,6 +6,13 @@
 
 namespace gridshell {
 
+/// What there is of a net that is refused, mm.
+struct NetSoFar {
+  std::vector<Eigen::Matrix3Xd> lines;  ///< every fourth of the coarser grid, where it is wanted
+  Eigen::Matrix3Xd narrow{3, 0};  ///< its nodes where rods are less than 17 degrees from parallel
+  Eigen::Vector3d end = Eigen::Vector3d::Zero();  ///< where it ends too early
+};
+
 /// From two geodesics that cross at right angles at u = v = 0. Two grids of equal chords, h and
 /// h/2, err by multiples of h^2 to leading order: (4 fine - coarse)/3 takes that away. Between the
 /// nodes, 6 x 6 of them make a polynomial of degree 5 in u and in v, from which tangents and
@@ -13,8 +20,9 @@ namespace gridshell {
 class SurfaceNet final : public ChebyshevNet {
  public:
   /// h, the chord of the coarser grid. Errors (bad_input): those of ChordGrid; where the net ends
-  /// though it is wanted, with the place and what may help.
-  static Result<SurfaceNet> make(const Surface& surface, const NetPlace& place, double chord_mm);
+  /// though it is wanted, with the place and what may help; `so_far`, where given, is then filled.
+  static Result<SurfaceNet> make(const Surface& surface, const NetPlace& place, double chord_mm,
+                                 NetSoFar* so_far = nullptr);
 
   Result<NetPoint> at(double u, double v) const override;
 
@@ -29,7 +37,8 @@ class SurfaceNet final : public ChebyshevNet {
  private:
   SurfaceNet(ChordGrid grid, std::vector<Eigen::Vector3d> points)
       : grid_(std::move(grid)), points_(std::move(points)) {}
-  Result<void> check_whole() const;
+  Result<void> check_whole(NetSoFar* so_far) const;
+  void tell(NetSoFar& so_far) const;
   bool known_about(int i, int j) const;
   const Eigen::Vector3d& point(int i, int j) const {
     const int columns = grid_.last_u() - grid_.first_u() + 1;

@@ -5,8 +5,10 @@
 #include <optional>
 #include <sstream>
 
+#include "engine/core/atomic_file.h"
 #include "engine/preset/point_file.h"
 #include "engine/preset/suggest.h"
+#include "engine/preset/surface_file.h"
 
 namespace gridshell::preset {
 namespace {
@@ -221,6 +223,60 @@ std::string put(const PointList& kind, const toml::node& value, Preset& preset) 
   return "";
 }
 
+// coordinates: of these only the size counts
+std::string read_coordinates(const toml::node* value, const char* key,
+                             std::vector<double>& numbers) {
+  const auto* list = value ? value->as_array() : nullptr;
+  if (!list) return std::string("has no list ") + key;
+  for (const auto& item : *list) {
+    const auto real = real_of(item);
+    if (!real || !(std::abs(*real) <= largest_magnitude))
+      return std::string(key) + " holds what is no number of at most 1e9";
+    numbers.push_back(*real);
+  }
+  return "";
+}
+
+std::string read_coordinates(const toml::node* value, const char* key, Points& rows) {
+  const auto* list = value ? value->as_array() : nullptr;
+  if (!list) return std::string("has no list ") + key;
+  for (const auto& item : *list)
+    if (auto wrong = read_coordinates(&item, key, rows.emplace_back()); !wrong.empty())
+      return wrong;
+  return "";
+}
+
+std::string read_triangles(const toml::node* value, std::vector<std::array<int, 3>>& triangles) {
+  const auto* list = value ? value->as_array() : nullptr;
+  if (!list) return "has no list triangles";
+  for (const auto& item : *list) {
+    std::vector<int> corners;
+    if (auto wrong = read(item, between(0, 1e9), "triangles hold ", corners); !wrong.empty())
+      return wrong;
+    if (corners.size() != 3) return "triangles must be three numbers each";
+    triangles.push_back({corners[0], corners[1], corners[2]});
+  }
+  return "";
+}
+
+std::string put(const SurfaceText& kind, const toml::node& value, Preset& preset) {
+  const auto* table = value.as_table();
+  if (!table) return "is " + type_text(value);
+  SurfaceData surface;
+  std::string wrong;
+  if (table->contains("triangles")) {
+    wrong = read_coordinates(table->get("vertices_mm"), "vertices_mm", surface.vertices);
+    if (wrong.empty()) wrong = read_triangles(table->get("triangles"), surface.triangles);
+  } else {
+    wrong = read_coordinates(table->get("x_mm"), "x_mm", surface.x);
+    if (wrong.empty()) wrong = read_coordinates(table->get("y_mm"), "y_mm", surface.y);
+    if (wrong.empty()) wrong = read_coordinates(table->get("z_mm"), "z_mm", surface.z);
+  }
+  if (wrong.empty()) wrong = surface_fault(surface);
+  if (wrong.empty()) kind.in(preset) = std::move(surface);
+  return wrong;
+}
+
 // the points of a file, or what is wrong with it
 std::string put_file(const PointList& kind, const std::filesystem::path& file, Preset& preset) {
   auto points = read_points(file, kind.coordinates, kind.words);
@@ -230,12 +286,35 @@ std::string put_file(const PointList& kind, const std::filesystem::path& file, P
   return "";
 }
 
+// a surface out of a file, or none where the name is empty
+std::string put_file(const SurfaceText& kind, const std::string& name, const Beside& beside,
+                     Preset& preset) {
+  if (name.empty()) {
+    kind.in(preset) = {};
+    return "";
+  }
+  const auto known = [&]() -> const std::string* {
+    if (!beside.built_in) return nullptr;
+    const auto found = beside.built_in->find(name);
+    return found == beside.built_in->end() ? nullptr : &found->second;
+  }();
+  const auto file = beside.folder / name;
+  const auto bytes = known ? Result<std::string>(*known) : read_whole(file, largest_mesh_file);
+  if (!bytes) return bytes.error().message;
+  auto surface = read_surface(*bytes, known ? name : file.string());
+  if (!surface) return surface.error().message;
+  kind.in(preset) = std::move(*surface);
+  return "";
+}
+
 }  // namespace
 
 std::string assign(const Field& field, const toml::node& value, Preset& preset,
-                   const std::filesystem::path& folder) {
+                   const Beside& beside) {
   if (const auto* points = std::get_if<PointList>(&field.kind); points && value.is_string())
-    return put_file(*points, folder / value.as_string()->get(), preset);
+    return put_file(*points, beside.folder / value.as_string()->get(), preset);
+  if (const auto* surface = std::get_if<SurfaceText>(&field.kind); surface && value.is_string())
+    return put_file(*surface, value.as_string()->get(), beside, preset);
   const auto wrong =
       std::visit([&](const auto& kind) { return put(kind, value, preset); }, field.kind);
   if (wrong.empty()) return "";

@@ -61,6 +61,30 @@ std::string points_text(const PointList& kind, const Points& points) {
   return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
+std::string reals_text(const std::vector<double>& values) {
+  std::vector<std::string> items;
+  for (const double value : values) items.push_back(real_text(value));
+  return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
+std::string rows_text(const Points& rows) {
+  std::vector<std::string> items;
+  for (const auto& row : rows) items.push_back(reals_text(row));
+  return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
+std::string surface_text(const SurfaceData& surface) {
+  if (surface.empty()) return "\"\"";
+  if (!surface.is_mesh())
+    return fmt::format("{{x_mm = {}, y_mm = {}, z_mm = {}}}", reals_text(surface.x),
+                       reals_text(surface.y), rows_text(surface.z));
+  std::vector<std::string> items;
+  for (const auto& [a, b, c] : surface.triangles)
+    items.push_back(fmt::format("[{}, {}, {}]", a, b, c));
+  return fmt::format("{{vertices_mm = {}, triangles = [{}]}}", rows_text(surface.vertices),
+                     fmt::join(items, ", "));
+}
+
 std::string axes_text(const std::vector<SweepAxis>& axes) {
   std::vector<std::string> items;
   for (const auto& axis : axes)
@@ -103,6 +127,11 @@ std::string allowed(const Field& field) {
             return fmt::format("a list of points [{}], or the name of a file with one a line",
                                fmt::join(k.coordinates, ", "));
           },
+          [](const SurfaceText&) {
+            return std::string(
+                "the name of a file, a table {x_mm, y_mm, z_mm} of a grid or {vertices_mm, "
+                "triangles}, or \"\"");
+          },
           [](const WordList& k) { return "a list of " + words_text(k.words); },
       },
       field.kind);
@@ -123,11 +152,7 @@ std::string value_text(const Field& field, const Preset& preset) {
             return fmt::format("[{}, {}]", k.in(from)[0], k.in(from)[1]);
           },
           [&](const IntegerList& k) { return fmt::format("[{}]", fmt::join(k.in(from), ", ")); },
-          [&](const RealList& k) {
-            std::vector<std::string> items;
-            for (const double value : k.in(from)) items.push_back(real_text(value));
-            return fmt::format("[{}]", fmt::join(items, ", "));
-          },
+          [&](const RealList& k) { return reals_text(k.in(from)); },
           [&](const OptionalInteger& k) {
             const auto& value = k.in(from);
             return value ? std::to_string(*value) : std::string("\"none\"");
@@ -145,6 +170,7 @@ std::string value_text(const Field& field, const Preset& preset) {
             return fmt::format("[{}]", fmt::join(items, ", "));
           },
           [&](const PointList& k) { return points_text(k, k.in(from)); },
+          [&](const SurfaceText& k) { return surface_text(k.in(from)); },
       },
       field.kind);
 }

@@ -93,6 +93,11 @@ struct PointList {
   }
 };
 
+/// A surface: the name of a file that holds it, or what was in the file.
+struct SurfaceText {
+  SurfaceData& (*in)(Preset&);
+};
+
 /// Several words of a few, those of an enum.
 struct WordList {
   std::vector<int> (*get)(const Preset&);
@@ -106,7 +111,7 @@ struct Field {
   std::string key;
   std::string unit;  ///< empty: a pure number or not a number
   std::variant<Real, Integer, Flag, Text, ColourText, Word, IntegerPair, RealList, IntegerList,
-               OptionalInteger, TextList, AxisList, PointList, WordList>
+               OptionalInteger, TextList, AxisList, PointList, SurfaceText, WordList>
       kind;
   std::string meaning;  ///< one sentence without a full stop
 };

@@ -89,6 +89,10 @@ PointList points(std::vector<std::string> coordinates,
   return {reach<path...>, std::move(coordinates), std::move(words)};
 }
 template <auto... path>
+SurfaceText surface() {
+  return {reach<path...>};
+}
+template <auto... path>
 WordList word_list() {
   using List = std::remove_reference_t<decltype(reach<path...>(std::declval<Preset&>()))>;
   using Enum = typename List::value_type;

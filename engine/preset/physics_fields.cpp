@@ -35,6 +35,9 @@ std::vector<Field> fields_of_rods(const std::string& table) {
 
 std::vector<Field> rod_fields() {
   auto fields = fields_of_rods<&P::rod>("rod");
+  fields.push_back({"rod", "table", "",
+                    points<&P::rod_table>({"family", "rod", "diameter_mm"}, {{"u", "v"}}),
+                    "rods that have diameters of their own, by family and number"});
   fields.push_back(
       {"rod_v", "differs", "", flag<&P::rod_v, &RodV::differs>(),
        "whether the v rods are others than those of [rod]; the keys below then count"});
@@ -76,12 +79,15 @@ std::vector<Field> inverse_fields() {
       {"inverse", "vary", "", word_list<&P::inverse, &Inverse::vary>(),
        "what may change so that the shell meets its target: \"pins_radial\": where ends are held, "
        "along the radius; \"pins\": in the boundary's plane; \"pins_3d\": in space; \"legs\": "
-       "their lengths; \"directions\": along which tangent ends are held; empty: nothing is "
-       "designed"},
+       "their lengths; \"directions\": along which tangent ends are held; \"diameters\": of every "
+       "rod; empty: nothing is designed"},
       {"inverse", "target", "", word<&P::inverse, &Inverse::target>(),
        "\"surface\": the joints on the net's surface; \"net\": each in its place on the net"},
       {"inverse", "norm", "", real<&P::inverse, &Inverse::norm>(between(2, 32)),
        "p of the mean of |distance|^p that is made small in the last stage; the first has 2"},
+      {"inverse", "mu", "", real<&P::inverse, &Inverse::mu>(at_least(0)),
+       "weight of the mean square of all moves (mm; rad of a direction; a hundredth of a rod's "
+       "diameter) beside that of the distances (mm)"},
       {"inverse", "move_limit_mm", "mm", real<&P::inverse, &Inverse::move_limit_mm>(above(0)),
        "furthest that a pin is moved or a leg's length is changed"},
       {"inverse", "round_mm", "mm", real<&P::inverse, &Inverse::round_mm>(at_least(0)),

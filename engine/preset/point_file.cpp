@@ -4,12 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <sstream>
 
 #include "engine/core/atomic_file.h"
+#include "engine/preset/mesh_draft.h"
 
 namespace gridshell::preset {
 namespace {
@@ -22,14 +21,6 @@ std::vector<std::string> words_of(std::string line) {
   std::vector<std::string> words;
   for (std::string word; in >> word;) words.push_back(word);
   return words;
-}
-
-std::optional<double> number_of(const std::string& word) {
-  double value = 0;
-  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (fault != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
 }
 
 // a number, or the place of a word where a coordinate has words
@@ -49,11 +40,18 @@ Result<Points> read_points(const std::filesystem::path& file,
                            const std::vector<std::vector<std::string>>& known) {
   const auto text = read_whole(file, largest_text);
   if (!text) return fail(Fault::bad_input, text.error().message);
+  return points_in(*text, file.string(), coordinates, known);
+}
+
+Result<Points> points_in(const std::string& text, const std::string& name,
+                         const std::vector<std::string>& coordinates,
+                         const std::vector<std::vector<std::string>>& known,
+                         std::vector<int>* lines_of) {
   const auto wanted =
       fmt::format("{} {}: {}", coordinates.size(), known.empty() ? "numbers" : "values",
                   fmt::join(coordinates, ", "));
   Points points;
-  std::istringstream lines(*text);
+  std::istringstream lines(text);
   std::string line;
   bool header = true;
   for (int number = 1; std::getline(lines, line); ++number) {
@@ -62,11 +60,12 @@ Result<Points> read_points(const std::filesystem::path& file,
     const bool first = std::exchange(header, false);
     // a CSV file names its columns first
     if (first && !value_of(words.front(), 0, known)) continue;
-    const auto place = fmt::format("{}:{}", file.string(), number);
+    const auto place = fmt::format("{}:{}", name, number);
     if (words.size() != coordinates.size())
       return fail(Fault::bad_input,
                   fmt::format("{}: holds {} values, must be {}", place, words.size(), wanted));
     points.emplace_back();
+    if (lines_of) lines_of->push_back(number);
     for (const auto& word : words) {
       const auto value = value_of(word, points.back().size(), known);
       if (!value)
@@ -78,7 +77,7 @@ Result<Points> read_points(const std::filesystem::path& file,
   }
   if (points.empty())
     return fail(Fault::bad_input,
-                fmt::format("{}: holds no point, must hold one a line, {}", file.string(), wanted));
+                fmt::format("{}: holds no point, must hold one a line, {}", name, wanted));
   return points;
 }
 

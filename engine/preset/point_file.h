@@ -18,4 +18,10 @@ Result<Points> read_points(const std::filesystem::path& file,
                            const std::vector<std::string>& coordinates,
                            const std::vector<std::vector<std::string>>& words = {});
 
+/// The same of a text that errors call `name`; `lines`, where given, takes the line of each point.
+Result<Points> points_in(const std::string& text, const std::string& name,
+                         const std::vector<std::string>& coordinates,
+                         const std::vector<std::vector<std::string>>& words = {},
+                         std::vector<int>* lines = nullptr);
+
 }  // namespace gridshell::preset

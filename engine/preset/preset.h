@@ -126,6 +126,7 @@ struct Net {
   Points curve_u, curve_v;   ///< (x, y, z) of a translation net
   std::string implicit;      ///< F(x, y, z) of a surface F = 0
   std::string height;        ///< h(x, y) of a surface z = h
+  SurfaceData file;          ///< heights over a grid, or a mesh
   std::string within;        ///< G(x, y, z) < 0 inside the boundary; empty: z > cut_mm
   double cut_mm = 0;
   std::vector<double> apex_mm{0, 0};  ///< where the axes cross; z may be left out of a height
@@ -230,13 +231,14 @@ struct Imperfection {
 };
 
 /// What an inverse design may change.
-enum class Vary { pins_radial, pins, pins_3d, legs, directions };
+enum class Vary { pins_radial, pins, pins_3d, legs, directions, diameters };
 constexpr auto words(Vary) {
   return word_table<Vary>({{Vary::pins_radial, "pins_radial"},
                            {Vary::pins, "pins"},
                            {Vary::pins_3d, "pins_3d"},
                            {Vary::legs, "legs"},
-                           {Vary::directions, "directions"}});
+                           {Vary::directions, "directions"},
+                           {Vary::diameters, "diameters"}});
 }
 enum class Target { surface, net };
 constexpr auto words(Target) {
@@ -246,6 +248,7 @@ struct Inverse {
   std::vector<Vary> vary;  ///< empty: nothing is designed
   Target target = Target::surface;
   double norm = 8;             ///< p of the last stage; the first is 2
+  double mu = 0.03;            ///< weight of the moves beside the distances
   double move_limit_mm = 5;    ///< of a pin or a leg
   double round_mm = 0.1;       ///< to which a builder measures; 0: exact
   double min_stability = 0.5;  ///< of the smallest eigenvalue, over the one before
@@ -318,6 +321,7 @@ struct Preset {
   bool allow_unstable = false;
   Rod rod;
   RodV rod_v;
+  Points rod_table;  ///< a row a rod: family, rod, diameter
   Joints joints;
   Ends ends;
   Footprint footprint;

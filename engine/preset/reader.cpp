@@ -111,7 +111,8 @@ Result<Override> parse_override(const std::string& argument) {
 }
 
 Result<Presets> read_preset_text(const std::string& text, const std::string& source,
-                                 const std::string& name, const std::vector<Override>& overrides) {
+                                 const std::string& name, const std::vector<Override>& overrides,
+                                 const std::map<std::string, std::string>& files) {
   toml::table root;
   try {
     root = toml::parse(text);
@@ -120,7 +121,7 @@ Result<Presets> read_preset_text(const std::string& text, const std::string& sou
     return fail(Fault::bad_input, fmt::format("{}:{}:{}: not TOML: {}", source, at.line, at.column,
                                               error.description()));
   }
-  Reading reading(source, std::filesystem::path(source).parent_path());
+  Reading reading(source, {std::filesystem::path(source).parent_path(), &files});
   auto presets = read_presets(root, name, overrides, reading);
   if (!reading.faults().empty()) return fail(Fault::bad_input, reading.faults().report());
   return presets;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -39,11 +40,13 @@ std::string case_name_fault(const std::string& name);
 Result<Override> parse_override(const std::string& argument);
 
 /// Reads TOML text. `source` names the text in faults, `name` becomes Preset::name; files of points
-/// are looked for beside `source`, and their points become the preset's own.
+/// and surfaces are looked for beside `source`, unless they are among `files` (texts by name), and
+/// what is in them becomes the preset's own.
 /// Errors: bad_input with every fault found.
 Result<Presets> read_preset_text(const std::string& text, const std::string& source,
                                  const std::string& name,
-                                 const std::vector<Override>& overrides = {});
+                                 const std::vector<Override>& overrides = {},
+                                 const std::map<std::string, std::string>& files = {});
 
 /// Reads a file. Errors: bad_input, also when the file cannot be read.
 Result<Presets> read_preset_file(const std::filesystem::path& file,

@@ -160,7 +160,7 @@ void Reading::assign_key(const std::string& table, const toml::key& key, const t
     lay_axes(*axes, *value.as_table(), draft);
     return;
   }
-  const auto wrong = assign(*field, value, draft.preset, override_.empty() ? folder_ : "");
+  const auto wrong = assign(*field, value, draft.preset, override_.empty() ? beside_ : Beside{});
   draft.set_at[full] = place;
   if (wrong.empty()) {
     draft.faulty.erase(full);

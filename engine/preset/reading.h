@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "engine/preset/assign.h"
 #include "engine/preset/draft.h"
 #include "engine/preset/field.h"
 #include "engine/preset/place.h"
@@ -14,9 +15,9 @@ namespace gridshell::preset {
 
 class Reading {
  public:
-  /// `source` names the text in faults; files of points are looked for in `folder`.
-  Reading(std::string source, std::filesystem::path folder)
-      : source_(std::move(source)), folder_(std::move(folder)) {}
+  /// `source` names the text in faults.
+  Reading(std::string source, Beside beside)
+      : source_(std::move(source)), beside_(std::move(beside)) {}
 
   /// The keys of a file, or of one of its cases, over a draft; `apart` is read by someone else.
   void lay(const toml::table& root, const std::string& apart, Draft& draft);
@@ -36,9 +37,9 @@ class Reading {
   void lay_axes(const AxisList& list, const toml::table& over, Draft& draft);
 
   std::string source_;
-  std::filesystem::path folder_;  // of the file
-  std::string override_;          // while an override is laid: its option
-  Layer layer_ = Layer::file;     // of what is laid of the file
+  Beside beside_;              // the file
+  std::string override_;       // while an override is laid: its option
+  Layer layer_ = Layer::file;  // of what is laid of the file
   PlacedFaults faults_;
 };
 

@@ -46,13 +46,17 @@ void check_surface(const Net& net, std::vector<Conflict>& found) {
   const auto wrong = [&](const char* key, std::vector<std::string> others, const char* why) {
     found.push_back({"net", key, std::move(others), why});
   };
-  if (net.implicit.empty() && net.height.empty())
-    wrong("implicit", {"[net] height"},
-          "kind = \"surface\" needs an expression, must be F(x, y, z), or height must be h(x, y)");
-  if (!net.implicit.empty() && !net.height.empty())
-    wrong("height", {"[net] implicit"}, "the surface is given twice, must be empty");
-  if (net.implicit.empty() ? net.apex_mm.size() < 2 || net.apex_mm.size() > 3
-                           : net.apex_mm.size() != 3)
+  const int given = int(!net.implicit.empty()) + int(!net.height.empty()) + int(!net.file.empty());
+  if (given == 0)
+    wrong(
+        "implicit", {"[net] height", "[net] file"},
+        "kind = \"surface\" needs an expression, must be F(x, y, z), or height must be h(x, y), or "
+        "file a surface");
+  if (given > 1)
+    wrong(net.file.empty() ? "height" : "file", {"[net] implicit", "[net] height"},
+          "the surface is given twice, must be empty");
+  const std::size_t size = net.apex_mm.size();
+  if (!net.implicit.empty() ? size != 3 : size < 2 || size > 3)
     wrong("apex_mm", {"[net] implicit", "[net] height"},
           net.implicit.empty() ? "must be [x, y]"
                                : "must be [x, y, z], a point of the surface where the net begins");
@@ -137,6 +141,12 @@ std::vector<Conflict> end_conflicts(const Preset& preset) {
                        {"[ends] kind"},
                        "directions are held alone only with [ends] kind = \"tangent\", must not "
                        "name \"directions\""});
+  for (const Vary vary : preset.inverse.vary)
+    if (vary == Vary::diameters && (preset.rod.rectangular() || preset.rod_v.rectangular()))
+      found.push_back({"inverse",
+                       "vary",
+                       {"[rod] width_mm", "[rod_v] width_mm"},
+                       "rectangular rods have no diameters, must not name \"diameters\""});
   if (!preset.inverse.vary.empty() && !preset.on_net())
     found.push_back({"inverse",
                      "vary",

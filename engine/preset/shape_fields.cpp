@@ -28,7 +28,7 @@ std::vector<Field> fields_of_net(const std::string& table) {
   return {
       {table, "kind", "", word<path..., &Net::kind>(),
        "\"sphere\": a cap of Chebyshev's net; \"translation\": the sum of two curves; \"surface\": "
-       "any surface by an expression ([net] alone); the others: "
+       "any surface by an expression or a file ([net] alone); the others: "
        "the upper half of a surface of revolution about the x-axis, \"spool\" and \"beltrami\" of "
        "constant K = -1/rho^2"},
       {table, "radius_mm", "mm", real<path..., &Net::radius_mm>(above(0)),
@@ -56,9 +56,12 @@ std::vector<Field> surface_fields() {
        "F(x, y, z) of a surface F = 0, mm: \"x^2 + y^2 + z^2 - 120^2\""},
       {"net", "height", "", text<&P::net, &Net::height>(),
        "h(x, y) of a surface z = h, mm, in the place of `implicit`"},
+      {"net", "file", "", surface<&P::net, &Net::file>(),
+       "in their place: heights x, y, z over a rectangular grid (.csv, .txt), which a spline goes "
+       "through, or triangles (.obj, .ply, .stl), to which a smooth surface is fitted; mm"},
       {"net", "apex_mm", "mm", list<&P::net, &Net::apex_mm>({}),
        "[x, y, z], a point of the surface where the net's axes cross at right angles; of a height "
-       "[x, y]"},
+       "or a file [x, y]"},
       {"net", "axis", "", word<&P::net, &Net::axis>(),
        "what the u-axis leaves the apex along: the direction in which the surface curves most "
        "(where it curves alike in all, x), or x"},

@@ -81,7 +81,7 @@ class AxisReader {
 
   void take(const toml::node& value) {
     Preset preset;
-    if (const auto wrong = assign(*field_, value, preset, ""); !wrong.empty())
+    if (const auto wrong = assign(*field_, value, preset, {}); !wrong.empty())
       return refuse(value, wrong);
     auto text = value_text(*field_, preset);
     if (!taken_.insert(text).second)

@@ -64,7 +64,7 @@ SweepPoint SweepGrid::at(std::size_t point) const {
     found.values[k] = axis.values[rest % axis.values.size()];
     rest /= axis.values.size();
     const auto value = toml::parse("x = " + found.values[k]);
-    assign(field_of(axis.key), *value.get("x"), found.preset, "");
+    assign(field_of(axis.key), *value.get("x"), found.preset, {});
   }
   // searches shake otherwise from point to point, and a point by itself can be made again
   if (found.preset.jitter.wanted() && !sweeps(sweep, "jitter.seed")) {

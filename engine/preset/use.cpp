@@ -38,7 +38,7 @@ const std::vector<Use<NetKind>>& uses_of_surface() {
   static const std::vector<Use<K>> uses = {
       {"implicit", {K::surface}}, {"height", {K::surface}},   {"apex_mm", {K::surface}},
       {"axis", {K::surface}},     {"axis_deg", {K::surface}}, {"cut_mm", {K::surface}},
-      {"within", {K::surface}},
+      {"file", {K::surface}},     {"within", {K::surface}},
   };
   return uses;
 }
@@ -223,8 +223,8 @@ class Idle {
 
   void motion() {
     if (preset_.inverse.vary.empty())
-      for (const char* key :
-           {"target", "norm", "move_limit_mm", "round_mm", "min_stability", "max_leg_force_N"})
+      for (const char* key : {"target", "norm", "move_limit_mm", "round_mm", "min_stability",
+                              "max_leg_force_N", "mu"})
         add("inverse", key, {"[inverse] vary"}, "nothing is designed: [inverse] vary is empty");
     if (!preset_.dynamics.snap)
       for (const char* key : {"step_s", "damping_per_s"})

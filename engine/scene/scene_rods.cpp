@@ -25,6 +25,11 @@ RodMaterial material_of(const preset::Rod& rod) {
   return material;
 }
 
+const preset::Rod& rod_of(const preset::Preset& preset, Family family) {
+  if (family == Family::v && preset.rod_v.differs) return preset.rod_v;
+  return preset.rod;
+}
+
 Result<std::vector<PointLoad>> points_of(const preset::Loads& loads, const Footprint& footprint) {
   std::vector<PointLoad> points;
   for (const auto& row : loads.points) {
@@ -39,6 +44,37 @@ Result<std::vector<PointLoad>> points_of(const preset::Loads& loads, const Footp
   return points;
 }
 
+/// The diameters of `[rod] table`, of all rods.
+Result<std::vector<double>> diameters_of(const preset::Preset& preset, const Footprint& footprint) {
+  std::vector<double> diameters;
+  for (const FootprintRod& one : footprint.rods)
+    diameters.push_back(rod_of(preset, one.family).diameter_mm);
+  std::vector<bool> named(diameters.size(), false);
+  for (const auto& row : preset.rod_table) {
+    const Family family = row[0] == 0 ? Family::u : Family::v;
+    const auto wrong = [&](const std::string& what) {
+      return fail(Fault::bad_input, fmt::format("[rod] table: {}-rod {:g}: {}",
+                                                row[0] == 0 ? "u" : "v", row[1], what));
+    };
+    if (rod_of(preset, family).rectangular()) return wrong("is rectangular, it has no diameter");
+    if (!(row[2] > 0 && row[2] < preset.footprint.spacing_mm))
+      return wrong(
+          fmt::format("a diameter of {:g} mm, must be above 0 and less than "
+                      "[footprint] spacing_mm = {:g}",
+                      row[2], preset.footprint.spacing_mm));
+    // of several rods on one line the first row is the first rod's
+    std::size_t at = 0;
+    while (at < footprint.rods.size() &&
+           (named[at] || footprint.rods[at].family != family || footprint.rods[at].index != row[1]))
+      ++at;
+    if (at == footprint.rods.size())
+      return wrong("the footprint has no such rod, or it is named more often than it is there");
+    named[at] = true;
+    diameters[at] = row[2];
+  }
+  return diameters;
+}
+
 }  // namespace
 
 int joint_at(const Footprint& footprint, int i, int j) {
@@ -50,9 +86,12 @@ int joint_at(const Footprint& footprint, int i, int j) {
 Result<SceneRods> scene_rods(const preset::Preset& preset, const Footprint& footprint) {
   SceneRods rods;
   const preset::Loads& loads = preset.loads;
-  for (const FootprintRod& one : footprint.rods) {
-    const bool other = one.family == Family::v && preset.rod_v.differs;
-    const preset::Rod& rod = other ? preset.rod_v : preset.rod;
+  auto diameters = diameters_of(preset, footprint);
+  if (!diameters) return tl::unexpected<Error>(diameters.error());
+  rods.diameters_mm = std::move(*diameters);
+  for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
+    preset::Rod rod = rod_of(preset, footprint.rods[r].family);
+    rod.diameter_mm = rods.diameters_mm[r];
     const double mass = 1e-12 * rod.density_kg_m3 * area_of(rod);  // 1 kg/m^3 = 1e-12 t/mm^3
     rods.shell.materials.push_back(material_of(rod));
     rods.mass_t_per_mm.push_back(mass);

@@ -12,10 +12,12 @@ namespace gridshell {
 struct SceneRods {
   ShellRods shell;
   std::vector<double> mass_t_per_mm;  ///< one a rod; 0 where no density is given
+  std::vector<double> diameters_mm;   ///< one a rod, of round ones
   double drawn_diameter_mm = 0;       ///< of a round section of the area of [rod]'s
 };
 
-/// Errors (bad_input): a load on a joint that the footprint does not have.
+/// Errors (bad_input): a load on a joint that the footprint does not have; a diameter of a rod that
+/// it does not have, of none or a rectangular one, or as wide as the rods' spacing.
 Result<SceneRods> scene_rods(const preset::Preset& preset, const Footprint& footprint);
 
 /// The joint (i, j), or -1.

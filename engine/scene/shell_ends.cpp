@@ -58,6 +58,8 @@ ShellEnds ends_of(const Scene& scene) {
     ends.leg[k] = is_begin(k) ? joint - span.begin : span.end - joint;
     if (holds_direction(hold_of(scene, k))) ends.direction.col(k) = scene.motion.end_tangent.col(k);
   }
+  ends.diameter =
+      Eigen::Map<const Eigen::VectorXd>(scene.diameters_mm.data(), scene.diameters_mm.size());
   return ends;
 }
 
@@ -79,6 +81,16 @@ preset::Points table_of(const Scene& scene, const ShellEnds& ends) {
     const auto at = ends.at.col(k), along = ends.direction.col(k);
     table.push_back({rod.family == Family::u ? 0.0 : 1.0, double(rod.index), double(k % 2), at.x(),
                      at.y(), at.z(), ends.leg[k], along.x(), along.y(), along.z()});
+  }
+  return table;
+}
+
+preset::Points rod_table_of(const Scene& scene, const ShellEnds& ends) {
+  preset::Points table;
+  for (std::size_t r = 0; r < scene.footprint.rods.size(); ++r) {
+    const FootprintRod& rod = scene.footprint.rods[r];
+    table.push_back(
+        {rod.family == Family::u ? 0.0 : 1.0, double(rod.index), ends.diameter[Eigen::Index(r)]});
   }
   return table;
 }

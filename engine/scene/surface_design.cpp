@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <optional>
 
 #include "engine/footprint/surface_domain.h"
 #include "engine/geometry/expression.h"
+#include "engine/geometry/height_grid.h"
+#include "engine/geometry/mesh_surface.h"
 #include "engine/geometry/surface_net.h"
 
 namespace gridshell {
@@ -20,13 +24,64 @@ Result<Surface::Function> parsed(const char* key, const std::string& text) {
   return [E = *expression](const Eigen::Vector3d& p) { return E.at(p); };
 }
 
-Result<Surface> surface_of(const preset::Net& wanted, double spacing_mm) {
-  const bool by_height = wanted.implicit.empty();
+/// Points of a preset as columns.
+Eigen::Matrix3Xd columns_of(const preset::Points& points) {
+  Eigen::Matrix3Xd columns(3, Eigen::Index(points.size()));
+  for (std::size_t k = 0; k < points.size(); ++k)
+    columns.col(Eigen::Index(k)) = Eigen::Vector3d::Map(points[k].data());
+  return columns;
+}
+
+/// A surface, and its height where it has one; of a mesh the highest.
+struct Wanted {
+  Surface surface;
+  std::function<std::optional<double>(double x, double y)> height;
+};
+
+std::optional<double> if_finite(double value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+Result<Wanted> by_height(const Surface::Function& h, double spacing_mm) {
+  return Wanted{Surface([h](const Eigen::Vector3d& p) { return p.z() - h(p); }, spacing_mm),
+                [h](double x, double y) { return if_finite(h(Eigen::Vector3d(x, y, 0))); }};
+}
+
+Result<Wanted> from_grid(const preset::SurfaceData& file, double spacing_mm) {
+  Eigen::MatrixXd z(file.y.size(), file.x.size());
+  for (std::size_t j = 0; j < file.y.size(); ++j)
+    for (std::size_t i = 0; i < file.x.size(); ++i)
+      z(Eigen::Index(j), Eigen::Index(i)) = file.z[j][i];
+  auto grid = HeightGrid::through(file.x, file.y, std::move(z));
+  if (!grid) return tl::unexpected<Error>(grid.error());
+  const auto shared = std::make_shared<const HeightGrid>(std::move(*grid));
+  return by_height([shared](const Eigen::Vector3d& p) { return shared->at(p.x(), p.y()); },
+                   spacing_mm);
+}
+
+Result<Wanted> from_mesh(const preset::SurfaceData& file, double spacing_mm) {
+  auto made = TriangleMesh::make(columns_of(file.vertices), file.triangles);
+  if (!made) return tl::unexpected<Error>(made.error());
+  const auto mesh = std::make_shared<const TriangleMesh>(std::move(*made));
+  auto fitted = MeshSurface::fit(*mesh, spacing_mm);
+  if (!fitted) return tl::unexpected<Error>(fitted.error());
+  const auto surface = std::make_shared<const MeshSurface>(std::move(*fitted));
+  return Wanted{Surface([surface](const Eigen::Vector3d& p) { return surface->at(p); }, spacing_mm),
+                [mesh](double x, double y) { return highest_at(*mesh, x, y); }};
+}
+
+Result<Wanted> surface_of(const preset::Net& wanted, double spacing_mm) {
+  if (!wanted.file.empty())
+    return (wanted.file.is_mesh() ? from_mesh : from_grid)(wanted.file, spacing_mm)
+        .map_error([](const Error& error) {
+          return Error{error.fault, "[net] file: " + error.message};
+        });
+  const bool implicit = !wanted.implicit.empty();
   const auto function =
-      by_height ? parsed("height", wanted.height) : parsed("implicit", wanted.implicit);
+      implicit ? parsed("implicit", wanted.implicit) : parsed("height", wanted.height);
   if (!function) return tl::unexpected<Error>(function.error());
-  if (!by_height) return Surface(*function, spacing_mm);
-  return Surface([h = *function](const Eigen::Vector3d& p) { return p.z() - h(p); }, spacing_mm);
+  if (!implicit) return by_height(*function, spacing_mm);
+  return Wanted{Surface(*function, spacing_mm), {}};
 }
 
 /// Below zero inside the boundary.
@@ -35,19 +90,26 @@ Result<Surface::Function> outside_of(const preset::Net& wanted) {
   return [cut = wanted.cut_mm](const Eigen::Vector3d& p) { return cut - p.z(); };
 }
 
-/// The apex on the surface. Of a height its z is the surface's own.
-Result<Eigen::Vector3d> apex_of(const preset::Net& wanted, const Surface& surface,
-                                double spacing_mm) {
+/// The apex on the surface. Where its z is left out it is the surface's own.
+Result<Eigen::Vector3d> apex_of(const preset::Net& wanted, const Wanted& shape, double spacing_mm) {
   constexpr double on_it = 1e-2;  // of the spacing
+  const Surface& surface = shape.surface;
   const auto& given = wanted.apex_mm;
   Eigen::Vector3d apex(given[0], given[1], given.size() > 2 ? given[2] : 0);
-  // F = z - h
-  if (wanted.implicit.empty()) apex.z() = -surface.at({apex.x(), apex.y(), 0});
+  if (given.size() == 2) {
+    const auto height = shape.height(apex.x(), apex.y());
+    if (!height)
+      return fail(Fault::bad_input, fmt::format("[net] apex_mm: the surface has no point at "
+                                                "({:.6g}, {:.6g}) mm",
+                                                apex.x(), apex.y()));
+    apex.z() = *height;
+  }
   const auto nearest = surface.nearest(apex);
   if (!nearest)
     return fail(Fault::bad_input, fmt::format("[net] apex_mm: {}", nearest.error().message));
   const double off = (*nearest - apex).norm();
-  if (off > on_it * spacing_mm)
+  // flat triangles lie off the smooth surface
+  if (given.size() == 3 && off > on_it * spacing_mm)
     return fail(Fault::bad_input,
                 fmt::format("[net] apex_mm lies {:.3g} mm off the surface, whose nearest point is "
                             "({:.6g}, {:.6g}, {:.6g}) mm",
@@ -92,22 +154,23 @@ FlatFrame frame_of(const preset::Net& wanted, const NetPlace& place, const Eigen
 
 }  // namespace
 
-Result<NetDesign> surface_design(const preset::Net& wanted, double spacing_mm) {
-  const auto surface = surface_of(wanted, spacing_mm);
-  if (!surface) return tl::unexpected<Error>(surface.error());
+Result<NetDesign> surface_design(const preset::Net& wanted, double spacing_mm, NetSoFar* so_far) {
+  const auto shape = surface_of(wanted, spacing_mm);
+  if (!shape) return tl::unexpected<Error>(shape.error());
+  const Surface& surface = shape->surface;
   const auto outside = outside_of(wanted);
   if (!outside) return tl::unexpected<Error>(outside.error());
-  const auto apex = apex_of(wanted, *surface, spacing_mm);
+  const auto apex = apex_of(wanted, *shape, spacing_mm);
   if (!apex) return tl::unexpected<Error>(apex.error());
   if (!((*outside)(*apex) < 0))
     return fail(
         Fault::bad_input,
         fmt::format("[net] {}: the apex ({:.4g}, {:.4g}, {:.4g}) mm lies outside",
                     wanted.within.empty() ? "cut_mm" : "within", apex->x(), apex->y(), apex->z()));
-  auto place = place_of(wanted, *surface, *apex);
+  auto place = place_of(wanted, surface, *apex);
   if (!place) return tl::unexpected<Error>(place.error());
   place->outside = *outside;
-  auto made = SurfaceNet::make(*surface, *place, spacing_mm / 8);
+  auto made = SurfaceNet::make(surface, *place, spacing_mm / 8, so_far);
   if (!made) return tl::unexpected<Error>(made.error());
   NetDesign design;
   const auto net = std::make_shared<const SurfaceNet>(std::move(*made));

@@ -1,8 +1,10 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "engine/geometry/mesh_surface.h"
 #include "engine/preset/point_file.h"
 #include "engine/preset/reader.h"
+#include "engine/preset/surface_file.h"
 #include "engine/preset/writer.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
@@ -43,6 +45,24 @@ void points(std::string_view bytes) {
   (void)preset::read_points(file.path(), {"x", "y"});
   (void)preset::read_points(file.path(), {"x", "y", "z"});
   (void)preset::read_points(file.path(), {"family", "x"}, {{"u", "v"}, {}});
+}
+
+void surface(std::string_view bytes) {
+  constexpr std::size_t largest = 50;  // vertices: what comes after is tried by tests
+  const auto end = bytes.find('\n');
+  const std::string name(bytes.substr(0, end));
+  bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
+  const auto read = preset::read_surface(bytes, name);
+  if (!read && read.error().message.empty()) complain("refused without a word", name);
+  if (!read) return;
+  if (const auto wrong = preset::surface_fault(*read); !wrong.empty())
+    complain("does not agree with its own check", wrong);
+  if (!read->is_mesh() || read->vertices.size() > largest) return;
+  Eigen::Matrix3Xd vertices(3, Eigen::Index(read->vertices.size()));
+  for (Eigen::Index k = 0; k < vertices.cols(); ++k)
+    vertices.col(k) = Eigen::Vector3d::Map(read->vertices[std::size_t(k)].data());
+  if (const auto mesh = TriangleMesh::make(vertices, read->triangles))
+    (void)MeshSurface::fit(*mesh, 20);
 }
 
 }  // namespace gridshell::fuzz

@@ -108,6 +108,7 @@ void check_met(const Designed& found, double largest, double mean) {
 }  // namespace
 
 TEST_CASE("joints and leg forces follow pins, legs and directions as states solved anew do") {
+  check_sensitivity(cap(0.7), {Vary::diameters}, 8);
   check_sensitivity(cap(0.7), {Vary::pins_3d}, 8);
   check_sensitivity(cap(0.7), {Vary::legs}, 8);
   auto tangent = cap(0.7);
@@ -122,13 +123,14 @@ TEST_CASE("the same on the meshes that are designed on and certified", "[full]")
   for (const int edges : {16, 32}) {
     check_sensitivity(cap(0), {Vary::pins}, edges);
     check_sensitivity(cap(0), {Vary::legs}, edges);
+    check_sensitivity(cap(0), {Vary::diameters}, edges);
   }
 }
 
 TEST_CASE("the objective's gradient agrees with differences of states solved anew") {
   Moved moved = moved_shell(cap(0.7), 8);
   MovedShell& shell = *moved.shell;
-  const DesignVariables variables(*moved.scene, {Vary::pins, Vary::legs},
+  const DesignVariables variables(*moved.scene, {Vary::pins, Vary::legs, Vary::diameters},
                                   only_identity(*moved.scene));
   const ObjectiveWeights weights;
   const Eigen::VectorXd begin = 0.1 * some_change(variables.count());
@@ -161,7 +163,8 @@ TEST_CASE("a hemisphere on the axes has eight symmetries, and what is varied kee
   Moved moved = moved_shell(cap(0.7), 4);
   const auto symmetries = symmetries_of(*moved.scene, moved.shell->joints(), 2e-3);
   REQUIRE(symmetries.size() == 8);
-  const DesignVariables variables(*moved.scene, {Vary::pins, Vary::legs}, symmetries);
+  const DesignVariables variables(*moved.scene, {Vary::pins, Vary::legs, Vary::diameters},
+                                  symmetries);
   const Eigen::MatrixXd& basis = variables.basis();
   CHECK((basis.transpose() * basis - Eigen::MatrixXd::Identity(basis.cols(), basis.cols())).norm() <
         1e-12);
@@ -174,6 +177,7 @@ TEST_CASE("a hemisphere on the axes has eight symmetries, and what is varied kee
       const Eigen::Index to = one.to[k], from = Eigen::Index(k);
       CHECK((one.turn * ends.at.col(from) - ends.at.col(to)).norm() < 1e-9);
       CHECK(ends.leg[to] == Approx(ends.leg[from]).epsilon(1e-12));
+      CHECK(ends.diameter[to / 2] == Approx(ends.diameter[from / 2]).epsilon(1e-12));
     }
 }
 
@@ -217,6 +221,45 @@ TEST_CASE("the table of ends gives back the same scene, and says what is wrong w
   };
   refused(1, 77, "no such end");
   refused(6, -1, "longer than 0");
+}
+
+TEST_CASE("rods have the diameters of their table, and what is wrong with it is told") {
+  auto p = cap(0.7);
+  p.ends.kind = preset::EndKind::tangent;
+  auto scene = scene_of(p);
+  REQUIRE(scene.has_value());
+  ShellEnds ends = ends_of(*scene);
+  ends.diameter[2] = 0.31;
+  p.rod_table = rod_table_of(*scene, ends);
+  const auto again = scene_of(p);
+  REQUIRE(again.has_value());
+  CHECK(ends_of(*again).diameter == ends.diameter);
+  CHECK(again->rods.material(2).EA / again->rods.material(0).EA ==
+        Approx(std::pow(0.31 / 0.254, 2)));
+  // a shell that is given its diameters is the same as one that is built with them
+  Moved moved = moved_shell(cap(0.7), 8), built = moved_shell(
+                                              [&] {
+                                                auto with = cap(0.7);
+                                                with.rod_table = p.rod_table;
+                                                return with;
+                                              }(),
+                                              8);
+  ShellEnds thicker = moved.shell->ends();
+  thicker.diameter[2] = 0.31;
+  REQUIRE(moved.shell->move(thicker, 5).has_value());
+  CHECK((moved.shell->state().x - built.shell->state().x).cwiseAbs().maxCoeff() < 1e-6);
+  const auto refused = [&](preset::Points table, const char* reason) {
+    auto wrong = cap(0.7);
+    wrong.rod_table = std::move(table);
+    const auto made = scene_of(wrong);
+    REQUIRE_FALSE(made.has_value());
+    INFO(made.error().message);
+    CHECK(made.error().message.find(reason) != std::string::npos);
+  };
+  refused({{0, 99, 0.3}}, "no such rod");
+  refused({{0, 0, 0.3}, {0, 0, 0.3}}, "more often than it is there");
+  refused({{1, 0, -0.3}}, "must be above 0");
+  refused({{1, 0, 30}}, "less than [footprint] spacing_mm");
 }
 
 TEST_CASE("what cannot be designed is refused") {

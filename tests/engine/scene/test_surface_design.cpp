@@ -1,8 +1,10 @@
 // Footprints of surfaces that a preset gives by an expression.
 #include <catch2/catch.hpp>
 
+#include "engine/design/refused_net.h"
 #include "engine/preset/reader.h"
 #include "engine/scene/scene.h"
+#include "tests/engine/geometry/dome_mesh.h"
 
 using namespace gridshell;
 
@@ -97,6 +99,58 @@ TEST_CASE("a surface that makes no net is refused with what is wrong") {
   refused(
       with([](auto& n) { n.within = "max(x^2 + y^2 - 100^2, 12^2 - (x - 50)^2 - (y - 50)^2)"; }),
       "crossed more than once");
+}
+
+TEST_CASE("heights and meshes of a cap have the sphere's own footprint and boundary", "[full]") {
+  const auto there = scene_of(on_net());
+  REQUIRE(there.has_value());
+  auto p = on_surface();
+  p.net.implicit.clear();
+  p.net.apex_mm = {0, 0};
+  const DomeMesh dome = ellipsoid_mesh({120, 120, 120}, 6, 1.3);
+  for (const auto& v : dome.vertices.colwise())
+    p.net.file.vertices.push_back({v.x(), v.y(), v.z()});
+  p.net.file.triangles = dome.triangles;
+  const auto by_mesh = scene_of(p);
+  if (!by_mesh) FAIL(by_mesh.error().message);
+  same_scene(*by_mesh, *there);
+  // its own rim, where the surface is gone
+  p.net.cut_mm = 20;
+  refused(p, "the surface ends");
+  p.net.apex_mm = {130, 0};
+  refused(p, "no point at (130, 0)");
+  // 4 mm, and without the steep parts
+  p.net.file = {};
+  p.net.apex_mm = {0, 0};
+  p.net.cut_mm = 84;
+  for (int k = -31; k <= 31; ++k) p.net.file.x.push_back(3.6 * k);
+  p.net.file.y = p.net.file.x;
+  for (const double y : p.net.file.y) {
+    p.net.file.z.emplace_back();
+    // a paraboloid goes on where the sphere has no height
+    for (const double x : p.net.file.x) {
+      const double square = x * x + y * y;
+      p.net.file.z.back().push_back(square < 114 * 114 ? std::sqrt(14400 - square)
+                                                       : 37.5 - (square - 114 * 114) / 75);
+    }
+  }
+  auto cap = on_net();
+  cap.net.cut_height = 0.7;
+  const auto by_grid = scene_of(p), exact = scene_of(cap);
+  if (!by_grid) FAIL(by_grid.error().message);
+  same_scene(*by_grid, *exact);
+}
+
+TEST_CASE("of a net that is refused there is a picture to draw, of another there is none") {
+  auto p = on_surface();
+  CHECK_FALSE(refused_net(p).has_value());
+  p.net.cut_mm = -100;
+  const auto net = refused_net(p);
+  REQUIRE(net.has_value());
+  CHECK(net->lines.size() > 20);
+  CHECK(net->narrow.cols() > 10);
+  CHECK(net->end.norm() == Approx(120).margin(1e-3));
+  CHECK(net->end.z() < 0);
 }
 
 TEST_CASE("a preset names the surface once, and a point of it") {

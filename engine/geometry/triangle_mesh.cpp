@@ -1,0 +1,194 @@
+#include "engine/geometry/triangle_mesh.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "engine/geometry/triangle_crossing.h"
+
+namespace gridshell {
+namespace {
+
+using Triangles = TriangleMesh::Triangles;
+
+tl::unexpected<Error> wrong(const std::string& what, const Eigen::Vector3d& p) {
+  return fail(Fault::bad_input,
+              fmt::format("{} near ({:.4g}, {:.4g}, {:.4g}) mm", what, p.x(), p.y(), p.z()));
+}
+
+Eigen::Vector3d area_of(const Eigen::Matrix3Xd& x, const std::array<int, 3>& t) {
+  return 0.5 * (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0]));
+}
+
+/// An edge, and the triangles on it.
+using Edge = std::array<int, 2>;
+using Sides = std::map<Edge, std::vector<int>>;
+
+Edge edge_of(const std::array<int, 3>& triangle, int k) {
+  const int a = triangle[std::size_t(k)], b = triangle[std::size_t((k + 1) % 3)];
+  return {std::min(a, b), std::max(a, b)};
+}
+
+bool runs_along(const std::array<int, 3>& triangle, const Edge& edge) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (triangle[k] == edge[0]) return triangle[(k + 1) % 3] == edge[1];
+  return false;
+}
+
+/// Vertices that are used, numbered anew.
+Result<Eigen::Matrix3Xd> used_vertices(const Eigen::Matrix3Xd& all, Triangles& triangles) {
+  std::vector<int> now(std::size_t(all.cols()), -1);
+  std::vector<int> used;
+  for (auto& triangle : triangles)
+    for (int& corner : triangle) {
+      if (corner < 0 || corner >= all.cols())
+        return fail(Fault::bad_input,
+                    fmt::format("a triangle names vertex {} of {}", corner, all.cols()));
+      int& number = now[std::size_t(corner)];
+      if (number < 0) {
+        number = int(used.size());
+        used.push_back(corner);
+      }
+      corner = number;
+    }
+  return Eigen::Matrix3Xd(all(Eigen::all, used));
+}
+
+Result<Sides> sides_of(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
+  constexpr double thin = 1e-9;  // area over the square of the longest edge
+  Sides sides;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    double longest = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Edge edge = edge_of(triangles[t], k);
+      longest = std::max(longest, (x.col(edge[1]) - x.col(edge[0])).norm());
+      auto& on_it = sides[edge];
+      on_it.push_back(int(t));
+      if (on_it.size() > 2)
+        return wrong("three triangles of the mesh share an edge", x.col(edge[0]));
+    }
+    if (!(area_of(x, triangles[t]).norm() > thin * longest * longest))
+      return wrong("a triangle of the mesh has no area", x.col(triangles[t][0]));
+  }
+  return sides;
+}
+
+/// Turns all triangles as the first is turned.
+Result<void> turn_alike(const Eigen::Matrix3Xd& x, const Sides& sides, Triangles& triangles) {
+  std::vector<char> done(triangles.size(), 0);
+  std::vector<int> open{0};
+  done[0] = 1;
+  std::size_t reached = 0;
+  while (!open.empty()) {
+    const int here = open.back();
+    open.pop_back();
+    ++reached;
+    for (int k = 0; k < 3; ++k) {
+      const Edge edge = edge_of(triangles[std::size_t(here)], k);
+      for (const int there : sides.at(edge)) {
+        if (there == here) continue;
+        auto& other = triangles[std::size_t(there)];
+        const bool alike =
+            runs_along(other, edge) != runs_along(triangles[std::size_t(here)], edge);
+        if (done[std::size_t(there)] && !alike)
+          return wrong("the mesh has one side only, as a Moebius strip,", x.col(edge[0]));
+        if (done[std::size_t(there)]) continue;
+        if (!alike) std::swap(other[1], other[2]);
+        done[std::size_t(there)] = 1;
+        open.push_back(there);
+      }
+    }
+  }
+  if (reached == triangles.size()) return {};
+  const auto other = std::size_t(std::find(done.begin(), done.end(), 0) - done.begin());
+  return wrong(fmt::format("the mesh is in several pieces ({} of its {} triangles hang together): "
+                           "another begins",
+                           reached, triangles.size()),
+               x.col(triangles[other][0]));
+}
+
+/// There is one rim at most: whatever more there is is a hole, the shorter one.
+Result<void> check_rims(const Eigen::Matrix3Xd& x, const Sides& sides) {
+  std::map<int, std::vector<int>> next;
+  for (const auto& [edge, triangles] : sides)
+    if (triangles.size() == 1) {
+      next[edge[0]].push_back(edge[1]);
+      next[edge[1]].push_back(edge[0]);
+    }
+  struct Rim {
+    std::size_t vertices = 0;
+    int at = 0;
+  };
+  std::vector<Rim> rims;
+  std::map<int, bool> seen;
+  for (const auto& [begin, ways] : next) {
+    if (ways.size() != 2) return wrong("two parts of the mesh touch in one vertex", x.col(begin));
+    if (seen[begin]) continue;
+    Rim rim{0, begin};
+    std::vector<int> open{begin};
+    while (!open.empty()) {
+      const int here = open.back();
+      open.pop_back();
+      if (std::exchange(seen[here], true)) continue;
+      ++rim.vertices;
+      for (const int there : next.at(here)) open.push_back(there);
+    }
+    rims.push_back(rim);
+  }
+  if (rims.size() <= 1) return {};
+  const auto hole = std::min_element(
+      rims.begin(), rims.end(), [](const Rim& a, const Rim& b) { return a.vertices < b.vertices; });
+  return wrong(fmt::format("the mesh has a hole of {} edges", hole->vertices), x.col(hole->at));
+}
+
+Result<void> check_folds(const Eigen::Matrix3Xd& x, const Sides& sides,
+                         const Triangles& triangles) {
+  for (const auto& [edge, both] : sides) {
+    if (both.size() < 2) continue;
+    const Eigen::Vector3d a = area_of(x, triangles[std::size_t(both[0])]),
+                          b = area_of(x, triangles[std::size_t(both[1])]);
+    if (!(a.dot(b) > 0)) return wrong("the mesh is folded", x.col(edge[0]));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<TriangleMesh> TriangleMesh::make(const Eigen::Matrix3Xd& vertices, Triangles triangles) {
+  if (triangles.empty()) return fail(Fault::bad_input, "the mesh has no triangle");
+  if (!vertices.allFinite()) return fail(Fault::bad_input, "a vertex of the mesh is not finite");
+  auto used = used_vertices(vertices, triangles);
+  if (!used) return tl::unexpected(used.error());
+  const Eigen::Matrix3Xd& x = *used;
+  const auto sides = sides_of(x, triangles);
+  if (!sides) return tl::unexpected(sides.error());
+  auto sound = turn_alike(x, *sides, triangles)
+                   .and_then([&] { return check_rims(x, *sides); })
+                   .and_then([&] { return check_folds(x, *sides, triangles); });
+  if (!sound) return tl::unexpected(sound.error());
+  TriangleMesh mesh;
+  mesh.neighbours_.resize(std::size_t(x.cols()));
+  mesh.on_rim_.assign(std::size_t(x.cols()), 0);
+  for (const auto& [edge, on_it] : *sides) {
+    const auto [a, b] = edge;
+    if (on_it.size() == 1) mesh.on_rim_[std::size_t(a)] = mesh.on_rim_[std::size_t(b)] = 1;
+    mesh.neighbours_[std::size_t(a)].push_back(b);
+    mesh.neighbours_[std::size_t(b)].push_back(a);
+    mesh.mean_edge_ += (x.col(b) - x.col(a)).norm() / double(sides->size());
+  }
+  mesh.normals_ = Eigen::Matrix3Xd::Zero(3, x.cols());
+  for (const auto& triangle : triangles)
+    for (const int corner : triangle) mesh.normals_.col(corner) += area_of(x, triangle);
+  for (auto normal : mesh.normals_.colwise()) normal.normalize();
+  const auto crossing = first_crossing(x, triangles, mesh.mean_edge_);
+  if (!crossing) return tl::unexpected(crossing.error());
+  if (*crossing) return wrong("the mesh runs through itself", **crossing);
+  mesh.vertices_ = std::move(*used);
+  mesh.triangles_ = std::move(triangles);
+  return mesh;
+}
+
+}  // namespace gridshell

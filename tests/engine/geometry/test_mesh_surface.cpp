@@ -1,0 +1,154 @@
+// Surfaces through heights and meshes, against the surfaces that these were taken from.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/geometry/height_grid.h"
+#include "engine/geometry/mesh_surface.h"
+#include "tests/engine/geometry/dome_mesh.h"
+
+using namespace gridshell;
+
+namespace {
+
+/// largest distance of the smooth surface from an ellipsoid's, over its upper half
+double off_ellipsoid(const Eigen::Vector3d& axes, double edge_mm, double from_rim_mm) {
+  const DomeMesh dome = ellipsoid_mesh(axes, edge_mm);
+  const auto mesh = TriangleMesh::make(dome.vertices, dome.triangles);
+  if (!mesh) FAIL(mesh.error().message);
+  const auto surface = MeshSurface::fit(*mesh, 20);
+  if (!surface) FAIL(surface.error().message);
+  double largest = 0;
+  for (double polar = 0.01; polar < M_PI / 2 - from_rim_mm / axes.z(); polar += 0.037)
+    for (double around = 0; around < 2 * M_PI; around += 0.093)
+      largest = std::max(largest, std::abs(surface->at(on_ellipsoid(axes, polar, around))));
+  return largest;
+}
+
+std::string fault_of(const DomeMesh& dome) {
+  const auto mesh = TriangleMesh::make(dome.vertices, dome.triangles);
+  if (!mesh) return mesh.error().message;
+  const auto surface = MeshSurface::fit(*mesh, 20);
+  return surface ? "none" : surface.error().message;
+}
+
+void wrong(const DomeMesh& dome, const char* reason) {
+  const auto fault = fault_of(dome);
+  INFO(fault);
+  CHECK(fault.find(reason) != std::string::npos);
+}
+
+DomeMesh cap() { return ellipsoid_mesh({60, 60, 40}, 8); }
+
+}  // namespace
+
+TEST_CASE("a spline through heights is of fourth order, and ends with its grid") {
+  const auto height = [](double x, double y) { return 50 * std::cos(x / 60) * std::cos(y / 45); };
+  const auto off = [&](double step) {
+    std::vector<double> at;
+    for (double x = -60; x <= 60.001; x += step) at.push_back(x);
+    Eigen::MatrixXd z(at.size(), at.size());
+    for (std::size_t j = 0; j < at.size(); ++j)
+      for (std::size_t i = 0; i < at.size(); ++i)
+        z(Eigen::Index(j), Eigen::Index(i)) = height(at[i], at[j]);
+    const auto grid = HeightGrid::through(at, at, z);
+    REQUIRE(grid.has_value());
+    CHECK(std::isnan(grid->at(60.1, 0)));
+    double largest = 0;
+    for (double x = -59; x < 60; x += 1.7)
+      for (double y = -59; y < 60; y += 1.3)
+        largest = std::max(largest, std::abs(grid->at(x, y) - height(x, y)));
+    return largest;
+  };
+  const double coarse = off(12), fine = off(6);
+  CHECK(fine < 1e-3);
+  CHECK(coarse / fine > 10);
+  CHECK_FALSE(
+      HeightGrid::through({0, 1, 2}, {0, 1, 2, 3}, Eigen::MatrixXd::Zero(4, 3)).has_value());
+  CHECK_FALSE(
+      HeightGrid::through({0, 1, 1, 2}, {0, 1, 2, 3}, Eigen::MatrixXd::Zero(4, 4)).has_value());
+}
+
+TEST_CASE("triangles of 6 mm make the sphere and the ellipsoid to 1e-3 mm") {
+  CHECK(off_ellipsoid({120, 120, 120}, 6, 0) < 1e-4);
+  CHECK(off_ellipsoid({140, 110, 90}, 6, 0) < 1e-3);
+}
+
+TEST_CASE("the surface of a mesh is found at its highest, and goes on a little beyond its rim") {
+  const DomeMesh dome = ellipsoid_mesh({120, 120, 120}, 10);
+  const auto mesh = TriangleMesh::make(dome.vertices, dome.triangles);
+  REQUIRE(mesh.has_value());
+  CHECK(highest_at(*mesh, 30, -40).value() == Approx(std::sqrt(120. * 120 - 2500)).margin(0.3));
+  CHECK_FALSE(highest_at(*mesh, 130, 0).has_value());
+  const auto surface = MeshSurface::fit(*mesh, 20);
+  REQUIRE(surface.has_value());
+  CHECK(std::abs(surface->at({119.83, 0, -6.4})) < 0.01);
+  CHECK(std::isnan(surface->at({100, 0, -66})));
+  // along its normal it is the distance
+  CHECK(std::abs(surface->at({0, 0, 123})) == Approx(3).margin(1e-2));
+}
+
+TEST_CASE("what is no smooth sheet is refused with the place") {
+  CHECK(fault_of(cap()) == "none");
+  auto dome = cap();
+  dome.triangles.erase(dome.triangles.begin() + 3);
+  wrong(dome, "the mesh has a hole of 3 edges near");
+  dome = cap();
+  dome.triangles.push_back({0, 1, int(dome.vertices.cols()) - 1});
+  wrong(dome, "near");
+  dome = cap();
+  const int count = int(dome.vertices.cols());
+  Eigen::Matrix3Xd two(3, 2 * count);
+  two << dome.vertices, dome.vertices.colwise() + Eigen::Vector3d(300, 0, 0);
+  auto both = dome.triangles;
+  for (const auto& [a, b, c] : dome.triangles) both.push_back({a + count, b + count, c + count});
+  wrong({two, both}, "in several pieces");
+  // the pole pulled down through the sheet below it
+  dome = ellipsoid_mesh({60, 60, 60}, 8, 1.2);
+  dome.vertices.col(0) = Eigen::Vector3d(0, 0, -80);
+  wrong(dome, "near (");
+  dome = cap();
+  dome.vertices.col(0).z() += 5;
+  wrong(dome, "not smooth");
+  dome = cap();
+  dome.vertices.col(2) = dome.vertices.col(1);
+  wrong(dome, "no area");
+  dome = cap();
+  dome.vertices(0, 7) = std::nan("");
+  wrong(dome, "not finite");
+  dome = cap();
+  dome.triangles.front()[1] = 99999;
+  wrong(dome, "names vertex 99999");
+  wrong({Eigen::Matrix3Xd(3, 0), {}}, "no triangle");
+}
+
+TEST_CASE("a sheet that runs through itself is refused, one with a single side too") {
+  // a ribbon that comes back through its own begin
+  const auto ribbon = [](auto place, int around, bool closed, bool turned) {
+    DomeMesh mesh{Eigen::Matrix3Xd(3, 4 * around), {}};
+    for (int k = 0; k < around; ++k)
+      for (int w = 0; w < 4; ++w) mesh.vertices.col(4 * k + w) = place(k, w);
+    for (int k = 0; k + (closed ? 0 : 1) < around; ++k)
+      for (int w = 0; w < 3; ++w) {
+        const bool last = k + 1 == around;
+        const auto next = [&](int v) { return last ? (turned ? 3 - v : v) : 4 * (k + 1) + v; };
+        mesh.triangles.push_back({4 * k + w, next(w), next(w + 1)});
+        mesh.triangles.push_back({4 * k + w, next(w + 1), 4 * k + w + 1});
+      }
+    return mesh;
+  };
+  const auto loop = ribbon(
+      [](int k, int w) {
+        const double t = 0.1 * k;
+        return Eigen::Vector3d(50 * std::cos(t) + 12 * t, 6.3 * w, 50 * std::sin(2 * t));
+      },
+      64, false, false);
+  wrong(loop, "runs through itself near");
+  const auto strip = ribbon(
+      [](int k, int w) {
+        const double t = 2 * M_PI * k / 60, s = 6 * (w - 1.5);
+        return Eigen::Vector3d((60 + s * std::cos(t / 2)) * std::cos(t),
+                               (60 + s * std::cos(t / 2)) * std::sin(t), s * std::sin(t / 2));
+      },
+      60, true, true);
+  wrong(strip, "one side only");
+}
