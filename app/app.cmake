@@ -2,6 +2,9 @@
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Threads REQUIRED)
+pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
+pkg_check_modules(FONTCONFIG REQUIRED IMPORTED_TARGET fontconfig)
+find_path(GL_CORE_INCLUDE_DIR GL/glcorearb.h REQUIRED)
 
 file(GLOB preset_files CONFIGURE_DEPENDS presets/*.toml)
 file(GLOB named_files CONFIGURE_DEPENDS presets/*.obj presets/*.csv)
@@ -15,7 +18,9 @@ file(GLOB_RECURSE APP_SOURCES CONFIGURE_DEPENDS app/*.cpp app/*.h)
 list(FILTER APP_SOURCES EXCLUDE REGEX "/app/main\\.cpp$")
 add_library(gridshell_app STATIC ${APP_SOURCES} ${embedded_presets})
 target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
-  PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json Threads::Threads)
+  PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json Threads::Threads
+          PkgConfig::IMGUI PkgConfig::FONTCONFIG)
+target_include_directories(gridshell_app SYSTEM PRIVATE ${GL_CORE_INCLUDE_DIR})
 gridshell_read_once(gridshell_app)
 gridshell_compile_lightly(gridshell_app -O1)
 

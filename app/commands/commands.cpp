@@ -7,6 +7,7 @@ void add_commands(CLI::App& program, Action& action) {
   add_figure(program, action);
   add_run(program, action);
   add_render(program, action);
+  add_view(program, action);
   add_chart(program, action);
   add_sweep(program, action);
   add_design(program, action);

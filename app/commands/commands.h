@@ -16,6 +16,7 @@ void add_movie(CLI::App& program, Action& action);
 void add_figure(CLI::App& program, Action& action);
 void add_run(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
+void add_view(CLI::App& program, Action& action);
 void add_chart(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
 void add_design(CLI::App& program, Action& action);

@@ -12,6 +12,7 @@
 #include "engine/session/report.h"
 #include "engine/solve/damped_motion.h"
 #include "engine/solve/nested.h"
+#include "engine/solve/rest.h"
 
 namespace gridshell {
 
@@ -67,12 +68,14 @@ class Session {
   Report load(double factor, const Watch& watch);
   /// Puts a field of forces on, or takes it away (empty).
   Report set_field(std::vector<NodeAction> field, const Watch& watch);
-  /// Down the energy to rest from where it is, whatever happened to it.
-  Report rest(const Watch& watch);
+  /// Down the energy to rest from where it is, whatever happened to it; off a saddle to that side.
+  Report rest(const Watch& watch, Leave side = Leave::lower);
   /// The same in time, with the scene's damping; `seen` after each time step.
   Report rest_in_time(const Watch& watch, const std::function<void(const MovingState&)>& seen);
   /// Other rods on the same footprint, from where it is. Errors (bad_input) as open().
   Result<Report> set_rods(const ShellRods& rods, const Watch& watch);
+  /// The same shell on other meshes, finer or coarser. Errors (bad_input) as open().
+  Result<Report> remesh(const LevelPlan& plan, const Watch& watch);
   /// Finer meshes until the error estimate is below `tolerance_mm`, or no plan is finer or fits the
   /// memory.
   Report refine(double tolerance_mm, const Watch& watch);

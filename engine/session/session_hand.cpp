@@ -148,12 +148,13 @@ Report Session::set_field(std::vector<NodeAction> field, const Watch& watch) {
   return done;
 }
 
-Report Session::rest(const Watch& watch) {
+Report Session::rest(const Watch& watch, Leave side) {
   const double begin = seconds_now();
   const Effort before = effort();
   const Checkpoint good = save();
   const double t = shell_->state().t;
-  const Departure departure = departure_of(*scene_, shell_->mesh(0), shell_->model(0));
+  Departure departure = departure_of(*scene_, shell_->mesh(0), shell_->model(0));
+  if (side != Leave::lower) departure.side = side;
   const auto found = rest_below(shell_->system(0), shell_->state().levels[0], watch, departure);
   Outcome end = watch.cancelled() ? Outcome::cancelled : Outcome::not_converged;
   if (found) end = shell_->start(t, *found, watch).end;
@@ -181,6 +182,14 @@ Result<Report> Session::set_rods(const ShellRods& rods, const Watch& watch) {
   std::optional<ShellRods> old = std::exchange(rods_, rods);
   const auto taken = take_over(shell_->plan(), true, watch);
   if (!taken || *taken != Outcome::reached) rods_ = std::move(old);
+  if (!taken) return tl::unexpected<Error>(taken.error());
+  return report(*taken, shell_->state().t, before, begin);
+}
+
+Result<Report> Session::remesh(const LevelPlan& plan, const Watch& watch) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  const auto taken = take_over(plan, false, watch);
   if (!taken) return tl::unexpected<Error>(taken.error());
   return report(*taken, shell_->state().t, before, begin);
 }

@@ -14,7 +14,7 @@ namespace {
 using Folders = std::set<std::string>;
 
 // What a folder may see beside itself. A folder that is not here may see nothing; `render/` and
-// `app/` stand for every folder in them.
+// `app/` stand for every folder in them, but for `app/window`.
 const std::map<std::string, Folders> may_see{
     {"engine/core", {}},
     {"engine/geometry", {"engine/core"}},
@@ -51,13 +51,18 @@ const std::map<std::string, Folders> may_see{
       "engine/experiment"}},
     // the renderer knows pictures of a run, not how it came to be
     {"render", {"engine/core", "engine/record", "engine/export"}},
+    // what the desktop window knows and does, with a shell in hand
+    {"app/window",
+     {"engine/core", "engine/footprint", "engine/solve", "engine/measure", "engine/preset",
+      "engine/record", "engine/scene", "engine/session", "engine/experiment", "render"}},
     {"app",
      {"engine/core", "engine/preset", "engine/record", "engine/export", "engine/experiment",
-      "engine/design", "engine/study", "render"}},
+      "engine/design", "engine/study", "render", "app/window"}},
 };
 
 // "engine/preset" for engine/preset/reader.h, "render" and "app" for all below them
 std::string folder_of(const std::string& path) {
+  if (path.starts_with("app/window/")) return "app/window";
   if (!path.starts_with("engine/")) return path.substr(0, path.find('/'));
   return path.substr(0, path.find('/', 7));
 }
@@ -114,6 +119,20 @@ TEST_CASE("every include follows the arrows") {
       }
   CHECK(files > 50);
   CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("what the window knows has no OpenGL and no interface library in it") {
+  const fs::path root = GRIDSHELL_SOURCE_DIR;
+  static const std::regex forbidden(
+      "#include (<(GL|EGL|GLFW|imgui|cairo|pango)[^>]*>|\"render/(gl|context)/)");
+  int files = 0;
+  for (const char* ending : {".h", ".cpp"})
+    for (const auto& path : files_under(root / "app/window", ending)) {
+      INFO(path);
+      CHECK_FALSE(std::regex_search(gridshell::read_whole(path).value(), forbidden));
+      ++files;
+    }
+  CHECK(files > 10);
 }
 
 TEST_CASE("the engine knows no OpenGL, no window and does not print") {

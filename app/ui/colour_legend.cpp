@@ -1,0 +1,42 @@
+// What the colours of the view mean, over its right edge.
+#include <fmt/format.h>
+
+#include "app/ui/panel.h"
+
+namespace gridshell::ui {
+
+void colour_legend(const Panel& panel, const render::Box& view) {
+  const window::Desk& desk = panel.desk;
+  if (!desk.sight->any() || desk.show.colour_by == window::ColourBy::none) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
+  const char* label = window::label_of(desk.show.colour_by);
+  const float line = ImGui::GetTextLineHeight(), width = panel.px(14), height = panel.px(170);
+  const float right = float(view.right()) - panel.px(14), top = float(view.y) + panel.px(14);
+  list.AddText({right - ImGui::CalcTextSize(label).x, top}, ink, label);
+  if (!window::values_of(*desk.sight, desk.show.colour_by).any()) {
+    const char* none = "not known for this shell";
+    list.AddText({right - ImGui::CalcTextSize(none).x, top + 1.3f * line}, ink, none);
+    return;
+  }
+  const render::ColourScale& scale = desk.show.scale;
+  const float low = top + 1.6f * line, left = right - width;
+  constexpr int steps = 64;
+  for (int k = 0; k < steps; ++k) {
+    const render::Colour c = scale(scale.high - (scale.high - scale.low) * (k + 0.5) / steps);
+    const auto byte = [](float v) { return int(255 * v + 0.5f); };
+    list.AddRectFilled({left, low + height * float(k) / steps},
+                       {right, low + height * float(k + 1) / steps},
+                       IM_COL32(byte(c.r), byte(c.g), byte(c.b), 255));
+  }
+  list.AddRect({left, low}, {right, low + height}, ImGui::GetColorU32(ImGuiCol_TextDisabled));
+  for (int k = 0; k <= 4; ++k) {
+    const std::string text =
+        fmt::format("{:.3g}", scale.high - (scale.high - scale.low) * double(k) / 4);
+    list.AddText({left - ImGui::CalcTextSize(text.c_str()).x - panel.px(5),
+                  low + height * float(k) / 4 - 0.5f * line},
+                 ink, text.c_str());
+  }
+}
+
+}  // namespace gridshell::ui

@@ -1,0 +1,53 @@
+// Every key and mouse action, from the tables that bind them.
+#include "app/ui/panel.h"
+
+namespace gridshell::ui {
+namespace {
+
+void row(const std::string& left, const std::string& right) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(left.c_str());
+  ImGui::TableNextColumn();
+  ImGui::PushTextWrapPos();
+  ImGui::TextUnformatted(right.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+bool begin_table(const Panel& panel, const char* name, double left) {
+  if (!ImGui::BeginTable(name, 2)) return false;
+  ImGui::TableSetupColumn("how", ImGuiTableColumnFlags_WidthFixed, panel.px(left));
+  ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+  return true;
+}
+
+}  // namespace
+
+void help_sheet(const Panel& panel, const render::Box& box) {
+  ImGui::SetNextWindowFocus();
+  begin_fixed("help", box, 0);
+  ImGui::TextUnformatted("Keys and mouse");
+  ImGui::SameLine();
+  ImGui::TextDisabled("(F1 or Esc closes)");
+  ImGui::Separator();
+  if (ImGui::BeginTable("sheet", 2)) {
+    ImGui::TableNextColumn();
+    if (begin_table(panel, "keys", 78)) {
+      for (const window::Action& action : window::actions())
+        if (action.key.key)
+          row(name_of(action.key), std::string(action.label) + ": " + action.help);
+      ImGui::EndTable();
+    }
+    ImGui::TableNextColumn();
+    if (begin_table(panel, "mouse", 165)) {
+      for (const window::MouseAction& action : window::mouse_actions())
+        row(action.how, action.help);
+      row("Ctrl + click on a number", "types it");
+      ImGui::EndTable();
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+}  // namespace gridshell::ui

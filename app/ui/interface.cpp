@@ -1,0 +1,310 @@
+#include "app/ui/interface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "app/ui/look.h"
+#include "render/draw/camera.h"
+#include "render/image/png.h"
+
+namespace gridshell::ui {
+namespace {
+
+using window::InputEvent;
+using window::InputKind;
+using window::Key;
+
+constexpr double sharp_after_s = 0.15;  // of stillness the view is drawn at full resolution
+
+/// What the interface library does with keys of its own.
+void map_keys(ImGuiIO& io) {
+  const auto map = [&](ImGuiKey to, Key from) { io.KeyMap[to] = int(from); };
+  map(ImGuiKey_LeftArrow, Key::left), map(ImGuiKey_RightArrow, Key::right);
+  map(ImGuiKey_UpArrow, Key::up), map(ImGuiKey_DownArrow, Key::down);
+  map(ImGuiKey_PageUp, Key::page_up), map(ImGuiKey_PageDown, Key::page_down);
+  map(ImGuiKey_Home, Key::home), map(ImGuiKey_End, Key::end);
+  map(ImGuiKey_Delete, Key::del), map(ImGuiKey_Backspace, Key::backspace);
+  map(ImGuiKey_Enter, Key::enter), map(ImGuiKey_Escape, Key::escape);
+  map(ImGuiKey_Tab, Key::tab);
+  map(ImGuiKey_A, Key::a), map(ImGuiKey_C, Key::c), map(ImGuiKey_V, Key::v);
+  map(ImGuiKey_X, Key::x), map(ImGuiKey_Y, Key::y), map(ImGuiKey_Z, Key::z);
+}
+
+bool is_modifier(Key key) { return key == Key::ctrl || key == Key::shift || key == Key::alt; }
+
+}  // namespace
+
+Interface::Interface(const render::Gl& gl, render::Renderer& renderer, window::Desk& desk)
+    : gl_(gl),
+      imgui_(ImGui::CreateContext()),
+      desk_(desk),
+      hand_(desk),
+      picture_(gl_, renderer),
+      target_(gl_, render::Target::Depth::none) {}
+
+Result<std::unique_ptr<Interface>> Interface::create(const render::Context& context,
+                                                     render::Renderer& renderer,
+                                                     window::Desk& desk) {
+  auto gl = render::Gl::load(context);
+  if (!gl) return tl::unexpected<Error>(gl.error());
+  std::unique_ptr<Interface> made(new Interface(*gl, renderer, desk));
+  auto painter = InterfacePainter::create(made->gl_);
+  if (!painter) return tl::unexpected<Error>(painter.error());
+  made->painter_.emplace(std::move(*painter));
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui::GetIO().LogFilename = nullptr;
+  map_keys(ImGui::GetIO());
+  if (auto sized = made->resize(1280, 720, 1); !sized) return tl::unexpected<Error>(sized.error());
+  return made;
+}
+
+Interface::~Interface() { ImGui::DestroyContext(imgui_); }
+
+Result<void> Interface::resize(int width, int height, double density) {
+  const bool denser = density != density_ || !ImGui::GetIO().Fonts->IsBuilt();
+  width_ = width;
+  height_ = height;
+  density_ = density;
+  shell_anew_ = true;
+  if (!denser) return {};
+  if (auto loaded = load_fonts(density); !loaded) return loaded;
+  painter_->take_fonts(*ImGui::GetIO().Fonts);
+  choose_colours(desk_.show.dark, density);
+  return {};
+}
+
+// ---- events ----
+
+Result<Eigen::Vector2d> Interface::place_of(const InputEvent& event) const {
+  if (event.text.empty()) return Eigen::Vector2d(event.x, event.y);
+  const auto in_view = [&](int node) -> Eigen::Vector2d {
+    return render::to_pixel(desk_.camera, int(view_.width), int(view_.height),
+                            window::place_of(*desk_.sight, desk_.show, node)) +
+           Eigen::Vector2d(view_.x + event.x, view_.y + event.y);
+  };
+  int i = 0, j = 0;
+  if (desk_.sight->any() && std::sscanf(event.text.c_str(), "joint:%d,%d", &i, &j) == 2)
+    for (const record::Joint& joint : desk_.sight->layout->joints)
+      if (joint.i == i && joint.j == j) return in_view(joint.node);
+  if (desk_.sight->any() && std::sscanf(event.text.c_str(), "edge:%d", &i) == 1 && i >= 0 &&
+      i < int(desk_.sight->layout->edge_points.size()))
+    return in_view(desk_.sight->layout->edge_points[std::size_t(i)]);
+  std::string name = event.text;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  for (const std::string& asked : {event.text, name})
+    if (const auto found = controls_.find(asked); found != controls_.end()) {
+      const render::Box& box = found->second;
+      return Eigen::Vector2d(box.x + event.x * box.width, box.y + event.y * box.height);
+    }
+  return fail(Fault::bad_input, fmt::format("'{}': nothing of that name is shown", event.text));
+}
+
+Result<void> Interface::take(const InputEvent& event) {
+  InputEvent taken = event;
+  if (event.kind == InputKind::size) return resize(int(event.x), int(event.y), event.density);
+  if (event.kind == InputKind::mouse) {
+    const auto place = place_of(event);
+    if (!place) return tl::unexpected<Error>(place.error());
+    taken.x = place->x();
+    taken.y = place->y();
+    taken.text.clear();
+  }
+  if (event.kind == InputKind::act && !window::find_action(event.text))
+    return fail(Fault::bad_input, fmt::format("'{}' is no action", event.text));
+  events_.push_back(std::move(taken));
+  return {};
+}
+
+/// All that waits up to the second press or release: a click within a frame would be none.
+void Interface::feed() {
+  int turns = 0;
+  const auto turns_one = [](const InputEvent& event) {
+    return event.kind == InputKind::press || event.kind == InputKind::release ||
+           event.kind == InputKind::down || event.kind == InputKind::up;
+  };
+  while (!events_.empty()) {
+    const InputEvent event = events_.front();
+    if (turns_one(event) && turns++ > 0) return;
+    // a place that was passed on the way to a press must be seen before it
+    if (turns > 0 && event.kind == InputKind::mouse) return;
+    events_.pop_front();
+    feed(event);
+  }
+}
+
+void Interface::feed(const InputEvent& event) {
+  ImGuiIO& io = ImGui::GetIO();
+  switch (event.kind) {
+    case InputKind::mouse:
+      io.MousePos = {float(event.x), float(event.y)};
+      break;
+    case InputKind::press:
+    case InputKind::release:
+      io.MouseDown[int(event.button)] = event.kind == InputKind::press;
+      break;
+    case InputKind::wheel:
+      io.MouseWheel += float(event.y);
+      break;
+    case InputKind::down:
+    case InputKind::up: {
+      const bool down = event.kind == InputKind::down;
+      io.KeysDown[int(event.key)] = down;
+      if (event.key == Key::ctrl) io.KeyCtrl = down;
+      if (event.key == Key::shift) io.KeyShift = down;
+      if (event.key == Key::alt) io.KeyAlt = down;
+      if (down) press_key(event.key);
+      break;
+    }
+    case InputKind::type:
+      io.AddInputCharactersUTF8(event.text.c_str());
+      break;
+    case InputKind::act:
+      window::find_action(event.text)->act(desk_);
+      break;
+    case InputKind::open:
+      desk_.open(event.text);
+      break;
+    case InputKind::size:
+    case InputKind::wait:
+      break;
+  }
+}
+
+void Interface::press_key(Key key) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (is_modifier(key) || io.WantTextInput) return;
+  if (key == Key::escape && desk_.picking && desk_.sight->any()) desk_.picking = false;
+  if (const window::Action* action = window::action_of({key, io.KeyCtrl, io.KeyShift}))
+    action->act(desk_);
+}
+
+// ---- a frame ----
+
+void Interface::view_panel(const Panel& panel, const render::Box& box) {
+  view_ = box;
+  desk_.view = {box.width, box.height};
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  begin_fixed("view", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar();
+  const ImVec2 low{float(box.x), float(box.y)}, high{float(box.right()), float(box.bottom())};
+  if (desk_.sight->any())
+    ImGui::GetWindowDrawList()->AddImage(texture_id(picture_.texture()), low, high);
+  ImGui::SetCursorScreenPos(low);
+  ImGui::InvisibleButton("mouse", {float(box.width), float(box.height)},
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  panel.controls["view"] = box;
+  const ImGuiIO& io = ImGui::GetIO();
+  const double x = io.MousePos.x - low.x, y = io.MousePos.y - low.y;
+  if (hand_.holds()) {
+    hand_.drag(x, y);
+    if (!ImGui::IsItemActive()) hand_.release(x, y);
+  } else if (ImGui::IsItemHovered()) {
+    hand_.hover(x, y);
+    if (io.MouseWheel != 0) hand_.wheel(io.MouseWheel, x, y);
+    for (int button = 0; button < 3; ++button)
+      if (ImGui::IsMouseClicked(button)) hand_.press(window::Button(button), io.KeyShift, x, y);
+  } else {
+    hand_.leave();
+  }
+  colour_legend(panel, box);
+  ImGui::End();
+}
+
+void Interface::lay_out() {
+  const Panel panel{desk_, density_, controls_};
+  const double left = std::round(272 * density_), right = std::round(272 * density_),
+               status = std::round(30 * density_);
+  controls_.clear();
+  menu_bar(panel);
+  const double top = ImGui::GetFrameHeight(), height = height_ - top - status;
+  const bool aside = desk_.numbers || desk_.plots;
+  shell_panel(panel, {0, top, left, height});
+  view_panel(panel, {left, top, width_ - left - (aside ? right : 0), height});
+  const double half = desk_.numbers && desk_.plots ? std::round(0.5 * height) : height;
+  if (desk_.numbers) numbers_.draw(panel, {width_ - right, top, right, half});
+  if (desk_.plots) plots_panel(panel, {width_ - right, top + height - half, right, half});
+  status_line(panel, {0, top + height, double(width_), status});
+  const render::Box middle = render::Box{left, top, width_ - left, height}.inset(24 * density_);
+  if (desk_.picking && !desk_.help) preset_picker(panel, middle);
+  if (desk_.help)
+    help_sheet(panel, render::Box{0, top, double(width_), height}.inset(20 * density_));
+}
+
+/// Anew only where anything that it shows is new, and sharp only once it rests.
+Result<void> Interface::draw_shell() {
+  if (!desk_.sight->any() || desk_.view.width < 16) return {};
+  const render::Camera& c = desk_.camera;
+  const window::Show& s = desk_.show;
+  const std::string shown = fmt::format(
+      "{} {} {} {} {} {} {} {} {} {} {}{}{}{}{}{} {} {} {} {} {}", c.azimuth_deg, c.elevation_deg,
+      c.half_extent_mm, c.field_of_view_deg, c.target.x(), c.target.y(), c.target.z(),
+      desk_.view.width, desk_.view.height, int(s.colour_by), s.joints, s.rings, s.ground, s.net,
+      s.footprint, s.dark, s.joint_under, s.edge_under, s.mode_mm, s.scale.low, s.scale.high);
+  const bool anew = shell_anew_ || shown != shown_;
+  if (anew) still_seconds_ = 0;
+  const bool sharp = !anew && still_seconds_ >= sharp_after_s;
+  if (!anew && (!sharp || sharp_)) return {};
+  shown_ = shown;
+  shell_anew_ = false;
+  sharp_ = sharp;
+  return picture_.draw(desk_, sharp ? window::Sharpness::still : window::Sharpness::moving);
+}
+
+Result<void> Interface::compose(double seconds) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {float(width_), float(height_)};
+  io.DeltaTime = float(std::clamp(seconds, 1e-4, 0.5));
+  still_seconds_ += seconds;
+  shell_anew_ |= desk_.tick(seconds);
+  if (dark_ != desk_.show.dark) choose_colours(dark_ = desk_.show.dark, density_);
+  feed();
+  ImGui::NewFrame();
+  lay_out();
+  ImGui::Render();
+  io.MouseWheel = 0;
+  if (auto drawn = draw_shell(); !drawn) return drawn;
+  if (desk_.picture_wanted.empty()) return {};
+  const std::string file = std::exchange(desk_.picture_wanted, "");
+  const auto kept = picture_.for_file(desk_).and_then(
+      [&](const render::Image& image) { return render::write_png(image, file); });
+  desk_.say(kept ? "saved " + file : kept.error().message, !kept);
+  return {};
+}
+
+bool Interface::busy() const {
+  return !events_.empty() || shell_anew_ || (desk_.sight->any() && !sharp_);
+}
+
+Result<void> Interface::frame(double seconds) {
+  if (auto made = compose(seconds); !made) return made;
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl_.ClearColor(0.5f, 0.5f, 0.5f, 1);
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
+  painter_->draw(*ImGui::GetDrawData(), true);
+  return {};
+}
+
+Result<void> Interface::frame_aside(double seconds) {
+  if (auto made = compose(seconds); !made) return made;
+  if (auto bound = target_.bind(width_, height_, GL_RGBA8); !bound) return bound;
+  gl_.ClearColor(0.5f, 0.5f, 0.5f, 1);
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
+  painter_->draw(*ImGui::GetDrawData(), false);
+  return {};
+}
+
+render::Image Interface::read() {
+  render::Image image(width_, height_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target_.frame());
+  gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  for (std::size_t k = 3; k < image.rgba.size(); k += 4) image.rgba[k] = 255;
+  return image;
+}
+
+}  // namespace gridshell::ui

@@ -1,0 +1,187 @@
+// What is done to the shell: path, boundary, hand, rest, accuracy, colours; what was picked.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/ui/look.h"
+#include "app/ui/panel.h"
+#include "app/window/colouring.h"
+
+namespace gridshell::ui {
+namespace {
+
+using window::Desk;
+using window::Sight;
+
+/// A slider over the panel's width; true while the hand changes its value.
+bool slider(const Panel& panel, const char* name, float& value, float low, float high,
+            const char* format, const std::string& tip) {
+  ImGui::SetNextItemWidth(-1);
+  const bool changed = ImGui::SliderFloat((std::string("##") + name).c_str(), &value, low, high,
+                                          format, ImGuiSliderFlags_AlwaysClamp);
+  panel.named(name, tip);
+  return changed;
+}
+
+void path(const Panel& panel) {
+  Desk& desk = panel.desk;
+  heading(panel, "Path");
+  const bool push = desk.sight->push.joint >= 0;
+  panel.button("play");
+  ImGui::SameLine();
+  panel.button("step_back");
+  ImGui::SameLine();
+  panel.button("step_on");
+  float part = float(desk.part());
+  if (slider(panel, "path", part, 0, std::max(1.f, part), push ? "push %.3f" : "progress %.3f",
+             push ? "share of the preset's depth" : "share of the boundary's way"))
+    desk.playing = false, desk.go(part, true);
+  if (ImGui::IsItemDeactivated()) desk.let_go();
+}
+
+void boundary(const Panel& panel) {
+  Desk& desk = panel.desk;
+  const Sight& sight = *desk.sight;
+  if (sight.preset.footprint.kind != preset::FootprintKind::circle) return;
+  const double from = sight.preset.original_radius_mm();
+  const double now = sight.frame.boundary_radius_mm;
+  const double way = sight.progress > 0 ? (now - from) / sight.progress : -1;
+  ImGui::TextUnformatted("Boundary's radius");
+  float radius = float(now);
+  if (slider(panel, "R_a", radius, float(0.6 * from), float(from + sight.least_progress * way),
+             "R_a = %.2f mm", "radius of the actuated boundary, mm; Ctrl+click to type"))
+    desk.playing = false, desk.move((radius - from) / way, true);
+  if (ImGui::IsItemDeactivated()) desk.let_go();
+}
+
+void held(const Panel& panel) {
+  Desk& desk = panel.desk;
+  const Sight& sight = *desk.sight;
+  heading(panel, "Hand");
+  panel.tick("push_freely");
+  for (const window::HeldJoint& one : sight.held) {
+    const record::Joint& joint = sight.layout->joints[std::size_t(one.joint)];
+    ImGui::Text("joint (%d, %d): %.4f N, %.2f mm", joint.i, joint.j, one.force_N.norm(),
+                one.moved_mm.norm());
+    const std::string name = fmt::format("let go##{}", one.joint);
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - panel.px(52));
+    if (ImGui::SmallButton(name.c_str())) desk.wish(window::Release{one.joint});
+    panel.named(fmt::format("let go {},{}", joint.i, joint.j), "takes the force off this joint");
+  }
+  if (sight.held.empty()) ImGui::TextDisabled("drag a joint or an edge point");
+  panel.tick("gravity");
+  ImGui::SameLine();
+  panel.button("jitter");
+}
+
+void stability(const Panel& panel) {
+  Desk& desk = panel.desk;
+  if (desk.sight->stable()) return;
+  heading(panel, "Not stable");
+  ImGui::PushStyleColor(ImGuiCol_Text, bad_ink(desk.show.dark));
+  ImGui::PushTextWrapPos();
+  ImGui::Text("%d negative pivot%s: the shell would leave this state.",
+              desk.sight->certificate.negative_pivots,
+              desk.sight->certificate.negative_pivots == 1 ? "" : "s");
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  panel.button("rest_along");
+  ImGui::SameLine();
+  panel.button("rest_against");
+  panel.tick("soft_mode");
+}
+
+void accuracy(const Panel& panel) {
+  Desk& desk = panel.desk;
+  heading(panel, "Accuracy");
+  preset::Preset changed = desk.sight->preset;
+  constexpr double steps[] = {1e-2, 1e-3, 1e-4, 1e-5};
+  const auto text = [](double tolerance) { return fmt::format("tolerance {:g}", tolerance); };
+  ImGui::SetNextItemWidth(panel.px(150));
+  if (ImGui::BeginCombo("##tolerance", text(changed.accuracy.tolerance).c_str())) {
+    for (double step : steps)
+      if (ImGui::Selectable(text(step).c_str(), step == changed.accuracy.tolerance)) {
+        changed.accuracy.tolerance = step;
+        changed.accuracy.edges_per_segment = 0;
+        desk.change(changed, false);
+      }
+    ImGui::EndCombo();
+  }
+  panel.named("tolerance", "largest error of a joint, over R_o or ρ, when the hand rests");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  const std::string rung{word_of(changed.accuracy.model)};
+  if (ImGui::BeginCombo("##model", rung.c_str())) {
+    for (auto model : {preset::Rung::automatic, preset::Rung::bend, preset::Rung::twist})
+      if (ImGui::Selectable(std::string(word_of(model)).c_str(), model == changed.accuracy.model)) {
+        changed.accuracy.model = model;
+        desk.change(changed, false);
+      }
+    ImGui::EndCombo();
+  }
+  panel.named("model", "the model: auto takes the lowest rung that is exact for the scene");
+}
+
+void colours(const Panel& panel) {
+  Desk& desk = panel.desk;
+  heading(panel, "Colour");
+  ImGui::SetNextItemWidth(panel.px(150));
+  if (ImGui::BeginCombo("##colour", window::label_of(desk.show.colour_by))) {
+    for (const auto& entry : words(window::ColourBy{}))
+      if (ImGui::Selectable(window::label_of(entry.value), entry.value == desk.show.colour_by))
+        window::find_action("colour_" + std::string(entry.word))->act(desk);
+    ImGui::EndCombo();
+  }
+  panel.named("colour", window::meaning_of(desk.show.colour_by));
+  ImGui::SameLine();
+  panel.tick("hold_range");
+}
+
+void picked(const Panel& panel) {
+  const Desk& desk = panel.desk;
+  const Sight& sight = *desk.sight;
+  const record::Layout& layout = *sight.layout;
+  if (desk.picked_joint >= 0 && desk.picked_joint < int(layout.joints.size())) {
+    const record::Joint& joint = layout.joints[std::size_t(desk.picked_joint)];
+    const Eigen::Vector3d at = sight.frame.nodes.col(desk.picked_joint);
+    heading(panel, fmt::format("Joint ({}, {})", joint.i, joint.j).c_str());
+    ImGui::Text("x %.2f  y %.2f  z %.2f mm", at.x(), at.y(), at.z());
+    ImGui::Text("axial force %.3g N", sight.axial_N[desk.picked_joint]);
+    ImGui::Text("bending %.3g mJ/m", sight.bending_mJ_m[desk.picked_joint]);
+  }
+  if (desk.picked_cell >= 0 && desk.picked_cell < int(layout.cells.size())) {
+    const record::Cell& cell = layout.cells[std::size_t(desk.picked_cell)];
+    heading(panel, fmt::format("Cell ({}, {})", cell.i, cell.j).c_str());
+    ImGui::Text("K□ = %.4f rad", sight.frame.cell_K[desk.picked_cell]);
+    if (sight.deviation.size() > 0) ImGui::Text("Δ/ρ = %.4f", sight.deviation[desk.picked_cell]);
+  }
+}
+
+}  // namespace
+
+void shell_panel(const Panel& panel, const render::Box& box) {
+  Desk& desk = panel.desk;
+  begin_fixed("shell", box);
+  ImGui::PushTextWrapPos();
+  ImGui::TextUnformatted(desk.sight->any() ? desk.sight->preset.title.c_str()
+                                           : "No shell yet: pick a preset.");
+  ImGui::PopTextWrapPos();
+  panel.button("pick_preset");
+  ImGui::SameLine();
+  panel.button("undo");
+  ImGui::SameLine();
+  panel.button("redo");
+  if (desk.sight->any()) {
+    path(panel);
+    boundary(panel);
+    held(panel);
+    stability(panel);
+    accuracy(panel);
+    colours(panel);
+    picked(panel);
+  }
+  ImGui::End();
+}
+
+}  // namespace gridshell::ui

@@ -1,0 +1,31 @@
+// The shell's picture in the window: drawn by the renderer of movies, kept as a texture.
+#pragma once
+
+#include <memory>
+
+#include "app/window/desk.h"
+#include "render/draw/renderer.h"
+#include "render/gl/objects.h"
+
+namespace gridshell::ui {
+
+class ShellPicture {
+ public:
+  ShellPicture(const render::Gl& gl, render::Renderer& renderer)
+      : gl_(&gl), renderer_(&renderer), texture_(gl) {}
+
+  /// Draws what the desk shows, in its view's size, at half the resolution while it moves. Errors:
+  /// those of the renderer.
+  Result<void> draw(const window::Desk& desk, window::Sharpness sharpness);
+  /// The picture for a file: twice the view's size, with the colours' legend.
+  Result<render::Image> for_file(const window::Desk& desk) const;
+
+  GLuint texture() const { return texture_.id(); }
+
+ private:
+  const render::Gl* gl_;
+  render::Renderer* renderer_;
+  render::Texture texture_;
+};
+
+}  // namespace gridshell::ui

@@ -1,0 +1,208 @@
+#include "app/window/actions.h"
+
+#include <algorithm>
+#include <array>
+
+namespace gridshell::window {
+namespace {
+
+template <ColourBy by>
+void colour(Desk& desk) {
+  desk.show.colour_by = by;
+  desk.show.scale = scale_of(values_of(*desk.sight, by), by);
+}
+template <ColourBy by>
+bool coloured(const Desk& desk) {
+  return desk.show.colour_by == by;
+}
+
+template <bool Show::*flag>
+void switch_shown(Desk& desk) {
+  desk.show.*flag = !(desk.show.*flag);
+}
+template <bool Show::*flag>
+bool is_shown(const Desk& desk) {
+  return desk.show.*flag;
+}
+template <bool Desk::*flag>
+void switch_desk(Desk& desk) {
+  desk.*flag = !(desk.*flag);
+}
+template <bool Desk::*flag>
+bool is_on(const Desk& desk) {
+  return desk.*flag;
+}
+
+void step(Desk& desk, double by) {
+  desk.play(false);
+  desk.go(std::clamp(desk.part() + by, 0.0, 1.0), false);
+}
+
+constexpr Shortcut none{};
+constexpr Shortcut on(Key key) { return {key, false, false}; }
+constexpr Shortcut ctrl(Key key) { return {key, true, false}; }
+
+// clang-format off
+const std::array table{
+    Action{"pick_preset", "File", "Pick a preset", ctrl(Key::o),
+           "shows all presets to choose from", switch_desk<&Desk::picking>, is_on<&Desk::picking>},
+    Action{"save_picture", "File", "Save picture", ctrl(Key::p),
+           "keeps the view as a PNG of movie quality", [](Desk& d) { d.save_picture(); }},
+    Action{"save_preset", "File", "Save preset", ctrl(Key::s),
+           "keeps radius, numbers, one push and the camera as a preset that runs",
+           [](Desk& d) { d.save_preset(); }},
+    Action{"quit", "File", "Quit", ctrl(Key::q), "closes the window",
+           [](Desk& d) { d.over = true; }},
+
+    Action{"undo", "Edit", "Undo", ctrl(Key::z), "takes back the last step; a drag is one",
+           [](Desk& d) { d.wish(Undo{}); }},
+    Action{"redo", "Edit", "Redo", ctrl(Key::y), "does it again",
+           [](Desk& d) { d.wish(Redo{}); }},
+    Action{"stop", "Edit", "Stop", on(Key::escape), "stops what the engine is at",
+           [](Desk& d) { d.playing = d.help = false; d.engine.cancel(); }},
+
+    Action{"play", "Shell", "Play", on(Key::space), "plays the preset's path, or stops it",
+           [](Desk& d) { d.play(!d.playing); }, is_on<&Desk::playing>},
+    Action{"step_on", "Shell", "Step on", on(Key::right), "a fiftieth of the path on",
+           [](Desk& d) { step(d, 0.02); }},
+    Action{"step_back", "Shell", "Step back", on(Key::left), "a fiftieth of the path back",
+           [](Desk& d) { step(d, -0.02); }},
+    Action{"to_start", "Shell", "To the start", on(Key::home), "back to the begin of the path",
+           [](Desk& d) { d.play(false); d.go(0, false); }},
+    Action{"to_end", "Shell", "To the end", on(Key::end), "on to the end of the path",
+           [](Desk& d) { d.play(false); d.go(1, false); }},
+    Action{"release", "Shell", "Let go of all joints", on(Key::r),
+           "takes the forces off all held joints", [](Desk& d) { d.wish(Release{}); }},
+    Action{"gravity", "Shell", "Gravity", on(Key::g), "switches the rods' own weight on and off",
+           [](Desk& d) { d.toggle_gravity(); }, [](const Desk& d) { return d.gravity(); }},
+    Action{"jitter", "Shell", "Jitter", on(Key::j),
+           "shakes the shell by random forces on its joints and lets it come to rest",
+           [](Desk& d) { d.wish(Jitter{d.sight->equilibria + 1}); }},
+    Action{"rest", "Shell", "Go to rest", on(Key::d), "down the energy to the lower side",
+           [](Desk& d) { d.wish(Rest{Leave::lower}); }},
+    Action{"rest_along", "Shell", "Rest on one side", on(Key::comma),
+           "off an unstable state along its soft mode",
+           [](Desk& d) { d.wish(Rest{Leave::along}); }},
+    Action{"rest_against", "Shell", "Rest on the other", on(Key::period),
+           "off an unstable state against its soft mode",
+           [](Desk& d) { d.wish(Rest{Leave::against}); }},
+    Action{"soft_mode", "Shell", "Soft mode", on(Key::m),
+           "moves an unstable shell to and fro as it would leave",
+           switch_desk<&Desk::animate_mode>, is_on<&Desk::animate_mode>},
+    Action{"push_freely", "Shell", "Push freely", on(Key::f),
+           "a joint goes with the mouse in every direction instead of along its normal",
+           [](Desk& d) { d.push_way = d.push_way == PushWay::freely ? PushWay::normal
+                                                                     : PushWay::freely; },
+           [](const Desk& d) { return d.push_way == PushWay::freely; }},
+
+    Action{"view_home", "View", "Home", on(Key::n0), "the whole shell as movies show it",
+           [](Desk& d) { d.look(view_home); }},
+    Action{"view_top", "View", "Top", on(Key::n7), "from above",
+           [](Desk& d) { d.look(view_top); }},
+    Action{"view_front", "View", "Front", on(Key::n1), "along y",
+           [](Desk& d) { d.look(view_front); }},
+    Action{"view_side", "View", "Side", on(Key::n3), "against x",
+           [](Desk& d) { d.look(view_side); }},
+    Action{"view_iso", "View", "Corner", on(Key::n9), "the three axes alike",
+           [](Desk& d) { d.look(view_iso); }},
+    Action{"orthographic", "View", "Orthographic", on(Key::n5), "without perspective",
+           [](Desk& d) { d.camera.field_of_view_deg = d.camera.field_of_view_deg > 0 ? 0 : 20; },
+           [](const Desk& d) { return d.camera.field_of_view_deg == 0; }},
+    Action{"joints", "View", "Joints", none, "shows the joints", switch_shown<&Show::joints>,
+           is_shown<&Show::joints>},
+    Action{"rings", "View", "Boundaries", none, "shows the original and the actuated boundary",
+           switch_shown<&Show::rings>, is_shown<&Show::rings>},
+    Action{"ground", "View", "Ground", none, "shows the ground", switch_shown<&Show::ground>,
+           is_shown<&Show::ground>},
+    Action{"net", "View", "Net", on(Key::n), "lays the net that it was designed on over the shell",
+           switch_shown<&Show::net>, is_shown<&Show::net>},
+    Action{"footprint", "View", "Footprint", none, "lays the flat footprint over it",
+           switch_shown<&Show::footprint>, is_shown<&Show::footprint>},
+    Action{"dark", "View", "Dark", on(Key::l), "dark instead of light",
+           switch_shown<&Show::dark>, is_shown<&Show::dark>},
+    Action{"numbers", "View", "Numbers", on(Key::tab), "every number of the preset",
+           switch_desk<&Desk::numbers>, is_on<&Desk::numbers>},
+    Action{"plots", "View", "Plots", on(Key::p), "curves of what was done so far",
+           switch_desk<&Desk::plots>, is_on<&Desk::plots>},
+
+    Action{"colour_none", "Colour", "Nothing", none, "rods and joints alone",
+           colour<ColourBy::none>, coloured<ColourBy::none>},
+    Action{"colour_K", "Colour", "K□", on(Key::k), "cells by their integrated Gauss curvature",
+           colour<ColourBy::K>, coloured<ColourBy::K>},
+    Action{"colour_K_change", "Colour", "ΔK□", none, "cells by its change since the shell was formed",
+           colour<ColourBy::K_change>, coloured<ColourBy::K_change>},
+    Action{"colour_deviation", "Colour", "Deviation", none, "cells by their distance from the net, over ρ",
+           colour<ColourBy::deviation>, coloured<ColourBy::deviation>},
+    Action{"colour_energy", "Colour", "Bending energy", on(Key::e), "rods by their bending energy",
+           colour<ColourBy::energy>, coloured<ColourBy::energy>},
+    Action{"colour_axial_force", "Colour", "Axial force", on(Key::a), "rods by their axial force",
+           colour<ColourBy::axial_force>, coloured<ColourBy::axial_force>},
+    Action{"colour_displacement", "Colour", "Displacement", on(Key::u), "rods by how far they moved",
+           colour<ColourBy::displacement>, coloured<ColourBy::displacement>},
+    Action{"hold_range", "Colour", "Hold the range", on(Key::h),
+           "the colours keep their range from one state to the next",
+           switch_desk<&Desk::hold_range>, is_on<&Desk::hold_range>},
+
+    Action{"help", "Help", "Keys and mouse", on(Key::f1), "this sheet",
+           switch_desk<&Desk::help>, is_on<&Desk::help>},
+};
+
+const std::array mouse{
+    MouseAction{Gesture::push, "left drag on a joint",
+                "pushes it along its normal, and holds it", Button::left, Over::joint},
+    MouseAction{Gesture::pull_freely, "Shift + left drag on a joint",
+                "pulls it freely in the picture's plane", Button::left, Over::joint, true},
+    MouseAction{Gesture::drag_edge, "left drag on an edge point",
+                "moves it in its plane", Button::left, Over::edge_point},
+    MouseAction{Gesture::drag_edge, "Shift + left drag on an edge point",
+                "the same", Button::left, Over::edge_point, true},
+    MouseAction{Gesture::let_go_joint, "right click on a joint", "lets go of it", Button::right,
+                Over::joint},
+    MouseAction{Gesture::orbit, "left drag beside it", "turns the view", Button::left,
+                Over::nothing},
+    MouseAction{Gesture::pan, "right or middle drag", "moves the view", Button::right,
+                Over::nothing},
+    MouseAction{Gesture::pan, "Shift + left drag beside it", "the same", Button::left,
+                Over::nothing, true},
+    MouseAction{Gesture::zoom, "wheel", "goes closer to what is under the cursor", Button::middle,
+                Over::nothing},
+    MouseAction{Gesture::pick, "left click", "shows the figures of a joint or a cell", Button::left,
+                Over::nothing},
+};
+// clang-format on
+
+}  // namespace
+
+std::string name_of(const Shortcut& shortcut) {
+  if (!shortcut.key) return "";
+  std::string name;
+  if (shortcut.ctrl) name += "Ctrl+";
+  if (shortcut.shift) name += "Shift+";
+  return name.append(word_of(*shortcut.key));
+}
+
+std::span<const Action> actions() { return table; }
+
+const Action* find_action(const std::string& name) {
+  const auto found = std::find_if(table.begin(), table.end(),
+                                  [&](const Action& action) { return name == action.name; });
+  return found == table.end() ? nullptr : &*found;
+}
+
+const Action* action_of(const Shortcut& shortcut) {
+  if (!shortcut.key) return nullptr;
+  const auto found = std::find_if(table.begin(), table.end(),
+                                  [&](const Action& action) { return action.key == shortcut; });
+  return found == table.end() ? nullptr : &*found;
+}
+
+std::span<const MouseAction> mouse_actions() { return mouse; }
+
+Gesture gesture_of(Button button, Over over, bool shift) {
+  for (const MouseAction& action : mouse)
+    if (action.button == button && action.over == over && action.shift == shift)
+      return action.gesture;
+  return button == Button::left ? Gesture::orbit : Gesture::pan;
+}
+
+}  // namespace gridshell::window

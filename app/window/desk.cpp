@@ -1,0 +1,260 @@
+#include "app/window/desk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/atomic_file.h"
+#include "engine/preset/writer.h"
+
+namespace gridshell::window {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_readings = 4000;
+constexpr double look_every_s = 0.5;  // at the preset's file
+constexpr double earth_m_s2 = 9.81, nitinol_kg_m3 = 6450;
+
+double rounded(double value, double step) { return step * std::round(value / step); }
+
+/// What the picture is to hold: rods and both boundaries.
+Eigen::Matrix3Xd bounds_of(const Sight& sight) {
+  const record::Layout& layout = *sight.layout;
+  Eigen::Matrix3Xd points(3, sight.frame.nodes.cols() + layout.original_boundary.cols());
+  points << sight.frame.nodes, layout.original_boundary;
+  return points;
+}
+
+}  // namespace
+
+void Desk::say(const std::string& text, bool bad) {
+  message = text;
+  message_bad = bad;
+}
+
+// ---- wishes ----
+
+void Desk::post(Deed deed, bool passing) { engine.post({std::move(deed), stroke_, passing}); }
+
+void Desk::wish(Deed deed) {
+  engine.post({std::move(deed), 0, false});
+  ++stroke_;
+}
+
+void Desk::let_go() {
+  post(Settle{}, false);
+  ++stroke_;
+}
+
+void Desk::open(const std::string& name) {
+  auto preset = library.load(name);
+  if (!preset) return say(preset.error().message, true);
+  file_ = fs::exists(name) ? fs::path(name) : fs::path();
+  std::error_code error;
+  if (!file_.empty()) written_ = fs::last_write_time(file_, error);
+  picking = playing = false;
+  fresh_ = true;
+  readings.clear();
+  picked_joint = picked_cell = -1;
+  say("forming '" + preset->title + "'");
+  wish(Open{std::move(*preset)});
+}
+
+void Desk::change(const preset::Preset& preset, bool passing) {
+  post(Change{preset}, passing);
+  if (!passing) ++stroke_;
+}
+
+void Desk::move(double progress, bool passing) {
+  post(Move{progress}, passing);
+  if (!passing) ++stroke_;
+}
+
+void Desk::go(double part, bool passing) {
+  const PresetPush& whole = sight->push;
+  if (whole.joint < 0) return move(std::max(part, sight->least_progress), passing);
+  const bool free = sight->preset.indentation.lateral == preset::Lateral::free;
+  push(whole.joint, whole.from + part * whole.displacement,
+       free ? whole.displacement.normalized() : Eigen::Vector3d::Zero(), passing);
+}
+
+double Desk::part() const {
+  const PresetPush& whole = sight->push;
+  if (whole.joint < 0 || !sight->any()) return sight->progress;
+  const Eigen::Vector3d moved = sight->frame.nodes.col(whole.joint) - whole.from;
+  return moved.dot(whole.displacement) / whole.displacement.squaredNorm();
+}
+
+void Desk::push(int joint, const Eigen::Vector3d& to, const Eigen::Vector3d& along, bool passing) {
+  post(Push{joint, to, along}, passing);
+  if (!passing) ++stroke_;
+}
+
+void Desk::drag_edge(int edge_point, const Eigen::Vector3d& to, bool passing) {
+  post(DragEdge{edge_point, to}, passing);
+  if (!passing) ++stroke_;
+}
+
+void Desk::toggle_gravity() {
+  if (!sight->any()) return;
+  preset::Preset preset = sight->preset;
+  preset.loads.gravity_m_s2 = gravity() ? 0 : earth_m_s2;
+  if (preset.rod.density_kg_m3 == 0) preset.rod.density_kg_m3 = nitinol_kg_m3;
+  change(preset, false);
+}
+
+void Desk::play(bool on) {
+  if (on && !playing) play_head = part() >= 1 - 1e-6 ? 0 : std::max(0.0, part());
+  if (!on && playing) let_go();
+  playing = on;
+}
+
+// ---- the camera ----
+
+void Desk::fit_view() {
+  if (sight->any()) fit(camera, view, bounds_of(*sight));
+}
+
+void Desk::look(const ViewFrom& from) {
+  look_from(camera, from);
+  fit_view();
+}
+
+// ---- keeping ----
+
+fs::path Desk::file_to_save(const char* ending) const {
+  for (int k = 1;; ++k) {
+    const fs::path file =
+        library.save_to /
+        fmt::format("{}_{}{}", fs::path(sight->preset.name).filename().string(), k, ending);
+    std::error_code error;
+    if (!fs::exists(file, error)) return file;
+  }
+}
+
+preset::Preset Desk::preset_to_save() const {
+  preset::Preset preset = sight->preset;
+  preset.movie.azimuth_deg = rounded(camera.azimuth_deg, 0.1);
+  preset.movie.elevation_deg = rounded(camera.elevation_deg, 0.1);
+  preset.movie.view = preset::View::free;
+  preset.movie.turn_deg = 0;
+  preset.movie.orthographic = camera.field_of_view_deg == 0;
+  if (sight->held.size() == 1) {
+    const HeldJoint& held = sight->held.front();
+    const record::Joint& joint = sight->layout->joints[std::size_t(held.joint)];
+    const Eigen::Vector3d along =
+        held.along.isZero(0) ? Eigen::Vector3d(sight->normals.col(held.joint)) : held.along;
+    const double depth = held.moved_mm.dot(along);
+    preset::Indentation& push = preset.indentation;
+    push = {};
+    push.joint = {joint.i, joint.j};
+    push.depth_mm = std::abs(depth);
+    push.direction = depth < 0 ? preset::Direction::inward : preset::Direction::outward;
+    push.lateral = held.along.isZero(0) ? preset::Lateral::held : preset::Lateral::free;
+  }
+  return preset;
+}
+
+void Desk::save_preset() {
+  if (!sight->any()) return say("there is no shell to save", true);
+  const fs::path file = file_to_save(".toml");
+  std::error_code error;
+  fs::create_directories(library.save_to, error);
+  const auto written = write_atomically(file, preset::to_toml(preset_to_save()));
+  if (!written) return say(written.error().message, true);
+  const bool all = sight->held.size() <= 1;
+  say("saved " + file.string() + (all ? "" : ", without the pushes: a preset has one"), !all);
+}
+
+void Desk::save_picture() {
+  if (!sight->any()) return say("there is no shell to draw", true);
+  std::error_code error;
+  fs::create_directories(library.save_to, error);
+  picture_wanted = file_to_save(".png").string();
+}
+
+// ---- frame by frame ----
+
+bool Desk::tick(double seconds) {
+  bool anew = false;
+  if (auto next = engine.sight(); next != sight) {
+    take(std::move(next));
+    anew = true;
+  }
+  if (playing && sight->any()) {
+    play_head = std::min(1.0, play_head + play_speed * seconds);
+    go(play_head, true);
+    if (play_head >= 1) play(false);
+    anew = true;
+  }
+  if (animate_mode && !sight->stable() && sight->soft_mode.cols() > 0) {
+    mode_phase += seconds;
+    show.mode_mm = 0.06 * sight->layout->length_scale_mm * std::sin(3 * mode_phase);
+    anew = true;
+  } else if (show.mode_mm != 0) {
+    show.mode_mm = mode_phase = 0;
+    anew = true;
+  }
+  watch_file(seconds);
+  return anew;
+}
+
+void Desk::take(std::shared_ptr<const Sight> next) {
+  const bool newer = next->equilibria != sight->equilibria;
+  sight = std::move(next);
+  if (!sight->trouble.empty())
+    say(sight->trouble, true);
+  else if (!sight->told.empty())
+    say(sight->told);
+  else if (newer)
+    say("");
+  if (!sight->any() || !newer) return;
+  if (fresh_) {
+    fresh_ = false;
+    camera.field_of_view_deg = sight->preset.movie.orthographic ? 0 : 20;
+    look({sight->preset.movie.azimuth_deg, sight->preset.movie.elevation_deg});
+    show.footprint = show.net = false;
+  }
+  if (!hold_range) show.scale = scale_of(values_of(*sight, show.colour_by), show.colour_by);
+  read_off();
+}
+
+void Desk::read_off() {
+  Reading now;
+  const record::Frame& frame = sight->frame;
+  now.radius_mm = frame.boundary_radius_mm;
+  now.progress = sight->progress;
+  now.height_mm = frame.height_mm;
+  for (const TermName& term : energy_terms) now.energy_mJ += frame.energies[term.term];
+  now.total_K = frame.total_K;
+  now.stable = sight->stable();
+  if (!sight->held.empty()) {
+    const HeldJoint& held = sight->held.back();
+    now.depth_mm = held.moved_mm.norm();
+    const double along = held.force_N.dot(held.moved_mm.normalized());
+    now.force_N = std::isfinite(along) ? along : 0;
+  }
+  readings.push_back(now);
+  if (readings.size() > most_readings)
+    readings.erase(readings.begin(), readings.begin() + most_readings / 4);
+}
+
+/// A preset that was changed in its file is taken anew; a broken one says so, and the last good one
+/// stays.
+void Desk::watch_file(double seconds) {
+  since_look_ += seconds;
+  if (file_.empty() || since_look_ < look_every_s) return;
+  since_look_ = 0;
+  std::error_code error;
+  const auto written = fs::last_write_time(file_, error);
+  if (error || written == written_) return;
+  written_ = written;
+  auto preset = library.load(file_.string());
+  if (!preset) return say(preset.error().message, true);
+  say("read " + file_.string() + " again");
+  change(*preset, false);
+}
+
+}  // namespace gridshell::window

@@ -1,0 +1,111 @@
+// Everything that the window knows: the shell in sight, how it is shown, what the hand holds, what
+// plays. It has no OpenGL and no interface library; panels show it, actions and the view change it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/window/camera_hand.h"
+#include "app/window/engine_thread.h"
+#include "app/window/shell_drawing.h"
+
+namespace gridshell::window {
+
+/// A preset that can be picked.
+struct PresetCard {
+  std::string name, title;
+};
+
+/// Where presets come from and pictures and presets are saved to.
+struct Library {
+  std::vector<PresetCard> cards;
+  std::function<Result<preset::Preset>(const std::string& name)> load;
+  std::filesystem::path save_to = "out";
+};
+
+/// What the plots show of an equilibrium.
+struct Reading {
+  double radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0, force_N = 0,
+         total_K = 0;
+  bool stable = true;
+};
+
+enum class PushWay { normal, freely };
+
+/// Drawn as the camera moves: at half the resolution; still: at all of it.
+enum class Sharpness { moving, still };
+
+class Desk {
+ public:
+  explicit Desk(Library library) : library(std::move(library)) {}
+
+  // ---- what is shown ----
+
+  Library library;
+  EngineThread engine;
+  std::shared_ptr<const Sight> sight = std::make_shared<Sight>();
+  render::Camera camera;
+  PictureSize view;  ///< of the shell's picture, pixels
+  Show show;
+  bool hold_range = false;  ///< colours keep their scale from one equilibrium to the next
+  bool numbers = false, plots = true, help = false, picking = true;
+  std::vector<Reading> readings;
+  std::string message;  ///< what was done last
+  bool message_bad = false;
+  int picked_joint = -1, picked_cell = -1;
+  PushWay push_way = PushWay::normal;
+  bool animate_mode = false;
+  double mode_phase = 0;
+  bool playing = false;
+  double play_head = 1, play_speed = 0.25;  ///< of the path a second
+  std::string picture_wanted;               ///< a file that the next frame is to be kept in
+  bool over = false;                        ///< the window is to close
+
+  // ---- what is done ----
+
+  /// A preset by its name or file.
+  void open(const std::string& name);
+  void change(const preset::Preset& preset, bool passing);
+  /// The boundary to a progress; of a preset with a push, the push to a share of its depth.
+  void go(double part, bool passing);
+  void move(double progress, bool passing);
+  void push(int joint, const Eigen::Vector3d& to, const Eigen::Vector3d& along, bool passing);
+  void drag_edge(int edge_point, const Eigen::Vector3d& to, bool passing);
+  void wish(Deed deed);
+  /// The hand comes to rest: the stroke is over.
+  void let_go();
+  void play(bool on);
+  /// Where on its path the shell is, 0 to 1.
+  double part() const;
+  void toggle_gravity();
+  bool gravity() const { return sight->preset.loads.gravity_m_s2 != 0; }
+  void fit_view();
+  void look(const ViewFrom& from);
+  void say(const std::string& text, bool bad = false);
+
+  /// The preset as the shell stands now: radius, one pushed joint, camera.
+  preset::Preset preset_to_save() const;
+  void save_preset();
+  void save_picture();
+
+  /// Once a frame: takes the latest sight, plays, looks at the preset's file. Whether anything is
+  /// to be drawn anew.
+  bool tick(double seconds);
+
+ private:
+  void post(Deed deed, bool passing);
+  void take(std::shared_ptr<const Sight> next);
+  void read_off();
+  void watch_file(double seconds);
+  std::filesystem::path file_to_save(const char* ending) const;
+
+  int stroke_ = 1;
+  bool fresh_ = true;  // the next sight is of another shell: the camera goes round it
+  std::filesystem::path file_;
+  std::filesystem::file_time_type written_{};
+  double since_look_ = 0;
+};
+
+}  // namespace gridshell::window

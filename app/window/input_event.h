@@ -1,0 +1,85 @@
+// What a hand does with mouse and keys, as plain data: from a window, or from the lines of a file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/words.h"
+
+namespace gridshell::window {
+
+// clang-format off
+enum class Key { a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
+                 n0, n1, n2, n3, n4, n5, n6, n7, n8, n9,
+                 f1, f5, f9, f11, space, enter, escape, tab, backspace, del, left, right, up, down,
+                 home, end, page_up, page_down, comma, period, minus, plus, ctrl, shift, alt };
+constexpr auto words(Key) {
+  return word_table<Key>(
+      {{Key::a, "A"}, {Key::b, "B"}, {Key::c, "C"}, {Key::d, "D"}, {Key::e, "E"}, {Key::f, "F"},
+       {Key::g, "G"}, {Key::h, "H"}, {Key::i, "I"}, {Key::j, "J"}, {Key::k, "K"}, {Key::l, "L"},
+       {Key::m, "M"}, {Key::n, "N"}, {Key::o, "O"}, {Key::p, "P"}, {Key::q, "Q"}, {Key::r, "R"},
+       {Key::s, "S"}, {Key::t, "T"}, {Key::u, "U"}, {Key::v, "V"}, {Key::w, "W"}, {Key::x, "X"},
+       {Key::y, "Y"}, {Key::z, "Z"},
+       {Key::n0, "0"}, {Key::n1, "1"}, {Key::n2, "2"}, {Key::n3, "3"}, {Key::n4, "4"},
+       {Key::n5, "5"}, {Key::n6, "6"}, {Key::n7, "7"}, {Key::n8, "8"}, {Key::n9, "9"},
+       {Key::f1, "F1"}, {Key::f5, "F5"}, {Key::f9, "F9"}, {Key::f11, "F11"},
+       {Key::space, "Space"}, {Key::enter, "Enter"}, {Key::escape, "Esc"}, {Key::tab, "Tab"},
+       {Key::backspace, "Backspace"}, {Key::del, "Del"}, {Key::left, "Left"},
+       {Key::right, "Right"}, {Key::up, "Up"}, {Key::down, "Down"}, {Key::home, "Home"},
+       {Key::end, "End"}, {Key::page_up, "PageUp"}, {Key::page_down, "PageDown"},
+       {Key::comma, "Comma"}, {Key::period, "Period"}, {Key::minus, "Minus"}, {Key::plus, "Plus"},
+       {Key::ctrl, "Ctrl"}, {Key::shift, "Shift"}, {Key::alt, "Alt"}});
+}
+// clang-format on
+inline constexpr int key_count = int(words(Key{}).size());
+
+enum class Button { left, right, middle };
+constexpr auto words(Button) {
+  return word_table<Button>(
+      {{Button::left, "left"}, {Button::right, "right"}, {Button::middle, "middle"}});
+}
+
+enum class InputKind { size, mouse, press, release, wheel, down, up, type, act, open, wait };
+constexpr auto words(InputKind) {
+  return word_table<InputKind>({{InputKind::size, "size"},
+                                {InputKind::mouse, "mouse"},
+                                {InputKind::press, "press"},
+                                {InputKind::release, "release"},
+                                {InputKind::wheel, "wheel"},
+                                {InputKind::down, "down"},
+                                {InputKind::up, "up"},
+                                {InputKind::type, "type"},
+                                {InputKind::act, "do"},
+                                {InputKind::open, "open"},
+                                {InputKind::wait, "wait"}});
+}
+
+/// One event, a line of a recording:
+///   size WIDTH HEIGHT DENSITY     the window, pixels, and pixels a point of text
+///   mouse X Y                     to there, pixels from the top left
+///   mouse @NAME X Y               to a share of a control, "mouse @R_a 0.5 0.5"; or to so many
+///                                 pixels beside "@joint:I,J" or "@edge:K"
+///   press|release left|right|middle
+///   wheel STEPS                   above 0: away from the hand
+///   down|up KEY                   a key as F1 names it
+///   type TEXT
+///   do ACTION                     by its name
+///   open PRESET
+///   wait SECONDS
+struct InputEvent {
+  InputKind kind = InputKind::wait;
+  double x = 0, y = 0, density = 1;
+  Button button = Button::left;
+  Key key = Key::a;
+  std::string text = {};  ///< typed; or the name of an action, a preset, a place
+};
+
+/// A line without its end. Errors: bad_input with what would be right.
+Result<InputEvent> read_event(const std::string& line);
+std::string write_event(const InputEvent& event);
+
+/// All lines of a recording but empty ones and comments (#). Errors: bad_input naming the line.
+Result<std::vector<InputEvent>> read_events(const std::string& text, const std::string& source);
+
+}  // namespace gridshell::window

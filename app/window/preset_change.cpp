@@ -1,0 +1,47 @@
+#include "app/window/preset_change.h"
+
+#include <algorithm>
+
+#include "engine/preset/field_table.h"
+#include "engine/preset/reader.h"
+#include "engine/preset/writer.h"
+
+namespace gridshell::window {
+namespace {
+
+ChangeKind kind_of_key(const preset::Preset& preset, const preset::Field& field) {
+  const auto among = [&](std::initializer_list<const char*> tables) {
+    return std::any_of(tables.begin(), tables.end(),
+                       [&](const char* table) { return field.table == table; });
+  };
+  if (among({"", "movie", "style", "figure", "page", "sweep", "jitter", "inverse"}))
+    return ChangeKind::looks;
+  if (among({"rod", "rod_v", "joints", "loads"})) return ChangeKind::rods;
+  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
+  if (circle && field.table == "actuation" && (field.key == "radius_mm" || field.key == "ratio"))
+    return ChangeKind::boundary;
+  return ChangeKind::shape;
+}
+
+}  // namespace
+
+ChangeKind kind_of_change(const preset::Preset& before, const preset::Preset& after) {
+  ChangeKind kind = ChangeKind::none;
+  int kinds = 0;
+  for (const preset::Field& field : preset::field_table()) {
+    if (value_text(field, before) == value_text(field, after)) continue;
+    const ChangeKind one = kind_of_key(after, field);
+    if (one == kind) continue;
+    kind = std::max(kind, one);
+    if (one > ChangeKind::looks) ++kinds;
+  }
+  // what touches two things at once is formed anew
+  return kinds > 1 ? ChangeKind::shape : kind;
+}
+
+Result<void> check_preset(const preset::Preset& preset) {
+  return preset::read_preset_text(preset::to_toml(preset), preset.name, preset.name)
+      .map([](const auto&) {});
+}
+
+}  // namespace gridshell::window

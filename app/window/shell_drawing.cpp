@@ -1,0 +1,102 @@
+#include "app/window/shell_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/movie/boundary.h"
+
+namespace gridshell::window {
+namespace {
+
+using render::Colour;
+
+constexpr Colour light_paper{1, 1, 1, 1}, light_ground{0.93f, 0.93f, 0.94f, 1},
+    light_rod{0.16f, 0.17f, 0.20f, 1}, light_ring{0.3f, 0.33f, 0.38f, 1};
+constexpr Colour dark_paper{0.105f, 0.11f, 0.125f, 1}, dark_ground{0.16f, 0.165f, 0.185f, 1},
+    dark_rod{0.80f, 0.82f, 0.86f, 1}, dark_ring{0.55f, 0.58f, 0.64f, 1};
+constexpr Colour joint_red{0.75f, 0.12f, 0.10f, 1}, joint_light{0.92f, 0.36f, 0.30f, 1},
+    ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1},
+    under_blue{0.20f, 0.55f, 0.95f, 1}, arrow_ink{0.05f, 0.05f, 0.06f, 1},
+    arrow_light{0.95f, 0.95f, 0.95f, 1};
+
+void put_colours(const Sight& sight, const Show& show, render::Drawing& drawing) {
+  const Values values = values_of(sight, show.colour_by);
+  for (double value : values.of_cells) {
+    drawing.cell_colours.push_back(show.scale(value));
+    drawing.cell_colours.back().a = 0.93f;
+  }
+  for (double value : values.of_nodes) drawing.node_colours.push_back(show.scale(value));
+  if (drawing.node_colours.empty()) return;
+  // colours need some width to be seen, and no shine
+  drawing.rod_diameter_mm *= 1.8;
+  drawing.sheen = 0.2;
+}
+
+/// The forces that hold joints, as arrows: the largest a sixth of the shell.
+void put_forces(const Sight& sight, const Show& show, double thin_mm, render::Drawing& drawing) {
+  double most = 0;
+  for (const HeldJoint& held : sight.held) most = std::max(most, held.force_N.norm());
+  for (const HeldJoint& held : sight.held) {
+    const Eigen::Vector3d at = place_of(sight, show, held.joint);
+    drawing.marks.push_back({at, std::max(5.0, 6 * thin_mm), held_yellow});
+    const double length = 0.35 * sight.layout->length_scale_mm * held.force_N.norm() / most;
+    if (!(length > 3 * thin_mm)) continue;
+    const Eigen::Vector3d way = length * held.force_N.normalized();
+    drawing.arrows.push_back(
+        {at - way, at, std::max(1.4, 1.6 * thin_mm), show.dark ? arrow_light : arrow_ink});
+  }
+}
+
+double lowest(const Eigen::Matrix3Xd& nodes) { return nodes.row(2).minCoeff(); }
+
+}  // namespace
+
+Eigen::Vector3d place_of(const Sight& sight, const Show& show, int node) {
+  Eigen::Vector3d place = sight.frame.nodes.col(node);
+  if (show.mode_mm != 0 && node < sight.soft_mode.cols())
+    place += show.mode_mm * sight.soft_mode.col(node);
+  return place;
+}
+
+render::Drawing drawing_of(const Sight& sight, const Show& show, double thin_mm) {
+  const record::Layout& layout = *sight.layout;
+  render::Drawing drawing;
+  drawing.layout = &layout;
+  drawing.nodes = sight.frame.nodes;
+  if (show.mode_mm != 0 && sight.soft_mode.cols() == drawing.nodes.cols())
+    drawing.nodes += show.mode_mm * sight.soft_mode;
+  drawing.rod_colour = show.dark ? dark_rod : light_rod;
+  drawing.rod_diameter_mm = std::max(layout.rod_diameter_mm, thin_mm);
+  drawing.joint_colour = show.dark ? joint_light : joint_red;
+  drawing.joint_diameter_mm = show.joints ? std::max(3.0, 1.5 * drawing.rod_diameter_mm) : 0;
+  put_colours(sight, show, drawing);
+  if (show.rings) {
+    const Colour ink = show.dark ? dark_ring : light_ring;
+    drawing.rings.push_back({layout.original_boundary, std::max(0.6, thin_mm), ghost_grey, false});
+    drawing.rings.push_back(
+        {render::boundary_at(layout, sight.frame.actuation), std::max(1.4, 1.6 * thin_mm), ink});
+  }
+  const auto ghosts = [&](const Eigen::Matrix3Xd& nodes) {
+    if (nodes.cols() == drawing.nodes.cols())
+      drawing.ghosts.push_back({nodes, layout.rods, 0.6 * drawing.rod_diameter_mm, ghost_grey});
+  };
+  if (show.net) ghosts(layout.net_nodes);
+  if (show.footprint) ghosts(layout.flat_nodes);
+  if (show.joint_under >= 0 && show.joint_under < int(layout.joints.size()))
+    drawing.marks.push_back(
+        {place_of(sight, show, show.joint_under), std::max(5.0, 6 * thin_mm), under_blue});
+  if (show.edge_under >= 0 && show.edge_under < int(layout.edge_points.size()))
+    drawing.marks.push_back(
+        {place_of(sight, show, layout.edge_points[std::size_t(show.edge_under)]),
+         std::max(5.0, 6 * thin_mm), under_blue});
+  put_forces(sight, show, thin_mm, drawing);
+  drawing.ground_z_mm = std::min(0.0, lowest(drawing.nodes)) - 2.5;
+  if (sight.layout->net_nodes.cols() > 0) drawing.ground_z_mm = lowest(drawing.nodes) - 2.5;
+  drawing.ground = show.ground;
+  drawing.ground_colour = show.dark ? dark_ground : light_ground;
+  drawing.background = show.dark ? dark_paper : light_paper;
+  drawing.far_fade = 0.25;
+  return drawing;
+}
+
+}  // namespace gridshell::window

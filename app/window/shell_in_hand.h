@@ -1,0 +1,85 @@
+// The shell that a window holds: fulfils wishes on a session and remembers the steps, one thread.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/window/sight.h"
+#include "app/window/wish.h"
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/session/session.h"
+
+namespace gridshell::window {
+
+/// A failed wish leaves the shell in its last certified state and says why in the sight.
+class ShellInHand {
+ public:
+  /// Fulfils a wish as far as it can.
+  void fulfil(const Wish& wish, const Watch& watch);
+  /// Onto the meshes that the preset's accuracy asks for, where the shell stands on coarser ones.
+  void refine(const Watch& watch);
+
+  /// The state that it stands in.
+  const Sight& sight() const { return sight_; }
+
+ private:
+  /// All that a wish can change, to go back to.
+  struct Step {
+    preset::Preset preset;
+    std::shared_ptr<const Scene> scene;
+    Checkpoint checkpoint;
+    double progress = 1;
+    Eigen::Matrix3Xd dragged;
+    std::map<int, Eigen::Vector3d> taken_at;
+    PresetPush push;
+    record::Frame first;
+  };
+
+  Result<void> act(const Open& wish, const Watch& watch);
+  Result<void> act(const Change& wish, const Watch& watch);
+  Result<void> act(const Move& wish, const Watch& watch);
+  Result<void> act(const Push& wish, const Watch& watch);
+  Result<void> act(const Release& wish, const Watch& watch);
+  Result<void> act(const DragEdge& wish, const Watch& watch);
+  Result<void> act(const Rest& wish, const Watch& watch);
+  Result<void> act(const Jitter& wish, const Watch& watch);
+  Result<void> act(const Undo& wish, const Watch& watch);
+  Result<void> act(const Redo& wish, const Watch& watch);
+  Result<void> act(const Settle&, const Watch&) { return {}; }
+
+  Result<void> form(const preset::Preset& preset, const Watch& watch);
+  Result<void> put_rods(const preset::Preset& preset, const Watch& watch);
+  Result<void> put_boundary(double progress, const Eigen::Matrix3Xd& dragged, const Watch& watch);
+  Result<void> ended(const Report& report);
+  void coarsen(const Watch& watch);
+  void remember(const Wish& wish);
+  Result<void> travel(std::deque<Step>& from, std::deque<Step>& to, const char* none);
+  Step step() const;
+  Result<void> stand(const Step& step);
+  void look();
+  void look_at_layout();
+  void look_at_normals();
+  void look_at_rods();
+  void look_at_soft_mode();
+
+  preset::Preset preset_;
+  std::shared_ptr<const Scene> scene_;
+  std::optional<Session> session_;
+  double progress_ = 1;
+  Eigen::Matrix3Xd dragged_;                 // of the edge points off the scene's motion, mm
+  std::map<int, Eigen::Vector3d> taken_at_;  // where joints were taken hold of
+  std::deque<Step> undo_, redo_;
+  int stroke_ = 0;  // that the last step belongs to
+  bool refined_ = false;
+  int nodes_shown_ = 0;  // of the layout in sight
+  Sight sight_;
+};
+
+/// The meshes that follow a drag: the coarsest of those that the scene asks for.
+LevelPlan coarse_plan(const Scene& scene);
+
+}  // namespace gridshell::window

@@ -1,0 +1,149 @@
+// What is seen of the shell in hand: the sight is made anew after every wish.
+#include <algorithm>
+#include <cmath>
+
+#include "app/window/shell_in_hand.h"
+#include "engine/experiment/frames.h"
+#include "engine/measure/deviation.h"
+#include "engine/measure/gauss.h"
+#include "engine/solve/buckle.h"
+
+namespace gridshell::window {
+namespace {
+
+constexpr double least_shortening = 1e-3;  // nearer to the flat no path is followed
+
+/// Where each of the motions' parameters is as near to the flat as a path goes, as a progress.
+double least_progress_of(const Session& session) {
+  const NestedShell& shell = session.shell();
+  PinnedMotion motion = pinned_motion(shell.mesh(0), session.scene().motion);
+  const auto t = parameter_of_shortening(shell.mesh(0), motion, least_shortening);
+  return t ? std::min(1.0, *t * *t) : 0;
+}
+
+}  // namespace
+
+void ShellInHand::look() {
+  Sight& s = sight_;
+  s.undo_steps = int(undo_.size());
+  s.redo_steps = int(redo_.size());
+  s.preset = preset_;
+  if (!session_) return;
+  look_at_layout();
+  if (!s.layout) return;
+  s.frame = experiment::frame_of(*session_);
+  s.frame.progress = s.frame.actuation = s.progress = progress_;
+  s.frame.boundary_radius_mm = scene_->radius_at(progress_);
+  if (s.preset.footprint.kind == preset::FootprintKind::circle)
+    s.preset.set_radii(scene_->radius_begin_mm, s.frame.boundary_radius_mm);
+  s.certificate = session_->certificate();
+  s.meshes = session_->shell().plan().edges_per_segment;
+  s.refined = refined_;
+  s.held.clear();
+  for (std::size_t k = 0; k < session_->holds().size(); ++k) {
+    const Hold& hold = session_->holds()[k];
+    const Eigen::Vector3d from =
+        taken_at_.count(hold.node) ? taken_at_[hold.node] : s.frame.nodes.col(hold.node);
+    HeldJoint held{hold.node, hold.part(session_->force(k)), s.frame.nodes.col(hold.node) - from};
+    if (hold.directions.cols() == 1) held.along = hold.directions.col(0);
+    s.held.push_back(held);
+  }
+  look_at_normals();
+  look_at_rods();
+  look_at_soft_mode();
+  if (s.first.nodes.cols() == 0) s.first = s.frame;
+  ++s.equilibria;
+}
+
+/// The layout belongs to a scene and a mesh; both change seldom.
+void ShellInHand::look_at_layout() {
+  const RodMesh& mesh = session_->shell().finest();
+  if (sight_.layout && nodes_shown_ == mesh.rod_nodes()) return;
+  auto layout = experiment::layout_of(*scene_, mesh);
+  if (!layout) {
+    sight_.trouble = layout.error().message;
+    return;
+  }
+  sight_.layout = std::make_shared<const record::Layout>(std::move(*layout));
+  sight_.least_progress = least_progress_of(*session_);
+  nodes_shown_ = mesh.rod_nodes();
+}
+
+/// Of the net where there is one, as a preset's push has it; else of the shell as it stands.
+void ShellInHand::look_at_normals() {
+  const Footprint& footprint = scene_->footprint;
+  Eigen::Matrix3Xd& normals = sight_.normals;
+  const JointTangents tangents =
+      joint_tangents(footprint, session_->shell().finest(), session_->nodes());
+  normals.resize(3, tangents.u.cols());
+  for (Eigen::Index k = 0; k < tangents.u.cols(); ++k) {
+    normals.col(k) = tangents.u.col(k).cross(tangents.v.col(k)).normalized();
+    if (!scene_->net) continue;
+    const FootprintJoint& joint = footprint.joints[std::size_t(k)];
+    if (const auto point = scene_->net->at(joint.u, joint.v)) normals.col(k) = point->normal();
+  }
+}
+
+/// Axial force and bending energy at the nodes of the finest mesh, and the cells' deviation.
+void ShellInHand::look_at_rods() {
+  const int last = session_->shell().levels() - 1;
+  const Model& model = session_->shell().model(last);
+  const State& state = session_->shell().state().levels.back();
+  const Eigen::Index nodes = sight_.frame.nodes.cols();
+  const auto own = [&](int node) { return node < nodes; };
+  Eigen::VectorXd axial = Eigen::VectorXd::Zero(nodes), weight = axial, bending = axial,
+                  bends = axial;
+  for (std::size_t k = 0; k < model.edges.size(); ++k) {
+    const ModelEdge& edge = model.edges[k];
+    if (edge.EA == 0) continue;
+    for (int node : {edge.from, edge.to})
+      if (own(node)) axial[node] += state.force[Eigen::Index(k)], weight[node] += 1;
+  }
+  for (const ModelBend& bend : model.bends) {
+    const ModelEdge &e = model.edges[std::size_t(bend.e)], &f = model.edges[std::size_t(bend.f)];
+    if (!own(e.to)) continue;
+    const Eigen::Vector3d te = (state.x.col(e.to) - state.x.col(e.from)).normalized(),
+                          tf = (state.x.col(f.to) - state.x.col(f.from)).normalized();
+    const double c = te.dot(tf), length = 0.5 * (e.rest_length + f.rest_length);
+    bending[e.to] += 1000 * bend.stiffness * (1 - c) / (1 + c) / length;
+    bends[e.to] += 1;
+  }
+  sight_.axial_N = axial.array() / weight.array().max(1);
+  sight_.bending_mJ_m = bending.array() / bends.array().max(1);
+  sight_.deviation.resize(0);
+  const record::Layout& layout = *sight_.layout;
+  const auto joints = Eigen::Index(layout.joints.size());
+  if (layout.net_nodes.cols() < joints) return;
+  const Eigen::VectorXd off = Deviation(sight_.frame.nodes.leftCols(joints),
+                                        layout.net_nodes.leftCols(joints), layout.length_scale_mm)
+                                  .of_joints();
+  sight_.deviation.resize(Eigen::Index(layout.cells.size()));
+  for (std::size_t k = 0; k < layout.cells.size(); ++k) {
+    double sum = 0;
+    for (int joint : layout.cells[k].joints) sum += off[joint];
+    sight_.deviation[Eigen::Index(k)] = sum / 4;
+  }
+}
+
+/// How a state that is not stable would leave: its softest mode on the finest mesh, its largest
+/// move 1.
+void ShellInHand::look_at_soft_mode() {
+  sight_.soft_mode.resize(3, 0);
+  if (sight_.stable()) return;
+  NestedShell& shell = session_->shell();
+  const RodMesh& mesh = shell.mesh(0);
+  Linearisation& system = shell.system(0);
+  system.at(shell.state().levels[0], false);
+  const Eigen::Matrix3Xd mode = softest_mode(system, {}, unwatched);
+  const Eigen::Matrix3Xd coarse = nodes_of(mesh, shell.model(0), mode);
+  Eigen::Matrix3Xd fine;
+  if (shell.levels() > 1)
+    MeshTransfer(mesh, shell.finest()).nodes(coarse, fine);
+  else
+    fine = coarse;
+  sight_.soft_mode = fine.leftCols(sight_.frame.nodes.cols());
+  sight_.soft_mode /=
+      std::max(1e-12, std::sqrt(sight_.soft_mode.colwise().squaredNorm().maxCoeff()));
+}
+
+}  // namespace gridshell::window

@@ -1,0 +1,57 @@
+// What the engine's thread shows of the shell in hand: a copy that the window draws from.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/preset/preset.h"
+#include "engine/record/snapshot.h"
+#include "engine/session/report.h"
+
+namespace gridshell::window {
+
+/// A joint that a hand holds.
+struct HeldJoint {
+  int joint = 0;
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();   ///< that holds it
+  Eigen::Vector3d moved_mm = Eigen::Vector3d::Zero();  ///< since it was taken hold of
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();     ///< unit; zero: held in every direction
+};
+
+/// What a preset itself pushes: the joint, from where, and all the way.
+struct PresetPush {
+  int joint = -1;  ///< none
+  Eigen::Vector3d from = Eigen::Vector3d::Zero(), displacement = Eigen::Vector3d::Zero();
+};
+
+/// One equilibrium of one shell, or none yet (no layout).
+struct Sight {
+  preset::Preset preset;                         ///< as it stands, the boundary's radius in it
+  std::shared_ptr<const record::Layout> layout;  ///< of the frame's nodes
+  record::Frame frame, first;                    ///< `first`: where the shell began
+  Certificate certificate;
+  std::vector<int> meshes;    ///< edges a segment, coarse to fine
+  bool refined = false;       ///< to the preset's tolerance; else coarse, as in a drag
+  double progress = 0;        ///< of the boundary; beyond 1 further than the preset has it
+  double least_progress = 0;  ///< to which it can be let out
+  std::vector<HeldJoint> held;
+  PresetPush push;
+  Eigen::Matrix3Xd normals;      ///< one a joint: t_u x t_v
+  Eigen::VectorXd axial_N;       ///< one a node, the mean of its edges
+  Eigen::VectorXd bending_mJ_m;  ///< one a node: energy over length, J/m / 1000
+  Eigen::VectorXd deviation;     ///< one a cell, mean of its joints, over rho; empty without a net
+  Eigen::Matrix3Xd soft_mode;    ///< of a state that is not stable: unit moves of its nodes
+  std::string told;              ///< what happened on the way; empty: nothing
+  std::string trouble;           ///< why the last wish was not met; empty: it was
+  int undo_steps = 0, redo_steps = 0;
+  int equilibria = 0;  ///< found so far
+  double seconds = 0;  ///< the last one took
+
+  bool any() const { return layout != nullptr; }
+  bool stable() const { return certificate.stable(); }
+};
+
+}  // namespace gridshell::window

@@ -1,0 +1,149 @@
+#include "app/window/view_hand.h"
+
+#include <cmath>
+
+#include "render/draw/camera.h"
+
+namespace gridshell::window {
+namespace {
+
+constexpr double near_px = 11;  // of a joint or an edge point, at 1280 x 720
+constexpr double click_px = 3;  // a press that moves less is a click
+
+}  // namespace
+
+Eigen::Vector2d ViewHand::pixel_of(int node) const {
+  return render::to_pixel(desk_.camera, int(desk_.view.width), int(desk_.view.height),
+                          place_of(*desk_.sight, desk_.show, node));
+}
+
+/// The joint or edge point under the mouse; of several near ones the nearest to the eye.
+void ViewHand::find(double x, double y) {
+  joint_ = edge_ = -1;
+  if (!desk_.sight->any()) return;
+  const record::Layout& layout = *desk_.sight->layout;
+  const Eigen::Vector3d forward = render::camera_axes(desk_.camera).forward;
+  const double within = near_px * std::max(1.0, desk_.view.height / 720);
+  double best = 1e300;
+  const auto score = [&](int node, double bonus) {
+    const double off = (pixel_of(node) - Eigen::Vector2d(x, y)).norm();
+    if (off > within) return 1e300;
+    const double depth = forward.dot(desk_.sight->frame.nodes.col(node));
+    return bonus * off + 0.05 * depth / mm_per_pixel(desk_.camera, desk_.view);
+  };
+  for (int k = 0; k < int(layout.joints.size()); ++k)
+    if (const double s = score(k, 1); s < best) best = s, joint_ = k;
+  for (int k = 0; k < int(layout.edge_points.size()); ++k)
+    if (const double s = score(layout.edge_points[std::size_t(k)], 1); s < best)
+      best = s, joint_ = -1, edge_ = k;
+}
+
+void ViewHand::hover(double x, double y) {
+  if (holding_) return;
+  find(x, y);
+  desk_.show.joint_under = joint_;
+  desk_.show.edge_under = edge_;
+}
+
+void ViewHand::leave() {
+  if (holding_) return;
+  joint_ = edge_ = desk_.show.joint_under = desk_.show.edge_under = -1;
+}
+
+void ViewHand::press(Button button, bool shift, double x, double y) {
+  if (holding_) return;
+  find(x, y);
+  const Over over = joint_ >= 0 ? Over::joint : edge_ >= 0 ? Over::edge_point : Over::nothing;
+  gesture_ = gesture_of(button, over, shift);
+  if (gesture_ == Gesture::push && desk_.push_way == PushWay::freely)
+    gesture_ = Gesture::pull_freely;
+  holding_ = true;
+  moved_ = false;
+  begin_x_ = last_x_ = x;
+  begin_y_ = last_y_ = y;
+  if (joint_ >= 0) {
+    place_ = desk_.sight->frame.nodes.col(joint_);
+    along_ = desk_.sight->normals.col(joint_);
+    // pushed before, it goes on along the direction that it is held in
+    for (const HeldJoint& held : desk_.sight->held)
+      if (held.joint == joint_ && !held.along.isZero(0)) along_ = held.along;
+  }
+  if (edge_ >= 0)
+    place_ = desk_.sight->frame.nodes.col(desk_.sight->layout->edge_points[std::size_t(edge_)]);
+}
+
+bool ViewHand::turns() const {
+  return holding_ && moved_ && (gesture_ == Gesture::orbit || gesture_ == Gesture::pan);
+}
+
+void ViewHand::drag(double x, double y) {
+  if (!holding_) return;
+  const double dx = x - last_x_, dy = y - last_y_, from_x = x - begin_x_, from_y = y - begin_y_;
+  if (!moved_ && std::hypot(from_x, from_y) < click_px) return;
+  if (dx == 0 && dy == 0) return;
+  moved_ = true;
+  last_x_ = x;
+  last_y_ = y;
+  switch (gesture_) {
+    case Gesture::orbit:
+      return orbit(desk_.camera, dx, dy);
+    case Gesture::pan:
+      return pan(desk_.camera, desk_.view, dx, dy);
+    case Gesture::push: {
+      const double depth = dragged_along(desk_.camera, desk_.view, place_, along_, from_x, from_y);
+      return desk_.push(joint_, place_ + depth * along_, along_, true);
+    }
+    case Gesture::pull_freely:
+      return desk_.push(joint_,
+                        place_ + dragged_in_plane(desk_.camera, desk_.view, place_, from_x, from_y),
+                        Eigen::Vector3d::Zero(), true);
+    case Gesture::drag_edge:
+      return desk_.drag_edge(
+          edge_, place_ + dragged_level(desk_.camera, desk_.view, place_, from_x, from_y), true);
+    case Gesture::let_go_joint:
+    case Gesture::zoom:
+    case Gesture::pick:
+      return;
+  }
+}
+
+void ViewHand::release(double x, double y) {
+  if (!holding_) return;
+  holding_ = false;
+  const bool at_shell = gesture_ == Gesture::push || gesture_ == Gesture::pull_freely ||
+                        gesture_ == Gesture::drag_edge;
+  if (moved_ && at_shell) desk_.let_go();
+  if (moved_) return;
+  if (gesture_ == Gesture::let_go_joint) return desk_.wish(Release{joint_});
+  desk_.picked_joint = joint_;
+  desk_.picked_cell = joint_ < 0 && edge_ < 0 ? cell_at(x, y) : -1;
+}
+
+void ViewHand::wheel(double steps, double x, double y) {
+  zoom(desk_.camera, desk_.view, steps, x, y);
+}
+
+/// The cell whose picture holds the pixel; of several the nearest to the eye.
+int ViewHand::cell_at(double x, double y) const {
+  if (!desk_.sight->any()) return -1;
+  const record::Layout& layout = *desk_.sight->layout;
+  const Eigen::Vector3d forward = render::camera_axes(desk_.camera).forward;
+  int best = -1;
+  double nearest = 1e300;
+  for (int k = 0; k < int(layout.cells.size()); ++k) {
+    const auto& joints = layout.cells[std::size_t(k)].joints;
+    bool inside = false;
+    double depth = 0;
+    for (int a = 0, b = 3; a < 4; b = a++) {
+      const Eigen::Vector2d p = pixel_of(joints[std::size_t(a)]),
+                            q = pixel_of(joints[std::size_t(b)]);
+      depth += forward.dot(desk_.sight->frame.nodes.col(joints[std::size_t(a)]));
+      if ((p.y() > y) != (q.y() > y) && x < (q.x() - p.x()) * (y - p.y()) / (q.y() - p.y()) + p.x())
+        inside = !inside;
+    }
+    if (inside && depth < nearest) nearest = depth, best = k;
+  }
+  return best;
+}
+
+}  // namespace gridshell::window

@@ -1,0 +1,132 @@
+// The interface driven off-screen by recorded input: what happened in the engine, and what was
+// drawn.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/atomic_file.h"
+#include "render/image/png.h"
+#include "tests/app/program.h"
+#include "tests/small_preset.h"
+#include "tests/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using gridshell::write_atomically;
+using nlohmann::json;
+
+namespace {
+
+const std::string shell =
+    small_preset({.rods = 6, .radius_mm = 66, .actuated_mm = 54, .edges = 0, .frames = 2});
+
+/// What the program says at the end of a recording played on a small shell.
+json played(const TemporaryFolder& folder, const std::string& input,
+            const std::vector<std::string>& more = {}) {
+  REQUIRE(write_atomically(folder.path() / "small.toml", shell));
+  REQUIRE(write_atomically(folder.path() / "visit.txt", input));
+  std::vector<std::string> arguments{"view", "small.toml", "--play", "visit.txt"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Ended ended = gridshell_program(arguments, folder.path());
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+  return json::parse(ended.out);
+}
+
+}  // namespace
+
+TEST_CASE("a slider dragged in the window moves the boundary, in one step that can be undone") {
+  const TemporaryFolder folder;
+  const std::string drag =
+      "mouse @R_a 0.5 0.5\npress left\nmouse @R_a 0.6 0.5\nmouse @R_a 0.7 0.5\nrelease left\n";
+  const json there = played(folder, drag, {"--shot", "there.png"});
+  CHECK(there["undo_steps"] == 1);
+  CHECK(there["boundary_radius_mm"].get<double>() > 55);
+  CHECK(there["negative_pivots"] == 0);
+  CHECK(there["error_estimate_mm"].is_number());
+  CHECK(gridshell::render::read_png(folder.path() / "there.png")->width == 1280);
+  // the same input gives the same state
+  CHECK(played(folder, drag) == there);
+  const json back = played(folder, drag + "down Ctrl\ndown Z\nup Z\nup Ctrl\n");
+  CHECK(back["redo_steps"] == 1);
+  CHECK(back["boundary_radius_mm"].get<double>() == Approx(54));
+}
+
+TEST_CASE("a joint dragged by the mouse is pushed and held, and saved it is a preset that runs") {
+  const TemporaryFolder folder;
+  const json pushed = played(folder,
+                             "mouse @joint:0,0 0 0\npress left\nmouse @joint:0,0 0 20\n"
+                             "mouse @joint:0,0 0 30\nrelease left\ndo save_preset\n",
+                             {"-o", "kept"});
+  CHECK(pushed["held"] == 1);
+  CHECK(pushed["force_N"].get<double>() > 0);
+  const double depth = pushed["depth_mm"].get<double>();
+  CHECK(depth > 1);
+  const Ended ran = gridshell_program({"run", "kept/small_1.toml", "-o", "ran"}, folder.path());
+  INFO(ran.err);
+  REQUIRE(ran.code == 0);
+  const json summary =
+      json::parse(gridshell::read_whole(folder.path() / "ran/summary.json").value());
+  CHECK(summary["energy_bend_mJ"].get<double>() ==
+        Approx(pushed["energy_bend_mJ"].get<double>()).epsilon(1e-4));
+  CHECK(summary["height_mm"].get<double>() ==
+        Approx(pushed["height_mm"].get<double>()).epsilon(1e-4));
+}
+
+TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what they say") {
+  const TemporaryFolder folder;
+  const json dragged = played(folder,
+                              "do view_top\nmouse @edge:3 0 0\npress left\nmouse @edge:3 8 6\n"
+                              "mouse @edge:3 5 4\nrelease left\n");
+  CHECK(dragged["undo_steps"] == 1);
+  CHECK(dragged["held"] == 0);
+  const json heavy = played(folder, "down G\nup G\n");
+  CHECK(heavy["gravity"] == true);
+  CHECK(heavy["undo_steps"] == 1);
+}
+
+TEST_CASE("what cannot be done is said in the window, and by the recording's line") {
+  const TemporaryFolder folder;
+  CHECK(played(folder, "do undo\ndo undo\n")["message"] == "there is nothing to undo");
+  CHECK(played(folder, "open nothing_of_the_kind\n")["message"].get<std::string>().find(
+            "nothing_of_the_kind") != std::string::npos);
+  const auto refused = [&](const std::string& input) {
+    REQUIRE(write_atomically(folder.path() / "visit.txt", input));
+    return gridshell_program({"view", "small.toml", "--play", "visit.txt"}, folder.path());
+  };
+  CHECK(refused("mouse @nothing 0 0\n").code == 2);
+  CHECK(refused("do nothing\n").code == 2);
+  CHECK_THAT(refused("mouse 1 2\npress thumb\n").err, Catch::Contains("visit.txt:2:"));
+}
+
+TEST_CASE("every panel, light and dark, at twice the density") {
+  const TemporaryFolder folder;
+  played(folder, "size 2560 1440 2\ndo numbers\ndo dark\ndo help\n", {"--shot", "all.png"});
+  CHECK(gridshell::render::read_png(folder.path() / "all.png")->width == 2560);
+}
+
+TEST_CASE("without a display the window says what to do instead") {
+  const TemporaryFolder folder;
+  // whatever display there is, it is none of this
+  const char* display = std::getenv("DISPLAY");
+  const std::string before = display ? display : "";
+  setenv("DISPLAY", ":nowhere", 1);
+  const Ended ended = gridshell_program({"view"}, folder.path());
+  if (display)
+    setenv("DISPLAY", before.c_str(), 1);
+  else
+    unsetenv("DISPLAY");
+  CHECK(ended.code == 1);
+  CHECK_THAT(ended.err, Catch::Contains("--play"));
+  CHECK(std::count(ended.err.begin(), ended.err.end(), '\n') == 1);
+}
+
+TEST_CASE("a bench drags by itself and prints its four figures") {
+  const TemporaryFolder folder;
+  REQUIRE(write_atomically(folder.path() / "small.toml", shell));
+  const Ended ended = gridshell_program({"view", "small.toml", "--bench", "0.5"}, folder.path());
+  REQUIRE(ended.code == 0);
+  const json line = json::parse(ended.out);
+  CHECK(line["interface_fps"].get<double>() > 0);
+  CHECK(line["equilibria_per_s"].get<double>() > 0);
+  CHECK(line.contains("worst_frame_ms"));
+  CHECK(line.contains("cancel_ms"));
+}

@@ -1,0 +1,196 @@
+// What a hand does to a shell, without a window and without a thread.
+#include "app/window/shell_in_hand.h"
+
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "app/window/engine_thread.h"
+#include "app/window/preset_change.h"
+#include "engine/experiment/experiment.h"
+
+using namespace gridshell;
+using namespace gridshell::window;
+
+namespace {
+
+preset::Preset small_shell() {
+  preset::Preset preset;
+  preset.name = preset.title = "small";
+  preset.footprint.rods = 6;
+  preset.footprint.radius_mm = 66;
+  preset.actuation.radius_mm = 54;
+  preset.imperfection.size = 0;
+  preset.movie.frames = 2;
+  return preset;
+}
+
+/// A shell formed and refined.
+ShellInHand formed(const preset::Preset& preset = small_shell()) {
+  ShellInHand hand;
+  hand.fulfil({Open{preset}}, unwatched);
+  REQUIRE(hand.sight().trouble == "");
+  hand.refine(unwatched);
+  return hand;
+}
+
+int joint_of(const Sight& sight, int i, int j) {
+  for (const record::Joint& joint : sight.layout->joints)
+    if (joint.i == i && joint.j == j) return joint.node;
+  return -1;
+}
+
+double difference(const Sight& a, const Sight& b) {
+  return (a.frame.nodes - b.frame.nodes).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("the shell in hand is the one that a run ends in") {
+  const ShellInHand hand = formed();
+  Watch watch;
+  const auto run = experiment::run(small_shell(), true, watch);
+  REQUIRE(run);
+  const Eigen::Matrix3Xd& nodes = run->trajectory.frames.back().nodes;
+  const auto joints = Eigen::Index(hand.sight().layout->joints.size());
+  CHECK((hand.sight().frame.nodes - nodes).leftCols(joints).cwiseAbs().maxCoeff() < 1e-4);
+  CHECK(hand.sight().refined);
+  CHECK(hand.sight().stable());
+  CHECK(hand.sight().certificate.error_estimate_mm < 1e-3 * 66);
+}
+
+TEST_CASE("a drag of the boundary is coarse, then refined, and one step to undo") {
+  ShellInHand hand = formed();
+  const Sight before = hand.sight();
+  for (double progress : {0.95, 0.9, 0.85}) hand.fulfil({Move{progress}, 7, true}, unwatched);
+  CHECK(hand.sight().meshes.size() == 1);
+  CHECK_FALSE(hand.sight().refined);
+  hand.fulfil({Settle{}, 7, false}, unwatched);
+  hand.refine(unwatched);
+  CHECK(hand.sight().refined);
+  CHECK(hand.sight().progress == Approx(0.85));
+  CHECK(hand.sight().frame.boundary_radius_mm == Approx(66 - 0.85 * 12));
+  CHECK(hand.sight().undo_steps == 1);
+  const Sight after = hand.sight();
+  hand.fulfil({Undo{}}, unwatched);
+  CHECK(difference(hand.sight(), before) == 0);
+  CHECK(hand.sight().progress == before.progress);
+  hand.fulfil({Redo{}}, unwatched);
+  CHECK(difference(hand.sight(), after) == 0);
+}
+
+TEST_CASE("a joint pushed along its normal resists, and lets go to where it was") {
+  ShellInHand hand = formed();
+  const Sight before = hand.sight();
+  const int joint = joint_of(before, 0, 0);
+  const Eigen::Vector3d normal = before.normals.col(joint), from = before.frame.nodes.col(joint);
+  hand.fulfil({Push{joint, from - 4 * normal, normal}}, unwatched);
+  REQUIRE(hand.sight().trouble == "");
+  REQUIRE(hand.sight().held.size() == 1);
+  const HeldJoint held = hand.sight().held[0];
+  CHECK(held.moved_mm.dot(normal) == Approx(-4));
+  CHECK(held.force_N.dot(normal) < 0);
+  hand.fulfil({Release{}}, unwatched);
+  hand.refine(unwatched);
+  CHECK(hand.sight().held.empty());
+  CHECK(difference(hand.sight(), before) < 1e-4);
+}
+
+TEST_CASE("an edge point goes where it is dragged, and the radius still moves") {
+  ShellInHand hand = formed();
+  const int node = hand.sight().layout->edge_points[3];
+  const Eigen::Vector3d to = hand.sight().frame.nodes.col(node) + Eigen::Vector3d(1.5, -1, 0);
+  hand.fulfil({DragEdge{3, to}}, unwatched);
+  REQUIRE(hand.sight().trouble == "");
+  CHECK((hand.sight().frame.nodes.col(node) - to).norm() < 1e-9);
+  hand.fulfil({Move{0.9}}, unwatched);
+  CHECK(hand.sight().progress == Approx(0.9));
+  hand.fulfil({Undo{}}, unwatched);
+  hand.fulfil({Undo{}}, unwatched);
+  CHECK(hand.sight().progress == Approx(1));
+}
+
+TEST_CASE("a number of the rods changes the shell in hand, one of its shape forms another") {
+  ShellInHand hand = formed();
+  const double energy = hand.sight().frame.energies[Term::bend];
+  preset::Preset stiffer = hand.sight().preset;
+  stiffer.rod.young_GPa *= 2;
+  CHECK(kind_of_change(hand.sight().preset, stiffer) == ChangeKind::rods);
+  hand.fulfil({Change{stiffer}}, unwatched);
+  REQUIRE(hand.sight().trouble == "");
+  CHECK(hand.sight().frame.energies[Term::bend] == Approx(2 * energy).epsilon(1e-3));
+  preset::Preset larger = hand.sight().preset;
+  larger.footprint.rods = 4;
+  larger.footprint.radius_mm = 46;
+  larger.actuation.radius_mm = 40;
+  hand.fulfil({Change{larger}}, unwatched);
+  REQUIRE(hand.sight().trouble == "");
+  CHECK(hand.sight().layout->rods.size() == 8);
+  // undone, the first shell stands again, on the rods that it had
+  hand.fulfil({Undo{}}, unwatched);
+  hand.fulfil({Undo{}}, unwatched);
+  CHECK(hand.sight().layout->rods.size() == 12);
+  CHECK(hand.sight().frame.energies[Term::bend] == Approx(energy));
+}
+
+TEST_CASE("gravity is a number of the preset, and pulls") {
+  ShellInHand hand = formed();
+  const double height = hand.sight().frame.height_mm;
+  preset::Preset heavy = hand.sight().preset;
+  heavy.rod.density_kg_m3 = 6450;
+  heavy.loads.gravity_m_s2 = 9.81;
+  hand.fulfil({Change{heavy}}, unwatched);
+  REQUIRE(hand.sight().trouble == "");
+  CHECK(hand.sight().frame.height_mm < height);
+}
+
+TEST_CASE("a wish that cannot be met leaves the last good shell and says why") {
+  ShellInHand hand = formed();
+  const Sight before = hand.sight();
+  preset::Preset wrong = before.preset;
+  wrong.footprint.radius_mm = 1;
+  hand.fulfil({Change{wrong}}, unwatched);
+  CHECK(hand.sight().trouble != "");
+  CHECK(difference(hand.sight(), before) == 0);
+  hand.fulfil({Push{-3, {}, {}}}, unwatched);
+  CHECK(hand.sight().trouble != "");
+  hand.fulfil({Redo{}}, unwatched);
+  CHECK(hand.sight().trouble == "there is nothing to do again");
+  CHECK(difference(hand.sight(), before) == 0);
+}
+
+TEST_CASE("without a shell there is nothing to do") {
+  ShellInHand hand;
+  for (const Deed& deed : {Deed{Move{0.5}}, Deed{Push{}}, Deed{Release{}}, Deed{DragEdge{}},
+                           Deed{Rest{}}, Deed{Jitter{}}, Deed{Undo{}}, Deed{Redo{}}}) {
+    hand.fulfil({deed}, unwatched);
+    CHECK(hand.sight().trouble != "");
+    CHECK_FALSE(hand.sight().any());
+  }
+}
+
+TEST_CASE("the thread meets every wish, and the latest of a drag") {
+  EngineThread engine;
+  engine.post({Open{small_shell()}});
+  engine.wait();
+  REQUIRE(engine.sight()->any());
+  CHECK(engine.sight()->refined);
+  for (int k = 1; k <= 50; ++k) engine.post({Move{1 - 0.004 * k}, 3, true});
+  engine.post({Settle{}, 3, false});
+  engine.wait();
+  CHECK(engine.sight()->progress == Approx(0.8));
+  CHECK(engine.sight()->refined);
+  CHECK(engine.sight()->undo_steps == 1);
+  // fewer equilibria than wishes, or as many on a machine that is quick
+  CHECK(engine.sight()->equilibria <= 60);
+}
+
+TEST_CASE("a cancel stops the thread and keeps a certified state") {
+  EngineThread engine;
+  engine.post({Open{small_shell()}});
+  engine.wait();
+  engine.post({Move{0.1}});
+  engine.cancel();
+  engine.wait();
+  CHECK(engine.idle());
+  CHECK(engine.sight()->certificate.residual_N < 1e-5);
+}
