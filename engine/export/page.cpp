@@ -66,7 +66,7 @@ Json figures(const record::Frame& frame) {
     if (std::isfinite(value)) json[name] = std::stod(fmt::format("{:.5g}", value));
   };
   put("progress", frame.progress);
-  put("R_a (mm)", frame.boundary_radius_mm);
+  put("R\u2090 (mm)", frame.boundary_radius_mm);
   put("depth (mm)", frame.depth_mm);
   put("force (N)", frame.force_N);
   put("height (mm)", frame.height_mm);
@@ -79,9 +79,24 @@ Json figures(const record::Frame& frame) {
   return json;
 }
 
+/// Every n-th point of a boundary, to a tenth of a micrometre.
+Json boundary_json(const Eigen::Matrix3Xd& polyline) {
+  constexpr Eigen::Index most = 128;
+  const Eigen::Index each = (polyline.cols() + most - 1) / most;
+  Json points = Json::array();
+  for (Eigen::Index k = 0; k < polyline.cols(); k += each) {
+    Json point = Json::array();
+    for (int c = 0; c < 3; ++c) point.push_back(std::round(1e4 * polyline(c, k)) / 1e4);
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
 Json layout_json(const record::Layout& layout) {
   Json json = Json::object();
   json["rods"] = layout.rods;
+  json["boundary"] = {boundary_json(layout.original_boundary),
+                      boundary_json(layout.actuated_boundary)};
   json["joints"] = Json::array();
   for (const record::Joint& joint : layout.joints) json["joints"].push_back(joint.node);
   json["cells"] = Json::array();
@@ -121,6 +136,7 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
     Json K = Json::array();
     for (const double value : frame.cell_K) K.push_back(three_digits(value));
     json["frames"].push_back({{"index", frame.index},
+                              {"actuation", frame.actuation},
                               {"nodes", positions(frame, extent)},
                               {"K", std::move(K)},
                               {"figures", figures(frame)}});
