@@ -201,7 +201,8 @@ std::string to_xdmf(const record::Layout& layout, const record::FrameList& frame
       fmt::format_to(into(edges), "{} {}\n", rod[k - 1], rod[k]);
   const long nodes = frames.empty() ? 0 : long(frames.front().nodes.cols());
   std::string text =
-      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\" "
+      "xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n<Domain>\n"
       "<Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   long index = 0;
   for (const record::Frame& frame : frames) {
@@ -214,7 +215,7 @@ std::string to_xdmf(const record::Layout& layout, const record::FrameList& frame
                      "Dimensions=\"{0} 2\">\n{1}</DataItem>\n</Topology>\n",
                      count, edges);
     else
-      text += "<Topology Reference=\"/Xdmf/Domain/Grid/Grid[1]/Topology\"/>\n";
+      text += "<xi:include xpointer='xpointer(//Grid[@Name=\"frame_0\"]/*[self::Topology])'/>\n";
     fmt::format_to(into(text),
                    "<Geometry GeometryType=\"XYZ\">\n<DataItem ItemType=\"HyperSlab\" "
                    "Dimensions=\"{0} 3\">\n<DataItem Dimensions=\"3 3\" NumberType=\"Int\" "
