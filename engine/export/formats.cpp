@@ -218,7 +218,8 @@ std::string to_xdmf(const record::Layout& layout, const record::FrameList& frame
       text += "<xi:include xpointer='xpointer(//Grid[@Name=\"frame_0\"]/*[self::Topology])'/>\n";
     fmt::format_to(into(text),
                    "<Geometry GeometryType=\"XYZ\">\n<DataItem ItemType=\"HyperSlab\" "
-                   "Dimensions=\"{0} 3\">\n<DataItem Dimensions=\"3 3\" NumberType=\"Int\" "
+                   "Type=\"HyperSlab\" Dimensions=\"1 {0} 3\">\n<DataItem Dimensions=\"3 3\" "
+                   "NumberType=\"Int\" "
                    "Format=\"XML\">{1} 0 0  1 1 1  1 {0} 3</DataItem>\n<DataItem Format=\"HDF\" "
                    "NumberType=\"Float\" Precision=\"8\" Dimensions=\"{2} {0} 3\">{3}:/nodes"
                    "</DataItem>\n</DataItem>\n</Geometry>\n</Grid>\n",

@@ -25,7 +25,8 @@ std::string to_vtp(const Shape& shape);
 /// ParaView's list of such files over progress.
 std::string to_pvd(const std::vector<double>& progress, const std::vector<std::string>& files);
 
-/// XDMF of all frames of `trajectory.h5`, which lies beside it: edges over /nodes at each progress.
+/// XDMF of all frames of `trajectory.h5`: edges over /nodes at each progress. For ParaView's `XDMF
+/// Reader`; its Xdmf3 readers know no HyperSlab.
 std::string to_xdmf(const record::Layout& layout, const record::FrameList& frames,
                     const std::string& trajectory);
 
