@@ -18,7 +18,7 @@ constexpr double reach_over = 2;    // radius of a patch over it
 constexpr double rim_reach = 1;     // of the detail: patches go on beyond the rim
 constexpr double rough = 0.01;      // of the detail: what a vertex may be off
 constexpr double least_turn = 0.1;  // cosine between a patch's normal and those around
-constexpr std::size_t most_entries = 30000000;
+constexpr std::size_t most_entries = 30000000, most_fitted = 10000000;
 
 tl::unexpected<Error> wrong(const std::string& what, const Eigen::Vector3d& p) {
   return fail(Fault::bad_input,
@@ -145,8 +145,13 @@ Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm)
     if (!vertices.add(k, {x.col(k), x.col(k)}, most_entries))
       return fail(Fault::bad_input, "the mesh is too large");
   std::vector<int> mark(std::size_t(x.cols()), -1);
+  std::size_t fitted = 0;
   for (const int centre : *centres) {
     const auto around = joined_around(mesh, centre, surface.fit_radius_, mark, centre);
+    fitted += around.size();
+    if (fitted > most_fitted)
+      return fail(Fault::bad_input,
+                  "the triangles of the mesh are too uneven in size to be fitted");
     // another sheet beside this one
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Vector3d to(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);

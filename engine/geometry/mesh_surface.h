@@ -23,7 +23,7 @@ class MeshSurface {
   /// `detail_mm`: what is a quarter as large is not followed any more, mm (the spacing of the
   /// rods). Errors (bad_input): vertices off the fitted surface by more than a hundredth of that,
   /// with the place; parts of the mesh that come so near to one another, or turn so sharply, that
-  /// no polynomial tells them apart; too large a mesh for its details.
+  /// no polynomial tells them apart; too large a mesh for its details, or too uneven a one.
   static Result<MeshSurface> fit(const TriangleMesh& mesh, double detail_mm);
 
   double at(const Eigen::Vector3d& p) const;            ///< not a number far from the mesh

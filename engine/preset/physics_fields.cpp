@@ -86,7 +86,7 @@ std::vector<Field> inverse_fields() {
       {"inverse", "norm", "", real<&P::inverse, &Inverse::norm>(between(2, 32)),
        "p of the mean of |distance|^p that is made small in the last stage; the first has 2"},
       {"inverse", "mu", "", real<&P::inverse, &Inverse::mu>(at_least(0)),
-       "weight of the mean square of all moves (mm; rad of a direction; a hundredth of a rod's "
+       "weight of the mean square of all moves (mm; rad of a direction; a tenth of a rod's "
        "diameter) beside that of the distances (mm)"},
       {"inverse", "move_limit_mm", "mm", real<&P::inverse, &Inverse::move_limit_mm>(above(0)),
        "furthest that a pin is moved or a leg's length is changed"},

@@ -106,7 +106,9 @@ Result<Eigen::Vector3d> apex_of(const preset::Net& wanted, const Wanted& shape, 
   }
   const auto nearest = surface.nearest(apex);
   if (!nearest)
-    return fail(Fault::bad_input, fmt::format("[net] apex_mm: {}", nearest.error().message));
+    return fail(Fault::bad_input,
+                fmt::format("[net] apex_mm lies far off the surface: {}{}", nearest.error().message,
+                            shape.height ? "; without its z it is found" : ""));
   const double off = (*nearest - apex).norm();
   // flat triangles lie off the smooth surface
   if (given.size() == 3 && off > on_it * spacing_mm)

@@ -27,8 +27,8 @@ void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
 
 Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matrix3Xd& narrow,
                   const Eigen::Vector3d& end, const std::string& title) {
-  Series net{"the net as far as it comes"}, close{"rods within 17° of parallel"},
-      place{fmt::format("it ends at *z* = {:.1f} mm", end.z())};
+  Series net{"the net as far as it comes, from above"}, close{"rods within 17° of parallel"},
+      place{fmt::format("it ends at *z* = {}{:.1f} mm", end.z() < 0 ? "−" : "", std::abs(end.z()))};
   for (const auto& line : lines) {
     for (const auto& p : line.colwise()) {
       net.x.push_back(p.x());

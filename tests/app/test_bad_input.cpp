@@ -124,3 +124,26 @@ TEST_CASE("a footprint that cannot be built is refused before anything runs") {
   CHECK_THAT(ended.err, Catch::StartsWith("s1_actuation: "));
   CHECK(folder.entries().empty());
 }
+
+TEST_CASE("a net that ends before its boundary is refused with its place, and drawn by figure",
+          "[full]") {
+  const TemporaryFolder folder;
+  const auto ended = gridshell_program(
+      {"figure", "surface_ellipsoid", "--set", "net.cut_mm=-50", "-o", "deep"}, folder.path());
+  CHECK(ended.code == 2);
+  CHECK_THAT(ended.err, Catch::Contains("where the net ends: deep_refused.png\n") &&
+                            Catch::Contains("the net folds") && Catch::Contains("near ("));
+  CHECK(folder.entries() ==
+        std::vector<std::string>{"deep_refused.pdf", "deep_refused.png", "deep_refused.svg"});
+}
+
+TEST_CASE("a mesh that is none is refused with its file and line") {
+  const TemporaryFolder folder;
+  REQUIRE(write_atomically(folder.path() / "bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n"));
+  const auto ended =
+      gridshell_program({"check", "surface_mesh", "--set", "net.file=bad.obj"}, folder.path());
+  CHECK(ended.code == 2);
+  CHECK(ended.err ==
+        "--set: [net] file = \"bad.obj\": bad.obj:3: names a vertex that is none of the 2 before "
+        "it\n");
+}

@@ -156,6 +156,16 @@ std::vector<Preset> samples() {
   all.push_back(of_net(NetKind::surface));
   all.back().net.implicit.clear();
   all.back().net.within.clear();
+  // by heights and by a mesh
+  for (const SurfaceData& file :
+       {SurfaceData{
+            {0, 0.1, 3, 1e2 / 3}, {-2, 1e-12, 3, 4}, Points(4, {1, 2.5, -1e-11, 0}), {}, {}},
+        SurfaceData{{}, {}, {}, {{0, 0, 1e-12}, {1, 0, 0}, {0, 1e2 / 3, 0}}, {{0, 1, 2}}}}) {
+    all.push_back(of_net(NetKind::surface));
+    all.back().net.implicit.clear();
+    all.back().net.height.clear();
+    all.back().net.file = file;
+  }
   return all;
 }
 
