@@ -24,8 +24,7 @@ bool begin_table(const Panel& panel, const char* name, double left) {
 }  // namespace
 
 void help_sheet(const Panel& panel, const render::Box& box) {
-  ImGui::SetNextWindowFocus();
-  begin_fixed("help", box, 0);
+  begin_fixed("help", box, 0, Layer::over);
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::SameLine();
   ImGui::TextDisabled("(F1 or Esc closes)");

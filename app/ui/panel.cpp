@@ -34,13 +34,13 @@ void Panel::tick(const char* name) const {
   named(name, help_of(action));
 }
 
-void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more) {
+void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more, Layer layer) {
   ImGui::SetNextWindowPos({float(box.x), float(box.y)});
   ImGui::SetNextWindowSize({float(box.width), float(box.height)});
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus | more);
+                   (layer == Layer::fixed ? ImGuiWindowFlags_NoBringToFrontOnFocus : 0) | more);
 }
 
 void heading(const Panel& panel, const char* text) {

@@ -7,8 +7,7 @@
 namespace gridshell::ui {
 
 void preset_picker(const Panel& panel, const render::Box& box) {
-  ImGui::SetNextWindowFocus();
-  begin_fixed("presets", box, 0);
+  begin_fixed("presets", box, 0, Layer::over);
   ImGui::TextUnformatted("Pick a preset");
   ImGui::SameLine();
   ImGui::TextDisabled("(Ctrl+O comes back here; F1 lists keys and mouse)");
