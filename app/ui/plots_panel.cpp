@@ -46,7 +46,10 @@ void draw_curve(const Panel& panel, const Curve& curve, ImVec2 low, ImVec2 high)
     list.AddText({to.x - ImGui::CalcTextSize(text.c_str()).x - panel.px(3), y}, pale, text.c_str());
   };
   if (curve.x.empty()) return;
-  const Span x = curve.bars ? Span(-1, 1) : Span(curve.x), y(curve.y);
+  const Span x = curve.bars ? Span(-1, 1) : Span(curve.x);
+  Span y(curve.y);
+  // bars stand on zero
+  if (curve.bars) y = Span(std::min(0.f, y.low), std::max(0.f, y.high));
   std::vector<ImVec2> points;
   for (std::size_t k = 0; k < curve.x.size(); ++k)
     points.push_back(

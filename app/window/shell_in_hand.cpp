@@ -316,7 +316,9 @@ Result<void> ShellInHand::act(const Push& wish, const Watch& watch) {
   if (wish.joint < 0 || wish.joint >= int(scene_->footprint.joints.size()))
     return fail(Fault::bad_input, "no such joint");
   const Eigen::Vector3d at = session_->nodes().col(wish.joint);
-  const bool first = taken_at_.emplace(wish.joint, at).second;
+  // as it was seen, which the coarse mesh of a drag does not change
+  const Eigen::Vector3d seen = sight_.frame.nodes.col(wish.joint);
+  const bool first = taken_at_.emplace(wish.joint, seen).second;
   Eigen::Vector3d way = wish.to - at;
   const bool free = !wish.along.isZero(0);
   if (free) way = wish.along * wish.along.dot(way);
