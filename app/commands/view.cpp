@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "app/commands/commands.h"
 #include "app/console.h"
@@ -54,11 +57,15 @@ struct Aside {
   std::unique_ptr<ui::Interface> interface;
 };
 
+/// The software rasteriser leaves a processor to the engine.
+void share_processors() {
+  const unsigned cores = std::max(2u, std::thread::hardware_concurrency());
+  setenv("LP_NUM_THREADS", std::to_string(cores - 1).c_str(), 0);
+}
+
 Result<Aside> open_aside(const ViewOptions& options, window::Desk& desk) {
   const auto kind = find_word<render::ContextKind>(options.context);
   if (!kind) return fail(Fault::bad_input, "--context " + options.context + ": no such context");
-  // the other processor is the engine's
-  if (options.bench > 0) setenv("LP_NUM_THREADS", "1", 0);
   auto context = render::Context::create(*kind);
   if (!context) return tl::unexpected<Error>(context.error());
   auto renderer = render::Renderer::create(**context);
@@ -74,6 +81,7 @@ int print_bench(const ui::BenchFigures& figures) {
   line["interface_fps"] = rounded(figures.interface_fps);
   line["equilibria_per_s"] = rounded(figures.equilibria_per_s);
   line["worst_frame_ms"] = rounded(figures.worst_frame_ms);
+  line["frame_cpu_ms"] = rounded(figures.frame_cpu_ms);
   line["cancel_ms"] = rounded(figures.cancel_ms);
   fmt::print("{}\n", line.dump());
   return ExitCode::done;
@@ -150,6 +158,7 @@ int view(const ViewOptions& options) {
         {Fault::bad_input, "view --bench S takes a preset: gridshell view PRESET --bench S"});
   if (!options.shot.empty() && options.play.empty() && options.input.empty())
     return report({Fault::bad_input, "view --shot PNG takes a preset or --play FILE"});
+  share_processors();
   window::Desk desk(library_of(options));
   if (!options.input.empty()) {
     const auto preset = preset_of(options.input);

@@ -79,20 +79,23 @@ Result<void> Interface::resize(int width, int height, double density) {
 
 // ---- events ----
 
+/// Where a node is drawn, pixels of the window.
+Eigen::Vector2d Interface::in_view(int node) const {
+  return render::to_pixel(desk_.camera, int(view_.width), int(view_.height),
+                          window::place_of(*desk_.sight, desk_.show, node)) +
+         Eigen::Vector2d(view_.x, view_.y);
+}
+
 Result<Eigen::Vector2d> Interface::place_of(const InputEvent& event) const {
   if (event.text.empty()) return Eigen::Vector2d(event.x, event.y);
-  const auto in_view = [&](int node) -> Eigen::Vector2d {
-    return render::to_pixel(desk_.camera, int(view_.width), int(view_.height),
-                            window::place_of(*desk_.sight, desk_.show, node)) +
-           Eigen::Vector2d(view_.x + event.x, view_.y + event.y);
-  };
+  const Eigen::Vector2d beside(event.x, event.y);
   int i = 0, j = 0;
   if (desk_.sight->any() && std::sscanf(event.text.c_str(), "joint:%d,%d", &i, &j) == 2)
     for (const record::Joint& joint : desk_.sight->layout->joints)
-      if (joint.i == i && joint.j == j) return in_view(joint.node);
+      if (joint.i == i && joint.j == j) return Eigen::Vector2d(in_view(joint.node) + beside);
   if (desk_.sight->any() && std::sscanf(event.text.c_str(), "edge:%d", &i) == 1 && i >= 0 &&
       i < int(desk_.sight->layout->edge_points.size()))
-    return in_view(desk_.sight->layout->edge_points[std::size_t(i)]);
+    return Eigen::Vector2d(in_view(desk_.sight->layout->edge_points[std::size_t(i)]) + beside);
   std::string name = event.text;
   std::replace(name.begin(), name.end(), '_', ' ');
   for (const std::string& asked : {event.text, name})
@@ -211,8 +214,25 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
   } else {
     hand_.leave();
   }
+  mark_under();
   colour_legend(panel, box);
   ImGui::End();
+}
+
+/// A ring around the joint or edge point that the mouse would take.
+void Interface::mark_under() {
+  const window::Sight& sight = *desk_.sight;
+  if (!sight.any()) return;
+  const record::Layout& layout = *sight.layout;
+  const int joint = desk_.show.joint_under, edge = desk_.show.edge_under;
+  int node = -1;
+  if (joint >= 0 && joint < int(layout.joints.size())) node = joint;
+  if (edge >= 0 && edge < int(layout.edge_points.size()))
+    node = layout.edge_points[std::size_t(edge)];
+  if (node < 0) return;
+  const Eigen::Vector2d at = in_view(node);
+  ImGui::GetWindowDrawList()->AddCircle({float(at.x()), float(at.y())}, float(7 * density_),
+                                        IM_COL32(50, 140, 240, 255), 0, float(2.2 * density_));
 }
 
 void Interface::lay_out() {
@@ -241,10 +261,10 @@ Result<void> Interface::draw_shell() {
   const render::Camera& c = desk_.camera;
   const window::Show& s = desk_.show;
   const std::string shown = fmt::format(
-      "{} {} {} {} {} {} {} {} {} {} {}{}{}{}{}{} {} {} {} {} {}", c.azimuth_deg, c.elevation_deg,
+      "{} {} {} {} {} {} {} {} {} {} {}{}{}{}{}{} {} {} {}", c.azimuth_deg, c.elevation_deg,
       c.half_extent_mm, c.field_of_view_deg, c.target.x(), c.target.y(), c.target.z(),
       desk_.view.width, desk_.view.height, int(s.colour_by), s.joints, s.rings, s.ground, s.net,
-      s.footprint, s.dark, s.joint_under, s.edge_under, s.mode_mm, s.scale.low, s.scale.high);
+      s.footprint, s.dark, s.mode_mm, s.scale.low, s.scale.high);
   const bool anew = shell_anew_ || shown != shown_;
   if (anew) still_seconds_ = 0;
   const bool sharp = !anew && still_seconds_ >= sharp_after_s;
@@ -277,7 +297,7 @@ Result<void> Interface::compose(double seconds) {
 }
 
 bool Interface::busy() const {
-  return !events_.empty() || shell_anew_ || (desk_.sight->any() && !sharp_);
+  return !events_.empty() || (desk_.sight->any() && (shell_anew_ || !sharp_));
 }
 
 Result<void> Interface::frame(double seconds) {

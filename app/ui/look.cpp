@@ -57,7 +57,7 @@ void choose_colours(bool dark, double density) {
   style.FrameRounding = 3;
   style.GrabRounding = 3;
   style.PopupRounding = 3;
-  style.WindowBorderSize = 1;
+  style.WindowBorderSize = style.FrameBorderSize = 1;
   style.WindowPadding = {10, 8};
   style.FramePadding = {6, 3};
   style.ItemSpacing = {7, 5};
@@ -79,8 +79,10 @@ void choose_colours(bool dark, double density) {
   colours[ImGuiCol_Header] = dark ? rgb(0x3a404b) : rgb(0xdfe4ec);
   colours[ImGuiCol_HeaderHovered] = dark ? rgb(0x4a5362) : rgb(0xcbd8ee);
   colours[ImGuiCol_HeaderActive] = dark ? rgb(0x57627a) : rgb(0xb3c8ec);
-  colours[ImGuiCol_SliderGrab] = colours[ImGuiCol_CheckMark] = dark ? rgb(0x6ea2f5) : rgb(0x2f6bd0);
-  colours[ImGuiCol_SliderGrabActive] = dark ? rgb(0x8db8ff) : rgb(0x1d55b5);
+  colours[ImGuiCol_CheckMark] = colours[ImGuiCol_PlotLines] = dark ? rgb(0x6ea2f5) : rgb(0x2f6bd0);
+  // a slider's number stands over its grab
+  colours[ImGuiCol_SliderGrab] = dark ? rgb(0x4a6ba6) : rgb(0xa9c6f5);
+  colours[ImGuiCol_SliderGrabActive] = dark ? rgb(0x5b80c4) : rgb(0x86aef0);
   ImGui::GetStyle() = style;
 }
 

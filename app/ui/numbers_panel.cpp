@@ -74,7 +74,8 @@ bool NumbersPanel::edit(const Panel& panel, const Field& field) {
   const std::string name = name_of(field), id = "##" + name;
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(field.key.c_str());
-  ImGui::SameLine(panel.px(150));
+  const float label = ImGui::CalcTextSize(field.key.c_str()).x;
+  ImGui::SameLine(std::max(panel.px(150), label + panel.px(16)));
   ImGui::SetNextItemWidth(-1);
   const bool changed = std::visit(Control{edited_, id.c_str()}, field.kind);
   panel.named(field.table + "." + field.key,

@@ -27,7 +27,10 @@ struct Panel {
 };
 
 /// Opens a window of fixed place without a title; ImGui::End() closes it.
-void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more = 0);
+/// Fixed ones lie behind those that come up over them.
+enum class Layer { fixed, over };
+void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more = 0,
+                 Layer layer = Layer::fixed);
 
 /// A small heading within a panel.
 void heading(const Panel& panel, const char* text);

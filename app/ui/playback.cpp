@@ -14,6 +14,7 @@ namespace {
 
 constexpr double frame_s = 1.0 / 60;
 constexpr int most_frames = 2000;  // until nothing moves any more
+constexpr int frames_to_sharpen = 30;
 
 /// Frames until all events are taken, the engine rests and the view shows what it found.
 Result<void> rest(Interface& interface, window::Desk& desk) {
@@ -48,7 +49,7 @@ Result<void> play(Interface& interface, window::Desk& desk,
     });
     if (!done) return fail(done.error().fault, write_event(event) + ": " + done.error().message);
   }
-  for (int k = 0; k < most_frames && interface.busy(); ++k)
+  for (int k = 0; k < frames_to_sharpen && interface.busy(); ++k)
     if (auto drawn = interface.frame_aside(frame_s); !drawn) return drawn;
   return interface.frame_aside(frame_s);
 }
@@ -59,6 +60,7 @@ Result<BenchFigures> bench(Interface& interface, window::Desk& desk, double seco
   BenchFigures figures;
   const double begin = seconds_now();
   const int before = desk.sight->equilibria;
+  const double cpu = cpu_seconds_now();
   int frames = 0;
   for (double last = begin; last < begin + seconds;) {
     // there and back in four seconds, between half the path and its end
@@ -74,7 +76,10 @@ Result<BenchFigures> bench(Interface& interface, window::Desk& desk, double seco
   }
   const double took = seconds_now() - begin;
   figures.interface_fps = frames / took;
-  figures.equilibria_per_s = (desk.engine.sight()->equilibria - before) / took;
+  const int found = desk.engine.sight()->equilibria - before;
+  const double own = cpu_seconds_now() - cpu;
+  figures.equilibria_per_s = found / took;
+  figures.frame_cpu_ms = 1e3 * own / frames;
   desk.engine.cancel();
   desk.engine.wait();
   // the whole path and back, stopped soon after it began

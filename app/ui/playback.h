@@ -16,6 +16,8 @@ Result<void> play(Interface& interface, window::Desk& desk,
 /// What a bench measured.
 struct BenchFigures {
   double interface_fps = 0, equilibria_per_s = 0, worst_frame_ms = 0, cancel_ms = 0;
+  /// of the processor's own time, on a machine that does something else as well
+  double frame_cpu_ms = 0;
 };
 
 /// Drags the radius to and fro for so many seconds with the engine on its own thread; frames of the

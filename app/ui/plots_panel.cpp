@@ -22,6 +22,7 @@ struct Curve {
 struct Span {
   float low = 0, high = 1;
 
+  Span(float from, float to) : low(from), high(to) {}
   explicit Span(const std::vector<float>& values) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     const float middle = 0.5f * (*least + *most);
@@ -35,7 +36,7 @@ struct Span {
 void draw_curve(const Panel& panel, const Curve& curve, ImVec2 low, ImVec2 high) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const bool dark = panel.desk.show.dark;
-  const ImU32 pale = pale_ink(dark), ink = ImGui::GetColorU32(ImGuiCol_SliderGrab);
+  const ImU32 pale = pale_ink(dark), ink = ImGui::GetColorU32(ImGuiCol_PlotLines);
   const float line = ImGui::GetTextLineHeight();
   list.AddText({low.x, low.y}, ImGui::GetColorU32(ImGuiCol_Text), curve.y_label);
   const ImVec2 from{low.x + panel.px(4), low.y + 1.2f * line}, to{high.x, high.y - 1.3f * line};
@@ -45,28 +46,28 @@ void draw_curve(const Panel& panel, const Curve& curve, ImVec2 low, ImVec2 high)
     list.AddText({to.x - ImGui::CalcTextSize(text.c_str()).x - panel.px(3), y}, pale, text.c_str());
   };
   if (curve.x.empty()) return;
-  const Span x(curve.x), y(curve.y);
+  const Span x = curve.bars ? Span(-1, 1) : Span(curve.x);
+  Span y(curve.y);
+  // bars stand on zero
+  if (curve.bars) y = Span(std::min(0.f, y.low), std::max(0.f, y.high));
   std::vector<ImVec2> points;
   for (std::size_t k = 0; k < curve.x.size(); ++k)
     points.push_back(
         {from.x + x.at(curve.x[k]) * (to.x - from.x), to.y - y.at(curve.y[k]) * (to.y - from.y)});
   if (curve.bars) {
     const float zero = to.y - std::clamp(y.at(0), 0.f, 1.f) * (to.y - from.y);
-    const float half = 0.35f * (to.x - from.x) / float(points.size() + 1);
+    const float half = 0.35f * (to.x - from.x) / float(points.size());
     for (const ImVec2& p : points)
       list.AddRectFilled({p.x - half, std::min(p.y, zero)}, {p.x + half, std::max(p.y, zero)}, ink);
   } else {
     list.AddPolyline(points.data(), int(points.size()), ink, 0, panel.px(1.4));
     list.AddCircleFilled(points.back(), panel.px(3), ink);
   }
-  right(fmt::format("{:.4g}",
-                    curve.bars ? y.high : *std::max_element(curve.y.begin(), curve.y.end())),
-        low.y);
-  const std::string least =
-      fmt::format("{:.4g}", *std::min_element(curve.x.begin(), curve.x.end()));
-  list.AddText({from.x, to.y + panel.px(2)}, pale, least.c_str());
-  right(fmt::format("{:.4g}", *std::max_element(curve.x.begin(), curve.x.end())),
-        to.y + panel.px(2));
+  right(fmt::format("{:.4g}", *std::max_element(curve.y.begin(), curve.y.end())), low.y);
+  const auto [least, most] = std::minmax_element(curve.x.begin(), curve.x.end());
+  const std::string first = fmt::format("{:.4g}", curve.bars ? x.low : *least);
+  list.AddText({from.x, to.y + panel.px(2)}, pale, first.c_str());
+  right(fmt::format("{:.4g}", curve.bars ? x.high : *most), to.y + panel.px(2));
   const float middle = 0.5f * (from.x + to.x - ImGui::CalcTextSize(curve.x_label).x);
   list.AddText({middle, to.y + panel.px(2)}, pale, curve.x_label);
 }

@@ -5,10 +5,21 @@
 #include "app/ui/panel.h"
 
 namespace gridshell::ui {
+namespace {
+
+/// A title that is too long for its card ends in dots.
+std::string shortened(const std::string& title, float width) {
+  if (ImGui::CalcTextSize(title.c_str()).x <= width) return title;
+  std::string begin = title;
+  const auto too_long = [&] { return ImGui::CalcTextSize((begin + "…").c_str()).x > width; };
+  while (!begin.empty() && too_long()) begin.pop_back();
+  return begin + "…";
+}
+
+}  // namespace
 
 void preset_picker(const Panel& panel, const render::Box& box) {
-  ImGui::SetNextWindowFocus();
-  begin_fixed("presets", box, 0);
+  begin_fixed("presets", box, 0, Layer::over);
   ImGui::TextUnformatted("Pick a preset");
   ImGui::SameLine();
   ImGui::TextDisabled("(Ctrl+O comes back here; F1 lists keys and mouse)");
@@ -27,12 +38,8 @@ void preset_picker(const Panel& panel, const render::Box& box) {
       ImGui::TextUnformatted(card.name.c_str());
       ImGui::SetCursorPos(
           {at.x + panel.px(4), at.y + panel.px(1) + 1.2f * ImGui::GetTextLineHeight()});
-      const ImVec2 low = ImGui::GetCursorScreenPos();
-      // a long title ends at the card's edge
-      ImGui::PushClipRect(low, {low.x + ImGui::GetColumnWidth() - panel.px(10), low.y + height},
-                          true);
-      ImGui::TextDisabled("%s", card.title.c_str());
-      ImGui::PopClipRect();
+      ImGui::TextDisabled("%s",
+                          shortened(card.title, ImGui::GetColumnWidth() - panel.px(10)).c_str());
       ImGui::SetCursorPos({at.x, at.y + height + panel.px(6)});
       ImGui::PopID();
     }

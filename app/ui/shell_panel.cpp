@@ -62,7 +62,7 @@ void held(const Panel& panel) {
   panel.tick("push_freely");
   for (const window::HeldJoint& one : sight.held) {
     const record::Joint& joint = sight.layout->joints[std::size_t(one.joint)];
-    ImGui::Text("joint (%d, %d): %.4f N, %.2f mm", joint.i, joint.j, one.force_N.norm(),
+    ImGui::Text("(%d, %d)  %.4f N  %.2f mm", joint.i, joint.j, one.force_N.norm(),
                 one.moved_mm.norm());
     const std::string name = fmt::format("let go##{}", one.joint);
     ImGui::SameLine(ImGui::GetContentRegionMax().x - panel.px(52));
@@ -126,7 +126,7 @@ void accuracy(const Panel& panel) {
 void colours(const Panel& panel) {
   Desk& desk = panel.desk;
   heading(panel, "Colour");
-  ImGui::SetNextItemWidth(panel.px(150));
+  ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##colour", window::label_of(desk.show.colour_by))) {
     for (const auto& entry : words(window::ColourBy{}))
       if (ImGui::Selectable(window::label_of(entry.value), entry.value == desk.show.colour_by))
@@ -134,7 +134,6 @@ void colours(const Panel& panel) {
     ImGui::EndCombo();
   }
   panel.named("colour", window::meaning_of(desk.show.colour_by));
-  ImGui::SameLine();
   panel.tick("hold_range");
 }
 

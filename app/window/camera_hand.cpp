@@ -61,10 +61,19 @@ void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd
   const Eigen::Vector3d low = seen.rowwise().minCoeff(), high = seen.rowwise().maxCoeff();
   camera.target = frame * (0.5 * (low + high));
   const double half_width = 0.5 * (high.x() - low.x()), half_height = 0.5 * (high.y() - low.y());
+  camera.half_extent_mm =
+      std::max({half_height, half_width * size.height / size.width, least_extent_mm});
   // what is nearer looks larger
-  const double near = camera.field_of_view_deg > 0 ? 1.15 : 1.05;
-  camera.half_extent_mm = std::clamp(
-      near * std::max(half_height, half_width * size.height / size.width) + 1, 1.0, most_extent_mm);
+  for (int k = 0; k < 3; ++k) {
+    double most = 0;
+    for (const auto& point : points.colwise()) {
+      const Eigen::Vector2d at = render::to_pixel(camera, int(size.width), int(size.height), point);
+      most = std::max(
+          {most, std::abs(2 * at.x() / size.width - 1), std::abs(2 * at.y() / size.height - 1)});
+    }
+    camera.half_extent_mm =
+        std::clamp(1.06 * most * camera.half_extent_mm, least_extent_mm, most_extent_mm);
+  }
 }
 
 Eigen::Vector3d dragged_in_plane(const render::Camera& camera, const PictureSize& size,

@@ -75,7 +75,7 @@ Values values_of(const Sight& sight, ColourBy by) {
 render::ColourScale scale_of(const Values& values, ColourBy by) {
   const Eigen::VectorXd& all = values.of_cells.size() > 0 ? values.of_cells : values.of_nodes;
   render::ColourScale scale =
-      render::symmetric_scale(std::vector<double>(all.begin(), all.end()), 0.97);
+      render::symmetric_scale(std::vector<double>(all.begin(), all.end()), 0.9);
   if (by == ColourBy::K || by == ColourBy::K_change || by == ColourBy::axial_force) {
     // round-off has no colour
     const double least = by == ColourBy::axial_force ? 1e-6 : 0.02;

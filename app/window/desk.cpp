@@ -141,6 +141,7 @@ preset::Preset Desk::preset_to_save() const {
   preset.movie.view = preset::View::free;
   preset.movie.turn_deg = 0;
   preset.movie.orthographic = camera.field_of_view_deg == 0;
+  preset.indentation = {};
   if (sight->held.size() == 1) {
     const HeldJoint& held = sight->held.front();
     const record::Joint& joint = sight->layout->joints[std::size_t(held.joint)];
@@ -148,7 +149,6 @@ preset::Preset Desk::preset_to_save() const {
         held.along.isZero(0) ? Eigen::Vector3d(sight->normals.col(held.joint)) : held.along;
     const double depth = held.moved_mm.dot(along);
     preset::Indentation& push = preset.indentation;
-    push = {};
     push.joint = {joint.i, joint.j};
     push.depth_mm = std::abs(depth);
     push.direction = depth < 0 ? preset::Direction::inward : preset::Direction::outward;
@@ -164,8 +164,11 @@ void Desk::save_preset() {
   fs::create_directories(library.save_to, error);
   const auto written = write_atomically(file, preset::to_toml(preset_to_save()));
   if (!written) return say(written.error().message, true);
-  const bool all = sight->held.size() <= 1;
-  say("saved " + file.string() + (all ? "" : ", without the pushes: a preset has one"), !all);
+  std::string left_out;
+  if (sight->held.size() > 1) left_out = ", without the pushes: a preset has one";
+  if (!std::isfinite(sight->frame.boundary_radius_mm) && std::abs(sight->progress - 1) > 1e-6)
+    left_out += ", at the end of its path: a preset has no part of one";
+  say("saved " + file.string() + left_out, !left_out.empty());
 }
 
 void Desk::save_picture() {
@@ -216,6 +219,9 @@ void Desk::take(std::shared_ptr<const Sight> next) {
     camera.field_of_view_deg = sight->preset.movie.orthographic ? 0 : 20;
     look({sight->preset.movie.azimuth_deg, sight->preset.movie.elevation_deg});
     show.footprint = show.net = false;
+    // the same words
+    if (const auto by = find_word<ColourBy>(word_of(sight->preset.movie.colour_by)))
+      show.colour_by = *by;
   }
   if (!hold_range) show.scale = scale_of(values_of(*sight, show.colour_by), show.colour_by);
   read_off();

@@ -17,10 +17,25 @@ ChangeKind kind_of_key(const preset::Preset& preset, const preset::Field& field)
   if (among({"", "movie", "style", "figure", "page", "sweep", "jitter", "inverse"}))
     return ChangeKind::looks;
   if (among({"rod", "rod_v", "joints", "loads"})) return ChangeKind::rods;
+  if (field.table == "accuracy" && field.key != "model") return ChangeKind::accuracy;
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
   if (circle && field.table == "actuation" && (field.key == "radius_mm" || field.key == "ratio"))
     return ChangeKind::boundary;
   return ChangeKind::shape;
+}
+
+bool is_list(const preset::Field& field) {
+  const auto& all = preset::tables();
+  return std::any_of(all.begin(), all.end(), [&](const preset::Table& table) {
+    return table.list && table.name == field.table;
+  });
+}
+
+/// The tables that stand once an item: building blocks and their seams.
+std::string lists_of(const preset::Preset& preset) {
+  if (preset.block.empty() && preset.join.empty()) return "";
+  const std::string text = preset::to_toml(preset);
+  return text.substr(std::min(text.size(), text.find("[[")));
 }
 
 }  // namespace
@@ -28,8 +43,9 @@ ChangeKind kind_of_key(const preset::Preset& preset, const preset::Field& field)
 ChangeKind kind_of_change(const preset::Preset& before, const preset::Preset& after) {
   ChangeKind kind = ChangeKind::none;
   int kinds = 0;
+  if (lists_of(before) != lists_of(after)) return ChangeKind::shape;
   for (const preset::Field& field : preset::field_table()) {
-    if (value_text(field, before) == value_text(field, after)) continue;
+    if (is_list(field) || value_text(field, before) == value_text(field, after)) continue;
     const ChangeKind one = kind_of_key(after, field);
     if (one == kind) continue;
     kind = std::max(kind, one);

@@ -6,9 +6,9 @@
 
 namespace gridshell::window {
 
-/// How much of the shell a change touches: pictures alone, where the boundary is, the rods and what
-/// they carry, or the whole shape, which is formed anew.
-enum class ChangeKind { none, looks, boundary, rods, shape };
+/// How much of the shell a change touches: pictures alone, its meshes, where the boundary is, the
+/// rods and what they carry, or the whole shape, which is formed anew.
+enum class ChangeKind { none, looks, accuracy, boundary, rods, shape };
 
 ChangeKind kind_of_change(const preset::Preset& before, const preset::Preset& after);
 

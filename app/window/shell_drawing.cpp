@@ -16,8 +16,7 @@ constexpr Colour dark_paper{0.105f, 0.11f, 0.125f, 1}, dark_ground{0.16f, 0.165f
     dark_rod{0.80f, 0.82f, 0.86f, 1}, dark_ring{0.55f, 0.58f, 0.64f, 1};
 constexpr Colour joint_red{0.75f, 0.12f, 0.10f, 1}, joint_light{0.92f, 0.36f, 0.30f, 1},
     ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1},
-    under_blue{0.20f, 0.55f, 0.95f, 1}, arrow_ink{0.05f, 0.05f, 0.06f, 1},
-    arrow_light{0.95f, 0.95f, 0.95f, 1};
+    arrow_ink{0.05f, 0.05f, 0.06f, 1}, arrow_light{0.95f, 0.95f, 0.95f, 1};
 
 void put_colours(const Sight& sight, const Show& show, render::Drawing& drawing) {
   const Values values = values_of(sight, show.colour_by);
@@ -82,13 +81,6 @@ render::Drawing drawing_of(const Sight& sight, const Show& show, double thin_mm)
   };
   if (show.net) ghosts(layout.net_nodes);
   if (show.footprint) ghosts(layout.flat_nodes);
-  if (show.joint_under >= 0 && show.joint_under < int(layout.joints.size()))
-    drawing.marks.push_back(
-        {place_of(sight, show, show.joint_under), std::max(5.0, 6 * thin_mm), under_blue});
-  if (show.edge_under >= 0 && show.edge_under < int(layout.edge_points.size()))
-    drawing.marks.push_back(
-        {place_of(sight, show, layout.edge_points[std::size_t(show.edge_under)]),
-         std::max(5.0, 6 * thin_mm), under_blue});
   put_forces(sight, show, thin_mm, drawing);
   drawing.ground_z_mm = std::min(0.0, lowest(drawing.nodes)) - 2.5;
   if (sight.layout->net_nodes.cols() > 0) drawing.ground_z_mm = lowest(drawing.nodes) - 2.5;

@@ -70,11 +70,21 @@ void ShellInHand::fulfil(const Wish& wish, const Watch& watch) {
   const double begin = seconds_now();
   sight_.trouble.clear();
   sight_.told.clear();
-  if (session_ && wish.passing && refined_) coarsen(watch);
-  remember(wish);
+  const bool remembered = remember(wish);
+  if (session_ && wish.passing && session_->shell().levels() > 1) coarsen(watch);
   const auto done = std::visit([&](const auto& deed) { return act(deed, watch); }, wish.deed);
   if (!done)
     sight_.trouble = done.error().fault == Fault::cancelled ? "stopped" : done.error().message;
+  // what moved nothing is no step
+  if (!done && remembered && undo_.back().scene == scene_ &&
+      undo_.back().checkpoint.state.x == session_->nodes()) {
+    undo_.pop_back();
+    stroke_ = 0;
+  }
+  // whether these meshes still meet the tolerance is for refine() to find out
+  const bool travelled =
+      std::holds_alternative<Undo>(wish.deed) || std::holds_alternative<Redo>(wish.deed);
+  if (!travelled) refined_ = false;
   look();
   sight_.seconds = seconds_now() - begin;
 }
@@ -82,8 +92,14 @@ void ShellInHand::fulfil(const Wish& wish, const Watch& watch) {
 void ShellInHand::refine(const Watch& watch) {
   if (!session_ || refined_) return;
   const double begin = seconds_now();
+  // a shell that nothing happened to since it was formed
+  const bool untouched = sight_.first.nodes.cols() == sight_.frame.nodes.cols() &&
+                         sight_.first.nodes == sight_.frame.nodes;
   const LevelPlan plan = experiment::first_plan(*scene_);
-  if (plan.edges_per_segment != session_->shell().plan().edges_per_segment) {
+  const std::vector<int>& now = session_->shell().plan().edges_per_segment;
+  const bool fine_enough = scene_->edges_per_segment == 0 && now.size() > 1 &&
+                           now.back() >= plan.edges_per_segment.back();
+  if (!fine_enough && now != plan.edges_per_segment) {
     const auto fine = session_->remesh(plan, watch);
     if (watch.cancelled()) return;
     if (!fine || fine->end != Outcome::reached) {
@@ -96,26 +112,28 @@ void ShellInHand::refine(const Watch& watch) {
     session_->refine(scene_->tolerance * scene_->length_scale_mm, watch);
   refined_ = !watch.cancelled();
   look();
+  if (untouched) sight_.first = sight_.frame;
   sight_.seconds = seconds_now() - begin;
 }
 
 void ShellInHand::coarsen(const Watch& watch) {
-  const auto coarse = session_->remesh(coarse_plan(*scene_), watch);
-  refined_ = !coarse || coarse->end != Outcome::reached;
+  // where the coarse mesh does not have this state, the drag goes on on the finer ones
+  session_->remesh(coarse_plan(*scene_), watch);
 }
 
 // ---- steps ----
 
 ShellInHand::Step ShellInHand::step() const {
-  return {preset_,  scene_,    session_->save(), progress_,
-          dragged_, taken_at_, sight_.push,      sight_.first};
+  return {preset_,   scene_,      session_->save(), progress_, dragged_,
+          taken_at_, sight_.push, sight_.first,     refined_};
 }
 
-void ShellInHand::remember(const Wish& wish) {
+/// Keeps the state before a wish, but for one of the stroke that the last step began.
+bool ShellInHand::remember(const Wish& wish) {
   const bool travels = std::holds_alternative<Undo>(wish.deed) ||
                        std::holds_alternative<Redo>(wish.deed) ||
                        std::holds_alternative<Settle>(wish.deed);
-  if (travels || !session_ || (wish.stroke != 0 && wish.stroke == stroke_)) return;
+  if (travels || !session_ || (wish.stroke != 0 && wish.stroke == stroke_)) return false;
   stroke_ = wish.stroke;
   redo_.clear();
   undo_.push_back(step());
@@ -125,6 +143,7 @@ void ShellInHand::remember(const Wish& wish) {
     bytes -= bytes_of(undo_.front().checkpoint);
     undo_.pop_front();
   }
+  return true;
 }
 
 Result<void> ShellInHand::stand(const Step& step) {
@@ -142,6 +161,7 @@ Result<void> ShellInHand::stand(const Step& step) {
   sight_.push = step.push;
   sight_.first = step.first;
   sight_.layout.reset();
+  refined_ = step.refined;
   return {};
 }
 
@@ -151,8 +171,6 @@ Result<void> ShellInHand::travel(std::deque<Step>& from, std::deque<Step>& to, c
   Step back = std::move(from.back());
   from.pop_back();
   stroke_ = 0;
-  // as fine as it was left: a step is taken before its stroke goes coarse
-  refined_ = true;
   return stand(back);
 }
 
@@ -217,6 +235,16 @@ Result<void> ShellInHand::act(const Change& wish, const Watch& watch) {
       const double radius = preset_.actuation.radius_mm, ratio = preset_.actuation.ratio;
       preset_ = wish.preset;
       preset_.actuation.radius_mm = radius, preset_.actuation.ratio = ratio;
+      return {};
+    }
+    case ChangeKind::accuracy: {
+      auto scene = std::make_shared<Scene>(*scene_);
+      scene->tolerance = wish.preset.accuracy.tolerance;
+      scene->edges_per_segment = wish.preset.accuracy.edges_per_segment;
+      scene->memory_GB = wish.preset.accuracy.memory_GB;
+      scene_ = std::move(scene);
+      preset_.accuracy = wish.preset.accuracy;
+      refined_ = false;
       return {};
     }
     case ChangeKind::boundary: {
@@ -288,7 +316,9 @@ Result<void> ShellInHand::act(const Push& wish, const Watch& watch) {
   if (wish.joint < 0 || wish.joint >= int(scene_->footprint.joints.size()))
     return fail(Fault::bad_input, "no such joint");
   const Eigen::Vector3d at = session_->nodes().col(wish.joint);
-  const bool first = taken_at_.emplace(wish.joint, at).second;
+  // as it was seen, which the coarse mesh of a drag does not change
+  const Eigen::Vector3d seen = sight_.frame.nodes.col(wish.joint);
+  const bool first = taken_at_.emplace(wish.joint, seen).second;
   Eigen::Vector3d way = wish.to - at;
   const bool free = !wish.along.isZero(0);
   if (free) way = wish.along * wish.along.dot(way);

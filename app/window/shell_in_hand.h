@@ -37,6 +37,7 @@ class ShellInHand {
     std::map<int, Eigen::Vector3d> taken_at;
     PresetPush push;
     record::Frame first;
+    bool refined = true;
   };
 
   Result<void> act(const Open& wish, const Watch& watch);
@@ -56,7 +57,7 @@ class ShellInHand {
   Result<void> put_boundary(double progress, const Eigen::Matrix3Xd& dragged, const Watch& watch);
   Result<void> ended(const Report& report);
   void coarsen(const Watch& watch);
-  void remember(const Wish& wish);
+  bool remember(const Wish& wish);
   Result<void> travel(std::deque<Step>& from, std::deque<Step>& to, const char* none);
   Step step() const;
   Result<void> stand(const Step& step);

@@ -39,16 +39,20 @@ void ShellInHand::look() {
   s.certificate = session_->certificate();
   s.meshes = session_->shell().plan().edges_per_segment;
   s.refined = refined_;
+  look_at_normals();
   s.held.clear();
   for (std::size_t k = 0; k < session_->holds().size(); ++k) {
     const Hold& hold = session_->holds()[k];
     const Eigen::Vector3d from =
         taken_at_.count(hold.node) ? taken_at_[hold.node] : s.frame.nodes.col(hold.node);
-    HeldJoint held{hold.node, hold.part(session_->force(k)), s.frame.nodes.col(hold.node) - from};
+    // what is free to move across the push is no part of its depth
+    HeldJoint held{hold.node, hold.part(session_->force(k)),
+                   hold.part(s.frame.nodes.col(hold.node) - from)};
     if (hold.directions.cols() == 1) held.along = hold.directions.col(0);
+    // outwards, whichever way it was pushed
+    if (held.along.dot(s.normals.col(hold.node)) < 0) held.along *= -1;
     s.held.push_back(held);
   }
-  look_at_normals();
   look_at_rods();
   look_at_soft_mode();
   if (s.first.nodes.cols() == 0) s.first = s.frame;

@@ -153,7 +153,10 @@ Result<Outcome> Session::take_over(const LevelPlan& plan, bool nearby, const Wat
     if (auto rest = rest_near(shell_->system(0), state, 0.5 * scene_->footprint.spacing, watch))
       state = std::move(*rest);
   }
+  // a state that is not stable is one on finer meshes too
+  shell_->allow_unstable(before->state().inertia.negative_pivots > 0);
   Outcome end = shell_->start(t, state, watch).end;
+  shell_->allow_unstable(false);
   if (watch.cancelled()) end = Outcome::cancelled;
   if (end == Outcome::reached)
     spent_ += before->effort();

@@ -104,9 +104,15 @@ Report Session::push(int joint, const Eigen::Vector3d& displacement, Across acro
   Hold hold{joint};
   if (across == Across::free) hold.directions = displacement.normalized();
   holds.push_back(hold);
+  // a push that goes on is measured by how stiff the shell was where it began
+  const bool goes_on = !holds_.empty() && holds_.back().node == joint &&
+                       holds_.back().directions.cols() == hold.directions.cols() &&
+                       holds_.back().part(displacement).isApprox(displacement, 1e-6);
+  const double first_stiffness = goes_on ? first_stiffness_ : 0;
   std::vector<Eigen::Vector3d> displacements(holds.size(), Eigen::Vector3d::Zero());
   displacements.back() = displacement;
   const Report taken = take_hold(std::move(holds), std::move(displacements), watch);
+  if (first_stiffness > 0) first_stiffness_ = first_stiffness;
   return taken.end == Outcome::reached ? go(1, watch) : taken;
 }
 

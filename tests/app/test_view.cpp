@@ -1,7 +1,11 @@
 // The interface driven off-screen by recorded input: what happened in the engine, and what was
 // drawn.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <utility>
 
 #include "engine/core/atomic_file.h"
 #include "render/image/png.h"
@@ -53,8 +57,8 @@ TEST_CASE("a slider dragged in the window moves the boundary, in one step that c
 TEST_CASE("a joint dragged by the mouse is pushed and held, and saved it is a preset that runs") {
   const TemporaryFolder folder;
   const json pushed = played(folder,
-                             "mouse @joint:0,0 0 0\npress left\nmouse @joint:0,0 0 20\n"
-                             "mouse @joint:0,0 0 30\nrelease left\ndo save_preset\n",
+                             "mouse @joint:0,0 0 0\npress left\nmouse @joint:0,0 0 10\n"
+                             "mouse @joint:0,0 0 8\nrelease left\ndo save_preset\n",
                              {"-o", "kept"});
   CHECK(pushed["held"] == 1);
   CHECK(pushed["force_N"].get<double>() > 0);
@@ -101,6 +105,32 @@ TEST_CASE("every panel, light and dark, at twice the density") {
   const TemporaryFolder folder;
   played(folder, "size 2560 1440 2\ndo numbers\ndo dark\ndo help\n", {"--shot", "all.png"});
   CHECK(gridshell::render::read_png(folder.path() / "all.png")->width == 2560);
+}
+
+TEST_CASE("a monkey at mouse and keys breaks nothing, and another shell opens as ever", "[full]") {
+  std::mt19937 random{7};
+  const auto draw = [&](unsigned below) { return unsigned(random()) % below; };
+  const char* deeds[] = {"do step_back", "do gravity",       "do rest",       "do release",
+                         "do numbers",   "do view_iso",      "do undo",       "do redo",
+                         "do soft_mode", "do colour_energy", "do hold_range", "do push_freely",
+                         "do dark",      "do orthographic",  "wheel 1",       "wheel -1"};
+  std::string input;
+  bool down = false;
+  for (int k = 0; k < 80; ++k) {
+    const unsigned what = draw(6);
+    if (what < 3)
+      input += fmt::format("mouse {} {}\n", draw(1280), 30 + draw(650));
+    else if (what == 3)
+      input += (std::exchange(down, !down) ? "release left\n" : "press left\n");
+    else
+      input += std::string(deeds[draw(std::size(deeds))]) + "\n";
+  }
+  if (down) input += "release left\n";
+  input += "open small.toml\n";
+  const TemporaryFolder folder;
+  const json end = played(folder, input);
+  CHECK(end["negative_pivots"] == 0);
+  CHECK(end["boundary_radius_mm"].get<double>() == Approx(54));
 }
 
 TEST_CASE("without a display the window says what to do instead") {

@@ -66,7 +66,9 @@ TEST_CASE("a drag takes a point to where the mouse is") {
   render::Camera camera;
   const Eigen::Vector3d place(20, 10, 30);
   const Eigen::Vector2d before = pixel(camera, place);
-  const auto moved = [&](const Eigen::Vector3d& by) { return pixel(camera, place + by) - before; };
+  const auto moved = [&](const Eigen::Vector3d& by) -> Eigen::Vector2d {
+    return pixel(camera, place + by) - before;
+  };
   CHECK((moved(dragged_in_plane(camera, size, place, 8, 5)) - Eigen::Vector2d(8, 5)).norm() < 0.1);
   const Eigen::Vector3d level = dragged_level(camera, size, place, 8, 5);
   CHECK(level.z() == 0);
