@@ -12,6 +12,7 @@
 #include "app/loading.h"
 #include "app/pictures.h"
 #include "app/staging.h"
+#include "engine/design/refused_net.h"
 #include "engine/preset/writer.h"
 
 namespace gridshell::app {
@@ -58,7 +59,12 @@ Result<void> check(const Options& options) {
                 fmt::format("cannot write the folder '{}': {}", folder.string(), because));
   for (const auto& run : runs_of(*presets)) {
     const auto plan = plan_of(run.preset);
-    if (!plan) return tl::unexpected(plan.error());
+    if (!plan) {
+      Error error = plan.error();
+      if (refused_net(run.preset))
+        error.message += "\n'gridshell figure' draws the net as far as it comes";
+      return tl::unexpected(error);
+    }
     print_plan(run.preset, *plan);
   }
   return {};

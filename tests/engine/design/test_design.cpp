@@ -291,3 +291,11 @@ TEST_CASE("a hemisphere meets its sphere by the directions of its ends", "[full]
   p.ends.kind = preset::EndKind::tangent;
   check_met(designed(p, {Vary::directions}), 0.005, 0.005);
 }
+
+TEST_CASE("a hemisphere meets its sphere better when its rods' diameters may change too",
+          "[full]") {
+  const Designed found = designed(cap(0), {Vary::pins, Vary::diameters});
+  check_met(found, 0.16, 0.08);
+  CHECK(found.largest_thickening <= 1 + 1e-9);
+  CHECK(found.rod_table.size() == found.rods_before.size());
+}
