@@ -40,7 +40,7 @@ namespace {
 
 /// The entry points of libglfw.
 struct Glfw {
-#define GRIDSHELL_GLFW_MEMBER(member, name) decltype(&glfw##name) member;
+#define GRIDSHELL_GLFW_MEMBER(member, name) decltype(&glfw##name) member;  // NOLINT: a name
   GRIDSHELL_GLFW_FUNCTIONS(GRIDSHELL_GLFW_MEMBER)
 #undef GRIDSHELL_GLFW_MEMBER
 
