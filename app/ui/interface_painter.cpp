@@ -48,6 +48,9 @@ void InterfacePainter::take_fonts(ImFontAtlas& atlas) {
   int width = 0, height = 0;
   atlas.GetTexDataAsRGBA32(&rgba, &width, &height);
   fill_texture(*gl_, letters_.id(), width, height, rgba);
+  // letters stand on whole pixels, and areas have one colour: no pixel needs its neighbours
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   atlas.SetTexID(texture_id(letters_.id()));
 }
 
@@ -80,7 +83,13 @@ void InterfacePainter::draw(const ImDrawData& data, bool upwards) {
                 bottom = std::min(height, int(std::ceil(clip.w)));
       if (right <= x || bottom <= y || command.UserCallback) continue;
       gl_->Scissor(x, upwards ? height - bottom : y, right - x, bottom - y);
-      gl_->BindTexture(GL_TEXTURE_2D, GLuint(reinterpret_cast<intptr_t>(command.GetTexID())));
+      const auto texture = GLuint(reinterpret_cast<intptr_t>(command.GetTexID()));
+      gl_->BindTexture(GL_TEXTURE_2D, texture);
+      // the view of the shell hides what is behind it
+      if (texture == letters_.id())
+        gl_->Enable(GL_BLEND);
+      else
+        gl_->Disable(GL_BLEND);
       gl_->DrawElements(GL_TRIANGLES, GLsizei(command.ElemCount),
                         sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
                         reinterpret_cast<const void*>(command.IdxOffset * sizeof(ImDrawIdx)));

@@ -38,7 +38,7 @@ Result<void> load_fonts(double density) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
   ImFontConfig config;
-  config.OversampleH = 2;
+  config.OversampleH = 1;
   config.PixelSnapH = true;
   const float size = float(std::round(text_px * density));
   if (file.empty() || !atlas.AddFontFromFileTTF(file.c_str(), size, &config, letters))
@@ -54,6 +54,8 @@ void choose_colours(bool dark, double density) {
   else
     ImGui::StyleColorsLight(&style);
   style.WindowRounding = 0;
+  // such lines are drawn by a smooth texture, and the letters' is none
+  style.AntiAliasedLinesUseTex = false;
   style.FrameRounding = 3;
   style.GrabRounding = 3;
   style.PopupRounding = 3;

@@ -40,7 +40,7 @@ namespace {
 
 /// The entry points of libglfw.
 struct Glfw {
-#define GRIDSHELL_GLFW_MEMBER(member, name) decltype(&glfw##name) member = nullptr;
+#define GRIDSHELL_GLFW_MEMBER(member, name) decltype(&glfw##name) member;  // NOLINT: a name
   GRIDSHELL_GLFW_FUNCTIONS(GRIDSHELL_GLFW_MEMBER)
 #undef GRIDSHELL_GLFW_MEMBER
 
@@ -53,7 +53,7 @@ struct Glfw {
 
   bool complete() const {
     bool all = true;
-#define GRIDSHELL_GLFW_THERE(member, name) all = all && member;
+#define GRIDSHELL_GLFW_THERE(member, name) all = all && (member);
     GRIDSHELL_GLFW_FUNCTIONS(GRIDSHELL_GLFW_THERE)
 #undef GRIDSHELL_GLFW_THERE
     return all;
@@ -192,8 +192,7 @@ Result<std::unique_ptr<Window>> Window::open(const WindowWish& wish) {
   if (!library) return fail(Fault::io, "window: " + library.error().message);
   const Glfw glfw(*library);
   if (!glfw.complete()) return fail(Fault::io, "window: GLFW is too old; 3.3 is needed");
-  if (!glfw.init())
-    return fail(Fault::io, "window: " + glfw.reason() + " (use --context osmesa or egl instead)");
+  if (!glfw.init()) return fail(Fault::io, "window: " + glfw.reason());
 
   glfw.hint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfw.hint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -211,7 +210,11 @@ Result<std::unique_ptr<Window>> Window::open(const WindowWish& wish) {
 }
 
 Result<std::unique_ptr<Context>> create_window_context() {
-  return Window::open({.width = 64, .height = 64, .visible = false});
+  auto window = Window::open({.title = "gridshell", .width = 64, .height = 64, .visible = false});
+  if (!window)
+    return fail(window.error().fault,
+                window.error().message + " (use --context osmesa or egl instead)");
+  return std::move(*window);
 }
 
 }  // namespace gridshell::render
