@@ -127,10 +127,9 @@ Result<void> add_diagram(Page& page, const std::string& folder) {
 /// What all shells of the page have in common.
 void add_foot(Page& page, const preset::Preset& preset) {
   const double d = preset.footprint.spacing_mm;
-  const std::string shell = fmt::format(
-      "circular shells of *n* rods a direction, *d* = {:g} mm, *R*_{{a}} = {:.3g} "
-      "*R*_{{o}}",
-      d, preset.actuated_radius_mm() / preset.original_radius_mm());
+  const std::string shell =
+      fmt::format("A at {}; all: circles, *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
+                  place_of(preset), d, preset.actuated_radius_mm() / preset.original_radius_mm());
   if (preset.footprint.kind == preset::FootprintKind::circle)
     page.add("", "", foot, [shell](Canvas& canvas, const Box& box) {
       canvas.text(shell, {box.x, box.middle().y},
