@@ -42,6 +42,7 @@ Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, render::
   if (records.size() == 1) force.title = render::plain(records.front().preset.title);
   const auto with = [&](const char* suffix) { return fs::path(stem) += suffix; };
   return render::draw_pushes(shells, style, renderer, watch)
+      .and_then(render::draw_panels)
       .and_then(
           [&](const render::Image& image) { return render::write_png(image, with("_loads.png")); })
       .and_then([&] { return render::write_plot(with("_force"), force, style.print); })

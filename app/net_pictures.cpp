@@ -40,17 +40,19 @@ fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix;
 Result<void> draw_block_pictures(const CaseRecord& one, const render::MovieStyle& style,
                                  render::Renderer& renderer, const fs::path& stem, Watch& watch) {
   return render::draw_blocks(one.run, style, renderer, watch)
+      .and_then(render::draw_panels)
       .and_then([&](const render::Image& image) {
         return render::write_png(image, with_suffix(stem, "_blocks.png"));
       })
       .and_then([&] {
-        return render::write_block_footprints(with_suffix(stem, "_footprint"), one.run,
+        return render::write_block_footprints(with_suffix(stem, "_footprint"), one.run, style.title,
                                               style.print);
       })
       .and_then([&]() -> Result<void> {
         if (one.run.layout.seam_rods.empty()) return {};
-        return render::write_plot(with_suffix(stem, "_seams"), render::seam_plot(one.run),
-                                  style.print);
+        render::Plot seams = render::seam_plot(one.run);
+        seams.title = render::plain(style.title);
+        return render::write_plot(with_suffix(stem, "_seams"), seams, style.print);
       });
 }
 
@@ -65,13 +67,7 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
     const std::string name = one.name.empty() ? name_of(one.preset) : one.name;
     const double largest =
         render::deviation_of_nodes(one.run).head(long(one.run.layout.joints.size())).maxCoeff();
-    // said once, what the colours are
-    std::string over =
-        one.run.layout.parts.empty() ? "shell dark, net blue" : "shell dark, blocks in colour";
-    const Eigen::Matrix3Xd scanned = scan_of(one.preset);
-    if (scanned.cols() > 0) over += ", joints scanned red";
-    shells.push_back(
-        {&one.run, shells.empty() ? fmt::format("{}: {}", name, over) : name, scanned});
+    shells.push_back({&one.run, name, scan_of(one.preset)});
     const auto unit = render::deviation_unit(one.run.layout);
     shades.push_back({&one.run, fmt::format("{}: at most {:.2f} {}", name, unit.factor * largest,
                                             one.run.layout.parts.empty() ? "%" : "mm")});
@@ -88,14 +84,16 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
     };
   };
   return render::draw_over_nets(shells, style, renderer, watch)
+      .and_then(render::draw_panels)
       .and_then(save("_net.png"))
       .and_then([&] { return render::draw_deviations(shades, style, renderer, watch); })
+      .and_then(render::draw_panels)
       .and_then(save("_deviation.png"))
       .and_then([&] {
         const bool blocks = records.size() == 1 && !records.front().run.layout.parts.empty();
-        return blocks
-                   ? draw_block_pictures(records.front(), style, renderer, stem, watch)
-                   : render::write_footprints(with_suffix(stem, "_footprint"), named, style.print);
+        return blocks ? draw_block_pictures(records.front(), style, renderer, stem, watch)
+                      : render::write_footprints(with_suffix(stem, "_footprint"), named,
+                                                 style.title, style.print);
       })
       .and_then([&] {
         return render::write_plot(with_suffix(stem, "_K"), titled(render::curvature_plot(named)),

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/page_layout.h"
 #include "app/pictures.h"
+#include "app/states_page.h"
 #include "render/figure/block_figure.h"
 #include "render/figure/net_figure.h"
 #include "render/figure/net_plots.h"
-#include "render/figure/page.h"
 #include "render/figure/push_figure.h"
+#include "render/figure/vector_shell.h"
 #include "render/image/png.h"
 #include "render/movie/bins_plot.h"
 #include "render/movie/stage.h"
@@ -23,32 +25,6 @@ namespace {
 
 using render::Box;
 using render::Canvas;
-using render::PagePanel;
-
-constexpr double plot_font = 7;  // points
-
-/// What panels draw from must outlive them: pictures are held here.
-struct Page {
-  double width_mm = 178, height_mm = 100;
-  std::vector<PagePanel> panels;
-
-  void add(const std::string& letter, const std::string& caption, const Box& box_mm,
-           std::function<void(Canvas&, const Box&)> draw) {
-    panels.push_back({letter, caption, box_mm, std::move(draw)});
-  }
-  void add_image(const std::string& letter, const std::string& caption, const Box& box_mm,
-                 render::Image image) {
-    add(letter, caption, box_mm, [image = std::move(image)](Canvas& canvas, const Box& box) {
-      render::draw_fitted(canvas, box, image);
-    });
-  }
-  void add_plot(const std::string& letter, const Box& box_mm, render::Plot plot) {
-    plot.font_size = plot_font;
-    add(letter, "", box_mm, [plot = std::move(plot)](Canvas& canvas, const Box& box) {
-      render::draw_plot(canvas, box, plot);
-    });
-  }
-};
 
 class PageMaker {
  public:
@@ -74,6 +50,8 @@ class PageMaker {
         return Page{};
       case preset::PageKind::fig1:
         return fig1();
+      case preset::PageKind::fig2:
+        return states_page(records_, style_, renderer_, watch_);
       case preset::PageKind::fig3:
         return fig3();
       case preset::PageKind::fig4:
@@ -96,17 +74,16 @@ class PageMaker {
     return style;
   }
 
-  /// A style whose pictures are so large on the page, pixel by pixel as it is printed.
   render::MovieStyle sized(render::MovieStyle style, double width_mm, double height_mm) const {
-    style.width = std::max(16, int(width_mm * records_.front().preset.figure.dpi / 25.4));
-    style.height = std::max(16, int(style.width * height_mm / width_mm));
-    return style;
+    return at_size(std::move(style), width_mm, height_mm, records_.front().preset.figure.dpi);
   }
 
   Result<void> add_photo(Page& page, const std::string& letter, const Box& box_mm) {
     const std::string& file = records_.front().preset.page.photo;
     if (file.empty()) {
-      page.add(letter, "", box_mm, render::draw_photo_frame);
+      page.add(letter, "", box_mm, [](Canvas& canvas, const Box& box) {
+        render::draw_empty_frame(canvas, box, "photograph");
+      });
       return {};
     }
     auto photo = render::read_png(file);
@@ -134,17 +111,16 @@ class PageMaker {
       const record::Frame& frame = run.frames[std::size_t(k)];
       auto picture = stage.draw_views(renderer_, {frame, k});
       if (!picture) return tl::unexpected(picture.error());
-      page.add_image("B" + std::to_string(k + 1), render::still_caption(frame),
-                     {97, 2 + k * height, width, height}, std::move(*picture));
+      render::Panel panel{std::move(*picture), "B" + std::to_string(k + 1), ""};
+      if (style.vector) panel.lines = render::shell_lines(stage.drawing(frame), stage.camera(k));
+      page.add_panel(render::still_caption(frame), {97, 2 + k * height, width, height},
+                     std::move(panel));
       watch_.report(double(k + 1) / count);
     }
-    if (const auto& bar = stage.colour_bar())
-      page.add("", "", {162, 4, 14, 48}, [bar = *bar](Canvas& canvas, const Box& box) {
-        render::draw_colour_bar(canvas, box, bar, plot_font);
-      });
+    if (const auto& bar = stage.colour_bar()) page.add_colour_bar({162, 4, 14, 48}, *bar);
     const double bar_mm = records_.front().preset.figure.scale_bar_mm;
     page.add("", "", {160, 106, 16, 10}, [bar_mm, units](Canvas& canvas, const Box& box) {
-      render::draw_scale_bar(canvas, box, bar_mm, units, plot_font);
+      render::draw_scale_bar(canvas, box, bar_mm, units, page_font);
     });
     return page;
   }
@@ -160,14 +136,14 @@ class PageMaker {
     const Box left{2, 54, 84, 40}, below{2, 96, 174, 33};
     auto over = render::draw_over_nets({shells_.front()}, filling(left, 1), renderer_, watch_);
     if (!over) return tl::unexpected(over.error());
-    page.add_image("C", "", left, std::move(*over));
+    page.add_figure("C", left, std::move(*over));
     page.add_plot("", {90, 54, 86, 40},
                   render::latitude_plot(named_shells_.front(), shells_.front().scanned));
     const int columns = std::min(6, int(shells_.size()));
     auto caps =
         render::draw_deviations(shells_, filling(below, columns, true), renderer_, watch_, columns);
     if (!caps) return tl::unexpected(caps.error());
-    page.add_image("D", "", below, std::move(*caps));
+    page.add_figure("D", below, std::move(*caps));
     return page;
   }
 
@@ -178,16 +154,16 @@ class PageMaker {
     auto over = render::draw_over_nets(shells_, filling(above, std::min(3, int(shells_.size()))),
                                        renderer_, watch_);
     if (!over) return tl::unexpected(over.error());
-    page.add_image("A", "", above, std::move(*over));
+    page.add_figure("A", above, std::move(*over));
     page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
     auto pushes = render::draw_pushes(
         pushes_, filling(middle, std::min(3, int(pushes_.size())), true), renderer_, watch_);
     if (!pushes) return tl::unexpected(pushes.error());
-    page.add_image("C", "", middle, std::move(*pushes));
+    page.add_figure("C", middle, std::move(*pushes));
     for (std::size_t k = 0; k < named_pushes_.size(); ++k) {
       const record::Trajectory& run = *named_pushes_[k].run;
       render::Plot plot = render::bins_plot(render::survey_of(run), long(run.layout.cells.size()),
-                                            run.frames.back(), std::array{-0.01, 0.07}, plot_font);
+                                            run.frames.back(), std::array{-0.01, 0.07}, page_font);
       const double width = 174.0 / double(named_pushes_.size());
       page.add_plot(k == 0 ? "D" : "", {2 + width * double(k), 146, width - 1, 43}, plot);
     }
@@ -201,13 +177,13 @@ class PageMaker {
     const Box left{2, 2, 86, 54}, below{2, 58, 112, 57};
     auto blocks = render::draw_blocks(run, filling(left, 1), renderer_, watch_);
     if (!blocks) return tl::unexpected(blocks.error());
-    page.add_image("A", "", left, std::move(*blocks));
+    page.add_figure("A", left, std::move(*blocks));
     page.add("B", "", {92, 2, 84, 54}, [&run](Canvas& canvas, const Box& box) {
       render::draw_block_footprints(canvas, box, run);
     });
     auto over = render::draw_over_nets(shells_, filling(below, 1), renderer_, watch_);
     if (!over) return tl::unexpected(over.error());
-    page.add_image("C", "", below, std::move(*over));
+    page.add_figure("C", below, std::move(*over));
     page.add_plot("D", {116, 58, 60, 57}, render::curvature_plot(named_shells_));
     return page;
   }
@@ -230,7 +206,7 @@ Result<void> draw_page(const std::vector<CaseRecord>& records, render::Renderer&
   if (!page) return tl::unexpected(page.error());
   const render::Print print{preset.figure.width_mm, preset.figure.dpi};
   return render::write_page(fs::path(stem) += "_page", preset.source, page->width_mm,
-                            page->height_mm, page->panels, print);
+                            page->height_mm, page->panels, print, preset.figure.vector);
 }
 
 }  // namespace gridshell::app

@@ -178,7 +178,8 @@ Result<void> write_lines(const record::Trajectory& run, render::MovieStyle style
   return render::write_figure(fs::path(stem) += "_lines", points,
                               points * style.height / style.width, style.title,
                               [&](render::Canvas& canvas) {
-                                render::draw_shell_lines(canvas, drawing, stage.camera(last));
+                                const render::Box page{0, 0, canvas.width(), canvas.height()};
+                                render::draw_shell_lines(canvas, page, drawing, stage.camera(last));
                               });
 }
 

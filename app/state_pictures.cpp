@@ -19,13 +19,6 @@ using record::StateRow;
 
 constexpr double high = 62.0 / 88;  // of a plot, over its width
 
-/// "*C*_{4v}" of "C4v"; the place of mirrors is left to the table.
-std::string group_text(const std::string& group) {
-  const std::string name = group.substr(0, group.find('_'));
-  if (name.size() < 2 || name == "flat") return name;
-  return fmt::format("*{}*_{{{}}}", name.substr(0, 1), name.substr(1));
-}
-
 std::string class_text(StateClass kind) {
   return kind == StateClass::other ? "other" : "state *" + std::string(word_of(kind)) + "*";
 }
@@ -95,16 +88,22 @@ render::Plot lives_plot(const record::StateTables& states) {
   return plot;
 }
 
-/// The states to draw alone, each in its actuated boundary.
-record::Trajectory drawn(const record::Trajectory& run, const std::vector<std::size_t>& which) {
+}  // namespace
+
+std::string group_text(const std::string& group) {
+  const std::string name = group.substr(0, group.find('_'));
+  if (name.size() < 2 || name == "flat") return name;
+  return fmt::format("*{}*_{{{}}}", name.substr(0, 1), name.substr(1));
+}
+
+record::Trajectory states_alone(const record::Trajectory& run,
+                                const std::vector<std::size_t>& which) {
   record::Trajectory few;
   few.layout = run.layout;
   few.layout.original_boundary = run.layout.actuated_boundary;
   for (const std::size_t k : which) few.frames.push_back(run.frames[k]);
   return few;
 }
-
-}  // namespace
 
 std::string found_text(const record::StateTables& states) {
   const record::StateSearch& search = states.search;
@@ -147,9 +146,12 @@ Result<void> draw_states(const CaseRecord& one, render::Renderer& renderer, cons
   std::vector<std::string> captions;
   for (const std::size_t k : which) captions.push_back(caption_of(states.rows[k], states.search));
   const auto plot_at = [&](const char* suffix, const render::Plot& plot) {
-    return render::write_plot(fs::path(stem) += suffix, plot, style.print, high);
+    render::Plot titled = plot;
+    titled.title = render::plain(style.title) + (plot.title.empty() ? "" : "\n") + plot.title;
+    return render::write_plot(fs::path(stem) += suffix, titled, style.print, high);
   };
-  return render::write_stills(drawn(one.run, which), style, {}, renderer, stem, watch, captions)
+  return render::write_stills(states_alone(one.run, which), style, {}, renderer, stem, watch,
+                              captions)
       .map([](const auto&) {})
       .and_then([&] { return plot_at("_energies", energies_plot(states)); })
       .and_then([&] { return plot_at("_lives", lives_plot(states)); })

@@ -16,6 +16,13 @@ namespace gridshell::app {
 /// otherwise, and the lowest state of each of the paper's classes.
 std::string found_text(const record::StateTables& states);
 
+/// "*C*_{4v}" of "C4v"; the place of mirrors is left to the table.
+std::string group_text(const std::string& group);
+
+/// Some of the states alone, each in its actuated boundary.
+record::Trajectory states_alone(const record::Trajectory& run,
+                                const std::vector<std::size_t>& which);
+
 /// The atlas: the states side by side from one camera with class, group, energy and how often they
 /// were met (`<stem>.png`, each by itself `<stem>_1.png` ...); energy against how often they were
 /// met (`<stem>_energies.*`); how far back along the path they live (`<stem>_lives.*`); which goes

@@ -67,19 +67,53 @@ Result<record::SweepLog> open_sweep(const fs::path& folder, const preset::Preset
       return refuse(fmt::format("it is no sweep, and holds '{}'", foreign));
   if (auto made = make_folder(folder); !made)
     return tl::unexpected(Error{Fault::bad_input, made.error().message});
-  return record::SweepLog::open(
-      folder / record::sweep_log_name, name_of(presets, grid),
-      [&] {
-        std::vector<std::string> axes;
-        for (const auto& axis : grid.sweep().over) axes.push_back(axis.key);
-        return axes;
-      }(),
-      [&grid](std::size_t point) { return keys_of(grid, point); });
+  return record::SweepLog::open(folder / record::sweep_log_name, name_of(presets, grid),
+                                axes_of(grid),
+                                [&grid](std::size_t point) { return keys_of(grid, point); });
 }
 
 record::PointKeys keys_of(const preset::SweepGrid& grid, std::size_t point) {
   auto at = grid.at(point);
   return {std::move(at.case_name), std::move(at.values), at.seed};
+}
+
+std::vector<std::string> axes_of(const preset::SweepGrid& grid) {
+  std::vector<std::string> keys;
+  for (const auto& axis : grid.sweep().over) keys.push_back(axis.key);
+  return keys;
+}
+
+record::SweepTable table_of(const preset::SweepGrid& grid, const std::vector<std::size_t>& points,
+                            const std::map<std::size_t, record::PointResult>& found) {
+  record::SweepTable table;
+  table.axes = axes_of(grid);
+  table.has_cases = grid.has_cases();
+  table.has_seeds = grid.sweep().seeds > 1;
+  for (const std::size_t point : points)
+    table.rows.push_back({keys_of(grid, point), found.at(point)});
+  return table;
+}
+
+Result<record::SweepTable> read_finished_sweep(const fs::path& folder) {
+  const auto refuse = [&](const std::string& why) {
+    return fail(Fault::bad_input,
+                fmt::format("'{}' is no finished sweep: {}", folder.string(), why));
+  };
+  // the preset is written once all points are there
+  const fs::path file = folder / "preset.toml";
+  std::error_code error;
+  if (!fs::exists(file, error)) return refuse("it has no preset.toml");
+  const auto presets = preset::read_preset_file(file, {});
+  if (!presets) return tl::unexpected(presets.error());
+  const preset::SweepGrid grid(*presets);
+  const auto log = record::read_sweep_log(folder / record::sweep_log_name);
+  if (!log) return refuse(log.error().message);
+  std::vector<std::size_t> points;
+  for (std::size_t point = 0; point < grid.size(); ++point)
+    if (log->found.contains(point)) points.push_back(point);
+  if (points.size() < grid.size())
+    return refuse(fmt::format("{} of {} points are there", points.size(), grid.size()));
+  return table_of(grid, points, log->found);
 }
 
 Result<void> gather_shards(const fs::path& folder, record::SweepLog& log,

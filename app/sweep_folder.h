@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/preset/sweep_grid.h"
+#include "engine/record/sweep.h"
 #include "engine/record/sweep_log.h"
 
 namespace gridshell::app {
@@ -27,6 +30,17 @@ Result<record::SweepLog> open_sweep(const std::filesystem::path& folder,
 
 /// What a point is set to, as the files say it.
 record::PointKeys keys_of(const preset::SweepGrid& grid, std::size_t point);
+
+/// The keys that a sweep goes over, in their order.
+std::vector<std::string> axes_of(const preset::SweepGrid& grid);
+
+/// What some points of a sweep came to; all of them are in `found`.
+record::SweepTable table_of(const preset::SweepGrid& grid, const std::vector<std::size_t>& points,
+                            const std::map<std::size_t, record::PointResult>& found);
+
+/// All points of a sweep that came to its end. Errors (bad_input): the folder holds no sweep, or
+/// one that is not finished, saying how far it came.
+Result<record::SweepTable> read_finished_sweep(const std::filesystem::path& folder);
 
 /// Adds what the shards in `folder` found to its log. Errors: bad_input where there is no shard or
 /// one is of another preset; io.

@@ -50,12 +50,6 @@ std::vector<std::string> plots_of(const preset::SweepGrid& grid) {
   return plots.empty() ? std::vector<std::string>{"height_mm"} : plots;
 }
 
-std::vector<std::string> axes_of(const preset::SweepGrid& grid) {
-  std::vector<std::string> keys;
-  for (const auto& axis : grid.sweep().over) keys.push_back(axis.key);
-  return keys;
-}
-
 /// What can be drawn: the figures that a point has in any case, and of searches for states over leg
 /// and rods which classes were found.
 std::vector<std::string> drawable(const preset::Presets& presets, const preset::SweepGrid& grid) {
@@ -88,16 +82,6 @@ Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid
                                                 "footprint.longest_leg and footprint.rods alone"
                                               : preset::did_you_mean(name, names)));
   return {};
-}
-
-record::SweepTable table_of(const Work& work, const record::SweepLog& log) {
-  record::SweepTable table;
-  table.axes = axes_of(work.grid);
-  table.has_cases = work.grid.has_cases();
-  table.has_seeds = work.grid.sweep().seeds > 1;
-  for (const std::size_t point : work.points())
-    table.rows.push_back({keys_of(work.grid, point), log.found().at(point)});
-  return table;
 }
 
 /// Pictures of figures that are not asked for any more would be of no sweep.
@@ -194,7 +178,7 @@ std::string regions_told(const Work& work, const record::SweepTable& table) {
 }
 
 Result<std::string> finish(const Work& work, const record::SweepLog& log) {
-  const auto table = table_of(work, log);
+  const auto table = table_of(work.grid, work.points(), log.found());
   auto written =
       write_atomically(work.folder / "sweep.csv", record::sweep_csv(table))
           .and_then([&] {

@@ -33,11 +33,12 @@ Result<std::vector<preset::Override>> picture_overrides(const Options& options) 
   if (!overrides) return overrides;
   for (const auto& change : *overrides) {
     const bool shows = change.key.starts_with("movie.") || change.key.starts_with("figure.") ||
-                       change.key.starts_with("style.");
+                       change.key.starts_with("style.") || change.key == "page.photo" ||
+                       change.key == "page.sweep";
     if (!shows || change.key == "movie.frames" || change.key == "figure.radii_mm")
       return fail(Fault::bad_input,
                   fmt::format("{}: {} cannot change once a run is finished; 'render' takes keys of "
-                              "[movie], [style] and [figure] that only show it",
+                              "[movie], [style], [figure] and [page] that only show it",
                               change.source, change.key));
   }
   return overrides;
@@ -85,7 +86,8 @@ Result<void> draw_together(std::vector<FinishedRun>& runs, const fs::path& from,
                            const fs::path& to, Progress& progress) {
   std::vector<CaseRecord> records;
   for (auto& run : runs)
-    if (is_still(run) || drawn_beside(run)) records.push_back({run.preset, run.trajectory});
+    if (is_still(run) || drawn_beside(run))
+      records.push_back({run.preset, run.trajectory, run.states});
   if (records.empty()) return {};
   const auto name = fs::path(runs.front().summary.preset);
   auto stem = runs.front().name.empty() ? name.filename() : name.parent_path().filename();

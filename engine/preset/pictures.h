@@ -90,10 +90,11 @@ struct Style {
   double font_size = 1;    ///< of all text, over its usual size
 };
 
-enum class PageKind { none, fig1, fig3, fig4, fig5 };
+enum class PageKind { none, fig1, fig2, fig3, fig4, fig5 };
 constexpr auto words(PageKind) {
   return word_table<PageKind>({{PageKind::none, "none"},
                                {PageKind::fig1, "fig1"},
+                               {PageKind::fig2, "fig2"},
                                {PageKind::fig3, "fig3"},
                                {PageKind::fig4, "fig4"},
                                {PageKind::fig5, "fig5"}});
@@ -102,6 +103,7 @@ constexpr auto words(PageKind) {
 struct Page {
   PageKind kind = PageKind::none;
   std::string photo;  ///< a PNG for the photograph's place
+  std::string sweep;  ///< folder of a finished sweep, for the phase diagram's place
 };
 
 struct Figure {

@@ -87,6 +87,10 @@ std::vector<Field> print_fields() {
        "figure of the paper that `figure` lays out on one page"},
       {"page", "photo", "", text<&P::page, &Page::photo>(),
        "a PNG in the photograph's place; empty: an empty frame"},
+      {"page", "sweep", "", text<&P::page, &Page::sweep>(),
+       "folder of a finished sweep over legs and rods in the phase diagram's place; empty: an "
+       "empty "
+       "frame"},
   };
 }
 

@@ -267,7 +267,9 @@ class Idle {
       for (const char* key : {"azimuth_deg", "elevation_deg"})
         add("movie", key, {"[movie] view"}, "[movie] view takes its place");
     if (preset_.page.kind == PageKind::none)
-      add("page", "photo", {"[page] kind"}, "no page is made: [page] kind is \"none\"");
+      add_all("page", {"[page] kind"}, "no page is made: [page] kind is \"none\"");
+    else if (preset_.page.kind != PageKind::fig2)
+      add("page", "sweep", {"[page] kind"}, "[page] kind is not \"fig2\"");
   }
 
   const Preset& preset_;

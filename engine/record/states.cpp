@@ -136,27 +136,52 @@ std::vector<std::string> split(const std::string& text, char at) {
   return parts;
 }
 
+/// What may be missing: a number that is not known. Earlier versions had fewer columns.
+template <class Value>
+constexpr bool may_be_unknown = std::is_same_v<Value, double>;
+
+/// The place of each column in a file by its heading, -1 for one that it does not have. Errors
+/// (bad_input): a name that is no column or stands twice, no column for what cannot be unknown.
+template <class Row, class Each>
+Result<std::vector<int>> places_of(const std::string& heading, const Each& each) {
+  const std::vector<std::string> names = split(heading, ',');
+  std::vector<int> places;
+  std::size_t found = 0;
+  std::string missing;
+  Row row;
+  each(row, [&](const char* name, auto& value) {
+    const auto at = std::ranges::find(names, name);
+    places.push_back(at == names.end() ? -1 : int(at - names.begin()));
+    found += at != names.end();
+    if (at == names.end() && !may_be_unknown<std::decay_t<decltype(value)>>) missing = name;
+  });
+  if (!missing.empty())
+    return fail(Fault::bad_input, fmt::format("its first line has no column {}", missing));
+  if (found != names.size())
+    return fail(Fault::bad_input, "its first line has columns twice or unknown ones");
+  return places;
+}
+
 template <class Row, class Each>
 Result<std::vector<Row>> read_csv(const std::filesystem::path& file, const Each& each) {
   const auto text = read_whole(file, largest_text);
   if (!text) return tl::unexpected(text.error());
   std::vector<std::string> lines = split(*text, '\n');
   if (lines.back().empty()) lines.pop_back();
-  const std::string heading = csv_of(std::vector<Row>{}, each);
-  if (lines.empty() || lines.front() + "\n" != heading)
-    return fail(Fault::bad_input, fmt::format("'{}': its first line is not {}", file.string(),
-                                              heading.substr(0, heading.size() - 1)));
+  const auto places = places_of<Row>(lines.empty() ? "" : lines.front(), each);
+  if (!places)
+    return fail(Fault::bad_input, fmt::format("'{}': {}", file.string(), places.error().message));
+  const std::size_t columns = split(lines.front(), ',').size();
   std::vector<Row> rows;
   for (std::size_t k = 1; k < lines.size(); ++k) {
     const std::vector<std::string> cells = split(lines[k], ',');
     std::size_t column = 0;
-    const char* fault = nullptr;
+    const char* fault = cells.size() == columns ? nullptr : "number of cells";
     Row row;
     each(row, [&](const char* name, auto& value) {
-      if (!fault && (column >= cells.size() || !take(cells[column], value))) fault = name;
-      ++column;
+      const int place = (*places)[column++];
+      if (!fault && !take(place < 0 ? "" : cells[std::size_t(place)], value)) fault = name;
     });
-    if (!fault && column != cells.size()) fault = "number of cells";
     if (fault)
       return fail(Fault::bad_input,
                   fmt::format("'{}' line {}: its {} cannot be read", file.string(), k + 1, fault));
@@ -200,13 +225,20 @@ std::string to_json(const StateSearch& search) {
 
 namespace {
 
+/// Whether searches of earlier versions, which looked for no barriers, do not say it.
+bool is_later(const std::string& key) {
+  return key == "ways_followed_for_barriers" || key == "passes_found";
+}
+
 Result<StateSearch> read_search(const std::filesystem::path& file) {
   const auto text = read_whole(file, largest_text);
   if (!text) return tl::unexpected(text.error());
   const Json json = parsed(*text);
   StateSearch search;
   try {
-    each_search_key(search, [&](const char* key, auto& value) { json.at(key).get_to(value); });
+    each_search_key(search, [&](const char* key, auto& value) {
+      if (json.contains(key) || !is_later(key)) json.at(key).get_to(value);
+    });
   } catch (const Json::exception& error) {
     return fail(Fault::bad_input,
                 fmt::format("'{}' is no search for states: {}", file.string(), error.what()));

@@ -109,7 +109,8 @@ inline constexpr const char* barriers_name = "barriers.csv";
 /// Writes these into a run's folder, the last two only where there is something in them. Errors:
 /// io.
 Result<void> write_state_tables(const std::filesystem::path& folder, const StateTables& tables);
-/// What that wrote. Errors: io; bad_input naming file and line.
+/// What that wrote, or an earlier version: a number without a column is unknown. Errors: io;
+/// bad_input naming file and line.
 Result<StateTables> read_state_tables(const std::filesystem::path& folder);
 
 }  // namespace gridshell::record

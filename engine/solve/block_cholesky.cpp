@@ -147,11 +147,12 @@ inline void update_wide(Factor& f, int begin, int end, const int* target) {
 }
 
 GRIDSHELL_CLONES
-void factor_numbers(Factor& f, Inertia& inertia) {
+void factor_numbers(Factor& f, int most_negative, Inertia& inertia) {
   for (std::size_t p = 0; p + 1 < f.panel.size(); ++p) {
     const int begin = f.panel[p], end = f.panel[p + 1];
     for (int k = begin; k < end; ++k) {
       if (!finish_column(f, k, inertia)) return;
+      if (inertia.negative_pivots > most_negative) return;
       update_within(f, k, end);
     }
     const int* target = f.target.data() + f.first_target[p];
@@ -221,7 +222,7 @@ class BlockCholesky final : public LinearSolver {
   Inertia factor(const BlockHessian& hessian, double shift) override {
     fill(hessian, shift);
     Inertia inertia = Inertia::of_nothing();
-    factor_numbers(factor_, inertia);
+    factor_numbers(factor_, most_negative, inertia);
     return inertia;
   }
 

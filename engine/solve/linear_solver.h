@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 
 #include "engine/gridshell/model.h"
@@ -33,6 +34,10 @@ class LinearSolver {
 
   /// Factorises the rows and columns of what is free of `hessian` + `shift` I.
   virtual Inertia factor(const BlockHessian& hessian, double shift) = 0;
+
+  /// Factorises no further once more pivots than this are negative: nothing can be solved with it
+  /// then, and Inertia counts those met so far. A solver may go on to the end.
+  int most_negative = std::numeric_limits<int>::max();
 
   /// Solves for the right-hand sides at the free columns, in place; what is held comes back as
   /// zero. Needs a factor() that was usable.

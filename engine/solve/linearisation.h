@@ -66,6 +66,12 @@ class Linearisation {
   /// directions, N/mm; of the last factorisation.
   Eigen::MatrixXd held_stiffness() const;
 
+  /// From here on factorisations may end at the first negative pivot: whoever wants positive
+  /// definite matrices alone need not know how far from it they are.
+  void stop_at_negative(bool stop) {
+    solver_->most_negative = stop ? 0 : std::numeric_limits<int>::max();
+  }
+
   /// What acts from outside from the next assembly on.
   Outside outside;
 

@@ -12,9 +12,14 @@ class Descent {
  public:
   Descent(Linearisation& system, State& state, const MinimiseOptions& options, const Watch& watch)
       : system_(system), state_(state), options_(options), watch_(watch) {
+    system.stop_at_negative(system.holds().empty());
     for (const ModelEdge& edge : system.model().edges)
       near_mm_ += 0.1 * edge.rest_length / double(system.model().edges.size());
   }
+
+  ~Descent() { system_.stop_at_negative(false); }
+  Descent(const Descent&) = delete;
+  Descent& operator=(const Descent&) = delete;
 
   /// Factorises the mixed form at the state, or what is near it and positive definite.
   Inertia factorise(double last_move_mm) {
@@ -139,9 +144,10 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
     }
     report.inertia = descent.factorise(move);
     ++system.effort().newton_iterations;
-    system.correction(dx);
-    move = largest_column(dx);
-    if (!report.inertia.positive_definite() || !std::isfinite(move)) {
+    const bool usable = report.inertia.positive_definite();
+    if (usable) system.correction(dx);
+    move = usable ? largest_column(dx) : std::numeric_limits<double>::infinity();
+    if (!std::isfinite(move)) {
       report.outcome = watch.cancelled() ? Outcome::cancelled : Outcome::not_finite;
       return report;
     }

@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "render/figure/net_plots.h"
+#include "render/figure/vector_shell.h"
 #include "render/movie/stage.h"
 #include "render/plot/panels.h"
 
@@ -98,8 +100,8 @@ std::vector<ColourKey> block_keys(const record::Layout& layout) {
   return keys;
 }
 
-Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& movie_style,
-                          Renderer& renderer, Watch& watch) {
+Result<PanelFigure> draw_blocks(const record::Trajectory& run, const MovieStyle& movie_style,
+                                Renderer& renderer, Watch& watch) {
   if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
   MovieStyle style = movie_style;
   style.captions = style.inset = false;
@@ -123,10 +125,11 @@ Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& movie
   figure.title = style.title;
   figure.columns = 1;
   figure.panels.push_back({std::move(*picture), "", ""});
+  if (style.vector) figure.panels.back().lines = shell_lines(std::move(drawing), stage.camera(0));
   figure.keys = block_keys(run.layout);
   figure.scale_bar_mm = style.scale_bar_mm;
   figure.pixels_per_mm = stage.pixels_per_mm();
-  return draw_panels(figure);
+  return figure;
 }
 
 namespace {
@@ -178,7 +181,8 @@ void draw_block_footprints(Canvas& canvas, const Box& box, const record::Traject
 }
 
 Result<void> write_block_footprints(const std::filesystem::path& stem,
-                                    const record::Trajectory& run, const Print& print) {
+                                    const record::Trajectory& run, const std::string& title,
+                                    const Print& print) {
   // text keeps its size however wide the figure is printed
   const double width = print.width_pt(340);
   constexpr double margin = 12;
@@ -186,9 +190,10 @@ Result<void> write_block_footprints(const std::filesystem::path& stem,
   const double scale = (width - 2 * margin) / sheet.wide();
   const double height = 2 * margin + scale * sheet.high() + between + bar_height;
   return write_figure(
-      stem, width, height, "Footprints of the blocks",
+      stem, width, height + figure_head, "Footprints of the blocks",
       [&](Canvas& canvas) {
-        draw_block_footprints(canvas, Box{0, 0, width, height}.inset(margin), run);
+        draw_figure_head(canvas, title);
+        draw_block_footprints(canvas, Box{0, figure_head, width, height}.inset(margin), run);
       },
       print);
 }

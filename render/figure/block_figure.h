@@ -9,6 +9,7 @@
 #include "render/draw/renderer.h"
 #include "render/movie/style.h"
 #include "render/plot/legend.h"
+#include "render/plot/panels.h"
 #include "render/plot/plot.h"
 
 namespace gridshell::render {
@@ -20,8 +21,8 @@ Colour block_colour(std::size_t index);
 std::vector<ColourKey> block_keys(const record::Layout& layout);
 
 /// The blocks of a run on their nets, drawn apart in one picture. Errors as write_stills.
-Result<Image> draw_blocks(const record::Trajectory& run, const MovieStyle& style,
-                          Renderer& renderer, Watch& watch);
+Result<PanelFigure> draw_blocks(const record::Trajectory& run, const MovieStyle& style,
+                                Renderer& renderer, Watch& watch);
 
 /// What write_block_footprints draws, as large as fits into a box.
 void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run);
@@ -29,7 +30,8 @@ void draw_block_footprints(Canvas& canvas, const Box& box, const record::Traject
 /// The blocks' footprints apart, and below them the joined footprint with its original boundary, to
 /// scale. Writes `<stem>.png` and `<stem>.svg`.
 Result<void> write_block_footprints(const std::filesystem::path& stem,
-                                    const record::Trajectory& run, const Print& print = {});
+                                    const record::Trajectory& run, const std::string& title = "",
+                                    const Print& print = {});
 
 /// Gap and kink of every rod across a seam against its place along the seam, one marker a seam.
 Plot seam_plot(const record::Trajectory& run);

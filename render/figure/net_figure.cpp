@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "render/figure/block_figure.h"
+#include "render/figure/vector_shell.h"
 #include "render/movie/stage.h"
 #include "render/plot/panels.h"
 
@@ -55,6 +56,7 @@ Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle&
     const std::string letter =
         runs.size() > 1 && style.look.letters ? std::string(1, char('a' + k % 26)) : "";
     figure.panels.push_back({std::move(*picture), letter, runs[k].caption});
+    if (style.vector) figure.panels.back().lines = shell_lines(std::move(drawing), stage.camera(0));
     if (runs.size() == 1) {
       figure.scale_bar_mm = style.scale_bar_mm;
       figure.pixels_per_mm = stage.pixels_per_mm();
@@ -98,8 +100,8 @@ bool on_sphere(const record::Layout& layout) {
   return (radius - layout.length_scale_mm).abs().maxCoeff() < 1e-6 * layout.length_scale_mm;
 }
 
-Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
-                             Renderer& renderer, Watch& watch, int columns) {
+Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
+                                   Renderer& renderer, Watch& watch, int columns) {
   const auto dress = [](const NetRun& one, Drawing& drawing) {
     for (const auto& joint : one.scanned.colwise())
       drawing.marks.push_back({joint, std::max(3.0, 3 * drawing.rod_diameter_mm), scan_ink});
@@ -113,9 +115,9 @@ Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& 
     if (layout.parts.empty())
       drawing.ghosts.push_back({layout.net_nodes, layout.rods, drawing.rod_diameter_mm, net_ink});
   };
-  return panels_of(runs, style, renderer, watch, columns, dress).and_then([&](PanelFigure figure) {
+  return panels_of(runs, style, renderer, watch, columns, dress).map([&](PanelFigure figure) {
     figure.keys = over_net_keys(runs);
-    return draw_panels(figure);
+    return figure;
   });
 }
 
@@ -125,8 +127,8 @@ DeviationUnit deviation_unit(const record::Layout& layout) {
   return {100, "Δ/*ρ* (%)"};
 }
 
-Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
-                              Renderer& renderer, Watch& watch, int columns) {
+Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
+                                    Renderer& renderer, Watch& watch, int columns) {
   double largest = 0;
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
   for (const NetRun& one : runs)
@@ -142,7 +144,7 @@ Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle&
   auto figure = panels_of(runs, style, renderer, watch, columns, dress);
   if (!figure) return tl::unexpected(figure.error());
   figure->colour_bar = ColourBar{unit.label, scale};
-  return draw_panels(*figure);
+  return figure;
 }
 
 }  // namespace gridshell::render

@@ -9,6 +9,7 @@
 #include "engine/record/snapshot.h"
 #include "render/draw/renderer.h"
 #include "render/movie/style.h"
+#include "render/plot/panels.h"
 
 namespace gridshell::render {
 
@@ -35,11 +36,11 @@ bool on_sphere(const record::Layout& layout);
 
 /// The shells, dark, over their nets, blue, with the joints scanned, red, at most `columns` side by
 /// side. Progress and errors as write_stills.
-Result<Image> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
-                             Renderer& renderer, Watch& watch, int columns = 3);
+Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
+                                   Renderer& renderer, Watch& watch, int columns = 3);
 
 /// The shells coloured by their deviation, side by side with one colour bar.
-Result<Image> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
-                              Renderer& renderer, Watch& watch, int columns = 3);
+Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
+                                    Renderer& renderer, Watch& watch, int columns = 3);
 
 }  // namespace gridshell::render

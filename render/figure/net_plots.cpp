@@ -103,6 +103,12 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
     canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4});
     // to a hundredth, and no minus before a zero
     const double shown = std::round(100 * z / rho) / 100 + 0.0;
+    // one plane has room below it
+    if (runs.size() == 1) {
+      canvas.text(fmt::format("*z*^{{*}}/*ρ* = {:g}", shown), {centre.x, y + 3},
+                  {.size = 8, .align_x = AlignX::centre, .align_y = AlignY::top});
+      continue;
+    }
     canvas.text(
         fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", shown), {centre.x + half + 4, y},
         {.size = std::min(6.5, 0.085 * scale * rho), .colour = colour, .align_y = AlignY::middle});
@@ -123,12 +129,20 @@ Series by_latitude(const std::string& name, const Eigen::Matrix3Xd& joints, doub
 
 }  // namespace
 
+void draw_figure_head(Canvas& canvas, const std::string& title) {
+  constexpr double margin = 9;
+  TextStyle style{.size = 8.5, .bold = true, .align_y = AlignY::middle};
+  const double wide = canvas.measure(plain(title), style).width;
+  style.size *= std::min(1.0, (canvas.width() - 2 * margin) / std::max(1.0, wide));
+  canvas.text(plain(title), {margin, 0.6 * figure_head}, style);
+}
+
 Plot curvature_plot(const std::vector<NamedRun>& runs) {
   Plot plot;
   plot.x.label = "*x*/*L*";
   plot.x.low = -1.05;
   plot.x.high = 1.05;
-  plot.y.label = "*K*_{□} (rad)";
+  plot.y.label = "curvature of a cell, *K*_{□} (rad)";
   plot.references.push_back({.at = 0, .label = ""});
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
@@ -159,7 +173,7 @@ Plot quantile_plot(const std::vector<NamedRun>& runs) {
   plot.x.low = 0;
   plot.x.high = 100;
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
-  plot.y.label = unit.label;
+  plot.y.label = "off the net, " + unit.label;
   plot.y.low = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
@@ -181,7 +195,7 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   const double rho = run.layout.length_scale_mm;
   Plot plot;
   plot.x.label = "latitude (°)";
-  plot.y.label = "*r*/*ρ*";
+  plot.y.label = "radius of a joint, *r*/*ρ*";
   Series net{.name = "net", .x = {0, 90}, .y = {1, 1}, .colour = {0.16f, 0.42f, 0.78f, 1}};
   net.line_width = 1.3;
   const Eigen::Matrix3Xd joints = joints_of(run);
@@ -216,14 +230,15 @@ void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>
 }
 
 Result<void> write_footprints(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
-                              const Print& print) {
+                              const std::string& title, const Print& print) {
   // text keeps its size however wide the figure is printed
   const double usual = all_caps(runs) ? 470 : 250, width = print.width_pt(usual),
                height = 250 * width / usual;
   return write_figure(
-      stem, width, height, "Original boundaries",
+      stem, width, height + figure_head, "Original boundaries",
       [&](Canvas& canvas) {
-        draw_footprints(canvas, Box{0, 0, width, height}.inset(9), runs);
+        draw_figure_head(canvas, title);
+        draw_footprints(canvas, Box{0, figure_head, width, height}.inset(9), runs);
       },
       print);
 }

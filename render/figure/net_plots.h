@@ -30,12 +30,18 @@ Plot quantile_plot(const std::vector<NamedRun>& runs);
 /// measured by others (3 x n, mm, in the frame of the net) are one more series where there are any.
 Plot latitude_plot(const NamedRun& run, const Eigen::Matrix3Xd& scan = {});
 
+/// Room for the title above a figure that is no plot, points.
+inline constexpr double figure_head = 17;
+/// Plain text, bold, in that room; smaller where it would not fit.
+void draw_figure_head(Canvas& canvas, const std::string& title);
+
 /// What write_footprints draws, into a box.
 void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs);
 
 /// Original boundaries to scale, with the rods inside when there is one; beside them, for caps, the
-/// planes that cut them from the sphere. Writes `<stem>.png` and `<stem>.svg`.
+/// planes that cut them from the sphere, `title` (plain text) above. Writes `<stem>.png` and
+/// `<stem>.svg`.
 Result<void> write_footprints(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
-                              const Print& print = {});
+                              const std::string& title = "", const Print& print = {});
 
 }  // namespace gridshell::render

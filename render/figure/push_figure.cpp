@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/figure/vector_shell.h"
 #include "render/movie/bins_plot.h"
 #include "render/movie/colour_range.h"
 #include "render/movie/stage.h"
@@ -25,8 +26,8 @@ MovieStyle panel_style(MovieStyle style) {
 
 }  // namespace
 
-Result<Image> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
-                          Renderer& renderer, Watch& watch) {
+Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
+                                Renderer& renderer, Watch& watch) {
   const MovieStyle style = panel_style(movie_style);
   std::vector<Survey> surveys;
   std::vector<const Survey*> all;
@@ -37,6 +38,8 @@ Result<Image> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& mov
   if (style.print.width_mm > 0) figure.print = style.print;
   figure.title = style.title;
   figure.columns = std::min(3, int(runs.size()));
+  // one by itself is named by the title
+  const bool several = runs.size() > 1 || style.title.empty();
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
     if (auto showable = check_showable(*runs[k].run, style); !showable)
@@ -49,13 +52,16 @@ Result<Image> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& mov
     auto picture =
         renderer.draw(drawing, stage.camera(last), draw_quality(style), style.width, style.height);
     if (!picture) return tl::unexpected(picture.error());
-    figure.panels.push_back({std::move(*picture),
-                             style.look.letters ? std::string(1, char('a' + k % 26)) : "",
-                             runs[k].caption});
+    figure.panels.push_back(
+        {std::move(*picture),
+         several && style.look.letters ? std::string(1, char('a' + k % 26)) : "",
+         several ? runs[k].caption : ""});
+    if (style.vector)
+      figure.panels.back().lines = shell_lines(std::move(drawing), stage.camera(last));
     figure.colour_bar = bar;
     watch.report(double(k + 1) / double(runs.size()));
   }
-  return draw_panels(figure);
+  return figure;
 }
 
 Plot force_plot(const std::vector<NamedRun>& runs) {

@@ -10,8 +10,8 @@ namespace gridshell::render {
 
 /// The shells at their last frame, seen from the style's camera, rods coloured by |u|/delta_0 under
 /// one colour bar. Progress and errors as write_stills.
-Result<Image> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& style,
-                          Renderer& renderer, Watch& watch);
+Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& style,
+                                Renderer& renderer, Watch& watch);
 
 /// Force against depth over all frames, N and mm: how each shell resists.
 Plot force_plot(const std::vector<NamedRun>& runs);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "render/draw/camera.h"
 
@@ -18,23 +20,23 @@ struct Seen {
 
 class Eye {
  public:
-  Eye(const Camera& camera, double width, double height)
+  Eye(const Camera& camera, const Box& box)
       : forward_(camera_axes(camera).forward),
-        matrix_(view_projection(camera, width / height, camera.target, camera.half_extent_mm)),
-        width_(width),
-        height_(height) {}
+        matrix_(
+            view_projection(camera, box.width / box.height, camera.target, camera.half_extent_mm)),
+        box_(box) {}
 
   Seen operator()(const Eigen::Vector3d& point) const {
     const Eigen::Vector4d clip = matrix_ * point.homogeneous();
-    return {
-        {(0.5 + 0.5 * clip.x() / clip.w()) * width_, (0.5 - 0.5 * clip.y() / clip.w()) * height_},
-        forward_.dot(point)};
+    return {{box_.x + (0.5 + 0.5 * clip.x() / clip.w()) * box_.width,
+             box_.y + (0.5 - 0.5 * clip.y() / clip.w()) * box_.height},
+            forward_.dot(point)};
   }
 
  private:
   Eigen::Vector3d forward_;
   Eigen::Matrix4d matrix_;
-  double width_, height_;
+  Box box_;
 };
 
 /// Two triangles a cell, in pixels with depths.
@@ -77,12 +79,12 @@ Colour faded(Colour colour, Colour background, double by) {
 
 class Lines {
  public:
-  Lines(Canvas& canvas, const Drawing& drawing, const Camera& camera)
+  Lines(Canvas& canvas, const Box& box, const Drawing& drawing, const Camera& camera)
       : canvas_(canvas),
         drawing_(drawing),
-        eye_(camera, canvas.width(), canvas.height()),
+        eye_(camera, box),
         screen_(drawing, eye_),
-        units_per_mm_(canvas.height() / (2 * camera.half_extent_mm)),
+        units_per_mm_(box.height / (2 * camera.half_extent_mm)),
         slack_(0.25 * drawing.layout->spacing_mm) {}
 
   /// Of the two passes, hidden or visible, the parts that belong to it.
@@ -95,6 +97,10 @@ class Lines {
       closed << ring.points, ring.points.col(0);
       polyline(closed, hidden, {ink(ring.colour), width(ring.diameter_mm)}, {});
     }
+    for (const GhostRods& ghost : drawing_.ghosts)
+      for (const auto& rod : ghost.rods)
+        polyline(ghost.nodes(Eigen::all, rod), hidden,
+                 {ink(ghost.colour), width(ghost.diameter_mm)}, {});
     for (const auto& rod : drawing_.layout->rods) {
       Eigen::Matrix3Xd points(3, rod.size());
       std::vector<Colour> colours;
@@ -172,7 +178,7 @@ class Lines {
 
 std::vector<bool> hidden_points(const Drawing& drawing, const Camera& camera,
                                 const Eigen::Matrix3Xd& points, double slack_mm) {
-  const Eye eye(camera, 1000, 1000);
+  const Eye eye(camera, {0, 0, 1000, 1000});
   const Screen screen(drawing, eye);
   std::vector<bool> hidden;
   for (long k = 0; k < points.cols(); ++k)
@@ -180,9 +186,18 @@ std::vector<bool> hidden_points(const Drawing& drawing, const Camera& camera,
   return hidden;
 }
 
-void draw_shell_lines(Canvas& canvas, const Drawing& drawing, const Camera& camera) {
-  Lines lines(canvas, drawing, camera);
+void draw_shell_lines(Canvas& canvas, const Box& box, const Drawing& drawing,
+                      const Camera& camera) {
+  Lines lines(canvas, box, drawing, camera);
   for (const bool hidden : {true, false}) lines.draw(hidden);
+}
+
+std::function<void(Canvas&, const Box&)> shell_lines(Drawing drawing, const Camera& camera) {
+  const auto layout = std::make_shared<const record::Layout>(*drawing.layout);
+  drawing.layout = layout.get();
+  return [layout, drawing = std::move(drawing), camera](Canvas& canvas, const Box& box) {
+    draw_shell_lines(canvas, box, drawing, camera);
+  };
 }
 
 }  // namespace gridshell::render

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -16,8 +17,12 @@ namespace gridshell::render {
 std::vector<bool> hidden_points(const Drawing& drawing, const Camera& camera,
                                 const Eigen::Matrix3Xd& points, double slack_mm);
 
-/// Draws rods, rings, joints and arrows of `drawing` into a canvas of width x height units as the
-/// camera sees them: hidden ones first, faded by the drawing's far_fade (1: left out).
-void draw_shell_lines(Canvas& canvas, const Drawing& drawing, const Camera& camera);
+/// Draws rods, rings, nets beside them, joints, marks and arrows of `drawing` into a box of the
+/// canvas as the camera sees them: hidden ones first, faded by the drawing's far_fade (1: left
+/// out).
+void draw_shell_lines(Canvas& canvas, const Box& box, const Drawing& drawing, const Camera& camera);
+
+/// The same at a later time: keeps the drawing and its layout.
+std::function<void(Canvas&, const Box&)> shell_lines(Drawing drawing, const Camera& camera);
 
 }  // namespace gridshell::render

@@ -13,16 +13,20 @@ struct Grid {
   int columns, rows;
   double width, height;  // of a panel
   double em, gap, head, caption, margin, keys, foot, bar;
+  Point origin = {};  // upper left corner of the whole
 
   double total_width() const { return 2 * margin + columns * width + (columns - 1) * gap + bar; }
   double total_height() const {
     return 2 * margin + head + rows * (height + caption) + (rows - 1) * gap + keys + foot;
   }
   Box panel(int index) const {
-    return {std::round(margin + (index % columns) * (width + gap)),
-            std::round(margin + head + (index / columns) * (height + caption + gap)), width,
-            height};
+    return {origin.x + std::round(margin + (index % columns) * (width + gap)),
+            origin.y + std::round(margin + head + (index / columns) * (height + caption + gap)),
+            width, height};
   }
+  double left() const { return origin.x + margin; }
+  double top() const { return origin.y + margin; }
+  double bottom() const { return origin.y + total_height() - margin; }
 };
 
 Grid make_grid(const PanelFigure& figure) {
@@ -50,17 +54,20 @@ Grid make_grid(const PanelFigure& figure) {
   return grid;
 }
 
-void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid) {
+void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool lines) {
   const double em = grid.em;
   TextStyle title{.size = em, .bold = true, .align_y = AlignY::middle};
   const double room = grid.total_width() - 2 * grid.margin;
   title.size *=
       std::min(1.0, room / std::max(1.0, canvas.measure(plain(figure.title), title).width));
-  canvas.text(plain(figure.title), {grid.margin, grid.margin + grid.head / 2}, title);
+  canvas.text(plain(figure.title), {grid.left(), grid.top() + grid.head / 2}, title);
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
     const Panel& panel = figure.panels[k];
     const Box box = grid.panel(int(k));
-    canvas.picture(panel.picture, box);
+    if (lines && panel.lines)
+      panel.lines(canvas, box);
+    else
+      canvas.picture(panel.picture, box);
     if (!panel.letter.empty())
       canvas.text(
           panel.letter, {box.x + 0.4 * em, box.y + 0.2 * em},
@@ -72,12 +79,11 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid) {
     canvas.text(panel.caption, {box.middle().x, box.bottom() + grid.caption / 2}, caption);
   }
   const Box last = grid.panel(grid.columns - 1);
-  const double bottom = grid.total_height() - grid.margin;
-  draw_colour_keys(
-      canvas, {grid.margin, bottom - grid.foot - grid.keys, last.right() - grid.margin, grid.keys},
-      figure.keys, em);
+  const double left = grid.left(), bottom = grid.bottom();
+  draw_colour_keys(canvas, {left, bottom - grid.foot - grid.keys, last.right() - left, grid.keys},
+                   figure.keys, em);
   if (grid.foot > 0) {
-    const Box row{grid.margin, bottom - grid.foot, last.right() - grid.margin, grid.foot};
+    const Box row{left, bottom - grid.foot, last.right() - left, grid.foot};
     draw_scale_bar(canvas, row, figure.scale_bar_mm, figure.pixels_per_mm, em);
   }
   if (figure.colour_bar) {
@@ -85,14 +91,12 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid) {
     const double least = std::min(grid.total_height() - 2 * grid.margin - grid.head, 9 * em);
     const double height = std::clamp(16 * em, least, std::max(least, grid.rows * grid.height));
     draw_colour_bar(canvas,
-                    {last.right() + grid.gap, grid.margin + grid.head, grid.bar - grid.gap, height},
+                    {last.right() + grid.gap, grid.top() + grid.head, grid.bar - grid.gap, height},
                     *figure.colour_bar, em);
   }
 }
 
-}  // namespace
-
-Result<Image> draw_panels(const PanelFigure& figure) {
+Result<void> check(const PanelFigure& figure) {
   if (figure.panels.empty()) return fail(Fault::bad_input, "a figure needs at least one panel");
   const Image& first = figure.panels[0].picture;
   for (const Panel& panel : figure.panels)
@@ -102,11 +106,27 @@ Result<Image> draw_panels(const PanelFigure& figure) {
           Fault::bad_input,
           fmt::format("panels of a figure must be of one size: {} x {} and {} x {}", first.width,
                       first.height, panel.picture.width, panel.picture.height));
+  return {};
+}
+
+}  // namespace
+
+Result<Image> draw_panels(const PanelFigure& figure) {
+  if (auto fits = check(figure); !fits) return tl::unexpected(fits.error());
   const Grid grid = make_grid(figure);
   const double wished = figure.print.dpi * figure.print.width_mm / 25.4;
   const double scale = wished > 0 ? std::round(wished) / grid.total_width() : 1;
   return draw_picture(grid.total_width(), grid.total_height(), scale, {1, 1, 1, 1},
-                      [&](Canvas& canvas) { draw(canvas, figure, grid); });
+                      [&](Canvas& canvas) { draw(canvas, figure, grid, false); });
+}
+
+void draw_panels_on(Canvas& canvas, const Box& box, const PanelFigure& figure, bool lines) {
+  if (!check(figure)) return;
+  Grid grid = make_grid(figure);
+  const double scale = std::min(box.width / grid.total_width(), box.height / grid.total_height());
+  grid.origin = {box.middle().x / scale - grid.total_width() / 2,
+                 box.middle().y / scale - grid.total_height() / 2};
+  canvas.enlarged(scale, [&] { draw(canvas, figure, grid, lines); });
 }
 
 }  // namespace gridshell::render

@@ -2,6 +2,7 @@
 // and one row of colour keys for all.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ struct Panel {
   Image picture;
   std::string letter;   ///< marked text, bold, at the upper left: "a"
   std::string caption;  ///< marked text below: "*R*_{a} = 115.9 mm"
+  /// The same as lines, that stay sharp however they are enlarged; empty: there is the picture
+  /// alone.
+  std::function<void(Canvas&, const Box&)> lines = {};
 };
 
 struct PanelFigure {
@@ -31,5 +35,10 @@ struct PanelFigure {
 /// The figure, panels pixel by pixel as they are. Errors: Fault::bad_input for no panel or panels
 /// of different size (naming both).
 Result<Image> draw_panels(const PanelFigure& figure);
+
+/// The same on a canvas, as large as `box` allows, in its middle; its words are the canvas's text,
+/// and with `lines` its pictures are lines where there are some. Draws nothing where draw_panels()
+/// has an error.
+void draw_panels_on(Canvas& canvas, const Box& box, const PanelFigure& figure, bool lines = false);
 
 }  // namespace gridshell::render

@@ -179,7 +179,10 @@ void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
   for (const Note& note : plot.notes) {
     const Box at = note_box(canvas, plot, frame, note);
     canvas.text(note.text, {at.x, at.y},
-                {.size = plot.font_size, .colour = note.colour, .align_y = AlignY::top});
+                {.size = plot.font_size,
+                 .colour = note.colour,
+                 .align_y = AlignY::top,
+                 .halo = {1, 1, 1, 0.85f}});
   }
   if (above)
     legend.draw_above(canvas, frame, box.y + title_height(canvas, box, plot));

@@ -48,6 +48,56 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
     CHECK(text_of(run / name) == text_of(at / "again" / name));
 }
 
+TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[full]") {
+  const TemporaryFolder folder;
+  const fs::path at = folder.path();
+  const std::string shell =
+      "[footprint]\nkind = \"circle\"\n{}[actuation]\nratio = 0.75\n"
+      "[accuracy]\nedges_per_segment = 8\n[jitter]\ntrials = 3\nconfined = 7\n";
+  const auto with = [&](const std::string& more) {
+    std::string text = shell;
+    return text.replace(text.find("{}"), 2, more);
+  };
+  REQUIRE(write_atomically(at / "page.toml", with("rods = 4\nlongest_leg = 0.8\n") +
+                                                 "[page]\nkind = \"fig2\"\n[movie]\nsize = "
+                                                 "[320, 240]\n[figure]\nquality = \"draft\"\n"));
+  REQUIRE(write_atomically(at / "sweep.toml", with("") + "[sweep]\nplot = [\"classes\"]\n"
+                                                         "[sweep.over]\nfootprint.rods = [4]\n"
+                                                         "footprint.longest_leg = [0.8, 2.0]\n"));
+  // without a sweep its place is an empty frame that says so
+  const Ended bare = gridshell_program({"figure", "page.toml", "--quiet"}, at);
+  CAPTURE(bare.err);
+  REQUIRE(bare.code == 0);
+  const std::string empty = text_of(at / "out/page/page_page.svg");
+  CHECK(empty.find("names no sweep") != std::string::npos);
+  CHECK(empty.find("longest leg") == std::string::npos);
+  REQUIRE(gridshell_program({"sweep", "sweep.toml", "--quiet"}, at).code == 0);
+  // drawn again with the sweep, shells as lines too
+  const Ended drawn = gridshell_program({"render", "out/page", "-o", "again", "--quiet", "--set",
+                                         "page.sweep=out/sweep", "--set", "figure.vector=true"},
+                                        at);
+  CAPTURE(drawn.err);
+  REQUIRE(drawn.code == 0);
+  const std::string page = text_of(at / "again/page_page.svg");
+  CHECK(page.find("longest leg") != std::string::npos);
+  CHECK(page.find("names no sweep") == std::string::npos);
+  CHECK(fs::exists(at / "again/page_page.pdf"));
+  CHECK(fs::exists(at / "again/page_page_lines.svg"));
+  // a folder that holds none, and one that is not finished
+  const auto refused = [&](const std::string& named) {
+    const Ended ended = gridshell_program(
+        {"render", "out/page", "-o", "not", "--quiet", "--set", "page.sweep=" + named}, at);
+    CHECK(ended.code == 2);
+    CHECK_FALSE(fs::exists(at / "not"));
+    return ended.err;
+  };
+  CHECK(refused("nowhere").find("'nowhere' is no finished sweep") != std::string::npos);
+  std::string log = text_of(at / "out/sweep/sweep.jsonl");
+  log.erase(log.rfind('\n', log.size() - 2) + 1);
+  REQUIRE(write_atomically(at / "out/sweep/sweep.jsonl", log));
+  CHECK(refused("out/sweep").find("1 of 2 points are there") != std::string::npos);
+}
+
 TEST_CASE("a search for states has no movie, and damaged tables are refused") {
   const TemporaryFolder folder;
   const fs::path at = folder.path();

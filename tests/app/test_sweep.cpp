@@ -105,6 +105,62 @@ TEST_CASE("shards merge to the same bytes as the whole") {
   CHECK(lines_in(folder.path() / "parts/sweep.jsonl") == 8);
 }
 
+TEST_CASE("a sweep of searches is the same killed, stopped, in shards and on two jobs", "[full]") {
+  const TemporaryFolder folder;
+  const fs::path at = folder.path();
+  REQUIRE(write_atomically(at / "small.toml", R"([footprint]
+kind = "circle"
+[actuation]
+ratio = 0.75
+[accuracy]
+edges_per_segment = 8
+[jitter]
+trials = 3
+confined = 3
+[sweep]
+plot = ["classes", "states"]
+[sweep.over]
+footprint.longest_leg = [0.8, 2.0]
+footprint.rods = [4, 6]
+)"));
+  const auto found = [&](const char* run) {
+    std::vector<std::string> texts;
+    for (const char* name : {"sweep.csv", "preset.toml", "classes.png", "classes.svg",
+                             "classes.pdf", "classes_by_leg.csv", "states.png"})
+      texts.push_back(text_of(at / run / name));
+    return texts;
+  };
+  REQUIRE(sweep(folder, {"-o", "whole", "--jobs", "1"}).code == 0);
+  for (const auto& text : found("whole")) CHECK_FALSE(text.empty());
+  // four times -9 at random moments, then Ctrl-C once a point is there
+  std::mt19937 random(2);
+  const auto log = at / "cut/sweep.jsonl";
+  std::string before;
+  for (int kill = 0; kill < 4; ++kill) {
+    const Running running({"sweep", "small.toml", "-o", "cut", "--jobs", "2", "--quiet"}, at);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50 + random() % 200));
+    running.signal(SIGKILL);
+    running.wait();
+    const auto whole = before.substr(0, before.rfind('\n') + 1);
+    REQUIRE(text_of(log).starts_with(whole));
+    before = text_of(log);
+  }
+  const std::size_t there = std::max<std::size_t>(1, lines_in(log));
+  if (there < 5) {
+    const Running running({"sweep", "small.toml", "-o", "cut", "--jobs", "1", "--quiet"}, at);
+    REQUIRE(wait_until([&] { return lines_in(log) > there; }));
+    running.signal(SIGINT);
+    const int code = running.wait().code;
+    CHECK((code == 130 || lines_in(log) == 5));
+  }
+  REQUIRE(sweep(folder, {"-o", "cut", "--jobs", "2"}).code == 0);
+  CHECK(found("cut") == found("whole"));
+  for (const char* shard : {"2/2", "1/2"})
+    REQUIRE(sweep(folder, {"-o", "parts", "--shard", shard}).code == 0);
+  REQUIRE(sweep(folder, {"-o", "parts", "--merge"}).code == 0);
+  CHECK(found("parts") == found("whole"));
+}
+
 TEST_CASE("GNU parallel spreads a sweep over shards") {
   if (std::system("parallel --version > /dev/null 2>&1") != 0) {
     WARN("GNU parallel is not installed");

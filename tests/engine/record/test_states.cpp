@@ -61,6 +61,39 @@ TEST_CASE("states to draw: the lowest of each of the paper's classes, then those
   CHECK(record::states_to_draw(rows, 9).size() == 5);
 }
 
+TEST_CASE("state tables of earlier versions: a number that has no column is unknown") {
+  const TemporaryFolder folder;
+  record::StateTables written = sample();
+  written.barriers.clear();
+  REQUIRE(record::write_state_tables(folder.path(), written));
+  // as it was before there were barriers
+  std::string table = record::states_csv(written.rows), older;
+  for (std::size_t from = 0; from < table.size();) {
+    const std::size_t end = table.find('\n', from);
+    older += table.substr(from, table.rfind(',', end) - from) + "\n";
+    from = end + 1;
+  }
+  std::string search = record::to_json(written.search);
+  const auto cut = search.find(",", search.find("cpu_s"));
+  REQUIRE(write_atomically(folder.path() / "states.csv", older));
+  REQUIRE(write_atomically(folder.path() / "states.json", search.substr(0, cut) + "}"));
+  const auto read = record::read_state_tables(folder.path());
+  REQUIRE(read);
+  CHECK(read->rows.size() == 2);
+  CHECK(read->rows[0].kind == record::StateClass::iv);
+  CHECK(read->rows[0].lives_to == 0.0325);
+  CHECK(std::isnan(read->rows[1].barrier_mJ));
+  CHECK(read->search.trials == 900);
+  CHECK(read->search.ways_followed == 0);
+  // what cannot be unknown, and what is of no version
+  for (const char* heading : {"state,group\n", "state,state\n", "from,to\n"}) {
+    REQUIRE(write_atomically(folder.path() / "states.csv", heading));
+    const auto refused = record::read_state_tables(folder.path());
+    REQUIRE(!refused);
+    CHECK(refused.error().message.find("first line") != std::string::npos);
+  }
+}
+
 TEST_CASE("state tables: damaged ones are refused with file and line") {
   const TemporaryFolder folder;
   const record::StateTables written = sample();

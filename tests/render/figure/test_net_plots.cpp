@@ -86,7 +86,7 @@ TEST_CASE("quantiles of the deviation run from the nearest joint to the farthest
   // blocks are measured in millimetres
   run.layout.parts.emplace_back();
   CHECK(quantile_plot({{&run, "shell"}}).series[0].y.back() == Approx(5));
-  CHECK(quantile_plot({{&run, "shell"}}).y.label == "Δ (mm)");
+  CHECK(quantile_plot({{&run, "shell"}}).y.label == "off the net, Δ (mm)");
 }
 
 TEST_CASE("seams are plotted about their middles, gap and kink") {
@@ -120,7 +120,8 @@ TEST_CASE("footprints of blocks are written as PNG and SVG") {
 TEST_CASE("footprints are written as PNG and SVG") {
   const TemporaryFolder folder;
   const record::Trajectory run = one_cell();
-  REQUIRE(write_footprints(folder.path() / "boundaries", {{&run, "a"}, {&run, "b"}}).has_value());
+  REQUIRE(write_footprints(folder.path() / "boundaries", {{&run, "a"}, {&run, "b"}}, "Two")
+              .has_value());
   CHECK(std::filesystem::file_size(folder.path() / "boundaries.png") > 1000);
   CHECK(std::filesystem::file_size(folder.path() / "boundaries.svg") > 1000);
 }

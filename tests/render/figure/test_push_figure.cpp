@@ -43,7 +43,8 @@ TEST_CASE(
   MovieStyle style;
   style.width = 160;
   style.height = 120;
-  const auto image = draw_pushes({{&run, "a"}, {&run, "b"}}, style, renderer, watch);
+  const auto image =
+      draw_pushes({{&run, "a"}, {&run, "b"}}, style, renderer, watch).and_then(draw_panels);
   REQUIRE(image);
   CHECK(image->width > 240);
   REQUIRE(write_push_bins(folder.path() / "bins", {{&run, "a"}, {&run, "b"}}));

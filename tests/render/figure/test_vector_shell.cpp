@@ -41,7 +41,7 @@ TEST_CASE("a shell of lines has fewer, or fainter, of them where it hides them")
   side.elevation_deg = 10;
   const auto ink = [&] {
     const Image image = draw_picture(400, 300, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
-      draw_shell_lines(canvas, drawing, side);
+      draw_shell_lines(canvas, {0, 0, 400, 300}, drawing, side);
     });
     double dark = 0;
     for (std::size_t k = 0; k < image.rgba.size(); k += 4) dark += 255 - image.rgba[k];
