@@ -7,7 +7,7 @@ packages="
   libexpected-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libhdf5-dev
   libpango1.0-dev libcairo2-dev libpng-dev libdeflate-dev fonts-dejavu-core
   libgl-dev libegl-dev libegl1 libgl1-mesa-dri libosmesa6-dev libosmesa6 libglfw3-dev
-  libimgui-dev libfontconfig-dev xvfb xdotool
+  libimgui-dev libfontconfig-dev
   catch2 ffmpeg parallel qemu-user clang-format clang-tidy
 "
 

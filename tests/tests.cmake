@@ -83,14 +83,6 @@ if(GRIDSHELL_PICTURES)
     PROPERTIES LABELS full TIMEOUT 600 SKIP_RETURN_CODE 77)
 endif()
 
-# A visit to the real window under Xvfb, by xdotool where both are installed.
-if(GRIDSHELL_PICTURES)
-  add_test(NAME "the window opens, is used by mouse and keys and keeps what was done"
-    COMMAND ${PROJECT_SOURCE_DIR}/tests/window.sh $<TARGET_FILE:gridshell>)
-  set_tests_properties("the window opens, is used by mouse and keys and keeps what was done"
-    PROPERTIES LABELS full TIMEOUT 180 SKIP_RETURN_CODE 77)
-endif()
-
 # How the source stands: format, clang-tidy on what changed, warnings as errors (tests/style.sh).
 foreach(check format tidy warnings)
   add_test(NAME "style: ${check}" COMMAND ${PROJECT_SOURCE_DIR}/tests/style.sh ${check})
