@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "engine/export/colours.h"
 #include "engine/export/page_template.h"
@@ -56,14 +57,14 @@ std::string positions(const record::Frame& frame, const Extent& extent) {
   return base64(rounded);
 }
 
-double three_digits(double value) {
-  return std::isfinite(value) ? std::stod(fmt::format("{:.3g}", value)) : value;
+double rounded(double value, int digits) {
+  return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
 }
 
 Json figures(const record::Frame& frame) {
   Json json = Json::object();
   const auto put = [&](const char* name, double value) {
-    if (std::isfinite(value)) json[name] = std::stod(fmt::format("{:.5g}", value));
+    if (std::isfinite(value)) json[name] = rounded(value, 5);
   };
   put("progress", frame.progress);
   put("R\u2090 (mm)", frame.boundary_radius_mm);
@@ -128,13 +129,13 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
   json["title"] = title;
   json["low"] = {extent.low.x(), extent.low.y(), extent.low.z()};
   json["step"] = extent.step();
-  json["K_end"] = three_digits(range_of(run.frames.back().cell_K).end);
+  json["K_end"] = rounded(range_of(run.frames.back().cell_K).end, 3);
   json["rod_mm"] = run.layout.rod_diameter_mm;
   json["frames"] = Json::array();
   for (std::size_t k = 0; k < kept; ++k) {
     const record::Frame& frame = run.frames[index(k)];
     Json K = Json::array();
-    for (const double value : frame.cell_K) K.push_back(three_digits(value));
+    for (const double value : frame.cell_K) K.push_back(rounded(value, 3));
     json["frames"].push_back({{"index", frame.index},
                               {"actuation", frame.actuation},
                               {"nodes", positions(frame, extent)},

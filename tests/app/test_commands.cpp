@@ -122,7 +122,7 @@ TEST_CASE("movie draws a frame each, and render draws them again without simulat
   CHECK(refused.code == 2);
   CHECK(refused.err ==
         "--set: rod.diameter_mm cannot change once a run is finished; 'render' takes keys of "
-        "[movie], [style] and [figure] that only show it\n");
+        "[movie], [style], [figure] and [page] that only show it\n");
 }
 
 TEST_CASE("pictures do not depend on the number of threads") {

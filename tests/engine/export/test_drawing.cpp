@@ -24,7 +24,8 @@ bool holds(const std::string& text, const std::string& part) {
 
 TEST_CASE("a drawing as SVG has its true size and nothing that XML takes for itself") {
   const std::string svg = to_svg(small_drawing());
-  CHECK(holds(svg, "width=\"110.000000mm\""));
+  // from the text, which is at most 18 mm wide, to the end of the line, and margins
+  CHECK(holds(svg, "width=\"114.000000mm\""));
   CHECK(holds(svg, "<polyline points=\"0.000000,-0.000000 100.000000,-50.123456\"/>"));
   CHECK(holds(svg, "<polygon points="));
   CHECK(holds(svg, "<circle cx=\"10.000000\" cy=\"20.000000\" r=\"2.500000\"/>"));

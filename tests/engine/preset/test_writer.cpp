@@ -140,6 +140,7 @@ std::vector<Preset> samples() {
   Preset by_leg;
   by_leg.footprint.longest_leg = 2.3;
   by_leg.actuation.ratio = 0.81;
+  by_leg.page = {PageKind::fig2, "its photo.png", "out/a sweep"};
   std::vector<Preset> all{Preset{},   pushed(true), pushed(false),
                           at_highest, by_leg,       of_curve(CurveKind::ellipse, 0.77)};
   all.push_back(of_net(NetKind::sphere));
