@@ -166,6 +166,8 @@ void Desk::save_preset() {
   if (!written) return say(written.error().message, true);
   std::string left_out;
   if (sight->held.size() > 1) left_out = ", without the pushes: a preset has one";
+  if (sight->edges_dragged) left_out += ", without the edge points that were dragged";
+  if (sight->jittered) left_out += ", in the state of its path, not the one jittered to";
   if (!std::isfinite(sight->frame.boundary_radius_mm) && std::abs(sight->progress - 1) > 1e-6)
     left_out += ", at the end of its path: a preset has no part of one";
   say("saved " + file.string() + left_out, !left_out.empty());

@@ -125,7 +125,7 @@ void ShellInHand::coarsen(const Watch& watch) {
 
 ShellInHand::Step ShellInHand::step() const {
   return {preset_,   scene_,      session_->save(), progress_, dragged_,
-          taken_at_, sight_.push, sight_.first,     refined_};
+          taken_at_, sight_.push, sight_.first,     refined_,  jittered_};
 }
 
 /// Keeps the state before a wish, but for one of the stroke that the last step began.
@@ -162,6 +162,7 @@ Result<void> ShellInHand::stand(const Step& step) {
   sight_.first = step.first;
   sight_.layout.reset();
   refined_ = step.refined;
+  jittered_ = step.jittered;
   return {};
 }
 
@@ -206,7 +207,7 @@ Result<void> ShellInHand::form(const preset::Preset& preset, const Watch& watch)
   progress_ = session_->progress();
   dragged_ = Eigen::Matrix3Xd::Zero(3, scene->motion.begin.cols());
   taken_at_.clear();
-  refined_ = false;
+  refined_ = jittered_ = false;
   sight_.told = course->limit_reason;
   sight_.push = {};
   sight_.layout.reset();
@@ -354,7 +355,10 @@ Result<void> ShellInHand::act(const Jitter& wish, const Watch& watch) {
   // a field that the shell cannot bear all the way has moved it as well
   if (watch.cancelled()) return session_->restore(before), thrown;
   const auto back = ended(session_->set_field({}, watch));
-  if (!back) session_->restore(before);
+  if (back)
+    jittered_ = true;
+  else
+    session_->restore(before);
   return back;
 }
 

@@ -37,7 +37,7 @@ class ShellInHand {
     std::map<int, Eigen::Vector3d> taken_at;
     PresetPush push;
     record::Frame first;
-    bool refined = true;
+    bool refined = true, jittered = false;
   };
 
   Result<void> act(const Open& wish, const Watch& watch);
@@ -75,7 +75,7 @@ class ShellInHand {
   std::map<int, Eigen::Vector3d> taken_at_;  // where joints were taken hold of
   std::deque<Step> undo_, redo_;
   int stroke_ = 0;  // that the last step belongs to
-  bool refined_ = false;
+  bool refined_ = false, jittered_ = false;
   int nodes_shown_ = 0;  // of the layout in sight
   Sight sight_;
 };

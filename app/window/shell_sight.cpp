@@ -39,6 +39,8 @@ void ShellInHand::look() {
   s.certificate = session_->certificate();
   s.meshes = session_->shell().plan().edges_per_segment;
   s.refined = refined_;
+  s.edges_dragged = !dragged_.isZero(0);
+  s.jittered = jittered_;
   look_at_normals();
   s.held.clear();
   for (std::size_t k = 0; k < session_->holds().size(); ++k) {

@@ -82,6 +82,14 @@ TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what
                               "mouse @edge:3 5 4\nrelease left\n");
   CHECK(dragged["undo_steps"] == 1);
   CHECK(dragged["held"] == 0);
+  // no preset holds it, and that is said
+  const json saved = played(folder,
+                            "do view_top\nmouse @edge:3 0 0\npress left\nmouse @edge:3 8 6\n"
+                            "release left\ndo jitter\ndo save_preset\n",
+                            {"-o", "kept"});
+  CHECK_THAT(saved["message"].get<std::string>(),
+             Catch::Contains("without the edge points that were dragged") &&
+                 Catch::Contains("not the one jittered to"));
   const json heavy = played(folder, "down G\nup G\n");
   CHECK(heavy["gravity"] == true);
   CHECK(heavy["undo_steps"] == 1);
