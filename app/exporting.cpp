@@ -5,7 +5,6 @@
 #include <charconv>
 #include <functional>
 #include <map>
-#include <set>
 
 #include "app/console.h"
 #include "app/finished_run.h"
@@ -38,15 +37,10 @@ struct Source {
   }
 };
 
-Result<void> written(const fs::path& to, Result<std::string> text) {
-  if (!text) return tl::unexpected(text.error());
-  return write_atomically(to, *text);
-}
-
-/// A .vtp a frame in the folder NAME_frames beside NAME.pvd.
-Result<void> write_series(const Source& source, const fs::path& to) {
+/// NAME.pvd, and its frames in the folder NAME_frames beside it, which are written.
+Result<std::string> write_series(const Source& source, const fs::path& to) {
   const fs::path name = to.stem().string() + "_frames", folder = to.parent_path() / name;
-  if (auto made = make_folder(folder); !made) return made;
+  if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
   std::vector<double> progress;
   std::vector<std::string> files;
   const record::FrameList& frames = source.run.trajectory.frames;
@@ -54,98 +48,79 @@ Result<void> write_series(const Source& source, const fs::path& to) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const fs::path file = fmt::format("frame_{:05}.vtp", k);
     const exports::Shape shape{source.run.trajectory.layout, frames[k], start, source.title()};
-    if (auto put = write_atomically(folder / file, exports::to_vtp(shape)); !put) return put;
+    if (auto put = write_atomically(folder / file, exports::to_vtp(shape)); !put)
+      return tl::unexpected(put.error());
     progress.push_back(shape.frame.progress);
     files.push_back((name / file).string());
   }
-  return write_atomically(to, exports::to_pvd(progress, files));
+  return exports::to_pvd(progress, files);
 }
 
-Result<void> write_xdmf(const Source& source, const fs::path& to) {
+Result<std::string> xdmf_of(const Source& source, const fs::path& to) {
   std::error_code error;
   const fs::path trajectory =
       fs::relative(source.folder / "trajectory.h5", fs::absolute(to).parent_path(), error);
   if (error || !fs::exists(source.folder / "trajectory.h5", error))
     return fail(Fault::bad_input, fmt::format("'{}' has no trajectory.h5, which .xdmf speaks of",
                                               source.folder.string()));
-  return write_atomically(to, exports::to_xdmf(source.run.trajectory.layout,
-                                               source.run.trajectory.frames, trajectory.string()));
+  return exports::to_xdmf(source.run.trajectory.layout, source.run.trajectory.frames,
+                          trajectory.string());
 }
 
-using WriteShape = std::function<Result<void>(const Source&, const ExportOptions&)>;
-using WriteWork = std::function<Result<void>(const exports::Workpiece&, const fs::path& to)>;
+/// The text of a file, by the thing and by the extension.
+template <class... Arguments>
+using Formats =
+    std::map<std::string,
+             std::map<std::string, std::function<Result<std::string>(const Arguments&...)>>>;
 
-template <class Text>
-WriteShape one_frame(Text text) {
-  return [text](const Source& source, const ExportOptions& options) {
-    return write_atomically(options.to, text(source.shape()));
+/// Of what a run is needed for.
+const Formats<Source, ExportOptions>& shape_formats() {
+  const auto frame = [](auto text) {
+    return [text](const Source& source, const ExportOptions&) -> Result<std::string> {
+      return text(source.shape());
+    };
   };
-}
-
-/// The formats of a shape, by extension.
-const std::map<std::string, WriteShape>& shape_formats() {
-  static const std::map<std::string, WriteShape> formats{
-      {".csv", one_frame(exports::to_csv)},
-      {".dxf", one_frame([](const exports::Shape& shape) {
-         return exports::to_dxf(exports::rods_in_space(shape));
-       })},
-      {".glb",
-       [](const Source& source, const ExportOptions& options) {
-         return written(options.to,
-                        exports::to_glb(source.run.trajectory, source.title(), options.seconds));
-       }},
-      {".html",
-       [](const Source& source, const ExportOptions& options) {
-         return written(options.to, exports::to_page(source.run.trajectory, source.title()));
-       }},
-      {".obj", one_frame(exports::to_obj)},
-      {".pvd", [](const Source& source,
-                  const ExportOptions& options) { return write_series(source, options.to); }},
-      {".vtp", one_frame(exports::to_vtp)},
-      {".xdmf", [](const Source& source, const ExportOptions& options) {
-         return write_xdmf(source, options.to);
-       }}};
+  static const Formats<Source, ExportOptions> formats{
+      {"shape",
+       {{".csv", frame(exports::to_csv)},
+        {".dxf", frame([](const exports::Shape& shape) {
+           return exports::to_dxf(exports::rods_in_space(shape));
+         })},
+        {".glb",
+         [](const Source& source, const ExportOptions& options) {
+           return exports::to_glb(source.run.trajectory, source.title(), options.seconds);
+         }},
+        {".html",
+         [](const Source& source, const ExportOptions&) {
+           return exports::to_page(source.run.trajectory, source.title());
+         }},
+        {".obj", frame(exports::to_obj)},
+        {".pvd", [](const Source& source,
+                    const ExportOptions& options) { return write_series(source, options.to); }},
+        {".vtp", frame(exports::to_vtp)},
+        {".xdmf", [](const Source& source,
+                     const ExportOptions& options) { return xdmf_of(source, options.to); }}}},
+      {"tubes", {{".obj", frame(exports::to_obj_tubes)}}}};
   return formats;
 }
 
-Result<void> write_plate(const exports::Workpiece& work, const fs::path& to,
-                         std::string (*text)(const exports::Drawing&)) {
-  return exports::plate_drawing(work).and_then(
-      [&](const exports::Drawing& drawing) { return write_atomically(to, text(drawing)); });
-}
-
-/// What is made for the workshop, and its formats by extension.
-const std::map<std::string, std::map<std::string, WriteWork>>& workshop_formats() {
+/// Of what is made for the workshop, for which a preset is enough.
+const Formats<exports::Workpiece>& workshop_formats() {
   using exports::Workpiece;
-  static const std::map<std::string, std::map<std::string, WriteWork>> formats{
+  static const Formats<Workpiece> formats{
       {"footprint",
        {{".dxf",
-         [](const Workpiece& work, const fs::path& to) {
-           return write_atomically(to, exports::to_dxf(exports::footprint_drawing(work)));
-         }},
+         [](const Workpiece& work) { return exports::to_dxf(exports::footprint_drawing(work)); }},
         {".svg",
-         [](const Workpiece& work, const fs::path& to) {
-           return write_atomically(to, exports::to_svg(exports::footprint_drawing(work)));
-         }}}},
+         [](const Workpiece& work) { return exports::to_svg(exports::footprint_drawing(work)); }}}},
       {"plate",
-       {{".csv", [](const Workpiece& work,
-                    const fs::path& to) { return write_atomically(to, exports::pins_csv(work)); }},
-        {".dxf", [](const Workpiece& work,
-                    const fs::path& to) { return write_plate(work, to, exports::to_dxf); }},
-        {".svg", [](const Workpiece& work,
-                    const fs::path& to) { return write_plate(work, to, exports::to_svg); }}}},
-      {"cutlist",
-       {{".csv",
-         [](const Workpiece& work, const fs::path& to) {
-           return write_atomically(to, exports::cut_list_csv(work));
-         }},
-        {".pdf",
-         [](const Workpiece& work, const fs::path& to) {
-           return write_atomically(to, render::cut_list_pdf(work));
-         }}}},
-      {"sheet", {{".pdf", [](const Workpiece& work, const fs::path& to) {
-                    return write_atomically(to, render::assembly_sheet_pdf(work));
-                  }}}}};
+       {{".csv", exports::pins_csv},
+        {".dxf",
+         [](const Workpiece& work) { return exports::plate_drawing(work).map(exports::to_dxf); }},
+        {".svg",
+         [](const Workpiece& work) { return exports::plate_drawing(work).map(exports::to_svg); }}}},
+      {"cutlist", {{".csv", exports::cut_list_csv}, {".pdf", render::cut_list_pdf}}},
+      {"sheet", {{".pdf", render::assembly_sheet_pdf}}}};
   return formats;
 }
 
@@ -168,18 +143,19 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, error);
 }
 
-/// Which of several runs.
-Result<FinishedRun> one_of(std::vector<FinishedRun> runs, const ExportOptions& options) {
+/// Which of several runs or presets.
+template <class One>
+Result<One> chosen(std::vector<One> cases, const ExportOptions& options) {
   std::string names;
-  for (FinishedRun& run : runs) {
-    if (run.name == options.case_name) return std::move(run);
-    names += (names.empty() ? "" : ", ") + run.name;
+  for (One& one : cases) {
+    if (one.name == options.case_name) return std::move(one);
+    names += (names.empty() ? "" : ", ") + one.name;
   }
-  if (runs.size() == 1 && runs.front().name.empty())
-    return fail(Fault::bad_input,
-                fmt::format("'{}' has no cases, so no '{}'", options.input, options.case_name));
-  return fail(Fault::bad_input, fmt::format("'{}' holds several cases: choose one with --case: {}",
-                                            options.input, names));
+  return fail(Fault::bad_input,
+              names.empty()
+                  ? fmt::format("'{}' has no cases, so no '{}'", options.input, options.case_name)
+                  : fmt::format("'{}' has several cases: choose one with --case: {}", options.input,
+                                names));
 }
 
 Result<std::size_t> frame_of(const record::Trajectory& run, const std::string& asked) {
@@ -196,7 +172,7 @@ Result<std::size_t> frame_of(const record::Trajectory& run, const std::string& a
 Result<Source> source_of(const ExportOptions& options) {
   auto runs = read_runs(options.input, {}, options.unsealed);
   if (!runs) return tl::unexpected(runs.error());
-  auto run = one_of(std::move(*runs), options);
+  auto run = chosen(std::move(*runs), options);
   if (!run) return tl::unexpected(run.error());
   const auto frame = frame_of(run->trajectory, options.frame);
   if (!frame) return tl::unexpected(frame.error());
@@ -215,16 +191,9 @@ Result<preset::Preset> preset_of(const ExportOptions& options) {
   plain.input = options.input;
   const auto presets = load(plain);
   if (!presets) return tl::unexpected(presets.error());
-  std::string names;
-  for (const preset::Case& one : runs_of(*presets)) {
-    if (one.name == options.case_name) return one.preset;
-    names += (names.empty() ? "" : ", ") + one.name;
-  }
-  return fail(Fault::bad_input,
-              names.empty()
-                  ? fmt::format("'{}' has no cases, so no '{}'", options.input, options.case_name)
-                  : fmt::format("'{}' has several cases: choose one with --case: {}", options.input,
-                                names));
+  return chosen(runs_of(*presets), options).map([](preset::Case&& one) {
+    return std::move(one.preset);
+  });
 }
 
 /// A file in a run's folder would be taken for one of the run, or keep it from being replaced.
@@ -239,50 +208,57 @@ Result<void> check_place(const fs::path& to) {
       return fail(Fault::bad_input,
                   fmt::format("'{}' would lie in the run folder '{}'; choose a place beside it",
                               to.string(), folder.string()));
-  const fs::path parent = to.parent_path();
-  return parent.empty() ? Result<void>{} : make_folder(parent);
+  return {};
+}
+
+Result<std::string> shape_text(const ExportOptions& options, const auto& text_of) {
+  const auto source = source_of(options);
+  if (!source) return tl::unexpected(source.error());
+  auto text = text_of(*source, options);
+  if (const auto& fault = source->run.trajectory.frames.fault(); text && fault)
+    return tl::unexpected(*fault);
+  return text;
+}
+
+Result<std::string> text_of(const ExportOptions& options) {
+  const std::string extension = options.to.extension().string();
+  const std::string what = options.what.empty() ? usual_for(extension) : options.what;
+  const auto with = [&](const auto& formats, const auto& make) -> Result<std::string> {
+    if (const auto format = formats.find(extension); format != formats.end())
+      return make(format->second);
+    return fail(Fault::bad_input, fmt::format("--to {}: a {} is written as {}", options.to.string(),
+                                              what, extensions_of(formats)));
+  };
+  if (const auto shape = shape_formats().find(what); shape != shape_formats().end())
+    return with(shape->second, [&](const auto& text) { return shape_text(options, text); });
+  if (const auto work = workshop_formats().find(what); work != workshop_formats().end())
+    return with(work->second, [&](const auto& text) {
+      return preset_of(options).and_then(experiment::workpiece_of).and_then(text);
+    });
+  return fail(Fault::bad_input,
+              fmt::format("--what {}: must be one of\n{}", what, exported_formats()));
 }
 
 Result<void> write(const ExportOptions& options) {
-  const std::string extension = options.to.extension().string();
-  const std::string what = options.what.empty() ? usual_for(extension) : options.what;
-  const auto no_format = [&](const std::string& has) {
-    return fail(Fault::bad_input,
-                fmt::format("--to {}: a {} is written as {}", options.to.string(), what, has));
-  };
   if (auto place = check_place(options.to); !place) return place;
-  if (what == "shape" || what == "tubes") {
-    const auto& formats = shape_formats();
-    const bool tubes = what == "tubes";
-    if (tubes && extension != ".obj") return no_format(".obj");
-    if (!formats.contains(extension)) return no_format(extensions_of(formats));
-    auto source = source_of(options);
-    if (!source) return tl::unexpected(source.error());
-    auto done = tubes ? write_atomically(options.to, exports::to_obj_tubes(source->shape()))
-                      : formats.at(extension)(*source, options);
-    if (const auto& fault = source->run.trajectory.frames.fault(); done && fault)
-      return tl::unexpected(*fault);
-    return done;
-  }
-  const auto formats = workshop_formats().find(what);
-  if (formats == workshop_formats().end())
-    return fail(Fault::bad_input,
-                fmt::format("--what {}: must be one of\n{}", what, exported_formats()));
-  if (!formats->second.contains(extension)) return no_format(extensions_of(formats->second));
-  const auto preset = preset_of(options);
-  if (!preset) return tl::unexpected(preset.error());
-  return experiment::workpiece_of(*preset).and_then([&](const exports::Workpiece& work) {
-    return formats->second.at(extension)(work, options.to);
+  const auto text = text_of(options);
+  if (!text) return tl::unexpected(text.error());
+  const fs::path parent = options.to.parent_path();
+  return (parent.empty() ? Result<void>{} : make_folder(parent)).and_then([&] {
+    return write_atomically(options.to, *text);
   });
 }
 
 }  // namespace
 
 std::string exported_formats() {
-  std::string text =
-      fmt::format("  shape      {}\n  tubes      .obj\n", extensions_of(shape_formats()));
-  for (const auto& [what, formats] : workshop_formats())
-    text += fmt::format("  {:<10} {}\n", what, extensions_of(formats));
+  std::string text;
+  const auto list = [&](const auto& things) {
+    for (const auto& [what, formats] : things)
+      text += fmt::format("  {:<10} {}\n", what, extensions_of(formats));
+  };
+  list(shape_formats());
+  list(workshop_formats());
   return text;
 }
 

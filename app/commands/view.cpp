@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "app/commands/commands.h"
@@ -18,6 +17,7 @@
 #include "app/ui/desktop.h"
 #include "app/ui/playback.h"
 #include "engine/core/atomic_file.h"
+#include "engine/record/json.h"
 #include "render/image/png.h"
 
 namespace gridshell::app {
@@ -76,21 +76,21 @@ Result<Aside> open_aside(const ViewOptions& options, window::Desk& desk) {
 }
 
 int print_bench(const ui::BenchFigures& figures) {
-  nlohmann::ordered_json line = nlohmann::ordered_json::object();
+  record::Json line = record::Json::object();
   const auto rounded = [](double value) { return std::round(10 * value) / 10; };
   line["interface_fps"] = rounded(figures.interface_fps);
   line["equilibria_per_s"] = rounded(figures.equilibria_per_s);
   line["worst_frame_ms"] = rounded(figures.worst_frame_ms);
   line["frame_cpu_ms"] = rounded(figures.frame_cpu_ms);
   line["cancel_ms"] = rounded(figures.cancel_ms);
-  fmt::print("{}\n", line.dump());
+  fmt::print("{}\n", record::line_of(line));
   return ExitCode::done;
 }
 
 /// What the engine came to, as a line of JSON: the same for the same recording on every machine.
 void print_state(const window::Desk& desk) {
   const window::Sight& sight = *desk.sight;
-  nlohmann::ordered_json line = nlohmann::ordered_json::object();
+  record::Json line = record::Json::object();
   line["preset"] = sight.preset.name;
   line["progress"] = sight.progress;
   line["boundary_radius_mm"] = sight.frame.boundary_radius_mm;
@@ -107,7 +107,7 @@ void print_state(const window::Desk& desk) {
   line["undo_steps"] = sight.undo_steps;
   line["redo_steps"] = sight.redo_steps;
   line["message"] = desk.message;
-  fmt::print("{}\n", line.dump());
+  fmt::print("{}\n", record::line_of(line));
 }
 
 int play_aside(const ViewOptions& options, window::Desk& desk) {

@@ -28,9 +28,7 @@ InterfacePainter::InterfacePainter(const render::Gl& gl, render::Program program
   gl.BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
   const auto attribute = [&gl](GLuint index, GLint size, GLenum type, bool unit, std::size_t at) {
-    gl.VertexAttribPointer(index, size, type, unit, sizeof(ImDrawVert),
-                           reinterpret_cast<const void*>(at));
-    gl.EnableVertexAttribArray(index);
+    render::describe_attribute(gl, index, size, type, unit, sizeof(ImDrawVert), at);
   };
   attribute(0, 2, GL_FLOAT, false, offsetof(ImDrawVert, pos));
   attribute(1, 2, GL_FLOAT, false, offsetof(ImDrawVert, uv));

@@ -36,17 +36,17 @@ void Desk::say(const std::string& text, bool bad) {
 
 // ---- wishes ----
 
-void Desk::post(Deed deed, bool passing) { engine.post({std::move(deed), stroke_, passing}); }
+void Desk::post(Deed deed, bool passing) {
+  engine.post({std::move(deed), stroke_, passing});
+  if (!passing) ++stroke_;
+}
 
 void Desk::wish(Deed deed) {
   engine.post({std::move(deed), 0, false});
   ++stroke_;
 }
 
-void Desk::let_go() {
-  post(Settle{}, false);
-  ++stroke_;
-}
+void Desk::let_go() { post(Settle{}, false); }
 
 void Desk::open(const std::string& name) {
   auto preset = library.load(name);
@@ -62,15 +62,9 @@ void Desk::open(const std::string& name) {
   wish(Open{std::move(*preset)});
 }
 
-void Desk::change(const preset::Preset& preset, bool passing) {
-  post(Change{preset}, passing);
-  if (!passing) ++stroke_;
-}
+void Desk::change(const preset::Preset& preset, bool passing) { post(Change{preset}, passing); }
 
-void Desk::move(double progress, bool passing) {
-  post(Move{progress}, passing);
-  if (!passing) ++stroke_;
-}
+void Desk::move(double progress, bool passing) { post(Move{progress}, passing); }
 
 void Desk::go(double part, bool passing) {
   const PresetPush& whole = sight->push;
@@ -89,12 +83,10 @@ double Desk::part() const {
 
 void Desk::push(int joint, const Eigen::Vector3d& to, const Eigen::Vector3d& along, bool passing) {
   post(Push{joint, to, along}, passing);
-  if (!passing) ++stroke_;
 }
 
 void Desk::drag_edge(int edge_point, const Eigen::Vector3d& to, bool passing) {
   post(DragEdge{edge_point, to}, passing);
-  if (!passing) ++stroke_;
 }
 
 void Desk::toggle_gravity() {

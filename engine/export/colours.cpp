@@ -7,13 +7,11 @@
 namespace gridshell::exports {
 
 std::array<double, 3> ColourRange::colour(double K) const {
-  if (!std::isfinite(K)) return {0.7, 0.7, 0.7};
-  constexpr std::array<double, 3> blue{0.13, 0.40, 0.67}, white{0.97, 0.97, 0.97},
-      red{0.70, 0.09, 0.17};
+  if (!std::isfinite(K)) return unknown;
   const double share = std::min(std::abs(K) / end, 1.0);
-  const auto& full = K < 0 ? blue : red;
-  std::array<double, 3> mixed{};
-  for (std::size_t k = 0; k < 3; ++k) mixed[k] = white[k] + share * (full[k] - white[k]);
+  const Colour& full = K < 0 ? below : above;
+  Colour mixed{};
+  for (std::size_t k = 0; k < 3; ++k) mixed[k] = zero[k] + share * (full[k] - zero[k]);
   return mixed;
 }
 

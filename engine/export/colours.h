@@ -11,7 +11,11 @@ namespace gridshell::exports {
 struct ColourRange {
   double end = 1;  ///< rad
 
-  /// sRGB, 0 to 1; grey where K is not known.
+  using Colour = std::array<double, 3>;  ///< sRGB, 0 to 1
+  static constexpr Colour below{0.13, 0.40, 0.67}, zero{0.97, 0.97, 0.97}, above{0.70, 0.09, 0.17},
+      unknown{0.7, 0.7, 0.7};
+
+  /// From `zero` to `below` or `above`.
   std::array<double, 3> colour(double K) const;
 };
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "engine/core/xml.h"
+
 namespace gridshell::exports {
 namespace {
 
@@ -120,19 +122,6 @@ const char* web_colour(int colour) {
   return colour == 1 ? "#d00000" : colour == 3 ? "#008000" : colour == 5 ? "#0000d0" : "#000000";
 }
 
-/// Without the signs that XML takes for itself.
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text)
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else
-      safe += c;
-  return safe;
-}
-
 }  // namespace
 
 std::string to_dxf(const Drawing& drawing) {
@@ -164,7 +153,7 @@ std::string to_svg(const Drawing& drawing) {
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.6f}mm\" height=\"{1:.6f}mm\" "
       "viewBox=\"{2:.6f} {3:.6f} {0:.6f} {1:.6f}\">\n<title>{4}</title>\n",
-      size.x(), size.y(), corner.x(), corner.y(), escaped(drawing.title));
+      size.x(), size.y(), corner.x(), corner.y(), xml_text(drawing.title));
   auto out = std::back_inserter(svg);
   for (const Layer& layer : drawing.layers) {
     const char* colour = web_colour(layer.colour);
@@ -185,7 +174,7 @@ std::string to_svg(const Drawing& drawing) {
                      "<text x=\"{:.6f}\" y=\"{:.6f}\" font-size=\"{:.6f}\" "
                      "font-family=\"sans-serif\" text-anchor=\"middle\" "
                      "dominant-baseline=\"central\" fill=\"{}\" stroke=\"none\">{}</text>\n",
-                     text.at.x(), -text.at.y(), text.height_mm, colour, escaped(text.text));
+                     text.at.x(), -text.at.y(), text.height_mm, colour, xml_text(text.text));
     svg += "</g>\n";
   }
   return svg + "</svg>\n";

@@ -130,6 +130,10 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
   json["low"] = {extent.low.x(), extent.low.y(), extent.low.z()};
   json["step"] = extent.step();
   json["K_end"] = rounded(range_of(run.frames.back().cell_K).end, 3);
+  json["colours"] = {{"below", ColourRange::below},
+                     {"zero", ColourRange::zero},
+                     {"above", ColourRange::above},
+                     {"unknown", ColourRange::unknown}};
   json["rod_mm"] = run.layout.rod_diameter_mm;
   json["frames"] = Json::array();
   for (std::size_t k = 0; k < kept; ++k) {

@@ -1,28 +1,16 @@
 // A triangle mesh while its file is read: what every format checks alike.
 #pragma once
 
-#include <charconv>
-#include <cmath>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/preset/point_file.h"
 #include "engine/preset/points.h"
 
 namespace gridshell::preset {
-
-/// A finite number that is all of a word.
-inline std::optional<double> number_of(std::string_view word) {
-  double value = 0;
-  if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (fault != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
-}
 
 /// The words of a line, apart by blanks.
 std::vector<std::string_view> blank_apart(std::string_view line);

@@ -4,11 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <optional>
+#include <charconv>
+#include <cmath>
 #include <sstream>
 
 #include "engine/core/atomic_file.h"
-#include "engine/preset/mesh_draft.h"
 
 namespace gridshell::preset {
 namespace {
@@ -34,6 +34,15 @@ std::optional<double> value_of(const std::string& word, std::size_t coordinate,
 }
 
 }  // namespace
+
+std::optional<double> number_of(std::string_view word) {
+  double value = 0;
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (fault != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
 
 Result<Points> read_points(const std::filesystem::path& file,
                            const std::vector<std::string>& coordinates,

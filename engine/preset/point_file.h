@@ -2,13 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/result.h"
 #include "engine/preset/preset.h"
 
 namespace gridshell::preset {
+
+/// A finite number that is all of a word.
+std::optional<double> number_of(std::string_view word);
 
 /// Reads a point a line: as many numbers as there are `coordinates`, apart by blanks or commas.
 /// What follows a '#' and empty lines are left out, and a first line of words (a CSV header) too.

@@ -1,6 +1,7 @@
 // OpenGL objects that delete themselves: textures, framebuffers, vertex arrays, buffers.
 #pragma once
 
+#include <cstddef>
 #include <utility>
 
 #include "render/gl/functions.h"
@@ -28,6 +29,15 @@ class Object {
   const Gl* gl_;
   GLuint id_ = 0;
 };
+
+/// Where the shader's input `index` stands in the vertices of the buffer that is bound, `stride`
+/// bytes each: `size` numbers of `type` from byte `at` on; `unit`: integers stand for 0 to 1.
+inline void describe_attribute(const Gl& gl, GLuint index, GLint size, GLenum type, bool unit,
+                               std::size_t stride, std::size_t at) {
+  gl.VertexAttribPointer(index, size, type, unit, GLsizei(stride),
+                         reinterpret_cast<const void*>(at));
+  gl.EnableVertexAttribArray(index);
+}
 
 using Texture = Object<&Gl::GenTextures, &Gl::DeleteTextures>;
 using Framebuffer = Object<&Gl::GenFramebuffers, &Gl::DeleteFramebuffers>;

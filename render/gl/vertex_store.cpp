@@ -9,9 +9,7 @@ VertexStore::VertexStore(const Gl& gl) : gl_(&gl), layout_(gl), vertices_(gl), i
   gl.BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
   const auto attribute = [&gl](GLuint index, GLint size, GLenum type, bool unit, std::size_t at) {
-    gl.VertexAttribPointer(index, size, type, unit, sizeof(Vertex),
-                           reinterpret_cast<const void*>(at));
-    gl.EnableVertexAttribArray(index);
+    describe_attribute(gl, index, size, type, unit, sizeof(Vertex), at);
   };
   attribute(0, 3, GL_FLOAT, false, offsetof(Vertex, position));
   attribute(1, 4, GL_SHORT, true, offsetof(Vertex, normal));

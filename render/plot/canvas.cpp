@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/core/xml.h"
 #include "render/plot/pixels.h"
 #include "render/plot/text.h"
 

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "engine/core/atomic_file.h"
+#include "engine/core/xml.h"
 #include "render/image/png.h"
 #include "render/plot/canvas.h"
 #include "render/plot/pixels.h"

@@ -79,20 +79,4 @@ std::string spaced(std::string word) {
   return word;
 }
 
-std::string xml_text(std::string_view letters) {
-  std::string xml;
-  for (char c : letters) {
-    const bool control = static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t';
-    if (c == '&')
-      xml += "&amp;";
-    else if (c == '<')
-      xml += "&lt;";
-    else if (c == '>')
-      xml += "&gt;";
-    else if (!control)
-      xml += c;
-  }
-  return xml;
-}
-
 }  // namespace gridshell::render

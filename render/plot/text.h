@@ -28,7 +28,4 @@ std::string without_marks(const std::string& marked);
 /// A word of a file as a picture says it: with spaces.
 std::string spaced(std::string word);
 
-/// Letters as they stand in XML; control characters, which it forbids, are left out.
-std::string xml_text(std::string_view letters);
-
 }  // namespace gridshell::render
