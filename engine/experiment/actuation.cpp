@@ -59,14 +59,32 @@ Result<Checkpoint> begin_from_flat(Course& course, const Watch& watch) {
   return found;
 }
 
-/// On from the first state, or, where the way to it is not stable, from next to the flat, where the
-/// session stands after it.
+/// Whether the path from next to the flat, where the session stands after a way back, comes to the
+/// first state: not where that lies on a branch that leaves it.
+bool leads_to(Course& course, const Checkpoint& first, const Watch& watch) {
+  constexpr double near_spacings = 0.1;  // of d
+  Session& session = course.session;
+  const Checkpoint here = session.save();
+  const Report there =
+      session.sample(first.state.t, course.legs.front().trail.stations.back(), false, watch);
+  const Eigen::Index joints = session.shell().finest().joints;
+  const bool same =
+      there.end == Outcome::reached &&
+      largest_column(session.nodes().leftCols(joints) - first.state.x.leftCols(joints)) <
+          near_spacings * session.scene().footprint.spacing;
+  session.restore(here);
+  return same;
+}
+
+/// On from the first state, or, where the path from the flat does not lead to it through stable
+/// states, from next to the flat, where the session stands after the way back.
 void follow_from_flat(Course& course, const Checkpoint& first, double to, const Watch& watch) {
   Session& session = course.session;
   const Leg& back = course.legs.front();
   const bool connected = back.report.end == Outcome::reached;
-  if (connected && !stable(back) && session.scene().imperfection.chooses()) {
-    const bool rests = session.rest(watch).end == Outcome::reached;
+  if (connected && session.scene().imperfection.chooses()) {
+    const bool straight = stable(back) && leads_to(course, first, watch);
+    const bool rests = !straight && (stable(back) || session.rest(watch).end == Outcome::reached);
     if (rests || watch.cancelled()) {
       course.legs.clear();
       // nearer to the flat nothing happens any more

@@ -42,6 +42,9 @@ std::optional<std::string> leg_disagreement(const Leg& a, const Leg& b) {
       return "events of another kind";
     if (std::abs(seen[k].t - found[k].t) > near_t)
       return fmt::format("path parameters {:.3f} and {:.3f} of an event", seen[k].t, found[k].t);
+    if (seen[k].to && std::abs(*seen[k].to - *found[k].to) > near_t)
+      return fmt::format("rests found at path parameters {:.3f} and {:.3f}", *seen[k].to,
+                         *found[k].to);
   }
   if (std::abs(a.end() - b.end()) > near_t)
     return fmt::format("ends at path parameters {:.3f} and {:.3f}", a.end(), b.end());
@@ -59,6 +62,43 @@ void extrapolate_events(const std::vector<Leg>& fine, std::vector<Leg>& legs) {
       events[e].error = std::abs(step) / 3;
     }
   }
+}
+
+/// Whether the finest mesh, too, loses its stability where two leaders say that the shell does:
+/// past the event, by more than they differ. Where the leader cannot be followed there, it does.
+bool seen_on_finest(Course& fine, const Leg& leg, const Event& event, double coarse_t,
+                    const Watch& watch) {
+  constexpr double least = 2e-3;  // in the path parameter
+  const double apart = std::abs(event.t - coarse_t);
+  const double there = event.t + leg.way() * (apart + least);
+  const auto& stations = leg.trail.stations;
+  const Station* before = &stations.front();
+  for (const Station& station : stations) {
+    if (leg.way() * (station.point.t - event.t) > 0) break;
+    before = &station;
+  }
+  const Report beyond = fine.session.sample(there, *before, true, watch);
+  return beyond.end != Outcome::reached || !beyond.certificate.stable();
+}
+
+/// Losses of stability that the leaders of both courses see and the finest mesh does not: a
+/// sentence, or nothing. Those of the actuation before a push are not looked at: its motion is
+/// over.
+std::optional<std::string> only_on_leaders(const Course& coarse, Course& fine, const Watch& watch) {
+  const Checkpoint end = fine.session.save();
+  std::optional<std::string> found;
+  for (std::size_t k = 0; k < fine.legs.size(); ++k) {
+    const auto &seen = coarse.legs[k].report.events, &events = fine.legs[k].report.events;
+    for (std::size_t e = 0; e < events.size() && !found; ++e) {
+      const bool left = events[e].kind == Event::Kind::stability_lost && events[e].to;
+      if (left && !seen_on_finest(fine, fine.legs[k], events[e], seen[e].t, watch))
+        found =
+            fmt::format("{} edges a segment do not lose their stability at path parameter {:.3f}",
+                        fine.session.shell().plan().edges_per_segment.back(), events[e].t);
+    }
+  }
+  fine.session.restore(end);
+  return found;
 }
 
 }  // namespace
@@ -96,7 +136,8 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
                                  plan->edges_per_segment.front(), fine.error().message);
       return course;
     }
-    const auto differs = disagreement(course, *fine);
+    auto differs = disagreement(course, *fine);
+    if (!differs) differs = only_on_leaders(course, *fine, watch);
     if (!differs) {
       extrapolate_events(fine->legs, course.legs);
       extrapolate_events(fine->earlier, course.earlier);

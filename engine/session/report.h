@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/core/outcome.h"
-#include "engine/solve/path.h"
+#include "engine/solve/nested.h"
 
 namespace gridshell {
 
@@ -39,9 +39,9 @@ struct Report {
   double seconds = 0;
 };
 
-/// A point of a path as the coarsest mesh knows it, with the certificate of all meshes.
+/// A point of a path with the certificate of all meshes.
 struct Station {
-  PathPoint point;
+  NestedPoint point;
   Certificate certificate;
 };
 

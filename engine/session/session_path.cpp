@@ -38,7 +38,7 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
     return done;
   };
   const auto station = [&] {
-    if (trail) trail->stations.push_back({shell_->followed(), certificate()});
+    if (trail) trail->stations.push_back({shell_->point(), certificate()});
   };
   bool unstable_too = leaving.through_unstable;
   shell_->allow_unstable(unstable_too);
@@ -157,7 +157,7 @@ Report Session::sample_rest(double t, const Station& before, const Watch& watch)
   const auto rest =
       rest_beyond(*shell_, *scene_, before.point, Event::Kind::stability_lost, t, moments, watch);
   if (!rest) return report(Outcome::lost, t, spent, begin);
-  return sample(t, {{t, *rest, {}}, {}}, false, watch);
+  return sample(t, {{{t, *rest, {}}}, {}}, false, watch);
 }
 
 }  // namespace gridshell

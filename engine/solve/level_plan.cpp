@@ -46,8 +46,13 @@ std::optional<LevelPlan> finer(const LevelPlan& plan) {
 
 std::optional<LevelPlan> with_finer_leader(const LevelPlan& plan) {
   LevelPlan next = plan;
-  for (int& edges : next.edges_per_segment) edges *= 2;
-  if (next.edges_per_segment.back() > most_edges) return std::nullopt;
+  auto& edges = next.edges_per_segment;
+  if (2 * edges.back() <= most_edges) {
+    for (int& one : edges) one *= 2;
+    return next;
+  }
+  if (edges.size() <= (plan.extrapolate ? 3 : 2)) return std::nullopt;
+  edges.erase(edges.begin());
   return next;
 }
 

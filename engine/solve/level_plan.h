@@ -31,7 +31,8 @@ double expected_error(const LevelPlan& plan);
 std::optional<LevelPlan> finer(const LevelPlan& plan);
 
 /// The plan whose leading mesh has twice the edges: what a coarse leader alone sees is not found on
-/// it. Empty when its finest mesh would pass 128 edges.
+/// it. Where its finest mesh would pass 128 edges, the same plan without its leader; empty where
+/// too few meshes are left for an estimate.
 std::optional<LevelPlan> with_finer_leader(const LevelPlan& plan);
 
 }  // namespace gridshell

@@ -112,6 +112,7 @@ void NestedShell::load_up() {
 void NestedShell::back_to(const NestedState& state) {
   state_ = state;
   place(state.t, state.levels[0]);
+  recall();
   load_up();
 }
 
@@ -124,11 +125,28 @@ void NestedShell::restore(const NestedState& state, const std::vector<PinnedMoti
   }
   follow_anew();
   place(state.t, state.levels[0]);
+  recall();
   load_up();
 }
 
 void NestedShell::forget() {
   for (auto& level : levels_) level->added.clear();
+}
+
+/// What finer levels add is that of the current state again.
+void NestedShell::recall() {
+  auto added = point().added;
+  for (std::size_t k = 0; k < added.size(); ++k) levels_[k + 1]->added = {std::move(added[k])};
+}
+
+NestedPoint NestedShell::point() const {
+  NestedPoint point{followed()};
+  for (std::size_t k = 1; k < state_.levels.size(); ++k) {
+    const Level& level = *levels_[k];
+    point.added.push_back(added_by(level, state_.t, level.from_coarser->carry(state_.levels[k - 1]),
+                                   state_.levels[k]));
+  }
+  return point;
 }
 
 NestedReport NestedShell::place(double t, const State& coarse, const Watch& watch) {
@@ -140,20 +158,20 @@ NestedReport NestedShell::place(double t, const State& coarse, const Watch& watc
 NestedReport NestedShell::start(double t, const State& coarse, const Watch& watch) {
   const NestedReport report = place(t, coarse, watch);
   if (report.end != Outcome::reached) return report;
-  return certify(t, path_->point(), path_->last(), watch);
+  return certify(t, path_->point(), path_->last(), Prefer::stable, watch);
 }
 
 NestedReport NestedShell::advance(double t, const Watch& watch) {
   path_->allow_unstable(options_.allow_unstable);
   const PathReport report = path_->advance(t, watch);
   if (report.end != Outcome::reached) return {report.end, report.t};
-  return certify(t, path_->point(), path_->last(), watch);
+  return certify(t, path_->point(), path_->last(), Prefer::first, watch);
 }
 
-NestedReport NestedShell::sample(double t, const PathPoint& beside, const Watch& watch) {
+NestedReport NestedShell::sample(double t, const NestedPoint& beside, const Watch& watch) {
   struct Memory {  // what finer meshes added stays that of the path
     std::vector<std::unique_ptr<Level>>& levels;
-    std::vector<std::vector<Level::Added>> added;
+    std::vector<std::vector<Added>> added;
     explicit Memory(std::vector<std::unique_ptr<Level>>& all) : levels(all) {
       for (const auto& level : all) added.push_back(level->added);
     }
@@ -166,7 +184,9 @@ NestedReport NestedShell::sample(double t, const PathPoint& beside, const Watch&
   path.resume(beside);
   const PathReport report = path.advance(t, watch);
   if (report.end != Outcome::reached) return {report.end, report.t};
-  return certify(t, path.point(), path.last(), watch);
+  forget();
+  for (std::size_t k = 0; k < beside.added.size(); ++k) levels_[k + 1]->added = {beside.added[k]};
+  return certify(t, path.point(), path.last(), Prefer::stable, watch);
 }
 
 void NestedShell::drive(const Drive& drive) {
@@ -206,12 +226,12 @@ void NestedShell::actuate(double t, const std::vector<Hold>& holds, double load_
   follow_anew();
 }
 
-void NestedShell::remember(Level& level, double t, const State& base, const State& state) {
+Added NestedShell::added_by(const Level& level, double t, const State& base,
+                            const State& state) const {
   // angles are counted from frames that each carry makes anew: only nodes are remembered
-  Level::Added added{t, state.x - base.x, state.force - base.force};
+  Added added{t, (state.x - base.x).cast<float>(), (state.force - base.force).cast<float>()};
   added.x.rightCols(level.model.columns() - level.model.nodes).setZero();
-  level.added.push_back(std::move(added));
-  if (level.added.size() > 2) level.added.erase(level.added.begin());
+  return added;
 }
 
 bool NestedShell::correct(Level& level, const State& base, State& state, NewtonReport& report,
@@ -233,57 +253,70 @@ State NestedShell::guess(const Level& level, std::size_t k, double t, const Stat
   State state = base;
   Eigen::Matrix3Xd x = base.x;
   if (level.added.empty() && k > 1) {
-    const Level::Added& below = levels_[k - 1]->added.back();
+    const Added& below = levels_[k - 1]->added.back();
     Eigen::Matrix3Xd quarter;
     Eigen::VectorXd force;
-    level.from_coarser->meshes().nodes(below.x.leftCols(levels_[k - 1]->mesh.nodes()), quarter);
-    level.from_coarser->meshes().edges(below.force, force);
+    level.from_coarser->meshes().nodes(
+        below.x.leftCols(levels_[k - 1]->mesh.nodes()).cast<double>(), quarter);
+    level.from_coarser->meshes().edges(below.force.cast<double>(), force);
     x.leftCols(quarter.cols()) += quarter / 4;
     state.force += force / 4;
   }
   if (!level.added.empty()) {
-    const Level::Added &last = level.added.back(), &before = level.added.front();
+    const Added &last = level.added.back(), &before = level.added.front();
     const double ahead = level.added.size() < 2 ? 0 : (t - last.t) / (last.t - before.t);
-    x += last.x;
-    state.force += last.force;
+    x += last.x.cast<double>();
+    state.force += last.force.cast<double>();
     if (std::abs(ahead) > 0 && std::abs(ahead) < 3) {
-      x += ahead * (last.x - before.x);
-      state.force += ahead * (last.force - before.force);
+      x += ahead * (last.x - before.x).cast<double>();
+      state.force += ahead * (last.force - before.force).cast<double>();
     }
   }
   move_to(level.model, x, state);
   return state;
 }
 
-/// A level's state beside that of the coarser one: from what is remembered, without it, and where
-/// full steps lead away down the energy from there, as long as that stays nearby.
-bool NestedShell::refine(std::size_t k, double t, const State& coarser, State& state,
+/// A level's state beside that of the coarser one: from what is remembered, without it, and down
+/// the energy from there, as long as that stays nearby; on only where the one before found none, or
+/// none that is preferred.
+bool NestedShell::refine(std::size_t k, double t, const State& coarser, Prefer prefer, State& state,
                          NewtonReport& report, const Watch& watch) {
+  enum class From { remembered, coarser, down };
   Level& level = *levels_[k];
   const State base = level.from_coarser->carry(coarser);
-  state = guess(level, k, t, base);
-  level.motion.impose(*level.system, t, state);
-  bool found = correct(level, base, state, report, watch);
-  for (bool down : {false, true}) {
-    if (found || watch.cancelled()) break;
-    state = base;
-    level.motion.impose(*level.system, t, state);
-    if (down) minimise(*level.system, state, {.most_iterations = 60}, watch);
-    found = correct(level, base, state, report, watch);
+  bool found = false;
+  for (const From from : {From::remembered, From::coarser, From::down}) {
+    State trial = from == From::remembered ? guess(level, k, t, base) : base;
+    level.motion.impose(*level.system, t, trial);
+    if (from == From::down) minimise(*level.system, trial, {.most_iterations = 60}, watch);
+    NewtonReport tried;
+    if (watch.cancelled()) return false;
+    if (!correct(level, base, trial, tried, watch)) continue;
+    const bool stable =
+        prefer == Prefer::stable && inertia_of(level, trial, tried).positive_definite();
+    if (found && !stable) continue;
+    found = true;
+    state = std::move(trial);
+    report = tried;
+    if (stable || prefer == Prefer::first) break;
   }
-  if (found) remember(level, t, base, state);
-  return found;
+  if (!found) return false;
+  level.added.push_back(added_by(level, t, base, state));
+  if (level.added.size() > 2) level.added.erase(level.added.begin());
+  return true;
 }
 
 NestedReport NestedShell::certify(double t, const PathPoint& coarse, const NewtonReport& last,
-                                  const Watch& watch) {
+                                  Prefer prefer, const Watch& watch) {
+  // where states that are not stable are wanted too, none is preferred
+  if (options_.allow_unstable) prefer = Prefer::first;
   NestedState next;
   next.t = t;
   next.levels.push_back(coarse.state);
   NewtonReport report = last;
   for (std::size_t k = 1; k < levels_.size(); ++k) {
     State state;
-    const bool found = refine(k, t, next.levels.back(), state, report, watch);
+    const bool found = refine(k, t, next.levels.back(), prefer, state, report, watch);
     if (watch.cancelled()) return {Outcome::cancelled, state_.t};
     if (!found) return {Outcome::meshes_disagree, state_.t};
     next.levels.push_back(std::move(state));
@@ -324,17 +357,21 @@ void NestedShell::polish(Level& finest, State& found) {
   }
 }
 
+/// The factorisation of the last correction is the state's own but for that correction; where it
+/// moved the state too far to vouch for it, the energy's Hessian there is factorised anew.
+Inertia NestedShell::inertia_of(Level& level, const State& found,
+                                const NewtonReport& report) const {
+  constexpr double same_state = 1e-3;  // of d
+  const bool near = report.factored_move_mm <= same_state * options_.spacing_mm;
+  if (near && report.inertia.positive_definite()) return report.inertia;
+  return level.system->at(found, false);
+}
+
 /// Certificate of the finest level, error estimate, extrapolation.
 void NestedShell::finish(const NewtonReport& report) {
   Level& finest = *levels_.back();
-  // the factorisation of the last correction is the state's own but for that correction; where it
-  // moved the state too far to vouch for it, the energy's Hessian there is factorised anew
-  constexpr double same_state = 1e-3;  // of d
   State& found = state_.levels.back();
-  state_.inertia = report.inertia;
-  if (report.factored_move_mm > same_state * options_.spacing_mm ||
-      !report.inertia.positive_definite())
-    state_.inertia = finest.system->at(found, false);
+  state_.inertia = inertia_of(finest, found, report);
   polish(finest, found);
   state_.residual_N = finest.system->residual();
   state_.largest_strain = finest.system->assembly().largest_strain;

@@ -29,6 +29,19 @@ struct NestedState {
   Eigen::MatrixXd held_stiffness;
 };
 
+/// What a finer mesh adds to the state of the one before it, interpolated: where its state is
+/// looked for nearby. A guess, so in single precision.
+struct Added {
+  double t = 0;
+  Eigen::Matrix3Xf x;     ///< of the nodes
+  Eigen::VectorXf force;  ///< of the edges
+};
+
+/// A point of the path of the coarsest mesh, and what each finer one adds there.
+struct NestedPoint : PathPoint {
+  std::vector<Added> added = {};  ///< coarse to fine; empty: not known
+};
+
 /// How far a shell came, and why it ended there: reached, unstable, folded, lost, not_finite,
 /// meshes_disagree, cancelled.
 struct NestedReport {
@@ -55,7 +68,7 @@ class NestedShell {
                                   const PathOptions& options);
 
   /// From a state of the coarsest level at t, an equilibrium or near one: certifies it on all
-  /// levels.
+  /// levels. Of equilibria beside it a finer level takes the stable one.
   NestedReport start(double t, const State& coarse, const Watch& watch);
   /// The same without a certificate: only the coarsest level is brought to rest, to follow the path
   /// on.
@@ -64,8 +77,8 @@ class NestedShell {
   /// failure.
   NestedReport advance(double t, const Watch& watch);
   /// Certifies the state at t, between points of the path that are known, and leaves the path
-  /// itself as it is: `beside` is the nearest of them.
-  NestedReport sample(double t, const PathPoint& beside, const Watch& watch);
+  /// itself as it is: `beside` is the nearest of them. Finer levels choose as in start().
+  NestedReport sample(double t, const NestedPoint& beside, const Watch& watch);
 
   /// From the current state on the shell is driven so, t = 0 being the current state. A start() at
   /// t = 0 from the coarsest level's state follows.
@@ -87,6 +100,8 @@ class NestedShell {
                const std::vector<Hold>& holds);
   /// How far the coarsest mesh came: beyond the current state where an advance() failed.
   const PathPoint& followed() const { return path_->point(); }
+  /// The current state's point of the path.
+  NestedPoint point() const;
   const LevelPlan& plan() const { return plan_; }
   int levels() const { return int(levels_.size()); }
   const RodMesh& mesh(int level) const { return levels_[std::size_t(level)]->mesh; }
@@ -112,25 +127,24 @@ class NestedShell {
     std::unique_ptr<StateTransfer> from_coarser;
     std::optional<MeshTransfer> to_coarser;
     std::vector<NodeAction> steady, field;
-    // what this level adds to the interpolated coarser one, at the last states: nodes and forces
-    struct Added {
-      double t;
-      Eigen::Matrix3Xd x;
-      Eigen::VectorXd force;
-    };
-    std::vector<Added> added;
+    std::vector<Added> added;  // at the last states
   };
   NestedShell(const LevelPlan& plan, const PathOptions& options) : plan_(plan), options_(options) {}
+  // of equilibria of a finer level beside the coarser one's state: the first found, which tells
+  // where a branch loses its stability, or one that is stable
+  enum class Prefer { first, stable };
   void forget();
+  void recall();
   void follow_anew();
-  NestedReport certify(double t, const PathPoint& coarse, const NewtonReport& last,
+  NestedReport certify(double t, const PathPoint& coarse, const NewtonReport& last, Prefer prefer,
                        const Watch& watch);
   State guess(const Level& level, std::size_t k, double t, const State& base) const;
-  bool refine(std::size_t k, double t, const State& coarser, State& state, NewtonReport& report,
-              const Watch& watch);
+  bool refine(std::size_t k, double t, const State& coarser, Prefer prefer, State& state,
+              NewtonReport& report, const Watch& watch);
   bool correct(Level& level, const State& base, State& state, NewtonReport& report,
                const Watch& watch);
-  void remember(Level& level, double t, const State& base, const State& state);
+  Added added_by(const Level& level, double t, const State& base, const State& state) const;
+  Inertia inertia_of(Level& level, const State& found, const NewtonReport& report) const;
   void finish(const NewtonReport& report);
   void polish(Level& finest, State& found);
   void take_reactions();
