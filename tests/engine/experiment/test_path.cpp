@@ -62,6 +62,28 @@ preset::Preset saddle(preset::Start start, int frames) {
   return p;
 }
 
+/// An ellipse drawn in, its rods beside the axes.
+preset::Preset drawn_ellipse(double half_x_mm, double half_y_mm, double scale, double tolerance) {
+  preset::Preset p = ellipse(5);
+  p.footprint.boundary.half_x_mm = half_x_mm;
+  p.footprint.boundary.half_y_mm = half_y_mm;
+  p.actuation.scale = scale;
+  p.accuracy.tolerance = tolerance;
+  return p;
+}
+
+/// Led by a mesh of so many edges a segment.
+experiment::Outcome led_by(int edges, const preset::Preset& preset) {
+  Scene scene = scene_of(preset).value();
+  scene.leading_edges = edges;
+  record::MemorySink sink;
+  Watch watch;
+  auto summary =
+      experiment::run(preset, std::make_shared<const Scene>(std::move(scene)), false, sink, watch);
+  REQUIRE(summary);
+  return {std::move(sink.trajectory()), std::move(*summary)};
+}
+
 double bend(const experiment::Outcome& outcome) { return outcome.summary.energies[Term::bend]; }
 
 /// Every frame is at rest and says whether it is stable; where the path ended early it says why.
@@ -112,6 +134,48 @@ TEST_CASE("a snap that only the coarsest mesh sees is none of the shell") {
   const auto outcome = run(circle(8, 77.9, 63.0));
   CHECK(outcome.summary.limit == record::Limit::none);
   CHECK(bend(outcome) == Approx(31.4).epsilon(5e-3));
+}
+
+TEST_CASE("a loss of stability that two leading meshes see and the finest does not is none",
+          "[full]") {
+  // the smallest eigenvalue comes within a tenth of its size to zero: 4, 5 and 10 edges cross it,
+  // 16 and 20 do not
+  preset::Preset p = circle(9, 109.05474771559238, 90.57544489549078);
+  p.accuracy.tolerance = 4.4e-4;
+  for (int leader : {4, 5}) {
+    const auto outcome = led_by(leader, p);
+    CAPTURE(leader, outcome.summary.limit_reason);
+    CHECK(outcome.summary.limit == record::Limit::none);
+    CHECK(bend(outcome) == Approx(11.769).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("the path from flat enters a branch by the imperfection, not by where it was begun",
+          "[full]") {
+  // at 2 % the dome of 4 edges already lies on one of the two branches that leave at progress 0.02
+  const preset::Preset p =
+      drawn_ellipse(79.2370704561472, 114.96512576937675, 0.7743109990656376, 1.47e-3);
+  const auto four = led_by(4, p), five = led_by(5, p);
+  for (const auto* outcome : {&four, &five}) {
+    CAPTURE(outcome->summary.limit_reason);
+    CHECK(outcome->summary.limit == record::Limit::snap);
+  }
+  const Eigen::Index joints = Eigen::Index(four.trajectory.layout.joints.size());
+  const auto& a = four.trajectory.frames.back().nodes;
+  const auto& b = five.trajectory.frames.back().nodes;
+  // its mirror image lies 9.3 mm away
+  CHECK((a - b).leftCols(joints).colwise().norm().maxCoeff() < 0.1);
+}
+
+TEST_CASE("a frame lies on the path's own branch on every mesh") {
+  // between 4 and 8 edges Newton's method goes to a short rod that did not buckle, 0.37 mm away
+  const auto outcome =
+      run(drawn_ellipse(111.91825069487095, 113.71261328458786, 0.751133214905858, 4.3e-3));
+  CHECK(outcome.summary.limit == record::Limit::none);
+  for (const auto& frame : outcome.trajectory.frames) {
+    CAPTURE(frame.progress);
+    CHECK(frame.negative_pivots == 0);
+  }
 }
 
 TEST_CASE("frames change nothing: the same events, the same end, with 2, 5 and 9 of them") {
