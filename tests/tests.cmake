@@ -59,7 +59,6 @@ if(GRIDSHELL_PICTURES)
     if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       add_executable(gridshell_baseline app/main.cpp tests/app/baseline_processor.cpp)
       target_link_libraries(gridshell_baseline PRIVATE gridshell_app CLI11::CLI11)
-      target_compile_definitions(gridshell_baseline PRIVATE GRIDSHELL_VERSION="${PROJECT_VERSION}")
       add_dependencies(test_app gridshell_baseline)
       target_compile_definitions(test_app PRIVATE
         GRIDSHELL_BASELINE_PROGRAM="$<TARGET_FILE:gridshell_baseline>")
