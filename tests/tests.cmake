@@ -91,6 +91,22 @@ endforeach()
 # it keeps all cores busy
 set_tests_properties("style: tidy" PROPERTIES RUN_SERIAL ON)
 
+# The programs of app/examples, 30 lines each over the library, run as tests.
+file(GLOB examples CONFIGURE_DEPENDS app/examples/*.cpp)
+foreach(source IN LISTS examples)
+  get_filename_component(example ${source} NAME_WE)
+  add_executable(example_${example} ${source})
+  target_link_libraries(example_${example} PRIVATE gridshell::gridshell)
+  gridshell_compile_lightly(example_${example} -O1)
+  add_test(NAME "example: ${example}" COMMAND example_${example})
+  set_tests_properties("example: ${example}" PROPERTIES LABELS quick TIMEOUT 120)
+endforeach()
+# installed into an empty prefix, another project finds library and presets
+add_test(NAME "an installed library is found by CMake and pkg-config"
+  COMMAND ${PROJECT_SOURCE_DIR}/tests/install.sh ${PROJECT_BINARY_DIR} ${CMAKE_CXX_COMPILER})
+set_tests_properties("an installed library is found by CMake and pkg-config"
+  PROPERTIES LABELS full TIMEOUT 600)
+
 # Benches are programs of their own, built on demand: `cmake --build build --target benches`.
 add_custom_target(benches)
 file(GLOB bench_sources CONFIGURE_DEPENDS tests/bench/bench_*.cpp)
