@@ -34,6 +34,7 @@ std::vector<Candidate> candidates_of(const std::vector<FinishedRun>& runs, const
   for (const FinishedRun& run : runs) {
     const std::string name = folder_of(folder, run.name).string();
     const std::size_t frames = run.trajectory.frames.size();
+    if (frames == 0) continue;
     if (run.states.rows.empty())
       all.push_back({&run, frames - 1, name});
     else
@@ -69,6 +70,9 @@ Result<Scanned> read_all(const ScanOptions& options) {
   for (std::size_t k = 0; k < options.runs.size(); ++k)
     for (Candidate& one : candidates_of(scanned.runs[k], options.runs[k]))
       scanned.candidates.push_back(std::move(one));
+  if (scanned.candidates.empty())
+    return fail(Fault::bad_input,
+                fmt::format("'{}' holds no state to compare with", options.runs.front()));
   const preset::Joints& joints = scanned.candidates.front().run->preset.joints;
   scanned.cylinder = {joints.diameter_mm, joints.height_mm};
   return scanned;
@@ -94,6 +98,7 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
     const record::Trajectory& run = one.run->trajectory;
     const record::Frame& frame = run.frames[one.frame];
+    if (const auto& fault = run.frames.fault()) return tl::unexpected(*fault);
     ComparedState state{one.name, lay_on(scan.clusters, form_of(run.layout, frame), scan.cylinder),
                         false};
     // states of shells of other sizes count by their joints
@@ -108,8 +113,8 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
   if (std::isfinite(least)) return scan;
   return fail(Fault::bad_input,
               fmt::format("{}: {} clusters of points as wide as joints of {:g} mm ([joints] "
-                          "diameter_mm), {} specks and {} wider ones; no four of them lie like "
-                          "joints of the shell",
+                          "diameter_mm), {} specks and {} wider ones; they lie like the "
+                          "joints of no shell given",
                           file, scan.clusters.tops.cols(), scan.cylinder.diameter_mm,
                           scan.clusters.specks, scan.clusters.others));
 }

@@ -316,6 +316,11 @@ FrameList read_frames(const std::shared_ptr<hdf5::Reader>& shared, const Layout&
                                   nodes[2], cells[0], cells[1]));
   if (nodes[1] == 0 && nodes[0] > 0) file.fail_because("/nodes holds frames without nodes");
   if (!file.good()) return {};
+  // what frames hold is counted by the layout
+  if (nodes[0] > 0)
+    if (auto fits = check_layout(layout, Eigen::Index(nodes[1])); !fits)
+      file.fail_because(fits.error().message);
+  if (!file.good()) return {};
   std::vector<Frame> heads(nodes[0]);
   for (const FrameColumn& column : frame_columns) read_column(file, column, heads);
   read_column(file, actuation_column, heads);
@@ -341,9 +346,7 @@ Result<Trajectory> read_checked(const std::filesystem::path& path) {
   const Trajectory& read = trajectory;
   if (read.frames.empty()) return check_consistency(read).map([&] { return trajectory; });
   const Frame& first = read.frames.front();
-  return check_frame(read.layout, first, 0, first.nodes.cols())
-      .and_then([&] { return check_layout(read.layout, first.nodes.cols()); })
-      .map([&] { return trajectory; });
+  return check_frame(read.layout, first, 0, first.nodes.cols()).map([&] { return trajectory; });
 }
 
 /// A regular file that can be opened, or why not.

@@ -63,8 +63,7 @@ Result<Cells> cells_of(const Eigen::Matrix3Xd& cloud, double size) {
   }
   cells.all = own;
   std::ranges::sort(cells.all);
-  const auto repeated = std::ranges::unique(cells.all);
-  cells.all.erase(repeated.begin(), repeated.end());
+  cells.all.erase(std::unique(cells.all.begin(), cells.all.end()), cells.all.end());
   for (const Cell& cell : own)
     cells.of_point.push_back(int(std::ranges::lower_bound(cells.all, cell) - cells.all.begin()));
   return cells;

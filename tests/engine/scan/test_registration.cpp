@@ -13,7 +13,8 @@ namespace {
 Eigen::Matrix3Xd bump() {
   Eigen::Matrix3Xd places(3, 49);
   for (int k = 0; k < 49; ++k) {
-    const double x = 20 * (k % 7 - 3), y = 20 * (k / 7 - 3);
+    const int column = k % 7 - 3, row = k / 7 - 3;
+    const double x = 20 * column, y = 20 * row;
     places.col(k) << x, y, 40 * std::exp(-(x * x + 2 * y * y + x * y) / 3000) + 0.1 * x;
   }
   return places;
