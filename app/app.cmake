@@ -15,7 +15,7 @@ add_custom_command(OUTPUT ${embedded_presets}
   DEPENDS ${preset_files} ${named_files} ${PROJECT_SOURCE_DIR}/app/embed_presets.cmake VERBATIM)
 
 file(GLOB_RECURSE APP_SOURCES CONFIGURE_DEPENDS app/*.cpp app/*.h)
-list(FILTER APP_SOURCES EXCLUDE REGEX "/app/main\\.cpp$")
+list(FILTER APP_SOURCES EXCLUDE REGEX "/app/(main\\.cpp$|examples/)")
 add_library(gridshell_app STATIC ${APP_SOURCES} ${embedded_presets})
 target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
   PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json Threads::Threads
@@ -26,4 +26,3 @@ gridshell_compile_lightly(gridshell_app -O1)
 
 add_executable(gridshell app/main.cpp)
 target_link_libraries(gridshell PRIVATE gridshell_app CLI11::CLI11)
-target_compile_definitions(gridshell PRIVATE GRIDSHELL_VERSION="${PROJECT_VERSION}")

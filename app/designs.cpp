@@ -38,7 +38,7 @@ Result<record::Trajectory> end_of(const preset::Preset& preset, Watch& watch) {
 /// The designed shell as a run of its own.
 Result<record::Trajectory> run_designed(const preset::Preset& preset, const fs::path& folder,
                                         record::Summary& summary, Watch& watch) {
-  record::FolderSink sink(folder, {preset.name, record::Kind::figure});
+  record::FolderSink sink(folder, {preset.name, record::Kind::figure, preset.title});
   auto run = experiment::run(preset, true, sink, watch);
   if (!run) return tl::unexpected(run.error());
   summary = *run;

@@ -6,6 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/console.h"
 #include "app/interrupt.h"
+#include "engine/core/version.h"
 #include "engine/preset/suggest.h"
 
 namespace {
@@ -24,7 +25,7 @@ std::string no_such_command(const CLI::App& program, const std::string& word) {
 
 int run(int argc, char** argv) {
   CLI::App program("Elastic gridshells: formed, measured and shown.", "gridshell");
-  program.set_version_flag("--version", GRIDSHELL_VERSION);
+  program.set_version_flag("--version", gridshell::version());
   program.require_subcommand(1);
   app::Action action;
   app::add_commands(program, action);

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <regex>
 
 #include "render/context/context.h"
 
 namespace gridshell::app {
-
-namespace {
 
 void add_changes(CLI::App& command, Options& options) {
   command
@@ -21,8 +20,6 @@ void add_changes(CLI::App& command, Options& options) {
   command.add_option("--width", options.width, "width of a figure as printed: 85mm");
   command.add_option("--dpi", options.dpi, "pixels of an inch, with --width");
 }
-
-}  // namespace
 
 void add_preset_options(CLI::App& command, Options& options) {
   command.add_option("PRESET", options.input, "a preset file, or a name of 'gridshell list'")
@@ -81,6 +78,24 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
                   fmt::format("--size {}: must be WxH, for example 1280x720", options.size));
     overrides.push_back(
         {"--size", "movie.size", fmt::format("[{}, {}]", std::stoi(part[1]), std::stoi(part[2]))});
+  }
+  return overrides;
+}
+
+Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
+                                                       const std::vector<std::string>& also) {
+  auto overrides = overrides_of(options);
+  if (!overrides) return overrides;
+  for (const auto& change : *overrides) {
+    if (std::ranges::find(also, change.key) != also.end()) continue;
+    const bool shows = change.key.starts_with("movie.") || change.key.starts_with("figure.") ||
+                       change.key.starts_with("style.") || change.key == "page.photo" ||
+                       change.key == "page.sweep";
+    if (!shows || change.key == "movie.frames" || change.key == "figure.radii_mm")
+      return fail(Fault::bad_input,
+                  fmt::format("{}: {} cannot change once a run is finished; what can are keys of "
+                              "[movie], [style], [figure] and [page] that only show it",
+                              change.source, change.key));
   }
   return overrides;
 }

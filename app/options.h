@@ -28,6 +28,9 @@ struct Options {
 /// PRESET and everything that changes it: --set, --frames, --size, --quality, --print-config.
 void add_preset_options(CLI::App& command, Options& options);
 
+/// What changes a preset or the pictures of a run: --set, --size, --quality, --width, --dpi.
+void add_changes(CLI::App& command, Options& options);
+
 /// RUN and what changes its pictures: --set, --size, --quality.
 void add_run_options(CLI::App& command, Options& options);
 
@@ -41,5 +44,10 @@ void add_picture_options(CLI::App& command, Options& options);
 /// The options that change the preset, in the order in which they are laid over it. Errors:
 /// bad_input for a --set without key or value, a --size that is not WxH.
 Result<std::vector<preset::Override>> overrides_of(const Options& options);
+
+/// The same of a finished run, of which only how it is shown may change, and the keys `also`.
+/// Errors: bad_input for any other key.
+Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
+                                                       const std::vector<std::string>& also = {});
 
 }  // namespace gridshell::app

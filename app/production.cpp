@@ -153,7 +153,7 @@ Result<void> simulate(Job& job, Pictures pictures, int threads, const fs::path& 
   auto made = make_folder(folder).and_then(
       [&] { return write_atomically(folder / "preset.toml", preset::to_toml(job.preset)); });
   if (!made) return made;
-  record::FolderSink sink(folder, {job.preset.name, kind_of(pictures)});
+  record::FolderSink sink(folder, {job.preset.name, kind_of(pictures), job.preset.title});
   auto summary = run_job(job, pictures, threads, sink, progress.next_phase());
   if (!summary) {
     Error error = summary.error();

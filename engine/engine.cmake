@@ -1,4 +1,5 @@
 # The engine: no OpenGL, no window, prints nothing.
+include(GNUInstallDirs)
 find_package(tomlplusplus REQUIRED)
 find_path(EIGEN_INCLUDE_DIR Eigen/Core PATH_SUFFIXES eigen3 REQUIRED)
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
@@ -18,7 +19,11 @@ add_custom_command(OUTPUT ${embedded_page}
 
 file(GLOB_RECURSE ENGINE_SOURCES CONFIGURE_DEPENDS engine/*.cpp engine/*.h)
 add_library(gridshell_engine STATIC ${ENGINE_SOURCES} ${embedded_page})
-target_include_directories(gridshell_engine PUBLIC ${PROJECT_SOURCE_DIR})
+add_library(gridshell::gridshell ALIAS gridshell_engine)
+set_target_properties(gridshell_engine PROPERTIES EXPORT_NAME gridshell)
+target_compile_features(gridshell_engine PUBLIC cxx_std_20)
+target_include_directories(gridshell_engine PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gridshell>)
 target_include_directories(gridshell_engine SYSTEM PUBLIC ${EIGEN_INCLUDE_DIR})
 target_include_directories(gridshell_engine SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
 target_compile_definitions(gridshell_engine PUBLIC EIGEN_DONT_PARALLELIZE)

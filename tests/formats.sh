@@ -63,6 +63,8 @@ reader.Update()
 shape = reader.GetOutput()
 assert shape.GetNumberOfLines() == 24 and shape.GetNumberOfPolys() == 97
 assert shape.GetPointData().GetArray("curvature_per_mm").GetRange()[1] > 0.01
+assert shape.GetPointData().GetArray("axial_force_N").GetFiniteRange()[0] < -0.01
+assert shape.GetPointData().GetArray("reaction_N").GetFiniteRange(-1)[1] > 0.01
 assert shape.GetCellData().GetArray("K_rad").GetRange()[1] > 0.5
 END
 cat > open.py << 'END'
@@ -73,6 +75,9 @@ for reader in PVDReader(FileName="a.pvd"), XDMFReader(FileNames=["a.xdmf"]):
     reader.UpdatePipeline(1.0)
     bounds = reader.GetDataInformation().GetBounds()
     assert 98 < bounds[1] < 100 and 49 < bounds[5] < 50, bounds
+xdmf = reader.GetDataInformation()
+for name in "axial_force_N", "reaction_N":
+    assert xdmf.GetCellDataInformation().GetArrayInformation(name), name
 END
 try 'PVD and XDMF' pvpython open.py
 try 'page' sh -c 'chromium --headless --no-sandbox --disable-gpu --virtual-time-budget=3000 --dump-dom \

@@ -59,7 +59,6 @@ if(GRIDSHELL_PICTURES)
     if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       add_executable(gridshell_baseline app/main.cpp tests/app/baseline_processor.cpp)
       target_link_libraries(gridshell_baseline PRIVATE gridshell_app CLI11::CLI11)
-      target_compile_definitions(gridshell_baseline PRIVATE GRIDSHELL_VERSION="${PROJECT_VERSION}")
       add_dependencies(test_app gridshell_baseline)
       target_compile_definitions(test_app PRIVATE
         GRIDSHELL_BASELINE_PROGRAM="$<TARGET_FILE:gridshell_baseline>")
@@ -91,6 +90,22 @@ foreach(check format tidy warnings)
 endforeach()
 # it keeps all cores busy
 set_tests_properties("style: tidy" PROPERTIES RUN_SERIAL ON)
+
+# The programs of app/examples, 30 lines each over the library, run as tests.
+file(GLOB examples CONFIGURE_DEPENDS app/examples/*.cpp)
+foreach(source IN LISTS examples)
+  get_filename_component(example ${source} NAME_WE)
+  add_executable(example_${example} ${source})
+  target_link_libraries(example_${example} PRIVATE gridshell::gridshell)
+  gridshell_compile_lightly(example_${example} -O1)
+  add_test(NAME "example: ${example}" COMMAND example_${example})
+  set_tests_properties("example: ${example}" PROPERTIES LABELS quick TIMEOUT 120)
+endforeach()
+# installed into an empty prefix, another project finds library and presets
+add_test(NAME "an installed library is found by CMake and pkg-config"
+  COMMAND ${PROJECT_SOURCE_DIR}/tests/install.sh ${PROJECT_BINARY_DIR} ${CMAKE_CXX_COMPILER})
+set_tests_properties("an installed library is found by CMake and pkg-config"
+  PROPERTIES LABELS full TIMEOUT 600)
 
 # Benches are programs of their own, built on demand: `cmake --build build --target benches`.
 add_custom_target(benches)

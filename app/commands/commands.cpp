@@ -12,6 +12,7 @@ void add_commands(CLI::App& program, Action& action) {
   add_sweep(program, action);
   add_design(program, action);
   add_export(program, action);
+  add_scan(program, action);
   add_check(program, action);
   add_compare(program, action);
   add_list(program, action);

@@ -21,6 +21,7 @@ void add_chart(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
 void add_design(CLI::App& program, Action& action);
 void add_export(CLI::App& program, Action& action);
+void add_scan(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
 void add_compare(CLI::App& program, Action& action);
 void add_list(CLI::App& program, Action& action);

@@ -1,4 +1,5 @@
-// `gridshell list`: the presets that come with the program, and the reference of all keys.
+// `gridshell list`: the presets that come with the program, and the reference of
+// all keys, options and commands.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,7 +8,10 @@
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "app/completion.h"
 #include "app/console.h"
+#include "app/listing.h"
+#include "app/man_page.h"
 #include "app/preset_library.h"
 #include "engine/preset/writer.h"
 
@@ -27,18 +31,35 @@ int list_presets() {
   return ExitCode::done;
 }
 
+int print(const Result<std::string>& text) {
+  if (!text) return report(text.error());
+  fmt::print("{}", *text);
+  return ExitCode::done;
+}
+
 }  // namespace
 
 void add_list(CLI::App& program, Action& action) {
-  const auto keys = std::make_shared<std::string>();
+  struct What {
+    std::string keys, completion;
+    bool json = false, man = false;
+  };
+  const auto what = std::make_shared<What>();
   auto* command = program.add_subcommand("list", "the presets that come with the program");
-  command->add_option("--keys", *keys, "instead, the reference of all keys a preset can hold")
+  command->add_option("--keys", what->keys, "instead, the reference of all keys a preset can hold")
       ->check(CLI::IsMember({"markdown"}));
-  command->callback([&action, keys] {
-    action = [keys]() -> int {
-      if (keys->empty()) return list_presets();
-      fmt::print("{}", preset::reference_markdown());
-      return ExitCode::done;
+  command->add_flag("--json", what->json,
+                    "instead, all commands, options, presets and keys for other programs");
+  command->add_option("--completion", what->completion, "instead, a script for a shell")
+      ->check(CLI::IsMember({"bash"}));
+  command->add_flag("--man", what->man, "instead, the manual page");
+  command->callback([&action, what] {
+    action = [what]() -> int {
+      if (!what->keys.empty()) return print(preset::reference_markdown());
+      if (!what->completion.empty()) return print(bash_completion());
+      if (what->json) return print(listing_json());
+      if (what->man) return print(man_page());
+      return list_presets();
     };
   });
 }

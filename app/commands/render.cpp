@@ -27,23 +27,6 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-// only how it is shown may change once a run is finished
-Result<std::vector<preset::Override>> picture_overrides(const Options& options) {
-  auto overrides = overrides_of(options);
-  if (!overrides) return overrides;
-  for (const auto& change : *overrides) {
-    const bool shows = change.key.starts_with("movie.") || change.key.starts_with("figure.") ||
-                       change.key.starts_with("style.") || change.key == "page.photo" ||
-                       change.key == "page.sweep";
-    if (!shows || change.key == "movie.frames" || change.key == "figure.radii_mm")
-      return fail(Fault::bad_input,
-                  fmt::format("{}: {} cannot change once a run is finished; 'render' takes keys of "
-                              "[movie], [style], [figure] and [page] that only show it",
-                              change.source, change.key));
-  }
-  return overrides;
-}
-
 bool is_still(const FinishedRun& run) { return run.pictures == Pictures::stills; }
 bool shows_net(const FinishedRun& run) { return is_still(run) && shown_on_net(run.preset); }
 bool shows_push(const FinishedRun& run) { return is_still(run) && run.preset.indentation.wanted(); }
@@ -135,7 +118,7 @@ void print_drawn(const FinishedRun& run, const fs::path& folder) {
 }
 
 int render(const Options& options, bool unsealed) {
-  const auto overrides = picture_overrides(options);
+  const auto overrides = overrides_of_run(options);
   if (!overrides) return report(overrides.error());
   auto runs = read_runs(options.input, *overrides, unsealed);
   if (!runs) return report(runs.error());

@@ -1,5 +1,7 @@
 #include "engine/experiment/frames.h"
 
+#include <numeric>
+
 #include "engine/measure/bins.h"
 #include "engine/measure/gauss.h"
 #include "engine/preset/rung.h"
@@ -36,6 +38,79 @@ Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Ei
   Eigen::MatrixX3d rows(bins.mean.size(), 3);
   rows << bins.mean, bins.deviation, bins.cells.cast<double>();
   return rows;
+}
+
+/// What may be held: joints, edge points, far ends of tails.
+std::vector<int> supports_of(const RodMesh& mesh) {
+  std::vector<int> nodes(std::size_t(mesh.joints + mesh.edge_points));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  for (int node : mesh.far_ends)
+    if (node >= 0) nodes.push_back(node);
+  return nodes;
+}
+
+/// Curvature between two edges, 1/mm: |2 t x t'| / (1 + t.t') over the mean of their rest lengths;
+/// a ghost has none.
+double curvature_between(const Model& model, const Assembly& at, int e, int f) {
+  const auto length = [&](int edge) {
+    const ModelEdge& one = model.edges[std::size_t(edge)];
+    return one.EA > 0 ? one.rest_length : 0;
+  };
+  const Eigen::Vector3d te = at.tangents.col(e), tf = at.tangents.col(f);
+  return 2 * te.cross(tf).norm() / (1 + te.dot(tf)) / (0.5 * (length(e) + length(f)));
+}
+
+/// Forces and curvature along the rods; ends that hold no direction have none.
+void put_rods(const Model& model, const Assembly& at, record::Frame& frame) {
+  std::vector<double> force, curvature;
+  for (const Model::Rod& rod : model.rods) {
+    const auto ghost = [&](std::size_t k) {
+      return model.edges[std::size_t(rod.edges[k])].EA == 0;
+    };
+    for (std::size_t k = 0; k < rod.edges.size(); ++k) {
+      if (k > 0)
+        curvature.push_back(curvature_between(model, at, rod.edges[k - 1], rod.edges[k]));
+      else if (!ghost(k))
+        curvature.push_back(0);
+      if (!ghost(k)) force.push_back(at.force[rod.edges[k]]);
+    }
+    if (!ghost(rod.edges.size() - 1)) curvature.push_back(0);
+  }
+  frame.axial_force_N = Eigen::Map<Eigen::VectorXd>(force.data(), long(force.size()));
+  frame.curvature_per_mm = Eigen::Map<Eigen::VectorXd>(curvature.data(), long(curvature.size()));
+}
+
+/// What holds the supports: all of the force on a pinned node, with what turns its end; of a joint
+/// what its hold prescribes.
+void put_reactions(const RodMesh& mesh, const Model& model, const Assembly& at,
+                   const std::vector<Hold>& holds, record::Frame& frame) {
+  const std::vector<int> supports = supports_of(mesh);
+  std::vector<Eigen::Vector3d> on(std::size_t(mesh.rod_nodes()), Eigen::Vector3d::Zero());
+  for (const int node : supports)
+    if (model.pinned(node)) on[std::size_t(node)] = at.gradient.col(node);
+  // a ghost is held by what holds its end
+  for (const Model::Rod& rod : model.rods) {
+    for (const int edge : {rod.ghost_begin, rod.ghost_end}) {
+      if (edge < 0) continue;
+      const ModelEdge& ghost = model.edges[std::size_t(edge)];
+      const bool begins = edge == rod.ghost_begin;
+      const int end = begins ? ghost.to : ghost.from, beyond = begins ? ghost.from : ghost.to;
+      if (end < mesh.rod_nodes()) on[std::size_t(end)] += at.gradient.col(beyond);
+    }
+  }
+  for (const Hold& hold : holds) on[std::size_t(hold.node)] = hold.part(at.gradient.col(hold.node));
+  frame.reactions_N.resize(3, long(supports.size()));
+  for (std::size_t k = 0; k < supports.size(); ++k)
+    frame.reactions_N.col(long(k)) = on[std::size_t(supports[k])];
+}
+
+/// Of the finest mesh's own state.
+void put_forces(const Session& session, record::Frame& frame) {
+  const NestedShell& shell = session.shell();
+  const int last = shell.levels() - 1;
+  const Assembly at = shell.forces(last);
+  put_rods(shell.model(last), at, frame);
+  put_reactions(shell.mesh(last), shell.model(last), at, session.holds(), frame);
 }
 
 /// Adds the blocks on their own nets and the rods across their seams to a layout.
@@ -90,6 +165,9 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
     for (int node : nodes)
       if (!mesh.is_ghost(node)) layout.rods.back().push_back(node);
   }
+  for (const FootprintRod& rod : scene.footprint.rods)
+    layout.families.emplace_back(rod.family == Family::u ? "u" : "v");
+  layout.supports = supports_of(mesh);
   for (int k = 0; k < mesh.joints; ++k) {
     const FootprintJoint& joint = scene.footprint.joints[k];
     layout.joints.push_back({joint.i, joint.j, joint.u, joint.v, k});
@@ -140,6 +218,7 @@ record::Frame frame_of(const Session& session) {
   frame.residual_N = certificate.residual_N;
   frame.negative_pivots = certificate.negative_pivots;
   frame.error_estimate_mm = certificate.error_estimate_mm;
+  put_forces(session, frame);
   return frame;
 }
 
@@ -155,6 +234,7 @@ record::Frame flat_frame(Session& session) {
   frame.residual_N = flat.certificate.residual_N;
   frame.error_estimate_mm = 0;
   frame.boundary_radius_mm = scene.radius_begin_mm;
+  put_forces(session, frame);
   session.restore(before);
   return frame;
 }

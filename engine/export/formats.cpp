@@ -49,6 +49,61 @@ class VtkArray {
   std::string& text_;
 };
 
+std::vector<double> curvature_of(const record::Layout& layout, const record::Frame& frame,
+                                 std::size_t rod) {
+  return curvature_per_mm(layout, frame, rod);
+}
+
+/// Of the points of rods; the cells' corners have none.
+void put_along_rods(const Shape& shape, const char* name, auto values_of, std::string& text) {
+  VtkArray array(text, "Float64", name);
+  for (std::size_t rod = 0; rod < shape.layout.rods.size(); ++rod)
+    for (const double value : values_of(shape.layout, shape.frame, rod)) array.put(value);
+  for (std::size_t k = 0; k < shape.layout.joints.size(); ++k) array.put(record::unknown);
+}
+
+/// What holds a joint stands once, at the cells' corner, not at both of its rods.
+void put_reactions(const Shape& shape, std::string& text) {
+  const Eigen::Matrix3Xd on = reactions_N(shape.layout, shape.frame);
+  Eigen::Matrix3Xd on_rods = on;
+  for (const record::Joint& joint : shape.layout.joints)
+    if (on.col(joint.node).allFinite()) on_rods.col(joint.node).setZero();
+  VtkArray array(text, "Float64", "reaction_N", 3);
+  for (const auto& rod : shape.layout.rods)
+    for (const int node : rod) array.put(Eigen::Vector3d(on_rods.col(node)));
+  for (const record::Joint& joint : shape.layout.joints)
+    array.put(Eigen::Vector3d(on.col(joint.node)));
+}
+
+/// Of one frame of a dataset of trajectory.h5, all of its `values`, of `components` each (0: one).
+std::string slab(const std::string& dataset, long index, std::size_t frames, long values,
+                 long components) {
+  const auto dims = [&](long first) {
+    return components == 0 ? fmt::format("{} {}", first, values)
+                           : fmt::format("{} {} {}", first, values, components);
+  };
+  const bool deep = components > 0;
+  return fmt::format(
+      "<DataItem ItemType=\"HyperSlab\" Type=\"HyperSlab\" Dimensions=\"{}\">\n<DataItem "
+      "Dimensions=\"3 {}\" NumberType=\"Int\" Format=\"XML\">{} {}  {}  {}</DataItem>\n"
+      "<DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"{}\">{}"
+      "</DataItem>\n</DataItem>\n",
+      dims(1), deep ? 3 : 2, index, deep ? "0 0" : "0", deep ? "1 1 1" : "1 1", dims(1),
+      dims(long(frames)), dataset);
+}
+
+/// A topology that stands once in the file; later frames refer to the first one's.
+std::string topology(const std::string& grid, long index, const char* type, int nodes,
+                     long elements, const std::string& numbers) {
+  if (index > 0)
+    return fmt::format(
+        "<xi:include xpointer='xpointer(//Grid[@Name=\"{}_0\"]/*[self::Topology])'/>\n", grid);
+  return fmt::format(
+      "<Topology TopologyType=\"{}\" NodesPerElement=\"{}\" NumberOfElements=\"{}\">\n<DataItem "
+      "Format=\"XML\" NumberType=\"Int\" Dimensions=\"{} {}\">\n{}</DataItem>\n</Topology>\n",
+      type, nodes, elements, elements, nodes, numbers);
+}
+
 }  // namespace
 
 std::string to_obj(const Shape& shape) {
@@ -134,13 +189,9 @@ std::string to_vtp(const Shape& shape) {
       for (const int node : rod) array.put(moved(node));
     for (const record::Joint& joint : layout.joints) array.put(moved(joint.node));
   }
-  {
-    VtkArray array(text, "Float64", "curvature_per_mm");
-    for (const auto& rod : rods)
-      for (const double curvature : curvature_per_mm(rod)) array.put(curvature);
-    // cells have none
-    for (long k = 0; k < joints; ++k) array.put(0.0);
-  }
+  put_along_rods(shape, "curvature_per_mm", curvature_of, text);
+  put_along_rods(shape, "axial_force_N", axial_force_N, text);
+  put_reactions(shape, text);
   text += "</PointData>\n<CellData>\n";
   {
     VtkArray array(text, "Int64", "rod");
@@ -194,50 +245,59 @@ std::string to_pvd(const std::vector<double>& progress, const std::vector<std::s
 
 std::string to_xdmf(const record::Layout& layout, const record::FrameList& frames,
                     const std::string& trajectory) {
-  std::string edges;
-  long count = 0;
+  std::string edges, supports;
   for (const auto& rod : layout.rods)
-    for (std::size_t k = 1; k < rod.size(); ++k, ++count)
+    for (std::size_t k = 1; k < rod.size(); ++k)
       fmt::format_to(into(edges), "{} {}\n", rod[k - 1], rod[k]);
+  for (const int node : layout.supports) fmt::format_to(into(supports), "{}\n", node);
   const long nodes = frames.empty() ? 0 : long(frames.front().nodes.cols());
+  const long edge_count = record::edges_of_rods(layout), held = long(layout.supports.size());
+  const bool forces = !frames.empty() && frames.back().axial_force_N.size() > 0;
   std::string text =
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\" "
       "xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n<Domain>\n"
       "<Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  long index = 0;
-  for (const record::Frame& frame : frames) {
-    fmt::format_to(into(text), "<Grid Name=\"frame_{}\">\n<Time Value=\"{}\"/>\n", index,
-                   frame.progress);
-    if (index == 0)
-      fmt::format_to(into(text),
-                     "<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" "
-                     "NumberOfElements=\"{0}\">\n<DataItem Format=\"XML\" NumberType=\"Int\" "
-                     "Dimensions=\"{0} 2\">\n{1}</DataItem>\n</Topology>\n",
-                     count, edges);
-    else
-      text += "<xi:include xpointer='xpointer(//Grid[@Name=\"frame_0\"]/*[self::Topology])'/>\n";
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const long index = long(k);
+    const auto of = [&](const char* name, long values, long components) {
+      return slab(trajectory + ":" + name, index, frames.size(), values, components);
+    };
+    const std::string places =
+        "<Geometry GeometryType=\"XYZ\">\n" + of("/nodes", nodes, 3) + "</Geometry>\n";
     fmt::format_to(into(text),
-                   "<Geometry GeometryType=\"XYZ\">\n<DataItem ItemType=\"HyperSlab\" "
-                   "Type=\"HyperSlab\" Dimensions=\"1 {0} 3\">\n<DataItem Dimensions=\"3 3\" "
-                   "NumberType=\"Int\" "
-                   "Format=\"XML\">{1} 0 0  1 1 1  1 {0} 3</DataItem>\n<DataItem Format=\"HDF\" "
-                   "NumberType=\"Float\" Precision=\"8\" Dimensions=\"{2} {0} 3\">{3}:/nodes"
-                   "</DataItem>\n</DataItem>\n</Geometry>\n</Grid>\n",
-                   nodes, index, frames.size(), trajectory);
-    ++index;
+                   "<Grid Name=\"frame_{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n"
+                   "<Time Value=\"{}\"/>\n<Grid Name=\"rods_{}\">\n",
+                   index, frames[k].progress, index);
+    text += topology("rods", index, "Polyline", 2, edge_count, edges) + places;
+    if (forces)
+      text += "<Attribute Name=\"axial_force_N\" AttributeType=\"Scalar\" Center=\"Cell\">\n" +
+              of("/axial_force_N", edge_count, 0) + "</Attribute>\n";
+    text += "</Grid>\n";
+    if (forces && held > 0) {
+      fmt::format_to(into(text), "<Grid Name=\"supports_{}\">\n", index);
+      text += topology("supports", index, "Polyvertex", 1, held, supports) + places;
+      text += "<Attribute Name=\"reaction_N\" AttributeType=\"Vector\" Center=\"Cell\">\n" +
+              of("/reactions_N", held, 3) + "</Attribute>\n</Grid>\n";
+    }
+    text += "</Grid>\n";
   }
   return text + "</Grid>\n</Domain>\n</Xdmf>\n";
 }
 
 std::string to_csv(const Shape& shape) {
   record::Csv csv;
-  csv.line("rod", "point", "x_mm", "y_mm", "z_mm", "curvature_per_mm");
+  csv.line("rod", "point", "x_mm", "y_mm", "z_mm", "curvature_per_mm", "axial_force_N",
+           "reaction_x_N", "reaction_y_N", "reaction_z_N");
+  const Eigen::Matrix3Xd on = reactions_N(shape.layout, shape.frame);
   for (std::size_t rod = 0; rod < shape.layout.rods.size(); ++rod) {
-    const Eigen::Matrix3Xd points = rod_points(shape.layout, shape.frame, rod);
-    const auto curvature = curvature_per_mm(points);
-    for (Eigen::Index k = 0; k < points.cols(); ++k)
-      csv.line(int(rod), int(k), points(0, k), points(1, k), points(2, k),
-               curvature[std::size_t(k)]);
+    const std::vector<int>& nodes = shape.layout.rods[rod];
+    const auto curvature = curvature_per_mm(shape.layout, shape.frame, rod);
+    const auto force = axial_force_N(shape.layout, shape.frame, rod);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const Eigen::Vector3d at = shape.frame.nodes.col(nodes[k]), holds = on.col(nodes[k]);
+      csv.line(int(rod), int(k), at.x(), at.y(), at.z(), curvature[k], force[k], holds.x(),
+               holds.y(), holds.z());
+    }
   }
   return std::move(csv).text();
 }

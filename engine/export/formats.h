@@ -19,18 +19,21 @@ std::string to_obj_tubes(const Shape& shape);
 Drawing rods_in_space(const Shape& shape);
 
 /// VTK PolyData in ASCII: a polyline a rod with points of its own, a polygon a cell. Point data:
-/// `displacement_mm`, `curvature_per_mm`; cell data: `rod` (-1 for a cell), `K_rad` (nan for a
-/// rod); field data: `TimeValue` (progress).
+/// `displacement_mm`, `curvature_per_mm`, `axial_force_N` (the mean of the edges that meet),
+/// `reaction_N` (of what holds a point; a joint's at the cells' corner alone); cell data: `rod` (-1
+/// for a cell), `K_rad` (nan for a rod); field data: `TimeValue` (progress).
 std::string to_vtp(const Shape& shape);
 /// ParaView's list of such files over progress.
 std::string to_pvd(const std::vector<double>& progress, const std::vector<std::string>& files);
 
-/// XDMF of all frames of `trajectory.h5`: edges over /nodes at each progress. For ParaView's `XDMF
+/// XDMF of all frames of `trajectory.h5`: edges over /nodes at each progress with `axial_force_N`,
+/// and the supports with `reaction_N`. For ParaView's `XDMF
 /// Reader`; its Xdmf3 readers know no HyperSlab.
 std::string to_xdmf(const record::Layout& layout, const record::FrameList& frames,
                     const std::string& trajectory);
 
-/// `rod,point,x_mm,y_mm,z_mm,curvature_per_mm`, rod by rod.
+/// `rod,point,x_mm,y_mm,z_mm,curvature_per_mm,axial_force_N,reaction_x_N,reaction_y_N,
+/// reaction_z_N`, rod by rod; forces empty where the run did not record them.
 std::string to_csv(const Shape& shape);
 
 }  // namespace gridshell::exports

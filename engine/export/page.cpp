@@ -73,6 +73,12 @@ Json figures(const record::Frame& frame) {
   put("height (mm)", frame.height_mm);
   put("bend energy (mJ)", frame.energies[Term::bend]);
   put("total K (rad)", frame.total_K);
+  if (frame.axial_force_N.size() > 0) {
+    put("largest tension (N)", std::max(0.0, frame.axial_force_N.maxCoeff()));
+    put("largest compression (N)", std::max(0.0, -frame.axial_force_N.minCoeff()));
+  }
+  if (frame.reactions_N.cols() > 0)
+    put("largest reaction (N)", frame.reactions_N.colwise().norm().maxCoeff());
   put("residual (N)", frame.residual_N);
   put("error estimate (mm)", frame.error_estimate_mm);
   if (frame.negative_pivots >= 0) json["negative pivots"] = frame.negative_pivots;

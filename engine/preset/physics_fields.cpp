@@ -56,6 +56,10 @@ std::vector<Field> joint_fields() {
        "resistance to the change of the crossing angle; 0: joints shear freely"},
       {"joints", "twist_Nmm", "N mm/rad", real<&P::joints, &Joints::twist_Nmm>(at_least(0)),
        "resistance to a rod's spin beside the joint's normal; 0: joints pass no twist"},
+      {"joints", "diameter_mm", "mm", real<&P::joints, &Joints::diameter_mm>(above(0)),
+       "of the joint's cylinder, of which a scan sees the top"},
+      {"joints", "height_mm", "mm", real<&P::joints, &Joints::height_mm>(at_least(0)),
+       "how far the top of that cylinder lies above the rods' crossing, along the shell's normal"},
       {"ends", "kind", "", word<&P::ends, &Ends::kind>(),
        "\"pinned\": position held, direction and spin free; \"tangent\": direction held too, along "
        "the net's tangents or, in a circle, as in the flat; \"clamped\": spin held too"},

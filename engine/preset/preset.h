@@ -41,6 +41,8 @@ struct Joints {
   double stiffness_N_per_mm = 0;  ///< of springs
   double shear_Nmm = 0;           ///< per rad of shear
   double twist_Nmm = 0;           ///< per rad of spin beside the joint's normal
+  double diameter_mm = 3;         ///< of the joint's cylinder, of which a scan sees the top
+  double height_mm = 5;           ///< and how far its top lies above the rods' crossing
 };
 
 enum class EndKind { pinned, tangent, clamped };

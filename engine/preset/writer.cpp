@@ -99,11 +99,22 @@ std::string to_toml(const Presets& presets) {
   return text;
 }
 
-std::string reference_markdown() {
+std::vector<KeyText> key_texts() {
   Preset defaults;
   // what an item is before a key of it is read
   defaults.block.emplace_back();
   defaults.join.emplace_back();
+  std::vector<KeyText> keys;
+  for (const auto& table : tables())
+    for (const auto& field : field_table())
+      if (field.table == table.name)
+        keys.push_back({field.table, field.key, field.unit, value_text(field, defaults),
+                        allowed(field), field.meaning});
+  return keys;
+}
+
+std::string reference_markdown() {
+  const auto keys = key_texts();
   std::string text;
   for (const auto& table : tables()) {
     text += table.name.empty() ? "At the top of the file: "
@@ -111,10 +122,10 @@ std::string reference_markdown() {
                                : fmt::format("`[{}]` ", table.name);
     text += table.meaning + "\n\n| key | unit | default | allowed | meaning |\n";
     text += "| --- | --- | --- | --- | --- |\n";
-    for (const auto& field : field_table())
-      if (field.table == table.name)
-        text += fmt::format("| `{}` | {} | `{}` | {} | {} |\n", field.key, field.unit,
-                            value_text(field, defaults), cell(allowed(field)), cell(field.meaning));
+    for (const KeyText& key : keys)
+      if (key.table == table.name)
+        text += fmt::format("| `{}` | {} | `{}` | {} | {} |\n", key.key, key.unit, key.value,
+                            cell(key.allowed), cell(key.meaning));
     text += "\n";
   }
   return text;

@@ -27,6 +27,9 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
   for (std::size_t k = 0; k < layout.edge_points.size(); ++k)
     if (outside(layout.edge_points[k], nodes))
       return out_of_range("edge point", k, "node", layout.edge_points[k], nodes);
+  for (std::size_t k = 0; k < layout.supports.size(); ++k)
+    if (outside(layout.supports[k], nodes))
+      return out_of_range("support", k, "node", layout.supports[k], nodes);
   const auto joints = static_cast<Eigen::Index>(layout.joints.size());
   for (std::size_t k = 0; k < layout.cells.size(); ++k)
     for (const int joint : layout.cells[k].joints)
@@ -84,6 +87,9 @@ Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
   if (named > 4 * nodes)
     return fail(Fault::bad_input, fmt::format("the rods name {} nodes of {}", named, nodes));
   most = std::max<Eigen::Index>(most, Eigen::Index(layout.joints.size()));
+  if (!layout.families.empty() && layout.families.size() != layout.rods.size())
+    return fail(Fault::bad_input, fmt::format("{} families are named for {} rods",
+                                              layout.families.size(), layout.rods.size()));
   for (const auto* net : {&layout.net_nodes, &layout.flat_nodes})
     if (net->cols() > 0 && net->cols() < most)
       return fail(Fault::bad_input,
@@ -112,7 +118,19 @@ Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k
   if (frame.cell_K.size() != cells)
     return fail(Fault::bad_input, fmt::format("frame {} has {} values of cell_K for {} cells", k,
                                               frame.cell_K.size(), cells));
-  return {};
+  const auto fits = [&](const char* what, Eigen::Index values,
+                        Eigen::Index wanted) -> Result<void> {
+    if (values == 0 || values == wanted) return {};
+    return fail(Fault::bad_input,
+                fmt::format("frame {} has {} values of {}, must be {}", k, values, what, wanted));
+  };
+  return fits("axial_force_N", frame.axial_force_N.size(), edges_of_rods(layout))
+      .and_then([&] {
+        return fits("curvature_per_mm", frame.curvature_per_mm.size(), points_of_rods(layout));
+      })
+      .and_then([&] {
+        return fits("reactions_N", frame.reactions_N.cols(), Eigen::Index(layout.supports.size()));
+      });
 }
 
 Result<void> check_consistency(const Trajectory& trajectory) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/atomic_file.h"
+#include "engine/core/version.h"
 #include "engine/record/run_folder.h"
 
 namespace gridshell::record {
@@ -43,6 +44,7 @@ Result<Trajectory> FolderSink::finish(const Summary& summary) {
   // what this program has just written needs no trial
   auto journal = read_journal(folder_ / journal_name, false);
   if (!journal) return tl::unexpected(journal.error());
+  journal->trajectory.origin = {name_.title, name_.preset, std::string("gridshell ") + version()};
   if (auto written = write_run(folder_, journal->trajectory, summary); !written)
     return tl::unexpected(written.error());
   remove_journals(folder_);

@@ -32,6 +32,11 @@ struct Frame {
   std::string event;        ///< a snap, a limit, a recovery; empty when nothing happened
   Eigen::Matrix3Xd nodes;   ///< positions, mm
   Eigen::VectorXd cell_K;   ///< integrated Gauss curvature of each cell, rad
+  /// Of the finest mesh itself, never extrapolated, so that they balance to `residual_N`; empty
+  /// where they are not known (in motion, a net, an older version).
+  Eigen::VectorXd axial_force_N;     ///< of each edge, rod after rod; below 0: compressed
+  Eigen::VectorXd curvature_per_mm;  ///< at each point of each rod, rod after rod
+  Eigen::Matrix3Xd reactions_N;      ///< on each of Layout::supports; 0 where nothing holds it
   /// K of the cells by their centroid's x/L, L the half-span of the actuated boundary, in bins of
   /// equal width from -1 to 1, one a row: mean (rad), standard deviation (rad), number of cells
   Eigen::MatrixX3d K_bins;
@@ -46,6 +51,9 @@ inline Frame without_nodes(const Frame& frame) {
   Frame head = frame;
   head.nodes.resize(3, 0);
   head.cell_K.resize(0);
+  head.axial_force_N.resize(0);
+  head.curvature_per_mm.resize(0);
+  head.reactions_N.resize(3, 0);
   return head;
 }
 

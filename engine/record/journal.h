@@ -30,6 +30,7 @@ inline constexpr const char *journal_name = "frames.journal",
 struct RunName {
   std::string preset;
   Kind kind = Kind::unknown;
+  std::string title = {};  ///< goes to the run's files; a journal does not keep it
 };
 
 /// A journal as it grows. Every record goes to the system at once.

@@ -63,6 +63,9 @@ std::string packed_frame(const Frame& frame) {
   out.matrix(frame.nodes);
   out.matrix(frame.cell_K);
   out.matrix(frame.K_bins);
+  out.matrix(frame.axial_force_N);
+  out.matrix(frame.curvature_per_mm);
+  out.matrix(frame.reactions_N);
   return out.bytes();
 }
 
@@ -84,10 +87,14 @@ Result<Frame> unpacked_frame(std::string_view bytes, const std::vector<std::stri
     if (!taken) skip(in, kind);
   }
   in.matrix(frame.nodes, 3);
-  Eigen::MatrixXd K;
-  in.matrix(K);
-  if (K.cols() == 1) frame.cell_K = K;
+  in.matrix(frame.cell_K);
   in.matrix(frame.K_bins);
+  // an older version ended here
+  if (!in.at_end()) {
+    in.matrix(frame.axial_force_N);
+    in.matrix(frame.curvature_per_mm);
+    in.matrix(frame.reactions_N, 3);
+  }
   if (!in.at_end()) return fail(Fault::bad_input, "a frame is damaged");
   return frame;
 }

@@ -79,6 +79,10 @@ void write_layout(hdf5::Writer& file, const Layout& layout) {
   file.attribute("/layout", "rod_diameter_mm", layout.rod_diameter_mm);
   file.attribute("/layout", "length_scale_mm", layout.length_scale_mm);
   file.lists("/rods", layout.rods);
+  if (!layout.families.empty()) file.strings("/layout/families", layout.families);
+  if (!layout.supports.empty())
+    file.dataset("/layout/supports", H5T_NATIVE_INT, {layout.supports.size()},
+                 layout.supports.data(), "1");
   file.dataset("/joints", joint_type(), {layout.joints.size()}, layout.joints.data(), "mm");
   file.dataset("/cells", cell_type(), {layout.cells.size()}, layout.cells.data(), "mm");
   file.dataset("/layout/edge_points", H5T_NATIVE_INT, {layout.edge_points.size()},
@@ -142,6 +146,9 @@ Layout read_layout(hdf5::Reader& file) {
   layout.rod_diameter_mm = file.attribute("/layout", "rod_diameter_mm");
   layout.length_scale_mm = file.attribute("/layout", "length_scale_mm");
   layout.rods = file.lists("/rods");
+  if (file.has("/layout/families")) layout.families = file.strings("/layout/families");
+  if (file.has("/layout/supports"))
+    layout.supports = file.vector<int>("/layout/supports", H5T_NATIVE_INT);
   layout.joints = file.vector<Joint>("/joints", joint_type());
   layout.cells = file.vector<Cell>("/cells", cell_type());
   layout.edge_points = file.vector<int>("/layout/edge_points", H5T_NATIVE_INT);

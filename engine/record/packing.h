@@ -1,6 +1,7 @@
 // Values to bytes and back, in the numbers of the machine.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -56,8 +57,10 @@ class Unpacker {
   void matrix(Matrix& values, std::int64_t rows_wanted = -1) {
     const auto rows = number<std::int64_t>(), cols = number<std::int64_t>();
     const auto most = std::int64_t(left_.size() / sizeof(double));
-    if (rows < 0 || cols < 0 || rows > most || cols > most ||
-        (rows_wanted >= 0 && rows != rows_wanted) || (cols > 0 && rows > most / cols))
+    // an empty one may have rows or columns still
+    if (rows < 0 || cols < 0 || rows > std::max<std::int64_t>(most, 3) ||
+        cols > std::max<std::int64_t>(most, 3) || (rows_wanted >= 0 && rows != rows_wanted) ||
+        (cols > 0 && rows > most / cols))
       good_ = false;
     if (!good_ || !take(sizeof(double) * std::size_t(rows * cols))) return;
     if (Matrix::ColsAtCompileTime >= 0 && cols != Matrix::ColsAtCompileTime) {

@@ -14,12 +14,14 @@ namespace gridshell::record {
 
 std::string joints_csv(const Trajectory& trajectory) {
   Csv csv;
-  csv.line("i", "j", "u_mm", "v_mm", "x_mm", "y_mm", "z_mm");
+  csv.line("i", "j", "u_mm", "v_mm", "x_mm", "y_mm", "z_mm", "deviation_mm");
   if (trajectory.frames.empty()) return std::move(csv).text();
   const Frame& last = trajectory.frames.back();
+  const Eigen::Matrix3Xd& net = trajectory.layout.net_nodes;
   for (const Joint& joint : trajectory.layout.joints) {
     const auto at = last.nodes.col(joint.node);
-    csv.line(joint.i, joint.j, joint.u_mm, joint.v_mm, at.x(), at.y(), at.z());
+    const double deviation = joint.node < net.cols() ? (at - net.col(joint.node)).norm() : unknown;
+    csv.line(joint.i, joint.j, joint.u_mm, joint.v_mm, at.x(), at.y(), at.z(), deviation);
   }
   return std::move(csv).text();
 }

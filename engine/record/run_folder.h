@@ -11,7 +11,8 @@
 
 namespace gridshell::record {
 
-/// The text of joints.csv: position of every joint in the last frame.
+/// The text of joints.csv: position of every joint in the last frame, and how far from its place on
+/// the net, if there is one.
 /// Numbers are the shortest that read back bit for bit; what is unknown is empty (all CSV files).
 std::string joints_csv(const Trajectory& trajectory);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -53,9 +54,12 @@ struct Layout {
   double rod_diameter_mm = 0;
   double length_scale_mm = 0;  ///< R_o for a circle, rho for a net: what errors are relative to
   std::vector<std::vector<int>> rods;  ///< nodes of each rod from edge point to edge point
+  std::vector<std::string> families;   ///< of each rod: "u" or "v"; empty: not known
   std::vector<Joint> joints;
   std::vector<Cell> cells;
-  std::vector<int> edge_points;            ///< nodes pinned on the boundary
+  std::vector<int> edge_points;  ///< nodes pinned on the boundary
+  /// Nodes that something may hold: joints, edge points, far ends of tails. Empty: not known.
+  std::vector<int> supports;
   Eigen::Matrix3Xd original_boundary;      ///< closed polyline (last point joins the first)
   Eigen::Matrix3Xd actuated_boundary;      ///< same number of points; in correspondence
   Eigen::Matrix3Xd net_nodes;              ///< place of every node on the net designed on, if any
@@ -68,10 +72,29 @@ struct Layout {
   bool extrapolated = false;
 };
 
+/// Where a run comes from; empty words are not known.
+struct Origin {
+  std::string title, preset;
+  std::string program;  ///< "gridshell 0.2.0"
+};
+
 /// All frames of a run over one layout.
 struct Trajectory {
   Layout layout;
   FrameList frames;
+  Origin origin = {};
 };
+
+/// How many numbers the forces and curvatures of a frame are: edges and points of all rods.
+inline Eigen::Index edges_of_rods(const Layout& layout) {
+  Eigen::Index edges = 0;
+  for (const auto& rod : layout.rods) edges += std::max<Eigen::Index>(0, long(rod.size()) - 1);
+  return edges;
+}
+inline Eigen::Index points_of_rods(const Layout& layout) {
+  Eigen::Index points = 0;
+  for (const auto& rod : layout.rods) points += Eigen::Index(rod.size());
+  return points;
+}
 
 }  // namespace gridshell::record

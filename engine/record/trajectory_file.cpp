@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <fstream>
+#include <functional>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -26,6 +27,8 @@ namespace gridshell::record {
 namespace {
 
 using hdf5::Dims;
+
+constexpr std::size_t longest_word = 60000;  // what an attribute takes
 
 const std::string format_name = "gridshell trajectory 1";
 
@@ -120,6 +123,65 @@ void write_bins(hdf5::Writer& file, const std::vector<Frame>& heads) {
                values.data(), "rad, rad, cells");
 }
 
+/// What a frame may lack, with the size that it has otherwise: visit(name, unit, size, meaning,
+/// field).
+template <class Visit>
+void each_of_rods(const Layout& layout, Visit visit) {
+  visit("/axial_force_N", "N", edges_of_rods(layout), "of each edge, rod after rod",
+        &Frame::axial_force_N);
+  visit("/curvature_per_mm", "1/mm", points_of_rods(layout), "at each point, rod after rod",
+        &Frame::curvature_per_mm);
+  visit("/reactions_N", "N", Eigen::Index(layout.supports.size()), "on each of /layout/supports",
+        &Frame::reactions_N);
+}
+
+template <class Values>
+Values sized(Eigen::Index size) {
+  if constexpr (Values::RowsAtCompileTime == 3)
+    return Values::Constant(3, size, unknown);
+  else
+    return Values::Constant(size, unknown);
+}
+
+template <class Values>
+Dims dims_of(std::size_t frames, Eigen::Index size) {
+  Dims dims{frames, hsize_t(size)};
+  if (Values::RowsAtCompileTime == 3) dims.push_back(3);
+  return dims;
+}
+
+/// Of runs whose end knows them.
+void write_of_rods(hdf5::Writer& file, const Layout& layout, const FrameList& frames) {
+  if (frames.empty()) return;
+  each_of_rods(layout, [&]<class Values>(const char* name, const char* unit, Eigen::Index size,
+                                         const char* meaning, Values Frame::*field) {
+    if (size == 0 || (frames.back().*field).size() == 0) return;
+    file.dataset(name, H5T_NATIVE_DOUBLE, dims_of<Values>(frames.size(), size), nullptr, unit);
+    file.attribute(name, "meaning",
+                   std::string(meaning) +
+                       "; of the finest mesh itself, never extrapolated, so that "
+                       "with the loads they balance to residual_N; NaN: unknown");
+    hsize_t k = 0;
+    for (const Frame& frame : frames) {
+      const Values& known = frame.*field;
+      file.write_slice(name, H5T_NATIVE_DOUBLE, k++,
+                       (known.size() > 0 ? known : sized<Values>(size)).eval().data());
+    }
+  });
+}
+
+void write_origin(hdf5::Writer& file, const Origin& origin) {
+  for (const auto& [name, value] : {std::pair("title", &origin.title),
+                                    {"preset", &origin.preset},
+                                    {"program", &origin.program}})
+    if (!value->empty() && value->size() < longest_word) file.attribute("/", name, *value);
+}
+
+Origin read_origin(hdf5::Reader& file) {
+  const auto text = [&](const char* name) { return file.text_attribute("/", name); };
+  return {text("title"), text("preset"), text("program")};
+}
+
 void write_frames(hdf5::Writer& file, const FrameList& frames, hsize_t cells, bool extrapolated) {
   const hsize_t count = frames.size();
   const hsize_t nodes = frames.empty() ? 0 : frames.front().nodes.cols();
@@ -146,9 +208,11 @@ Result<void> write_sealed(int descriptor, const AtomicFile& target, const Trajec
   hdf5::Stream stream{descriptor, seal_size, 0};
   hdf5::Writer file(stream);
   file.attribute("/", "format", format_name);
+  write_origin(file, trajectory.origin);
   write_layout(file, trajectory.layout);
   write_frames(file, trajectory.frames, trajectory.layout.cells.size(),
                trajectory.layout.extrapolated);
+  write_of_rods(file, trajectory.layout, trajectory.frames);
   file.finish();
   const auto failed = [](int code) {
     return fail(Fault::io, std::generic_category().message(code));
@@ -167,8 +231,22 @@ Result<void> write_sealed(int descriptor, const AtomicFile& target, const Trajec
 class StoredFrames : public FrameSource {
  public:
   StoredFrames(std::shared_ptr<hdf5::Reader> file, std::vector<Frame> heads, Eigen::Index nodes,
-               Eigen::Index cells)
-      : file_(std::move(file)), heads_(std::move(heads)), nodes_(nodes), cells_(cells) {}
+               Eigen::Index cells, const Layout& layout)
+      : file_(std::move(file)), heads_(std::move(heads)), nodes_(nodes), cells_(cells) {
+    each_of_rods(layout, [&]<class Values>(const char* name, const char*, Eigen::Index size,
+                                           const char*, Values Frame::*field) {
+      if (!file_->has(name)) return;
+      const Dims wanted = dims_of<Values>(heads_.size(), size);
+      const Dims dims = file_->dims(name, wanted.size());
+      if (file_->good() && dims != wanted)
+        file_->fail_because(std::string(name) + " does not fit the rods and the frames");
+      of_rods_.push_back([name, size, field](hdf5::Reader& from, std::size_t k, Frame& frame) {
+        Values& values = frame.*field = sized<Values>(size);
+        from.read_slice(name, H5T_NATIVE_DOUBLE, k, values.data());
+        if (values.array().isNaN().all()) values.resize(values.rows() == 3 ? 3 : 0, 0);
+      });
+    });
+  }
 
   std::size_t size() const override { return heads_.size(); }
 
@@ -178,6 +256,7 @@ class StoredFrames : public FrameSource {
     frame.cell_K.resize(cells_);
     file_->read_slice("/nodes", H5T_NATIVE_DOUBLE, k, frame.nodes.data());
     file_->read_slice("/cell_K", H5T_NATIVE_DOUBLE, k, frame.cell_K.data());
+    for (const auto& take : of_rods_) take(*file_, k, frame);
     if (!file_->good()) return fail(Fault::io, "cannot read a frame: " + file_->reason());
     return frame;
   }
@@ -186,6 +265,7 @@ class StoredFrames : public FrameSource {
   std::shared_ptr<hdf5::Reader> file_;
   std::vector<Frame> heads_;
   Eigen::Index nodes_, cells_;
+  std::vector<std::function<void(hdf5::Reader&, std::size_t, Frame&)>> of_rods_;
 };
 
 void forget(int& value) { value = -1; }
@@ -227,7 +307,7 @@ void read_bins(hdf5::Reader& file, std::vector<Frame>& heads) {
     heads[k].K_bins = Eigen::Map<const Rows>(values.data() + 3 * dims[1] * k, bins, 3);
 }
 
-FrameList read_frames(const std::shared_ptr<hdf5::Reader>& shared) {
+FrameList read_frames(const std::shared_ptr<hdf5::Reader>& shared, const Layout& layout) {
   hdf5::Reader& file = *shared;
   const Dims nodes = file.dims("/nodes", 3), cells = file.dims("/cell_K", 2);
   if (!file.good()) return {};
@@ -236,13 +316,19 @@ FrameList read_frames(const std::shared_ptr<hdf5::Reader>& shared) {
                                   nodes[2], cells[0], cells[1]));
   if (nodes[1] == 0 && nodes[0] > 0) file.fail_because("/nodes holds frames without nodes");
   if (!file.good()) return {};
+  // what frames hold is counted by the layout
+  if (nodes[0] > 0)
+    if (auto fits = check_layout(layout, Eigen::Index(nodes[1])); !fits)
+      file.fail_because(fits.error().message);
+  if (!file.good()) return {};
   std::vector<Frame> heads(nodes[0]);
   for (const FrameColumn& column : frame_columns) read_column(file, column, heads);
   read_column(file, actuation_column, heads);
   read_bins(file, heads);
   if (!file.good()) return {};
-  return FrameList(std::make_shared<StoredFrames>(shared, std::move(heads), Eigen::Index(nodes[1]),
-                                                  Eigen::Index(cells[1])));
+  auto stored = std::make_shared<StoredFrames>(shared, std::move(heads), Eigen::Index(nodes[1]),
+                                               Eigen::Index(cells[1]), layout);
+  return file.good() ? FrameList(std::move(stored)) : FrameList();
 }
 
 Result<Trajectory> read_checked(const std::filesystem::path& path) {
@@ -253,15 +339,14 @@ Result<Trajectory> read_checked(const std::filesystem::path& path) {
     return refuse(fmt::format("it does not say \"{}\"", format_name));
   Trajectory trajectory;
   trajectory.layout = read_layout(*file);
-  trajectory.frames = read_frames(file);
+  trajectory.origin = read_origin(*file);
+  trajectory.frames = read_frames(file, trajectory.layout);
   if (!file->good()) return refuse(file->reason());
   // every frame is as long as the first: they share one dataset
   const Trajectory& read = trajectory;
   if (read.frames.empty()) return check_consistency(read).map([&] { return trajectory; });
   const Frame& first = read.frames.front();
-  return check_frame(read.layout, first, 0, first.nodes.cols())
-      .and_then([&] { return check_layout(read.layout, first.nodes.cols()); })
-      .map([&] { return trajectory; });
+  return check_frame(read.layout, first, 0, first.nodes.cols()).map([&] { return trajectory; });
 }
 
 /// A regular file that can be opened, or why not.

@@ -5,9 +5,17 @@
 //   /joints         {i, j, u_mm, v_mm, node}
 //   /cells          {i, j, u_mm, v_mm, joints[4]}
 //   /cell_K         frames x cells      integrated Gauss curvature, rad
+//   /axial_force_N    frames x edges     of each edge, rod after rod
+//   /curvature_per_mm frames x points    at each point of each rod, rod after rod
+//   /reactions_N      frames x supports x 3   on joints, edge points and far ends of tails
 //   /frames/<name>  frames              the columns of frames.csv, and `actuation`
 //   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),
-//                   original_boundary, actuated_boundary (points x 3, mm)
+//                   original_boundary, actuated_boundary (points x 3, mm); families (of each rod,
+//                   "u" or "v"), supports (nodes that something may hold)
+//   /               title, preset, program (attributes)
+//
+// Forces, curvature and reactions are those of the finest mesh itself, never extrapolated, so that
+// with the loads they balance to residual_N. NaN, or no dataset: not known.
 //
 // Before the HDF5 part stand 512 bytes with its size and checksum, which HDF5 programs skip.
 // Datasets bear their unit in the attribute `unit`. Equal trajectories give equal bytes. Frames go

@@ -75,6 +75,13 @@ Energies NestedShell::energies(int level) const {
   return energies_of(one.model, state_.levels[std::size_t(level)], one.system->outside);
 }
 
+Assembly NestedShell::forces(int level) const {
+  const Level& one = *levels_[std::size_t(level)];
+  Assembly at;
+  assemble_gradient(one.model, state_.levels[std::size_t(level)], one.system->outside, at);
+  return at;
+}
+
 State NestedShell::from(const NestedShell& other) const {
   const Level& theirs = *other.levels_.back();
   return StateTransfer(theirs.mesh, theirs.model, levels_[0]->mesh, levels_[0]->model)

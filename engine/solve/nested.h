@@ -114,6 +114,8 @@ class NestedShell {
   void load_up();
   /// Energies of a level's state under what acts there.
   Energies energies(int level) const;
+  /// Forces and tangents of a level's state under what acts there.
+  Assembly forces(int level) const;
   /// Largest prescribed move, mm, while the motion comes all the way.
   double reach_mm() const { return largest_column(levels_[0]->motion.change); }
   /// A state of another shell of the same footprint on the coarsest mesh of this one.

@@ -77,7 +77,7 @@ double round_end(double largest) {
 std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
   std::vector<ColourKey> keys{{shell_ink, "shell at rest"}};
   const record::Layout& layout = runs.front().run->layout;
-  if (layout.parts.empty()) keys.push_back({net_ink, "its net"});
+  if (layout.parts.empty() && layout.net_nodes.cols() > 0) keys.push_back({net_ink, "its net"});
   for (ColourKey key : block_keys(layout)) {
     key.name.insert(0, "net of ");
     keys.push_back(std::move(key));
@@ -112,7 +112,7 @@ Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieS
     for (std::size_t k = 0; k < layout.parts.size(); ++k)
       drawing.ghosts.push_back(
           {layout.parts[k].net, layout.parts[k].rods, drawing.rod_diameter_mm, block_colour(k)});
-    if (layout.parts.empty())
+    if (layout.parts.empty() && layout.net_nodes.cols() > 0)
       drawing.ghosts.push_back({layout.net_nodes, layout.rods, drawing.rod_diameter_mm, net_ink});
   };
   return panels_of(runs, style, renderer, watch, columns, dress).map([&](PanelFigure figure) {

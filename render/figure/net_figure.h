@@ -13,7 +13,7 @@
 
 namespace gridshell::render {
 
-/// A run whose layout knows its net, shown by its last frame.
+/// A run shown by its last frame, over its net if its layout knows one.
 struct NetRun {
   const record::Trajectory* run = nullptr;
   std::string caption;            ///< marked text

@@ -14,7 +14,7 @@ namespace {
 using Folders = std::set<std::string>;
 
 // What a folder may see beside itself. A folder that is not here may see nothing; `render/` and
-// `app/` stand for every folder in them, but for `app/window`.
+// `app/` stand for every folder in them, but for `app/window` and `app/examples`.
 const std::map<std::string, Folders> may_see{
     {"engine/core", {}},
     {"engine/geometry", {"engine/core"}},
@@ -25,6 +25,8 @@ const std::map<std::string, Folders> may_see{
     {"engine/measure", {"engine/core", "engine/geometry", "engine/footprint"}},
     {"engine/preset", {"engine/core"}},
     {"engine/record", {"engine/core", "engine/rod"}},
+    // scans against the joints of runs
+    {"engine/scan", {"engine/core", "engine/geometry", "engine/record"}},
     // runs and footprints as files of other programs
     {"engine/export", {"engine/core", "engine/record"}},
     // what will be formed, and no solver
@@ -49,6 +51,11 @@ const std::map<std::string, Folders> may_see{
      {"engine/core", "engine/footprint", "engine/rod", "engine/gridshell", "engine/solve",
       "engine/measure", "engine/preset", "engine/record", "engine/scene", "engine/session",
       "engine/experiment"}},
+    // the library in one header, and what others write with it
+    {"engine/gridshell.h",
+     {"engine/core", "engine/measure", "engine/preset", "engine/record", "engine/scan",
+      "engine/scene", "engine/session", "engine/experiment", "engine/design"}},
+    {"app/examples", {"engine/gridshell.h"}},
     // the renderer knows pictures of a run, not how it came to be
     {"render", {"engine/core", "engine/record", "engine/export"}},
     // what the desktop window knows and does, with a shell in hand
@@ -57,12 +64,13 @@ const std::map<std::string, Folders> may_see{
       "engine/record", "engine/scene", "engine/session", "engine/experiment", "render"}},
     {"app",
      {"engine/core", "engine/preset", "engine/record", "engine/export", "engine/experiment",
-      "engine/design", "engine/study", "render", "app/window"}},
+      "engine/design", "engine/study", "engine/scan", "render", "app/window"}},
 };
 
 // "engine/preset" for engine/preset/reader.h, "render" and "app" for all below them
 std::string folder_of(const std::string& path) {
-  if (path.starts_with("app/window/")) return "app/window";
+  for (const char* own : {"app/window", "app/examples"})
+    if (path.starts_with(std::string(own) + "/")) return own;
   if (!path.starts_with("engine/")) return path.substr(0, path.find('/'));
   return path.substr(0, path.find('/', 7));
 }

@@ -121,7 +121,7 @@ TEST_CASE("movie draws a frame each, and render draws them again without simulat
   const auto refused = bench.run({"render", "run", "--set", "rod.diameter_mm=0.3"});
   CHECK(refused.code == 2);
   CHECK(refused.err ==
-        "--set: rod.diameter_mm cannot change once a run is finished; 'render' takes keys of "
+        "--set: rod.diameter_mm cannot change once a run is finished; what can are keys of "
         "[movie], [style], [figure] and [page] that only show it\n");
 }
 

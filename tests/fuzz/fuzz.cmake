@@ -22,7 +22,7 @@ if(GRIDSHELL_FUZZ)
   target_compile_options(fuzzed PUBLIC -fsanitize=fuzzer-no-link,address,undefined -g -O1)
   target_link_libraries(fuzzed PUBLIC fmt::fmt tomlplusplus::tomlplusplus ${HDF5_HL_LIBRARY}
     PkgConfig::HDF5 nlohmann_json::nlohmann_json PNG::PNG ZLIB::ZLIB)
-  foreach(target preset points surface summary journal trajectory states sweep_log png)
+  foreach(target preset points surface cloud summary journal trajectory states sweep_log png)
     add_executable(fuzz_${target} tests/fuzz/libfuzzer.cpp)
     target_compile_definitions(fuzz_${target} PRIVATE GRIDSHELL_FUZZ_TARGET=${target})
     target_link_libraries(fuzz_${target} PRIVATE fuzzed)

@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "engine/geometry/mesh_surface.h"
+#include "engine/preset/cloud_file.h"
 #include "engine/preset/point_file.h"
 #include "engine/preset/reader.h"
 #include "engine/preset/surface_file.h"
@@ -47,11 +48,28 @@ void points(std::string_view bytes) {
   (void)preset::read_points(file.path(), {"family", "x"}, {{"u", "v"}, {}});
 }
 
+namespace {
+
+/// The first line, which is taken off.
+std::string name_before(std::string_view& bytes) {
+  const auto end = bytes.find('\n');
+  std::string name(bytes.substr(0, end));
+  bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
+  return name;
+}
+
+}  // namespace
+
+void cloud(std::string_view bytes) {
+  const std::string name = name_before(bytes);
+  const auto read = preset::read_cloud(bytes, name);
+  if (!read && read.error().message.empty()) complain("refused without a word", name);
+  if (read && !(read->cols() > 0 && read->allFinite())) complain("holds no points", name);
+}
+
 void surface(std::string_view bytes) {
   constexpr std::size_t largest = 50;  // vertices: what comes after is tried by tests
-  const auto end = bytes.find('\n');
-  const std::string name(bytes.substr(0, end));
-  bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
+  const std::string name = name_before(bytes);
   const auto read = preset::read_surface(bytes, name);
   if (!read && read.error().message.empty()) complain("refused without a word", name);
   if (!read) return;

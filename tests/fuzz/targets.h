@@ -22,6 +22,8 @@ void preset(std::string_view bytes);
 void points(std::string_view bytes);
 /// A surface in a file whose name is the first line; a mesh that is read is checked and fitted.
 void surface(std::string_view bytes);
+/// A cloud of points in a file whose name is the first line.
+void cloud(std::string_view bytes);
 /// summary.json
 void summary(std::string_view bytes);
 /// frames.journal, all of its frames
@@ -38,8 +40,8 @@ void sweep_log(std::string_view bytes);
 void png(std::string_view bytes);
 
 inline constexpr Target targets[] = {
-    {"preset", preset},   {"points", points},       {"surface", surface},
-    {"summary", summary}, {"journal", journal},     {"trajectory", trajectory},
-    {"states", states},   {"sweep_log", sweep_log}, {"png", png}};
+    {"preset", preset},       {"points", points},   {"surface", surface},       {"cloud", cloud},
+    {"summary", summary},     {"journal", journal}, {"trajectory", trajectory}, {"states", states},
+    {"sweep_log", sweep_log}, {"png", png}};
 
 }  // namespace gridshell::fuzz

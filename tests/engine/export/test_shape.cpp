@@ -106,6 +106,8 @@ TEST_CASE("a VTP has as many numbers as it says") {
   };
   CHECK(numbers("displacement_mm") == 3 * points);
   CHECK(numbers("curvature_per_mm") == points);
+  CHECK(numbers("axial_force_N") == points);
+  CHECK(numbers("reaction_N") == 3 * points);
   CHECK(numbers("K_rad") == run.layout.rods.size() + run.layout.cells.size());
   CHECK(numbers("Points") == 3 * points);
 }
@@ -160,4 +162,30 @@ TEST_CASE("a page holds the run, and a title cannot end its script") {
   // three numbers of two bytes a node, in letters of six bits
   const std::size_t bytes = 6 * std::size_t(run.frames.front().nodes.cols());
   CHECK(json["frames"][0]["nodes"].get<std::string>().size() == (bytes + 2) / 3 * 4);
+}
+
+TEST_CASE("forces at points are those of the edges beside them, and unknown where not recorded") {
+  const record::Trajectory run = sample_trajectory();
+  const record::Frame& frame = run.frames.back();
+  // the second rod's three edges follow the first one's
+  const auto force = axial_force_N(run.layout, frame, 1);
+  REQUIRE(force.size() == 4);
+  CHECK(force[0] == frame.axial_force_N[3]);
+  CHECK(force[1] == 0.5 * (frame.axial_force_N[3] + frame.axial_force_N[4]));
+  CHECK(force[3] == frame.axial_force_N[5]);
+  CHECK(curvature_per_mm(run.layout, frame, 1)[2] == frame.curvature_per_mm[6]);
+  CHECK(reactions_N(run.layout, frame) == frame.reactions_N);
+  const record::Frame& between = run.frames[1];
+  CHECK(std::isnan(axial_force_N(run.layout, between, 0)[1]));
+  CHECK(reactions_N(run.layout, between).array().isNaN().all());
+}
+
+TEST_CASE("XDMF speaks of forces where the run's end has them") {
+  record::Trajectory run = sample_trajectory();
+  const auto xdmf = [&] { return to_xdmf(run.layout, run.frames, "run/trajectory.h5"); };
+  CHECK(count(xdmf(), ":/axial_force_N") == 3);
+  CHECK(count(xdmf(), ":/reactions_N") == 3);
+  for (record::Frame& frame : run.frames) frame.axial_force_N.resize(0);
+  CHECK(count(xdmf(), ":/axial_force_N") == 0);
+  CHECK(count(xdmf(), ":/nodes") == 3);
 }

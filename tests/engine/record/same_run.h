@@ -13,6 +13,8 @@ inline void check_same_layout(const Layout& a, const Layout& b) {
   CHECK(same_bits(a.rod_diameter_mm, b.rod_diameter_mm));
   CHECK(same_bits(a.length_scale_mm, b.length_scale_mm));
   CHECK(a.rods == b.rods);
+  CHECK(a.families == b.families);
+  CHECK(a.supports == b.supports);
   CHECK(a.edge_points == b.edge_points);
   CHECK(same_bits(a.original_boundary, b.original_boundary));
   CHECK(same_bits(a.actuated_boundary, b.actuated_boundary));
@@ -56,6 +58,9 @@ inline void check_same_frame(const Frame& a, const Frame& b) {
   CHECK(same_bits(a.nodes, b.nodes));
   CHECK(same_bits(a.cell_K, b.cell_K));
   CHECK(same_bits(a.K_bins, b.K_bins));
+  CHECK(same_bits(a.axial_force_N, b.axial_force_N));
+  CHECK(same_bits(a.curvature_per_mm, b.curvature_per_mm));
+  CHECK(same_bits(a.reactions_N, b.reactions_N));
   CHECK(same_bits(a.actuation, b.actuation));
   for (const FrameColumn& column : frame_columns) {
     INFO(column.name);

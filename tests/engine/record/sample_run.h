@@ -18,6 +18,8 @@ inline Trajectory sample_trajectory() {
   layout.length_scale_mm = 126;
   // four crossings of two rods each way, edge points 4 ... 11
   layout.rods = {{4, 0, 1, 5}, {6, 3, 2, 7}, {8, 0, 3, 9}, {10, 1, 2, 11}};
+  layout.families = {"u", "u", "v", "v"};
+  layout.supports = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
   layout.joints = {
       {-1, -1, -10, -10, 0}, {0, -1, 10, -10, 1}, {0, 0, 10, 10, 2}, {-1, 0, -10, 10, 3}};
   layout.cells = {{-1, -1, 0, 0, {0, 1, 2, 3}}};
@@ -51,6 +53,13 @@ inline Trajectory sample_trajectory() {
     frame.K_bins = Eigen::MatrixX3d::Constant(5, 3, 0.5 * k);
     run.frames.push_back(frame);
   }
+  // the frame between does not know them
+  for (Frame* frame : {&run.frames[0], &run.frames[2]}) {
+    frame->axial_force_N = Eigen::VectorXd::Random(12);
+    frame->curvature_per_mm = Eigen::VectorXd::Random(16);
+    frame->reactions_N = Eigen::Matrix3Xd::Random(3, 12);
+  }
+  run.origin = {"Sample \xC3\xA9", "s1_actuation", "gridshell 0.0"};
   // a NaN that carries bits of its own
   run.frames[1].nodes(0, 0) = std::nan("42");
   return run;

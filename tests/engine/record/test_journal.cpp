@@ -9,7 +9,9 @@
 #include <unistd.h>
 
 #include "engine/core/atomic_file.h"
+#include "engine/core/version.h"
 #include "engine/record/folder_sink.h"
+#include "engine/record/journal_records.h"
 #include "engine/record/run_folder.h"
 #include "engine/record/summary_file.h"
 #include "engine/record/trajectory_file.h"
@@ -70,6 +72,8 @@ TEST_CASE("frames come back from a journal in order of their index, bit for bit"
     CHECK(frames[k].index == k);
     CHECK(same_bits(frames[k].nodes, run.frames[k].nodes));
     CHECK(same_bits(frames[k].cell_K, run.frames[k].cell_K));
+    CHECK(same_bits(frames[k].axial_force_N, std::as_const(run.frames)[k].axial_force_N));
+    CHECK(same_bits(frames[k].reactions_N, std::as_const(run.frames)[k].reactions_N));
     CHECK(same_bits(frames[k].K_bins, run.frames[k].K_bins));
     CHECK(same_bits(frames[k].energies[Term::stretch], run.frames[k].energies[Term::stretch]));
     CHECK(same_bits(frames[k].actuation, run.frames[k].actuation));
@@ -143,11 +147,26 @@ TEST_CASE("a run that is killed keeps every frame found so far") {
   CHECK(std::as_const(read->trajectory.frames).back().index == killed_at - 1);
 }
 
+TEST_CASE("a frame of an older version, which kept no forces, is read without them") {
+  Frame frame = sample_trajectory().frames[1];
+  const std::string head = packed_head({"s1_actuation", Kind::run}, {});
+  const auto columns = unpacked_head(head)->columns;
+  // three empty matrices, each its rows and columns
+  const std::string packed = packed_frame(frame);
+  const auto old = unpacked_frame(packed.substr(0, packed.size() - 48), columns);
+  REQUIRE(old);
+  CHECK(same_bits(old->nodes, frame.nodes));
+  CHECK(same_bits(old->K_bins, frame.K_bins));
+  CHECK(old->axial_force_N.size() == 0);
+  CHECK_FALSE(unpacked_frame(packed.substr(0, packed.size() - 24), columns));
+}
+
 TEST_CASE("a sink becomes the files of a run, whatever the order of the frames") {
   const TemporaryFolder folder;
-  const Trajectory run = sample_trajectory();
+  Trajectory run = sample_trajectory();
+  run.origin = {"A title", "s1_actuation", std::string("gridshell ") + version()};
   REQUIRE(write_run(folder.path() / "at once", run, sample_summary()));
-  FolderSink sink(folder.path() / "found", {"s1_actuation", Kind::run});
+  FolderSink sink(folder.path() / "found", {"s1_actuation", Kind::run, "A title"});
   REQUIRE(sink.begin(run.layout));
   for (const std::size_t k : {1, 2, 0}) REQUIRE(sink.take(run.frames[k]));
   const auto finished = sink.finish(sample_summary());

@@ -132,7 +132,7 @@ TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {
 
 TEST_CASE("CSV files have the columns that others read") {
   const Trajectory run = sample_trajectory();
-  CHECK(first_line(joints_csv(run)) == "i,j,u_mm,v_mm,x_mm,y_mm,z_mm");
+  CHECK(first_line(joints_csv(run)) == "i,j,u_mm,v_mm,x_mm,y_mm,z_mm,deviation_mm");
   CHECK(first_line(cells_csv(run)) == "i,j,u_mm,v_mm,cx_mm,cy_mm,cz_mm,K");
   CHECK(first_line(frames_csv(run)) ==
         "frame,progress,boundary_radius_mm,depth_mm,force_N,energy_bend_mJ,energy_stretch_mJ,"
@@ -150,11 +150,15 @@ TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what
   nodes.col(3) << 0, 0, 2;
   nodes(0, 0) = unknown;
   CHECK(joints_csv(run) ==
-        "i,j,u_mm,v_mm,x_mm,y_mm,z_mm\n"
-        "-1,-1,-10,-10,,-1e-07,0.3333333333333333\n"
-        "0,-1,10,-10,4,0,0\n"
-        "0,0,10,10,0,8,0\n"
-        "-1,0,-10,10,0,0,2\n");
+        "i,j,u_mm,v_mm,x_mm,y_mm,z_mm,deviation_mm\n"
+        "-1,-1,-10,-10,,-1e-07,0.3333333333333333,\n"
+        "0,-1,10,-10,4,0,0,\n"
+        "0,0,10,10,0,8,0,\n"
+        "-1,0,-10,10,0,0,2,\n");
+  // beside a net
+  run.layout.net_nodes = nodes;
+  run.layout.net_nodes(1, 1) = 3;
+  CHECK(joints_csv(run).find("\n0,-1,10,-10,4,0,0,3\n0,0,10,10,0,8,0,0\n") != std::string::npos);
   nodes.col(0).setZero();
   CHECK(cells_csv(run) ==
         "i,j,u_mm,v_mm,cx_mm,cy_mm,cz_mm,K\n"

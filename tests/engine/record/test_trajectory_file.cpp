@@ -35,6 +35,9 @@ TEST_CASE("a trajectory comes back bit for bit") {
   const auto back = read_trajectory(path);
   REQUIRE(back);
   check_same_layout(back->layout, run.layout);
+  CHECK(back->origin.title == run.origin.title);
+  CHECK(back->origin.preset == run.origin.preset);
+  CHECK(back->origin.program == run.origin.program);
   REQUIRE(back->frames.size() == run.frames.size());
   for (std::size_t k = 0; k < run.frames.size(); ++k)
     check_same_frame(back->frames[k], run.frames[k]);
@@ -73,6 +76,9 @@ TEST_CASE("datasets bear their names, shapes and units") {
   };
   CHECK(unit("/nodes") == "mm");
   CHECK(unit("/cell_K") == "rad");
+  CHECK(unit("/axial_force_N") == "N");
+  CHECK(unit("/curvature_per_mm") == "1/mm");
+  CHECK(unit("/reactions_N") == "N");
   CHECK(unit("/frames/force_N") == "N");
   CHECK(unit("/frames/energy_bend_mJ") == "mJ");
   CHECK(unit("/layout/original_boundary") == "mm");
@@ -132,6 +138,13 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
   run.frames[0].cell_K.resize(0);
   CHECK(write_trajectory(path, run).error().message ==
         "frame 0 has 0 values of cell_K for 1 cells");
+  run = sample_trajectory();
+  run.frames[2].axial_force_N.resize(11);
+  CHECK(write_trajectory(path, run).error().message ==
+        "frame 2 has 11 values of axial_force_N, must be 12");
+  run = sample_trajectory();
+  run.layout.families.pop_back();
+  CHECK(write_trajectory(path, run).error().message == "3 families are named for 4 rods");
   run = sample_trajectory();
   run.layout.actuated_boundary.resize(3, 4);
   CHECK(write_trajectory(path, run).error().message ==

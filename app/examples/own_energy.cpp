@@ -1,0 +1,30 @@
+// An energy of one's own: a bed of springs under every joint, put on as a field of a session.
+#include <cstdio>
+
+#include "engine/gridshell.h"
+
+int main() {
+  using namespace gridshell;
+  preset::Preset preset;
+  preset.footprint.rods = 6;
+  preset.footprint.radius_mm = 60;
+  preset.actuation.radius_mm = 48;
+  const auto scene = scene_of(preset);
+  if (!scene) return std::fprintf(stderr, "%s\n", scene.error().message.c_str()), 1;
+  auto session = Session::open(std::make_shared<const Scene>(*scene), plan_of_mesh(4));
+  if (!session) return std::fprintf(stderr, "%s\n", session.error().message.c_str()), 1;
+  if (!session->begin_buckled(0.02, unwatched)) return 1;
+  if (session->move_to(1, unwatched).end != Outcome::reached) return 1;
+  const auto height = [&] {
+    return session->nodes().row(2).leftCols(session->shell().finest().joints).maxCoeff();
+  };
+  const double before = height();
+  // E = k/2 z^2 at every joint: value, gradient and stiffness are NodeAction's
+  std::vector<NodeAction> bed;
+  for (int joint = 0; joint < session->shell().finest().joints; ++joint)
+    bed.push_back({.node = joint, .stiffness = {0, 0, 1e-4}});
+  const Report report = session->set_field(bed, unwatched);
+  std::printf("on a bed of springs the shell is %.3f mm high instead of %.3f, %s\n", height(),
+              before, report.certificate.stable() ? "stable" : "not stable");
+  return report.end == Outcome::reached ? 0 : 1;
+}

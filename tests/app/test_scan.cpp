@@ -1,0 +1,103 @@
+// The command `scan`, on clouds made of a run.
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "engine/core/atomic_file.h"
+#include "engine/record/json.h"
+#include "engine/record/trajectory_file.h"
+#include "tests/app/program.h"
+#include "tests/engine/scan/synthetic_scan.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using Catch::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+void write_text(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+void write_cloud(const Eigen::Matrix3Xd& cloud, const fs::path& file) {
+  std::ofstream out(file);
+  out << "x_mm,y_mm,z_mm\n";
+  for (const auto& p : cloud.colwise()) out << p.x() << "," << p.y() << "," << p.z() << "\n";
+}
+
+/// A shell of 6 rods a direction, drawn in to that radius.
+void form(const std::string& radius_mm, const std::string& name, const fs::path& at) {
+  const auto ended = gridshell_program(
+      {"run", "s1_actuation", "--set", "footprint.rods=6", "--set", "footprint.radius_mm=60",
+       "--set", "actuation.radius_mm=" + radius_mm, "--set", "accuracy.edges_per_segment=4",
+       "--frames", "2", "--quiet", "-o", name},
+      at);
+  INFO(ended.err);
+  REQUIRE(ended.code == 0);
+}
+
+}  // namespace
+
+TEST_CASE("a scan of a run shows that run, with its joints, its picture and what overlays take") {
+  const TemporaryFolder folder;
+  const fs::path& at = folder.path();
+  form("48", "run", at);
+  form("52", "wide", at);
+  const auto run = record::read_trajectory(at / "run" / "trajectory.h5");
+  REQUIRE(run);
+  const ScannedForm shell = form_of(run->layout, run->frames.back());
+  ScanMaking how;
+  how.missing = 0.1;
+  how.spurious = 3;
+  write_cloud(make_scan(shell, how).cloud, at / "cloud.csv");
+  const auto scan =
+      gridshell_program({"scan", "cloud.csv", "wide", "run", "--size", "320x240"}, at);
+  INFO(scan.out << scan.err);
+  REQUIRE(scan.code == 0);
+  CHECK_THAT(scan.out, Contains("out/cloud_scan: shows run\n"));
+  const fs::path out = at / "out" / "cloud_scan";
+  const auto json = record::parsed(read_whole(out / "scan.json").value());
+  CHECK(json["state"] == "run");
+  CHECK(json["states"].size() == 2);
+  CHECK(json["joints_found"].get<int>() + json["joints_missing"].get<int>() ==
+        int(shell.joints.cols()));
+  CHECK(json["joints_missing"].get<int>() == int(0.1 * double(shell.joints.cols())));
+  CHECK(json["rms_mm"].get<double>() < 0.15);
+  const std::string csv = read_whole(out / "scan.csv").value();
+  CHECK(csv.starts_with("i,j,x_mm,y_mm,z_mm,distance_mm,distance_radii\n"));
+  CHECK(std::ranges::count(csv, '\n') == 1 + shell.joints.cols());
+  for (const char* name : {"scan.png", "measured.csv", "manifest.txt"})
+    CHECK(fs::exists(out / name));
+  // once more into the same folder, which is one of ours
+  CHECK(gridshell_program({"scan", "cloud.csv", "run", "--quiet", "--size", "320x240"}, at).code ==
+        0);
+  CHECK(gridshell_program(
+            {"check", "s1_actuation", "--set", "figure.scan=out/cloud_scan/measured.csv"}, at)
+            .code == 0);
+  // another state alone is none
+  const auto other =
+      gridshell_program({"scan", "cloud.csv", "wide", "--size", "320x240", "-o", "other"}, at);
+  CHECK(other.code == 3);
+  CHECK_THAT(other.out, Contains("other: does not show wide\n"));
+}
+
+TEST_CASE("clouds and runs that are none leave a sentence and no folder") {
+  const TemporaryFolder folder;
+  const fs::path& at = folder.path();
+  form("48", "run", at);
+  const auto refused = [&](const std::string& name, const std::string& text) {
+    write_text(at / name, text);
+    const auto ended = gridshell_program({"scan", name, "run", "-o", "scan"}, at);
+    CHECK(ended.code == 2);
+    CHECK_FALSE(fs::exists(at / "scan"));
+    return ended.err;
+  };
+  CHECK_THAT(refused("a.xyz", ""), Contains("a.xyz: holds no point"));
+  CHECK_THAT(refused("a.xyz", "1 2 nan\n"), Contains("a.xyz:1: 'nan' is no number"));
+  CHECK_THAT(refused("a.obj", "1 2 3\n"), Contains("its name must end in"));
+  CHECK_THAT(refused("a.xyz", "1 2 3\n9 5 6\n"),
+             Contains("they lie like the joints of no shell given"));
+  CHECK_THAT(refused("a.xyz", "1 2 3\n1e9 5 6\n"), Contains("the points reach over 1e+09 mm"));
+  CHECK_THAT(gridshell_program({"scan", "none.xyz", "run"}, at).err, Contains("none.xyz"));
+  CHECK_THAT(gridshell_program({"scan", "a.xyz", "."}, at).err, Contains("is no run"));
+  CHECK_THAT(gridshell_program({"scan", "a.xyz", "run", "--set", "rod.young_GPa=70"}, at).err,
+             Contains("cannot change once a run is finished"));
+}
