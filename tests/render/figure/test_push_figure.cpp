@@ -47,7 +47,7 @@ TEST_CASE(
       draw_pushes({{&run, "a"}, {&run, "b"}}, style, renderer, watch).and_then(draw_panels);
   REQUIRE(image);
   CHECK(image->width > 240);
-  REQUIRE(write_push_bins(folder.path() / "bins", {{&run, "a"}, {&run, "b"}}));
+  REQUIRE(write_push_bins(folder.path() / "bins", {{&run, "a"}, {&run, "b"}}, "Two pushes"));
   CHECK(std::filesystem::exists(folder.path() / "bins.png"));
   CHECK(std::filesystem::exists(folder.path() / "bins.svg"));
 }
