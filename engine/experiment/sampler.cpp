@@ -37,6 +37,7 @@ Result<void> Sampler::stand(const Sample& sample, const std::string& event) {
   record::Frame frame = frame_of(course_.session);
   caption_.measure(frame);
   frame.event = event;
+  last_ = sample;
   return take(std::move(frame), sample);
 }
 

@@ -1,7 +1,6 @@
 #include "engine/experiment/stepped.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +27,7 @@ struct Taken {
 struct Done {
   HandBoundary before, after;
   Taken taken;
-  Checkpoint end;
+  Checkpoint way_end, end;  ///< where its way ended, and where it stands after it
 };
 
 /// A hand's whole work on one plan of meshes.
@@ -48,13 +47,6 @@ bool snapped(const Leg& leg) {
                              [](const Event& one) { return one.to.has_value(); });
 }
 
-/// "push [2, -1]"
-std::string text_of(const preset::Step& step) {
-  std::string text(word_of(step.deed));
-  if (!step.joint.empty()) text += fmt::format(" [{}]", fmt::join(step.joint, ", "));
-  return text;
-}
-
 Taken taken_after(Session& session, const std::map<int, Eigen::Vector3d>& taken_at) {
   if (session.holds().empty()) return {};
   const int joint = session.holds().back().node;
@@ -65,6 +57,10 @@ Taken taken_after(Session& session, const std::map<int, Eigen::Vector3d>& taken_
 void close(Leg& leg, const Session& session) {
   if (!leg.trail.stations.empty()) {
     leg.from = leg.trail.stations.front().point.t;
+    // one mesh alone knows no error
+    for (Station& station : leg.trail.stations)
+      if (std::isnan(station.certificate.error_estimate_mm))
+        station.certificate.error_estimate_mm = session.certificate().error_estimate_mm;
     return;
   }
   leg.trail.stations.push_back({session.shell().followed(), session.certificate()});
@@ -86,7 +82,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   HandBoundary boundary = HandBoundary::of(*scene);
   std::map<int, Eigen::Vector3d> taken_at;
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    Done done{.before = boundary, .after = {}, .taken = {}, .end = {}};
+    Done done{.before = boundary, .after = {}, .taken = {}, .way_end = {}, .end = {}};
     for (Eigen::Index joint = 0; joint < Eigen::Index(scene->footprint.joints.size()); ++joint) {
       const bool held = std::ranges::any_of(session.holds(),
                                             [&](const Hold& hold) { return hold.node == joint; });
@@ -95,13 +91,16 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     const Deed deed = steps[k].deed;
     const double to = deed == Deed::move ? std::sqrt(progress_of(steps[k], *scene)) : 1;
     Leg& leg = work.course.legs.emplace_back(Leg{0, to, {}, {}});
-    auto report = take_step(session, boundary, steps[k], watch, &leg.trail);
+    Way way;
+    auto report = take_step(session, boundary, steps[k], watch, &way);
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
     if (!report)
       return fail(report.error().fault,
                   fmt::format("[[step]] {}: {}", k + 1, report.error().message));
     leg.report = std::move(*report);
+    leg.trail = std::move(way.trail);
     close(leg, session);
+    done.way_end = std::move(way.end);
     done.after = boundary;
     done.taken = taken_after(session, taken_at);
     done.end = session.save();
@@ -116,7 +115,7 @@ class Show {
  public:
   Show(Work& work, const std::vector<preset::Step>& steps, int frames, record::Sink& sink,
        Watch& watch)
-      : work_(work), steps_(steps), shares_(frames_of_steps(steps, frames)), taken_{} {
+      : work_(work), steps_(steps), watch_(watch), shares_(frames_of_steps(steps, frames)) {
     for (const int share : shares_) count_ += share;
     sampler_.emplace(work.course, caption(), sink, watch, std::size_t(count_) + 1);
   }
@@ -125,7 +124,8 @@ class Show {
     Session& session = work_.course.session;
     session.restore(work_.begin);
     boundary_ = {1, 1};
-    if (auto first = sampler_->stand({0, 0, 1, 0}, ""); !first) return first;
+    // of no step
+    if (auto first = sampler_->stand({0, steps_.size(), 1, 0}, ""); !first) return first;
     for (step_ = 0; step_ < work_.done.size(); ++step_)
       if (auto shown = one(); !shown) return shown;
     session.restore(work_.done.empty() ? work_.begin : work_.done.back().end);
@@ -145,12 +145,24 @@ class Show {
       const bool moves = steps_[step_].deed == Deed::move;
       const double t = moves ? std::sqrt(boundary_[0] + part * (boundary_[1] - boundary_[0]))
                              : leg.from + part * (leg.end() - leg.from);
-      work_.course.session.restore(done.end);
-      if (auto taken = sampler_->at(sample(t)); !taken) return tl::unexpected(taken.error());
+      if (auto taken = between(done, sample(t)); !taken) return taken;
     }
     work_.course.session.restore(done.end);
     const Sample last = sample(leg.end());
     return sampler_->stand(last, event(last));
+  }
+
+  /// A sample of the way, on the meshes of its end; what has no state on them is left out.
+  Result<void> between(const Done& done, const Sample& sample) {
+    Session& session = work_.course.session;
+    session.restore(done.way_end);
+    const Report stood = stand_at(work_.course, sample, watch_);
+    if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (stood.end != Outcome::reached) return {};
+    const auto fine = session.remesh(done.end.plan, watch_);
+    if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (!fine || fine->end != Outcome::reached) return {};
+    return sampler_->stand(sample, sampler_->events(sample));
   }
 
   Sample sample(double t) {
@@ -191,6 +203,7 @@ class Show {
 
   Work& work_;
   const std::vector<preset::Step>& steps_;
+  Watch& watch_;
   std::vector<int> shares_;
   int count_ = 0, index_ = 0;
   std::size_t step_ = 0;

@@ -1,6 +1,7 @@
 #include "engine/experiment/steps.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,26 +38,26 @@ Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene
 }
 
 Result<Report> move(Session& session, HandBoundary& boundary, const preset::Step& step,
-                    const Watch& watch, Trail* trail) {
+                    const Watch& watch, Way* way) {
   const Scene& scene = session.scene();
   const auto dragged = dragged_of(step, scene);
   if (!dragged) return tl::unexpected<Error>(dragged.error());
   const double progress = progress_of(step, scene);
   if (dragged->isZero(0) && boundary.dragged.isZero(0)) {
-    const Report report = session.move_to(progress, watch, trail);
+    const Report report = session.move_to(progress, watch, way ? &way->trail : nullptr);
+    if (way) way->end = session.save();
     boundary.progress = session.progress();
     return report;
   }
   BoundaryMotion motion = scene.motion;
-  const Eigen::Matrix3Xd way = motion.end - motion.begin;
-  motion.end = motion.begin + progress * way + *dragged;
+  motion.end = motion.begin + progress * (motion.end - motion.begin) + *dragged;
   const Report report = session.rebase(motion, watch);
   boundary.progress += report.t * (progress - boundary.progress);
   boundary.dragged += report.t * (*dragged - boundary.dragged);
   return report;
 }
 
-Result<Report> push(Session& session, const preset::Step& step, const Watch& watch, Trail* trail) {
+Result<Report> push(Session& session, const preset::Step& step, const Watch& watch, Way* path) {
   const auto joint = joint_of(step, session.scene().footprint);
   if (!joint) return tl::unexpected<Error>(joint.error());
   const Eigen::Vector3d at = session.nodes().col(*joint);
@@ -72,7 +73,32 @@ Result<Report> push(Session& session, const preset::Step& step, const Watch& wat
   // a hand that does not move yet takes hold along its own direction
   if (way.norm() < nearest_mm)
     way = nearest_mm * (along.isZero(0) ? Eigen::Vector3d::UnitZ() : along);
-  return session.push(*joint, way, free ? Across::free : Across::held, watch, trail);
+  const Report report = session.push(*joint, way, free ? Across::free : Across::held, watch,
+                                     path ? &path->trail : nullptr);
+  if (path) path->end = session.save();
+  return report;
+}
+
+/// The same led by the coarsest mesh alone: finer ones then hold the joint where that one has it,
+/// and not each where it came from its own place.
+Result<Report> push_by_coarsest(Session& session, const preset::Step& step, const Watch& watch,
+                                Way* path) {
+  const LevelPlan plan = session.shell().plan();
+  if (plan.edges_per_segment.size() == 1) return push(session, step, watch, path);
+  const Checkpoint before = session.save();
+  const auto coarse = session.remesh({{plan.edges_per_segment.front()}, false}, watch);
+  if (!coarse) return coarse;
+  if (coarse->end != Outcome::reached) return session.restore(before), coarse;
+  auto report = push(session, step, watch, path);
+  if (!report) return session.restore(before), report;
+  const auto fine = session.remesh(plan, watch);
+  if (!fine) return fine;
+  if (fine->end != Outcome::reached) {
+    session.restore(before);
+    report->end = watch.cancelled() ? Outcome::cancelled : Outcome::meshes_disagree;
+  }
+  report->certificate = session.certificate();
+  return report;
 }
 
 Result<Report> release(Session& session, const preset::Step& step, const Watch& watch) {
@@ -123,6 +149,12 @@ Report jitter(Session& session, const preset::Step& step, const Watch& watch) {
 
 }  // namespace
 
+std::string text_of(const preset::Step& step) {
+  std::string text(word_of(step.deed));
+  if (!step.joint.empty()) text += fmt::format(" [{}]", fmt::join(step.joint, ", "));
+  return text;
+}
+
 Result<int> joint_of(const preset::Step& step, const Footprint& footprint) {
   const auto& joints = footprint.joints;
   const auto found = std::ranges::find_if(joints, [&](const FootprintJoint& joint) {
@@ -141,13 +173,13 @@ double progress_of(const preset::Step& step, const Scene& scene) {
 }
 
 Result<Report> take_step(Session& session, HandBoundary& boundary, const preset::Step& step,
-                         const Watch& watch, Trail* trail) {
+                         const Watch& watch, Way* way) {
   switch (step.deed) {
     case preset::Deed::move:
-      return move(session, boundary, step, watch, trail);
+      return move(session, boundary, step, watch, way);
     case preset::Deed::push:
     case preset::Deed::hold:
-      return push(session, step, watch, trail);
+      return push_by_coarsest(session, step, watch, way);
     case preset::Deed::release:
       return release(session, step, watch);
     case preset::Deed::load:

@@ -2,6 +2,8 @@
 // calls of a session, for runs and for the window alike.
 #pragma once
 
+#include <string>
+
 #include "engine/preset/preset.h"
 #include "engine/session/session.h"
 
@@ -22,17 +24,27 @@ struct HandBoundary {
 /// Moves of a joint below are none, mm.
 inline constexpr double nearest_mm = 1e-9;
 
+/// What a step does, as people read it: "push [2, -1]".
+std::string text_of(const preset::Step& step);
+
 /// The joint that a step names. Errors (bad_input): the footprint has none such.
 Result<int> joint_of(const preset::Step& step, const Footprint& footprint);
 
 /// The progress that a move asks for.
 double progress_of(const preset::Step& step, const Scene& scene);
 
+/// The way of a move or of a push: what was followed, and where the session stood at its end.
+struct Way {
+  Trail trail;
+  Checkpoint end = {};
+};
+
 /// Does one step; `boundary` follows what was reached. A step that ends early leaves the session in
-/// its last certified state, a `release`, `rest` or `jitter` where it was before. The way of a move
-/// or a push goes into `trail`. Errors (bad_input): a joint or an edge point that is not there,
-/// nothing to release, edge points to be moved by themselves whose rods' directions are held.
+/// its last certified state, a `release`, `rest` or `jitter` where it was before. A push is led by
+/// the coarsest mesh: `way.end` stands on that one. Errors
+/// (bad_input): a joint or an edge point that is not there, nothing to release, edge points to be
+/// moved by themselves whose rods' directions are held.
 Result<Report> take_step(Session& session, HandBoundary& boundary, const preset::Step& step,
-                         const Watch& watch, Trail* trail = nullptr);
+                         const Watch& watch, Way* way = nullptr);
 
 }  // namespace gridshell::experiment

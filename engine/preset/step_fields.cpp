@@ -19,8 +19,8 @@ std::vector<Field> step_fields() {
        "of a move: 0 the original boundary, 1 the actuated one, beyond it further on"},
       {"step", "radius_mm", "mm", real<&P::step, &Step::radius_mm>(at_least(0)),
        "of a move of a circle, in the place of `progress`; 0: not given"},
-      {"step", "edge_points", "mm",
-       points<&P::step, &Step::edge_points>({"edge_point", "x", "y", "z"}),
+      {"step", "edge_points", "",
+       points<&P::step, &Step::edge_points>({"edge_point", "x_mm", "y_mm", "z_mm"}),
        "of a move: by how much edge points, counted from 0, lie off the boundary's motion; others "
        "lie on it"},
       {"step", "joint", "", integers<&P::step, &Step::joint>(between(-500, 500)),

@@ -148,7 +148,9 @@ TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same 
   Watch watch;
   const auto run = experiment::run(preset, false, watch);
   REQUIRE(run);
-  CHECK(run->summary.limit == record::Limit::none);
+  // a jitter may come past other states
+  const record::Limit limit = run->summary.limit;
+  CHECK((limit == record::Limit::none || limit == record::Limit::snap));
   const record::Frame &a = hand.sight().frame, &b = run->trajectory.frames.back();
   REQUIRE(a.nodes.cols() == b.nodes.cols());
   CHECK((a.nodes - b.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);

@@ -72,7 +72,7 @@ TEST_CASE("what is wrong with a step is said with its place, its number and what
        "bad.toml:3:13: [[step]] 1 radius_mm = 200.0: larger than the footprint, must be at most "
        "R_o = 126"},
       {"[indentation]\ndepth = 0.1\n[[step]]\ndo = \"rest\"",
-       "bad.toml:2:9: [[step]] 1 do = \"rest\": [indentation] pushes already, must be a step "
+       "bad.toml:4:6: [[step]] 1 do = \"rest\": [indentation] pushes already, must be a step "
        "\"push\" in its place"},
       {"[step]\ndo = \"rest\"", "bad.toml:1:2: step: must be tables, each [[step]]"},
   }));
