@@ -159,9 +159,11 @@ class Show {
     const Report stood = stand_at(work_.course, sample, watch_);
     if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
     if (stood.end != Outcome::reached) return {};
-    const auto fine = session.remesh(done.end.plan, watch_);
-    if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
-    if (!fine || fine->end != Outcome::reached) return {};
+    if (done.way_end.plan.edges_per_segment != done.end.plan.edges_per_segment) {
+      const auto fine = session.remesh(done.end.plan, watch_);
+      if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
+      if (!fine || fine->end != Outcome::reached) return {};
+    }
     return sampler_->stand(sample, sampler_->events(sample));
   }
 

@@ -109,6 +109,20 @@ TEST_CASE("an edge point goes where it is dragged, and the radius still moves") 
   CHECK(hand.sight().progress == Approx(1));
 }
 
+TEST_CASE("the boundary moves in a drag while a joint is held, which stays in its place") {
+  ShellInHand hand = formed();
+  const int joint = joint_of(hand.sight(), 0, 0);
+  const Eigen::Vector3d to = hand.sight().frame.nodes.col(joint) - Eigen::Vector3d(0, 0, 3);
+  hand.fulfil({Push{joint, to}}, unwatched);
+  hand.fulfil({Move{0.9}, 5, true}, unwatched);
+  hand.fulfil({Settle{}, 5, false}, unwatched);
+  hand.refine(unwatched);
+  REQUIRE(hand.sight().trouble == "");
+  CHECK(hand.sight().refined);
+  CHECK(hand.sight().progress == Approx(0.9));
+  CHECK((hand.sight().frame.nodes.col(joint) - to).norm() < 1e-6);
+}
+
 /// What a window would save.
 preset::Preset saved(const Sight& sight) {
   preset::Preset preset = sight.preset;
