@@ -27,11 +27,12 @@ Result<void> draw_beside(const std::vector<CaseRecord>& records, const std::stri
       });
 }
 
-Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, render::Renderer& renderer,
-                                const fs::path& stem, Watch& watch) {
+Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, const std::string& title,
+                                render::Renderer& renderer, const fs::path& stem, Watch& watch) {
   auto style = style_of(records.front().preset, Pictures::stills);
-  // each panel bears its own title
-  if (records.size() > 1) style.title.clear();
+  // several are the preset's, and each bears its own title
+  const bool several = records.size() > 1;
+  if (several) style.title = title;
   std::vector<render::NetRun> shells;
   std::vector<render::NamedRun> named;
   for (const CaseRecord& one : records) {
@@ -39,22 +40,26 @@ Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, render::
     named.push_back({&one.run, one.preset.title});
   }
   render::Plot force = render::force_plot(named);
-  if (records.size() == 1) force.title = render::plain(records.front().preset.title);
+  force.title = render::plain(style.title);
+  // one by itself has its title over its own plot
+  const std::string head = several ? title : "";
   const auto with = [&](const char* suffix) { return fs::path(stem) += suffix; };
   return render::draw_pushes(shells, style, renderer, watch)
       .and_then(render::draw_panels)
       .and_then(
           [&](const render::Image& image) { return render::write_png(image, with("_loads.png")); })
       .and_then([&] { return render::write_plot(with("_force"), force, style.print); })
-      .and_then([&] { return render::write_push_bins(with("_bins"), named, style.print); });
+      .and_then([&] { return render::write_push_bins(with("_bins"), named, head, style.print); });
 }
 
 bool shown_on_net(const preset::Preset& preset) {
-  return preset.on_net() && !preset.indentation.wanted() && !preset.jitter.wanted();
+  return preset.on_net() && !preset.indentation.wanted() && !preset.jitter.wanted() &&
+         preset.step.empty();
 }
 
-Result<void> draw_case_figures(std::vector<CaseRecord> records, render::Renderer& renderer,
-                               const fs::path& stem, const std::function<Watch&()>& next_phase) {
+Result<void> draw_case_figures(std::vector<CaseRecord> records, const std::string& title,
+                               render::Renderer& renderer, const fs::path& stem,
+                               const std::function<Watch&()>& next_phase) {
   if (records.front().preset.page.kind != preset::PageKind::none)
     return draw_page(records, renderer, stem, next_phase());
   std::vector<CaseRecord> nets, pushes;
@@ -67,7 +72,12 @@ Result<void> draw_case_figures(std::vector<CaseRecord> records, render::Renderer
   if (!nets.empty())
     if (auto drawn = draw_net_pictures(nets, renderer, stem, next_phase()); !drawn) return drawn;
   if (pushes.empty()) return {};
-  return draw_push_pictures(pushes, renderer, stem, next_phase());
+  return draw_push_pictures(pushes, title, renderer, stem, next_phase());
+}
+
+bool stills_show_ends(const preset::Preset& preset) {
+  constexpr std::size_t most_steps = 8;
+  return preset.indentation.wanted() || preset.step.size() > most_steps;
 }
 
 record::Trajectory ends_of(const record::Trajectory& run) {

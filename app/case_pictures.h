@@ -23,20 +23,26 @@ Result<void> draw_beside(const std::vector<CaseRecord>& records, const std::stri
                          render::Renderer& renderer, const std::filesystem::path& folder,
                          Watch& watch);
 
-/// `<stem>_loads.png` and, each as PNG and SVG, `<stem>_force` and `<stem>_bins`.
-Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, render::Renderer& renderer,
-                                const std::filesystem::path& stem, Watch& watch);
+/// `<stem>_loads.png` and, each as PNG and SVG, `<stem>_force` and `<stem>_bins`; `title` is that
+/// of the preset without its cases.
+Result<void> draw_push_pictures(const std::vector<CaseRecord>& records, const std::string& title,
+                                render::Renderer& renderer, const std::filesystem::path& stem,
+                                Watch& watch);
 
 /// Whether a shell was designed on a net and is shown beside it; a pushed one is shown by itself.
 bool shown_on_net(const preset::Preset& preset);
 
 /// The figures that `figure` adds to the stills of each case: of shells on nets and of pushed ones,
-/// each with a phase of the progress bar of its own.
-Result<void> draw_case_figures(std::vector<CaseRecord> records, render::Renderer& renderer,
-                               const std::filesystem::path& stem,
+/// each with a phase of the progress bar of its own; `title` as above.
+Result<void> draw_case_figures(std::vector<CaseRecord> records, const std::string& title,
+                               render::Renderer& renderer, const std::filesystem::path& stem,
                                const std::function<Watch&()>& next_phase);
 
-/// Of a run that was sampled for a curve, the two frames that stills show: unloaded and loaded.
+/// Whether stills show a run's first and last frame alone: of a push, whose others are for the
+/// curve of its force, and of more steps than a figure holds.
+bool stills_show_ends(const preset::Preset& preset);
+
+/// These two frames.
 record::Trajectory ends_of(const record::Trajectory& run);
 
 }  // namespace gridshell::app

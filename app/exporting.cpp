@@ -10,12 +10,14 @@
 #include "app/finished_run.h"
 #include "app/loading.h"
 #include "app/manifest.h"
+#include "app/preset_library.h"
 #include "engine/core/atomic_file.h"
 #include "engine/experiment/workpiece.h"
 #include "engine/export/fabrication.h"
 #include "engine/export/formats.h"
 #include "engine/export/gltf.h"
 #include "engine/export/page.h"
+#include "engine/preset/title.h"
 #include "render/sheet/workshop.h"
 
 namespace gridshell::app {
@@ -32,9 +34,7 @@ struct Source {
     return {run.trajectory.layout, run.trajectory.frames[frame], run.trajectory.frames.front(),
             title()};
   }
-  std::string title() const {
-    return run.preset.title.empty() ? run.preset.name : run.preset.title;
-  }
+  const std::string& title() const { return preset::title_or_name(run.preset); }
 };
 
 /// NAME.pvd, and its frames in the folder NAME_frames beside it, which are written.
@@ -138,11 +138,6 @@ std::string extensions_of(const Formats& formats) {
   return list;
 }
 
-bool is_folder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
-
 /// Which of several runs or presets.
 template <class One>
 Result<One> chosen(std::vector<One> cases, const ExportOptions& options) {
@@ -182,14 +177,7 @@ Result<Source> source_of(const ExportOptions& options) {
 
 /// The preset of a run or by itself, of the case that is asked for.
 Result<preset::Preset> preset_of(const ExportOptions& options) {
-  if (is_folder(options.input)) {
-    auto source = source_of(options);
-    if (!source) return tl::unexpected(source.error());
-    return std::move(source->run.preset);
-  }
-  Options plain;
-  plain.input = options.input;
-  const auto presets = load(plain);
+  const auto presets = load_preset_or_run(options.input);
   if (!presets) return tl::unexpected(presets.error());
   return chosen(runs_of(*presets), options).map([](preset::Case&& one) {
     return std::move(one.preset);

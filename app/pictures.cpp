@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "engine/experiment/steps.h"
 #include "render/figure/vector_shell.h"
 #include "render/image/png.h"
 #include "render/movie/colour_range.h"
@@ -185,6 +186,22 @@ Result<void> write_lines(const record::Trajectory& run, render::MovieStyle style
 
 }  // namespace
 
+namespace {
+
+/// Of stills that each show the end of a step: which; else what the stills say by themselves.
+std::vector<std::string> captions_of(const preset::Preset& preset, const record::Trajectory& run) {
+  std::vector<std::string> captions;
+  if (preset.step.empty() || run.frames.size() != preset.step.size() + 1) return captions;
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    const std::string state = render::still_caption(run.frames[k]);
+    captions.push_back(k == 0 ? state
+                              : experiment::text_of(preset.step[k - 1]).append(": ").append(state));
+  }
+  return captions;
+}
+
+}  // namespace
+
 Result<void> Artist::draw(Pictures pictures, const preset::Preset& preset,
                           const record::Trajectory& run, const SharedBar& bar,
                           const fs::path& folder, Watch& watch) {
@@ -202,7 +219,8 @@ Result<void> Artist::draw_pictures(Pictures pictures, const preset::Preset& pres
   if (pictures == Pictures::stills) {
     const auto stem = folder / fs::path(preset.name).filename();
     auto drawn =
-        render::write_stills(run, style, bar, *renderer_, stem, watch).map([](const auto&) {});
+        render::write_stills(run, style, bar, *renderer_, stem, watch, captions_of(preset, run))
+            .map([](const auto&) {});
     return drawn && style.vector ? write_lines(run, style, stem) : drawn;
   }
   if (auto showable = render::check_showable(run, style); !showable) return showable;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "engine/core/atomic_file.h"
 #include "engine/preset/suggest.h"
 
 namespace gridshell::app {
@@ -26,6 +27,19 @@ Result<preset::Presets> load_preset(const std::string& argument,
   return fail(Fault::bad_input, fmt::format("no preset '{}': neither a file nor a listed name{} "
                                             "('gridshell list' lists them)",
                                             argument, preset::did_you_mean(argument, names)));
+}
+
+Result<preset::Presets> load_preset_or_run(const std::string& argument) {
+  std::error_code error;
+  std::filesystem::path folder(argument);
+  if (!std::filesystem::is_directory(folder, error)) return load_preset(argument, {});
+  if (!folder.has_filename()) folder = folder.parent_path();
+  const auto file = folder / "preset.toml";
+  auto text = read_whole(file, largest_text);
+  if (!text)
+    return fail(Fault::bad_input,
+                fmt::format("'{}' is no run: {}", argument, text.error().message));
+  return preset::read_preset_text(*text, file.string(), folder.filename().string());
 }
 
 }  // namespace gridshell::app

@@ -26,4 +26,7 @@ const std::map<std::string, std::string>& embedded_files();
 Result<preset::Presets> load_preset(const std::string& argument,
                                     const std::vector<preset::Override>& overrides);
 
+/// The same; of a run's folder the preset that it came from, named as the folder.
+Result<preset::Presets> load_preset_or_run(const std::string& argument);
+
 }  // namespace gridshell::app

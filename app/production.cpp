@@ -177,7 +177,7 @@ Result<void> simulate(Job& job, Pictures pictures, int threads, const fs::path& 
 Result<void> draw_alone(Job& job, Pictures pictures, const CaseRecord& one, const SharedBar& bar,
                         const fs::path& folder, Artist& artist, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  const bool curve = pictures == Pictures::stills && is_pushed(job);
+  const bool ends = pictures == Pictures::stills && stills_show_ends(job.preset);
   const auto draw = [&](const record::Trajectory& run) {
     return artist.draw(pictures, job.preset, run, bar, folder, progress.next_phase());
   };
@@ -185,7 +185,7 @@ Result<void> draw_alone(Job& job, Pictures pictures, const CaseRecord& one, cons
     if (is_search(job.preset))
       return draw_states(one, artist.renderer(), folder / fs::path(job.preset.name).filename(),
                          progress.next_phase());
-    return curve ? draw(ends_of(one.run)) : draw(one.run);
+    return ends ? draw(ends_of(one.run)) : draw(one.run);
   };
   auto drawn = draw_it();
   job.summary.seconds_render +=
@@ -199,7 +199,7 @@ Result<void> draw_together(const std::vector<Job>& jobs, const preset::Preset& b
                            const fs::path& partial, Progress& progress) {
   if (drawn_beside(jobs.front(), pictures))
     return draw_beside(records, base.title, artist.renderer(), partial, progress.next_phase());
-  return draw_case_figures(std::move(records), artist.renderer(),
+  return draw_case_figures(std::move(records), base.title, artist.renderer(),
                            partial / fs::path(base.name).filename(),
                            [&]() -> Watch& { return progress.next_phase(); });
 }

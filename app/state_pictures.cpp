@@ -157,7 +157,8 @@ Result<void> draw_states(const CaseRecord& one, render::Renderer& renderer, cons
       .and_then([&] { return plot_at("_lives", lives_plot(states)); })
       .and_then([&]() -> Result<void> {
         if (states.transitions.empty()) return {};
-        return render::write_ways_graph(fs::path(stem) += "_ways", states, one.run, style.print);
+        return render::write_ways_graph(fs::path(stem) += "_ways", states, one.run, style.title,
+                                        style.print);
       })
       .and_then([&]() -> Result<void> {
         const auto passes = render::barrier_plot(states);

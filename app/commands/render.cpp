@@ -78,7 +78,8 @@ Result<void> draw_together(std::vector<FinishedRun>& runs, const fs::path& from,
   if (drawn_beside(runs.front()))
     return draw_beside(records, title_of_cases(from, stem.string()), artist.renderer(), to,
                        progress.next_phase());
-  return draw_case_figures(std::move(records), artist.renderer(), to / stem,
+  return draw_case_figures(std::move(records), title_of_cases(from, stem.string()),
+                           artist.renderer(), to / stem,
                            [&]() -> Watch& { return progress.next_phase(); });
 }
 
@@ -91,9 +92,9 @@ Result<void> draw_run(FinishedRun& run, const SharedBar& bar, Artist& artist, co
         if (run.preset.jitter.wanted())
           return draw_states({run.preset, run.trajectory, run.states}, artist.renderer(),
                              to / fs::path(run.preset.name).filename(), progress.next_phase());
-        const bool curve = shows_push(run);
+        const bool ends = is_still(run) && stills_show_ends(run.preset);
         const record::Trajectory& all = run.trajectory;
-        return artist.draw(run.pictures, run.preset, curve ? ends_of(all) : all, bar, to,
+        return artist.draw(run.pictures, run.preset, ends ? ends_of(all) : all, bar, to,
                            progress.next_phase());
       })
       .and_then([&] {

@@ -16,6 +16,7 @@
 #include "app/preset_library.h"
 #include "app/ui/desktop.h"
 #include "app/ui/playback.h"
+#include "app/window/workspace.h"
 #include "engine/core/atomic_file.h"
 #include "engine/record/json.h"
 #include "render/image/png.h"
@@ -27,15 +28,13 @@ namespace fs = std::filesystem;
 
 struct ViewOptions {
   std::string input, record, play, shot, context = "auto";
-  fs::path output = "out";
+  fs::path output = "out", workspace;
   double bench = 0;
 };
 
-/// The preset of that name or file, or of a run; of several cases the first.
-Result<preset::Preset> preset_of(const std::string& name) {
-  const fs::path run = fs::path(name) / "preset.toml";
-  std::error_code error;
-  auto presets = load_preset(fs::is_directory(name, error) ? run.string() : name, {});
+/// Of several cases the first.
+Result<preset::Preset> first_preset_of(const std::string& name) {
+  auto presets = load_preset_or_run(name);
   if (!presets) return tl::unexpected<Error>(presets.error());
   return presets->cases.empty() ? presets->base : presets->cases.front().preset;
 }
@@ -45,7 +44,7 @@ window::Library library_of(const ViewOptions& options) {
   for (const EmbeddedPreset& embedded : embedded_presets())
     if (const auto presets = load_preset(embedded.name, {}))
       library.cards.push_back({embedded.name, presets->base.title});
-  library.load = preset_of;
+  library.load = first_preset_of;
   library.save_to = options.output;
   return library;
 }
@@ -134,6 +133,24 @@ int play_aside(const ViewOptions& options, window::Desk& desk) {
   return ExitCode::done;
 }
 
+/// The workspace of the last visit; one that cannot be read is none.
+void restore(const ViewOptions& options, window::Desk& desk) {
+  if (options.workspace.empty()) return;
+  if (const auto text = read_whole(options.workspace, largest_text))
+    if (auto taken = window::take_workspace(desk, *text); !taken)
+      fmt::print(stderr, "{}: {}\n", options.workspace.string(), taken.error().message);
+}
+
+/// Kept for the next visit.
+void keep(const ViewOptions& options, const window::Desk& desk) {
+  if (options.workspace.empty() || !desk.sight->any()) return;
+  const fs::path folder = options.workspace.parent_path();
+  const auto kept = (folder.empty() ? Result<void>{} : make_folder(folder)).and_then([&] {
+    return write_atomically(options.workspace, window::workspace_text(desk));
+  });
+  if (!kept) fmt::print(stderr, "the workspace is not kept: {}\n", kept.error().message);
+}
+
 int show(const ViewOptions& options, window::Desk& desk) {
   std::ofstream record;
   if (!options.record.empty()) {
@@ -152,21 +169,26 @@ int show(const ViewOptions& options, window::Desk& desk) {
   return interrupt_came() ? ExitCode::interrupted : ExitCode::done;
 }
 
-int view(const ViewOptions& options) {
+int view(ViewOptions options) {
   if (options.bench > 0 && options.input.empty())
     return report(
         {Fault::bad_input, "view --bench S takes a preset: gridshell view PRESET --bench S"});
   if (!options.shot.empty() && options.play.empty() && options.input.empty())
     return report({Fault::bad_input, "view --shot PNG takes a preset or --play FILE"});
+  const bool off_screen = !options.play.empty() || !options.shot.empty() || options.bench > 0;
+  // what is played is the same everywhere
+  if (options.workspace.empty() && !off_screen) options.workspace = window::workspace_file();
   share_processors();
   window::Desk desk(library_of(options));
+  restore(options, desk);
   if (!options.input.empty()) {
-    const auto preset = preset_of(options.input);
+    const auto preset = first_preset_of(options.input);
     if (!preset) return report(preset.error());
     desk.open(options.input);
   }
-  const bool off_screen = !options.play.empty() || !options.shot.empty() || options.bench > 0;
-  return off_screen ? play_aside(options, desk) : show(options, desk);
+  const int code = off_screen ? play_aside(options, desk) : show(options, desk);
+  keep(options, desk);
+  return code;
 }
 
 }  // namespace
@@ -178,6 +200,9 @@ void add_view(CLI::App& program, Action& action) {
   command->add_option("preset", options->input, "a preset's file or name, or a run's folder");
   command->add_option("-o,--output", options->output,
                       "folder that pictures and presets are saved to, by default out");
+  command->add_option("--workspace", options->workspace,
+                      "file that keeps camera, colours and panels from one visit to the next, by "
+                      "default ~/.local/state/gridshell/workspace.json; off-screen none");
   command->add_option("--record", options->record, "keeps the input as text, a line an event");
   command->add_option("--play", options->play,
                       "plays recorded input off-screen, each event's equilibrium awaited");

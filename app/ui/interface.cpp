@@ -224,7 +224,7 @@ void Interface::mark_under() {
   const window::Sight& sight = *desk_.sight;
   if (!sight.any()) return;
   const record::Layout& layout = *sight.layout;
-  const int joint = desk_.show.joint_under, edge = desk_.show.edge_under;
+  const int joint = desk_.joint_under, edge = desk_.edge_under;
   int node = -1;
   if (joint >= 0 && joint < int(layout.joints.size())) node = joint;
   if (edge >= 0 && edge < int(layout.edge_points.size()))
@@ -258,13 +258,7 @@ void Interface::lay_out() {
 /// Anew only where anything that it shows is new, and sharp only once it rests.
 Result<void> Interface::draw_shell() {
   if (!desk_.sight->any() || desk_.view.width < 16) return {};
-  const render::Camera& c = desk_.camera;
-  const window::Show& s = desk_.show;
-  const std::string shown = fmt::format(
-      "{} {} {} {} {} {} {} {} {} {} {}{}{}{}{}{} {} {} {}", c.azimuth_deg, c.elevation_deg,
-      c.half_extent_mm, c.field_of_view_deg, c.target.x(), c.target.y(), c.target.z(),
-      desk_.view.width, desk_.view.height, int(s.colour_by), s.joints, s.rings, s.ground, s.net,
-      s.footprint, s.dark, s.mode_mm, s.scale.low, s.scale.high);
+  const ShownShell shown{desk_.camera, desk_.view, desk_.show};
   const bool anew = shell_anew_ || shown != shown_;
   if (anew) still_seconds_ = 0;
   const bool sharp = !anew && still_seconds_ >= sharp_after_s;

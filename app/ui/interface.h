@@ -48,6 +48,14 @@ class Interface {
   int height() const { return height_; }
 
  private:
+  /// What a picture of the shell hangs on, beside the sight.
+  struct ShownShell {
+    render::Camera camera;
+    window::PictureSize view;
+    window::Show show;
+    bool operator==(const ShownShell&) const = default;
+  };
+
   Interface(const render::Gl& gl, render::Renderer& renderer, window::Desk& desk);
   void feed();
   void feed(const window::InputEvent& event);
@@ -75,7 +83,7 @@ class Interface {
   double density_ = 1;
   double still_seconds_ = 0;
   bool shell_anew_ = true, sharp_ = false, dark_ = false;
-  std::string shown_;  // what the picture was last drawn of, beside the sight
+  std::optional<ShownShell> shown_;  // the last picture
 };
 
 }  // namespace gridshell::ui

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <variant>
 
 #include "app/ui/panel.h"
@@ -82,7 +81,10 @@ bool NumbersPanel::edit(const Panel& panel, const Field& field) {
               fmt::format("{}{}; {}", field.meaning, field.unit.empty() ? "" : ", in " + field.unit,
                           allowed(field)));
   if (ImGui::IsItemActive()) active_ = name;
-  if (changed) panel.desk.change(edited_, ImGui::IsItemActive());
+  if (changed) {
+    panel.desk.change(edited_, ImGui::IsItemActive());
+    find_idle();
+  }
   if (ImGui::IsItemDeactivated()) {
     if (active_ == name) panel.desk.let_go();
     active_.clear();
@@ -90,25 +92,36 @@ bool NumbersPanel::edit(const Panel& panel, const Field& field) {
   return changed;
 }
 
+void NumbersPanel::find_idle() {
+  idle_.clear();
+  for (const auto& key : preset::idle_keys(edited_))
+    if (key.item < 0) idle_.insert(key.table + "." + key.key);
+}
+
+/// While a hand is at a number, the engine's answer may be older than its wish.
+void NumbersPanel::look(const window::Desk& desk) {
+  if (!active_.empty() || seen_ == desk.sight) return;
+  seen_ = desk.sight;
+  edited_ = seen_->preset;
+  find_idle();
+}
+
 void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
   begin_fixed("numbers", box);
   heading(panel, "Numbers of the preset");
   if (panel.desk.sight->any()) {
-    // while a hand is at one, the engine's answer may be older than its wish
-    if (active_.empty()) edited_ = panel.desk.sight->preset;
-    std::set<std::string> idle;
-    for (const auto& key : preset::idle_keys(edited_))
-      if (key.item < 0) idle.insert(key.table + "." + key.key);
+    look(panel.desk);
+    // an edit may take a number away or bring one
+    const auto shown = [this](const Field& field, const char* table) {
+      return field.table == table && has_control(field) &&
+             !idle_.contains(field.table + "." + field.key);
+    };
     for (const char* table : shown_tables) {
       bool any = false;
-      for (const Field& field : preset::field_table())
-        any |= field.table == table && has_control(field) &&
-               !idle.contains(field.table + "." + field.key);
+      for (const Field& field : preset::field_table()) any |= shown(field, table);
       if (!any || !ImGui::CollapsingHeader(table, ImGuiTreeNodeFlags_DefaultOpen)) continue;
       for (const Field& field : preset::field_table())
-        if (field.table == table && has_control(field) &&
-            !idle.contains(field.table + "." + field.key))
-          edit(panel, field);
+        if (shown(field, table)) edit(panel, field);
     }
   }
   ImGui::End();

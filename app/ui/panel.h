@@ -4,6 +4,8 @@
 #include <imgui.h>
 
 #include <map>
+#include <memory>
+#include <set>
 #include <string>
 
 #include "app/window/actions.h"
@@ -52,8 +54,13 @@ class NumbersPanel {
 
  private:
   bool edit(const Panel& panel, const preset::Field& field);
+  void look(const window::Desk& desk);
+  void find_idle();
+
+  std::shared_ptr<const window::Sight> seen_;  // that the numbers are of
   preset::Preset edited_;
-  std::string active_;  // the key under the hand
+  std::set<std::string> idle_;  // keys that count for nothing in it
+  std::string active_;          // the key under the hand
 };
 
 }  // namespace gridshell::ui

@@ -123,6 +123,34 @@ void accuracy(const Panel& panel) {
   panel.named("model", "the model: auto takes the lowest rung that is exact for the scene");
 }
 
+void colour_range(const Panel& panel) {
+  Desk& desk = panel.desk;
+  if (desk.show.colour_by == window::ColourBy::none) return;
+  const auto action_of = [](window::RangeOf of) {
+    return window::find_action("range_" + std::string(word_of(of)));
+  };
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##range", action_of(desk.range_of)->label)) {
+    for (const auto& entry : words(window::RangeOf{}))
+      if (ImGui::Selectable(action_of(entry.value)->label, entry.value == desk.range_of))
+        action_of(entry.value)->act(desk);
+    ImGui::EndCombo();
+  }
+  panel.named("range", action_of(desk.range_of)->help);
+  if (desk.range_of != window::RangeOf::hand) return;
+  auto low = float(desk.show.scale.low), high = float(desk.show.scale.high);
+  const float step = 0.005f * std::max(1e-6f, high - low);
+  const float width = 0.5f * (ImGui::GetContentRegionAvail().x - panel.px(6));
+  ImGui::SetNextItemWidth(width);
+  bool changed = ImGui::DragFloat("##low", &low, step, 0, 0, "%.4g");
+  panel.named("range_low", "the low end of the colours, in the unit of the legend");
+  ImGui::SameLine(0, panel.px(6));
+  ImGui::SetNextItemWidth(width);
+  changed |= ImGui::DragFloat("##high", &high, step, 0, 0, "%.4g");
+  panel.named("range_high", "the high end of the colours, in the unit of the legend");
+  if (changed) desk.set_range(double(low), double(high));
+}
+
 void colours(const Panel& panel) {
   Desk& desk = panel.desk;
   heading(panel, "Colour");
@@ -134,7 +162,7 @@ void colours(const Panel& panel) {
     ImGui::EndCombo();
   }
   panel.named("colour", window::meaning_of(desk.show.colour_by));
-  panel.tick("hold_range");
+  colour_range(panel);
 }
 
 void picked(const Panel& panel) {

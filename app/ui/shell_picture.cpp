@@ -36,7 +36,6 @@ Result<void> ShellPicture::draw(const window::Desk& desk, window::Sharpness shar
 
 Result<render::Image> ShellPicture::for_file(const window::Desk& desk) const {
   window::Show show = desk.show;
-  show.joint_under = show.edge_under = -1;
   show.dark = false;
   const int width = 2 * int(desk.view.width), height = 2 * int(desk.view.height);
   auto image = draw_shell(*renderer_, desk, show, {.supersample = 1, .shadow = true}, width, height,

@@ -11,6 +11,17 @@ void colour(Desk& desk) {
   desk.show.colour_by = by;
   desk.show.scale = scale_of(values_of(*desk.sight, by), by);
 }
+template <RangeOf of>
+void range(Desk& desk) {
+  desk.range_of = of;
+  const render::ColourScale now =
+      scale_of(values_of(*desk.sight, desk.show.colour_by), desk.show.colour_by);
+  desk.show.scale = next_scale(desk.show.scale, now, of);
+}
+template <RangeOf of>
+bool ranged(const Desk& desk) {
+  return desk.range_of == of;
+}
 template <ColourBy by>
 bool coloured(const Desk& desk) {
   return desk.show.colour_by == by;
@@ -49,7 +60,7 @@ const std::array table{
     Action{"save_picture", "File", "Save picture", ctrl(Key::p),
            "keeps the view as a PNG of movie quality", [](Desk& d) { d.save_picture(); }},
     Action{"save_preset", "File", "Save preset", ctrl(Key::s),
-           "keeps radius, numbers, one push and the camera as a preset that runs",
+           "keeps numbers, camera and what the hand did, step by step, as a preset that runs",
            [](Desk& d) { d.save_preset(); }},
     Action{"quit", "File", "Quit", ctrl(Key::q), "closes the window",
            [](Desk& d) { d.over = true; }},
@@ -139,9 +150,15 @@ const std::array table{
            colour<ColourBy::axial_force>, coloured<ColourBy::axial_force>},
     Action{"colour_displacement", "Colour", "Displacement", on(Key::u), "rods by how far they moved",
            colour<ColourBy::displacement>, coloured<ColourBy::displacement>},
-    Action{"hold_range", "Colour", "Hold the range", on(Key::h),
-           "the colours keep their range from one state to the next",
-           switch_desk<&Desk::hold_range>, is_on<&Desk::hold_range>},
+    Action{"range_state", "Colour", "Range of this state", none,
+           "the colours' range follows the state in sight", range<RangeOf::state>,
+           ranged<RangeOf::state>},
+    Action{"range_run", "Colour", "Range of all states", on(Key::h),
+           "the range only widens, so that states can be compared", range<RangeOf::run>,
+           ranged<RangeOf::run>},
+    Action{"range_hand", "Colour", "Range by hand", none,
+           "the range stays as it is, and its ends can be set", range<RangeOf::hand>,
+           ranged<RangeOf::hand>},
 
     Action{"help", "Help", "Keys and mouse", on(Key::f1), "this sheet",
            switch_desk<&Desk::help>, is_on<&Desk::help>},

@@ -8,6 +8,7 @@ namespace gridshell::window {
 /// A picture's size in pixels.
 struct PictureSize {
   double width = 1, height = 1;
+  bool operator==(const PictureSize&) const = default;
 };
 
 /// Millimetres a pixel in the plane through the camera's target.

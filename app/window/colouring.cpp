@@ -86,4 +86,22 @@ render::ColourScale scale_of(const Values& values, ColourBy by) {
   return {render::ColourMap::sequential, 0, end, values.of_nodes.size() > 0 ? 0.2 : 0};
 }
 
+render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,
+                               RangeOf of) {
+  render::ColourScale next = now;
+  switch (of) {
+    case RangeOf::state:
+      break;
+    case RangeOf::run:
+      next.low = std::min(before.low, now.low);
+      next.high = std::max(before.high, now.high);
+      break;
+    case RangeOf::hand:
+      next.low = before.low;
+      next.high = before.high;
+      break;
+  }
+  return next;
+}
+
 }  // namespace gridshell::window

@@ -21,6 +21,14 @@ constexpr auto words(ColourBy) {
                                {ColourBy::displacement, "displacement"}});
 }
 
+/// What the colours' range is of: the state in sight, all since it was chosen, or as it was set by
+/// hand.
+enum class RangeOf { state, run, hand };
+constexpr auto words(RangeOf) {
+  return word_table<RangeOf>(
+      {{RangeOf::state, "state"}, {RangeOf::run, "run"}, {RangeOf::hand, "hand"}});
+}
+
 /// As the interface names it, with its unit: "bending energy (mJ/m)".
 const char* label_of(ColourBy by);
 /// What it is, in a sentence.
@@ -36,5 +44,9 @@ Values values_of(const Sight& sight, ColourBy by);
 
 /// The scale of a sight's values, with nice ends.
 render::ColourScale scale_of(const Values& values, ColourBy by);
+
+/// The one that goes on from `before` as the range wants it.
+render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,
+                               RangeOf of);
 
 }  // namespace gridshell::window

@@ -89,6 +89,13 @@ void Desk::drag_edge(int edge_point, const Eigen::Vector3d& to, bool passing) {
   post(DragEdge{edge_point, to}, passing);
 }
 
+void Desk::set_range(double low, double high) {
+  if (!(low < high)) return;
+  range_of = RangeOf::hand;
+  show.scale.low = low;
+  show.scale.high = high;
+}
+
 void Desk::toggle_gravity() {
   if (!sight->any()) return;
   preset::Preset preset = sight->preset;
@@ -134,18 +141,14 @@ preset::Preset Desk::preset_to_save() const {
   preset.movie.turn_deg = 0;
   preset.movie.orthographic = camera.field_of_view_deg == 0;
   preset.indentation = {};
-  if (sight->held.size() == 1) {
-    const HeldJoint& held = sight->held.front();
-    const record::Joint& joint = sight->layout->joints[std::size_t(held.joint)];
-    const Eigen::Vector3d along =
-        held.along.isZero(0) ? Eigen::Vector3d(sight->normals.col(held.joint)) : held.along;
-    const double depth = held.moved_mm.dot(along);
-    preset::Indentation& push = preset.indentation;
-    push.joint = {joint.i, joint.j};
-    push.depth_mm = std::abs(depth);
-    push.direction = depth < 0 ? preset::Direction::inward : preset::Direction::outward;
-    push.lateral = held.along.isZero(0) ? preset::Lateral::held : preset::Lateral::free;
-  }
+  // a boundary that was moved and nothing else is a preset of that radius
+  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
+  const bool moves = std::ranges::all_of(sight->steps, [](const preset::Step& step) {
+    return step.deed == preset::Deed::move && step.edge_points.empty();
+  });
+  if (circle && moves) return preset;
+  preset.step = sight->steps;
+  if (circle) preset.actuation.radius_mm = sight->radius_end_mm;
   return preset;
 }
 
@@ -157,11 +160,7 @@ void Desk::save_preset() {
   const auto written = write_atomically(file, preset::to_toml(preset_to_save()));
   if (!written) return say(written.error().message, true);
   std::string left_out;
-  if (sight->held.size() > 1) left_out = ", without the pushes: a preset has one";
-  if (sight->edges_dragged) left_out += ", without the edge points that were dragged";
-  if (sight->jittered) left_out += ", in the state of its path, not the one jittered to";
-  if (!std::isfinite(sight->frame.boundary_radius_mm) && std::abs(sight->progress - 1) > 1e-6)
-    left_out += ", at the end of its path: a preset has no part of one";
+  if (sight->changed_late) left_out = "; numbers that were changed on the way count from its begin";
   say("saved " + file.string() + left_out, !left_out.empty());
 }
 
@@ -208,17 +207,31 @@ void Desk::take(std::shared_ptr<const Sight> next) {
   else if (newer)
     say("");
   if (!sight->any() || !newer) return;
-  if (fresh_) {
-    fresh_ = false;
-    camera.field_of_view_deg = sight->preset.movie.orthographic ? 0 : 20;
-    look({sight->preset.movie.azimuth_deg, sight->preset.movie.elevation_deg});
-    show.footprint = show.net = false;
-    // the same words
-    if (const auto by = find_word<ColourBy>(word_of(sight->preset.movie.colour_by)))
-      show.colour_by = *by;
-  }
-  if (!hold_range) show.scale = scale_of(values_of(*sight, show.colour_by), show.colour_by);
+  if (fresh_) look_anew();
+  show.scale =
+      next_scale(show.scale, scale_of(values_of(*sight, show.colour_by), show.colour_by), range_of);
   read_off();
+}
+
+/// Another shell: as its preset would have it seen, or as it was seen last.
+void Desk::look_anew() {
+  fresh_ = false;
+  const preset::Movie& movie = sight->preset.movie;
+  show.footprint = show.net = false;
+  // the same words
+  if (const auto by = find_word<ColourBy>(word_of(movie.colour_by))) show.colour_by = *by;
+  camera.field_of_view_deg = movie.orthographic ? 0 : 20;
+  look({movie.azimuth_deg, movie.elevation_deg});
+  if (kept_view && kept_view->preset == sight->preset.name) {
+    camera = kept_view->camera;
+    show.colour_by = kept_view->colour_by;
+  } else if (kept_view && range_of == RangeOf::hand) {
+    range_of = RangeOf::state;  // that was of another quantity
+  }
+  kept_view.reset();
+  // it has a range of its own
+  if (range_of == RangeOf::run)
+    show.scale = scale_of(values_of(*sight, show.colour_by), show.colour_by);
 }
 
 void Desk::read_off() {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,13 @@ struct Reading {
   bool stable = true;
 };
 
+/// How a shell was looked at last.
+struct KeptView {
+  std::string preset;  ///< its name
+  render::Camera camera;
+  ColourBy colour_by = ColourBy::K;
+};
+
 enum class PushWay { normal, freely };
 
 /// Drawn as the camera moves: at half the resolution; still: at all of it.
@@ -49,12 +57,14 @@ class Desk {
   render::Camera camera;
   PictureSize view;  ///< of the shell's picture, pixels
   Show show;
-  bool hold_range = false;  ///< colours keep their scale from one equilibrium to the next
+  std::optional<KeptView> kept_view;  ///< for when that preset's shell comes
+  RangeOf range_of = RangeOf::state;  ///< of the colours
   bool numbers = false, plots = true, help = false, picking = true;
   std::vector<Reading> readings;
   std::string message;  ///< what was done last
   bool message_bad = false;
   int picked_joint = -1, picked_cell = -1;
+  int joint_under = -1, edge_under = -1;  ///< marked: what the cursor is at
   PushWay push_way = PushWay::normal;
   bool animate_mode = false;
   double mode_phase = 0;
@@ -79,13 +89,15 @@ class Desk {
   void play(bool on);
   /// Where on its path the shell is, 0 to 1.
   double part() const;
+  /// The colours' ends by hand; ends that are none change nothing.
+  void set_range(double low, double high);
   void toggle_gravity();
   bool gravity() const { return sight->preset.loads.gravity_m_s2 != 0; }
   void fit_view();
   void look(const ViewFrom& from);
   void say(const std::string& text, bool bad = false);
 
-  /// The preset as the shell stands now: radius, one pushed joint, camera.
+  /// The preset as the shell stands now: radius, or what the hand did step by step; camera.
   preset::Preset preset_to_save() const;
   void save_preset();
   void save_picture();
@@ -97,6 +109,7 @@ class Desk {
  private:
   void post(Deed deed, bool passing);
   void take(std::shared_ptr<const Sight> next);
+  void look_anew();
   void read_off();
   void watch_file(double seconds);
   std::filesystem::path file_to_save(const char* ending) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/preset/field_table.h"
+#include "engine/preset/lists.h"
 #include "engine/preset/reader.h"
 #include "engine/preset/writer.h"
 
@@ -31,9 +32,11 @@ bool is_list(const preset::Field& field) {
   });
 }
 
-/// The tables that stand once an item: building blocks and their seams.
+/// The tables that stand once an item: building blocks, their seams, steps.
 std::string lists_of(const preset::Preset& preset) {
-  if (preset.block.empty() && preset.join.empty()) return "";
+  bool any = false;
+  preset::each_list([&](const char*, auto member) { any |= !(preset.*member).empty(); });
+  if (!any) return "";
   const std::string text = preset::to_toml(preset);
   return text.substr(std::min(text.size(), text.find("[[")));
 }

@@ -12,8 +12,8 @@ struct Show {
   ColourBy colour_by = ColourBy::K;
   render::ColourScale scale;  ///< of the colours
   bool joints = true, rings = true, ground = true, net = false, footprint = false, dark = false;
-  int joint_under = -1, edge_under = -1;  ///< marked: what the cursor is at
-  double mode_mm = 0;                     ///< how far along the soft mode it is drawn
+  double mode_mm = 0;  ///< how far along the soft mode it is drawn
+  bool operator==(const Show&) const = default;
 };
 
 /// Of a sight that has a shell; `thin_mm`: what is as wide as a pixel and a half.

@@ -4,20 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <utility>
 
 #include "app/window/preset_change.h"
 #include "engine/core/clock.h"
 #include "engine/experiment/actuation.h"
 #include "engine/experiment/indentation.h"
-#include "engine/scene/scene_rods.h"
 
 namespace gridshell::window {
 namespace {
 
 constexpr std::size_t most_bytes = 400u << 20;  // of steps to undo
-constexpr double nearest_mm = 1e-9;             // moves below are none
 
 std::size_t bytes_of(const Checkpoint& kept) {
   std::size_t doubles = 0;
@@ -48,18 +45,6 @@ std::string told_of(const std::vector<Event>& events) {
   return told;
 }
 
-/// The artificial gravity of a jitter, on the joints: one random force each.
-std::vector<NodeAction> random_field(const Scene& scene, const preset::Preset& preset, int seed) {
-  std::mt19937 random{std::uint32_t(seed)};
-  // not by a distribution of the standard library, whose numbers differ from one to the next
-  const auto draw = [&] { return 2.0 * double(random()) / double(random.max()) - 1; };
-  const double force = 20 * preset.jitter.field_N_per_mm * scene.footprint.spacing;
-  std::vector<NodeAction> field;
-  for (int joint = 0; joint < int(scene.footprint.joints.size()); ++joint)
-    field.push_back({joint, force * Eigen::Vector3d(draw(), draw(), draw())});
-  return field;
-}
-
 }  // namespace
 
 LevelPlan coarse_plan(const Scene& scene) {
@@ -70,6 +55,7 @@ void ShellInHand::fulfil(const Wish& wish, const Watch& watch) {
   const double begin = seconds_now();
   sight_.trouble.clear();
   sight_.told.clear();
+  now_stroke_ = wish.stroke;
   const bool remembered = remember(wish);
   if (session_ && wish.passing && session_->shell().levels() > 1) coarsen(watch);
   const auto done = std::visit([&](const auto& deed) { return act(deed, watch); }, wish.deed);
@@ -124,8 +110,8 @@ void ShellInHand::coarsen(const Watch& watch) {
 // ---- steps ----
 
 ShellInHand::Step ShellInHand::step() const {
-  return {preset_,   scene_,      session_->save(), progress_, dragged_,
-          taken_at_, sight_.push, sight_.first,     refined_,  jittered_};
+  return {preset_,     scene_,       session_->save(), boundary_, taken_at_,
+          sight_.push, sight_.first, steps_,           refined_,  changed_late_};
 }
 
 /// Keeps the state before a wish, but for one of the stroke that the last step began.
@@ -155,14 +141,15 @@ Result<void> ShellInHand::stand(const Step& step) {
   session_->restore(step.checkpoint);
   preset_ = step.preset;
   scene_ = step.scene;
-  progress_ = step.progress;
-  dragged_ = step.dragged;
+  boundary_ = step.boundary;
   taken_at_ = step.taken_at;
   sight_.push = step.push;
   sight_.first = step.first;
   sight_.layout.reset();
+  steps_ = step.steps;
+  kept_stroke_ = 0;
   refined_ = step.refined;
-  jittered_ = step.jittered;
+  changed_late_ = step.changed_late;
   return {};
 }
 
@@ -202,16 +189,21 @@ Result<void> ShellInHand::form(const preset::Preset& preset, const Watch& watch)
   auto course = experiment::follow_actuation(scene, coarse_plan(*scene), false, 1, watch);
   if (!course) return tl::unexpected<Error>(course.error());
   preset_ = preset;
+  preset_.step.clear();
   scene_ = scene;
   session_ = std::move(course->session);
-  progress_ = session_->progress();
-  dragged_ = Eigen::Matrix3Xd::Zero(3, scene->motion.begin.cols());
+  boundary_ = experiment::HandBoundary::of(*scene);
+  boundary_.progress = session_->progress();
   taken_at_.clear();
-  refined_ = jittered_ = false;
+  steps_.clear();
+  kept_stroke_ = 0;
+  refined_ = changed_late_ = false;
   sight_.told = course->limit_reason;
   sight_.push = {};
   sight_.layout.reset();
   sight_.first = {};
+  for (const preset::Step& step : preset.step)
+    if (auto done = do_step(step, watch); !done) return done;
   if (!preset.indentation.wanted()) return {};
   const auto push = experiment::push_of(preset.indentation, *scene, session_->shell().finest(),
                                         session_->nodes());
@@ -232,12 +224,9 @@ Result<void> ShellInHand::act(const Change& wish, const Watch& watch) {
   switch (kind) {
     case ChangeKind::none:
       break;
-    case ChangeKind::looks: {
-      const double radius = preset_.actuation.radius_mm, ratio = preset_.actuation.ratio;
-      preset_ = wish.preset;
-      preset_.actuation.radius_mm = radius, preset_.actuation.ratio = ratio;
+    case ChangeKind::looks:
+      take_numbers(wish.preset);
       return {};
-    }
     case ChangeKind::accuracy: {
       auto scene = std::make_shared<Scene>(*scene_);
       scene->tolerance = wish.preset.accuracy.tolerance;
@@ -267,99 +256,16 @@ Result<void> ShellInHand::put_rods(const preset::Preset& preset, const Watch& wa
   const auto report = session_->set_rods(scene->rods, watch);
   if (!report) return tl::unexpected<Error>(report.error());
   if (auto done = ended(*report); !done) return done;
+  take_numbers(preset);
+  changed_late_ = !steps_.empty();
+  return {};
+}
+
+/// All but where the boundary's motion ends, which the scene has.
+void ShellInHand::take_numbers(const preset::Preset& preset) {
   const double radius = preset_.actuation.radius_mm, ratio = preset_.actuation.ratio;
   preset_ = preset;
   preset_.actuation.radius_mm = radius, preset_.actuation.ratio = ratio;
-  return {};
-}
-
-Result<void> ShellInHand::act(const Move& wish, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
-  return put_boundary(std::max(wish.progress, sight_.least_progress), dragged_, watch);
-}
-
-/// The boundary to where the scene's motion has it, with the edge points dragged off it.
-Result<void> ShellInHand::put_boundary(double progress, const Eigen::Matrix3Xd& dragged,
-                                       const Watch& watch) {
-  if (dragged.isZero(0) && dragged_.isZero(0)) {
-    const auto done = ended(session_->move_to(progress, watch));
-    progress_ = session_->progress();
-    return done;
-  }
-  BoundaryMotion motion = scene_->motion;
-  const Eigen::Matrix3Xd way = motion.end - motion.begin;
-  motion.end = motion.begin + progress * way + dragged;
-  const Report report = session_->rebase(motion, watch);
-  const auto done = ended(report);
-  const double part = report.t;
-  progress_ += part * (progress - progress_);
-  dragged_ += part * (dragged - dragged_);
-  return done;
-}
-
-Result<void> ShellInHand::act(const DragEdge& wish, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
-  if (wish.edge_point < 0 || wish.edge_point >= dragged_.cols())
-    return fail(Fault::bad_input, "no such edge point");
-  if (scene_->motion.end_tangent.cols() > 0 || scene_->motion.end_far.cols() > 0)
-    return fail(Fault::bad_input, "ends whose direction is held cannot be dragged one by one");
-  const Eigen::Index k = wish.edge_point;
-  const Eigen::Vector3d place =
-      scene_->motion.begin.col(k) + progress_ * (scene_->motion.end - scene_->motion.begin).col(k);
-  Eigen::Matrix3Xd dragged = dragged_;
-  dragged.col(k) = wish.to - place;
-  if ((dragged - dragged_).norm() < nearest_mm) return {};
-  return put_boundary(progress_, dragged, watch);
-}
-
-Result<void> ShellInHand::act(const Push& wish, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
-  if (wish.joint < 0 || wish.joint >= int(scene_->footprint.joints.size()))
-    return fail(Fault::bad_input, "no such joint");
-  const Eigen::Vector3d at = session_->nodes().col(wish.joint);
-  // as it was seen, which the coarse mesh of a drag does not change
-  const Eigen::Vector3d seen = sight_.frame.nodes.col(wish.joint);
-  const bool first = taken_at_.emplace(wish.joint, seen).second;
-  Eigen::Vector3d way = wish.to - at;
-  const bool free = !wish.along.isZero(0);
-  if (free) way = wish.along * wish.along.dot(way);
-  if (way.norm() < nearest_mm && !first) return {};
-  // a hand that does not move yet takes hold along its own direction
-  if (way.norm() < nearest_mm) way = nearest_mm * (free ? wish.along : Eigen::Vector3d::UnitZ());
-  return ended(session_->push(wish.joint, way, free ? Across::free : Across::held, watch));
-}
-
-Result<void> ShellInHand::act(const Release& wish, const Watch& watch) {
-  if (!session_ || session_->holds().empty()) return fail(Fault::bad_input, "no joint is held");
-  std::vector<int> joints{wish.joint};
-  if (wish.joint < 0) {
-    joints.clear();
-    for (const Hold& hold : session_->holds()) joints.push_back(hold.node);
-  }
-  for (int joint : joints) {
-    if (auto done = ended(session_->release(joint, watch)); !done) return done;
-    taken_at_.erase(joint);
-  }
-  return {};
-}
-
-Result<void> ShellInHand::act(const Rest& wish, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
-  return ended(session_->rest(watch, wish.side));
-}
-
-Result<void> ShellInHand::act(const Jitter& wish, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
-  const Checkpoint before = session_->save();
-  const auto thrown = ended(session_->set_field(random_field(*scene_, preset_, wish.seed), watch));
-  // a field that the shell cannot bear all the way has moved it as well
-  if (watch.cancelled()) return session_->restore(before), thrown;
-  const auto back = ended(session_->set_field({}, watch));
-  if (back)
-    jittered_ = true;
-  else
-    session_->restore(before);
-  return back;
 }
 
 }  // namespace gridshell::window

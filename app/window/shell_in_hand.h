@@ -6,11 +6,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/window/sight.h"
 #include "app/window/wish.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
+#include "engine/experiment/steps.h"
 #include "engine/session/session.h"
 
 namespace gridshell::window {
@@ -32,12 +34,12 @@ class ShellInHand {
     preset::Preset preset;
     std::shared_ptr<const Scene> scene;
     Checkpoint checkpoint;
-    double progress = 1;
-    Eigen::Matrix3Xd dragged;
+    experiment::HandBoundary boundary;
     std::map<int, Eigen::Vector3d> taken_at;
     PresetPush push;
     record::Frame first;
-    bool refined = true, jittered = false;
+    std::vector<preset::Step> steps;
+    bool refined = true, changed_late = false;
   };
 
   Result<void> act(const Open& wish, const Watch& watch);
@@ -54,7 +56,9 @@ class ShellInHand {
 
   Result<void> form(const preset::Preset& preset, const Watch& watch);
   Result<void> put_rods(const preset::Preset& preset, const Watch& watch);
-  Result<void> put_boundary(double progress, const Eigen::Matrix3Xd& dragged, const Watch& watch);
+  void take_numbers(const preset::Preset& preset);
+  Result<void> do_step(preset::Step step, const Watch& watch);
+  void keep(preset::Step step, const Report& report);
   Result<void> ended(const Report& report);
   void coarsen(const Watch& watch);
   bool remember(const Wish& wish);
@@ -70,12 +74,14 @@ class ShellInHand {
   preset::Preset preset_;
   std::shared_ptr<const Scene> scene_;
   std::optional<Session> session_;
-  double progress_ = 1;
-  Eigen::Matrix3Xd dragged_;                 // of the edge points off the scene's motion, mm
+  experiment::HandBoundary boundary_;
   std::map<int, Eigen::Vector3d> taken_at_;  // where joints were taken hold of
   std::deque<Step> undo_, redo_;
-  int stroke_ = 0;  // that the last step belongs to
-  bool refined_ = false, jittered_ = false;
+  int stroke_ = 0;                        // that the last step to undo belongs to
+  std::vector<preset::Step> steps_;       // what the hand did since the shell was formed
+  int now_stroke_ = 0, kept_stroke_ = 0;  // of the wish at hand, and of the last of steps_
+  bool kept_eventful_ = false;            // whether that came past something
+  bool refined_ = false, changed_late_ = false;
   int nodes_shown_ = 0;  // of the layout in sight
   Sight sight_;
 };

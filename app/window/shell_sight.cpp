@@ -32,15 +32,17 @@ void ShellInHand::look() {
   look_at_layout();
   if (!s.layout) return;
   s.frame = experiment::frame_of(*session_);
-  s.frame.progress = s.frame.actuation = s.progress = progress_;
-  s.frame.boundary_radius_mm = scene_->radius_at(progress_);
+  s.frame.progress = s.frame.actuation = s.progress = boundary_.progress;
+  s.frame.boundary_radius_mm = scene_->radius_at(boundary_.progress);
   if (s.preset.footprint.kind == preset::FootprintKind::circle)
     s.preset.set_radii(scene_->radius_begin_mm, s.frame.boundary_radius_mm);
   s.certificate = session_->certificate();
   s.meshes = session_->shell().plan().edges_per_segment;
   s.refined = refined_;
-  s.edges_dragged = !dragged_.isZero(0);
-  s.jittered = jittered_;
+  s.steps = steps_;
+  s.radius_end_mm = scene_->radius_end_mm;
+  s.edges_dragged = !boundary_.dragged.isZero(0);
+  s.changed_late = changed_late_;
   look_at_normals();
   s.held.clear();
   for (std::size_t k = 0; k < session_->holds().size(); ++k) {

@@ -39,14 +39,17 @@ struct Sight {
   double least_progress = 0;  ///< to which it can be let out
   std::vector<HeldJoint> held;
   PresetPush push;
-  bool edges_dragged = false, jittered = false;  ///< by hand, which no preset says
-  Eigen::Matrix3Xd normals;                      ///< one a joint: t_u x t_v
-  Eigen::VectorXd axial_N;                       ///< one a node, the mean of its edges
-  Eigen::VectorXd bending_mJ_m;                  ///< one a node: energy over length, J/m / 1000
-  Eigen::VectorXd deviation;   ///< one a cell, mean of its joints, over rho; empty without a net
-  Eigen::Matrix3Xd soft_mode;  ///< of a state that is not stable: unit moves of its nodes
-  std::string told;            ///< what happened on the way; empty: nothing
-  std::string trouble;         ///< why the last wish was not met; empty: it was
+  std::vector<preset::Step> steps;  ///< what the hand did since the shell was formed
+  double radius_end_mm = 0;         ///< of a circle's boundary where its motion ends
+  bool edges_dragged = false;
+  bool changed_late = false;     ///< numbers of its rods were changed after steps
+  Eigen::Matrix3Xd normals;      ///< one a joint: t_u x t_v
+  Eigen::VectorXd axial_N;       ///< one a node, the mean of its edges
+  Eigen::VectorXd bending_mJ_m;  ///< one a node: energy over length, J/m / 1000
+  Eigen::VectorXd deviation;     ///< one a cell, mean of its joints, over rho; empty without a net
+  Eigen::Matrix3Xd soft_mode;    ///< of a state that is not stable: unit moves of its nodes
+  std::string told;              ///< what happened on the way; empty: nothing
+  std::string trouble;           ///< why the last wish was not met; empty: it was
   int undo_steps = 0, redo_steps = 0;
   int equilibria = 0;  ///< found so far
   double seconds = 0;  ///< the last one took

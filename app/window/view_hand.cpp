@@ -41,13 +41,13 @@ void ViewHand::find(double x, double y) {
 void ViewHand::hover(double x, double y) {
   if (holding_) return;
   find(x, y);
-  desk_.show.joint_under = joint_;
-  desk_.show.edge_under = edge_;
+  desk_.joint_under = joint_;
+  desk_.edge_under = edge_;
 }
 
 void ViewHand::leave() {
   if (holding_) return;
-  joint_ = edge_ = desk_.show.joint_under = desk_.show.edge_under = -1;
+  joint_ = edge_ = desk_.joint_under = desk_.edge_under = -1;
 }
 
 void ViewHand::press(Button button, bool shift, double x, double y) {

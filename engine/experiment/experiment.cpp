@@ -11,6 +11,8 @@
 #include "engine/experiment/frames.h"
 #include "engine/experiment/indentation.h"
 #include "engine/experiment/net_sample.h"
+#include "engine/experiment/stepped.h"
+#include "engine/experiment/steps.h"
 #include "engine/measure/deviation.h"
 #include "engine/preset/rung.h"
 #include "engine/scene/scene.h"
@@ -155,6 +157,11 @@ Result<Plan> plan(const preset::Preset& preset) {
   if (preset.indentation.wanted() && preset.indentation.joint.size() == 2)
     if (auto joint = pushed_joint(preset.indentation, scene->footprint, {}); !joint)
       return tl::unexpected<Error>(joint.error());
+  for (std::size_t k = 0; k < preset.step.size(); ++k)
+    if (!preset.step[k].joint.empty())
+      if (auto joint = joint_of(preset.step[k], scene->footprint); !joint)
+        return fail(joint.error().fault,
+                    fmt::format("[[step]] {} {}", k + 1, joint.error().message));
   Plan plan;
   plan.model = word_of(scene->rung);
   plan.memory_GB = memory_GB(scene->footprint, scene->rung, levels);
@@ -183,20 +190,33 @@ Result<Plan> plan(const preset::Preset& preset) {
 
 namespace {
 
+/// What the preset wants done, followed and shown; of steps, what each came to.
+Result<Course> course_for(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
+                          bool stills, std::vector<std::string>& told, LastFrame& sink,
+                          Watch& watch) {
+  if (preset.indentation.wanted())
+    return run_indentation(scene, preset.indentation, samples_of_push(preset, stills), sink, watch);
+  if (preset.step.empty()) return run_actuation(scene, samples_of(preset, stills), sink, watch);
+  // stills show each step's end
+  auto stepped = run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch);
+  if (!stepped) return tl::unexpected<Error>(stepped.error());
+  told = std::move(stepped->told);
+  return std::move(stepped->course);
+}
+
 /// Runs a scene on a rung that solves, and says what was followed.
 Result<void> follow(const preset::Preset& preset, std::shared_ptr<const Scene> scene, bool stills,
                     LastFrame& sink, Watch& watch, record::Summary& summary) {
   const double begin = seconds_now();
-  auto course =
-      preset.indentation.wanted()
-          ? run_indentation(scene, preset.indentation, samples_of_push(preset, stills), sink, watch)
-          : run_actuation(scene, samples_of(preset, stills), sink, watch);
+  std::vector<std::string> told;
+  auto course = course_for(preset, scene, stills, told, sink, watch);
   if (watch.cancelled()) return tl::unexpected<Error>(stopped());
   if (!course) return tl::unexpected<Error>(course.error());
   if (!sink.frame())
     return fail(Fault::no_equilibrium, "no frame was certified: " + course->limit_reason);
   summary = summary_of(preset, *scene, sink);
   put_course(*course, summary);
+  summary.steps = std::move(told);
   summary.seconds_simulation = seconds_now() - begin - summary.seconds_setup;
   return {};
 }

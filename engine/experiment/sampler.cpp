@@ -37,6 +37,7 @@ Result<void> Sampler::stand(const Sample& sample, const std::string& event) {
   record::Frame frame = frame_of(course_.session);
   caption_.measure(frame);
   frame.event = event;
+  last_ = sample;
   return take(std::move(frame), sample);
 }
 
@@ -70,8 +71,7 @@ Result<void> Sampler::motions(const Sample& sample) {
   return {};
 }
 
-/// What happened to the leg since the sample before. A leg back is shown against its way: from its
-/// end to where it began.
+/// A leg back is shown against its way: from its end to where it began.
 std::string Sampler::events(const Sample& sample) const {
   const Leg& leg = course_.legs[sample.leg];
   const double way = leg.back ? -leg.way() : leg.way();

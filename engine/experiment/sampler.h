@@ -29,12 +29,13 @@ class Sampler {
   Result<bool> at(const Sample& sample);
   /// The state that the session stands in as a frame, with an event of its own.
   Result<void> stand(const Sample& sample, const std::string& event);
+  /// What happened to the leg since the sample before, in words; empty: nothing.
+  std::string events(const Sample& sample) const;
   /// A frame made elsewhere.
   Result<void> take(record::Frame frame, const Sample& sample);
 
  private:
   Result<void> motions(const Sample& sample);
-  std::string events(const Sample& sample) const;
 
   Course& course_;
   Caption caption_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/preset/title.h"
 #include "engine/scene/scene.h"
 
 namespace gridshell::experiment {
@@ -54,7 +55,7 @@ Result<exports::Workpiece> workpiece_of(const preset::Preset& preset) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
   exports::Workpiece work;
-  work.title = preset.title.empty() ? preset.name : preset.title;
+  work.title = preset::title_or_name(preset);
   work.spacing_mm = scene->footprint.spacing;
   work.rod_diameter_mm = scene->rod_diameter_mm;
   for (std::size_t r = 0; r < scene->footprint.rods.size(); ++r) {

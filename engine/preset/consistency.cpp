@@ -6,6 +6,7 @@
 
 #include "engine/preset/rung.h"
 #include "engine/preset/shape_consistency.h"
+#include "engine/preset/step_fields.h"
 
 namespace gridshell::preset {
 namespace {
@@ -98,7 +99,8 @@ std::vector<Conflict> conflicts(const Preset& preset) {
   if (const auto count = preset.movie.target_mm.size(); count != 0 && count != 3)
     found.push_back(
         {"movie", "target_mm", {}, fmt::format("a list of {}, must be [x, y, z] or empty", count)});
-  for (auto& more : {shape_conflicts(preset), block_conflicts(preset), end_conflicts(preset)})
+  for (auto& more : {shape_conflicts(preset), block_conflicts(preset), end_conflicts(preset),
+                     step_conflicts(preset)})
     found.insert(found.end(), more.begin(), more.end());
   return found;
 }

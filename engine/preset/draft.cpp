@@ -6,18 +6,11 @@
 
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
+#include "engine/preset/lists.h"
 #include "engine/preset/use.h"
 
 namespace gridshell::preset {
 namespace {
-
-// a preset whose lists of tables end with an item
-Preset up_to(Preset preset, int item) {
-  if (item < 0) return preset;
-  preset.block.resize(std::min(preset.block.size(), std::size_t(item) + 1));
-  preset.join.resize(std::min(preset.join.size(), std::size_t(item) + 1));
-  return preset;
-}
 
 // whether a decider was laid over the layer in which a key stands: the key was of use below
 bool set_aside_above(const Draft& draft, const std::vector<std::string>& deciders, Layer layer) {
@@ -31,9 +24,7 @@ bool set_aside_above(const Draft& draft, const std::vector<std::string>& decider
 void refuse_idle(const Draft& draft, const IdleKey& idle, PlacedFaults& faults) {
   const auto name = bracketed(idle.table, idle.key, idle.item);
   const auto& field = *find_field(idle.table, idle.key);
-  Preset defaults;
-  defaults.block.emplace_back();
-  defaults.join.emplace_back();
+  const Preset defaults = default_items();
   const auto value = value_text(field, up_to(draft.preset, idle.item));
   if (value == value_text(field, defaults)) return;
   const auto refused = [&](const std::string& key) { return draft.faulty.contains(key); };

@@ -15,6 +15,7 @@ T& last_of(T& member) {
 }
 inline Block& last_of(std::vector<Block>& blocks) { return blocks.back(); }
 inline Join& last_of(std::vector<Join>& joins) { return joins.back(); }
+inline Step& last_of(std::vector<Step>& steps) { return steps.back(); }
 
 /// The member at the end of a path: reach<&Preset::rod, &Rod::diameter_mm>.
 template <auto first, auto... rest>

@@ -4,6 +4,7 @@
 #include "engine/preset/jitter_fields.h"
 #include "engine/preset/physics_fields.h"
 #include "engine/preset/shape_fields.h"
+#include "engine/preset/step_fields.h"
 #include "engine/preset/style_fields.h"
 
 namespace gridshell::preset {
@@ -172,6 +173,7 @@ const std::vector<Table>& tables() {
       {"actuation", "How the boundary moves: every edge point straight and evenly."},
       {"imperfection", "What chooses where a shell goes that loses its stability."},
       {"indentation", "The push at one joint of the actuated shell."},
+      {"step", "What a hand does to the actuated shell, one step after the other.", true},
       {"loads", "What pulls on the shell beside its boundary."},
       {"dynamics", "How a shell moves that has lost its stability."},
       {"limits", "Where the model stops being valid."},
@@ -190,9 +192,10 @@ const std::vector<Table>& tables() {
 const std::vector<Field>& field_table() {
   static const std::vector<Field> all = [] {
     auto fields = shell_fields();
-    for (auto& more : {rod_fields(), joint_fields(), boundary_fields(), net_fields(),
-                       indentation_fields(), load_fields(), inverse_fields(), numerics_fields(),
-                       jitter_fields(), sweep_fields(), picture_fields(), style_fields()})
+    for (auto& more :
+         {rod_fields(), joint_fields(), boundary_fields(), net_fields(), indentation_fields(),
+          step_fields(), load_fields(), inverse_fields(), numerics_fields(), jitter_fields(),
+          sweep_fields(), picture_fields(), style_fields()})
       fields.insert(fields.end(), more.begin(), more.end());
     return fields;
   }();

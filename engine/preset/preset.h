@@ -11,6 +11,7 @@
 #include "engine/core/words.h"
 #include "engine/preset/pictures.h"
 #include "engine/preset/points.h"
+#include "engine/preset/step_words.h"
 
 namespace gridshell::preset {
 
@@ -205,6 +206,24 @@ struct Indentation {
   bool wanted() const { return depth > 0 || depth_mm > 0; }
 };
 
+/// One step of a hand, in a list that is done in order; numbers that its deed does not use count
+/// for nothing.
+struct Step {
+  Deed deed = Deed::move;
+  double progress = 1;        ///< of the boundary, beyond 1 further than its motion
+  double radius_mm = 0;       ///< of a circle's boundary; 0: `progress` says it
+  Points edge_points;         ///< (k, x, y, z): by how much edge points lie off the motion
+  std::vector<int> joint;     ///< (i, j)
+  std::vector<double> to_mm;  ///< (x, y, z) of the joint; empty: `depth_mm` says it
+  double depth_mm = 0;        ///< inward, against the shell's normal at the joint
+  std::vector<double> along;  ///< direction in which a joint is held; empty: the way of the push
+  Lateral lateral = Lateral::free;
+  double factor = 1;  ///< of the dead loads
+  RestSide side = RestSide::lower;
+  int seed = 1;
+  double force_N = 0.4;  ///< of a jitter
+};
+
 struct Loads {
   double gravity_m_s2 = 0;    ///< downwards
   double field_N_per_mm = 0;  ///< of rod, downwards
@@ -333,6 +352,7 @@ struct Preset {
   std::vector<Join> join;    ///< [[join]]
   Actuation actuation;
   Indentation indentation;
+  std::vector<Step> step;  ///< [[step]]
   Loads loads;
   Dynamics dynamics;
   Imperfection imperfection;

@@ -7,6 +7,7 @@
 
 #include "engine/preset/assign.h"
 #include "engine/preset/field_table.h"
+#include "engine/preset/lists.h"
 #include "engine/preset/suggest.h"
 #include "engine/preset/sweep_axes.h"
 
@@ -108,10 +109,7 @@ void Reading::lay_items(const toml::key& key, const toml::node& value, bool in_f
   }
   int item = 0;
   for (const auto& table : *value.as_array()) {
-    if (name == "block")
-      draft.preset.block.emplace_back();
-    else
-      draft.preset.join.emplace_back();
+    add_item(draft.preset, name);
     draft.set_at[bracketed(name, "", item)] = place_of(table.source());
     for (const auto& [inner, one] : *table.as_table()) assign_key(name, inner, one, draft, item);
     ++item;

@@ -73,6 +73,7 @@ std::vector<Demand> beyond_net(const Preset& preset) {
                                  net_tolerance)});
   if (preset.indentation.wanted())
     found.push_back({"indentation", "depth", "a net does not answer a push"});
+  if (!preset.step.empty()) found.push_back({"step", "do", "a net does not answer a hand"});
   if (preset.loads.any()) found.push_back({"loads", "points", "a net does not answer loads"});
   if (preset.ends.second_ring_mm > 0)
     found.push_back({"ends", "second_ring_mm", "a net has no tails"});

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "engine/preset/field_table.h"
+#include "engine/preset/step_fields.h"
 
 namespace gridshell::preset {
 namespace {
@@ -84,6 +85,7 @@ class Idle {
     rods("rod", preset_.rod);
     if (preset_.rod_v.differs) rods("rod_v", preset_.rod_v);
     push();
+    steps();
     motion();
     jitter();
     sweep();
@@ -218,6 +220,25 @@ class Idle {
     } else {
       add("indentation", "longitude_deg", {"[indentation] latitude_deg"},
           "at a latitude of 90 degrees there is no longitude");
+    }
+  }
+
+  void steps() {
+    for (int k = 0; k < int(preset_.step.size()); ++k) {
+      const Step& step = preset_.step[std::size_t(k)];
+      const auto name = bracketed("step", "do", k);
+      for (const Field& field : field_table()) {
+        if (field.table != "step") continue;
+        const auto deeds = deeds_of_key(field.key);
+        if (!deeds.empty() && std::ranges::find(deeds, step.deed) == deeds.end())
+          add("step", field.key.c_str(), {name},
+              fmt::format("{} = \"{}\" does not use it, only {}", name, word_of(step.deed),
+                          names_of(deeds)),
+              k);
+      }
+      if (step.deed == Deed::move && step.radius_mm > 0)
+        add("step", "progress", {bracketed("step", "radius_mm", k)}, "radius_mm takes its place",
+            k);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/preset/field_table.h"
+#include "engine/preset/lists.h"
 #include "engine/preset/use.h"
 
 namespace gridshell::preset {
@@ -37,12 +38,18 @@ class Used {
   std::set<std::tuple<std::string, std::string, int>> idle_;
 };
 
-// one item of a list of tables, the last of `one`
-std::string item_text(const std::string& table, const Preset& one, const Used& used, int item) {
+// one item of a list of tables; where most keys are not wanted, those that say their default are
+// left out
+std::string item_text(const std::string& table, const Preset& preset, const Used& used, int item) {
+  static const Preset defaults = default_items();
+  const Preset one = up_to(preset, item);
   auto text = fmt::format("\n[[{}]]\n", table);
-  for (const auto& field : field_table())
-    if (field.table == table && used(field, item))
-      text += fmt::format("{} = {}\n", field.key, value_text(field, one));
+  for (const auto& field : field_table()) {
+    if (field.table != table || !used(field, item)) continue;
+    const auto value = value_text(field, one);
+    if (table == "step" && field.key != "do" && value == value_text(field, defaults)) continue;
+    text += fmt::format("{} = {}\n", field.key, value);
+  }
   return text;
 }
 
@@ -67,16 +74,9 @@ std::string to_toml(const Preset& preset) {
       text += fmt::format("\n[{}]  # {}\n", table.name, table.meaning);
     text += keys;
   }
-  for (int k = 0; k < int(preset.block.size()); ++k) {
-    Preset one;
-    one.block = {preset.block[k]};
-    text += item_text("block", one, used, k);
-  }
-  for (int k = 0; k < int(preset.join.size()); ++k) {
-    Preset one;
-    one.join = {preset.join[k]};
-    text += item_text("join", one, used, k);
-  }
+  each_list([&](const char* name, auto member) {
+    for (int k = 0; k < int((preset.*member).size()); ++k) text += item_text(name, preset, used, k);
+  });
   return text;
 }
 
@@ -100,10 +100,7 @@ std::string to_toml(const Presets& presets) {
 }
 
 std::vector<KeyText> key_texts() {
-  Preset defaults;
-  // what an item is before a key of it is read
-  defaults.block.emplace_back();
-  defaults.join.emplace_back();
+  const Preset defaults = default_items();
   std::vector<KeyText> keys;
   for (const auto& table : tables())
     for (const auto& field : field_table())

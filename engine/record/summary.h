@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/record/snapshot.h"
 
@@ -45,6 +46,7 @@ struct Summary {
   double max_seam_kink_deg = unknown;             ///< and of the rods' tangents across
   int newton_iterations = 0, factorizations = 0;  ///< of the whole run
   double seconds_setup = 0, seconds_simulation = 0, seconds_render = 0;
+  std::vector<std::string> steps;  ///< of [[step]]: what each came to, a sentence
   Kind kind = Kind::unknown;
   bool finished = true;  ///< false: it was cut short, and the folder holds the frames found so far
 

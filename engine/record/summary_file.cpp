@@ -50,6 +50,7 @@ void each_field(SummaryType& summary, Visit visit) {
   visit("seconds_setup", summary.seconds_setup);
   visit("seconds_simulation", summary.seconds_simulation);
   visit("seconds_render", summary.seconds_render);
+  visit("steps", summary.steps);
   visit("kind", summary.kind);
   visit("finished", summary.finished);
 }
@@ -84,6 +85,15 @@ bool take(const Json& json, double& value, const char*& expected) {
   value = json.is_number() ? json.get<double>() : unknown;
   return json.is_number() || json.is_null();
 }
+bool take(const Json& json, std::vector<std::string>& value, const char*& expected) {
+  expected = "a list of strings";
+  if (!json.is_array()) return false;
+  for (const Json& item : json) {
+    if (!item.is_string()) return false;
+    value.push_back(item.get<std::string>());
+  }
+  return true;
+}
 template <class Enum, class Names>
 bool take_word(const Json& json, Enum& value, const Names& names) {
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -110,7 +120,7 @@ void forget(T&) {}  // the default is what it was then
 /// Whether version 0.1 wrote the key.
 bool always_written(const std::string& key) {
   return !key.starts_with("energy_") && key != "kind" && key != "finished" &&
-         key != "largest_strain";
+         key != "largest_strain" && key != "steps";
 }
 
 }  // namespace
@@ -127,7 +137,8 @@ std::string to_json(const Summary& summary) {
 }
 
 Figures figures_of(const Summary& summary) {
-  static const std::set<std::string> left_out{"preset", "model_reason", "kind", "finished"};
+  static const std::set<std::string> left_out{"preset", "model_reason", "steps", "kind",
+                                              "finished"};
   Figures figures;
   each_field(summary, [&](const std::string& key, const auto& value) {
     if (left_out.contains(key) || key.starts_with("seconds_")) return;

@@ -57,11 +57,12 @@ class Session {
   /// began.
   Report go(double t, const Watch& watch, const Leaving& leaving = {}, Trail* trail = nullptr);
   /// The boundary to a progress of the scene's motion, joints held where they are.
-  Report move_to(double progress, const Watch& watch);
+  Report move_to(double progress, const Watch& watch, Trail* trail = nullptr);
   /// The boundary to somewhere else altogether: the edge points straight to the motion's end.
   Report rebase(const BoundaryMotion& motion, const Watch& watch);
   /// Moves a joint, held from now on.
-  Report push(int joint, const Eigen::Vector3d& displacement, Across across, const Watch& watch);
+  Report push(int joint, const Eigen::Vector3d& displacement, Across across, const Watch& watch,
+              Trail* trail = nullptr);
   /// Lets a joint go: the force on it is taken away in even steps.
   Report release(int joint, const Watch& watch);
   /// From now on the scene's dead loads count `factor` times.

@@ -60,7 +60,7 @@ Report Session::drive(const Drive& drive, std::vector<NodeAction> coming, const 
   return done;
 }
 
-Report Session::move_to(double progress, const Watch& watch) {
+Report Session::move_to(double progress, const Watch& watch, Trail* trail) {
   const double t = std::sqrt(std::max(progress, 0.0));
   if (!actuating_) {
     const double now = std::sqrt(progress_);
@@ -69,7 +69,7 @@ Report Session::move_to(double progress, const Watch& watch) {
     const NestedReport started = shell_->start(now, shell_->state().levels[0], watch);
     if (started.end != Outcome::reached) return report(started.end, now, effort(), seconds_now());
   }
-  return go(t, watch);
+  return go(t, watch, {}, trail);
 }
 
 Report Session::rebase(const BoundaryMotion& motion, const Watch& watch) {
@@ -98,7 +98,7 @@ Report Session::take_hold(std::vector<Hold> holds, std::vector<Eigen::Vector3d> 
 }
 
 Report Session::push(int joint, const Eigen::Vector3d& displacement, Across across,
-                     const Watch& watch) {
+                     const Watch& watch, Trail* trail) {
   std::vector<Hold> holds = holds_;
   std::erase_if(holds, [&](const Hold& hold) { return hold.node == joint; });
   Hold hold{joint};
@@ -113,7 +113,7 @@ Report Session::push(int joint, const Eigen::Vector3d& displacement, Across acro
   displacements.back() = displacement;
   const Report taken = take_hold(std::move(holds), std::move(displacements), watch);
   if (first_stiffness > 0) first_stiffness_ = first_stiffness;
-  return taken.end == Outcome::reached ? go(1, watch) : taken;
+  return taken.end == Outcome::reached ? go(1, watch, {}, trail) : taken;
 }
 
 Report Session::release(int joint, const Watch& watch) {

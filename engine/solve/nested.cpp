@@ -222,10 +222,11 @@ void NestedShell::drive(const Drive& drive) {
 void NestedShell::actuate(double t, const std::vector<Hold>& holds, double load_scale) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = *levels_[k];
+    // one that only stays somewhere yet has no state: it stands where its motion begins
+    const Eigen::Matrix3Xd here = state_.levels.empty() ? level.motion.begin : state_.levels[k].x;
     level.motion = pinned_motion(level.mesh, boundary_);
     level.motion.load.change = load_scale;
-    for (const Hold& hold : holds)
-      level.motion.begin.col(hold.node) = state_.levels[k].x.col(hold.node);
+    for (const Hold& hold : holds) level.motion.begin.col(hold.node) = here.col(hold.node);
     level.system->hold(holds);
   }
   state_.t = t;

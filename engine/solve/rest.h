@@ -3,6 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
+#include "engine/core/words.h"
 #include "engine/solve/path.h"
 
 namespace gridshell {
@@ -10,6 +11,10 @@ namespace gridshell {
 /// On which side of an unstable state to leave it: where the energy ends lower, along a mode, or
 /// against it.
 enum class Leave { lower, along, against };
+constexpr auto words(Leave) {
+  return word_table<Leave>(
+      {{Leave::lower, "lower"}, {Leave::along, "along"}, {Leave::against, "against"}});
+}
 
 /// How an unstable state is left.
 struct Departure {

@@ -17,6 +17,7 @@ struct Camera {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< mm
   double half_extent_mm = 150;    ///< half of the picture's height, in the plane through the target
   double field_of_view_deg = 20;  ///< 0: orthographic
+  bool operator==(const Camera&) const = default;
 };
 
 /// A closed polyline drawn as a rod of its own (the ring of the actuated boundary).

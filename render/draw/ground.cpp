@@ -61,7 +61,11 @@ void set_look(const Program& program, const Shot& shot, const Lighting& light) {
 }  // namespace
 
 Ground::Ground(const Gl& gl, Programs programs)
-    : gl_(&gl), programs_(std::move(programs)), light_(gl, Target::Depth::none), no_vertices_(gl) {}
+    : gl_(&gl),
+      programs_(std::move(programs)),
+      light_(gl, Target::Depth::none),
+      gathered_(gl, Target::Depth::none),
+      no_vertices_(gl) {}
 
 Result<Ground> Ground::create(const Gl& gl) {
   auto open = Program::create(gl, {"ground.vert"}, {"ground.glsl", "ground.frag"});
@@ -70,7 +74,13 @@ Result<Ground> Ground::create(const Gl& gl) {
   if (!cast) return tl::unexpected(cast.error());
   auto soften = Program::create(gl, {"screen.vert"}, {"soften.frag"});
   if (!soften) return tl::unexpected(soften.error());
-  return Ground(gl, {std::move(*open), std::move(*cast), std::move(*soften)});
+  auto dim = Program::create(gl, {"cast.vert"}, {"dim.frag"});
+  if (!dim) return tl::unexpected(dim.error());
+  auto gathered =
+      Program::create(gl, {"ground.vert"}, {"ground.glsl", "ground.frag"}, "#define GATHERED\n");
+  if (!gathered) return tl::unexpected(gathered.error());
+  return Ground(gl, {std::move(*open), std::move(*cast), std::move(*soften), std::move(*dim),
+                     std::move(*gathered)});
 }
 
 bool Ground::seen(const Shot& shot) {
@@ -93,27 +103,72 @@ void Ground::draw(const Shot& shot, const Eigen::Matrix4d& matrix, const Lightin
     gl_->ClearColor(alpha * behind[0], alpha * behind[1], alpha * behind[2], alpha);
     return gl_->Clear(GL_COLOR_BUFFER_BIT);
   }
-  programs_.open.use();
-  set_look(programs_.open, shot, light);
-  programs_.open.set("to_ground", to_ground(matrix, shot.drawing.ground_z_mm));
+  draw_open(programs_.open, shot, matrix, light);
+  if (shadow) draw_shadow(shot, matrix, light, *shadow);
+}
+
+void Ground::draw_open(const Program& program, const Shot& shot, const Eigen::Matrix4d& matrix,
+                       const Lighting& light) const {
+  program.use();
+  set_look(program, shot, light);
+  program.set("to_ground", to_ground(matrix, shot.drawing.ground_z_mm));
   gl_->BindVertexArray(no_vertices_.id());
   gl_->DrawArrays(GL_TRIANGLES, 0, 3);
-  if (shadow) draw_shadow(shot, matrix, light, *shadow);
+}
+
+/// The part of the ground that the shadow map holds.
+void Ground::place_shadow(const Program& program, const Shot& shot, const Eigen::Matrix4d& matrix,
+                          const ShadowMap& shadow) const {
+  program.set("view_projection", Eigen::Matrix4f(matrix.cast<float>()));
+  program.set("on_ground", on_ground(shadow.matrix(), shot.drawing.ground_z_mm));
+  program.set("ground_z", float(shot.drawing.ground_z_mm));
+  program.set("lit", 0);
+  gl_->ActiveTexture(GL_TEXTURE0);
+  gl_->BindTexture(GL_TEXTURE_2D, light_.colour());
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl_->BindVertexArray(no_vertices_.id());
+  gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
 void Ground::draw_shadow(const Shot& shot, const Eigen::Matrix4d& matrix, const Lighting& light,
                          const ShadowMap& shadow) const {
   programs_.cast.use();
   set_look(programs_.cast, shot, light);
-  programs_.cast.set("view_projection", Eigen::Matrix4f(matrix.cast<float>()));
-  programs_.cast.set("on_ground", on_ground(shadow.matrix(), shot.drawing.ground_z_mm));
-  programs_.cast.set("ground_z", float(shot.drawing.ground_z_mm));
-  programs_.cast.set("lit", 0);
+  place_shadow(programs_.cast, shot, matrix, shadow);
+}
+
+Result<void> Ground::begin_gathering(const Tile& tile, const std::vector<Lighting>& passes) {
+  if (auto bound = gathered_.bind(tile.width, tile.height, GL_R32F); !bound) return bound;
+  float open = 0;
+  for (const Lighting& light : passes) open += open_light(light) / float(passes.size());
+  gl_->ClearColor(open, 0, 0, 0);
+  gl_->Clear(GL_COLOR_BUFFER_BIT);
+  return {};
+}
+
+Result<void> Ground::gather(const Shot& shot, const Tile& tile, const Eigen::Matrix4d& matrix,
+                            const Lighting& light, const ShadowMap& shadow, int passes) {
+  if (auto bound = gathered_.bind(tile.width, tile.height, GL_R32F); !bound) return bound;
+  gl_->Disable(GL_DEPTH_TEST);
+  gl_->Disable(GL_CULL_FACE);
+  gl_->Enable(GL_BLEND);
+  gl_->BlendFunc(GL_ONE, GL_ONE);
+  programs_.dim.use();
+  programs_.dim.set("part", open_light(light) / float(passes));
+  place_shadow(programs_.dim, shot, matrix, shadow);
+  return {};
+}
+
+void Ground::draw_gathered(const Shot& shot, const Eigen::Matrix4d& matrix) const {
+  gl_->Disable(GL_BLEND);
+  gl_->Disable(GL_DEPTH_TEST);
+  gl_->Disable(GL_CULL_FACE);
   gl_->ActiveTexture(GL_TEXTURE0);
-  gl_->BindTexture(GL_TEXTURE_2D, light_.colour());
-  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  gl_->BindTexture(GL_TEXTURE_2D, gathered_.colour());
+  programs_.gathered.use();
+  programs_.gathered.set("gathered", 0);
+  draw_open(programs_.gathered, shot, matrix, {});
 }
 
 Result<void> Ground::soften(const Shot& shot, const ShadowMap& shadow, const Lighting& light,

@@ -1,10 +1,13 @@
 // The ground of a picture, with the shell's shadow on it.
 #pragma once
 
+#include <vector>
+
 #include "engine/core/result.h"
 #include "render/draw/lighting.h"
 #include "render/draw/shadow_map.h"
 #include "render/draw/shot.h"
+#include "render/draw/tiles.h"
 
 namespace gridshell::render {
 
@@ -23,21 +26,35 @@ class Ground {
   void draw(const Shot& shot, const Eigen::Matrix4d& matrix, const Lighting& light,
             const ShadowMap* shadow) const;
 
+  /// Of many passes the light alone is gathered, pixel by pixel, and the ground drawn once with it.
+  /// Begins with that of all in the open.
+  Result<void> begin_gathering(const Tile& tile, const std::vector<Lighting>& passes);
+  /// Takes away what a pass's shadow does, softened before.
+  Result<void> gather(const Shot& shot, const Tile& tile, const Eigen::Matrix4d& matrix,
+                      const Lighting& light, const ShadowMap& shadow, int passes);
+  /// Fills the bound target.
+  void draw_gathered(const Shot& shot, const Eigen::Matrix4d& matrix) const;
+
   /// Finds the light on the ground under `shadow`, before it is drawn with it. `many`: the light is
   /// one of many whose mean is shown, and so the sky's shadow is among them.
   Result<void> soften(const Shot& shot, const ShadowMap& shadow, const Lighting& light, bool many);
 
  private:
   struct Programs {
-    Program open, cast, soften;
+    Program open, cast, soften, dim, gathered;
   };
   Ground(const Gl& gl, Programs programs);
+  void draw_open(const Program& program, const Shot& shot, const Eigen::Matrix4d& matrix,
+                 const Lighting& light) const;
+  void place_shadow(const Program& program, const Shot& shot, const Eigen::Matrix4d& matrix,
+                    const ShadowMap& shadow) const;
   void draw_shadow(const Shot& shot, const Eigen::Matrix4d& matrix, const Lighting& light,
                    const ShadowMap& shadow) const;
 
   const Gl* gl_;
   Programs programs_;
-  Target light_;  ///< on the ground, over that in the open
+  Target light_;     ///< on the ground, over that in the open
+  Target gathered_;  ///< that of many passes, in pixels
   VertexArray no_vertices_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <utility>
 
@@ -22,6 +24,33 @@ double sample_size(const Shot& shot) {
   return shot.camera.field_of_view_deg <= 0 ? mm : mm / camera_distance(shot.camera);
 }
 
+/// The part of a tile that the shell may cover, empty where it covers none.
+Tile shell_in(const Shot& shot, const Tile& tile) {
+  constexpr double room = 2;  // pixels: edges reach beyond what they are of
+  const Eigen::Matrix4d matrix = view_projection(shot.camera, double(shot.width) / shot.height,
+                                                 shot.scene.centre(), shot.scene.radius());
+  const Eigen::Vector3d *low = &shot.scene.low, *high = &shot.scene.high;
+  Eigen::AlignedBox2d seen;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector4d at(((corner & 1) ? high : low)->x(), ((corner & 2) ? high : low)->y(),
+                             ((corner & 4) ? high : low)->z(), 1);
+    const Eigen::Vector4d clip = matrix * at;
+    // what reaches behind the camera may be anywhere
+    if (clip.w() <= 0) return tile;
+    seen.extend(Eigen::Vector2d(0.5 * (1 + clip.x() / clip.w()) * shot.width,
+                                0.5 * (1 - clip.y() / clip.w()) * shot.height));
+  }
+  const auto within = [](double value, int from, int size) {
+    return int(std::clamp(value, double(from), double(from + size)));
+  };
+  Tile part;
+  part.x = within(std::floor(seen.min().x() - room), tile.x, tile.width);
+  part.y = within(std::floor(seen.min().y() - room), tile.y, tile.height);
+  part.width = within(std::ceil(seen.max().x() + room), tile.x, tile.width) - part.x;
+  part.height = within(std::ceil(seen.max().y() + room), tile.y, tile.height) - part.y;
+  return part;
+}
+
 }  // namespace
 
 Painter::Painter(const Gl& gl, Program mean, Ground ground, ShadowMap shadow)
@@ -36,6 +65,7 @@ Painter::Painter(const Gl& gl, Program mean, Ground ground, ShadowMap shadow)
       layer_(gl, Target::Depth::none),
       pass_(gl, Target::Depth::none),
       sum_(gl, Target::Depth::none),
+      whole_(gl, Target::Depth::none),
       pixels_(gl, Target::Depth::none) {}
 
 Result<Painter> Painter::create(const Gl& gl) {
@@ -94,32 +124,8 @@ Result<void> Painter::begin(const Shot& shot) {
 Result<void> Painter::paint(const Shot& shot, const Tile& tile, Image& image) {
   gl_->Disable(GL_SCISSOR_TEST);
   gl_->Enable(GL_FRAMEBUFFER_SRGB);
-  if (many()) {
-    if (auto bound = sum_.bind(tile.width, tile.height, GL_RGBA32F); !bound) return bound;
-    gl_->ClearColor(0, 0, 0, 0);
-    gl_->Clear(GL_COLOR_BUFFER_BIT);
-  }
-  for (int i = 0; i < int(passes_.size()); ++i) {
-    if (shot.quality.shadow && shadow_of_ != i) {
-      auto done = shadow_.render(shot.scene, ribbons_, sheets_, passes_[i].direction,
-                                 shot.drawing.ground_z_mm);
-      if (!done) return done;
-      if (auto soft = ground_.soften(shot, shadow_, passes_[i], many()); !soft) return soft;
-      shadow_of_ = i;
-    }
-    if (auto done = paint_pass(shot, tile, passes_[i], many() ? pass_ : pixels_); !done)
-      return done;
-    if (!many()) continue;
-    if (auto bound = sum_.bind(tile.width, tile.height, GL_RGBA32F); !bound) return bound;
-    gl_->Enable(GL_BLEND);
-    gl_->BlendFunc(GL_ONE, GL_ONE);
-    show(pass_.colour(), 1);
-  }
-  if (many()) {
-    if (auto bound = pixels_.bind(tile.width, tile.height, GL_SRGB8_ALPHA8); !bound) return bound;
-    gl_->Disable(GL_BLEND);
-    show(sum_.colour(), 1.f / float(passes_.size()));
-  }
+  auto painted = many() ? paint_many(shot, tile) : paint_one(shot, tile);
+  if (!painted) return painted;
   gl_->ReadBuffer(GL_COLOR_ATTACHMENT0);
   gl_->PixelStorei(GL_PACK_ROW_LENGTH, shot.width);
   gl_->ReadPixels(0, 0, tile.width, tile.height, GL_RGBA, GL_UNSIGNED_BYTE,
@@ -128,38 +134,123 @@ Result<void> Painter::paint(const Shot& shot, const Tile& tile, Image& image) {
   return {};
 }
 
-/// Adds a share of what another target holds to the bound one, or puts it there.
-void Painter::show(GLuint texture, float share) const {
+/// The shadow of a pass, unless the map holds it from the tile before.
+Result<void> Painter::cast(const Shot& shot, int pass) {
+  if (!shot.quality.shadow || shadow_of_ == pass) return {};
+  const Lighting& light = passes_[std::size_t(pass)];
+  auto done =
+      shadow_.render(shot.scene, ribbons_, sheets_, light.direction, shot.drawing.ground_z_mm);
+  if (!done) return done;
+  shadow_of_ = pass;
+  return Ground::seen(shot) ? ground_.soften(shot, shadow_, light, many()) : Result<void>{};
+}
+
+Result<void> Painter::paint_one(const Shot& shot, const Tile& tile) {
+  if (auto done = cast(shot, 0); !done) return done;
+  const Eigen::Matrix4d matrix = matrix_of(shot, tile, passes_[0]);
+  const int s = shot.quality.supersample;
+  if (s > 1)
+    if (auto layer = paint_shell(shot, tile, passes_[0], layer_); !layer) return layer;
+  if (auto bound = pixels_.bind(tile.width, tile.height, GL_SRGB8_ALPHA8); !bound) return bound;
+  ground_.draw(shot, matrix, passes_[0], shot.quality.shadow ? &shadow_ : nullptr);
+  if (s > 1)
+    lay_over(s, tile);
+  else
+    draw_meshes(shot, passes_[0], matrix.cast<float>());
+  return {};
+}
+
+/// The mean of all passes: the shell's is gathered where the shell is, of the ground the light
+/// alone, and the one laid over the other once.
+Result<void> Painter::paint_many(const Shot& shot, const Tile& tile) {
+  const Tile part = shell_in(shot, tile);
+  const bool shell = part.width > 0 && part.height > 0;
+  const bool shade = shot.quality.shadow && Ground::seen(shot);
+  if (auto begun = ground_.begin_gathering(tile, passes_); !begun) return begun;
+  for (int i = 0; i < int(passes_.size()); ++i) {
+    const Lighting& light = passes_[std::size_t(i)];
+    if (auto done = cast(shot, i); !done) return done;
+    if (shade)
+      if (auto done = ground_.gather(shot, tile, matrix_of(shot, tile, light), light, shadow_,
+                                     int(passes_.size()));
+          !done)
+        return done;
+    if (shell)
+      if (auto done = add_shell(shot, part, light, i == 0); !done) return done;
+  }
+  if (auto bound = whole_.bind(tile.width, tile.height, GL_RGBA16F); !bound) return bound;
+  const Eigen::Matrix4d still = matrix_of(shot, tile, Lighting{});
+  if (Ground::seen(shot))
+    ground_.draw_gathered(shot, still);
+  else
+    ground_.draw(shot, still, passes_[0], nullptr);
+  if (shell) {
+    gl_->Enable(GL_BLEND);
+    gl_->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl_->Viewport(part.x - tile.x, part.y - tile.y, part.width, part.height);
+    show(sum_.colour(), 1.f / float(passes_.size()), {part.x - tile.x, part.y - tile.y});
+  }
+  if (auto bound = pixels_.bind(tile.width, tile.height, GL_SRGB8_ALPHA8); !bound) return bound;
+  gl_->Disable(GL_BLEND);
+  show(whole_.colour(), 1, {0, 0});
+  return {};
+}
+
+/// Adds the shell in one light to the sum.
+Result<void> Painter::add_shell(const Shot& shot, const Tile& part, const Lighting& light,
+                                bool first) {
+  const int s = shot.quality.supersample;
+  if (auto painted = paint_shell(shot, part, light, s > 1 ? layer_ : pass_); !painted)
+    return painted;
+  if (s > 1) {
+    if (auto bound = pass_.bind(part.width, part.height, GL_RGBA16F); !bound) return bound;
+    gl_->ClearColor(0, 0, 0, 0);
+    gl_->Clear(GL_COLOR_BUFFER_BIT);
+    lay_over(s, part);
+  }
+  if (auto bound = sum_.bind(part.width, part.height, GL_RGBA32F); !bound) return bound;
+  if (first) {
+    gl_->ClearColor(0, 0, 0, 0);
+    gl_->Clear(GL_COLOR_BUFFER_BIT);
+  }
+  gl_->Enable(GL_BLEND);
+  gl_->BlendFunc(GL_ONE, GL_ONE);
+  show(pass_.colour(), 1, {0, 0});
+  return {};
+}
+
+/// The shell over nothing, premultiplied, in samples.
+Result<void> Painter::paint_shell(const Shot& shot, const Tile& tile, const Lighting& light,
+                                  Target& to) {
+  const int s = shot.quality.supersample;
+  const GLenum format = many() ? GL_RGBA16F : GL_SRGB8_ALPHA8;
+  if (auto bound = to.bind(s * tile.width, s * tile.height, format); !bound) return bound;
+  gl_->ClearColor(0, 0, 0, 0);
+  gl_->Clear(GL_COLOR_BUFFER_BIT);
+  draw_meshes(shot, light, matrix_of(shot, tile, light).cast<float>());
+  return {};
+}
+
+/// From the world to a tile, whose target holds the top row first.
+Eigen::Matrix4d Painter::matrix_of(const Shot& shot, const Tile& tile, const Lighting& light) {
+  Eigen::Matrix4d matrix =
+      crop(tile, shot.width, shot.height, light.pixel_shift / shot.quality.supersample) *
+      view_projection(shot.camera, double(shot.width) / shot.height, shot.scene.centre(),
+                      shot.scene.radius());
+  matrix.row(1) *= -1;
+  return matrix;
+}
+
+/// Adds a share of what another target holds to the bound one, or puts it there, its first pixel
+/// at `corner`.
+void Painter::show(GLuint texture, float share, const Eigen::Vector2i& corner) const {
   mean_.use();
+  mean_.set("corner", Eigen::Vector2f(corner.cast<float>()));
   mean_.set("sum", 0);
   mean_.set("share", share);
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, texture);
   screen_triangle();
-}
-
-Result<void> Painter::paint_pass(const Shot& shot, const Tile& tile, const Lighting& light,
-                                 Target& to) {
-  const int s = shot.quality.supersample;
-  Eigen::Matrix4d matrix = crop(tile, shot.width, shot.height, light.pixel_shift / s) *
-                           view_projection(shot.camera, double(shot.width) / shot.height,
-                                           shot.scene.centre(), shot.scene.radius());
-  // the target holds the top row first
-  matrix.row(1) *= -1;
-  const GLenum format = many() ? GL_RGBA16F : GL_SRGB8_ALPHA8;
-  if (s > 1) {
-    if (auto bound = layer_.bind(s * tile.width, s * tile.height, format); !bound) return bound;
-    gl_->ClearColor(0, 0, 0, 0);
-    gl_->Clear(GL_COLOR_BUFFER_BIT);
-    draw_meshes(shot, light, matrix.cast<float>());
-  }
-  if (auto bound = to.bind(tile.width, tile.height, format); !bound) return bound;
-  ground_.draw(shot, matrix, light, shot.quality.shadow ? &shadow_ : nullptr);
-  if (s > 1)
-    lay_over(s, tile);
-  else
-    draw_meshes(shot, light, matrix.cast<float>());
-  return {};
 }
 
 void Painter::lay_over(int per_side, const Tile& tile) const {

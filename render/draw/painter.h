@@ -12,7 +12,8 @@
 
 namespace gridshell::render {
 
-/// The ground is drawn first, then the shell over it from far to near. With several samples a pixel
+/// The ground is drawn first, then the shell over it from far to near; of many passes the shell's
+/// mean over the ground in the mean of their light. With several samples a pixel
 /// the shell's go into a layer of their own (premultiplied, linear light), whose mean over each
 /// pixel is laid over the ground.
 class Painter {
@@ -35,9 +36,14 @@ class Painter {
   Result<Programs> create_programs(int taps) const;
   Result<void> prepare(const DrawQuality& quality);
 
-  Result<void> paint_pass(const Shot& shot, const Tile& tile, const Lighting& light, Target& to);
+  Result<void> cast(const Shot& shot, int pass);
+  Result<void> paint_one(const Shot& shot, const Tile& tile);
+  Result<void> paint_many(const Shot& shot, const Tile& tile);
+  Result<void> add_shell(const Shot& shot, const Tile& part, const Lighting& light, bool first);
+  Result<void> paint_shell(const Shot& shot, const Tile& tile, const Lighting& light, Target& to);
+  static Eigen::Matrix4d matrix_of(const Shot& shot, const Tile& tile, const Lighting& light);
   void lay_over(int per_side, const Tile& tile) const;
-  void show(GLuint texture, float share) const;
+  void show(GLuint texture, float share, const Eigen::Vector2i& corner) const;
   void set_light(const Program& program, const Shot& shot, const Lighting& light) const;
   void set_shadow(const Program& program, const Shot& shot, const Lighting& light) const;
   void draw_meshes(const Shot& shot, const Lighting& light, const Eigen::Matrix4f& matrix);
@@ -53,7 +59,7 @@ class Painter {
   ShadowMap shadow_;
   VertexStore sheets_, ribbons_, beads_;
   VertexArray no_vertices_;
-  Target layer_, pass_, sum_, pixels_;
+  Target layer_, pass_, sum_, whole_, pixels_;
   std::vector<Lighting> passes_;
   int shadow_of_ = -1;  ///< the pass whose shadow the map holds
 };

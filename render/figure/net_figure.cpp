@@ -144,6 +144,7 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
   auto figure = panels_of(runs, style, renderer, watch, columns, dress);
   if (!figure) return tl::unexpected(figure.error());
   figure->colour_bar = ColourBar{unit.label, scale};
+  figure->colour_bar->words = "distance from the net";
   return figure;
 }
 

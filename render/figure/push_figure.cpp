@@ -24,6 +24,35 @@ MovieStyle panel_style(MovieStyle style) {
   return style;
 }
 
+/// From the last state before each snap to the first after it.
+Series snaps_of(const Series& pushed, const record::Trajectory& run) {
+  Series snaps;
+  snaps.colour = pushed.colour;
+  snaps.dash = {3, 2};
+  for (std::size_t k = 1; k < run.frames.size(); ++k) {
+    if (!run.frames[k].event.starts_with("snap")) continue;
+    // what moved in time in between has no force
+    std::size_t before = k - 1;
+    while (before > 0 && !std::isfinite(pushed.y[before])) --before;
+    for (const std::size_t at : {before, k}) {
+      snaps.x.push_back(pushed.x[at]);
+      snaps.y.push_back(pushed.y[at]);
+    }
+    snaps.x.push_back(NAN);
+    snaps.y.push_back(NAN);
+  }
+  return snaps;
+}
+
+/// A line that goes from state to state has a gap where one snapped to the next.
+void part_at_snaps(Series& pushed, const record::Trajectory& run) {
+  for (std::size_t k = run.frames.size(); k-- > 1;)
+    if (run.frames[k].event.starts_with("snap") && std::isfinite(pushed.y[k - 1])) {
+      pushed.x.insert(pushed.x.begin() + long(k), NAN);
+      pushed.y.insert(pushed.y.begin() + long(k), NAN);
+    }
+}
+
 }  // namespace
 
 Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
@@ -69,6 +98,7 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
   Plot plot;
   plot.x = {.label = "depth *δ* (mm)", .low = 0};
   plot.y = {.label = "force (N)"};
+  bool told = false;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Series series;
     if (runs.size() > 1) series.name = runs[k].name;
@@ -78,13 +108,19 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
       series.x.push_back(frame.depth_mm);
       series.y.push_back(frame.force_N);
     }
+    Series snaps = snaps_of(series, *runs[k].run);
+    part_at_snaps(series, *runs[k].run);
     plot.series.push_back(std::move(series));
+    if (snaps.x.empty()) continue;
+    if (!told) snaps.name = "snap to another state";
+    told = true;
+    plot.series.push_back(std::move(snaps));
   }
   return plot;
 }
 
 Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
-                             const Print& print) {
+                             const std::string& title, const Print& print) {
   constexpr double font = 7.5, usual = 186, least = 150, height = 190;  // points
   std::vector<Plot> plots;
   double low = 0, high = 0;
@@ -105,12 +141,13 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
   const double width = print.width_pt(usual * double(plots.size()));
   const std::size_t columns = std::clamp<std::size_t>(std::size_t(width / least), 1, plots.size());
   const std::size_t rows = (plots.size() + columns - 1) / columns;
-  const double column = width / double(columns);
+  const double column = width / double(columns), head = title.empty() ? 0 : figure_head;
   return write_figure(
-      stem, width, height * double(rows), "K of the cells in bins of x/L",
+      stem, width, head + height * double(rows), "K of the cells in bins of x/L",
       [&](Canvas& canvas) {
+        if (head > 0) draw_figure_head(canvas, title);
         for (std::size_t k = 0; k < plots.size(); ++k) {
-          const double x = column * double(k % columns), y = height * double(k / columns);
+          const double x = column * double(k % columns), y = head + height * double(k / columns);
           draw_plot(canvas, {x + 3, y + 3, column - 6, height - 6}, plots[k]);
         }
       },

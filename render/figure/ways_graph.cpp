@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "render/figure/net_plots.h"
 #include "render/plot/plot_frame.h"
 
 namespace gridshell::render {
@@ -17,8 +18,8 @@ using record::StateClass;
 using record::StateRow;
 using record::Transition;
 
-constexpr double width = 400, plot_height = 262, margin = 4, legend_room = 16, thumb = 50,
-                 thumb_text = 31, font = 8;
+constexpr double width = 400, plot_height = 262, margin = 4, head = figure_head, legend_room = 16,
+                 thumb = 50, thumb_text = 31, font = 8;
 constexpr double node_radius = 6.6, dot_radius = 2.6;
 // between two nodes, and between two that arrows leave
 constexpr double apart = 3, far_apart = 20, foot_room = 14;
@@ -81,11 +82,12 @@ class WaysGraph {
   }
 
   double height() const {
-    return 2 * margin + legend_room + plot_height + (thumb + thumb_text) * thumb_rows() + foot_room;
+    return 2 * margin + head + legend_room + plot_height + (thumb + thumb_text) * thumb_rows() +
+           foot_room;
   }
 
   void draw(Canvas& canvas) {
-    const Box box{margin, margin + legend_room, width - 2 * margin, plot_height};
+    const Box box{margin, margin + head + legend_room, width - 2 * margin, plot_height};
     const PlotFrame frame = axes(canvas, box);
     for (Node& node : nodes_)
       node.at = node.exact = frame.place(node.row->height_mm, node.row->energy_mJ());
@@ -136,7 +138,7 @@ class WaysGraph {
 
   void draw_legend(Canvas& canvas) const {
     double x = margin;
-    const double y = margin + 0.5 * legend_room;
+    const double y = margin + head + 0.5 * legend_room;
     const auto entry = [&](bool let_out, const std::string& text) {
       arrow(canvas, {x, y}, {x + 11, y}, {x + 22, y}, let_out);
       x = canvas.text(text, {x + 27, y}, {.size = font, .align_y = AlignY::middle}).right() + 14;
@@ -269,11 +271,17 @@ class WaysGraph {
 }  // namespace
 
 Result<void> write_ways_graph(const std::filesystem::path& stem, const record::StateTables& states,
-                              const record::Trajectory& run, const Print& print) {
+                              const record::Trajectory& run, const std::string& title,
+                              const Print& print) {
   WaysGraph graph(states, run);
+  const std::string of_what = "which state goes to which when a hand disturbs it";
   return write_figure(
-      stem, width, graph.height(), "Which state goes to which",
-      [&](Canvas& canvas) { graph.draw(canvas); }, print);
+      stem, width, graph.height(), title,
+      [&](Canvas& canvas) {
+        draw_figure_head(canvas, title.empty() ? of_what : title + ": " + of_what);
+        graph.draw(canvas);
+      },
+      print);
 }
 
 }  // namespace gridshell::render

@@ -15,8 +15,9 @@ namespace gridshell::render {
 /// lead to where they went, blue where the boundary was let out and drawn in again, orange where
 /// joints were poked, with how often. What came back to where it was stands beside its shell, and
 /// so does what went to a state that the search did not meet.
-/// `run` has a frame a state. `<stem>.png`, `.svg`, `.pdf`.
+/// `run` has a frame a state; `title` (plain text) stands above. `<stem>.png`, `.svg`, `.pdf`.
 Result<void> write_ways_graph(const std::filesystem::path& stem, const record::StateTables& states,
-                              const record::Trajectory& run, const Print& print);
+                              const record::Trajectory& run, const std::string& title,
+                              const Print& print = {});
 
 }  // namespace gridshell::render

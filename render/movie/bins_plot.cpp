@@ -36,7 +36,7 @@ Plot bins_plot(const Survey& run, long cells, const record::Frame& frame,
   Plot plot;
   plot.font_size = font_size;
   plot.x = {.label = "*x* / *L*", .low = -1, .high = 1};
-  plot.y = {.label = "mean *K*_{□} of a bin (rad)",
+  plot.y = {.label = "mean Gauss curvature *K*_{□} (rad)",
             .low = range ? (*range)[0] : low - (low < 0 ? margin : 0),
             .high = range ? (*range)[1] : high + margin};
   Series before = bins_of(run.first), now = bins_of(frame);

@@ -21,6 +21,7 @@ ColourBar curvature_bar(const std::vector<const Survey*>& runs, bool change) {
   const double end = std::max(bar.scale.high, least_end);
   const bool positive = all.any() && -all.low < one_sign * all.high;
   const bool negative = all.any() && all.high < -one_sign * all.low;
+  bar.words = change ? "change of Gauss curvature" : "Gauss curvature of a cell";
   bar.scale = {positive || negative ? ColourMap::sequential : ColourMap::diverging,
                positive ? 0 : -end, negative ? 0 : end};
   if (all.any()) {
@@ -32,6 +33,7 @@ ColourBar curvature_bar(const std::vector<const Survey*>& runs, bool change) {
 
 ColourBar displacement_bar(const std::vector<const Survey*>& runs) {
   ColourBar bar{"|*u*| / *δ*_{0}", {ColourMap::sequential, 0, 1, 0.2}};
+  bar.words = "displacement over depth";
   for (const Survey* run : runs)
     bar.beyond_high |= run->depth_mm > 0 && run->largest_move_mm > 1.02 * run->depth_mm;
   return bar;

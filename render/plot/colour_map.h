@@ -39,6 +39,7 @@ struct ColourScale {
   double start = 0;  ///< where in a sequential map `low` stands, for thin lines on white
 
   Colour operator()(double value) const;
+  bool operator==(const ColourScale&) const = default;
 };
 
 /// The diverging scale, symmetric about zero, that suits `values`: its end is the `quantile` of

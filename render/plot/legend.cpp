@@ -14,6 +14,10 @@ constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
 
 double bar_thickness(double font_size) { return 0.9 * font_size; }
 double tick_length(double font_size) { return 0.3 * font_size; }
+// of the column of words beside the ticks
+double words_column(const ColourBar& bar, double font_size) {
+  return bar.words.empty() ? 0 : 1.35 * font_size;
+}
 
 std::vector<Tick> bar_ticks(const ColourScale& scale, double height, double font_size) {
   const int count = std::clamp(int(height / (2.2 * font_size)), 2, 6);
@@ -37,6 +41,18 @@ void draw_colours(Canvas& canvas, const Box& bar, const ColourScale& scale) {
   }
 }
 
+// along the right edge, smaller where the bar is short
+void draw_words(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size) {
+  if (bar.words.empty()) return;
+  constexpr double smallest = 0.7;
+  TextStyle style{.size = 0.9 * font_size, .align_x = AlignX::centre, .align_y = AlignY::middle};
+  style.angle_deg = 90;
+  const double share = 1.1 * box.height / std::max(1.0, canvas.measure(bar.words, style).width);
+  if (share < smallest) return;
+  style.size *= std::min(1.0, share);
+  canvas.text(bar.words, {box.right() - 0.55 * font_size, box.middle().y}, style);
+}
+
 }  // namespace
 
 double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_size) {
@@ -44,7 +60,8 @@ double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_
   const double ticks = widest_label(canvas, bar_ticks(bar.scale, 8 * font_size, font_size), style);
   const double with_ticks =
       bar_thickness(font_size) + tick_length(font_size) + 0.25 * font_size + ticks;
-  return std::max(with_ticks, canvas.measure(bar.label, style).width) + 0.2 * font_size;
+  const double words = words_column(bar, font_size);
+  return std::max(with_ticks + words, canvas.measure(bar.label, style).width) + 0.2 * font_size;
 }
 
 void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size) {
@@ -77,6 +94,7 @@ void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, doubl
   rim.push_back({body.x, body.bottom()});
   canvas.polyline(rim, {ink, font_size / 14}, true);
 
+  draw_words(canvas, {box.x, body.y, box.width, body.height}, bar, font_size);
   for (const Tick& tick : bar_ticks(bar.scale, body.height, font_size)) {
     if (!tick.major) continue;
     const double t = (tick.value - bar.scale.low) / (bar.scale.high - bar.scale.low);

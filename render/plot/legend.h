@@ -10,12 +10,13 @@
 
 namespace gridshell::render {
 
-/// A colour bar: the quantity's name and unit above, ticks beside it.
+/// A colour bar: the quantity's sign and unit above, ticks and its name beside it.
 struct ColourBar {
   std::string label;  ///< marked text with the unit: "*K*_{□} (rad)"
   ColourScale scale;
   bool beyond_low = false,
        beyond_high = false;  ///< values beyond the scale occur: pointed ends say so
+  std::string words = {};    ///< what the sign stands for, upright along the bar; empty: it says it
 };
 
 /// The width that a vertical bar with its labels takes at this font size.

@@ -39,6 +39,14 @@ std::vector<std::string> wrapped(const Canvas& canvas, const std::string& text, 
   return lines;
 }
 
+/// Over the page, smaller where it would not fit.
+void draw_title(Canvas& canvas, const std::string& title, double size) {
+  TextStyle style{size, ink, true};
+  const double wide = canvas.measure(plain(title), style).width;
+  style.size *= std::min(1.0, (a4_width - 2 * margin) / std::max(1.0, wide));
+  canvas.text(plain(title), {margin, margin}, style);
+}
+
 /// Fits points of a plane into a box, y up.
 class Fit {
  public:
@@ -141,7 +149,7 @@ std::string cut_list_pdf(const Workpiece& work) {
   constexpr double name_x = margin, length_x = margin + 84, marks_x = margin + 100;
   const TextStyle text{8, ink}, head{8, ink, true}, head_right{8, ink, true, AlignX::right};
   const auto draw = [&](Canvas& canvas, double& y) {
-    canvas.text(plain(work.title) + ": cut list", {margin, margin}, {13, ink, true});
+    draw_title(canvas, work.title + ": cut list", 13);
     y = margin + 20;
     canvas.text(fmt::format("{} rods, {:.1f} mm in all; marks in mm from the begin of each rod. "
                             "Red: a leg below {:g} mm.",
@@ -177,7 +185,7 @@ std::string assembly_sheet_pdf(const Workpiece& work) {
   return draw_pdf(a4_width, a4_height, work.title + ": assembly", [&](Canvas& canvas) {
     const double wide = a4_width - 2 * margin, half = (wide - 16) / 2;
     const TextStyle text{9, ink};
-    canvas.text(plain(work.title) + ": assembly", {margin, margin}, {14, ink, true});
+    draw_title(canvas, work.title + ": assembly", 14);
     canvas.text(fmt::format("rods {:g} mm thick, joints {:g} mm apart along them",
                             work.rod_diameter_mm, work.spacing_mm),
                 {margin, margin + 16}, text);

@@ -21,6 +21,7 @@ const std::set<std::string> for_people{"description"};
 
 // where the member has another name than the key, or stands behind what is worked out of it
 const std::map<std::string, std::string> member_names{{"points_mm", "points"},
+                                                      {"do", "deed"},
                                                       {"longest_leg", "original_radius_mm"},
                                                       {"ratio", "actuated_radius_mm"}};
 

@@ -22,6 +22,23 @@ TEST_CASE("every colouring has an action") {
   for (const std::string& word : all_words<ColourBy>()) CHECK(find_action("colour_" + word));
 }
 
+TEST_CASE("the colours' range is of a state, of all states, or stays as the hand set it") {
+  for (const std::string& word : all_words<RangeOf>()) CHECK(find_action("range_" + word));
+  const render::ColourScale before{render::ColourMap::diverging, -2, 1},
+      now{render::ColourMap::diverging, -1, 3};
+  CHECK(next_scale(before, now, RangeOf::state) == now);
+  const render::ColourScale all = next_scale(before, now, RangeOf::run);
+  CHECK((all.low == -2 && all.high == 3));
+  const render::ColourScale kept = next_scale(before, now, RangeOf::hand);
+  CHECK((kept.low == -2 && kept.high == 1));
+  Desk desk({});
+  desk.set_range(2, 1);
+  CHECK(desk.range_of == RangeOf::state);
+  desk.set_range(-0.5, 0.25);
+  CHECK(desk.range_of == RangeOf::hand);
+  CHECK(desk.show.scale.high == 0.25);
+}
+
 TEST_CASE("every press of the mouse means something") {
   CHECK(gesture_of(Button::left, Over::joint, false) == Gesture::push);
   CHECK(gesture_of(Button::left, Over::joint, true) == Gesture::pull_freely);
@@ -36,7 +53,9 @@ TEST_CASE("switches switch, and back") {
   for (const Action& action : actions()) {
     const std::string name = action.name;
     // those need a shell
-    if (!action.on || name == "play" || name == "gravity" || name.starts_with("colour_")) continue;
+    if (!action.on || name == "play" || name == "gravity" || name.starts_with("colour_") ||
+        name.starts_with("range_"))
+      continue;
     const bool before = action.on(desk);
     action.act(desk);
     CHECK(action.on(desk) != before);

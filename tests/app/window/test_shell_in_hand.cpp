@@ -109,6 +109,75 @@ TEST_CASE("an edge point goes where it is dragged, and the radius still moves") 
   CHECK(hand.sight().progress == Approx(1));
 }
 
+TEST_CASE("the boundary moves in a drag while a joint is held, which stays in its place") {
+  ShellInHand hand = formed();
+  const int joint = joint_of(hand.sight(), 0, 0);
+  const Eigen::Vector3d to = hand.sight().frame.nodes.col(joint) - Eigen::Vector3d(0, 0, 3);
+  hand.fulfil({Push{joint, to}}, unwatched);
+  hand.fulfil({Move{0.9}, 5, true}, unwatched);
+  hand.fulfil({Settle{}, 5, false}, unwatched);
+  hand.refine(unwatched);
+  REQUIRE(hand.sight().trouble == "");
+  CHECK(hand.sight().refined);
+  CHECK(hand.sight().progress == Approx(0.9));
+  CHECK((hand.sight().frame.nodes.col(joint) - to).norm() < 1e-6);
+}
+
+/// What a window would save.
+preset::Preset saved(const Sight& sight) {
+  preset::Preset preset = sight.preset;
+  preset.step = sight.steps;
+  preset.actuation.radius_mm = sight.radius_end_mm;
+  return preset;
+}
+
+TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same state") {
+  ShellInHand hand = formed();
+  const Sight begun = hand.sight();
+  const auto place = [&](int joint) -> Eigen::Vector3d {
+    return hand.sight().frame.nodes.col(joint);
+  };
+  const int middle = joint_of(begun, 0, 0), aside = joint_of(begun, -2, 1);
+  const Eigen::Vector3d normal = begun.normals.col(middle), from = place(middle);
+  // a drag is one step where it goes straight, each of its places where it does not
+  for (const double depth : {1., 2.5, 4.})
+    hand.fulfil({Push{middle, from - depth * normal, normal}, 3, true}, unwatched);
+  hand.fulfil({Settle{}, 3, false}, unwatched);
+  hand.refine(unwatched);
+  CHECK(hand.sight().steps.size() == 1);
+  for (const double x : {0.5, 1.})
+    hand.fulfil({Push{aside, place(aside) + Eigen::Vector3d(x, -x, 0.3 * x)}, 4, true}, unwatched);
+  CHECK(hand.sight().steps.size() == 3);
+  hand.fulfil({Move{0.9}}, unwatched);
+  const int edge = begun.layout->edge_points[3];
+  hand.fulfil({DragEdge{3, place(edge) + Eigen::Vector3d(1.5, -1, 0)}}, unwatched);
+  hand.fulfil({Release{middle}}, unwatched);
+  hand.fulfil({Jitter{2}}, unwatched);
+  hand.refine(unwatched);
+  REQUIRE(hand.sight().trouble == "");
+  CHECK(hand.sight().steps.size() == 7);
+
+  const preset::Preset preset = saved(hand.sight());
+  REQUIRE(check_preset(preset));
+  Watch watch;
+  const auto run = experiment::run(preset, false, watch);
+  REQUIRE(run);
+  // a jitter may come past other states
+  const record::Limit limit = run->summary.limit;
+  CHECK((limit == record::Limit::none || limit == record::Limit::snap));
+  const record::Frame &a = hand.sight().frame, &b = run->trajectory.frames.back();
+  REQUIRE(a.nodes.cols() == b.nodes.cols());
+  CHECK((a.nodes - b.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
+  CHECK(b.energies[Term::bend] == Approx(a.energies[Term::bend]).epsilon(1e-9));
+
+  // and opened again it stands there
+  const ShellInHand again = formed(preset);
+  CHECK((again.sight().frame.nodes - a.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
+  CHECK(again.sight().steps.size() == 7);
+  hand.fulfil({Undo{}}, unwatched);
+  CHECK(hand.sight().steps.size() == 6);
+}
+
 TEST_CASE("a number of the rods changes the shell in hand, one of its shape forms another") {
   ShellInHand hand = formed();
   const double energy = hand.sight().frame.energies[Term::bend];

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "engine/preset/field_table.h"
+#include "engine/preset/lists.h"
 #include "engine/preset/use.h"
 #include "engine/preset/writer.h"
 
@@ -13,8 +14,9 @@ namespace {
 
 // lists of tables speak of their last item
 Preset with_items(Preset preset = {}) {
-  if (preset.block.empty()) preset.block.emplace_back();
-  if (preset.join.empty()) preset.join.emplace_back();
+  each_list([&](const char*, auto member) {
+    if ((preset.*member).empty()) (preset.*member).emplace_back();
+  });
   return preset;
 }
 
@@ -72,6 +74,7 @@ Preset all_changed() {
   preset.net.kind = NetKind::beltrami;
   preset.block.clear();
   preset.join.clear();
+  preset.step.clear();
   return preset;
 }
 
@@ -134,6 +137,35 @@ Preset pushed(bool joint) {
   return preset;
 }
 
+// a hand's steps, each alone: no deed uses all keys
+std::vector<Preset> stepped() {
+  std::vector<Step> steps;
+  const auto add = [&](Deed deed) -> Step& {
+    steps.emplace_back().deed = deed;
+    if (deed != Deed::move) steps.back().joint = {3, -2};
+    return steps.back();
+  };
+  add(Deed::move).progress = 0.71;
+  steps.back().edge_points = {{3, 1.5, -1e-11, 1e2 / 3}};
+  add(Deed::move).radius_mm = 87.1;
+  add(Deed::push).to_mm = {1.5, 0, 1e2 / 3};
+  steps.back().along = {0, 0.6, 0.8};
+  add(Deed::push).depth_mm = -3.3;
+  steps.back().lateral = Lateral::held;
+  add(Deed::hold);
+  add(Deed::release);
+  add(Deed::load).factor = 0.3;
+  add(Deed::rest).side = RestSide::against;
+  add(Deed::jitter).seed = 7;
+  steps.back().force_N = 0.11;
+  std::vector<Preset> all;
+  for (Step& step : steps) {
+    if (step.deed > Deed::release) step.joint.clear();
+    all.emplace_back().step = {step};
+  }
+  return all;
+}
+
 std::vector<Preset> samples() {
   auto at_highest = pushed(false);
   at_highest.indentation.latitude_deg = 90;
@@ -167,6 +199,7 @@ std::vector<Preset> samples() {
     all.back().net.height.clear();
     all.back().net.file = file;
   }
+  for (Preset& preset : stepped()) all.push_back(std::move(preset));
   return all;
 }
 

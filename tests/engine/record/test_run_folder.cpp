@@ -74,6 +74,7 @@ TEST_CASE("summary.json has the keys of a run in order, and null for what is unk
                                          "seconds_setup",
                                          "seconds_simulation",
                                          "seconds_render",
+                                         "steps",
                                          "kind",
                                          "finished"});
   CHECK(json["error_estimate_mm"].is_null());

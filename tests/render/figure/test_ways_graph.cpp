@@ -54,7 +54,7 @@ TEST_CASE("the graph of ways writes every state and what came back, apart from o
       texts = canvas.texts();
       boxes = canvas.text_boxes();
     });
-    REQUIRE(write_ways_graph(folder.path() / "ways", tables(), run(), {}));
+    REQUIRE(write_ways_graph(folder.path() / "ways", tables(), run(), "Some states", {}));
   }
   for (const char* text : {"1", "2", "1: state ii", "back 5, new 3", "back 0"})
     CHECK(std::ranges::find(texts, text) != texts.end());

@@ -1,0 +1,307 @@
+#include "engine/experiment/stepped.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "engine/experiment/actuation.h"
+#include "engine/experiment/frames.h"
+#include "engine/experiment/sampler.h"
+#include "engine/experiment/steps.h"
+
+namespace gridshell::experiment {
+namespace {
+
+using preset::Deed;
+
+/// The joint held last, and where it was when it was taken hold of.
+struct Taken {
+  int joint = -1;  ///< none
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+};
+
+/// One step that was done: its leg of the course stands at the same place.
+struct Done {
+  HandBoundary before, after;
+  Taken taken;
+  Checkpoint way_end, end;  ///< where its way ended, and where it stands after it
+};
+
+/// A hand's whole work on one plan of meshes.
+struct Work {
+  Course course;
+  Checkpoint begin;
+  std::vector<Done> done = {};
+};
+
+/// Whether frames are taken on the way of a step, which a leg then knows.
+bool has_way(const preset::Step& step) {
+  return step.deed == Deed::push || (step.deed == Deed::move && step.edge_points.empty());
+}
+
+bool snapped(const Leg& leg) {
+  return std::ranges::any_of(leg.report.events,
+                             [](const Event& one) { return one.to.has_value(); });
+}
+
+Taken taken_after(Session& session, const std::map<int, Eigen::Vector3d>& taken_at) {
+  if (session.holds().empty()) return {};
+  const int joint = session.holds().back().node;
+  return {joint, taken_at.at(joint)};
+}
+
+/// A step without a way is a leg from its begin to its end, which is all that is known of it.
+void close(Leg& leg, const Session& session) {
+  if (!leg.trail.stations.empty()) {
+    leg.from = leg.trail.stations.front().point.t;
+    // one mesh alone knows no error
+    for (Station& station : leg.trail.stations)
+      if (std::isnan(station.certificate.error_estimate_mm))
+        station.certificate.error_estimate_mm = session.certificate().error_estimate_mm;
+    return;
+  }
+  leg.trail.stations.push_back({session.shell().followed(), session.certificate()});
+  leg.from = leg.to = leg.end();
+}
+
+Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
+                      const std::vector<preset::Step>& steps, const LevelPlan& plan,
+                      const Watch& watch) {
+  auto actuated = follow_actuation(scene, plan, false, 1, watch);
+  if (!actuated) return tl::unexpected<Error>(actuated.error());
+  if (actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
+    return fail(Fault::no_equilibrium,
+                "there is no actuated shell to begin with: " + actuated->limit_reason);
+  Checkpoint begin = actuated->session.save();
+  Work work{std::move(*actuated), std::move(begin)};
+  work.course.earlier = std::exchange(work.course.legs, {});
+  Session& session = work.course.session;
+  HandBoundary boundary = HandBoundary::of(*scene);
+  std::map<int, Eigen::Vector3d> taken_at;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    Done done{.before = boundary, .after = {}, .taken = {}, .way_end = {}, .end = {}};
+    for (Eigen::Index joint = 0; joint < Eigen::Index(scene->footprint.joints.size()); ++joint) {
+      const bool held = std::ranges::any_of(session.holds(),
+                                            [&](const Hold& hold) { return hold.node == joint; });
+      if (!held) taken_at[int(joint)] = session.nodes().col(joint);
+    }
+    const Deed deed = steps[k].deed;
+    const double to = deed == Deed::move ? std::sqrt(progress_of(steps[k], *scene)) : 1;
+    Leg& leg = work.course.legs.emplace_back(Leg{0, to, {}, {}});
+    Way way;
+    auto report = take_step(session, boundary, steps[k], watch, &way);
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (!report)
+      return fail(report.error().fault,
+                  fmt::format("[[step]] {}: {}", k + 1, report.error().message));
+    leg.report = std::move(*report);
+    leg.trail = std::move(way.trail);
+    close(leg, session);
+    done.way_end = std::move(way.end);
+    done.after = boundary;
+    done.taken = taken_after(session, taken_at);
+    done.end = session.save();
+    work.done.push_back(std::move(done));
+    if (leg.report.end != Outcome::reached) break;
+  }
+  return work;
+}
+
+/// Hands the frames of one work to a sink.
+class Show {
+ public:
+  Show(Work& work, const std::vector<preset::Step>& steps, int frames, record::Sink& sink,
+       Watch& watch)
+      : work_(work), steps_(steps), watch_(watch), shares_(frames_of_steps(steps, frames)) {
+    for (const int share : shares_) count_ += share;
+    sampler_.emplace(work.course, caption(), sink, watch, std::size_t(count_) + 1);
+  }
+
+  Result<void> all() {
+    Session& session = work_.course.session;
+    session.restore(work_.begin);
+    boundary_ = {1, 1};
+    // of no step
+    if (auto first = sampler_->stand({0, steps_.size(), 1, 0}, ""); !first) return first;
+    for (step_ = 0; step_ < work_.done.size(); ++step_)
+      if (auto shown = one(); !shown) return shown;
+    session.restore(work_.done.empty() ? work_.begin : work_.done.back().end);
+    return {};
+  }
+
+ private:
+  /// The frames on the way of a step, and the one at its end.
+  Result<void> one() {
+    const Done& done = work_.done[step_];
+    const Leg& leg = work_.course.legs[step_];
+    const int share = shares_[step_];
+    taken_ = done.taken;
+    boundary_ = {done.before.progress, done.after.progress};
+    for (int k = 1; k < share; ++k) {
+      const double part = double(k) / share;
+      const bool moves = steps_[step_].deed == Deed::move;
+      const double t = moves ? std::sqrt(boundary_[0] + part * (boundary_[1] - boundary_[0]))
+                             : leg.from + part * (leg.end() - leg.from);
+      if (auto taken = between(done, sample(t)); !taken) return taken;
+    }
+    work_.course.session.restore(done.end);
+    const Sample last = sample(leg.end());
+    return sampler_->stand(last, event(last));
+  }
+
+  /// A sample of the way, on the meshes of its end; what has no state on them is left out.
+  Result<void> between(const Done& done, const Sample& sample) {
+    Session& session = work_.course.session;
+    session.restore(done.way_end);
+    const Report stood = stand_at(work_.course, sample, watch_);
+    if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (stood.end != Outcome::reached) return {};
+    if (done.way_end.plan.edges_per_segment != done.end.plan.edges_per_segment) {
+      const auto fine = session.remesh(done.end.plan, watch_);
+      if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
+      if (!fine || fine->end != Outcome::reached) return {};
+    }
+    return sampler_->stand(sample, sampler_->events(sample));
+  }
+
+  Sample sample(double t) {
+    ++index_;
+    return {index_, step_, t, double(index_) / count_};
+  }
+
+  /// What the end of a step says.
+  std::string event(const Sample& sample) const {
+    const Leg& leg = work_.course.legs[step_];
+    if (leg.report.end == Outcome::locked) return "locking";
+    if (has_way(steps_[step_])) return sampler_->events(sample);
+    return text_of(steps_[step_]) + (snapped(leg) ? ": snap to another state" : "");
+  }
+
+  Caption caption() {
+    return {[](double t, std::optional<double>) { return fmt::format("at {:.3f} of its way", t); },
+            [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
+            [this](record::Frame& frame) { put_push(frame); }};
+  }
+
+  void put_boundary(record::Frame& frame, double t) const {
+    const bool on_way = step_ < steps_.size() && steps_[step_].deed == Deed::move &&
+                        has_way(steps_[step_]) && boundary_[0] != boundary_[1];
+    frame.actuation = on_way ? t * t : boundary_[1];
+    frame.boundary_radius_mm = work_.course.session.scene().radius_at(frame.actuation);
+  }
+
+  void put_push(record::Frame& frame) const {
+    const Session& session = work_.course.session;
+    if (taken_.joint < 0 || session.holds().empty()) return;
+    const Hold& hold = session.holds().back();
+    const Eigen::Vector3d moved = hold.part(frame.nodes.col(taken_.joint) - taken_.at);
+    frame.depth_mm = moved.norm();
+    const Eigen::Vector3d force = hold.part(session.force(session.holds().size() - 1));
+    frame.force_N = frame.depth_mm > nearest_mm ? force.dot(moved.normalized()) : 0;
+  }
+
+  Work& work_;
+  const std::vector<preset::Step>& steps_;
+  Watch& watch_;
+  std::vector<int> shares_;
+  int count_ = 0, index_ = 0;
+  std::size_t step_ = 0;
+  Taken taken_;
+  std::array<double, 2> boundary_{1, 1};  // progress before and after the step
+  std::optional<Sampler> sampler_;
+};
+
+/// "2 push [0, 0]: reached, residual 3.1e-10 N, stable"
+std::string told_of(std::size_t k, const preset::Step& step, const Leg& leg) {
+  const Report& report = leg.report;
+  std::string text = fmt::format("{} {}: {}", k + 1, text_of(step), words_of(report.end).name);
+  for (const Event& event : report.events)
+    if (event.to) text += fmt::format(", snap to another state at {:.3f} of its way", event.t);
+  const Certificate& certificate = report.certificate;
+  text += fmt::format(", residual {:.2g} N, ", certificate.residual_N);
+  text += certificate.stable()
+              ? "stable"
+              : fmt::format("unstable: {} negative pivots", certificate.negative_pivots);
+  if (std::isfinite(certificate.error_estimate_mm))
+    text += fmt::format(", error {:.2g} mm", certificate.error_estimate_mm);
+  return text;
+}
+
+/// Which step the limit belongs to, in front of its reason.
+void tell(Work& work, const std::vector<preset::Step>& steps) {
+  Course& course = work.course;
+  tell_limit(course, [](double t, std::optional<double>) {
+    return fmt::format("at path parameter {:.4f}", t);
+  });
+  for (std::size_t k = 0; k < course.legs.size(); ++k) {
+    const Leg& leg = course.legs[k];
+    if (!snapped(leg) && leg.report.end == Outcome::reached) continue;
+    if (course.limit != record::Limit::none)
+      course.limit_reason.insert(0, fmt::format("step {} ({}): ", k + 1, text_of(steps[k])));
+    break;
+  }
+}
+
+void put_loads(const Work& work, const std::vector<preset::Step>& steps, record::Layout& layout) {
+  for (std::size_t k = 0; k < work.done.size(); ++k) {
+    if (steps[k].deed != Deed::push) continue;
+    const Done& done = work.done[k];
+    const Eigen::Vector3d moved = done.end.state.x.col(done.taken.joint) - done.taken.at;
+    const bool there = std::ranges::any_of(
+        layout.loaded_joints, [&](const auto& load) { return load.joint == done.taken.joint; });
+    if (!there && moved.norm() > nearest_mm)
+      layout.loaded_joints.push_back({done.taken.joint, moved.normalized()});
+  }
+}
+
+}  // namespace
+
+std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int frames) {
+  std::vector<int> shares(steps.size(), 1);
+  const auto ways = int(std::ranges::count_if(steps, has_way));
+  int left = frames - 1 - int(steps.size()), to_come = ways;
+  for (std::size_t k = 0; k < steps.size() && left > 0; ++k) {
+    if (!has_way(steps[k])) continue;
+    const int more = (left + to_come - 1) / to_come;
+    shares[k] += more;
+    left -= more;
+    --to_come;
+  }
+  return shares;
+}
+
+Result<Stepped> run_steps(const std::shared_ptr<const Scene>& scene,
+                          const std::vector<preset::Step>& steps, int frames, record::Sink& sink,
+                          Watch& watch) {
+  std::map<std::vector<int>, Work> tried;  // by the meshes
+  auto course = course_of(
+      *scene,
+      [&](const LevelPlan& plan, const Watch& w) -> Result<Course> {
+        auto work = do_steps(scene, steps, plan, w);
+        if (!work) return tl::unexpected<Error>(work.error());
+        const auto at = tried.insert_or_assign(plan.edges_per_segment, std::move(*work)).first;
+        return std::move(at->second.course);
+      },
+      watch);
+  if (!course) return tl::unexpected<Error>(course.error());
+  Work& work = tried.at(course->session.shell().plan().edges_per_segment);
+  work.course = std::move(*course);
+  tell(work, steps);
+  auto layout = layout_of(*scene, work.course.session.shell().finest());
+  if (!layout) return tl::unexpected<Error>(layout.error());
+  layout->extrapolated = work.course.session.shell().plan().extrapolate;
+  put_loads(work, steps, *layout);
+  if (auto begun = sink.begin(std::move(*layout)); !begun)
+    return tl::unexpected<Error>(begun.error());
+  if (auto shown = Show(work, steps, frames, sink, watch).all(); !shown)
+    return tl::unexpected<Error>(shown.error());
+  Stepped stepped{std::move(work.course)};
+  for (std::size_t k = 0; k < stepped.course.legs.size(); ++k)
+    stepped.told.push_back(told_of(k, steps[k], stepped.course.legs[k]));
+  return stepped;
+}
+
+}  // namespace gridshell::experiment

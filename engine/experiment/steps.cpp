@@ -1,0 +1,195 @@
+#include "engine/experiment/steps.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "engine/measure/gauss.h"
+
+namespace gridshell::experiment {
+namespace {
+
+Eigen::Vector3d vector_of(const std::vector<double>& xyz) { return {xyz[0], xyz[1], xyz[2]}; }
+
+/// t_u x t_v at a joint of the shell as it stands.
+Eigen::Vector3d normal_at(const Session& session, int joint) {
+  const JointTangents tangents =
+      joint_tangents(session.scene().footprint, session.shell().finest(), session.nodes());
+  return tangents.u.col(joint).cross(tangents.v.col(joint)).normalized();
+}
+
+/// Where a move has the edge points, off the scene's motion.
+Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene) {
+  Eigen::Matrix3Xd dragged = HandBoundary::of(scene).dragged;
+  for (const auto& row : step.edge_points) {
+    const auto k = Eigen::Index(row[0]);
+    if (k >= dragged.cols())
+      return fail(Fault::bad_input, fmt::format("there is no edge point {}, they go from 0 to {}",
+                                                k, dragged.cols() - 1));
+    dragged.col(k) << row[1], row[2], row[3];
+  }
+  const BoundaryMotion& motion = scene.motion;
+  if (!step.edge_points.empty() && (motion.end_tangent.cols() > 0 || motion.end_far.cols() > 0))
+    return fail(Fault::bad_input, "ends whose direction is held cannot be moved one by one");
+  return dragged;
+}
+
+Result<Report> move(Session& session, HandBoundary& boundary, const preset::Step& step,
+                    const Watch& watch, Way* way) {
+  const Scene& scene = session.scene();
+  const auto dragged = dragged_of(step, scene);
+  if (!dragged) return tl::unexpected<Error>(dragged.error());
+  const double progress = progress_of(step, scene);
+  if (dragged->isZero(0) && boundary.dragged.isZero(0)) {
+    const Report report = session.move_to(progress, watch, way ? &way->trail : nullptr);
+    if (way) way->end = session.save();
+    boundary.progress = session.progress();
+    return report;
+  }
+  BoundaryMotion motion = scene.motion;
+  motion.end = motion.begin + progress * (motion.end - motion.begin) + *dragged;
+  const Report report = session.rebase(motion, watch);
+  boundary.progress += report.t * (progress - boundary.progress);
+  boundary.dragged += report.t * (*dragged - boundary.dragged);
+  return report;
+}
+
+Result<Report> push(Session& session, const preset::Step& step, const Watch& watch, Way* path) {
+  const auto joint = joint_of(step, session.scene().footprint);
+  if (!joint) return tl::unexpected<Error>(joint.error());
+  const Eigen::Vector3d at = session.nodes().col(*joint);
+  const bool holds = step.deed == preset::Deed::hold;
+  Eigen::Vector3d way = Eigen::Vector3d::Zero(), along = way;
+  if (!holds && !step.to_mm.empty()) way = vector_of(step.to_mm) - at;
+  if (!holds && step.to_mm.empty()) way = -step.depth_mm * normal_at(session, *joint);
+  const bool free = holds ? !step.along.empty() : step.lateral == preset::Lateral::free;
+  if (!step.along.empty()) {
+    along = vector_of(step.along).normalized();
+    way = along * along.dot(way);
+  }
+  // a hand that does not move yet takes hold along its own direction
+  if (way.norm() < nearest_mm)
+    way = nearest_mm * (along.isZero(0) ? Eigen::Vector3d::UnitZ() : along);
+  const Report report = session.push(*joint, way, free ? Across::free : Across::held, watch,
+                                     path ? &path->trail : nullptr);
+  if (path) path->end = session.save();
+  return report;
+}
+
+/// The same led by the coarsest mesh alone: finer ones then hold the joint where that one has it,
+/// and not each where it came from its own place.
+Result<Report> push_by_coarsest(Session& session, const preset::Step& step, const Watch& watch,
+                                Way* path) {
+  const LevelPlan plan = session.shell().plan();
+  if (plan.edges_per_segment.size() == 1) return push(session, step, watch, path);
+  const Checkpoint before = session.save();
+  const auto coarse = session.remesh({{plan.edges_per_segment.front()}, false}, watch);
+  if (!coarse) return coarse;
+  if (coarse->end != Outcome::reached) return session.restore(before), coarse;
+  auto report = push(session, step, watch, path);
+  if (!report) return session.restore(before), report;
+  const auto fine = session.remesh(plan, watch);
+  if (!fine) return fine;
+  if (fine->end != Outcome::reached) {
+    session.restore(before);
+    report->end = watch.cancelled() ? Outcome::cancelled : Outcome::meshes_disagree;
+  }
+  report->certificate = session.certificate();
+  return report;
+}
+
+Result<Report> release(Session& session, const preset::Step& step, const Watch& watch) {
+  std::vector<int> joints;
+  if (step.joint.empty()) {
+    for (const Hold& hold : session.holds()) joints.push_back(hold.node);
+  } else {
+    const auto joint = joint_of(step, session.scene().footprint);
+    if (!joint) return tl::unexpected<Error>(joint.error());
+    if (std::ranges::any_of(session.holds(), [&](const Hold& hold) { return hold.node == *joint; }))
+      joints = {*joint};
+  }
+  if (joints.empty()) return fail(Fault::bad_input, "no joint is held that could be let go");
+  Report all;
+  for (const int joint : joints) {
+    std::vector<Event> before = std::move(all.events);
+    all = session.release(joint, watch);
+    all.events.insert(all.events.begin(), before.begin(), before.end());
+    if (all.end != Outcome::reached) break;
+  }
+  return all;
+}
+
+/// One random force on every joint.
+std::vector<NodeAction> random_field(const Scene& scene, int seed, double force_N) {
+  std::mt19937 random{std::uint32_t(seed)};
+  // not by a distribution of the standard library, whose numbers differ from one to the next
+  const auto draw = [&] { return 2.0 * double(random()) / double(random.max()) - 1; };
+  std::vector<NodeAction> field;
+  for (int joint = 0; joint < int(scene.footprint.joints.size()); ++joint) {
+    const double x = draw(), y = draw(), z = draw();
+    field.push_back({joint, force_N * Eigen::Vector3d(x, y, z)});
+  }
+  return field;
+}
+
+Report jitter(Session& session, const preset::Step& step, const Watch& watch) {
+  const Checkpoint before = session.save();
+  const auto field = random_field(session.scene(), step.seed, step.force_N);
+  const Report thrown = session.set_field(field, watch);
+  // a field that the shell cannot bear all the way has moved it as well
+  if (watch.cancelled()) return session.restore(before), thrown;
+  Report back = session.set_field({}, watch);
+  back.events.insert(back.events.begin(), thrown.events.begin(), thrown.events.end());
+  if (back.end != Outcome::reached) session.restore(before);
+  return back;
+}
+
+}  // namespace
+
+std::string text_of(const preset::Step& step) {
+  std::string text(word_of(step.deed));
+  if (!step.joint.empty()) text += fmt::format(" [{}]", fmt::join(step.joint, ", "));
+  return text;
+}
+
+Result<int> joint_of(const preset::Step& step, const Footprint& footprint) {
+  const auto& joints = footprint.joints;
+  const auto found = std::ranges::find_if(joints, [&](const FootprintJoint& joint) {
+    return step.joint.size() == 2 && joint.i == step.joint[0] && joint.j == step.joint[1];
+  });
+  if (found == joints.end())
+    return fail(Fault::bad_input, fmt::format("joint = [{}]: the footprint has no such joint",
+                                              fmt::join(step.joint, ", ")));
+  return int(found - joints.begin());
+}
+
+double progress_of(const preset::Step& step, const Scene& scene) {
+  if (step.radius_mm == 0) return step.progress;
+  const double from = scene.radius_begin_mm, to = scene.radius_end_mm;
+  return from == to ? 1 : (from - step.radius_mm) / (from - to);
+}
+
+Result<Report> take_step(Session& session, HandBoundary& boundary, const preset::Step& step,
+                         const Watch& watch, Way* way) {
+  switch (step.deed) {
+    case preset::Deed::move:
+      return move(session, boundary, step, watch, way);
+    case preset::Deed::push:
+    case preset::Deed::hold:
+      return push_by_coarsest(session, step, watch, way);
+    case preset::Deed::release:
+      return release(session, step, watch);
+    case preset::Deed::load:
+      return session.load(step.factor, watch);
+    case preset::Deed::rest:
+      return session.rest(watch, same_word<Leave>(step.side));
+    case preset::Deed::jitter:
+      return jitter(session, step, watch);
+  }
+  return Report{};
+}
+
+}  // namespace gridshell::experiment

@@ -1,0 +1,153 @@
+// A hand's steps as a run: what each came to, where the shell stands after them, and what their
+// frames say.
+#include "engine/experiment/stepped.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/experiment/experiment.h"
+#include "engine/preset/reader.h"
+#include "tests/engine/experiment/run.h"
+
+using namespace gridshell;
+using preset::Deed;
+
+namespace {
+
+preset::Preset small_shell() {
+  preset::Preset preset;
+  preset.name = preset.title = "small";
+  preset.footprint.rods = 6;
+  preset.footprint.radius_mm = 66;
+  preset.actuation.radius_mm = 54;
+  preset.imperfection.size = 0;
+  preset.accuracy.edges_per_segment = 4;
+  preset.movie.frames = 2;
+  return preset;
+}
+
+preset::Step of(Deed deed) {
+  preset::Step step;
+  step.deed = deed;
+  return step;
+}
+
+preset::Step push(int i, int j, double depth_mm) {
+  preset::Step step = of(Deed::push);
+  step.joint = {i, j};
+  step.depth_mm = depth_mm;
+  return step;
+}
+
+preset::Step move(double progress) {
+  preset::Step step = of(Deed::move);
+  step.progress = progress;
+  return step;
+}
+
+double difference(const record::Frame& a, const record::Frame& b) {
+  return (a.nodes - b.nodes).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("frames fall to the steps that have a way, one to each of the others") {
+  const std::vector<preset::Step> steps{push(0, 0, 3), of(Deed::release), move(0.9)};
+  CHECK(experiment::frames_of_steps(steps, 11) == std::vector{5, 1, 4});
+  CHECK(experiment::frames_of_steps(steps, 2) == std::vector{1, 1, 1});
+  CHECK(experiment::frames_of_steps({of(Deed::rest)}, 20) == std::vector{1});
+}
+
+TEST_CASE("a push let go is the shell before, and every step says what it came to") {
+  preset::Preset preset = small_shell();
+  preset.step = {push(0, 0, 3), of(Deed::release)};
+  preset.movie.frames = 6;
+  const experiment::Outcome outcome = run(preset);
+  const auto& frames = outcome.trajectory.frames;
+  REQUIRE(frames.size() == 6);
+  CHECK(outcome.summary.limit == record::Limit::none);
+  CHECK(difference(frames.front(), frames.back()) < 1e-5);
+  // four frames on the way of the push, as deep as evenly sampled
+  for (std::size_t k = 1; k <= 4; ++k) {
+    CHECK(frames[k].depth_mm == Approx(0.75 * double(k)).epsilon(1e-6));
+    if (k > 1) CHECK(frames[k].force_N > frames[k - 1].force_N);
+    CHECK(frames[k].residual_N < 1e-6);
+    CHECK(frames[k].event.empty());
+  }
+  CHECK(std::isnan(frames[5].depth_mm));
+  CHECK(frames[5].event == "release");
+  REQUIRE(outcome.summary.steps.size() == 2);
+  CHECK_THAT(outcome.summary.steps[0],
+             Catch::StartsWith("1 push [0, 0]: reached, residual ") && Catch::Contains("stable"));
+  CHECK_THAT(outcome.summary.steps[1], Catch::StartsWith("2 release: reached"));
+  REQUIRE(outcome.trajectory.layout.loaded_joints.size() == 1);
+}
+
+TEST_CASE("frames only sample the steps, which end where they end") {
+  preset::Preset preset = small_shell();
+  preset.step = {push(0, 0, 3), move(0.9), push(1, -1, 2)};
+  const experiment::Outcome few = run(preset);
+  preset.movie.frames = 17;
+  const experiment::Outcome many = run(preset);
+  CHECK(few.trajectory.frames.size() == 4);
+  CHECK(many.trajectory.frames.size() == 17);
+  CHECK(difference(few.trajectory.frames.back(), many.trajectory.frames.back()) == 0);
+  CHECK(many.trajectory.frames.back().boundary_radius_mm == Approx(66 - 0.9 * 12));
+}
+
+TEST_CASE("a step to the preset's own radius is that of a run there") {
+  preset::Preset there = small_shell();
+  there.actuation.radius_mm = 57;
+  preset::Preset moved = small_shell();
+  moved.step = {of(Deed::move)};
+  moved.step[0].radius_mm = 57;
+  const auto a = run(there), b = run(moved);
+  CHECK(difference(a.trajectory.frames.back(), b.trajectory.frames.back()) < 1e-6);
+}
+
+TEST_CASE("loads, a held joint, edge points, a jitter and a rest are steps") {
+  preset::Preset preset = small_shell();
+  preset.rod.density_kg_m3 = 6450;
+  preset.loads.gravity_m_s2 = 9.81;
+  preset::Step light = of(Deed::load), hold = of(Deed::hold), edge = of(Deed::move);
+  light.factor = 0;
+  hold.joint = {0, 0};
+  edge.edge_points = {{3, 1.5, -1, 0}};
+  preset.step = {light, hold, edge, of(Deed::release), of(Deed::jitter), of(Deed::rest)};
+  const experiment::Outcome outcome = run(preset);
+  const auto& frames = outcome.trajectory.frames;
+  REQUIRE(frames.size() == 7);
+  CHECK(frames[0].energies[Term::load] != 0);
+  CHECK(frames[1].energies[Term::load] == 0);
+  CHECK(difference(frames[1], frames[2]) < 1e-6);
+  const int node = outcome.trajectory.layout.edge_points[3];
+  const Eigen::Vector3d moved = frames[3].nodes.col(node) - frames[2].nodes.col(node);
+  CHECK((moved - Eigen::Vector3d(1.5, -1, 0)).norm() < 1e-9);
+  CHECK(frames[6].negative_pivots == 0);
+}
+
+TEST_CASE("a step that ends early ends the run, and both say so") {
+  preset::Preset preset = small_shell();
+  preset.step = {push(0, 0, -60), of(Deed::release)};  // outward, further than the rods are long
+  const experiment::Outcome outcome = run(preset);
+  CHECK(outcome.summary.limit == record::Limit::locking);
+  CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 1 (push [0, 0]): "));
+  REQUIRE(outcome.summary.steps.size() == 1);
+  CHECK_THAT(outcome.summary.steps[0], Catch::Contains("locked"));
+  CHECK(outcome.trajectory.frames.back().event == "locking");
+}
+
+TEST_CASE("steps on what is not there are errors with their number") {
+  preset::Preset preset = small_shell();
+  const auto refused = [&](const preset::Step& step) {
+    preset.step = {move(0.95), step};
+    Watch watch;
+    const auto outcome = experiment::run(preset, false, watch);
+    return outcome ? std::string() : outcome.error().message;
+  };
+  CHECK_THAT(refused(push(40, 0, 1)), Catch::Contains("[[step]] 2") &&
+                                          Catch::Contains("joint = [40, 0]: the footprint has no"));
+  CHECK_THAT(refused(of(Deed::release)), Catch::Contains("[[step]] 2: no joint is held"));
+  preset::Step edge = of(Deed::move);
+  edge.edge_points = {{400, 1, 0, 0}};
+  CHECK_THAT(refused(edge), Catch::Contains("there is no edge point 400, they go from 0 to 23"));
+}

@@ -1,0 +1,80 @@
+// [[step]]: read, refused with file, line and key, and written as it reads.
+#include "engine/preset/step_fields.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/preset/reader.h"
+#include "engine/preset/writer.h"
+
+using namespace gridshell;
+using namespace gridshell::preset;
+
+namespace {
+
+std::string faults_of(const std::string& text) {
+  const auto presets = read_preset_text(text, "bad.toml", "bad");
+  return presets ? "" : presets.error().message;
+}
+
+const std::string two_steps = R"(
+[[step]]
+do = "push"
+joint = [1, -2]
+to_mm = [10.5, -3.0, 40.25]
+along = [0.0, 0.0, 1.0]
+[[step]]
+do = "move"
+progress = 0.5
+edge_points = [[3, 1.5, -1e-17, 0.0]]
+)";
+
+}  // namespace
+
+TEST_CASE("steps are read in their order, each with defaults of its own") {
+  const auto presets = read_preset_text(two_steps, "good.toml", "good");
+  REQUIRE(presets);
+  const auto& steps = presets->base.step;
+  REQUIRE(steps.size() == 2);
+  CHECK(steps[0].deed == Deed::push);
+  CHECK(steps[0].joint == std::vector{1, -2});
+  CHECK(steps[0].to_mm == std::vector{10.5, -3.0, 40.25});
+  CHECK(steps[1].progress == 0.5);
+  CHECK(steps[1].joint.empty());
+  CHECK(steps[1].edge_points == Points{{3, 1.5, -1e-17, 0}});
+}
+
+TEST_CASE("written steps read back to the bit, without the keys that they do not use") {
+  const auto presets = read_preset_text(two_steps, "good.toml", "good");
+  REQUIRE(presets);
+  const std::string text = to_toml(*presets);
+  CHECK_THAT(text, Catch::Contains("[[step]]\ndo = \"move\"\nprogress = 0.5\nedge_points = ") &&
+                       !Catch::Contains("factor"));
+  const auto again = read_preset_text(text, "again.toml", "good");
+  REQUIRE(again);
+  CHECK(to_toml(*again) == text);
+}
+
+TEST_CASE("what is wrong with a step is said with its place, its number and what would be right") {
+  using Row = std::pair<std::string, std::string>;
+  const auto [text, sentence] = GENERATE(values<Row>({
+      {"[[step]]\ndo = \"shove\"",
+       "bad.toml:2:6: [[step]] 1 do = \"shove\": unknown word, must be \"move\", \"push\", "
+       "\"hold\", \"release\", \"load\", \"rest\" or \"jitter\""},
+      {"[[step]]\ndo = \"rest\"\n[[step]]\ndo = \"hold\"",
+       "bad.toml:3:1: [[step]] 2 joint = []: must be [i, j]"},
+      {"[[step]]\ndo = \"push\"\njoint = [0, 0]",
+       "bad.toml:1:1: [[step]] 1 depth_mm = 0.0: a push goes to `to_mm` or by `depth_mm`, must be "
+       "one of the two"},
+      {"[[step]]\ndo = \"rest\"\nfactor = 2.0",
+       "bad.toml:3:10: [[step]] 1 factor = 2.0: counts for nothing here, must be left out: "
+       "[[step]] 1 do = \"rest\" does not use it, only \"load\""},
+      {"[[step]]\ndo = \"move\"\nradius_mm = 200.0",
+       "bad.toml:3:13: [[step]] 1 radius_mm = 200.0: larger than the footprint, must be at most "
+       "R_o = 126"},
+      {"[indentation]\ndepth = 0.1\n[[step]]\ndo = \"rest\"",
+       "bad.toml:4:6: [[step]] 1 do = \"rest\": [indentation] pushes already, must be a step "
+       "\"push\" in its place"},
+      {"[step]\ndo = \"rest\"", "bad.toml:1:2: step: must be tables, each [[step]]"},
+  }));
+  CHECK(faults_of(text) == sentence);
+}
