@@ -41,9 +41,10 @@ void draw_colours(Canvas& canvas, const Box& bar, const ColourScale& scale) {
   }
 }
 
-// along the right edge, smaller where the bar is short
+// along the right edge, smaller where the bar is short; left out where there is no room
 void draw_words(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size) {
-  if (bar.words.empty()) return;
+  if (bar.words.empty() || box.width < colour_bar_width(canvas, bar, font_size) - 0.3 * font_size)
+    return;
   constexpr double smallest = 0.7;
   TextStyle style{.size = 0.9 * font_size, .align_x = AlignX::centre, .align_y = AlignY::middle};
   style.angle_deg = 90;
