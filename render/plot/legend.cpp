@@ -150,7 +150,8 @@ void draw_patches(Canvas& canvas, const Box& first, const Patches& patches) {
   for (std::size_t k = 0; k < patches.names.size(); ++k) {
     Box box = first;
     box.x += patches.row_width / columns * double(k % columns);
-    box.y += patches.row_height * double(k / columns);
+    const std::size_t row = k / columns;
+    box.y += patches.row_height * double(row);
     patches.draw(k, box);
     canvas.text(patches.names[k], {box.right() + 4, box.middle().y},
                 {.size = patches.font_size, .align_y = AlignY::middle});
