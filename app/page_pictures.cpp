@@ -117,7 +117,7 @@ class PageMaker {
                      std::move(panel));
       watch_.report(double(k + 1) / count);
     }
-    if (const auto& bar = stage.colour_bar()) page.add_colour_bar({162, 4, 14, 48}, *bar);
+    if (const auto& bar = stage.colour_bar()) page.add_colour_bar({157, 4, 19, 48}, *bar);
     const double bar_mm = records_.front().preset.figure.scale_bar_mm;
     page.add("", "", {160, 106, 16, 10}, [bar_mm, units](Canvas& canvas, const Box& box) {
       render::draw_scale_bar(canvas, box, bar_mm, units, page_font);
@@ -164,6 +164,8 @@ class PageMaker {
       const record::Trajectory& run = *named_pushes_[k].run;
       render::Plot plot = render::bins_plot(render::survey_of(run), long(run.layout.cells.size()),
                                             run.frames.back(), std::array{-0.01, 0.07}, page_font);
+      // too low for more words; B has them
+      plot.y.label = "mean *K*_{□} (rad)";
       const double width = 174.0 / double(named_pushes_.size());
       page.add_plot(k == 0 ? "D" : "", {2 + width * double(k), 146, width - 1, 43}, plot);
     }

@@ -202,8 +202,11 @@ Result<void> ShellInHand::form(const preset::Preset& preset, const Watch& watch)
   sight_.push = {};
   sight_.layout.reset();
   sight_.first = {};
-  for (const preset::Step& step : preset.step)
+  for (const preset::Step& step : preset.step) {
+    // what stands before a step is what it is seen against
+    look();
     if (auto done = do_step(step, watch); !done) return done;
+  }
   if (!preset.indentation.wanted()) return {};
   const auto push = experiment::push_of(preset.indentation, *scene, session_->shell().finest(),
                                         session_->nodes());

@@ -147,7 +147,8 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
       [&](Canvas& canvas) {
         if (head > 0) draw_figure_head(canvas, title);
         for (std::size_t k = 0; k < plots.size(); ++k) {
-          const double x = column * double(k % columns), y = head + height * double(k / columns);
+          const std::size_t row = k / columns;
+          const double x = column * double(k % columns), y = head + height * double(row);
           draw_plot(canvas, {x + 3, y + 3, column - 6, height - 6}, plots[k]);
         }
       },

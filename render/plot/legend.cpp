@@ -41,9 +41,10 @@ void draw_colours(Canvas& canvas, const Box& bar, const ColourScale& scale) {
   }
 }
 
-// along the right edge, smaller where the bar is short
+// along the right edge, smaller where the bar is short; left out where there is no room
 void draw_words(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size) {
-  if (bar.words.empty()) return;
+  if (bar.words.empty() || box.width < colour_bar_width(canvas, bar, font_size) - 0.3 * font_size)
+    return;
   constexpr double smallest = 0.7;
   TextStyle style{.size = 0.9 * font_size, .align_x = AlignX::centre, .align_y = AlignY::middle};
   style.angle_deg = 90;
@@ -149,7 +150,8 @@ void draw_patches(Canvas& canvas, const Box& first, const Patches& patches) {
   for (std::size_t k = 0; k < patches.names.size(); ++k) {
     Box box = first;
     box.x += patches.row_width / columns * double(k % columns);
-    box.y += patches.row_height * double(k / columns);
+    const std::size_t row = k / columns;
+    box.y += patches.row_height * double(row);
     patches.draw(k, box);
     canvas.text(patches.names[k], {box.right() + 4, box.middle().y},
                 {.size = patches.font_size, .align_y = AlignY::middle});

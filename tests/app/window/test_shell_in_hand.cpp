@@ -131,7 +131,7 @@ preset::Preset saved(const Sight& sight) {
   return preset;
 }
 
-TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same state") {
+TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same state", "[full]") {
   ShellInHand hand = formed();
   const Sight begun = hand.sight();
   const auto place = [&](int joint) -> Eigen::Vector3d {
@@ -174,6 +174,9 @@ TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same 
   const ShellInHand again = formed(preset);
   CHECK((again.sight().frame.nodes - a.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
   CHECK(again.sight().steps.size() == 7);
+  REQUIRE(again.sight().held.size() == 1);
+  // it was taken hold of on the coarsest mesh, 0.2 mm off at most
+  CHECK((again.sight().held[0].moved_mm - hand.sight().held[0].moved_mm).norm() < 0.2);
   hand.fulfil({Undo{}}, unwatched);
   CHECK(hand.sight().steps.size() == 6);
 }
