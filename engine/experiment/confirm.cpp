@@ -82,9 +82,10 @@ bool seen_on_finest(Course& fine, const Leg& leg, const Event& event, double coa
 }
 
 /// Losses of stability that the leaders of both courses see and the finest mesh does not: a
-/// sentence, or nothing. Those of the actuation before a push are not looked at: its motion is
-/// over.
+/// sentence, or nothing. Motions that are over are not looked at: the actuation before a push, and
+/// steps.
 std::optional<std::string> only_on_leaders(const Course& coarse, Course& fine, const Watch& watch) {
+  if (!fine.one_motion) return std::nullopt;
   const Checkpoint end = fine.session.save();
   std::optional<std::string> found;
   for (std::size_t k = 0; k < fine.legs.size(); ++k) {

@@ -28,6 +28,7 @@ struct Course {
   Session session;
   std::vector<Leg> legs = {};
   std::vector<Leg> earlier = {};  ///< of a push: those of the actuation before it
+  bool one_motion = true;         ///< whether all legs are of the motion that the session is on
   double seconds_setup = 0;
   std::string doubt = {};  ///< what meshes do not agree on, a sentence; empty: nothing is known
   record::Limit limit = record::Limit::none;

@@ -63,7 +63,7 @@ void close(Leg& leg, const Session& session) {
         station.certificate.error_estimate_mm = session.certificate().error_estimate_mm;
     return;
   }
-  leg.trail.stations.push_back({session.shell().followed(), session.certificate()});
+  leg.trail.stations.push_back({session.shell().point(), session.certificate()});
   leg.from = leg.to = leg.end();
 }
 
@@ -78,6 +78,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   Checkpoint begin = actuated->session.save();
   Work work{std::move(*actuated), std::move(begin)};
   work.course.earlier = std::exchange(work.course.legs, {});
+  work.course.one_motion = false;
   Session& session = work.course.session;
   HandBoundary boundary = HandBoundary::of(*scene);
   std::map<int, Eigen::Vector3d> taken_at;
