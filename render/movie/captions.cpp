@@ -25,8 +25,8 @@ std::string frame_caption(int at, int frames) {
 std::string equilibrium_caption(const record::Frame& frame) {
   if (std::isfinite(frame.time_s)) return "t = " + fixed(1e3 * frame.time_s, 0) + " ms";
   if (!std::isfinite(frame.residual_N)) return "";  // a net, nothing was solved for
-  // its order alone: the digits of what round-off leaves differ from processor to processor
-  const double order = std::ceil(std::log10(std::max(frame.residual_N, 1e-9)) - 1e-9);
+  // its order alone, down to a micronewton: below, tolerances and round-off decide
+  const double order = std::ceil(std::log10(std::max(frame.residual_N, 1e-6)) - 1e-9);
   const std::string text = "residual < " + scientific(std::pow(10, order), 1) + " N";
   return frame.negative_pivots == 0 ? text + ", stable" : text;
 }

@@ -16,7 +16,7 @@ std::vector<std::string> state_captions(const record::Frame& frame);
 /// "frame 120 / 240"; `at` from 0
 std::string frame_caption(int at, int frames);
 
-/// "residual < 1 × 10^{−8} N, stable". An unstable frame says so in its event.
+/// "residual < 1 × 10^{−6} N, stable". An unstable frame says so in its event.
 std::string equilibrium_caption(const record::Frame& frame);
 
 /// What happened in this very frame: its event, or that it is unstable; empty when nothing did.

@@ -52,7 +52,7 @@ TEST_CASE("a third missing and as many that belong nowhere mislead nobody") {
   CHECK(found->cost == Approx(17 * 9));
 }
 
-TEST_CASE("a mirror image is another shape; too few points tell no pose") {
+TEST_CASE("a mirror image is another shape, and too few points tell no pose") {
   const Eigen::Matrix3Xd places = bump();
   const Eigen::Matrix3Xd mirrored = Eigen::Vector3d(-1, 1, 1).asDiagonal() * places;
   const auto found = lay_on(tilted.of(mirrored), places, {});
