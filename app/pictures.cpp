@@ -184,10 +184,6 @@ Result<void> write_lines(const record::Trajectory& run, render::MovieStyle style
                               });
 }
 
-}  // namespace
-
-namespace {
-
 /// Of stills that each show the end of a step: which; else what the stills say by themselves.
 std::vector<std::string> captions_of(const preset::Preset& preset, const record::Trajectory& run) {
   std::vector<std::string> captions;

@@ -77,8 +77,8 @@ std::string scan_csv(const ComparedScan& scan, const record::Layout& layout) {
 std::string measured_csv(const LaidScan& scan) {
   record::Csv csv;
   csv.line("x_mm", "y_mm", "z_mm");
-  for (const auto& joint : scan.joints.colwise())
-    if (!joint.hasNaN()) csv.line(joint.x(), joint.y(), joint.z());
+  const Eigen::Matrix3Xd measured = scan.measured();
+  for (const auto& joint : measured.colwise()) csv.line(joint.x(), joint.y(), joint.z());
   return std::move(csv).text();
 }
 

@@ -124,17 +124,14 @@ Result<void> draw(const ComparedScan& scan, const Candidate& one, Artist& artist
                   const fs::path& folder, Watch& watch) {
   const auto style = style_of(one.run->preset, Pictures::stills);
   const LaidScan& laid = *scan.of_best().scan;
-  Eigen::Matrix3Xd measured(3, laid.found);
-  Eigen::Index next = 0;
-  for (const auto& joint : laid.joints.colwise())
-    if (!joint.hasNaN()) measured.col(next++) = joint;
   const record::Trajectory shown = states_alone(one.run->trajectory, {one.frame});
   const std::string caption =
       fmt::format("{}{} of {} joints, {:.2f} mm rms, {:.2f} mm at most",
                   scan.of_best().shown ? "" : "not this state: ", laid.found, laid.joints.cols(),
                   laid.rms_mm, laid.max_mm);
   const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
-  return render::draw_over_nets({{&shown, caption, measured}}, style, artist.renderer(), watch)
+  return render::draw_over_nets({{&shown, caption, laid.measured()}}, style, artist.renderer(),
+                                watch)
       .and_then(render::draw_panels)
       .and_then([&](const render::Image& image) {
         return render::write_png(image, folder / "scan.png", dpi);

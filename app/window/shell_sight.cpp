@@ -85,7 +85,7 @@ void ShellInHand::look_at_normals() {
       joint_tangents(footprint, session_->shell().finest(), session_->nodes());
   normals.resize(3, tangents.u.cols());
   for (Eigen::Index k = 0; k < tangents.u.cols(); ++k) {
-    normals.col(k) = tangents.u.col(k).cross(tangents.v.col(k)).normalized();
+    normals.col(k) = tangents.normal(k);
     if (!scene_->net) continue;
     const FootprintJoint& joint = footprint.joints[std::size_t(k)];
     if (const auto point = scene_->net->at(joint.u, joint.v)) normals.col(k) = point->normal();

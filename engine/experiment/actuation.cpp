@@ -62,16 +62,13 @@ Result<Checkpoint> begin_from_flat(Course& course, const Watch& watch) {
 /// Whether the path from next to the flat, where the session stands after a way back, comes to the
 /// first state: not where that lies on a branch that leaves it.
 bool leads_to(Course& course, const Checkpoint& first, const Watch& watch) {
-  constexpr double near_spacings = 0.1;  // of d
   Session& session = course.session;
   const Checkpoint here = session.save();
   const Report there =
       session.sample(first.state.t, course.legs.front().trail.stations.back(), false, watch);
-  const Eigen::Index joints = session.shell().finest().joints;
   const bool same =
-      there.end == Outcome::reached &&
-      largest_column(session.nodes().leftCols(joints) - first.state.x.leftCols(joints)) <
-          near_spacings * session.scene().footprint.spacing;
+      there.end == Outcome::reached && distance_of_joints(session, first.state.x) <
+                                           near_spacings * session.scene().footprint.spacing;
   session.restore(here);
   return same;
 }

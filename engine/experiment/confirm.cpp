@@ -11,17 +11,10 @@ namespace gridshell::experiment {
 namespace {
 
 constexpr int most_leaders = 3;
-constexpr double near_t = 0.05;        // events that two leaders place so near are the same
-constexpr double near_spacings = 0.1;  // ends whose joints lie so near are the same state, of d
+constexpr double near_t = 0.05;  // events that two leaders place so near are the same
 
 int leader_of(const Course& course) {
   return course.session.shell().plan().edges_per_segment.front();
-}
-
-/// Largest distance of the joints where two courses stand, mm.
-double distance(const Course& a, const Course& b) {
-  const Eigen::Index joints = a.session.shell().finest().joints;
-  return largest_column(a.session.nodes().leftCols(joints) - b.session.nodes().leftCols(joints));
 }
 
 /// Whether every leg came to its end, or to a limit of the rods.
@@ -71,13 +64,10 @@ bool seen_on_finest(Course& fine, const Leg& leg, const Event& event, double coa
   constexpr double least = 2e-3;  // in the path parameter
   const double apart = std::abs(event.t - coarse_t);
   const double there = event.t + leg.way() * (apart + least);
-  const auto& stations = leg.trail.stations;
-  const Station* before = &stations.front();
-  for (const Station& station : stations) {
-    if (leg.way() * (station.point.t - event.t) > 0) break;
-    before = &station;
-  }
-  const Report beyond = fine.session.sample(there, *before, true, watch);
+  Session& session = fine.session;
+  const Checkpoint end = session.save();
+  const Report beyond = session.sample(there, station_before(leg, event.t), true, watch);
+  session.restore(end);
   return beyond.end != Outcome::reached || !beyond.certificate.stable();
 }
 
@@ -86,20 +76,17 @@ bool seen_on_finest(Course& fine, const Leg& leg, const Event& event, double coa
 /// steps.
 std::optional<std::string> only_on_leaders(const Course& coarse, Course& fine, const Watch& watch) {
   if (!fine.one_motion) return std::nullopt;
-  const Checkpoint end = fine.session.save();
-  std::optional<std::string> found;
   for (std::size_t k = 0; k < fine.legs.size(); ++k) {
     const auto &seen = coarse.legs[k].report.events, &events = fine.legs[k].report.events;
-    for (std::size_t e = 0; e < events.size() && !found; ++e) {
+    for (std::size_t e = 0; e < events.size(); ++e) {
       const bool left = events[e].kind == Event::Kind::stability_lost && events[e].to;
       if (left && !seen_on_finest(fine, fine.legs[k], events[e], seen[e].t, watch))
-        found =
-            fmt::format("{} edges a segment do not lose their stability at path parameter {:.3f}",
-                        fine.session.shell().plan().edges_per_segment.back(), events[e].t);
+        return fmt::format(
+            "{} edges a segment do not lose their stability at path parameter {:.3f}",
+            fine.session.shell().plan().edges_per_segment.back(), events[e].t);
     }
   }
-  fine.session.restore(end);
-  return found;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -113,7 +100,8 @@ std::optional<std::string> disagreement(const Course& coarse, const Course& fine
   }
   if (coarse.legs.empty() || coarse.legs.back().end() != fine.legs.back().end())
     return std::nullopt;  // both ended early, at states of their own
-  const double apart = distance(coarse, fine), d = coarse.session.scene().footprint.spacing;
+  const double apart = distance_of_joints(coarse.session, fine.session.nodes()),
+               d = coarse.session.scene().footprint.spacing;
   if (apart > near_spacings * d) return fmt::format("ends {:.3g} mm apart", apart);
   return std::nullopt;
 }

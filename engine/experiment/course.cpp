@@ -11,14 +11,6 @@
 namespace gridshell::experiment {
 namespace {
 
-/// The station that a sample of a leg lies behind: the last one that the leg came past before it.
-const Station& station_before(const Leg& leg, double t) {
-  const Station* before = &leg.trail.stations.front();
-  for (const Station& station : leg.trail.stations)
-    if (leg.way() * (t - station.point.t) >= 0) before = &station;
-  return *before;
-}
-
 /// The station that it lies in front of.
 const Station& station_after(const Leg& leg, double t) {
   for (const Station& station : leg.trail.stations)
@@ -39,6 +31,18 @@ double worst_estimate_mm(const Course& course) {
 }
 
 }  // namespace
+
+double distance_of_joints(const Session& session, const Eigen::Matrix3Xd& nodes) {
+  const Eigen::Index joints = session.shell().finest().joints;
+  return largest_column(session.nodes().leftCols(joints) - nodes.leftCols(joints));
+}
+
+const Station& station_before(const Leg& leg, double t) {
+  const Station* before = &leg.trail.stations.front();
+  for (const Station& station : leg.trail.stations)
+    if (leg.way() * (t - station.point.t) >= 0) before = &station;
+  return *before;
+}
 
 bool Course::eventful() const {
   const auto any = [](const Leg& leg) {

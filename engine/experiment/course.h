@@ -38,6 +38,16 @@ struct Course {
   bool eventful() const;
 };
 
+/// States whose joints lie so near are the same, of d.
+inline constexpr double near_spacings = 0.1;
+
+/// Largest distance of the joints where a session stands from those of nodes of its finest mesh,
+/// mm.
+double distance_of_joints(const Session& session, const Eigen::Matrix3Xd& nodes);
+
+/// The station that a sample of a leg lies behind: the last one that the leg came past before it.
+const Station& station_before(const Leg& leg, double t);
+
 /// From where the session stands on: follows the path to `to` and keeps the way as a leg.
 Leg& follow_leg(Course& course, double to, const Leaving& leaving, const Watch& watch);
 

@@ -75,8 +75,7 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, con
     if (!point) return tl::unexpected<Error>(point.error());
     push.displacement = point->normal();
   } else {
-    const JointTangents tangents = joint_tangents(scene.footprint, mesh, nodes);
-    push.displacement = tangents.u.col(*joint).cross(tangents.v.col(*joint)).normalized();
+    push.displacement = joint_tangents(scene.footprint, mesh, nodes).normal(*joint);
   }
   const double depth = asked.depth_mm > 0 ? asked.depth_mm : asked.depth * scene.length_scale_mm;
   push.displacement *= asked.direction == preset::Direction::inward ? -depth : depth;

@@ -16,9 +16,8 @@ Eigen::Vector3d vector_of(const std::vector<double>& xyz) { return {xyz[0], xyz[
 
 /// t_u x t_v at a joint of the shell as it stands.
 Eigen::Vector3d normal_at(const Session& session, int joint) {
-  const JointTangents tangents =
-      joint_tangents(session.scene().footprint, session.shell().finest(), session.nodes());
-  return tangents.u.col(joint).cross(tangents.v.col(joint)).normalized();
+  return joint_tangents(session.scene().footprint, session.shell().finest(), session.nodes())
+      .normal(joint);
 }
 
 /// Where a move has the edge points, off the scene's motion.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "engine/footprint/mesh.h"
@@ -14,6 +15,11 @@ namespace gridshell {
 /// second order in edge length.
 struct JointTangents {
   Eigen::Matrix3Xd u, v;
+
+  /// t_u x t_v, a unit vector.
+  Eigen::Vector3d normal(Eigen::Index joint) const {
+    return u.col(joint).cross(v.col(joint)).normalized();
+  }
 };
 
 JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -117,8 +116,7 @@ Result<Eigen::Matrix3Xd> read_vertices(std::string_view bytes, const std::string
 }  // namespace
 
 Result<Eigen::Matrix3Xd> read_cloud(std::string_view bytes, const std::string& name) {
-  std::string ending = std::filesystem::path(name).extension().string();
-  for (char& c : ending) c = char(std::tolower((unsigned char)c));
+  const std::string ending = ending_of(name);
   if (ending == ".ply") return read_vertices(bytes, name);
   for (const char* known : {".xyz", ".txt", ".asc", ".csv"})
     if (ending == known) return read_lines(bytes, name);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -42,6 +43,12 @@ std::optional<double> number_of(std::string_view word) {
   if (fault != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
     return std::nullopt;
   return value;
+}
+
+std::string ending_of(const std::string& name) {
+  std::string ending = std::filesystem::path(name).extension().string();
+  for (char& c : ending) c = char(std::tolower((unsigned char)c));
+  return ending;
 }
 
 Result<Points> read_points(const std::filesystem::path& file,

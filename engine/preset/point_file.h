@@ -15,6 +15,9 @@ namespace gridshell::preset {
 /// A finite number that is all of a word.
 std::optional<double> number_of(std::string_view word);
 
+/// ".csv" of "Points.CSV": what a file's name says of its format, in small letters.
+std::string ending_of(const std::string& name);
+
 /// Reads a point a line: as many numbers as there are `coordinates`, apart by blanks or commas.
 /// What follows a '#' and empty lines are left out, and a first line of words (a CSV header) too.
 /// A coordinate that has `words` is the place of one of them. Errors (bad_input) as "file:line:

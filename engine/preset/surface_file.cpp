@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "engine/preset/mesh_draft.h"
 #include "engine/preset/point_file.h"
@@ -111,8 +110,7 @@ std::string surface_fault(const SurfaceData& surface) {
 }
 
 Result<SurfaceData> read_surface(std::string_view bytes, const std::string& name) {
-  std::string ending = std::filesystem::path(name).extension().string();
-  for (char& c : ending) c = char(std::tolower((unsigned char)c));
+  const std::string ending = ending_of(name);
   if (ending == ".csv" || ending == ".txt") return read_heights(bytes, name);
   if (ending == ".obj") return read_obj(bytes, name);
   if (ending == ".ply") return read_ply(bytes, name);

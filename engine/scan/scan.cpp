@@ -61,8 +61,8 @@ std::optional<Eigen::Matrix3d> mirror_of(const record::Layout& layout, const rec
   return std::nullopt;
 }
 
-LaidScan measured(const Eigen::Matrix3Xd& tops, const ScannedForm& form,
-                  const JointCylinder& cylinder, const Registration& found) {
+LaidScan laid(const Eigen::Matrix3Xd& tops, const ScannedForm& form, const JointCylinder& cylinder,
+              const Registration& found) {
   LaidScan scan;
   scan.pose = found.pose;
   scan.distance_mm = found.distance;
@@ -93,6 +93,14 @@ LaidScan measured(const Eigen::Matrix3Xd& tops, const ScannedForm& form,
 }
 
 }  // namespace
+
+Eigen::Matrix3Xd LaidScan::measured() const {
+  Eigen::Matrix3Xd some(3, found);
+  Eigen::Index next = 0;
+  for (const auto& joint : joints.colwise())
+    if (!joint.hasNaN()) some.col(next++) = joint;
+  return some;
+}
 
 ScannedForm form_of(const record::Layout& layout, const record::Frame& frame) {
   const auto joints = Eigen::Index(layout.joints.size());
@@ -143,7 +151,7 @@ std::optional<LaidScan> lay_on(const Clusters& clusters, const ScannedForm& form
     }
   }
   if (!best) return std::nullopt;
-  LaidScan scan = measured(clusters.tops, form, cylinder, *best);
+  LaidScan scan = laid(clusters.tops, form, cylinder, *best);
   scan.mirrored = mirrored;
   return scan;
 }

@@ -40,6 +40,8 @@ struct LaidScan {
   double cost = 0;  ///< Registration::cost: of several states the least is the one
 
   int missing() const { return int(joints.cols()) - found; }
+  /// The joints that are not missing.
+  Eigen::Matrix3Xd measured() const;
 };
 
 /// The scan's tops on a state, rigidly or, where the form has a mirror, mirrored too. Nothing: it

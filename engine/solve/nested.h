@@ -136,7 +136,8 @@ class NestedShell {
   // where a branch loses its stability, or one that is stable
   enum class Prefer { first, stable };
   void forget();
-  void recall();
+  void recall(const std::vector<Added>& added);
+  std::vector<Added> added() const;
   void follow_anew();
   NestedReport certify(double t, const PathPoint& coarse, const NewtonReport& last, Prefer prefer,
                        const Watch& watch);

@@ -35,6 +35,17 @@ json played(const TemporaryFolder& folder, const std::string& input,
   return json::parse(ended.out);
 }
 
+/// What `run` makes of the preset that was kept, which has the energy that was told of the shell.
+json run_of_kept(const TemporaryFolder& folder, const json& told) {
+  const Ended ran = gridshell_program({"run", "kept/small_1.toml", "-o", "ran"}, folder.path());
+  INFO(ran.err);
+  REQUIRE(ran.code == 0);
+  json summary = json::parse(gridshell::read_whole(folder.path() / "ran/summary.json").value());
+  CHECK(summary["energy_bend_mJ"].get<double>() ==
+        Approx(told["energy_bend_mJ"].get<double>()).epsilon(1e-9));
+  return summary;
+}
+
 }  // namespace
 
 TEST_CASE("a slider dragged in the window moves the boundary, in one step that can be undone") {
@@ -64,13 +75,7 @@ TEST_CASE("a joint dragged by the mouse is pushed and held, and saved it is a pr
   CHECK(pushed["force_N"].get<double>() > 0);
   const double depth = pushed["depth_mm"].get<double>();
   CHECK(depth > 1);
-  const Ended ran = gridshell_program({"run", "kept/small_1.toml", "-o", "ran"}, folder.path());
-  INFO(ran.err);
-  REQUIRE(ran.code == 0);
-  const json summary =
-      json::parse(gridshell::read_whole(folder.path() / "ran/summary.json").value());
-  CHECK(summary["energy_bend_mJ"].get<double>() ==
-        Approx(pushed["energy_bend_mJ"].get<double>()).epsilon(1e-9));
+  const json summary = run_of_kept(folder, pushed);
   CHECK(summary["height_mm"].get<double>() ==
         Approx(pushed["height_mm"].get<double>()).epsilon(1e-9));
 }
@@ -87,13 +92,7 @@ TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what
                             "do view_top\nmouse @edge:3 0 0\npress left\nmouse @edge:3 8 6\n"
                             "release left\ndo jitter\ndo save_preset\n",
                             {"-o", "kept"});
-  const Ended ran = gridshell_program({"run", "kept/small_1.toml", "-o", "ran"}, folder.path());
-  INFO(ran.err);
-  REQUIRE(ran.code == 0);
-  const json summary =
-      json::parse(gridshell::read_whole(folder.path() / "ran/summary.json").value());
-  CHECK(summary["energy_bend_mJ"].get<double>() ==
-        Approx(saved["energy_bend_mJ"].get<double>()).epsilon(1e-9));
+  const json summary = run_of_kept(folder, saved);
   CHECK(summary["steps"].size() >= 2);
   const json heavy = played(folder, "down G\nup G\n");
   CHECK(heavy["gravity"] == true);

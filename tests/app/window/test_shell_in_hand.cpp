@@ -7,22 +7,12 @@
 #include "app/window/engine_thread.h"
 #include "app/window/preset_change.h"
 #include "engine/experiment/experiment.h"
+#include "tests/small_shell.h"
 
 using namespace gridshell;
 using namespace gridshell::window;
 
 namespace {
-
-preset::Preset small_shell() {
-  preset::Preset preset;
-  preset.name = preset.title = "small";
-  preset.footprint.rods = 6;
-  preset.footprint.radius_mm = 66;
-  preset.actuation.radius_mm = 54;
-  preset.imperfection.size = 0;
-  preset.movie.frames = 2;
-  return preset;
-}
 
 /// A shell formed and refined.
 ShellInHand formed(const preset::Preset& preset = small_shell()) {

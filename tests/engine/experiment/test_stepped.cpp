@@ -7,21 +7,16 @@
 #include "engine/experiment/experiment.h"
 #include "engine/preset/reader.h"
 #include "tests/engine/experiment/run.h"
+#include "tests/small_shell.h"
 
 using namespace gridshell;
 using preset::Deed;
 
 namespace {
 
-preset::Preset small_shell() {
-  preset::Preset preset;
-  preset.name = preset.title = "small";
-  preset.footprint.rods = 6;
-  preset.footprint.radius_mm = 66;
-  preset.actuation.radius_mm = 54;
-  preset.imperfection.size = 0;
+preset::Preset small_shell_on_four_edges() {
+  preset::Preset preset = small_shell();
   preset.accuracy.edges_per_segment = 4;
-  preset.movie.frames = 2;
   return preset;
 }
 
@@ -58,7 +53,7 @@ TEST_CASE("frames fall to the steps that have a way, one to each of the others")
 }
 
 TEST_CASE("a push let go is the shell before, and every step says what it came to") {
-  preset::Preset preset = small_shell();
+  preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), of(Deed::release)};
   preset.movie.frames = 6;
   const experiment::Outcome outcome = run(preset);
@@ -83,7 +78,7 @@ TEST_CASE("a push let go is the shell before, and every step says what it came t
 }
 
 TEST_CASE("frames only sample the steps, which end where they end") {
-  preset::Preset preset = small_shell();
+  preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), move(0.9), push(1, -1, 2)};
   const experiment::Outcome few = run(preset);
   preset.movie.frames = 17;
@@ -95,9 +90,9 @@ TEST_CASE("frames only sample the steps, which end where they end") {
 }
 
 TEST_CASE("a step to the preset's own radius is that of a run there") {
-  preset::Preset there = small_shell();
+  preset::Preset there = small_shell_on_four_edges();
   there.actuation.radius_mm = 57;
-  preset::Preset moved = small_shell();
+  preset::Preset moved = small_shell_on_four_edges();
   moved.step = {of(Deed::move)};
   moved.step[0].radius_mm = 57;
   const auto a = run(there), b = run(moved);
@@ -105,7 +100,7 @@ TEST_CASE("a step to the preset's own radius is that of a run there") {
 }
 
 TEST_CASE("loads, a held joint, edge points, a jitter and a rest are steps") {
-  preset::Preset preset = small_shell();
+  preset::Preset preset = small_shell_on_four_edges();
   preset.rod.density_kg_m3 = 6450;
   preset.loads.gravity_m_s2 = 9.81;
   preset::Step light = of(Deed::load), hold = of(Deed::hold), edge = of(Deed::move);
@@ -126,7 +121,7 @@ TEST_CASE("loads, a held joint, edge points, a jitter and a rest are steps") {
 }
 
 TEST_CASE("a step that ends early ends the run, and both say so") {
-  preset::Preset preset = small_shell();
+  preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, -60), of(Deed::release)};  // outward, further than the rods are long
   const experiment::Outcome outcome = run(preset);
   CHECK(outcome.summary.limit == record::Limit::locking);
@@ -137,7 +132,7 @@ TEST_CASE("a step that ends early ends the run, and both say so") {
 }
 
 TEST_CASE("steps on what is not there are errors with their number") {
-  preset::Preset preset = small_shell();
+  preset::Preset preset = small_shell_on_four_edges();
   const auto refused = [&](const preset::Step& step) {
     preset.step = {move(0.95), step};
     Watch watch;
