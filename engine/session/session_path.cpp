@@ -6,6 +6,7 @@
 #include "engine/core/clock.h"
 #include "engine/session/leave.h"
 #include "engine/session/session.h"
+#include "engine/session/softening.h"
 
 namespace gridshell {
 namespace {
@@ -42,11 +43,19 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
   };
   bool unstable_too = leaving.through_unstable;
   shell_->allow_unstable(unstable_too);
+  // of a path that is followed for what happens on it
+  Softening softening;
+  const auto take_softness = [&] {
+    if (trail && actuating_ && leaving.wanted && scene_->imperfection.chooses())
+      softening.take(*shell_, watch);
+  };
   station();
+  take_softness();
   int halvings = 0;
   while (shell_->state().t != t) {
     if (watch.cancelled()) return end(Outcome::cancelled);
-    const double now = shell_->state().t, left = t - now, step = load_step() / (1 << halvings);
+    const double now = shell_->state().t, left = t - now;
+    const double step = softening.shortened(load_step()) / (1 << halvings);
     const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
     const double next = steps == 1 ? t : now + left / steps;
     const NestedState good = shell_->state();
@@ -61,6 +70,7 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
       }
       halvings = std::max(halvings - 1, 0);
       station();
+      take_softness();
       continue;
     }
     // a finer mesh that did not follow is asked again nearer by
@@ -93,6 +103,8 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
       return end(Outcome::locked);
     }
     station();
+    softening.forget();
+    take_softness();
   }
   return end(Outcome::reached);
 }

@@ -20,9 +20,8 @@ double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
 }  // namespace
 
 double lowest_eigenvalue(Linearisation& system, const State& state, const Eigen::VectorXd& length,
-                         const Watch& watch) {
+                         const Watch& watch, double converged) {
   constexpr int most_iterations = 200;
-  constexpr double converged = 1e-7;
   if (!system.at(state, false).positive_definite()) return std::numeric_limits<double>::quiet_NaN();
   // a start with a part along any mode
   Eigen::Matrix3Xd v(3, system.model().columns());

@@ -11,7 +11,8 @@ namespace gridshell {
 /// each edge that meets there). So it is the stiffness of the softest mode against a force on every
 /// millimetre of rod, and does not hang on the mesh. By inverse iteration; NaN where the Hessian is
 /// not positive definite. Angles (twist rung) have no length of their own: they follow.
+/// `converged`: relative change at which the iteration ends.
 double lowest_eigenvalue(Linearisation& system, const State& state, const Eigen::VectorXd& length,
-                         const Watch& watch);
+                         const Watch& watch, double converged = 1e-7);
 
 }  // namespace gridshell

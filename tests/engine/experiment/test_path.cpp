@@ -72,10 +72,11 @@ preset::Preset drawn_ellipse(double half_x_mm, double half_y_mm, double scale, d
   return p;
 }
 
-/// Led by a mesh of so many edges a segment.
-experiment::Outcome led_by(int edges, const preset::Preset& preset) {
+/// Led by a mesh of so many edges a segment, in load steps of so many of the usual ones.
+experiment::Outcome led_by(int edges, const preset::Preset& preset, double load_step = 1) {
   Scene scene = scene_of(preset).value();
   scene.leading_edges = edges;
+  scene.load_step = load_step;
   record::MemorySink sink;
   Watch watch;
   auto summary =
@@ -148,6 +149,19 @@ TEST_CASE("a loss of stability that two leading meshes see and the finest does n
     CHECK(outcome.summary.limit == record::Limit::none);
     CHECK(bend(outcome) == Approx(11.769).epsilon(1e-4));
   }
+}
+
+TEST_CASE("stability lost and regained within one load step is not stepped over") {
+  // unstable on every mesh between progress 0.23 and 0.27, with a usual load step's end on each
+  // side
+  preset::Preset p = circle(12, 154.04688335955143, 113.9866738043739);
+  p.accuracy.tolerance = 6.4e-3;
+  const auto usual = led_by(4, p), half = led_by(4, p, 0.5);
+  for (const auto* outcome : {&usual, &half}) {
+    CAPTURE(outcome->summary.limit_reason);
+    CHECK(outcome->summary.limit == record::Limit::snap);
+  }
+  CHECK(bend(usual) == Approx(bend(half)).epsilon(1e-6));
 }
 
 TEST_CASE("the path from flat enters a branch by the imperfection, not by where it was begun",
