@@ -22,6 +22,7 @@ target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
           PkgConfig::IMGUI PkgConfig::FONTCONFIG)
 target_include_directories(gridshell_app SYSTEM PRIVATE ${GL_CORE_INCLUDE_DIR})
 gridshell_read_once(gridshell_app)
+gridshell_compile_by_folder(gridshell_app)
 gridshell_compile_lightly(gridshell_app -O1)
 
 add_executable(gridshell app/main.cpp)

@@ -83,7 +83,7 @@ Result<void> work(const preset::Preset& preset, const Options& options, const fs
   if (!after) return tl::unexpected(after.error());
   Watch& last = progress.next_phase();
   const FromFlat flat = from_flat(designed, *after, last);
-  if (last.cancelled()) return fail(Fault::cancelled, "stopped");
+  if (last.cancelled()) return stopped();
   text = design_text(*found, flat);
   return write_design(folder, designed, *found, flat).and_then([&] {
     auto artist = Artist::create(options.context, options.threads, preset.style.font);

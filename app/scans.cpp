@@ -95,7 +95,7 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
   ComparedScan scan{file, std::move(*clusters), scanned.cylinder, {}, 0};
   double least = std::numeric_limits<double>::infinity();
   for (const Candidate& one : scanned.candidates) {
-    if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (watch.cancelled()) return stopped();
     const record::Trajectory& run = one.run->trajectory;
     const record::Frame& frame = run.frames[one.frame];
     if (const auto& fault = run.frames.fault()) return tl::unexpected(*fault);

@@ -17,7 +17,7 @@ namespace {
 using record::StateClass;
 using record::StateRow;
 
-constexpr double high = 62.0 / 88;  // of a plot, over its width
+constexpr double plot_height = 62.0 / 88;  // of a plot, over its width
 
 std::string class_text(StateClass kind) {
   return kind == StateClass::other ? "other" : "state *" + std::string(word_of(kind)) + "*";
@@ -148,7 +148,7 @@ Result<void> draw_states(const CaseRecord& one, render::Renderer& renderer, cons
   const auto plot_at = [&](const char* suffix, const render::Plot& plot) {
     render::Plot titled = plot;
     titled.title = render::plain(style.title) + (plot.title.empty() ? "" : "\n") + plot.title;
-    return render::write_plot(fs::path(stem) += suffix, titled, style.print, high);
+    return render::write_plot(fs::path(stem) += suffix, titled, style.print, plot_height);
   };
   return render::write_stills(states_alone(one.run, which), style, {}, renderer, stem, watch,
                               captions)

@@ -27,11 +27,11 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double wide_mm = 130, high = 0.62;  // of a line chart
-constexpr const char* classes = "classes";    // the picture of which states were found
+constexpr double chart_width_mm = 130, chart_height = 0.62;  // of a line chart
+constexpr const char* classes = "classes";  // the picture of which states were found
 
 /// A sweep in hand.
-struct Work {
+struct Sweeping {
   const SweepOptions& options;
   const preset::Presets& presets;
   const preset::SweepGrid& grid;
@@ -85,7 +85,7 @@ Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid
 }
 
 /// Pictures of figures that are not asked for any more would be of no sweep.
-void remove_other_pictures(const Work& work, const std::vector<std::string>& drawn) {
+void remove_other_pictures(const Sweeping& work, const std::vector<std::string>& drawn) {
   std::error_code error;
   for (const auto& name : drawable(work.presets, work.grid)) {
     if (std::ranges::find(drawn, name) != drawn.end()) continue;
@@ -95,7 +95,7 @@ void remove_other_pictures(const Work& work, const std::vector<std::string>& dra
 }
 
 /// A diagram a case, and beside it what it says of the paper's sentences.
-Result<void> draw_classes(const Work& work, const record::SweepTable& table,
+Result<void> draw_classes(const Sweeping& work, const record::SweepTable& table,
                           const render::Print& print) {
   for (const auto& run : runs_of(work.presets)) {
     const auto stem = work.folder / (run.name.empty() ? classes : run.name + "_" + classes);
@@ -109,21 +109,22 @@ Result<void> draw_classes(const Work& work, const record::SweepTable& table,
   return {};
 }
 
-Result<void> draw(const Work& work, const record::SweepTable& table) {
+Result<void> draw(const Sweeping& work, const record::SweepTable& table) {
   const preset::Preset& base = work.presets.base;
   const auto plots = plots_of(work.grid);
   remove_other_pictures(work, plots);
   for (const auto& name : plots) {
     const render::SweepView view{name, base.sweep.x, base.sweep.departure, base.title};
     const auto stem = work.folder / name;
-    const double width = base.figure.width_mm > 0 ? base.figure.width_mm : wide_mm;
+    const double width = base.figure.width_mm > 0 ? base.figure.width_mm : chart_width_mm;
     if (name == classes) {
       if (auto drawn = draw_classes(work, table, {width, base.figure.dpi}); !drawn) return drawn;
       continue;
     }
-    auto drawn = table.axes.size() == 2 ? render::write_sweep_map(stem, table, view)
-                                        : render::write_plot(stem, render::sweep_plot(table, view),
-                                                             {width, base.figure.dpi}, high);
+    auto drawn = table.axes.size() == 2
+                     ? render::write_sweep_map(stem, table, view)
+                     : render::write_plot(stem, render::sweep_plot(table, view),
+                                          {width, base.figure.dpi}, chart_height);
     if (!drawn) return drawn;
   }
   return {};
@@ -158,7 +159,7 @@ std::string told(const record::SweepTable& table) {
 }
 
 /// "  l_d > 1: 24 points; first order alone at 20, ..." a line a region of the diagram.
-std::string regions_told(const Work& work, const record::SweepTable& table) {
+std::string regions_told(const Sweeping& work, const record::SweepTable& table) {
   using record::StateClass;
   std::string text;
   for (const auto& run : runs_of(work.presets))
@@ -177,7 +178,7 @@ std::string regions_told(const Work& work, const record::SweepTable& table) {
   return text;
 }
 
-Result<std::string> finish(const Work& work, const record::SweepLog& log) {
+Result<std::string> finish(const Sweeping& work, const record::SweepLog& log) {
   const auto table = table_of(work.grid, work.points(), log.found());
   auto written =
       write_atomically(work.folder / "sweep.csv", record::sweep_csv(table))
@@ -201,7 +202,7 @@ Result<std::string> finish(const Work& work, const record::SweepLog& log) {
   return told(table) + (diagram ? regions_told(work, table) : "");
 }
 
-void tell_damage(const Work& work, const record::SweepLog& log) {
+void tell_damage(const Sweeping& work, const record::SweepLog& log) {
   const auto file = (work.folder / record::sweep_log_name).string();
   if (log.cut_off())
     std::fprintf(stderr, "the last line of '%s' was cut off and is dropped\n", file.c_str());
@@ -210,20 +211,20 @@ void tell_damage(const Work& work, const record::SweepLog& log) {
                  log.damaged(), log.damaged() == 1 ? " is" : "s are", file.c_str());
 }
 
-std::vector<std::size_t> missing(const Work& work, const record::SweepLog& log) {
+std::vector<std::size_t> missing(const Sweeping& work, const record::SweepLog& log) {
   auto points = work.points();
   std::erase_if(points, [&](std::size_t point) { return log.found().contains(point); });
   return points;
 }
 
-std::string standing_of(const Work& work, const record::SweepLog& log) {
+std::string standing_of(const Sweeping& work, const record::SweepLog& log) {
   const auto all = work.points().size();
   return fmt::format("{} of {} points are in '{}'", all - missing(work, log).size(), all,
                      work.folder.string());
 }
 
 /// Computes what is missing.
-Result<void> compute(const Work& work, record::SweepLog& log) {
+Result<void> compute(const Sweeping& work, record::SweepLog& log) {
   const auto todo = missing(work, log);
   if (todo.empty()) return {};
   if (!work.quiet() && todo.size() < work.points().size())
@@ -246,7 +247,7 @@ Result<void> compute(const Work& work, record::SweepLog& log) {
   return done;
 }
 
-Result<std::string> carry_out(const Work& work) {
+Result<std::string> carry_out(const Sweeping& work) {
   auto log = open_sweep(work.folder, work.presets, work.grid);
   if (!log) return tl::unexpected(log.error());
   tell_damage(work, *log);
@@ -275,7 +276,7 @@ int sweep(const SweepOptions& options) {
   }
   const preset::SweepGrid grid(*presets);
   if (auto asked = check_asked(*presets, grid); !asked) return report(asked.error());
-  Work work{options, *presets, grid, output_of(options.common, presets->base), std::nullopt};
+  Sweeping work{options, *presets, grid, output_of(options.common, presets->base), std::nullopt};
   if (!options.shard.empty()) {
     const auto shard = parse_shard(options.shard);
     if (!shard) return report(shard.error());

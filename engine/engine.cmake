@@ -33,3 +33,4 @@ target_link_libraries(gridshell_engine PUBLIC fmt::fmt
 set_source_files_properties(engine/solve/block_cholesky.cpp engine/gridshell/assembly.cpp
   PROPERTIES COMPILE_OPTIONS -ffp-contract=fast SKIP_PRECOMPILE_HEADERS ON)
 gridshell_read_once(gridshell_engine)
+gridshell_compile_by_folder(gridshell_engine)

@@ -76,13 +76,15 @@ tidy() {
     echo "no commit to compare with: a few files of each kind"
     printf '%s\n' $without_git >"$scratch/files"
   fi
+  # the commands that compile each file by itself
+  cmake -S . -B "$scratch" -DCMAKE_BUILD_TYPE=Release -DGRIDSHELL_FOLDERS_AS_ONE=OFF >"$scratch/said" ||
+    { cat "$scratch/said"; return 1; }
   # a file that this build leaves out has no command to look at
   while read -r file; do
-    grep -q "\"file\": \"$PWD/$file\"" "$build/compile_commands.json" && echo "$file"
+    grep -q "\"file\": \"$PWD/$file\"" "$scratch/compile_commands.json" && echo "$file"
   done <"$scratch/files" >"$scratch/built"
   # GCC's precompiled headers are nothing to clang; a file includes what it uses
-  sed 's/-Winvalid-pch -include [^ ]*cmake_pch\.hxx//' "$build/compile_commands.json" \
-    >"$scratch/compile_commands.json"
+  sed -i 's/-Winvalid-pch -include [^ ]*cmake_pch\.hxx//' "$scratch/compile_commands.json"
   echo "clang-tidy on $(wc -l <"$scratch/built") files"
   xargs -r -P "$(nproc)" -n 1 clang-tidy --quiet -p "$scratch" <"$scratch/built" 2>"$scratch/said"
   status=$?

@@ -175,7 +175,7 @@ Result<void> ShellInHand::act(const Redo&, const Watch&) {
 /// Notes what a step came past; an end before its end is the error.
 Result<void> ShellInHand::ended(const Report& report) {
   sight_.told = told_of(report.events);
-  if (report.end == Outcome::cancelled) return fail(Fault::cancelled, "stopped");
+  if (report.end == Outcome::cancelled) return stopped();
   if (report.end == Outcome::reached) return {};
   return fail(Fault::no_equilibrium, words_of(report.end).what);
 }

@@ -67,7 +67,7 @@ Result<void> share_work(int count, int threads, Watch& watch, const Make& make, 
   }
   if (thrown) std::rethrow_exception(thrown);
   if (fault) return tl::unexpected<Error>(*fault);
-  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+  if (watch.cancelled()) return stopped();
   return {};
 }
 

@@ -29,4 +29,7 @@ inline tl::unexpected<Error> fail(Fault fault, std::string message) {
   return tl::unexpected<Error>(Error{fault, std::move(message)});
 }
 
+/// The failure of all work that was cancelled.
+inline tl::unexpected<Error> stopped() { return fail(Fault::cancelled, "stopped"); }
+
 }  // namespace gridshell

@@ -144,7 +144,7 @@ Result<Designed> design(const preset::Preset& preset, Watch& watch,
   const auto scene = std::make_shared<const Scene>(std::move(*made));
   if (auto can = can_be_designed(preset, *scene); !can) return tl::unexpected<Error>(can.error());
   auto coarse = begin(scene, watch);
-  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+  if (watch.cancelled()) return stopped();
   if (!coarse) return tl::unexpected<Error>(coarse.error());
   auto target = DesignTarget::make(scene->net, uv_of_joints(*scene), preset.inverse.target);
   if (!target) return tl::unexpected<Error>(target.error());
@@ -204,7 +204,7 @@ Result<Designed> design(const preset::Preset& preset, Watch& watch,
   found.cpu_s = cpu_seconds_now() - started;
   for (const double sigma : sigmas_mm)
     found.fabricated.push_back(fabricate(**coarse, *target, sigma, jump, watch));
-  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+  if (watch.cancelled()) return stopped();
   watch.report(1);
   return found;
 }

@@ -140,7 +140,7 @@ Result<std::vector<DesignStep>> optimise(MovedShell& shell, DesignTarget& target
   for (const Stage& stage : {Stage{2, 0.3, 0.03}, {options.norm, 1, 0.002}}) {
     run.begin_stage(stage);
     while (run.iterations() < options.most_iterations) {
-      if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+      if (watch.cancelled()) return stopped();
       if (!run.step(stage, seen)) break;
     }
     if (options.norm == 2) break;

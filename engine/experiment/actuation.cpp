@@ -16,9 +16,6 @@ namespace {
 
 // of the rods, where the first buckled state is looked for: the first that is connected to the flat
 constexpr double first_shortening[] = {0.02, 0.01, 0.005, 0.0025};
-constexpr double flat_shortening = 1e-3;  // how near to the flat the path is followed
-
-Error stopped() { return {Fault::cancelled, "stopped"}; }
 
 /// Back from the first state towards the flat; whether it came there.
 bool follow_back(Course& course, const Leaving& leaving, const Watch& watch) {
@@ -43,7 +40,7 @@ Result<Checkpoint> begin_from_flat(Course& course, const Watch& watch) {
   Result<Checkpoint> found = fail(Fault::no_equilibrium, "no buckled state was certified");
   for (double shortening : first_shortening) {
     const auto first = course.session.begin_buckled(shortening, watch);
-    if (watch.cancelled()) return tl::unexpected<Error>(stopped());
+    if (watch.cancelled()) return stopped();
     if (!first && found) break;
     if (!first) return tl::unexpected<Error>(first.error());
     if (first->end != Outcome::reached) continue;
@@ -127,7 +124,7 @@ Result<Course> follow_actuation(std::shared_ptr<const Scene> scene, const LevelP
     if (!start) return tl::unexpected<Error>(start.error());
     follow_from_flat(course, *start, std::sqrt(to), watch);
   }
-  if (watch.cancelled()) return tl::unexpected<Error>(stopped());
+  if (watch.cancelled()) return stopped();
   tell_limit(course, at_progress);
   return course;
 }

@@ -19,8 +19,8 @@ constexpr int neighbours = 2;        // of each state
 constexpr double way_down_mm = 0.5;  // off a saddle, and steps from there
 constexpr double step_over_d = 0.1;  // of a node on a string's way down
 
-/// Where a way begins, where it leads to, and which image of that is nearest.
-struct Way {
+/// Two states with a way between them, and which image of the second is nearest to the first.
+struct Pairing {
   std::size_t from = 0, to = 0, symmetry = 0;
 };
 
@@ -44,16 +44,16 @@ class Crossings {
 
   /// The ways to the nearest states: of the images that the bend rung can turn, else the states as
   /// they are.
-  std::vector<Way> ways(const std::vector<std::size_t>& drawn) const {
+  std::vector<Pairing> ways(const std::vector<std::size_t>& drawn) const {
     std::set<std::pair<std::size_t, std::size_t>> pairs;
-    std::vector<Way> all;
+    std::vector<Pairing> all;
     for (const std::size_t from : drawn) {
-      std::vector<std::pair<double, Way>> others;
+      std::vector<std::pair<double, Pairing>> others;
       for (const std::size_t to : drawn)
         if (to != from) others.push_back(nearest(from, to));
       const std::size_t kept = std::min(others.size(), std::size_t(neighbours));
       std::ranges::partial_sort(others, others.begin() + std::ptrdiff_t(kept), {},
-                                &std::pair<double, Way>::first);
+                                &std::pair<double, Pairing>::first);
       for (std::size_t k = 0; k < kept; ++k)
         if (pairs.insert(std::minmax(from, others[k].second.to)).second)
           all.push_back(others[k].second);
@@ -61,7 +61,7 @@ class Crossings {
     return all;
   }
 
-  std::optional<Crossing> cross(const Way& way, const Watch& watch) {
+  std::optional<Crossing> cross(const Pairing& way, const Watch& watch) {
     Cascade& cascade = hand_.cascade();
     Linearisation& system = cascade.system();
     const MeshSymmetry& symmetry = hand_.symmetries()[way.symmetry];
@@ -86,8 +86,8 @@ class Crossings {
   }
 
  private:
-  std::pair<double, Way> nearest(std::size_t from, std::size_t to) const {
-    std::pair<double, Way> best{std::numeric_limits<double>::infinity(), {from, to, 0}};
+  std::pair<double, Pairing> nearest(std::size_t from, std::size_t to) const {
+    std::pair<double, Pairing> best{std::numeric_limits<double>::infinity(), {from, to, 0}};
     const Eigen::Index joints = hand_.cascade().finest().joints;
     const bool turns = !hand_.cascade().model().has_spins();
     for (std::size_t k = 0; k < hand_.symmetries().size(); ++k) {

@@ -119,7 +119,7 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
       return course;
     }
     auto fine = follow(*plan, watch);
-    if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (watch.cancelled()) return stopped();
     if (!fine) {
       course.doubt = fmt::format("with {} edges a segment leading: {}",
                                  plan->edges_per_segment.front(), fine.error().message);

@@ -11,6 +11,9 @@
 
 namespace gridshell::experiment {
 
+/// How near to the flat a path is followed: what its rods are shorter there, over their length.
+inline constexpr double flat_shortening = 1e-3;
+
 /// One way along the path of a session, from where it began to where it was to end.
 struct Leg {
   double from = 0, to = 0;  ///< path parameter

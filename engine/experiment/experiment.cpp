@@ -46,8 +46,6 @@ std::vector<double> samples_of_push(const preset::Preset& preset, bool stills) {
   return evenly(stills ? 11 : std::max(2, preset.movie.frames));
 }
 
-Error stopped() { return {Fault::cancelled, "stopped"}; }
-
 /// Passes frames on, and keeps the layout and the last frame for the summary. What solvers say once
 /// they were stopped holds for nothing, so no frame passes after that.
 class LastFrame final : public record::Sink {
@@ -61,7 +59,7 @@ class LastFrame final : public record::Sink {
     return next_.begin(std::move(layout));
   }
   Result<void> take(record::Frame frame) override {
-    if (watch_.cancelled()) return tl::unexpected<Error>(stopped());
+    if (watch_.cancelled()) return stopped();
     if (!frame_ || frame.index >= frame_->index) frame_ = frame;
     return next_.take(std::move(frame));
   }
@@ -210,7 +208,7 @@ Result<void> follow(const preset::Preset& preset, std::shared_ptr<const Scene> s
   const double begin = seconds_now();
   std::vector<std::string> told;
   auto course = course_for(preset, scene, stills, told, sink, watch);
-  if (watch.cancelled()) return tl::unexpected<Error>(stopped());
+  if (watch.cancelled()) return stopped();
   if (!course) return tl::unexpected<Error>(course.error());
   if (!sink.frame())
     return fail(Fault::no_equilibrium, "no frame was certified: " + course->limit_reason);
@@ -248,11 +246,11 @@ Result<record::Summary> run(const preset::Preset& preset, std::shared_ptr<const 
   return summary;
 }
 
-Result<Outcome> run(const preset::Preset& preset, bool stills, Watch& watch) {
+Result<Finished> run(const preset::Preset& preset, bool stills, Watch& watch) {
   record::MemorySink sink;
   auto summary = run(preset, stills, sink, watch);
   if (!summary) return tl::unexpected<Error>(summary.error());
-  return Outcome{std::move(sink.trajectory()), std::move(*summary)};
+  return Finished{std::move(sink.trajectory()), std::move(*summary)};
 }
 
 }  // namespace gridshell::experiment

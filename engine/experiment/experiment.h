@@ -17,7 +17,7 @@ namespace gridshell::experiment {
 
 /// A finished experiment. When the path ended early, `summary.limit` says why and `trajectory`
 /// holds the certified frames up to there; a state that is not an equilibrium is never in it.
-struct Outcome {
+struct Finished {
   record::Trajectory trajectory;
   record::Summary summary;
 };
@@ -51,6 +51,6 @@ Result<record::Summary> run(const preset::Preset& preset, std::shared_ptr<const 
                             bool stills, record::Sink& sink, Watch& watch);
 
 /// The same with all frames kept in memory.
-Result<Outcome> run(const preset::Preset& preset, bool stills, Watch& watch);
+Result<Finished> run(const preset::Preset& preset, bool stills, Watch& watch);
 
 }  // namespace gridshell::experiment

@@ -197,7 +197,7 @@ Result<Pushed> follow_push(const std::shared_ptr<const Scene>& scene,
   Course& course = pushed.course;
   for (double to : asked.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
     const Leg& leg = follow_leg(course, to, {}, watch);
-    if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (watch.cancelled()) return stopped();
     if (leg.report.end != Outcome::reached) break;
   }
   return pushed;

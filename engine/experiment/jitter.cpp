@@ -39,8 +39,6 @@ Eigen::Vector3d direction(std::mt19937& random) {
 tl::unexpected<Error> no_rest(std::string why) {
   return fail(Fault::no_equilibrium, std::move(why));
 }
-tl::unexpected<Error> stopped() { return fail(Fault::cancelled, "stopped"); }
-
 /// Errors of solvers name numbers; trials are counted by what happened.
 Result<State> in_few_words(Result<State> rest, const char* why) {
   if (!rest && rest.error().fault == Fault::no_equilibrium) return no_rest(why);

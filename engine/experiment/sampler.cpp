@@ -9,7 +9,7 @@ namespace gridshell::experiment {
 Result<bool> Sampler::at(const Sample& sample) {
   const int before = course_.session.effort().newton_iterations;
   const Report report = stand_at(course_, sample, watch_);
-  if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
+  if (watch_.cancelled()) return stopped();
   if (report.end != Outcome::reached) {
     if (in_a_jump(course_.legs[sample.leg], sample.t)) {
       course_.limit_reason += "; there is no state to show " + caption_.at(sample.t, {});

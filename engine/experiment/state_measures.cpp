@@ -16,9 +16,8 @@
 namespace gridshell::experiment {
 namespace {
 
-constexpr double flat_shortening = 1e-3;  // of the rods: how near to the flat a state is followed
-constexpr double largest_step = 0.05;     // in the path parameter: where a branch is asked for
-constexpr double located = 1e-3;          // in it: to which the end of a branch is located
+constexpr double largest_step = 0.05;  // in the path parameter: where a branch is asked for
+constexpr double located = 1e-3;       // in it: to which the end of a branch is located
 
 /// The paper's ii and iii break the symmetry by rods of higher modes: a dome that leans is neither.
 record::StateClass class_of(const std::string& group, bool first_mode) {
@@ -30,7 +29,7 @@ record::StateClass class_of(const std::string& group, bool first_mode) {
 }
 
 /// "0 0 2 | 0 1 0", u rods before the bar.
-std::string text_of(const std::vector<int>& modes, const Footprint& footprint) {
+std::string modes_told(const std::vector<int>& modes, const Footprint& footprint) {
   std::vector<int> u, v;
   for (std::size_t r = 0; r < modes.size(); ++r)
     (footprint.rods[r].family == Family::u ? u : v).push_back(modes[r]);
@@ -153,7 +152,7 @@ std::optional<Measured> StateMeasures::of(const State& found, bool life, const W
   record::StateRow& row = one.row;
   row.group = name_of_group(group_of(fine_, nodes.leftCols(joints), tolerance_mm_));
   row.kind = class_of(row.group, std::ranges::all_of(modes, [](int n) { return n == 0; }));
-  row.inflections = text_of(modes, scene_->footprint);
+  row.inflections = modes_told(modes, scene_->footprint);
   row.energy_bend_mJ = one.frame.energies[Term::bend];
   row.energy_stretch_mJ = one.frame.energies[Term::stretch];
   row.height_mm = one.frame.height_mm;

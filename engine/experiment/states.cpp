@@ -23,7 +23,7 @@ constexpr double shaken = 0.55, measured = 0.8, followed = 0.9;
 
 /// What a trial ended in.
 struct Trial {
-  Result<State> rest = tl::unexpected<Error>(Error{Fault::cancelled, "stopped"});
+  Result<State> rest = stopped();
   double energy_mJ = 0, cpu_s = 0;
 };
 

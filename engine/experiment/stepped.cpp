@@ -94,7 +94,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     Leg& leg = work.course.legs.emplace_back(Leg{0, to, {}, {}});
     Way way;
     auto report = take_step(session, boundary, steps[k], watch, &way);
-    if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (watch.cancelled()) return stopped();
     if (!report)
       return fail(report.error().fault,
                   fmt::format("[[step]] {}: {}", k + 1, report.error().message));
@@ -158,11 +158,11 @@ class Show {
     Session& session = work_.course.session;
     session.restore(done.way_end);
     const Report stood = stand_at(work_.course, sample, watch_);
-    if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (watch_.cancelled()) return stopped();
     if (stood.end != Outcome::reached) return {};
     if (done.way_end.plan.edges_per_segment != done.end.plan.edges_per_segment) {
       const auto fine = session.remesh(done.end.plan, watch_);
-      if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
+      if (watch_.cancelled()) return stopped();
       if (!fine || fine->end != Outcome::reached) return {};
     }
     return sampler_->stand(sample, sampler_->events(sample));

@@ -15,7 +15,7 @@ namespace {
 
 using record::Json;
 
-constexpr std::size_t most_shapes = 60, most_bytes = 20'000'000;
+constexpr std::size_t most_shapes = 60, most_model_bytes = 20'000'000;
 constexpr double joint_radius_mm = 1.5;  // of the paper's joints
 
 // numbers of the format
@@ -147,7 +147,7 @@ Eigen::Matrix3Xd joint_places(const record::Layout& layout, const record::Frame&
   return places;
 }
 
-/// How fine it may be so that it stays under most_bytes: positions and normals of each shape.
+/// How fine it may be so that it stays under most_model_bytes: positions and normals of each shape.
 struct Fineness {
   int sides = 0;
   std::size_t shapes = 0;
@@ -160,13 +160,13 @@ Result<Fineness> fineness_of(const record::Trajectory& run) {
     const std::size_t vertices = points * std::size_t(sides) + 4 * run.layout.cells.size();
     const std::size_t a_shape = 24 * vertices, once = 24 * points * std::size_t(sides) + 100'000 +
                                                       800 * run.layout.joints.size();
-    if (once + a_shape > most_bytes) continue;
+    if (once + a_shape > most_model_bytes) continue;
     const std::size_t wanted = std::min(most_shapes, run.frames.size()),
-                      shapes = std::min((most_bytes - once) / a_shape, wanted);
+                      shapes = std::min((most_model_bytes - once) / a_shape, wanted);
     if (shapes == wanted || sides == 4) return Fineness{sides, shapes};
   }
   return fail(Fault::bad_input, fmt::format("one shape of {} points takes more than {} MB as .glb",
-                                            points, most_bytes / 1'000'000));
+                                            points, most_model_bytes / 1'000'000));
 }
 
 Json material(const char* name, std::array<double, 4> colour, bool two_sided) {

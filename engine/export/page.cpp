@@ -15,7 +15,7 @@ namespace {
 
 using record::Json;
 
-constexpr std::size_t most_bytes = 9'000'000;  // of positions, as written
+constexpr std::size_t most_page_bytes = 9'000'000;  // of positions, as written
 
 std::string base64(const std::vector<std::uint16_t>& numbers) {
   static constexpr char letters[] =
@@ -120,11 +120,11 @@ Json layout_json(const record::Layout& layout) {
 Result<std::string> to_page(const record::Trajectory& run, const std::string& title) {
   const auto nodes = std::size_t(run.frames.front().nodes.cols());
   const std::size_t a_frame = 8 * nodes + 8 * run.layout.cells.size() + 400;
-  if (a_frame > most_bytes)
+  if (a_frame > most_page_bytes)
     return fail(Fault::bad_input,
                 fmt::format("one frame of {} nodes takes more than {} MB in a page", nodes,
-                            most_bytes / 1'000'000));
-  const std::size_t kept = std::min(run.frames.size(), most_bytes / a_frame);
+                            most_page_bytes / 1'000'000));
+  const std::size_t kept = std::min(run.frames.size(), most_page_bytes / a_frame);
   const auto index = [&](std::size_t k) {
     return kept == 1 ? run.frames.size() - 1 : k * (run.frames.size() - 1) / (kept - 1);
   };

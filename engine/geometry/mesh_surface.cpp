@@ -20,11 +20,6 @@ constexpr double rough = 0.01;      // of the detail: what a vertex may be off
 constexpr double least_turn = 0.1;  // cosine between a patch's normal and those around
 constexpr std::size_t most_entries = 30000000, most_fitted = 10000000;
 
-tl::unexpected<Error> wrong(const std::string& what, const Eigen::Vector3d& p) {
-  return fail(Fault::bad_input,
-              fmt::format("{} near ({:.4g}, {:.4g}, {:.4g}) mm", what, p.x(), p.y(), p.z()));
-}
-
 Eigen::AlignedBox3d box_about(const Eigen::Vector3d& p, double radius) {
   const Eigen::Vector3d half = Eigen::Vector3d::Constant(radius);
   return {p - half, p + half};
@@ -109,7 +104,7 @@ Result<void> MeshSurface::add_patch(const TriangleMesh& mesh, int vertex,
   for (Eigen::Index k = 0; k < rows.rows(); ++k) {
     const int other = around[std::size_t(k)];
     if (mesh.normals().col(other).dot(normal) < least_turn)
-      return wrong(
+      return mesh_fault(
           fmt::format("the mesh turns by more than 84 degrees within {:.3g} mm", fit_radius_),
           patch.centre);
     const Eigen::Vector3d local = patch.axes * (x.col(other) - patch.centre);
@@ -158,7 +153,7 @@ Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm)
       const auto* near = vertices.at(x.col(centre) + reach * to);
       for (const int other : near ? *near : std::vector<int>())
         if (mark[std::size_t(other)] != centre && (x.col(other) - x.col(centre)).norm() < reach)
-          return wrong(
+          return mesh_fault(
               fmt::format("two parts of the mesh come within {:.3g} mm of one another", reach),
               x.col(centre));
     }
@@ -171,10 +166,10 @@ Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm)
     if (!(off <= surface.farthest_)) surface.farthest_ = off, worst = k;
   }
   if (!(surface.farthest_ <= rough * detail_mm))
-    return wrong(fmt::format("the mesh is not smooth: a vertex lies {:.2g} mm off the smooth "
-                             "surface through those around it, must be less than {:.2g} mm,",
-                             surface.farthest_, rough * detail_mm),
-                 x.col(worst));
+    return mesh_fault(fmt::format("the mesh is not smooth: a vertex lies {:.2g} mm off the smooth "
+                                  "surface through those around it, must be less than {:.2g} mm,",
+                                  surface.farthest_, rough * detail_mm),
+                      x.col(worst));
   return surface;
 }
 

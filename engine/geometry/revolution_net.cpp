@@ -9,13 +9,13 @@ namespace gridshell {
 namespace {
 
 // how near 1 - (c r)^2 and c r come to the folds at 0: rods around the axis, or along it
-constexpr double margin = 1e-6;
+constexpr double least_regular = 1e-6;
 // what a sum of lengths may lose to round-off, relative to the net's extent
 constexpr double round_off = 1e-12;
 
 bool exists(const Profile& profile, double c, double t) {
   const double cr = c * profile.at(t).r;
-  return cr > margin && (1 - cr) * (1 + cr) > margin;
+  return cr > least_regular && (1 - cr) * (1 + cr) > least_regular;
 }
 
 /// the piece of the profile around its middle on which the net exists, with the breaks inside

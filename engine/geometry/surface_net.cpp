@@ -10,9 +10,9 @@
 namespace gridshell {
 namespace {
 
-constexpr int reach = 3;         // nodes to each side that a value between two nodes takes
-constexpr int margin = 8;        // of the coarser grid around what is wanted
-constexpr int most_nodes = 600;  // from the apex to an end of an axis
+constexpr int reach = 3;          // nodes to each side that a value between two nodes takes
+constexpr int coarse_margin = 8;  // of the coarser grid around what is wanted
+constexpr int most_nodes = 600;   // from the apex to an end of an axis
 
 /// Lagrange's weights of the nodes -2 ... 3 at t in [0, 1], of the value, its slope and its second
 /// derivative by t.
@@ -44,9 +44,10 @@ std::string help() {
 
 Result<SurfaceNet> SurfaceNet::make(const Surface& surface, const NetPlace& place, double chord_mm,
                                     NetSoFar* so_far) {
-  auto coarse = ChordGrid::make(surface, place, chord_mm, margin, most_nodes);
+  auto coarse = ChordGrid::make(surface, place, chord_mm, coarse_margin, most_nodes);
   if (!coarse) return tl::unexpected(coarse.error());
-  const auto fine = ChordGrid::make(surface, place, chord_mm / 2, 2 * margin, 2 * most_nodes);
+  const auto fine =
+      ChordGrid::make(surface, place, chord_mm / 2, 2 * coarse_margin, 2 * most_nodes);
   if (!fine) return tl::unexpected(fine.error());
   std::vector<Eigen::Vector3d> points;
   for (int j = coarse->first_v(); j <= coarse->last_v(); ++j)

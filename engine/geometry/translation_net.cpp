@@ -9,7 +9,7 @@ namespace gridshell {
 namespace {
 
 // tangents this near to parallel (rad) count as a fold
-constexpr double margin = 1e-6;
+constexpr double least_sine = 1e-6;
 
 tl::unexpected<Error> beyond(const char* curve, char name, double at, double half) {
   return fail(Fault::bad_input,
@@ -50,7 +50,8 @@ Result<void> TranslationNet::check_open() const {
       const Eigen::Vector3d normal = along_u.col(i).cross(along_v.col(j));
       const Eigen::Vector3d before_u = along_u.col(std::max(i - 1, 0)).cross(along_v.col(j));
       const Eigen::Vector3d before_v = along_u.col(i).cross(along_v.col(std::max(j - 1, 0)));
-      if (normal.norm() > margin && normal.dot(before_u) > 0 && normal.dot(before_v) > 0) continue;
+      if (normal.norm() > least_sine && normal.dot(before_u) > 0 && normal.dot(before_v) > 0)
+        continue;
       return folds(place(half_u(), i), place(half_v(), j), along_u.col(i).dot(along_v.col(j)));
     }
   }
@@ -68,7 +69,7 @@ Result<NetPoint> TranslationNet::at(double u, double v) const {
   const double sine = point.tangent_u.cross(point.tangent_v).norm();
   const double cosine = point.tangent_u.dot(point.tangent_v);
   point.omega = std::atan2(sine, cosine);
-  if (!(sine > margin)) return folds(u, v, cosine);
+  if (!(sine > least_sine)) return folds(u, v, cosine);
   // second form (C_uu . n, 0, C_vv . n), first form of determinant sin^2 omega
   const Eigen::Vector3d normal = point.normal();
   const double bend_u = normal.dot(x.second.head<3>()), bend_v = normal.dot(y.second.head<3>());

@@ -1,5 +1,7 @@
 #include "engine/geometry/triangle_crossing.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -52,7 +54,7 @@ Result<std::optional<Eigen::Vector3d>> first_crossing(const Eigen::Matrix3Xd& ve
   std::vector<Eigen::AlignedBox3d> boxes;
   BoxGrid grid(2 * size);
   const auto too_long = [](const char* why) {
-    return fail(Fault::bad_input, std::string("the mesh cannot be looked through: ") + why);
+    return fail(Fault::bad_input, fmt::format("the mesh cannot be looked through: {}", why));
   };
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     Eigen::AlignedBox3d box;

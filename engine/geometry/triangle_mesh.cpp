@@ -14,11 +14,6 @@ namespace {
 
 using Triangles = TriangleMesh::Triangles;
 
-tl::unexpected<Error> wrong(const std::string& what, const Eigen::Vector3d& p) {
-  return fail(Fault::bad_input,
-              fmt::format("{} near ({:.4g}, {:.4g}, {:.4g}) mm", what, p.x(), p.y(), p.z()));
-}
-
 Eigen::Vector3d area_of(const Eigen::Matrix3Xd& x, const std::array<int, 3>& t) {
   return 0.5 * (x.col(t[1]) - x.col(t[0])).cross(x.col(t[2]) - x.col(t[0]));
 }
@@ -68,10 +63,10 @@ Result<Sides> sides_of(const Eigen::Matrix3Xd& x, const Triangles& triangles) {
       auto& on_it = sides[edge];
       on_it.push_back(int(t));
       if (on_it.size() > 2)
-        return wrong("three triangles of the mesh share an edge", x.col(edge[0]));
+        return mesh_fault("three triangles of the mesh share an edge", x.col(edge[0]));
     }
     if (!(area_of(x, triangles[t]).norm() > thin * longest * longest))
-      return wrong("a triangle of the mesh has no area", x.col(triangles[t][0]));
+      return mesh_fault("a triangle of the mesh has no area", x.col(triangles[t][0]));
   }
   return sides;
 }
@@ -94,7 +89,7 @@ Result<void> turn_alike(const Eigen::Matrix3Xd& x, const Sides& sides, Triangles
         const bool alike =
             runs_along(other, edge) != runs_along(triangles[std::size_t(here)], edge);
         if (done[std::size_t(there)] && !alike)
-          return wrong("the mesh has one side only, as a Moebius strip,", x.col(edge[0]));
+          return mesh_fault("the mesh has one side only, as a Moebius strip,", x.col(edge[0]));
         if (done[std::size_t(there)]) continue;
         if (!alike) std::swap(other[1], other[2]);
         done[std::size_t(there)] = 1;
@@ -104,10 +99,11 @@ Result<void> turn_alike(const Eigen::Matrix3Xd& x, const Sides& sides, Triangles
   }
   if (reached == triangles.size()) return {};
   const auto other = std::size_t(std::find(done.begin(), done.end(), 0) - done.begin());
-  return wrong(fmt::format("the mesh is in several pieces ({} of its {} triangles hang together): "
-                           "another begins",
-                           reached, triangles.size()),
-               x.col(triangles[other][0]));
+  return mesh_fault(
+      fmt::format("the mesh is in several pieces ({} of its {} triangles hang together): "
+                  "another begins",
+                  reached, triangles.size()),
+      x.col(triangles[other][0]));
 }
 
 /// There is one rim at most: whatever more there is is a hole, the shorter one.
@@ -125,7 +121,8 @@ Result<void> check_rims(const Eigen::Matrix3Xd& x, const Sides& sides) {
   std::vector<Rim> rims;
   std::map<int, bool> seen;
   for (const auto& [begin, ways] : next) {
-    if (ways.size() != 2) return wrong("two parts of the mesh touch in one vertex", x.col(begin));
+    if (ways.size() != 2)
+      return mesh_fault("two parts of the mesh touch in one vertex", x.col(begin));
     if (seen[begin]) continue;
     Rim rim{0, begin};
     std::vector<int> open{begin};
@@ -141,7 +138,8 @@ Result<void> check_rims(const Eigen::Matrix3Xd& x, const Sides& sides) {
   if (rims.size() <= 1) return {};
   const auto hole = std::min_element(
       rims.begin(), rims.end(), [](const Rim& a, const Rim& b) { return a.vertices < b.vertices; });
-  return wrong(fmt::format("the mesh has a hole of {} edges", hole->vertices), x.col(hole->at));
+  return mesh_fault(fmt::format("the mesh has a hole of {} edges", hole->vertices),
+                    x.col(hole->at));
 }
 
 Result<void> check_folds(const Eigen::Matrix3Xd& x, const Sides& sides,
@@ -150,12 +148,17 @@ Result<void> check_folds(const Eigen::Matrix3Xd& x, const Sides& sides,
     if (both.size() < 2) continue;
     const Eigen::Vector3d a = area_of(x, triangles[std::size_t(both[0])]),
                           b = area_of(x, triangles[std::size_t(both[1])]);
-    if (!(a.dot(b) > 0)) return wrong("the mesh is folded", x.col(edge[0]));
+    if (!(a.dot(b) > 0)) return mesh_fault("the mesh is folded", x.col(edge[0]));
   }
   return {};
 }
 
 }  // namespace
+
+tl::unexpected<Error> mesh_fault(const std::string& what, const Eigen::Vector3d& p) {
+  return fail(Fault::bad_input,
+              fmt::format("{} near ({:.4g}, {:.4g}, {:.4g}) mm", what, p.x(), p.y(), p.z()));
+}
 
 Result<TriangleMesh> TriangleMesh::make(const Eigen::Matrix3Xd& vertices, Triangles triangles) {
   if (triangles.empty()) return fail(Fault::bad_input, "the mesh has no triangle");
@@ -185,7 +188,7 @@ Result<TriangleMesh> TriangleMesh::make(const Eigen::Matrix3Xd& vertices, Triang
   for (auto normal : mesh.normals_.colwise()) normal.normalize();
   const auto crossing = first_crossing(x, triangles, mesh.mean_edge_);
   if (!crossing) return tl::unexpected(crossing.error());
-  if (*crossing) return wrong("the mesh runs through itself", **crossing);
+  if (*crossing) return mesh_fault("the mesh runs through itself", **crossing);
   mesh.vertices_ = std::move(*used);
   mesh.triangles_ = std::move(triangles);
   return mesh;

@@ -3,11 +3,15 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <string>
 #include <vector>
 
 #include "engine/core/result.h"
 
 namespace gridshell {
+
+/// What is wrong with a mesh, with the place.
+tl::unexpected<Error> mesh_fault(const std::string& what, const Eigen::Vector3d& place);
 
 /// One connected, two-sided sheet of triangles, all turned the same way, with one rim or none, that
 /// neither folds nor meets itself.

@@ -32,13 +32,13 @@ std::string magnitude_fault(double value) {
          " to compute with (0, or a magnitude of 1e-9 to 1e9)";
 }
 
-constexpr std::size_t most_points = 100000;
+constexpr std::size_t most_places = 100000;
 
 // of coordinates only the size counts: what should be zero is often a little beside it
 std::string points_fault(const Points& points) {
-  if (points.size() > most_points)
+  if (points.size() > most_places)
     return "holds " + std::to_string(points.size()) + " points, must be at most " +
-           std::to_string(most_points);
+           std::to_string(most_places);
   for (const auto& point : points)
     for (const double value : point)
       if (!(std::abs(value) <= largest_magnitude))

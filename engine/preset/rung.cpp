@@ -16,7 +16,7 @@ std::vector<std::pair<std::string, const Rod*>> kinds_of(const Preset& preset) {
   return {{"rod", &preset.rod}};
 }
 
-std::string bracketed(const Demand& demand) {
+std::string key_of(const Demand& demand) {
   return fmt::format("[{}] {}", demand.table, demand.key);
 }
 
@@ -125,8 +125,8 @@ void add_rung_conflicts(const Preset& preset, std::vector<Conflict>& found) {
   const auto refuse = [&](const Demand& demand) {
     found.push_back({"accuracy",
                      "model",
-                     {bracketed(demand)},
-                     fmt::format("cannot serve {}: {}", bracketed(demand), demand.what)});
+                     {key_of(demand)},
+                     fmt::format("cannot serve {}: {}", key_of(demand), demand.what)});
   };
   if (preset.accuracy.model == Rung::bend)
     for (const Demand& demand : beyond_bend(preset)) refuse(demand);

@@ -11,7 +11,7 @@
 namespace gridshell::preset {
 namespace {
 
-constexpr std::size_t most_points = 100000, least_side = 4;
+constexpr std::size_t most_heights = 100000, least_side = 4;
 
 /// The values that a coordinate takes, rising; what differs by round-off is one.
 std::vector<double> values_of(const Points& points, std::size_t coordinate) {
@@ -36,9 +36,9 @@ Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name
   std::vector<int> lines;
   const auto points = points_in(std::string(bytes), name, {"x", "y", "z"}, {}, &lines);
   if (!points) return tl::unexpected(points.error());
-  if (points->size() > most_points)
+  if (points->size() > most_heights)
     return fail(Fault::bad_input, fmt::format("{}: holds {} points, must be at most {}", name,
-                                              points->size(), most_points));
+                                              points->size(), most_heights));
   SurfaceData grid{values_of(*points, 0), values_of(*points, 1), {}, {}, {}};
   const std::size_t columns = grid.x.size(), rows = grid.y.size();
   if (columns < least_side || rows < least_side)
@@ -97,8 +97,8 @@ std::string surface_fault(const SurfaceData& surface) {
   if (surface.is_mesh()) return mesh_fault(surface);
   for (const auto& [key, values] : {std::pair("x_mm", &surface.x), {"y_mm", &surface.y}})
     if (auto wrong = rising_fault(key, *values); !wrong.empty()) return wrong;
-  if (surface.x.size() * surface.y.size() > most_points)
-    return fmt::format("holds more than {} heights", most_points);
+  if (surface.x.size() * surface.y.size() > most_heights)
+    return fmt::format("holds more than {} heights", most_heights);
   if (surface.z.size() != surface.y.size())
     return fmt::format("z_mm holds {} rows, must be one for each of the {} y", surface.z.size(),
                        surface.y.size());

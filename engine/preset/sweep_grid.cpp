@@ -15,7 +15,7 @@
 namespace gridshell::preset {
 namespace {
 
-constexpr double most_points = 100000;
+constexpr double most_runs = 100000;
 constexpr int largest_seed = 1 << 30;  // of [jitter]
 
 const Field& field_of(const std::string& key) {
@@ -142,10 +142,10 @@ void check_sweep(const std::vector<Draft>& runs, PlacedFaults& faults) {
     return at == first.set_at.end() ? Place{} : at->second;
   };
   const Place over = sweep.over.empty() ? place("seeds") : place("over");
-  if (const double count = combinations(sweep) * double(runs.size()); count > most_points)
+  if (const double count = combinations(sweep) * double(runs.size()); count > most_runs)
     return faults.add(
         over, fmt::format("[sweep] over: comes to {:.0f} runs, must be at most {:.0f}", count,
-                          most_points));
+                          most_runs));
   std::map<std::string, std::string> idle;  // until a point uses them
   for (const SweepAxis& axis : sweep.over) idle[name_of(field_of(axis.key))] = "";
   const char* drawn = "[imperfection] seed";

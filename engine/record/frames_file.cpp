@@ -161,16 +161,16 @@ class StoredFrames : public FrameSource {
   std::vector<std::function<void(hdf5::Reader&, std::size_t, Frame&)>> of_rods_;
 };
 
-void forget(int& value) { value = -1; }
-void forget(double& value) { value = unknown; }
-void forget(std::string& value) { value.clear(); }
+void make_unknown(int& value) { value = -1; }
+void make_unknown(double& value) { value = unknown; }
+void make_unknown(std::string& value) { value.clear(); }
 
 void read_column(hdf5::Reader& file, const FrameColumn& column, std::vector<Frame>& heads) {
   const std::string name = dataset_of(column);
   const Frame any;
   visit_column(column, any, [&]<class T>(const T&) {
     // an older version did not know it
-    if (!file.has(name)) return each_value<T>(column, heads, [](T& value) { forget(value); });
+    if (!file.has(name)) return each_value<T>(column, heads, [](T& value) { make_unknown(value); });
     std::vector<T> values;
     if constexpr (std::is_same_v<T, std::string>)
       values = file.strings(name);

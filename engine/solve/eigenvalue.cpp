@@ -13,10 +13,6 @@ Eigen::Matrix3Xd weighted(const Eigen::Matrix3Xd& v, const Eigen::VectorXd& leng
   return product;
 }
 
-double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
-  return a.cwiseProduct(b).sum();
-}
-
 }  // namespace
 
 double lowest_eigenvalue(Linearisation& system, const State& state, const Eigen::VectorXd& length,

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int most_edges = 128;
 // on the safe side of what a plan leaves as a rule
-constexpr double margin = 1.25;
+constexpr double plan_margin = 1.25;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ double expected_error(const LevelPlan& plan) {
 
 LevelPlan plan_levels(double tolerance, int leader) {
   LevelPlan plan{{leader, 2 * leader}, false};
-  if (tolerance >= margin * expected_error(plan)) return plan;
+  if (tolerance >= plan_margin * expected_error(plan)) return plan;
   plan = {{leader, 2 * leader, 4 * leader}, true};
   while (expected_error(plan) > tolerance)
     plan.edges_per_segment.push_back(2 * plan.edges_per_segment.back());

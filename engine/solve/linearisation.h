@@ -122,5 +122,9 @@ class Linearisation {
 
 /// Largest move of a column.
 double largest_column(const Eigen::Matrix3Xd& dx);
+/// Sum of the products of their entries.
+inline double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
+  return a.cwiseProduct(b).sum();
+}
 
 }  // namespace gridshell

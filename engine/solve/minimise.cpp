@@ -31,8 +31,7 @@ class Descent {
 
   /// As far along dx as the energy falls.
   void go(const Eigen::Matrix3Xd& dx) {
-    const double begin = energy_at(state_),
-                 slope = (system_.assembly().gradient.array() * dx.array()).sum();
+    const double begin = energy_at(state_), slope = product(system_.assembly().gradient, dx);
     const Eigen::VectorXd force = system_.assembly().force, change = system_.force_change(dx);
     const auto falls = [&](double step) {
       return energy_at(trial_) <= begin + 1e-4 * step * slope + 1e-14 * std::abs(begin);

@@ -16,10 +16,6 @@ constexpr int climb_every = 4;      // rounds from then on
 constexpr double on_string = 2;     // spacings: how far a saddle may lie from the highest image
 constexpr double over_softest = 4;  // least shift, over the softest stiffness of the first state
 
-double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
-  return (a.array() * b.array()).sum();
-}
-
 /// Something without symmetry, each column at most as long as one.
 Eigen::Matrix3Xd crooked(Eigen::Index columns) {
   Eigen::Matrix3Xd any(3, columns);

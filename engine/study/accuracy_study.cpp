@@ -12,8 +12,6 @@ namespace {
 using record::AccuracyRow;
 using record::RunOutcome;
 
-constexpr double claimed = 1e-4;  // of the length scale: what methods on one mesh come to rest to
-
 /// A method on meshes from coarse to fine: beyond one that is too slow there is no need to look.
 struct Ladder {
   std::vector<Method> rungs;
@@ -41,7 +39,7 @@ Measured measure(Subject& study, const Method& method, double allowed,
     if (measured.arrival.claim != RunOutcome::right) break;
   }
   std::sort(measured.seconds.begin(), measured.seconds.end());
-  measured.outcome = judge(study, measured.arrival, claimed, allowed, watch);
+  measured.outcome = judge(study, measured.arrival, claimed_error, allowed, watch);
   return measured;
 }
 
@@ -215,7 +213,7 @@ Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const Accurac
   result.rows.insert(result.rows.end(), others->begin(), others->end());
   result.standings = standings_of(result.rows);
   if (options.scaling) result.scaling = scaling_of(preset, options, watch);
-  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+  if (watch.cancelled()) return stopped();
   return result;
 }
 

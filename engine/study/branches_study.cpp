@@ -23,7 +23,7 @@ using record::BranchEvent;
 // of the length scale
 constexpr double step_size = 0.006, symmetric_within = 1e-4, round_off = 1e-9;
 constexpr double flat_shortening = 1e-3;  // how near to the flat it is followed
-constexpr double first_shortening[] = {0.02, 0.01, 0.005, 0.0025};
+constexpr double first_shortenings[] = {0.02, 0.01, 0.005, 0.0025};
 
 /// What is followed, where it begins and how far it goes.
 struct Course {
@@ -60,7 +60,7 @@ Result<Course> begin_actuation(std::shared_ptr<const Scene> scene, const LevelPl
   if (scene->from_net) {
     begun = course.session.begin_on_net(watch);
   } else {
-    for (double shortening : first_shortening) {
+    for (double shortening : first_shortenings) {
       begun = course.session.begin_buckled(shortening, watch);
       if (begun && begun->end == Outcome::reached) break;
     }
@@ -117,7 +117,7 @@ class Diagram {
   Result<BranchDiagram> make() {
     if (auto followed = follow_path(); !followed) return tl::unexpected<Error>(followed.error());
     for (std::size_t k = 0; k < branches_.size() && !watch_.cancelled(); ++k) enter_from(k);
-    if (watch_.cancelled()) return fail(Fault::cancelled, "stopped");
+    if (watch_.cancelled()) return stopped();
     return diagram();
   }
 
@@ -287,7 +287,7 @@ Result<BranchDiagram> branches_study(const preset::Preset& preset, const Branche
   if (auto fits = fits_memory(*scene, plan); !fits) return tl::unexpected<Error>(fits.error());
   auto course = preset.indentation.wanted() ? begin_push(scene, preset.indentation, plan, watch)
                                             : begin_actuation(scene, plan, watch);
-  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+  if (watch.cancelled()) return stopped();
   if (!course) return tl::unexpected<Error>(course.error());
   return Diagram(*course, options, watch).make();
 }

@@ -5,6 +5,9 @@
 
 namespace gridshell::study {
 
+/// What a method on one mesh claims to have come to rest to, of the length scale.
+inline constexpr double claimed_error = 1e-4;
+
 /// Judges an arrival by the equilibrium of the *same* mesh on the reference's branch, so that the
 /// error of the mesh is nobody's fault: joints further than ten times `claimed` (over the length
 /// scale) from there are wrong. What cannot be checked on one mesh (extrapolated, spring joints) is

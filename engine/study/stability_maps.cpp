@@ -13,13 +13,12 @@ namespace {
 using record::RunOutcome;
 using record::StabilityRow;
 
-constexpr double claimed = 1e-4;  // of the length scale: what a method at rest promises
-
 using Study = std::shared_ptr<Subject>;
 using Run = std::function<Arrival(const Problem&, const Watch&)>;
 
 /// Runs on one mesh of a case and is judged there.
-Cell cell(StabilityRow row, const Study& study, int edges, Run run, double promised = claimed) {
+Cell cell(StabilityRow row, const Study& study, int edges, Run run,
+          double promised = claimed_error) {
   return {std::move(row), [=](const Watch& watch) {
             static const Watch patient;  // references are made whole
             const auto problem = study->problem(edges, patient);
@@ -36,8 +35,8 @@ Cell default_cell(StabilityRow row, const Study& study, const LevelPlan& plan, d
             static const Watch patient;
             const Arrival arrival = by_default(*study, plan, tolerance, int(stops), watch);
             // at least what methods on one mesh promise; the mesh's own error is not theirs either
-            const double promised = std::max(tolerance, claimed);
-            return judge(*study, arrival, arrival.whole_mesh ? claimed : promised, promised,
+            const double promised = std::max(tolerance, claimed_error);
+            return judge(*study, arrival, arrival.whole_mesh ? claimed_error : promised, promised,
                          patient);
           }};
 }
@@ -224,7 +223,7 @@ namespace {
 /// As judge(), for a problem that ends elsewhere.
 RunOutcome judge_at(const Problem& problem, const Subject& study, const Arrival& arrival) {
   if (arrival.claim != RunOutcome::right) return arrival.claim;
-  return judge_end(study, problem, arrival.x, claimed);
+  return judge_end(study, problem, arrival.x, claimed_error);
 }
 
 }  // namespace
@@ -294,7 +293,7 @@ Cells joint_map(const Study& study, const std::vector<double>& stiffnesses,
                if (truth->arrival.claim != RunOutcome::right) return RunOutcome::refused;
                const double off = largest_column(found.x.leftCols(study->joints()) -
                                                  truth->arrival.x.leftCols(study->joints()));
-               if (off <= 10 * claimed * study->scale_mm()) return RunOutcome::right;
+               if (off <= 10 * claimed_error * study->scale_mm()) return RunOutcome::right;
                return found.negative_pivots > 0 ? RunOutcome::silent_wrong
                                                 : RunOutcome::other_state;
              }});

@@ -29,7 +29,7 @@ Result<State> on_net(const Scene& scene, const RodMesh& mesh, const Model& model
 }
 
 Error lost(const NestedReport& report, const char* where) {
-  if (report.end == Outcome::cancelled) return {Fault::cancelled, "stopped"};
+  if (report.end == Outcome::cancelled) return stopped().value();
   return {Fault::no_equilibrium,
           fmt::format("the reference of the study {} (path parameter {:.4f}): choose a scene whose "
                       "path stays on one stable branch",
@@ -196,7 +196,7 @@ Result<State> Subject::rest_beside(const Problem& problem, const Eigen::Matrix3X
   problem.motion.impose(system, t, state);
   const double near = 0.5 * scene_->footprint.spacing;
   const auto found = gridshell::rest_near(system, state, near, watch);
-  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+  if (watch.cancelled()) return stopped();
   if (found && largest_column(found->x.leftCols(joints()) - wanted.leftCols(joints())) < near)
     return found;
   return fail(

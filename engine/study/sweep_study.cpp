@@ -73,7 +73,7 @@ Result<void> run_points(const preset::SweepGrid& grid, const std::vector<std::si
                         Watch& watch) {
   keep_blas_on_one_thread();
   std::mutex one_at_a_time;
-  bool stopped = false;
+  bool refused = false;
   const auto compute = [&](int k) -> Result<void> {
     // each point tells its own progress, and all hear the same wish to stop
     TimeLimit none(no_limit_s, watch);
@@ -81,9 +81,9 @@ Result<void> run_points(const preset::SweepGrid& grid, const std::vector<std::si
     if (!result) return tl::unexpected<Error>(result.error());
     const std::lock_guard lock(one_at_a_time);
     // nothing more is handed over once that failed
-    if (stopped) return fail(Fault::cancelled, "stopped");
+    if (refused) return stopped();
     auto kept = finished(std::move(*result));
-    stopped = !kept;
+    refused = !kept;
     return kept;
   };
   return share_work(int(points.size()), jobs, watch, compute,

@@ -15,14 +15,14 @@
 namespace gridshell::study {
 namespace {
 
-using experiment::Outcome;
+using experiment::Finished;
 using record::TrustClass;
 
 constexpr int frames = 5, fine_frames = 9, other_frames = 8;
 
 /// One run, and what the program would exit with.
 struct Trial {
-  std::optional<Outcome> outcome;
+  std::optional<Finished> outcome;
   std::string refused;  ///< why there is none
   int exit = 0;
   bool too_slow = false;
@@ -59,7 +59,7 @@ Trial try_scene(preset::Preset preset, int count, bool fine, const TrustOptions&
     trial.refused = summary.error().message;
     return trial;
   }
-  trial.outcome = Outcome{std::move(sink.trajectory()), std::move(*summary)};
+  trial.outcome = Finished{std::move(sink.trajectory()), std::move(*summary)};
   trial.exit = trial.whole() && trial.outcome->summary.stable ? 0 : 1;
   return trial;
 }
@@ -73,14 +73,14 @@ bool unphysical(const record::Frame& frame) {
 }
 
 /// Largest distance of the joints of two frames over the length scale.
-double distance(const Outcome& a, const record::Frame& in_a, const record::Frame& in_b) {
+double distance(const Finished& a, const record::Frame& in_a, const record::Frame& in_b) {
   const Eigen::Index joints = Eigen::Index(a.trajectory.layout.joints.size());
   return (in_a.nodes.leftCols(joints) - in_b.nodes.leftCols(joints)).colwise().norm().maxCoeff() /
          a.trajectory.layout.length_scale_mm;
 }
 
 /// Of the frames that both have, the one whose error is the most times its estimate.
-void compare(const Outcome& asked, const Outcome& fine, record::TrustRow& row) {
+void compare(const Finished& asked, const Finished& fine, record::TrustRow& row) {
   double worst = -1;
   for (const record::Frame& frame : asked.trajectory.frames)
     for (const record::Frame& other : fine.trajectory.frames) {

@@ -8,7 +8,7 @@
 namespace gridshell {
 
 /// With the frames of a movie.
-inline experiment::Outcome run(const preset::Preset& preset, bool stills = false) {
+inline experiment::Finished run(const preset::Preset& preset, bool stills = false) {
   Watch watch;
   auto outcome = experiment::run(preset, stills, watch);
   if (!outcome) FAIL(outcome.error().message);
@@ -16,6 +16,6 @@ inline experiment::Outcome run(const preset::Preset& preset, bool stills = false
 }
 
 /// With the frames of a figure.
-inline experiment::Outcome run_stills(const preset::Preset& preset) { return run(preset, true); }
+inline experiment::Finished run_stills(const preset::Preset& preset) { return run(preset, true); }
 
 }  // namespace gridshell

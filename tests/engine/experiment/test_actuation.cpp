@@ -59,7 +59,7 @@ double corner_on_diagonal(const record::Trajectory& trajectory, double s) {
 }  // namespace
 
 TEST_CASE("actuation of Fig. 1 ends in the state with two diagonal mirrors, at its energy") {
-  const experiment::Outcome outcome = run(fig1(2, 1e-6));
+  const experiment::Finished outcome = run(fig1(2, 1e-6));
   const record::Summary& s = outcome.summary;
   CHECK(s.stable);
   CHECK(s.negative_pivots == 0);
@@ -82,7 +82,7 @@ TEST_CASE("the seed names the diagonal whose corner joints lie lower, and up or 
       p.actuation.seed = down ? preset::Seed::down : preset::Seed::up;
       p.actuation.seed_diagonal =
           other ? preset::SeedDiagonal::y_eq_minus_x : preset::SeedDiagonal::y_eq_x;
-      const experiment::Outcome outcome = run(p);
+      const experiment::Finished outcome = run(p);
       const double on_seed = corner_on_diagonal(outcome.trajectory, other ? -1 : 1);
       const double across = corner_on_diagonal(outcome.trajectory, other ? 1 : -1);
       CHECK(on_seed < across);
@@ -92,7 +92,7 @@ TEST_CASE("the seed names the diagonal whose corner joints lie lower, and up or 
 }
 
 TEST_CASE("the last frame does not depend on how many frames are asked for") {
-  const experiment::Outcome few = run(fig1(2, 1e-3)), many = run(fig1(25, 1e-3));
+  const experiment::Finished few = run(fig1(2, 1e-3)), many = run(fig1(25, 1e-3));
   CHECK(few.trajectory.frames.back().nodes == many.trajectory.frames.back().nodes);
   CHECK(few.summary.energies[Term::bend] == many.summary.energies[Term::bend]);
   REQUIRE(many.trajectory.frames.size() == 25);
@@ -112,11 +112,11 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
     p.accuracy.edges_per_segment = edges;
     return run(p);
   };
-  const experiment::Outcome reference = run(fig1(2, 1e-7));
+  const experiment::Finished reference = run(fig1(2, 1e-7));
   const Eigen::Matrix3Xd exact = joints_of(reference.trajectory);
   double before = 0, energy_before = 0;
   for (int edges : {4, 8, 16}) {
-    const experiment::Outcome outcome = at(edges);
+    const experiment::Finished outcome = at(edges);
     const double error = (joints_of(outcome.trajectory) - exact).colwise().norm().maxCoeff();
     const double energy =
         std::abs(outcome.summary.energies[Term::bend] - reference.summary.energies[Term::bend]);
@@ -134,7 +134,7 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
     before = error;
     energy_before = energy;
   }
-  const experiment::Outcome extrapolated = run(fig1(2, 1e-5));
+  const experiment::Finished extrapolated = run(fig1(2, 1e-5));
   const double error = (joints_of(extrapolated.trajectory) - exact).colwise().norm().maxCoeff();
   CHECK(error <= 1e-5 * 126);
   CHECK(error < 2 * extrapolated.summary.error_estimate_mm);
@@ -142,7 +142,7 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
 }
 
 TEST_CASE("the flat footprint is the first frame: at rest, stable, without curvature") {
-  const experiment::Outcome outcome = run(fig1(3, 1e-3));
+  const experiment::Finished outcome = run(fig1(3, 1e-3));
   const record::Frame& flat = outcome.trajectory.frames.front();
   CHECK(flat.nodes.row(2).cwiseAbs().maxCoeff() == 0);
   CHECK(flat.residual_N < 1e-9);
@@ -151,7 +151,7 @@ TEST_CASE("the flat footprint is the first frame: at rest, stable, without curva
 }
 
 TEST_CASE("the same run twice is the same to the last bit") {
-  const experiment::Outcome a = run(fig1(6, 1e-4)), b = run(fig1(6, 1e-4));
+  const experiment::Finished a = run(fig1(6, 1e-4)), b = run(fig1(6, 1e-4));
   for (std::size_t k = 0; k < a.trajectory.frames.size(); ++k) {
     CHECK(a.trajectory.frames[k].nodes == b.trajectory.frames[k].nodes);
     CHECK(a.trajectory.frames[k].cell_K == b.trajectory.frames[k].cell_K);

@@ -39,19 +39,19 @@ double bending_of(const record::Trajectory& run, const record::Frame& frame, dou
 
 TEST_CASE("reactions carry the loads, and nothing where there are none") {
   preset::Preset p = circle();
-  const experiment::Outcome unloaded = run(p);
+  const experiment::Finished unloaded = run(p);
   const record::Frame& free = unloaded.trajectory.frames.back();
   REQUIRE(free.reactions_N.cols() == Eigen::Index(unloaded.trajectory.layout.supports.size()));
   CHECK(sum_of(free).norm() < 1e-9);
   CHECK(free.reactions_N.colwise().norm().maxCoeff() > 1e-3);
   p.loads.points = {{0, 0, 0, 0.01, -0.02}, {-1, 0, 0.003, 0, 0}};
-  const experiment::Outcome loaded = run(p);
+  const experiment::Finished loaded = run(p);
   const Eigen::Vector3d loads(0.003, 0.01, -0.02);
   CHECK((sum_of(loaded.trajectory.frames.back()) + loads).norm() < 1e-9);
 }
 
 TEST_CASE("curvature gives the bending energy, stretch the axial force, as one mesh has them") {
-  const experiment::Outcome outcome = run(circle());
+  const experiment::Finished outcome = run(circle());
   const record::Frame& frame = outcome.trajectory.frames.back();
   const double area = M_PI * 0.127 * 0.127, EA = 83e3 * area, EI = 83e3 * area * 0.127 * 0.127 / 4;
   CHECK(bending_of(outcome.trajectory, frame, EI) ==
@@ -69,7 +69,7 @@ TEST_CASE("curvature gives the bending energy, stretch the axial force, as one m
 }
 
 TEST_CASE("at a pinned end the reaction along the rod is its axial force") {
-  const experiment::Outcome outcome = run(circle());
+  const experiment::Finished outcome = run(circle());
   const record::Layout& layout = outcome.trajectory.layout;
   const record::Frame& frame = outcome.trajectory.frames.back();
   Eigen::Index edge = 0;
@@ -89,7 +89,7 @@ TEST_CASE("the reaction of a pushed joint is the force of its push on one mesh")
   p.indentation.depth = 0.05;
   p.movie.frames = 2;
   p.accuracy.edges_per_segment = 4;
-  const experiment::Outcome outcome = run(p);
+  const experiment::Finished outcome = run(p);
   const record::Layout& layout = outcome.trajectory.layout;
   const record::Frame& frame = outcome.trajectory.frames.back();
   REQUIRE(layout.loaded_joints.size() == 1);
@@ -106,7 +106,7 @@ TEST_CASE("a net and what is in motion know no forces") {
   p.actuation.start = preset::Start::net;
   p.accuracy.model = preset::Rung::net;
   p.accuracy.tolerance = 0.05;
-  const experiment::Outcome outcome = run_stills(p);
+  const experiment::Finished outcome = run_stills(p);
   CHECK(outcome.trajectory.frames.back().axial_force_N.size() == 0);
   CHECK(outcome.trajectory.frames.back().reactions_N.size() == 0);
 }

@@ -48,7 +48,7 @@ double energy_of(const record::Frame& frame) {
 
 TEST_CASE("three point loads: certified frames, depth as asked, the force does the work") {
   for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
-    const experiment::Outcome outcome = run(hemisphere(which, 120, preset::Placement::on_axis));
+    const experiment::Finished outcome = run(hemisphere(which, 120, preset::Placement::on_axis));
     const auto& frames = outcome.trajectory.frames;
     REQUIRE(frames.size() == 11);
     CHECK(outcome.summary.limit == record::Limit::none);
@@ -72,7 +72,7 @@ TEST_CASE("total K equals the sum over the corner joints in every frame") {
   for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
     for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
       const preset::Preset p = hemisphere(which, 120, placement, 0.1, 4);
-      const experiment::Outcome outcome = run(p);
+      const experiment::Finished outcome = run(p);
       const Footprint footprint = scene_of(p)->footprint;
       const RodMesh mesh = mesh_rods(footprint, outcome.summary.edges_per_segment);
       for (const record::Frame& frame : outcome.trajectory.frames)
@@ -86,7 +86,7 @@ TEST_CASE("the pushed joint goes straight down its normal, held, it does not go 
   for (const auto lateral : {preset::Lateral::free, preset::Lateral::held}) {
     preset::Preset p = hemisphere(Case::oblique_inward, 120, preset::Placement::on_axis, 0.1, 3);
     p.indentation.lateral = lateral;
-    const experiment::Outcome outcome = run(p);
+    const experiment::Finished outcome = run(p);
     const Eigen::Matrix3Xd before = joints_of(outcome.trajectory, 0),
                            after = joints_of(outcome.trajectory, 2);
     // the joint nearest to latitude and longitude of 45 degrees on the net
@@ -108,14 +108,14 @@ TEST_CASE("the pushed joint goes straight down its normal, held, it does not go 
 TEST_CASE("pole cases keep four mirror planes, at half placement one diagonal") {
   const double half = std::sqrt(0.5);
   for (const Case which : {Case::pole_inward, Case::pole_outward}) {
-    const experiment::Outcome outcome = run(hemisphere(which, 120, preset::Placement::on_axis));
+    const experiment::Finished outcome = run(hemisphere(which, 120, preset::Placement::on_axis));
     const Eigen::Matrix3Xd joints = joints_of(outcome.trajectory, 10);
     for (const Eigen::Vector2d& normal :
          {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(half, half),
           Eigen::Vector2d(half, -half)})
       CHECK(mirror_defect(joints, normal) < 1e-8 * 120);
   }
-  const experiment::Outcome outcome =
+  const experiment::Finished outcome =
       run(hemisphere(Case::pole_inward, 120, preset::Placement::half));
   const Eigen::Matrix3Xd joints = joints_of(outcome.trajectory, 10);
   CHECK(mirror_defect(joints, {half, -half}) < 1e-8 * 120);
@@ -130,7 +130,7 @@ TEST_CASE("force, total K and reach converge at second order over three meshes",
         for (int k = 0; k < 4; ++k) {
           preset::Preset p = hemisphere(which, radius, placement);
           p.accuracy.edges_per_segment = 4 << k;
-          const experiment::Outcome outcome = run(p);
+          const experiment::Finished outcome = run(p);
           const record::Frame& last = outcome.trajectory.frames.back();
           REQUIRE(outcome.trajectory.frames.size() == 11);
           force[k] = last.force_N, total[k] = last.total_K, most[k] = last.cell_K.maxCoeff();
@@ -147,11 +147,11 @@ TEST_CASE("force, total K and reach converge at second order over three meshes",
 
 TEST_CASE("outward at the pole the rods run into their length: locking, certified up to there",
           "[full]") {
-  const experiment::Outcome few =
+  const experiment::Finished few =
       run(hemisphere(Case::pole_outward, 120, preset::Placement::on_axis, 0.4, 3));
-  const experiment::Outcome many =
+  const experiment::Finished many =
       run(hemisphere(Case::pole_outward, 120, preset::Placement::on_axis, 0.4, 21));
-  for (const experiment::Outcome* outcome : {&few, &many}) {
+  for (const experiment::Finished* outcome : {&few, &many}) {
     CHECK(outcome->summary.limit == record::Limit::locking);
     const record::Frame& last = outcome->trajectory.frames.back();
     CHECK(last.event == "locking");
@@ -168,7 +168,7 @@ TEST_CASE("outward at the pole the rods run into their length: locking, certifie
 TEST_CASE("deep pushes end certified or at a named limit", "[full]") {
   for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
     for (const Case which : {Case::pole_inward, Case::oblique_inward}) {
-      const experiment::Outcome outcome = run(hemisphere(which, 120, placement, 0.6, 31));
+      const experiment::Finished outcome = run(hemisphere(which, 120, placement, 0.6, 31));
       for (const record::Frame& frame : outcome.trajectory.frames) {
         // between a loss of stability and the next rest a frame says that it is not stable
         CHECK((frame.negative_pivots == 0 || frame.event.starts_with("unstable")));
@@ -182,7 +182,7 @@ TEST_CASE("deep pushes end certified or at a named limit", "[full]") {
 TEST_CASE("unloading follows the way back, after a snap on another branch", "[full]") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, preset::Placement::on_axis, 0.1, 9);
   p.indentation.unload = true;
-  const experiment::Outcome there_and_back = run(p);
+  const experiment::Finished there_and_back = run(p);
   const auto& frames = there_and_back.trajectory.frames;
   REQUIRE(frames.size() == 9);
   for (int k = 0; k < 4; ++k)
@@ -194,7 +194,7 @@ TEST_CASE("unloading follows the way back, after a snap on another branch", "[fu
   fig1.indentation.depth = 0.5;
   fig1.indentation.unload = true;
   fig1.movie.frames = 21;
-  const experiment::Outcome snapped = run(fig1);
+  const experiment::Finished snapped = run(fig1);
   CHECK(snapped.summary.limit == record::Limit::snap);
   CHECK_THAT(snapped.summary.limit_reason,
              Catch::Contains("on the leading mesh its path turns back at 33.4"));
@@ -229,10 +229,10 @@ TEST_CASE("pushes on the twist rung are those of the bend rung, to a millionth o
     preset::Preset p = hemisphere(which, 120, preset::Placement::on_axis, 0.05, 3);
     p.accuracy.edges_per_segment = 4;
     p.accuracy.tolerance = 1e-6;
-    const experiment::Outcome bend = run(p);
+    const experiment::Finished bend = run(p);
     p.accuracy.model = preset::Rung::twist;
     p.rod.shear_GPa = 31;
-    const experiment::Outcome twist = run(p);
+    const experiment::Finished twist = run(p);
     REQUIRE(twist.trajectory.frames.size() == bend.trajectory.frames.size());
     const record::Frame &a = bend.trajectory.frames.back(), &b = twist.trajectory.frames.back();
     CHECK(b.force_N == Approx(a.force_N).epsilon(1e-5));

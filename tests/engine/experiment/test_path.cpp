@@ -73,7 +73,7 @@ preset::Preset drawn_ellipse(double half_x_mm, double half_y_mm, double scale, d
 }
 
 /// Led by a mesh of so many edges a segment, in load steps of so many of the usual ones.
-experiment::Outcome led_by(int edges, const preset::Preset& preset, double load_step = 1) {
+experiment::Finished led_by(int edges, const preset::Preset& preset, double load_step = 1) {
   Scene scene = scene_of(preset).value();
   scene.leading_edges = edges;
   scene.load_step = load_step;
@@ -85,10 +85,10 @@ experiment::Outcome led_by(int edges, const preset::Preset& preset, double load_
   return {std::move(sink.trajectory()), std::move(*summary)};
 }
 
-double bend(const experiment::Outcome& outcome) { return outcome.summary.energies[Term::bend]; }
+double bend(const experiment::Finished& outcome) { return outcome.summary.energies[Term::bend]; }
 
 /// Every frame is at rest and says whether it is stable; where the path ended early it says why.
-void check_frames(const experiment::Outcome& outcome, int asked) {
+void check_frames(const experiment::Finished& outcome, int asked) {
   const auto& frames = outcome.trajectory.frames;
   CAPTURE(outcome.summary.limit_reason);
   if (int(frames.size()) < asked) {

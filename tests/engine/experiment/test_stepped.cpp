@@ -56,7 +56,7 @@ TEST_CASE("a push let go is the shell before, and every step says what it came t
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), of(Deed::release)};
   preset.movie.frames = 6;
-  const experiment::Outcome outcome = run(preset);
+  const experiment::Finished outcome = run(preset);
   const auto& frames = outcome.trajectory.frames;
   REQUIRE(frames.size() == 6);
   CHECK(outcome.summary.limit == record::Limit::none);
@@ -80,9 +80,9 @@ TEST_CASE("a push let go is the shell before, and every step says what it came t
 TEST_CASE("frames only sample the steps, which end where they end") {
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), move(0.9), push(1, -1, 2)};
-  const experiment::Outcome few = run(preset);
+  const experiment::Finished few = run(preset);
   preset.movie.frames = 17;
-  const experiment::Outcome many = run(preset);
+  const experiment::Finished many = run(preset);
   CHECK(few.trajectory.frames.size() == 4);
   CHECK(many.trajectory.frames.size() == 17);
   CHECK(difference(few.trajectory.frames.back(), many.trajectory.frames.back()) == 0);
@@ -108,7 +108,7 @@ TEST_CASE("loads, a held joint, edge points, a jitter and a rest are steps") {
   hold.joint = {0, 0};
   edge.edge_points = {{3, 1.5, -1, 0}};
   preset.step = {light, hold, edge, of(Deed::release), of(Deed::jitter), of(Deed::rest)};
-  const experiment::Outcome outcome = run(preset);
+  const experiment::Finished outcome = run(preset);
   const auto& frames = outcome.trajectory.frames;
   REQUIRE(frames.size() == 7);
   CHECK(frames[0].energies[Term::load] != 0);
@@ -123,7 +123,7 @@ TEST_CASE("loads, a held joint, edge points, a jitter and a rest are steps") {
 TEST_CASE("a step that ends early ends the run, and both say so") {
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, -60), of(Deed::release)};  // outward, further than the rods are long
-  const experiment::Outcome outcome = run(preset);
+  const experiment::Finished outcome = run(preset);
   CHECK(outcome.summary.limit == record::Limit::locking);
   CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 1 (push [0, 0]): "));
   REQUIRE(outcome.summary.steps.size() == 1);
