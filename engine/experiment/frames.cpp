@@ -77,14 +77,17 @@ void put_rods(const Model& model, const Assembly& at, record::Frame& frame) {
     const auto ghost = [&](std::size_t k) {
       return model.edges[std::size_t(rod.edges[k])].EA == 0;
     };
+    // where a ring closes its two ends are one node
+    const double at_ends =
+        rod.closed ? curvature_between(model, at, rod.edges.back(), rod.edges.front()) : 0;
     for (std::size_t k = 0; k < rod.edges.size(); ++k) {
       if (k > 0)
         curvature.push_back(curvature_between(model, at, rod.edges[k - 1], rod.edges[k]));
       else if (!ghost(k))
-        curvature.push_back(0);
+        curvature.push_back(at_ends);
       if (!ghost(k)) force.push_back(at.force[rod.edges[k]]);
     }
-    if (!ghost(rod.edges.size() - 1)) curvature.push_back(0);
+    if (!ghost(rod.edges.size() - 1)) curvature.push_back(at_ends);
   }
   frame.axial_force_N = Eigen::Map<Eigen::VectorXd>(force.data(), long(force.size()));
   frame.curvature_per_mm = Eigen::Map<Eigen::VectorXd>(curvature.data(), long(curvature.size()));

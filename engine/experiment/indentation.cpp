@@ -87,8 +87,9 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, con
     const JointTangents tangents = joint_tangents(scene.footprint, mesh, nodes);
     push.displacement = tangents.u.col(*joint).cross(tangents.v.col(*joint)).normalized();
     if (push.displacement.isZero(0))
-      return fail(Fault::bad_input, "[indentation]: no two rods cross at the joint pushed, so the "
-                                    "shell has no normal there");
+      return fail(Fault::bad_input,
+                  "[indentation]: no two rods cross at the joint pushed, so the "
+                  "shell has no normal there");
   }
   const double depth = asked.depth_mm > 0 ? asked.depth_mm : asked.depth * scene.length_scale_mm;
   push.displacement *= asked.direction == preset::Direction::inward ? -depth : depth;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/preset/title.h"
 #include "engine/scene/scene.h"
 
@@ -28,6 +30,10 @@ CutRod cut(const FootprintRod& rod, const Scene& scene) {
   if (rod.tail_end > 0) piece.pin_marks_mm.push_back(rod.span.end - begin);
   piece.leg_begin_mm = piece.joint_marks_mm.front() - rod.tail_begin;
   piece.leg_end_mm = piece.length_mm - rod.tail_end - piece.joint_marks_mm.back();
+  if (rod.begin == RodEnd::joined) piece.leg_begin_mm = std::nan("");
+  if (rod.end == RodEnd::joined) piece.leg_end_mm = std::nan("");
+  for (std::size_t k = 1; k + 1 < rod.path.size(); ++k)
+    piece.corners.push_back(at(rod.path[k].z()));
   piece.free_begin = rod.begin == RodEnd::free;
   piece.free_end = rod.end == RodEnd::free;
   return piece;

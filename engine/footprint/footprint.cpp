@@ -39,11 +39,11 @@ Result<Footprint> cross(Footprint net) {
   }
   for (FootprintRod& rod : net.rods) {
     if (rod.joints.empty())
-      return fail(Fault::bad_input,
-                  fmt::format("the {}-rod at {} = {:g} mm crosses no other rod: it would hang on "
-                              "its two ends alone; move the boundary or the spacing",
-                              name_of(rod.family),
-                              rod.family == Family::u ? "v" : "u", rod.line()));
+      return fail(
+          Fault::bad_input,
+          fmt::format("the {}-rod at {} = {:g} mm crosses no other rod: it would hang on "
+                      "its two ends alone; move the boundary or the spacing",
+                      name_of(rod.family), rod.family == Family::u ? "v" : "u", rod.line()));
     const auto along = [&](int joint) {
       return rod.family == Family::u ? net.joints[joint].u : net.joints[joint].v;
     };
@@ -74,8 +74,9 @@ double leg(const Footprint& net, double start, Pick pick) {
 
 /// which piece of a polyline a position is on
 std::size_t piece_at(const std::vector<Eigen::Vector3d>& path, double position) {
-  const auto after = std::upper_bound(path.begin() + 1, path.end() - 1, position,
-                                      [](double at, const auto& corner) { return at < corner.z(); });
+  const auto after =
+      std::upper_bound(path.begin() + 1, path.end() - 1, position,
+                       [](double at, const auto& corner) { return at < corner.z(); });
   return std::size_t(after - path.begin()) - 1;
 }
 
@@ -105,8 +106,7 @@ Eigen::Vector2d FootprintRod::tangent(double position) const {
 
 void find_cells(Footprint& net) {
   std::map<std::pair<int, int>, int> joint_at;
-  for (int k = 0; k < int(net.joints.size()); ++k)
-    joint_at[{net.joints[k].i, net.joints[k].j}] = k;
+  for (int k = 0; k < int(net.joints.size()); ++k) joint_at[{net.joints[k].i, net.joints[k].j}] = k;
 
   // a cell is complete when its four joints exist and neighbours share a rod
   std::map<std::pair<int, int>, bool> linked;

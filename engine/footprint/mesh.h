@@ -14,15 +14,15 @@ namespace gridshell {
 /// Joints come first (node = index of the joint, shared by its rods), then
 /// edge points (rod r has node joints + 2r at its begin, joints + 2r + 1 at its end), then the
 /// nodes inside segments, legs and tails, rod by rod. A rod with a tail begins or ends at the
-/// tail's *far end*, its edge point being one of its inner nodes. A rod whose end is joined begins or
-/// ends at that joint; the edge point of that number belongs to no rod and rests on the joint's
+/// tail's *far end*, its edge point being one of its inner nodes. A rod whose end is joined begins
+/// or ends at that joint; the edge point of that number belongs to no rod and rests on the joint's
 /// place. A closed rod names its joint twice, first and last.
 struct RodMesh {
   int edges_per_segment = 0;
   int joints = 0;
   int edge_points = 0;
-  std::vector<RodEnd> ends;   ///< of every edge point; empty: all pinned
-  std::vector<int> far_ends;  ///< of every edge point, -1: no tail; empty: none has one
+  std::vector<RodEnd> ends;      ///< of every edge point; empty: all pinned
+  std::vector<int> far_ends;     ///< of every edge point, -1: no tail; empty: none has one
   std::vector<int> held_joints;  ///< that the boundary holds
   int ghosts = 0;
   double ghost_length = 0;                    ///< mm

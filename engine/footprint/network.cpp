@@ -46,8 +46,9 @@ Result<void> check_rod(const RodNetwork& network, std::size_t r,
                                ends.first, ends.second, other->second));
   }
   if (points.size() + (is_ring(rod) ? 1 : 0) < rod.size())
-    return wrong("comes through a point twice, must be several rods, or a ring that ends where it "
-                 "begins");
+    return wrong(
+        "comes through a point twice, must be several rods, or a ring that ends where it "
+        "begins");
   return {};
 }
 
@@ -101,9 +102,8 @@ Result<void> check_points(const RodNetwork& network, const Roles& roles) {
     const auto [passes, ends] = roles.at(point);
     const bool free = network.free[std::size_t(point)] != 0;
     if ((free || roles.is_supported(point)) && passes + ends == 0)
-      return fail(Fault::bad_input,
-                  fmt::format("point {} is {}, and no rod has it", point,
-                              free ? "free" : "a support"));
+      return fail(Fault::bad_input, fmt::format("point {} is {}, and no rod has it", point,
+                                                free ? "free" : "a support"));
     if (free && passes > 0)
       return fail(Fault::bad_input, fmt::format("point {} is free, and inside a rod: only ends of "
                                                 "rods are held unless they are free",
@@ -271,9 +271,8 @@ void name_as_grid(NetworkFootprint& network, Placement placement) {
     }
   if (std::ranges::any_of(through, [](const Visits& v) { return v.passes != 1 || v.ends != 1; }))
     return;
-  std::ranges::stable_sort(order, {}, [&](std::size_t r) {
-    return std::pair(grid.rods[r].family, grid.rods[r].index);
-  });
+  std::ranges::stable_sort(
+      order, {}, [&](std::size_t r) { return std::pair(grid.rods[r].family, grid.rods[r].index); });
   network = named;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const std::size_t r = order[k];

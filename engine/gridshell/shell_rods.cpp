@@ -33,8 +33,8 @@ std::vector<std::vector<int>> crossings_of(const RodMesh& mesh) {
   std::vector<std::vector<int>> rods(std::size_t(mesh.joints));
   for (std::size_t r = 0; r < mesh.rods.size(); ++r)
     for (int node : mesh.rods[r])
-      if (node < mesh.joints && (rods[std::size_t(node)].empty() ||
-                                 rods[std::size_t(node)].back() != int(r)))
+      if (node < mesh.joints &&
+          (rods[std::size_t(node)].empty() || rods[std::size_t(node)].back() != int(r)))
         rods[std::size_t(node)].push_back(int(r));
   return rods;
 }
@@ -43,7 +43,8 @@ std::vector<std::vector<int>> crossings_of(const RodMesh& mesh) {
 Eigen::Vector2d direction_at(const RodMesh& mesh, int rod, int node) {
   const std::vector<int>& nodes = mesh.rods[std::size_t(rod)];
   const auto at = std::find(nodes.begin(), nodes.end(), node);
-  const auto before = at == nodes.begin() ? at : at - 1, after = at + 1 == nodes.end() ? at : at + 1;
+  const auto before = at == nodes.begin() ? at : at - 1,
+             after = at + 1 == nodes.end() ? at : at + 1;
   return (mesh.flat.col(*after) - mesh.flat.col(*before)).normalized();
 }
 

@@ -163,40 +163,39 @@ std::string allowed(const Field& field) {
 std::string value_text(const Field& field, const Preset& preset) {
   // the accessors reach for writing; nothing is written here
   auto& from = const_cast<Preset&>(preset);
-  return std::visit(
-      Overloaded{
-          [&](const Real& k) { return real_text(k.in(from)); },
-          [&](const Integer& k) { return std::to_string(k.in(from)); },
-          [&](const Flag& k) { return std::string(k.in(from) ? "true" : "false"); },
-          [&](const Text& k) { return in_quotes(k.in(from)); },
-          [&](const ColourText& k) { return in_quotes(k.in(from)); },
-          [&](const Word& k) { return in_quotes(k.words.at(k.get(preset))); },
-          [&](const IntegerPair& k) {
-            return fmt::format("[{}, {}]", k.in(from)[0], k.in(from)[1]);
-          },
-          [&](const IntegerList& k) { return integers_text(k.in(from)); },
-          [&](const RealList& k) { return reals_text(k.in(from)); },
-          [&](const OptionalInteger& k) {
-            const auto& value = k.in(from);
-            return value ? std::to_string(*value) : std::string("\"none\"");
-          },
-          [&](const TextList& k) {
-            std::vector<std::string> items;
-            for (const auto& text : k.in(from)) items.push_back(in_quotes(text));
-            return fmt::format("[{}]", fmt::join(items, ", "));
-          },
-          [&](const AxisList& k) { return axes_text(k.in(from)); },
-          [&](const WordList& k) {
-            std::vector<std::string> items;
-            for (const int index : k.get(preset))
-              items.push_back(in_quotes(k.words.at(std::size_t(index))));
-            return fmt::format("[{}]", fmt::join(items, ", "));
-          },
-          [&](const PointList& k) { return points_text(k, k.in(from)); },
-          [&](const SurfaceText& k) { return surface_text(k.in(from)); },
-          [&](const NetworkText& k) { return network_text(k.in(from)); },
-      },
-      field.kind);
+  return std::visit(Overloaded{
+                        [&](const Real& k) { return real_text(k.in(from)); },
+                        [&](const Integer& k) { return std::to_string(k.in(from)); },
+                        [&](const Flag& k) { return std::string(k.in(from) ? "true" : "false"); },
+                        [&](const Text& k) { return in_quotes(k.in(from)); },
+                        [&](const ColourText& k) { return in_quotes(k.in(from)); },
+                        [&](const Word& k) { return in_quotes(k.words.at(k.get(preset))); },
+                        [&](const IntegerPair& k) {
+                          return fmt::format("[{}, {}]", k.in(from)[0], k.in(from)[1]);
+                        },
+                        [&](const IntegerList& k) { return integers_text(k.in(from)); },
+                        [&](const RealList& k) { return reals_text(k.in(from)); },
+                        [&](const OptionalInteger& k) {
+                          const auto& value = k.in(from);
+                          return value ? std::to_string(*value) : std::string("\"none\"");
+                        },
+                        [&](const TextList& k) {
+                          std::vector<std::string> items;
+                          for (const auto& text : k.in(from)) items.push_back(in_quotes(text));
+                          return fmt::format("[{}]", fmt::join(items, ", "));
+                        },
+                        [&](const AxisList& k) { return axes_text(k.in(from)); },
+                        [&](const WordList& k) {
+                          std::vector<std::string> items;
+                          for (const int index : k.get(preset))
+                            items.push_back(in_quotes(k.words.at(std::size_t(index))));
+                          return fmt::format("[{}]", fmt::join(items, ", "));
+                        },
+                        [&](const PointList& k) { return points_text(k, k.in(from)); },
+                        [&](const SurfaceText& k) { return surface_text(k.in(from)); },
+                        [&](const NetworkText& k) { return network_text(k.in(from)); },
+                    },
+                    field.kind);
 }
 
 }  // namespace gridshell::preset

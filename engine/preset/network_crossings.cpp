@@ -87,9 +87,8 @@ Result<void> NetworkDraft::join_crossings(const std::string& name) {
       const auto met = meeting(a, b);
       if (!met) continue;
       const auto [s, t] = *met;
-      const auto point = place({a.x0 + s * (a.x1 - a.x0), a.y0 + s * (a.y1 - a.y0),
-                                network_.points[0][2]},
-                               name);
+      const auto point =
+          place({a.x0 + s * (a.x1 - a.x0), a.y0 + s * (a.y1 - a.y0), network_.points[0][2]}, name);
       if (!point) return tl::unexpected(point.error());
       if (*point != a.from && *point != a.to) cuts.push_back({a.rod, a.first, s, *point});
       if (*point != b.from && *point != b.to) cuts.push_back({b.rod, b.first, t, *point});

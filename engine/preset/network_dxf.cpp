@@ -29,9 +29,9 @@ Result<std::vector<Group>> groups_of(std::string_view bytes, const std::string& 
   for (int line = 1; !trimmed(bytes.substr(0, 64)).empty() || bytes.size() > 64; line += 2) {
     const auto code = number_of(trimmed(next_line(bytes)));
     if (!code || *code != double(int(*code)) || bytes.empty())
-      return fail(Fault::bad_input,
-                  fmt::format("{}:{}: is no DXF text, must be a code and a value in turn", name,
-                              line));
+      return fail(
+          Fault::bad_input,
+          fmt::format("{}:{}: is no DXF text, must be a code and a value in turn", name, line));
     groups.push_back({int(*code), trimmed(next_line(bytes)), line + 1});
   }
   return groups;

@@ -76,9 +76,9 @@ Result<int> NetworkDraft::place(const std::vector<double>& xyz, const std::strin
 Result<int> NetworkDraft::point(long number, const std::string& at) const {
   if (number < 0 || number >= long(points()))
     return fail(Fault::bad_input,
-                points() == 0 ? fmt::format("{}: point {}, and there are none", at, number)
-                              : fmt::format("{}: point {}, must be from 0 to {}", at, number,
-                                            points() - 1));
+                points() == 0
+                    ? fmt::format("{}: point {}, and there are none", at, number)
+                    : fmt::format("{}: point {}, must be from 0 to {}", at, number, points() - 1));
   return same_as_[std::size_t(number)];
 }
 
@@ -121,8 +121,7 @@ std::string network_fault(const NetworkData& network) {
   for (std::size_t r = 0; r < rods; ++r) {
     if (network.rods[r].size() < 2) return fmt::format("rods[{}] must have at least two points", r);
     for (const int point : network.rods[r])
-      if (!there(point))
-        return fmt::format("rods[{}] names point {} of {}", r, point, points);
+      if (!there(point)) return fmt::format("rods[{}] names point {} of {}", r, point, points);
   }
   if (!network.diameters.empty() && network.diameters.size() != rods)
     return fmt::format("holds {} diameters_mm, must be one for each of {} rods",

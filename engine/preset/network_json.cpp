@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <nlohmann/json.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "engine/preset/network_draft.h"
@@ -77,7 +77,8 @@ Result<Document> parse(std::string_view bytes, const std::string& name) {
                             bytes.empty() ? "is empty, must be JSON" : "is no JSON here"));
   }
   if (!document.json.is_object())
-    return fail(Fault::bad_input, name + ":1: must be an object {\"points_mm\": ..., \"rods\": ...}");
+    return fail(Fault::bad_input,
+                name + ":1: must be an object {\"points_mm\": ..., \"rods\": ...}");
   return document;
 }
 
@@ -100,10 +101,10 @@ class Reader {
     const std::vector<std::string> known{"points_mm", "rods", "supports"};
     for (const auto& [key, value] : document_.json.items()) {
       if (std::find(known.begin(), known.end(), key) == known.end())
-        return fail(Fault::bad_input, fmt::format("{}: unknown key '{}', must be points_mm, rods or "
-                                                  "supports{}",
-                                                  name_, key.substr(0, 40),
-                                                  did_you_mean(key, known)));
+        return fail(Fault::bad_input,
+                    fmt::format("{}: unknown key '{}', must be points_mm, rods or "
+                                "supports{}",
+                                name_, key.substr(0, 40), did_you_mean(key, known)));
       if (!value.is_array())
         return fail(Fault::bad_input, fmt::format("{}: '{}' must be a list", name_, key));
     }
@@ -119,9 +120,8 @@ class Reader {
     if (list == document_.json.end()) return {};
     const auto lines = document_.lines.find(key);
     for (std::size_t k = 0; k < list->size(); ++k) {
-      const int line = lines != document_.lines.end() && k < lines->second.size()
-                           ? lines->second[k]
-                           : 1;
+      const int line =
+          lines != document_.lines.end() && k < lines->second.size() ? lines->second[k] : 1;
       at_ = fmt::format("{}:{}: {}[{}]", name_, line, key, k);
       if (auto done = (this->*item)((*list)[k]); !done) return done;
     }
@@ -217,9 +217,9 @@ std::string network_json(const NetworkData& network) {
   for (std::size_t r = 0; r < network.rods.size(); ++r) {
     const auto list = fmt::format("[{}]", fmt::join(network.rods[r], ", "));
     const double diameter = network.diameters.empty() ? 0 : network.diameters[r];
-    rods.push_back(diameter > 0 ? fmt::format("    {{\"points\": {}, \"diameter_mm\": {}}}", list,
-                                              diameter)
-                                : "    " + list);
+    rods.push_back(diameter > 0
+                       ? fmt::format("    {{\"points\": {}, \"diameter_mm\": {}}}", list, diameter)
+                       : "    " + list);
   }
   for (const auto& row : network.supports)
     supports.push_back(row.size() == 1
@@ -228,9 +228,10 @@ std::string network_json(const NetworkData& network) {
                                          row[1], row[2], row[3]));
   for (const int point : network.free)
     supports.push_back(fmt::format("    {{\"point\": {}, \"to_mm\": \"free\"}}", point));
-  return fmt::format("{{\n  \"points_mm\": [\n{}\n  ],\n  \"rods\": [\n{}\n  ],\n  \"supports\": "
-                     "[\n{}\n  ]\n}}\n",
-                     fmt::join(points, ",\n"), fmt::join(rods, ",\n"), fmt::join(supports, ",\n"));
+  return fmt::format(
+      "{{\n  \"points_mm\": [\n{}\n  ],\n  \"rods\": [\n{}\n  ],\n  \"supports\": "
+      "[\n{}\n  ]\n}}\n",
+      fmt::join(points, ",\n"), fmt::join(rods, ",\n"), fmt::join(supports, ",\n"));
 }
 
 }  // namespace gridshell::preset

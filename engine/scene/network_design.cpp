@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
-#include <set>
 
 #include "engine/footprint/network.h"
 
@@ -14,21 +14,16 @@ Eigen::Vector3d vector_of(const std::vector<double>& row, std::size_t first) {
   return {row.at(first), row.at(first + 1), row.at(first + 2)};
 }
 
-/// Of the box around supports and around ends that are not free.
+/// Of the box around the points of all rods.
 Eigen::Vector3d middle_of(const preset::NetworkData& file) {
-  const std::set<int> free(file.free.begin(), file.free.end());
-  std::set<int> held;
-  for (const auto& row : file.supports) held.insert(int(row[0]));
-  for (const auto& rod : file.rods)
-    for (const int end : {rod.front(), rod.back()})
-      if (rod.front() != rod.back() && !free.contains(end)) held.insert(end);
   Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
-  for (const int point : held) {
-    const Eigen::Vector3d at = vector_of(file.points[std::size_t(point)], 0);
-    low = low.cwiseMin(at);
-    high = high.cwiseMax(at);
-  }
-  return held.empty() ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(0.5 * (low + high));
+  for (const auto& rod : file.rods)
+    for (const int point : rod) {
+      const Eigen::Vector3d at = vector_of(file.points[std::size_t(point)], 0);
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+    }
+  return 0.5 * (low + high);
 }
 
 RodNetwork network_of(const preset::NetworkData& file, const Eigen::Vector3d& middle) {
@@ -49,7 +44,8 @@ class Way {
  public:
   Way(const preset::Preset& preset, const Scene& scene)
       : scale_(preset.actuation.scale > 0 ? preset.actuation.scale : 1), flat_(scene.flat) {
-    for (const auto& row : preset.footprint.file.supports) to_[int(row[0])] = vector_of(row, 1);
+    for (const auto& row : preset.footprint.file.supports)
+      if (row.size() == 4) to_[int(row[0])] = vector_of(row, 1);
   }
   Eigen::Vector3d of(int point, const Eigen::Vector2d& from) const {
     const auto named = to_.find(point);

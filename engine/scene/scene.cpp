@@ -100,8 +100,7 @@ Result<void> hold_directions(const Eigen::Matrix2Xd& ends, RodEnd hold, Scene& s
     if (!scene.net) continue;
     const auto point = scene.net->at(ends(0, k), ends(1, k));
     if (!point) return tl::unexpected<Error>(point.error());
-    scene.motion.end_tangent.col(k) =
-        rod.family == Family::u ? point->tangent_u : point->tangent_v;
+    scene.motion.end_tangent.col(k) = rod.family == Family::u ? point->tangent_u : point->tangent_v;
   }
   return {};
 }

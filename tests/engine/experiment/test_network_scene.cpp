@@ -2,6 +2,9 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include "engine/experiment/workpiece.h"
+#include "engine/export/drawing.h"
+#include "engine/export/fabrication.h"
 #include "engine/preset/network_file.h"
 #include "engine/preset/reader.h"
 #include "engine/session/session.h"
@@ -91,8 +94,7 @@ TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[fu
     CHECK(net.cells.size() == (turn == 0 ? circle.scene().footprint.cells.size() : 0));
     CHECK(net.spacing == Approx(20).epsilon(1e-12));
 
-    const Eigen::Matrix3d by =
-        Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    const Eigen::Matrix3d by = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     for (const double shortening : {0.02, 0.05}) {
       circle.begin_buckled(shortening, watch).value();
       REQUIRE(circle.move_to(1, watch).end == Outcome::reached);
@@ -112,10 +114,8 @@ TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[fu
       const auto coarse_nodes = same_nodes(circle.shell().mesh(0), network.shell().mesh(0), turn);
       const Eigen::Matrix3Xd there = by * off(Eigen::all, coarse_nodes);
       const Eigen::Matrix3Xd x = begun(network, there), expected = begun(circle, off);
-      const auto fine =
-          same_nodes(circle.shell().finest(), network.shell().finest(), turn);
-      const double worst =
-          (x - by * expected(Eigen::all, fine)).colwise().norm().maxCoeff();
+      const auto fine = same_nodes(circle.shell().finest(), network.shell().finest(), turn);
+      const double worst = (x - by * expected(Eigen::all, fine)).colwise().norm().maxCoeff();
       CAPTURE(turn, shortening, worst);
       CHECK(worst < 1e-9 * 126);
       CHECK(network.energies().total() == Approx(circle.energies().total()).epsilon(1e-12));
@@ -131,6 +131,30 @@ TEST_CASE("the shipped networks come to certified rest", "[full]") {
     CHECK(outcome.summary.residual_N < 1e-3);
     CHECK(outcome.summary.height_mm > 10);
   }
+}
+
+TEST_CASE("a footprint drawn as DXF reads back as the same network") {
+  preset::Preset p = shipped("network_triaxial");
+  const auto scene = scene_of(p);
+  const auto work = experiment::workpiece_of(p);
+  REQUIRE(scene);
+  REQUIRE(work);
+  const auto read =
+      preset::read_network(exports::to_dxf(exports::footprint_drawing(*work)), "triaxial.dxf");
+  if (!read) FAIL(read.error().message);
+  p.footprint.file = *read;
+  const auto again = scene_of(p);
+  if (!again) FAIL(again.error().message);
+  const Footprint &a = scene->footprint, &b = again->footprint;
+  REQUIRE(b.rods.size() == a.rods.size());
+  CHECK(b.joints.size() == a.joints.size());
+  CHECK(b.spacing == Approx(a.spacing).epsilon(1e-6));
+  for (std::size_t r = 0; r < a.rods.size(); ++r) {
+    REQUIRE(b.rods[r].marks.size() == a.rods[r].marks.size());
+    for (std::size_t k = 0; k < a.rods[r].marks.size(); ++k)
+      CHECK(b.rods[r].marks[k] == Approx(a.rods[r].marks[k]).margin(2e-3));
+  }
+  CHECK((again->motion.end - scene->motion.end).cwiseAbs().maxCoeff() < 1e-5);
 }
 
 TEST_CASE("rods with sections of their own, springs and shearing joints work on a network") {

@@ -11,8 +11,8 @@ namespace {
 
 /// Rods between numbered places; points that are supported, and free.
 RodNetwork network(const std::vector<Eigen::Vector2d>& points,
-                   const std::vector<std::vector<int>>& rods, const std::vector<int>& supported = {},
-                   const std::vector<int>& free = {}) {
+                   const std::vector<std::vector<int>>& rods,
+                   const std::vector<int>& supported = {}, const std::vector<int>& free = {}) {
   RodNetwork net;
   net.points.resize(2, Eigen::Index(points.size()));
   for (std::size_t k = 0; k < points.size(); ++k) net.points.col(Eigen::Index(k)) = points[k];
@@ -25,7 +25,8 @@ RodNetwork network(const std::vector<Eigen::Vector2d>& points,
 }
 
 /// three rods through one point, and their ends
-const std::vector<Eigen::Vector2d> star{{0, 0}, {10, 0}, {-10, 0}, {6, 8}, {-6, -8}, {-6, 8}, {6, -8}};
+const std::vector<Eigen::Vector2d> star{{0, 0},   {10, 0}, {-10, 0}, {6, 8},
+                                        {-6, -8}, {-6, 8}, {6, -8}};
 const std::vector<std::vector<int>> through{{1, 0, 2}, {3, 0, 4}, {5, 0, 6}};
 
 void refused(const RodNetwork& net, const std::string& reason) {
@@ -55,9 +56,9 @@ TEST_CASE("three rods through one joint") {
 
 TEST_CASE("a rod that ends on another is joined there, ends alone at a free point to one another") {
   // a T, its stem ending inside the bar, and a foot that goes on from the stem by a hinge
-  const auto made = network_footprint(network(
-      {{-10, 0}, {0, 0}, {10, 0}, {0, -10}, {5, -20}, {-5, -20}},
-      {{0, 1, 2}, {1, 3}, {3, 4}, {3, 5}}, {}, {3}));
+  const auto made =
+      network_footprint(network({{-10, 0}, {0, 0}, {10, 0}, {0, -10}, {5, -20}, {-5, -20}},
+                                {{0, 1, 2}, {1, 3}, {3, 4}, {3, 5}}, {}, {3}));
   if (!made) FAIL(made.error().message);
   const Footprint& net = made->footprint;
   CHECK(net.joints.size() == 2);
@@ -98,7 +99,8 @@ TEST_CASE("a network that is a square grid is named as one, whichever way its ro
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 2; ++j) joint[i][j] = point(10 * (i - 1.5), 10 * (j - 0.5));
   for (int i = 0; i < 4; ++i)
-    rods.push_back({point(10 * (i - 1.5), 12), joint[i][1], joint[i][0], point(10 * (i - 1.5), -12)});
+    rods.push_back(
+        {point(10 * (i - 1.5), 12), joint[i][1], joint[i][0], point(10 * (i - 1.5), -12)});
   for (int j = 0; j < 2; ++j)
     rods.push_back({point(-22, 10 * (j - 0.5)), joint[0][j], joint[1][j], joint[2][j], joint[3][j],
                     point(22, 10 * (j - 0.5))});
@@ -124,7 +126,8 @@ TEST_CASE("a network that is a square grid is named as one, whichever way its ro
 TEST_CASE("networks that do not make a shell are refused") {
   refused(network(star, {{1, 0, 2}, {3, 3, 0, 4}}), "rods[1]: point 3 follows itself");
   refused(network(star, {{1, 0, 2}, {3}}), "rods[1]: has one point");
-  refused(network(star, {{1, 0, 2}, {1, 0, 3}}), "rods[1]: runs from point 0 to 1, as rods[0] does");
+  refused(network(star, {{1, 0, 2}, {1, 0, 3}}),
+          "rods[1]: runs from point 0 to 1, as rods[0] does");
   refused(network(star, {{1, 0, 2}, {3, 0, 4, 5, 0, 6}}), "rods[1]: comes through a point twice");
   refused(network(star, {{1, 0, 1}}), "rods[0]");
   refused(network(star, {{1, 2}, {3, 4}}), "rods[0]: is joined to no other rod");

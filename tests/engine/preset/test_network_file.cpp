@@ -72,7 +72,8 @@ TEST_CASE("drawings: rods are joined where they cross or touch, a ring ends wher
       "v 5 0 0\nv 5 5 0\nl -2 -1\nv 20 0 0\nv 30 0 0\nv 30 9 0\nl 7 8 9 7\n";
   const auto lines = read_network(obj, "net.obj");
   if (!lines) FAIL(lines.error().message);
-  CHECK(lines->rods == std::vector<std::vector<int>>{{0, 9, 4, 1}, {2, 9, 3}, {4, 5}, {6, 7, 8, 6}});
+  CHECK(lines->rods ==
+        std::vector<std::vector<int>>{{0, 9, 4, 1}, {2, 9, 3}, {4, 5}, {6, 7, 8, 6}});
   CHECK(lines->points.back() == std::vector<double>{0, 0, 0});
 
   const std::string dxf =
@@ -99,7 +100,8 @@ TEST_CASE("files of networks that are broken say where") {
   wrong(with("[-10, 0]", "[-10]"), "n.json", "a point of 1 coordinates");
   wrong(with("[10, 0]", "[10, 0, 3]"), "n.json", "horizontal plane");
   wrong(with("[0, 4, 1]", "[0, 4, 1000000000]"), "n.json", "n.json:4: rods[0]: names a point");
-  wrong(with("[0, 4, 1]", "[0, 4, 6]"), "n.json", "n.json:4: rods[0]: point 6, must be from 0 to 5");
+  wrong(with("[0, 4, 1]", "[0, 4, 6]"), "n.json",
+        "n.json:4: rods[0]: point 6, must be from 0 to 5");
   wrong(with("[0, 4, 1]", "[0, -1]"), "n.json", "point -1, must be from 0");
   wrong(with("[0, 4, 1]", "[0]"), "n.json", "n.json:4: rods[0]: a rod of one point");
   wrong(with("[0, 4, 1]", "[4, 5]"), "n.json", "a rod of one point");
@@ -109,7 +111,8 @@ TEST_CASE("files of networks that are broken say where") {
   wrong(with("0.5}", "1e300}"), "n.json", "a diameter of 1e+300");
   wrong(with("\"point\": 0,", "\"point\": 9,"), "n.json", "n.json:8: supports[0]: names a point");
   wrong(with("\"point\": 0,", ""), "n.json", "n.json:8: supports[0]: must be");
-  wrong(with("\"point\": [10, 0]", "\"point\": 0"), "n.json", "point 0 is named as a support twice");
+  wrong(with("\"point\": [10, 0]", "\"point\": 0"), "n.json",
+        "point 0 is named as a support twice");
   wrong(with("[-8, 0, 1]", "[-8, 0]"), "n.json", "to_mm must be [x, y, z]");
   wrong(with("\"free\"", "\"fre\""), "n.json", "to_mm must be");
   wrong("v 0 0\nl 1 2\n", "n.obj", "n.obj:1: a vertex");
@@ -120,7 +123,8 @@ TEST_CASE("files of networks that are broken say where") {
   wrong("hello\nworld\n", "n.dxf", "n.dxf:1: is no DXF");
   wrong("", "n.dxf", "holds no rods");
   wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nnan\n", "n.dxf", "n.dxf:8: must be a finite number");
-  wrong("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n0\n20\n0\n42\n1\n", "n.dxf", "n.dxf:12: an arc");
+  wrong("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n0\n20\n0\n42\n1\n", "n.dxf",
+        "n.dxf:12: an arc");
   wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n20\n1\n", "n.dxf", "n.dxf:6: ");
   wrong("x", "n.txt", "must end in .json");
 }
@@ -130,14 +134,15 @@ TEST_CASE("a network is needed, and what names rods of a square grid is refused"
     const auto read = read_preset_text("[footprint]\nkind = \"network\"\n" + keys, "p.toml", "p");
     return read ? std::string("none") : read.error().message;
   };
-  const std::string file = "file = {points_mm = [[-9, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 0]], "
-                           "rods = [[0, 3, 1], [3, 2]]}\n";
+  const std::string file =
+      "file = {points_mm = [[-9, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 0]], "
+      "rods = [[0, 3, 1], [3, 2]]}\n";
   CHECK(message(file) == "none");
   CHECK(message("").find("needs rods") != std::string::npos);
   CHECK(message("file = \"none.json\"\n").find("none.json") != std::string::npos);
   CHECK(message(file + "spacing_mm = 30.0\n").find("spacing_mm") != std::string::npos);
-  CHECK(message("file = {points_mm = [[0, 0, 0]], rods = [[0, 1]]}\n").find("rods[0] names point 1") !=
-        std::string::npos);
+  CHECK(message("file = {points_mm = [[0, 0, 0]], rods = [[0, 1]]}\n")
+            .find("rods[0] names point 1") != std::string::npos);
   CHECK(message(file + "[rod]\ntable = [[\"u\", 0, 0.3]]\n").find("square grid") !=
         std::string::npos);
 }
