@@ -151,6 +151,10 @@ MeshTransfer::Stencil MeshTransfer::stencil(const std::vector<int>& node,
 }
 
 MeshTransfer::MeshTransfer(const RodMesh& from, const RodMesh& to) : nodes_to_(to.nodes()) {
+  // edge points that belong to no rod have the same numbers on both meshes
+  for (int end = 0; end < to.edge_points; ++end)
+    if (to.end_of(end) == RodEnd::joined)
+      stencils_.push_back({to.joints + end, {from.joints + end, 0, 0, 0}, {1, 0, 0, 0}});
   int first_edge = 0;
   for (std::size_t r = 0; r < from.rods.size(); ++r) {
     const std::vector<int>& node = from.rods[r];

@@ -28,6 +28,18 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 bool is_ring(const std::vector<int>& rod) { return rod.front() == rod.back(); }
 
+bool is_straight(const Eigen::Matrix2Xd& points, const std::vector<int>& rod) {
+  if (is_ring(rod)) return false;
+  const Eigen::Vector2d first = points.col(rod.front()), way = points.col(rod.back()) - first;
+  double reached = -1;
+  return std::ranges::all_of(rod, [&](int point) {
+    const Eigen::Vector2d at = points.col(point) - first;
+    const bool onwards = at.dot(way) > std::exchange(reached, at.dot(way));
+    return (onwards || point == rod.front()) &&
+           std::abs(cross(way, at)) < straight * way.squaredNorm();
+  });
+}
+
 Result<void> check_rod(const RodNetwork& network, std::size_t r,
                        std::map<std::pair<int, int>, std::size_t>& stretches) {
   const std::vector<int>& rod = network.rods[r];
@@ -70,14 +82,17 @@ std::vector<Visits> visits_of(const RodNetwork& network) {
 class Roles {
  public:
   explicit Roles(const RodNetwork& network) : network_(network), visits_(visits_of(network)) {
-    for (const std::vector<int>& rod : network.rods)
-      if (is_ring(rod)) begins_ring_.insert(rod.front());
+    for (const std::vector<int>& rod : network.rods) {
+      if (is_straight(network.points, rod)) continue;
+      corners_.insert(rod.begin() + 1, rod.end() - 1);
+      if (is_ring(rod)) corners_.insert(rod.front());
+    }
   }
 
   bool is_joint(int point) const {
     const auto [passes, ends] = visits_[std::size_t(point)];
     if (passes == 0) return ends > 1 && network_.free[std::size_t(point)] != 0;
-    return passes + ends > 1 || is_supported(point) || begins_ring_.contains(point);
+    return passes + ends > 1 || is_supported(point) || corners_.contains(point);
   }
   bool is_supported(int point) const { return network_.supported[std::size_t(point)] != 0; }
   /// Of a point where rods only end.
@@ -94,7 +109,7 @@ class Roles {
  private:
   const RodNetwork& network_;
   std::vector<Visits> visits_;
-  std::set<int> begins_ring_;
+  std::set<int> corners_;  // inside rods that are not straight
 };
 
 Result<void> check_points(const RodNetwork& network, const Roles& roles) {
@@ -116,18 +131,11 @@ Result<void> check_points(const RodNetwork& network, const Roles& roles) {
 
 /// The polyline of a rod; where it is straight, its line.
 void lay(const Eigen::Matrix2Xd& points, const std::vector<int>& numbers, FootprintRod& rod) {
-  const Eigen::Vector2d first = points.col(numbers.front()), last = points.col(numbers.back());
-  const double length = (last - first).norm();
-  const Eigen::Vector2d along = (last - first) / length;
-  const bool line = !is_ring(numbers) && std::ranges::all_of(numbers, [&](int point) {
-    return std::abs(cross(along, points.col(point) - first)) < straight * length;
-  });
-  if (line) {
-    rod.origin = first;
-    rod.direction = along;
+  rod.origin = points.col(numbers.front());
+  if (is_straight(points, numbers)) {
+    rod.direction = (points.col(numbers.back()) - rod.origin).normalized();
     return;
   }
-  rod.origin = first;
   double position = 0;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const Eigen::Vector2d at = points.col(numbers[k]);

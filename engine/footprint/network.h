@@ -27,6 +27,7 @@ struct NetworkFootprint {
 
 /// What points are:
 ///   a rod's inner point that is on another rod too, or supported: a joint (held, if supported);
+///   an inner point of a rod that is not straight: a joint of this rod alone;
 ///   a point where rods only end: there each has an edge point of its own, pinned;
 ///   the same, but free: with one rod its free end, with several a joint of their ends;
 ///   where rods end at an inner point of another: they are joined to that joint.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "engine/preset/mesh_draft.h"
@@ -28,7 +29,7 @@ Result<std::vector<Group>> groups_of(std::string_view bytes, const std::string& 
   std::vector<Group> groups;
   for (int line = 1; !trimmed(bytes.substr(0, 64)).empty() || bytes.size() > 64; line += 2) {
     const auto code = number_of(trimmed(next_line(bytes)));
-    if (!code || *code != double(int(*code)) || bytes.empty())
+    if (!code || !(std::abs(*code) <= 2000) || bytes.empty())
       return fail(
           Fault::bad_input,
           fmt::format("{}:{}: is no DXF text, must be a code and a value in turn", name, line));

@@ -12,6 +12,13 @@ namespace {
 
 constexpr double tilt = 0.8;  // of the dome towards a diagonal; small ones are lost to round-off
 
+/// Between two nodes of a rod in the flat, mm: their length along it where it is straight.
+double flat_chord(const RodMesh& mesh, std::size_t r, std::size_t from, std::size_t to) {
+  const double along = mesh.position[r][to] - mesh.position[r][from];
+  const double chord = (mesh.flat.col(mesh.rods[r][to]) - mesh.flat.col(mesh.rods[r][from])).norm();
+  return chord < (1 - 1e-9) * along ? chord : along;
+}
+
 /// Distances of what is held from its middle, all together, mm.
 double spread(const RodMesh& mesh, const Eigen::Matrix3Xd& x) {
   const std::vector<int> held = held_nodes(mesh);
@@ -35,7 +42,7 @@ double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t
       if (!(end && node[k] >= mesh.joints) && !held.contains(node[k])) continue;
       if (before != none) {
         chords += (x.col(node[k]) - x.col(node[before])).norm();
-        lengths += mesh.position[r][k] - mesh.position[r][before];
+        lengths += flat_chord(mesh, r, before, k);
       }
       before = k;
     }

@@ -81,6 +81,7 @@ TEST_CASE("a ring comes back to its first joint; a polyline is as long as its pi
   CHECK(ring.span.end == Approx(8));
   CHECK(ring.at(3).isApprox(Eigen::Vector2d(-1, 0)));
   CHECK(ring.tangent(3).isApprox(Eigen::Vector2d(0, -1)));
+  CHECK(made->footprint.joints.size() == 4);
   CHECK(made->footprint.held_joints == std::vector<int>{1, 2, 3});
   const RodMesh mesh = mesh_rods(made->footprint, 4);
   CHECK(mesh.rods[0].front() == mesh.rods[0].back());
