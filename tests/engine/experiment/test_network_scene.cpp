@@ -127,7 +127,10 @@ TEST_CASE("the shipped networks come to certified rest", "[full]") {
   for (const char* name : {"network_triaxial", "network_cut", "network_ring"}) {
     const auto outcome = run_stills(shipped(name));
     CAPTURE(name, outcome.summary.limit_reason);
-    CHECK(outcome.summary.limit == record::Limit::none);
+    // a branch that is left on the way is told, and the rest is one of its own
+    const auto limit = outcome.summary.limit;
+    CHECK((limit == record::Limit::none || limit == record::Limit::snap));
+    CHECK(outcome.summary.stable);
     CHECK(outcome.summary.residual_N < 1e-3);
     CHECK(outcome.summary.height_mm > 10);
   }

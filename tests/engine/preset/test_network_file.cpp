@@ -125,7 +125,8 @@ TEST_CASE("files of networks that are broken say where") {
   wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nnan\n", "n.dxf", "n.dxf:8: must be a finite number");
   wrong("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n0\n20\n0\n42\n1\n", "n.dxf",
         "n.dxf:12: an arc");
-  wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n20\n1\n", "n.dxf", "n.dxf:6: ");
+  wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n20\n1\n11\n1\n21\n1\n", "n.dxf",
+        "n.dxf:6: a rod of one point");
   wrong("x", "n.txt", "must end in .json");
 }
 
