@@ -95,6 +95,8 @@ TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[fu
     CHECK(net.spacing == Approx(20).epsilon(1e-12));
 
     const Eigen::Matrix3d by = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    const auto coarse_nodes = same_nodes(circle.shell().mesh(0), network.shell().mesh(0), turn);
+    const auto fine = same_nodes(circle.shell().finest(), network.shell().finest(), turn);
     for (const double shortening : {0.02, 0.05}) {
       circle.begin_buckled(shortening, watch).value();
       REQUIRE(circle.move_to(1, watch).end == Outcome::reached);
@@ -111,10 +113,8 @@ TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[fu
         CHECK(report.certificate.stable());
         return Eigen::Matrix3Xd(session.nodes());
       };
-      const auto coarse_nodes = same_nodes(circle.shell().mesh(0), network.shell().mesh(0), turn);
       const Eigen::Matrix3Xd there = by * off(Eigen::all, coarse_nodes);
       const Eigen::Matrix3Xd x = begun(network, there), expected = begun(circle, off);
-      const auto fine = same_nodes(circle.shell().finest(), network.shell().finest(), turn);
       const double worst = (x - by * expected(Eigen::all, fine)).colwise().norm().maxCoeff();
       CAPTURE(turn, shortening, worst);
       CHECK(worst < 1e-9 * 126);
