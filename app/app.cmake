@@ -7,7 +7,7 @@ pkg_check_modules(FONTCONFIG REQUIRED IMPORTED_TARGET fontconfig)
 find_path(GL_CORE_INCLUDE_DIR GL/glcorearb.h REQUIRED)
 
 file(GLOB preset_files CONFIGURE_DEPENDS presets/*.toml)
-file(GLOB named_files CONFIGURE_DEPENDS presets/*.obj presets/*.csv)
+file(GLOB named_files CONFIGURE_DEPENDS presets/*.obj presets/*.csv presets/*.json presets/*.dxf)
 set(embedded_presets ${PROJECT_BINARY_DIR}/generated/embedded_presets.cpp)
 add_custom_command(OUTPUT ${embedded_presets}
   COMMAND ${CMAKE_COMMAND} "-DPRESETS=${preset_files}" "-DFILES=${named_files}" -DOUTPUT=${embedded_presets}

@@ -6,7 +6,8 @@ install(TARGETS gridshell_engine EXPORT gridshell-targets)
 install(DIRECTORY engine/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gridshell/engine
   FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY presets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/gridshell/presets
-  FILES_MATCHING PATTERN "*.toml" PATTERN "*.obj" PATTERN "*.csv" PATTERN "pictures" EXCLUDE)
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.obj" PATTERN "*.csv" PATTERN "*.json"
+    PATTERN "*.dxf" PATTERN "pictures" EXCLUDE)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/gridshell)

@@ -195,7 +195,7 @@ Result<Designed> design(const preset::Preset& preset, Watch& watch,
   int row = 0;
   for (const FootprintRod& rod : scene->footprint.rods)
     for (const RodEnd hold : {rod.begin, rod.end})
-      found.row_of_end.push_back(hold == RodEnd::free ? -1 : row++);
+      found.row_of_end.push_back(is_held(hold) ? row++ : -1);
   if (auto moved = (*fine)->move_in_steps(by_hand, jump); !moved)
     return fail(Fault::no_equilibrium,
                 fmt::format("rounded to {:g} mm the designed shell is lost: {}",

@@ -21,9 +21,8 @@ Eigen::Matrix2Xd places_of(const Footprint& footprint) {
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     const FootprintRod& rod = footprint.rods[r];
     for (int side = 0; side < 2; ++side) {
-      const double at = side == 0 ? rod.span.begin : rod.span.end;
-      const bool u = rod.family == Family::u;
-      places.col(joints + 2 * Eigen::Index(r) + side) << (u ? at : rod.line), (u ? rod.line : at);
+      places.col(joints + 2 * Eigen::Index(r) + side) =
+          rod.at(side == 0 ? rod.span.begin : rod.span.end);
     }
   }
   return places;

@@ -55,7 +55,7 @@ std::vector<Eigen::Vector3d> ways_of(Vary kind, const ShellEnds& ends, Eigen::In
 /// begin.
 bool applies(Vary kind, Eigen::Index end, RodEnd hold) {
   if (kind == Vary::diameters) return end % 2 == 0;
-  return kind == Vary::directions ? holds_direction(hold) : hold != RodEnd::free;
+  return kind == Vary::directions ? holds_direction(hold) : is_held(hold);
 }
 
 /// The projector on what all symmetries leave as it is: the mean of what they do to variables.

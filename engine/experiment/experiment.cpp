@@ -174,10 +174,12 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.expected_error_mm = (scene->rung == preset::Rung::net ? net_error : expected_error(levels)) *
                            scene->length_scale_mm;
   plan.expected_seconds = seconds_for(*scene, preset);
-  plan.footprint = fmt::format(
-      "{} rods, {} joints, {} cells; longest leg {:.2f} d, shortest {:.2f} d", plan.rods,
-      plan.joints, plan.cells, scene->footprint.longest_leg() / scene->footprint.spacing,
-      scene->footprint.shortest_leg() / scene->footprint.spacing);
+  plan.footprint = fmt::format("{} rods, {} joints, {} cells", plan.rods, plan.joints, plan.cells);
+  // a ring has no legs
+  if (const double d = scene->footprint.spacing; scene->footprint.longest_leg() > 0)
+    plan.footprint +=
+        fmt::format("; longest leg {:.2f} d, shortest {:.2f} d", scene->footprint.longest_leg() / d,
+                    scene->footprint.shortest_leg() / d);
   if (scene->blocks)
     for (const Seam& seam : scene->blocks->seams())
       plan.seams.push_back(fmt::format(

@@ -26,6 +26,7 @@ Eigen::VectorXd curvature(const Session& session, int level) {
 /// at the nodes x; rows: bins, columns: mean, deviation, cells.
 Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Eigen::VectorXd& K) {
   // an assemblage need not lie about the origin
+  if (K.size() == 0) return {};
   const auto ends = scene.actuated_boundary.row(0);
   const double middle = 0.5 * (ends.minCoeff() + ends.maxCoeff()), L = ends.maxCoeff() - middle;
   Eigen::VectorXd along(K.size());
@@ -40,10 +41,19 @@ Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Ei
   return rows;
 }
 
+/// The edge point of an end, or where it is joined that joint.
+int end_node(const RodMesh& mesh, int k) {
+  const std::vector<int>& rod = mesh.rods[std::size_t(k / 2)];
+  if (mesh.end_of(k) != RodEnd::joined) return mesh.joints + k;
+  return k % 2 == 0 ? rod.front() : rod.back();
+}
+
 /// What may be held: joints, edge points, far ends of tails.
 std::vector<int> supports_of(const RodMesh& mesh) {
-  std::vector<int> nodes(std::size_t(mesh.joints + mesh.edge_points));
+  std::vector<int> nodes(std::size_t(mesh.joints));
   std::iota(nodes.begin(), nodes.end(), 0);
+  for (int k = 0; k < mesh.edge_points; ++k)
+    if (mesh.end_of(k) != RodEnd::joined) nodes.push_back(mesh.joints + k);
   for (int node : mesh.far_ends)
     if (node >= 0) nodes.push_back(node);
   return nodes;
@@ -67,14 +77,17 @@ void put_rods(const Model& model, const Assembly& at, record::Frame& frame) {
     const auto ghost = [&](std::size_t k) {
       return model.edges[std::size_t(rod.edges[k])].EA == 0;
     };
+    // where a ring closes its two ends are one node
+    const double at_ends =
+        rod.closed ? curvature_between(model, at, rod.edges.back(), rod.edges.front()) : 0;
     for (std::size_t k = 0; k < rod.edges.size(); ++k) {
       if (k > 0)
         curvature.push_back(curvature_between(model, at, rod.edges[k - 1], rod.edges[k]));
       else if (!ghost(k))
-        curvature.push_back(0);
+        curvature.push_back(at_ends);
       if (!ghost(k)) force.push_back(at.force[rod.edges[k]]);
     }
-    if (!ghost(rod.edges.size() - 1)) curvature.push_back(0);
+    if (!ghost(rod.edges.size() - 1)) curvature.push_back(at_ends);
   }
   frame.axial_force_N = Eigen::Map<Eigen::VectorXd>(force.data(), long(force.size()));
   frame.curvature_per_mm = Eigen::Map<Eigen::VectorXd>(curvature.data(), long(curvature.size()));
@@ -166,7 +179,7 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
       if (!mesh.is_ghost(node)) layout.rods.back().push_back(node);
   }
   for (const FootprintRod& rod : scene.footprint.rods)
-    layout.families.emplace_back(rod.family == Family::u ? "u" : "v");
+    layout.families.emplace_back(rod.family == Family::other ? "other" : name_of(rod.family));
   layout.supports = supports_of(mesh);
   for (int k = 0; k < mesh.joints; ++k) {
     const FootprintJoint& joint = scene.footprint.joints[k];
@@ -177,7 +190,7 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
     const double half = 0.5 * scene.footprint.spacing;
     layout.cells.push_back({cell.i, cell.j, corner.u + half, corner.v + half, cell.joints});
   }
-  for (int k = 0; k < mesh.edge_points; ++k) layout.edge_points.push_back(mesh.joints + k);
+  for (int k = 0; k < mesh.edge_points; ++k) layout.edge_points.push_back(end_node(mesh, k));
   layout.original_boundary = scene.original_boundary;
   layout.actuated_boundary = scene.actuated_boundary;
   for (const PointLoad& load : scene.rods.points)

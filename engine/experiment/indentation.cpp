@@ -39,6 +39,13 @@ int best_joint(const Footprint& footprint, const Eigen::VectorXd& score) {
 
 }  // namespace
 
+Result<void> not_on_boundary(const Footprint& footprint, int joint) {
+  if (std::ranges::find(footprint.held_joints, joint) == footprint.held_joints.end()) return {};
+  const FootprintJoint& at = footprint.joints[std::size_t(joint)];
+  return fail(Fault::bad_input,
+              fmt::format("joint [{}, {}] is a support: nothing can push it", at.i, at.j));
+}
+
 Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
                          const Eigen::Matrix3Xd& joints) {
   if (indentation.joint.size() == 2) {
@@ -68,6 +75,8 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, con
   }
   const auto joint = pushed_joint(asked, scene.footprint, places);
   if (!joint) return tl::unexpected<Error>(joint.error());
+  if (auto free = not_on_boundary(scene.footprint, *joint); !free)
+    return tl::unexpected<Error>(free.error());
   PushOf push{*joint};
   if (scene.net) {
     const FootprintJoint& at = scene.footprint.joints[std::size_t(*joint)];
@@ -76,6 +85,10 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, con
     push.displacement = point->normal();
   } else {
     push.displacement = joint_tangents(scene.footprint, mesh, nodes).normal(*joint);
+    if (push.displacement.isZero(0))
+      return fail(Fault::bad_input,
+                  "[indentation]: no two rods cross at the joint pushed, so the "
+                  "shell has no normal there");
   }
   const double depth = asked.depth_mm > 0 ? asked.depth_mm : asked.depth * scene.length_scale_mm;
   push.displacement *= asked.direction == preset::Direction::inward ? -depth : depth;

@@ -10,6 +10,9 @@
 
 namespace gridshell::experiment {
 
+/// Errors (bad_input): the boundary holds that joint.
+Result<void> not_on_boundary(const Footprint& footprint, int joint);
+
 /// The joint nearest to the place a preset asks for, as seen from the origin: by its direction on
 /// the net, or in the unloaded shell (`joints`, 3 x n) where there is no net. Ties go to the
 /// smallest (i, j). Errors (bad_input): a joint by indices that the footprint does not have.

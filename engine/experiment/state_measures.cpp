@@ -28,11 +28,14 @@ record::StateClass class_of(const std::string& group, bool first_mode) {
   return group == "C4" ? StateClass::iii : StateClass::other;
 }
 
-/// "0 0 2 | 0 1 0", u rods before the bar.
+/// "0 0 2 | 0 1 0", u rods before the bar; of a network that is no grid without one.
 std::string modes_told(const std::vector<int>& modes, const Footprint& footprint) {
-  std::vector<int> u, v;
-  for (std::size_t r = 0; r < modes.size(); ++r)
-    (footprint.rods[r].family == Family::u ? u : v).push_back(modes[r]);
+  std::vector<int> u, v, other;
+  for (std::size_t r = 0; r < modes.size(); ++r) {
+    const Family family = footprint.rods[r].family;
+    (family == Family::u ? u : family == Family::v ? v : other).push_back(modes[r]);
+  }
+  if (!other.empty()) return fmt::format("{}", fmt::join(other, " "));
   return fmt::format("{} | {}", fmt::join(u, " "), fmt::join(v, " "));
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "engine/experiment/indentation.h"
 #include "engine/measure/gauss.h"
 
 namespace gridshell::experiment {
@@ -14,7 +15,7 @@ namespace {
 
 Eigen::Vector3d vector_of(const std::vector<double>& xyz) { return {xyz[0], xyz[1], xyz[2]}; }
 
-/// t_u x t_v at a joint of the shell as it stands.
+/// t_u x t_v at a joint of the shell as it stands; zero where no two rods cross.
 Eigen::Vector3d normal_at(const Session& session, int joint) {
   return joint_tangents(session.scene().footprint, session.shell().finest(), session.nodes())
       .normal(joint);
@@ -50,6 +51,7 @@ Result<Report> move(Session& session, HandBoundary& boundary, const preset::Step
   }
   BoundaryMotion motion = scene.motion;
   motion.end = motion.begin + progress * (motion.end - motion.begin) + *dragged;
+  motion.end_joints = motion.begin_joints + progress * (motion.end_joints - motion.begin_joints);
   const Report report = session.rebase(motion, watch);
   boundary.progress += report.t * (progress - boundary.progress);
   boundary.dragged += report.t * (*dragged - boundary.dragged);
@@ -59,11 +61,20 @@ Result<Report> move(Session& session, HandBoundary& boundary, const preset::Step
 Result<Report> push(Session& session, const preset::Step& step, const Watch& watch, Way* path) {
   const auto joint = joint_of(step, session.scene().footprint);
   if (!joint) return tl::unexpected<Error>(joint.error());
+  if (auto free = not_on_boundary(session.scene().footprint, *joint); !free)
+    return tl::unexpected<Error>(free.error());
   const Eigen::Vector3d at = session.nodes().col(*joint);
   const bool holds = step.deed == preset::Deed::hold;
   Eigen::Vector3d way = Eigen::Vector3d::Zero(), along = way;
   if (!holds && !step.to_mm.empty()) way = vector_of(step.to_mm) - at;
-  if (!holds && step.to_mm.empty()) way = -step.depth_mm * normal_at(session, *joint);
+  if (!holds && step.to_mm.empty()) {
+    const Eigen::Vector3d normal = normal_at(session, *joint);
+    if (normal.isZero(0))
+      return fail(Fault::bad_input,
+                  "no two rods cross at the joint, so the shell has no normal there: to_mm must "
+                  "say where it goes");
+    way = -step.depth_mm * normal;
+  }
   const bool free = holds ? !step.along.empty() : step.lateral == preset::Lateral::free;
   if (!step.along.empty()) {
     along = vector_of(step.along).normalized();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/preset/title.h"
 #include "engine/scene/scene.h"
 
@@ -13,25 +15,25 @@ using exports::Pin;
 
 CutRod cut(const FootprintRod& rod, const Scene& scene) {
   CutRod piece;
-  const bool u = rod.family == Family::u;
-  piece.name = fmt::format("{}{:+}", u ? "u" : "v", rod.index);
+  const bool of_grid = rod.family != Family::other;
+  piece.name = of_grid ? fmt::format("{}{:+}", name_of(rod.family), rod.index)
+                       : fmt::format("{}{}", name_of(rod.family), rod.index);
   const double begin = rod.span.begin - rod.tail_begin, end = rod.span.end + rod.tail_end;
   const auto at = [&](double along) -> Eigen::Vector2d {
-    const Eigen::Vector2d uv =
-        u ? Eigen::Vector2d(along, rod.line) : Eigen::Vector2d(rod.line, along);
-    return scene.flat.at(uv).head<2>();
+    return scene.flat.at(rod.at(along)).head<2>();
   };
   piece.length_mm = end - begin;
   piece.begin = at(begin);
   piece.end = at(end);
-  for (const int joint : rod.joints) {
-    const FootprintJoint& crossing = scene.footprint.joints[std::size_t(joint)];
-    piece.joint_marks_mm.push_back((u ? crossing.u : crossing.v) - begin);
-  }
+  for (const double mark : rod.marks) piece.joint_marks_mm.push_back(mark - begin);
   if (rod.tail_begin > 0) piece.pin_marks_mm.push_back(rod.tail_begin);
   if (rod.tail_end > 0) piece.pin_marks_mm.push_back(rod.span.end - begin);
   piece.leg_begin_mm = piece.joint_marks_mm.front() - rod.tail_begin;
   piece.leg_end_mm = piece.length_mm - rod.tail_end - piece.joint_marks_mm.back();
+  if (rod.begin == RodEnd::joined) piece.leg_begin_mm = std::nan("");
+  if (rod.end == RodEnd::joined) piece.leg_end_mm = std::nan("");
+  for (std::size_t k = 1; k + 1 < rod.path.size(); ++k)
+    piece.corners.push_back(at(rod.path[k].z()));
   piece.free_begin = rod.begin == RodEnd::free;
   piece.free_end = rod.end == RodEnd::free;
   return piece;
@@ -40,7 +42,7 @@ CutRod cut(const FootprintRod& rod, const Scene& scene) {
 void add_pins(const FootprintRod& rod, Eigen::Index r, const std::string& name, const Scene& scene,
               std::vector<Pin>& pins) {
   const auto add = [&](Eigen::Index end, RodEnd held, double tail, const char* word) {
-    if (held == RodEnd::free) return;
+    if (!is_held(held)) return;
     pins.push_back({name + " " + word, scene.motion.end.col(end), true});
     if (tail > 0)
       pins.push_back({name + " " + word + ", far", scene.motion.end_far.col(end), false});

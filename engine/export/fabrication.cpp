@@ -37,7 +37,10 @@ Drawing footprint_drawing(const Workpiece& work) {
   Layer rods{"rods", 7}, tails{"tails", 3}, joints{"joints", 5}, boundary{"boundary", 1},
       labels{"labels", 5};
   for (const CutRod& rod : work.rods) {
-    rods.lines.push_back({{flat(rod.begin), flat(rod.end)}});
+    DrawnLine line{{flat(rod.begin)}};
+    for (const Eigen::Vector2d& corner : rod.corners) line.points.push_back(flat(corner));
+    line.points.push_back(flat(rod.end));
+    rods.lines.push_back(std::move(line));
     const Eigen::Vector2d along = (rod.end - rod.begin).normalized(), across(-along.y(), along.x());
     for (const double mark : rod.pin_marks_mm) {
       const Eigen::Vector2d at = rod.begin + mark * along;

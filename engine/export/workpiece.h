@@ -17,10 +17,12 @@ inline constexpr double shortest_leg_mm = 3;
 struct CutRod {
   std::string name;  ///< "u-3": its family and index
   double length_mm = 0;
-  std::vector<double> joint_marks_mm;         ///< where it is tied to others
-  std::vector<double> pin_marks_mm;           ///< its edge points, where they are not its ends
-  Eigen::Vector2d begin, end;                 ///< of all of it in the flat
-  double leg_begin_mm = 0, leg_end_mm = 0;    ///< from the edge points to the joints next to them
+  std::vector<double> joint_marks_mm;      ///< where it is tied to others
+  std::vector<double> pin_marks_mm;        ///< its edge points, where they are not its ends
+  Eigen::Vector2d begin, end;              ///< of all of it in the flat
+  std::vector<Eigen::Vector2d> corners{};  ///< between them, of one that is not straight there
+  /// from the edge points to the joints next to them; NaN: it ends at a joint
+  double leg_begin_mm = 0, leg_end_mm = 0;
   bool free_begin = false, free_end = false;  ///< not pinned
 
   bool hard_to_build() const {

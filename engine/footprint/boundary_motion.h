@@ -13,6 +13,8 @@ struct BoundaryMotion {
   Eigen::Matrix3Xd begin_tangent = {}, end_tangent = {};
   /// far ends of the tails there; needed where rods have tails
   Eigen::Matrix3Xd begin_far = {}, end_far = {};
+  /// joints that the boundary holds, in the footprint's order
+  Eigen::Matrix3Xd begin_joints = {}, end_joints = {};
 };
 
 }  // namespace gridshell

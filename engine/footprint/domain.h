@@ -7,8 +7,13 @@
 
 namespace gridshell {
 
-/// Which of the two sets of parallel rods: a u-rod runs along u (v = const), a v-rod along v.
-enum class Family { u, v };
+/// Which of the two sets of parallel rods: a u-rod runs along u (v = const), a v-rod along v; or of
+/// neither, in a network that is no square grid.
+enum class Family { u, v, other };
+/// "u", "v", or "rod ".
+inline const char* name_of(Family family) {
+  return family == Family::u ? "u" : family == Family::v ? "v" : "rod ";
+}
 
 /// A piece of a grid line that lies inside the boundary: along the line, begin < end, mm.
 struct Interval {

@@ -24,33 +24,89 @@ Result<Footprint> cross(Footprint net) {
   const auto holds = [gap](const Interval& span, double at) {
     return at > span.begin + gap && at < span.end - gap;
   };
-  std::map<std::pair<int, int>, int> joint_at;
   for (FootprintRod& row : net.rods) {
     if (row.family != Family::u) continue;
     for (const auto& [i, candidates] : v_rods) {
       for (int r : candidates) {
         FootprintRod& column = net.rods[r];
-        if (!holds(row.span, column.line) || !holds(column.span, row.line)) continue;
+        if (!holds(row.span, column.line()) || !holds(column.span, row.line())) continue;
         const int joint = int(net.joints.size());
-        net.joints.push_back({i, row.index, column.line, row.line});
+        net.joints.push_back({i, row.index, column.line(), row.line()});
         row.joints.push_back(joint);
         column.joints.push_back(joint);
-        joint_at[{i, row.index}] = joint;
       }
     }
   }
   for (FootprintRod& rod : net.rods) {
     if (rod.joints.empty())
-      return fail(Fault::bad_input,
-                  fmt::format("the {}-rod at {} = {:g} mm crosses no other rod: it would hang on "
-                              "its two ends alone; move the boundary or the spacing",
-                              rod.family == Family::u ? "u" : "v",
-                              rod.family == Family::u ? "v" : "u", rod.line));
-    std::sort(rod.joints.begin(), rod.joints.end(), [&](int a, int b) {
-      return rod.family == Family::u ? net.joints[a].u < net.joints[b].u
-                                     : net.joints[a].v < net.joints[b].v;
-    });
+      return fail(
+          Fault::bad_input,
+          fmt::format("the {}-rod at {} = {:g} mm crosses no other rod: it would hang on "
+                      "its two ends alone; move the boundary or the spacing",
+                      name_of(rod.family), rod.family == Family::u ? "v" : "u", rod.line()));
+    const auto along = [&](int joint) {
+      return rod.family == Family::u ? net.joints[joint].u : net.joints[joint].v;
+    };
+    std::sort(rod.joints.begin(), rod.joints.end(),
+              [&](int a, int b) { return along(a) < along(b); });
+    for (const int joint : rod.joints) rod.marks.push_back(along(joint));
   }
+  find_cells(net);
+  return net;
+}
+
+void add_rods(Footprint& net, const Domain& domain, Family family, int index) {
+  const double line = line_of(net.placement, index, net.spacing);
+  for (const Interval& span : domain.intervals(family, line))
+    if (span.end - span.begin > 2 * on_boundary * net.spacing)
+      net.rods.push_back(FootprintRod::of_grid(family, index, line, span));
+}
+
+template <class Pick>
+double leg(const Footprint& net, double start, Pick pick) {
+  double found = start;
+  for (const FootprintRod& rod : net.rods) {
+    if (rod.begin != RodEnd::joined) found = pick(found, rod.marks.front() - rod.span.begin);
+    if (rod.end != RodEnd::joined) found = pick(found, rod.span.end - rod.marks.back());
+  }
+  return found;
+}
+
+/// which piece of a polyline a position is on
+std::size_t piece_at(const std::vector<Eigen::Vector3d>& path, double position) {
+  const auto after =
+      std::upper_bound(path.begin() + 1, path.end() - 1, position,
+                       [](double at, const auto& corner) { return at < corner.z(); });
+  return std::size_t(after - path.begin()) - 1;
+}
+
+}  // namespace
+
+FootprintRod FootprintRod::of_grid(Family family, int index, double line, const Interval& span) {
+  FootprintRod rod;
+  rod.family = family;
+  rod.index = index;
+  rod.origin = family == Family::u ? Eigen::Vector2d(0, line) : Eigen::Vector2d(line, 0);
+  rod.direction = family == Family::u ? Eigen::Vector2d(1, 0) : Eigen::Vector2d(0, 1);
+  rod.span = span;
+  return rod;
+}
+
+Eigen::Vector2d FootprintRod::at(double position) const {
+  if (path.empty()) return origin + position * direction;
+  const Eigen::Vector3d& corner = path[piece_at(path, position)];
+  return corner.head<2>() + (position - corner.z()) * tangent(position);
+}
+
+Eigen::Vector2d FootprintRod::tangent(double position) const {
+  if (path.empty()) return direction;
+  const std::size_t piece = piece_at(path, position);
+  return (path[piece + 1] - path[piece]).head<2>().normalized();
+}
+
+void find_cells(Footprint& net) {
+  std::map<std::pair<int, int>, int> joint_at;
+  for (int k = 0; k < int(net.joints.size()); ++k) joint_at[{net.joints[k].i, net.joints[k].j}] = k;
 
   // a cell is complete when its four joints exist and neighbours share a rod
   std::map<std::pair<int, int>, bool> linked;
@@ -66,30 +122,7 @@ Result<Footprint> cross(Footprint net) {
         linked.contains({a, d->second}) && linked.contains({b->second, c->second}))
       net.cells.push_back({i, j, {a, b->second, c->second, d->second}});
   }
-  return net;
 }
-
-void add_rods(Footprint& net, const Domain& domain, Family family, int index) {
-  const double line = line_of(net.placement, index, net.spacing);
-  for (const Interval& span : domain.intervals(family, line))
-    if (span.end - span.begin > 2 * on_boundary * net.spacing)
-      net.rods.push_back({family, index, line, span, {}});
-}
-
-template <class Pick>
-double leg(const Footprint& net, double start, Pick pick) {
-  double found = start;
-  for (const FootprintRod& rod : net.rods) {
-    const auto along = [&](int joint) {
-      return rod.family == Family::u ? net.joints[joint].u : net.joints[joint].v;
-    };
-    found = pick(found, along(rod.joints.front()) - rod.span.begin);
-    found = pick(found, rod.span.end - along(rod.joints.back()));
-  }
-  return found;
-}
-
-}  // namespace
 
 double Footprint::shortest_leg() const {
   return leg(*this, std::numeric_limits<double>::infinity(),

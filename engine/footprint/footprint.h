@@ -1,5 +1,5 @@
 // The footprint of a gridshell: a square grid of straight rods cut along an original boundary
-// [Baek 2018, 'Anatomy and Actuation'].
+// [Baek 2018, 'Anatomy and Actuation'], or any other flat network of rods (network.h).
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@ namespace gridshell {
 /// Where the grid lines lie: at (i + 1/2) d, or at i d so that one rod of each family is an axis.
 enum class Placement { half, on_axis };
 
-/// A joint: the crossing of the u-rod with index j and the v-rod with index i.
+/// A joint: of a square grid the crossing of the u-rod with index j and the v-rod with index i, of
+/// another network point i of its file.
 struct FootprintJoint {
   int i = 0, j = 0;
   double u = 0, v = 0;  ///< mm
@@ -26,33 +27,51 @@ struct FootprintCell {
   std::array<int, 4> joints{};
 };
 
-/// What holds a rod's end: nothing, its position, its position and direction, or its spin too.
-enum class RodEnd { free, pinned, tangent, clamped };
+/// What holds a rod's end: nothing, its position, its position and direction, or its spin too; or
+/// it is `joined`: it ends at a joint, of another rod or of its own other end.
+enum class RodEnd { free, pinned, tangent, clamped, joined };
 
 inline bool holds_direction(RodEnd end) { return end == RodEnd::tangent || end == RodEnd::clamped; }
+/// Whether the boundary holds it.
+inline bool is_held(RodEnd end) { return end != RodEnd::free && end != RodEnd::joined; }
 
-/// One rod from edge point to edge point. Positions run along the rod: u on a u-rod, v on a v-rod.
+/// One rod from edge point to edge point, straight in the flat or along a polyline. Positions run
+/// along the rod: u on a u-rod, v on a v-rod.
 struct FootprintRod {
   Family family = Family::u;
-  int index = 0;            ///< j of a u-rod, i of a v-rod
-  double line = 0;          ///< its v (u-rod) or u (v-rod), mm
-  Interval span;            ///< edge points
-  std::vector<int> joints;  ///< in order along the rod, at least one
+  int index = 0;                        ///< j of a u-rod, i of a v-rod, else its number
+  Eigen::Vector2d origin{0, 0};         ///< where its position is 0, mm
+  Eigen::Vector2d direction{1, 0};      ///< unit; of a straight rod
+  std::vector<Eigen::Vector3d> path{};  ///< (u, v, position) of one that is not; empty: straight
+  Interval span;                        ///< edge points
+  std::vector<int> joints;              ///< in order along the rod, at least one
+  std::vector<double> marks{};          ///< where they are
+  double diameter_mm = 0;               ///< of a network's rod with its own; 0: none
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
   double tail_begin = 0, tail_end = 0;  ///< beyond the edge point to a second pin, mm; 0: none
   /// of a designed shell: what its legs are longer than those that end on the net's boundary, mm
   double longer_begin = 0, longer_end = 0;
 
+  /// On the grid line v = `line` (u-rod) or u = `line`.
+  static FootprintRod of_grid(Family family, int index, double line, const Interval& span);
+  /// (u, v) of a position, and the unit tangent there.
+  Eigen::Vector2d at(double position) const;
+  Eigen::Vector2d tangent(double position) const;
+  /// The grid line of a u- or v-rod.
+  double line() const { return family == Family::u ? origin.y() : origin.x(); }
   bool has_tails() const { return tail_begin > 0 || tail_end > 0; }
+  /// A ring: its first joint is its last one.
+  bool closed() const { return joints.size() > 1 && joints.front() == joints.back(); }
 };
 
 /// All rods, joints and complete cells inside an original boundary. Lengths in mm.
 struct Footprint {
-  double spacing = 0;
+  double spacing = 0;  ///< of a network that is no square grid its median segment
   Placement placement = Placement::half;
   std::vector<FootprintJoint> joints;
   std::vector<FootprintRod> rods;
-  std::vector<FootprintCell> cells;
+  std::vector<FootprintCell> cells;  ///< none where rods are not of a square grid
+  std::vector<int> held_joints{};    ///< those that the boundary holds, as it does edge points
 
   /// shortest and longest leg: from an edge point to the joint next to it
   double shortest_leg() const;
@@ -61,6 +80,9 @@ struct Footprint {
 
 /// The rods' lines of one family that a placement puts within `reach` of the origin.
 double line_of(Placement placement, int index, double spacing);
+
+/// Fills the complete cells of a footprint whose rods and joints are of a square grid.
+void find_cells(Footprint& footprint);
 
 /// Cuts the square grid along the boundary of `domain`. Rods of both families at
 /// line_of(placement, k, d) for every k whose line meets the domain.

@@ -23,12 +23,10 @@ std::vector<Stop> stops_of(const Footprint& footprint, std::size_t r, int& next,
     mesh.far_ends[std::size_t(edge_point - mesh.joints)] = next++;
   };
   if (rod.tail_begin > 0) far_end(first, rod.span.begin - rod.tail_begin);
-  stops.push_back({first, rod.span.begin});
-  for (int joint : rod.joints) {
-    const FootprintJoint& crossing = footprint.joints[std::size_t(joint)];
-    stops.push_back({joint, rod.family == Family::u ? crossing.u : crossing.v});
-  }
-  stops.push_back({first + 1, rod.span.end});
+  if (rod.begin != RodEnd::joined) stops.push_back({first, rod.span.begin});
+  for (std::size_t k = 0; k < rod.joints.size(); ++k)
+    stops.push_back({rod.joints[k], rod.marks[k]});
+  if (rod.end != RodEnd::joined) stops.push_back({first + 1, rod.span.end});
   if (rod.tail_end > 0) far_end(first + 1, rod.span.end + rod.tail_end);
   return stops;
 }
@@ -65,6 +63,7 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   mesh.edges_per_segment = edges_per_segment;
   mesh.joints = int(footprint.joints.size());
   mesh.edge_points = 2 * int(footprint.rods.size());
+  mesh.held_joints = footprint.held_joints;
   int next = mesh.joints + mesh.edge_points;
 
   for (int r = 0; r < int(footprint.rods.size()); ++r) {
@@ -92,11 +91,17 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const FootprintRod& rod = footprint.rods[r];
     for (std::size_t k = 0; k < mesh.rods[r].size(); ++k) {
-      const double along = mesh.position[r][k];
-      mesh.flat.col(mesh.rods[r][k]) = rod.family == Family::u ? Eigen::Vector2d(along, rod.line)
-                                                               : Eigen::Vector2d(rod.line, along);
+      // where rods meet in a joint the place is the joint's own
+      const int node = mesh.rods[r][k];
+      if (node >= mesh.joints) mesh.flat.col(node) = rod.at(mesh.position[r][k]);
     }
+    if (rod.begin == RodEnd::joined)
+      mesh.flat.col(mesh.joints + 2 * Eigen::Index(r)) = rod.at(rod.span.begin);
+    if (rod.end == RodEnd::joined)
+      mesh.flat.col(mesh.joints + 2 * Eigen::Index(r) + 1) = rod.at(rod.span.end);
   }
+  for (Eigen::Index k = 0; k < mesh.joints; ++k)
+    mesh.flat.col(k) << footprint.joints[std::size_t(k)].u, footprint.joints[std::size_t(k)].v;
   return mesh;
 }
 
@@ -146,6 +151,10 @@ MeshTransfer::Stencil MeshTransfer::stencil(const std::vector<int>& node,
 }
 
 MeshTransfer::MeshTransfer(const RodMesh& from, const RodMesh& to) : nodes_to_(to.nodes()) {
+  // edge points that belong to no rod have the same numbers on both meshes
+  for (int end = 0; end < to.edge_points; ++end)
+    if (to.end_of(end) == RodEnd::joined)
+      stencils_.push_back({to.joints + end, {from.joints + end, 0, 0, 0}, {1, 0, 0, 0}});
   int first_edge = 0;
   for (std::size_t r = 0; r < from.rods.size(); ++r) {
     const std::vector<int>& node = from.rods[r];

@@ -11,16 +11,19 @@ namespace gridshell {
 /// Nodes of all rods. An end whose direction is held has one node more, a *ghost* beyond its edge
 /// point, pinned where the direction asks for it: ghosts are the last nodes of the mesh and the
 /// first or last of their rod, `ghost_length` from the edge point on every mesh.
-/// Joints come first (node = index of the joint, shared by its two rods), then
+/// Joints come first (node = index of the joint, shared by its rods), then
 /// edge points (rod r has node joints + 2r at its begin, joints + 2r + 1 at its end), then the
 /// nodes inside segments, legs and tails, rod by rod. A rod with a tail begins or ends at the
-/// tail's *far end*, its edge point being one of its inner nodes.
+/// tail's *far end*, its edge point being one of its inner nodes. A rod whose end is joined begins
+/// or ends at that joint; the edge point of that number belongs to no rod and rests on the joint's
+/// place. A closed rod names its joint twice, first and last.
 struct RodMesh {
   int edges_per_segment = 0;
   int joints = 0;
   int edge_points = 0;
-  std::vector<RodEnd> ends;   ///< of every edge point; empty: all pinned
-  std::vector<int> far_ends;  ///< of every edge point, -1: no tail; empty: none has one
+  std::vector<RodEnd> ends;      ///< of every edge point; empty: all pinned
+  std::vector<int> far_ends;     ///< of every edge point, -1: no tail; empty: none has one
+  std::vector<int> held_joints;  ///< that the boundary holds
   int ghosts = 0;
   double ghost_length = 0;                    ///< mm
   std::vector<std::vector<int>> rods;         ///< nodes of each rod from end to end
@@ -30,6 +33,9 @@ struct RodMesh {
   int nodes() const { return int(flat.cols()); }
   int rod_nodes() const { return nodes() - ghosts; }  ///< those that are not ghosts
   bool is_ghost(int node) const { return node >= rod_nodes(); }
+  RodEnd end_of(int edge_point) const {
+    return ends.empty() ? RodEnd::pinned : ends[std::size_t(edge_point)];
+  }
 };
 
 /// Cuts each segment into `edges_per_segment` = k edges, each leg and tail too; one shorter than

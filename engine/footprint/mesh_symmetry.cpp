@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -19,7 +20,11 @@ std::pair<long long, long long> place_of(const Eigen::Vector2d& p) {
 std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matrix3d& map) {
   std::map<std::pair<long long, long long>, int> node_at;
   for (int node = 0; node < mesh.nodes(); ++node) node_at[place_of(mesh.flat.col(node))] = node;
-  std::vector<int> image;
+  std::vector<int> image(std::size_t(mesh.nodes()));
+  std::iota(image.begin(), image.end(), 0);
+  if (map.isIdentity(0)) return image;
+  // of nodes on one another nothing tells which goes where
+  if (int(node_at.size()) < mesh.nodes()) return std::nullopt;
   for (int node = 0; node < mesh.nodes(); ++node) {
     const Eigen::Vector2d p = map.topLeftCorner<2, 2>() * mesh.flat.col(node);
     const auto [u, v] = place_of(p);
@@ -29,22 +34,20 @@ std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matri
       for (long long dv = -1; dv <= 1 && found < 0; ++dv)
         if (const auto at = node_at.find({u + du, v + dv}); at != node_at.end()) found = at->second;
     if (found < 0) return std::nullopt;
-    image.push_back(found);
+    image[std::size_t(node)] = found;
   }
   return image;
 }
 
-/// Edge points that something holds, and ghosts.
+}  // namespace
+
 std::vector<int> held_nodes(const RodMesh& mesh) {
-  std::vector<int> held;
+  std::vector<int> held = mesh.held_joints;
   for (int k = 0; k < mesh.edge_points; ++k)
-    if (mesh.ends.empty() || mesh.ends[std::size_t(k)] != RodEnd::free)
-      held.push_back(mesh.joints + k);
+    if (is_held(mesh.end_of(k))) held.push_back(mesh.joints + k);
   for (int node = mesh.rod_nodes(); node < mesh.nodes(); ++node) held.push_back(node);
   return held;
 }
-
-}  // namespace
 
 std::optional<std::vector<int>> images_of(const Eigen::Matrix2Xd& points,
                                           const Eigen::Matrix2d& map, double within_mm) {

@@ -10,6 +10,9 @@
 
 namespace gridshell {
 
+/// Nodes that the boundary holds: joints, edge points, ghosts.
+std::vector<int> held_nodes(const RodMesh& mesh);
+
 /// The sixteen maps of space that leave the square lattice about the z-axis what it is: signed
 /// permutations of x and y, then the same with z turned over. The identity is the first.
 const std::vector<Eigen::Matrix3d>& square_symmetries();

@@ -1,16 +1,11 @@
 #include "engine/gridshell/shell_rods.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gridshell {
 namespace {
-
-bool along_u(const RodMesh& mesh, std::size_t rod) {
-  const Eigen::Vector2d way =
-      mesh.flat.col(mesh.rods[rod].back()) - mesh.flat.col(mesh.rods[rod].front());
-  return std::abs(way.x()) > std::abs(way.y());
-}
 
 /// the rod without its ghosts, and what holds its ends
 ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material) {
@@ -25,31 +20,65 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material)
     rod.nodes.push_back(node);
     rod.position.push_back(mesh.position[r][k]);
   }
-  if (mesh.ends.empty()) return rod;
-  rod.begin = mesh.ends[2 * r];
-  rod.end = mesh.ends[2 * r + 1];
+  // a closed rod comes back to its first node
+  if (rod.nodes.front() == rod.nodes.back()) rod.nodes.pop_back();
+  const auto held = [&](RodEnd end) { return end == RodEnd::joined ? RodEnd::free : end; };
+  rod.begin = held(mesh.end_of(int(2 * r)));
+  rod.end = held(mesh.end_of(int(2 * r + 1)));
   return rod;
 }
 
-/// u rod and v rod of every joint
-std::vector<std::array<int, 2>> crossings_of(const RodMesh& mesh) {
-  std::vector<std::array<int, 2>> rods(std::size_t(mesh.joints), {-1, -1});
+/// the rods of every joint in order: of a grid the u rod and the v rod
+std::vector<std::vector<int>> crossings_of(const RodMesh& mesh) {
+  std::vector<std::vector<int>> rods(std::size_t(mesh.joints));
   for (std::size_t r = 0; r < mesh.rods.size(); ++r)
     for (int node : mesh.rods[r])
-      if (node < mesh.joints) rods[std::size_t(node)][along_u(mesh, r) ? 0 : 1] = int(r);
+      if (node < mesh.joints &&
+          (rods[std::size_t(node)].empty() || rods[std::size_t(node)].back() != int(r)))
+        rods[std::size_t(node)].push_back(int(r));
   return rods;
 }
 
+/// how a rod runs through one of its nodes in the flat, unit
+Eigen::Vector2d direction_at(const RodMesh& mesh, int rod, int node) {
+  const std::vector<int>& nodes = mesh.rods[std::size_t(rod)];
+  const auto at = std::find(nodes.begin(), nodes.end(), node);
+  const auto before = at == nodes.begin() ? at : at - 1,
+             after = at + 1 == nodes.end() ? at : at + 1;
+  return (mesh.flat.col(*after) - mesh.flat.col(*before)).normalized();
+}
+
+double flat_angle(const RodMesh& mesh, int a, int b, int node) {
+  return std::acos(
+      std::clamp(direction_at(mesh, a, node).dot(direction_at(mesh, b, node)), -1.0, 1.0));
+}
+
+/// the first rod of a joint with each of the others
 void add_joints(const RodMesh& mesh, const JointLaw& law, Model& model) {
   const auto crossings = crossings_of(mesh);
   const bool springs = law.spring_N_per_mm > 0;
   for (int joint = 0; joint < mesh.joints; ++joint) {
     const int other = springs ? mesh.nodes() + joint : joint;
-    const auto [u, v] = crossings[std::size_t(joint)];
+    const std::vector<int>& rods = crossings[std::size_t(joint)];
     if (springs) model.springs.push_back({{joint, other, law.spring_N_per_mm}});
-    if (law.shear_Nmm > 0) add_joint_shear(model, u, joint, v, other, law.shear_Nmm, M_PI / 2);
-    if (law.twist_Nmm > 0) add_joint_spin(model, u, joint, v, other, law.twist_Nmm);
+    const int a = rods.front();
+    for (std::size_t k = 1; k < rods.size(); ++k) {
+      const int b = rods[k];
+      if (law.shear_Nmm > 0)
+        add_joint_shear(model, a, joint, b, other, law.shear_Nmm, flat_angle(mesh, a, b, joint));
+      if (law.twist_Nmm > 0) add_joint_spin(model, a, joint, b, other, law.twist_Nmm);
+    }
   }
+}
+
+/// edge points with a tail, or without a rod, and joints that the boundary holds
+std::vector<int> pinned_beside_ends(const RodMesh& mesh) {
+  std::vector<int> nodes = mesh.held_joints;
+  for (int end = 0; end < mesh.edge_points; ++end)
+    if ((!mesh.far_ends.empty() && mesh.far_ends[std::size_t(end)] >= 0) ||
+        mesh.end_of(end) == RodEnd::joined)
+      nodes.push_back(mesh.joints + end);
+  return nodes;
 }
 
 /// (u, v) of the model's columns: the mesh's nodes and their twins, and angles where their edges
@@ -101,11 +130,12 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, Rung rung) {
   const bool springs = rung == Rung::twist && shell.joints.spring_N_per_mm > 0;
   std::vector<ModelRod> rods;
+  std::vector<char> taken(std::size_t(mesh.joints), 0);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     rods.push_back(rod_of(mesh, r, shell.material(r)));
-    if (!springs || along_u(mesh, r)) continue;
+    if (!springs) continue;
     for (int& node : rods.back().nodes)
-      if (node < mesh.joints) node += mesh.nodes();
+      if (node < mesh.joints && std::exchange(taken[std::size_t(node)], 1)) node += mesh.nodes();
   }
   const int nodes = mesh.nodes() + (springs ? mesh.joints : 0);
   std::vector<char> crossings(std::size_t(nodes), 0);
@@ -116,9 +146,9 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, Rung rung
   auto model = build_model(nodes, rods, rung, crossings);
   if (!model) return model;
   if (rung == Rung::twist) add_joints(mesh, shell.joints, *model);
-  for (std::size_t end = 0; end < mesh.far_ends.size(); ++end)
-    if (mesh.far_ends[end] >= 0) model->pin(mesh.joints + int(end));
-  if (rung == Rung::twist || !mesh.far_ends.empty()) finish(*model);
+  const std::vector<int> pinned = pinned_beside_ends(mesh);
+  for (const int node : pinned) model->pin(node);
+  if (rung == Rung::twist || !pinned.empty()) finish(*model);
   model->loads = dead_loads(mesh, shell);
   lay_flat(mesh, *model);
   return model;

@@ -10,21 +10,42 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+/// Of a rod that is neither: u of its joint if it is the first there, else v, turned to u's left.
+void put_other(const Eigen::Vector3d& along, const Eigen::Vector2d& flat, int joint,
+               Eigen::Vector2d& first, JointTangents& tangents) {
+  if (tangents.u.col(joint).isZero(0)) {
+    tangents.u.col(joint) = along;
+    first = flat;
+    return;
+  }
+  const double left = first.x() * flat.y() - first.y() * flat.x();
+  if (tangents.v.col(joint).isZero(0) && std::abs(left) > 1e-6 * first.norm() * flat.norm())
+    tangents.v.col(joint) = left > 0 ? along : Eigen::Vector3d(-along);
+}
+
 }  // namespace
 
 JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,
                              const Eigen::Matrix3Xd& x) {
   JointTangents tangents{Eigen::Matrix3Xd::Zero(3, mesh.joints),
                          Eigen::Matrix3Xd::Zero(3, mesh.joints)};
+  std::vector<Eigen::Vector2d> first;  // of joints of a network: its first rod's way in the flat
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const std::vector<int>& node = mesh.rods[r];
-    Eigen::Matrix3Xd& side = footprint.rods[r].family == Family::u ? tangents.u : tangents.v;
+    const Family family = footprint.rods[r].family;
     for (std::size_t k = 1; k + 1 < node.size(); ++k) {
       if (node[k] >= mesh.joints) continue;
       const Eigen::Vector3d before = x.col(node[k]) - x.col(node[k - 1]);
       const Eigen::Vector3d after = x.col(node[k + 1]) - x.col(node[k]);
       const double l1 = before.norm(), l2 = after.norm();
-      side.col(node[k]) = (before * (l2 / l1) + after * (l1 / l2)).normalized();
+      const Eigen::Vector3d along = (before * (l2 / l1) + after * (l1 / l2)).normalized();
+      if (family != Family::other) {
+        (family == Family::u ? tangents.u : tangents.v).col(node[k]) = along;
+        continue;
+      }
+      first.resize(std::size_t(mesh.joints));
+      put_other(along, mesh.flat.col(node[k + 1]) - mesh.flat.col(node[k - 1]), node[k],
+                first[std::size_t(node[k])], tangents);
     }
   }
   return tangents;

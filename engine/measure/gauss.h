@@ -10,9 +10,10 @@
 namespace gridshell {
 
 /// Unit tangents of the two rods at every joint: along +u of its u-rod, along +v of its v-rod (3 x
-/// joints). t is proportional to t1 l2 + t2 l1, with t1, t2 the unit tangents of the edges before
-/// and after the joint and l1, l2 their lengths: the derivative of a quadratic through three nodes,
-/// second order in edge length.
+/// joints); where rods are of no grid of the first two that cross there, u x v upwards in the flat,
+/// and zero where there are not two. t is proportional to t1 l2 + t2 l1, with t1, t2 the unit
+/// tangents of the edges before and after the joint and l1, l2 their lengths: the derivative of a
+/// quadratic through three nodes, second order in edge length.
 struct JointTangents {
   Eigen::Matrix3Xd u, v;
 

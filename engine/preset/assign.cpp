@@ -4,8 +4,10 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <type_traits>
 
 #include "engine/core/atomic_file.h"
+#include "engine/preset/network_file.h"
 #include "engine/preset/point_file.h"
 #include "engine/preset/suggest.h"
 #include "engine/preset/surface_file.h"
@@ -277,6 +279,35 @@ std::string put(const SurfaceText& kind, const toml::node& value, Preset& preset
   return wrong;
 }
 
+// a list that may be left out
+template <class Values>
+std::string read_if_there(const toml::table& table, const char* key, Values& values) {
+  if (!table.contains(key)) return "";
+  if constexpr (std::is_same_v<Values, std::vector<int>>) {
+    const auto wrong = read(*table.get(key), between(0, 1e9), "is ", values);
+    return wrong.empty() ? "" : std::string(key) + " " + wrong;
+  } else {
+    return read_coordinates(table.get(key), key, values);
+  }
+}
+
+std::string put(const NetworkText& kind, const toml::node& value, Preset& preset) {
+  const auto* table = value.as_table();
+  if (!table) return "is " + type_text(value);
+  NetworkData network;
+  std::string wrong = read_coordinates(table->get("points_mm"), "points_mm", network.points);
+  const auto* rods = table->get_as<toml::array>("rods");
+  if (wrong.empty() && !rods) wrong = "has no list rods";
+  for (std::size_t r = 0; wrong.empty() && r < rods->size(); ++r)
+    wrong = read(*rods->get(r), between(0, 1e9), "rods hold ", network.rods.emplace_back());
+  if (wrong.empty()) wrong = read_if_there(*table, "diameters_mm", network.diameters);
+  if (wrong.empty()) wrong = read_if_there(*table, "supports_mm", network.supports);
+  if (wrong.empty()) wrong = read_if_there(*table, "free", network.free);
+  if (wrong.empty()) wrong = network_fault(network);
+  if (wrong.empty()) kind.in(preset) = std::move(network);
+  return wrong;
+}
+
 // the points of a file, or what is wrong with it
 std::string put_file(const PointList& kind, const std::filesystem::path& file, Preset& preset) {
   auto points = read_points(file, kind.coordinates, kind.words);
@@ -286,9 +317,11 @@ std::string put_file(const PointList& kind, const std::filesystem::path& file, P
   return "";
 }
 
-// a surface out of a file, or none where the name is empty
-std::string put_file(const SurfaceText& kind, const std::string& name, const Beside& beside,
-                     Preset& preset) {
+// a surface or network out of a file, or none where the name is empty
+template <class Kind, class Data>
+std::string put_file(const Kind& kind, const std::string& name, const Beside& beside,
+                     Result<Data> (*read_data)(std::string_view, const std::string&),
+                     std::size_t largest, Preset& preset) {
   if (name.empty()) {
     kind.in(preset) = {};
     return "";
@@ -299,11 +332,11 @@ std::string put_file(const SurfaceText& kind, const std::string& name, const Bes
     return found == beside.built_in->end() ? nullptr : &found->second;
   }();
   const auto file = beside.folder / name;
-  const auto bytes = known ? Result<std::string>(*known) : read_whole(file, largest_mesh_file);
+  const auto bytes = known ? Result<std::string>(*known) : read_whole(file, largest);
   if (!bytes) return bytes.error().message;
-  auto surface = read_surface(*bytes, known ? name : file.string());
-  if (!surface) return surface.error().message;
-  kind.in(preset) = std::move(*surface);
+  auto data = read_data(*bytes, known ? name : file.string());
+  if (!data) return data.error().message;
+  kind.in(preset) = std::move(*data);
   return "";
 }
 
@@ -314,7 +347,11 @@ std::string assign(const Field& field, const toml::node& value, Preset& preset,
   if (const auto* points = std::get_if<PointList>(&field.kind); points && value.is_string())
     return put_file(*points, beside.folder / value.as_string()->get(), preset);
   if (const auto* surface = std::get_if<SurfaceText>(&field.kind); surface && value.is_string())
-    return put_file(*surface, value.as_string()->get(), beside, preset);
+    return put_file(*surface, value.as_string()->get(), beside, read_surface, largest_mesh_file,
+                    preset);
+  if (const auto* network = std::get_if<NetworkText>(&field.kind); network && value.is_string())
+    return put_file(*network, value.as_string()->get(), beside, read_network, largest_network_file,
+                    preset);
   const auto wrong =
       std::visit([&](const auto& kind) { return put(kind, value, preset); }, field.kind);
   if (wrong.empty()) return "";

@@ -56,7 +56,8 @@ std::vector<Conflict> conflicts(const Preset& preset) {
   const bool circle = preset.footprint.kind == FootprintKind::circle;
   const bool net = preset.on_net();
   if (circle) check_radii(preset, found);
-  if (preset.rod.diameter_mm >= preset.footprint.spacing_mm)
+  if (preset.footprint.kind != FootprintKind::network &&
+      preset.rod.diameter_mm >= preset.footprint.spacing_mm)
     found.push_back({"rod",
                      "diameter_mm",
                      {spacing},

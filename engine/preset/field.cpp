@@ -85,6 +85,24 @@ std::string surface_text(const SurfaceData& surface) {
                      fmt::join(items, ", "));
 }
 
+std::string integers_text(const std::vector<int>& values) {
+  return fmt::format("[{}]", fmt::join(values, ", "));
+}
+
+std::string network_text(const NetworkData& network) {
+  if (network.empty()) return "\"\"";
+  std::vector<std::string> rods;
+  for (const auto& rod : network.rods) rods.push_back(integers_text(rod));
+  auto text = fmt::format("{{points_mm = {}, rods = [{}]", rows_text(network.points),
+                          fmt::join(rods, ", "));
+  if (!network.diameters.empty())
+    text += fmt::format(", diameters_mm = {}", reals_text(network.diameters));
+  if (!network.supports.empty())
+    text += fmt::format(", supports_mm = {}", rows_text(network.supports));
+  if (!network.free.empty()) text += fmt::format(", free = {}", integers_text(network.free));
+  return text + "}";
+}
+
 std::string axes_text(const std::vector<SweepAxis>& axes) {
   std::vector<std::string> items;
   for (const auto& axis : axes)
@@ -132,6 +150,11 @@ std::string allowed(const Field& field) {
                 "the name of a file, a table {x_mm, y_mm, z_mm} of a grid or {vertices_mm, "
                 "triangles}, or \"\"");
           },
+          [](const NetworkText&) {
+            return std::string(
+                "the name of a file, a table {points_mm, rods, diameters_mm, supports_mm, free}, "
+                "or \"\"");
+          },
           [](const WordList& k) { return "a list of " + words_text(k.words); },
       },
       field.kind);
@@ -140,39 +163,39 @@ std::string allowed(const Field& field) {
 std::string value_text(const Field& field, const Preset& preset) {
   // the accessors reach for writing; nothing is written here
   auto& from = const_cast<Preset&>(preset);
-  return std::visit(
-      Overloaded{
-          [&](const Real& k) { return real_text(k.in(from)); },
-          [&](const Integer& k) { return std::to_string(k.in(from)); },
-          [&](const Flag& k) { return std::string(k.in(from) ? "true" : "false"); },
-          [&](const Text& k) { return in_quotes(k.in(from)); },
-          [&](const ColourText& k) { return in_quotes(k.in(from)); },
-          [&](const Word& k) { return in_quotes(k.words.at(k.get(preset))); },
-          [&](const IntegerPair& k) {
-            return fmt::format("[{}, {}]", k.in(from)[0], k.in(from)[1]);
-          },
-          [&](const IntegerList& k) { return fmt::format("[{}]", fmt::join(k.in(from), ", ")); },
-          [&](const RealList& k) { return reals_text(k.in(from)); },
-          [&](const OptionalInteger& k) {
-            const auto& value = k.in(from);
-            return value ? std::to_string(*value) : std::string("\"none\"");
-          },
-          [&](const TextList& k) {
-            std::vector<std::string> items;
-            for (const auto& text : k.in(from)) items.push_back(in_quotes(text));
-            return fmt::format("[{}]", fmt::join(items, ", "));
-          },
-          [&](const AxisList& k) { return axes_text(k.in(from)); },
-          [&](const WordList& k) {
-            std::vector<std::string> items;
-            for (const int index : k.get(preset))
-              items.push_back(in_quotes(k.words.at(std::size_t(index))));
-            return fmt::format("[{}]", fmt::join(items, ", "));
-          },
-          [&](const PointList& k) { return points_text(k, k.in(from)); },
-          [&](const SurfaceText& k) { return surface_text(k.in(from)); },
-      },
-      field.kind);
+  return std::visit(Overloaded{
+                        [&](const Real& k) { return real_text(k.in(from)); },
+                        [&](const Integer& k) { return std::to_string(k.in(from)); },
+                        [&](const Flag& k) { return std::string(k.in(from) ? "true" : "false"); },
+                        [&](const Text& k) { return in_quotes(k.in(from)); },
+                        [&](const ColourText& k) { return in_quotes(k.in(from)); },
+                        [&](const Word& k) { return in_quotes(k.words.at(k.get(preset))); },
+                        [&](const IntegerPair& k) {
+                          return fmt::format("[{}, {}]", k.in(from)[0], k.in(from)[1]);
+                        },
+                        [&](const IntegerList& k) { return integers_text(k.in(from)); },
+                        [&](const RealList& k) { return reals_text(k.in(from)); },
+                        [&](const OptionalInteger& k) {
+                          const auto& value = k.in(from);
+                          return value ? std::to_string(*value) : std::string("\"none\"");
+                        },
+                        [&](const TextList& k) {
+                          std::vector<std::string> items;
+                          for (const auto& text : k.in(from)) items.push_back(in_quotes(text));
+                          return fmt::format("[{}]", fmt::join(items, ", "));
+                        },
+                        [&](const AxisList& k) { return axes_text(k.in(from)); },
+                        [&](const WordList& k) {
+                          std::vector<std::string> items;
+                          for (const int index : k.get(preset))
+                            items.push_back(in_quotes(k.words.at(std::size_t(index))));
+                          return fmt::format("[{}]", fmt::join(items, ", "));
+                        },
+                        [&](const PointList& k) { return points_text(k, k.in(from)); },
+                        [&](const SurfaceText& k) { return surface_text(k.in(from)); },
+                        [&](const NetworkText& k) { return network_text(k.in(from)); },
+                    },
+                    field.kind);
 }
 
 }  // namespace gridshell::preset

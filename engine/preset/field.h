@@ -98,6 +98,11 @@ struct SurfaceText {
   SurfaceData& (*in)(Preset&);
 };
 
+/// A network of rods: the name of a file that holds it, or what was in the file.
+struct NetworkText {
+  NetworkData& (*in)(Preset&);
+};
+
 /// Several words of a few, those of an enum.
 struct WordList {
   std::vector<int> (*get)(const Preset&);
@@ -111,7 +116,7 @@ struct Field {
   std::string key;
   std::string unit;  ///< empty: a pure number or not a number
   std::variant<Real, Integer, Flag, Text, ColourText, Word, IntegerPair, RealList, IntegerList,
-               OptionalInteger, TextList, AxisList, PointList, SurfaceText, WordList>
+               OptionalInteger, TextList, AxisList, PointList, SurfaceText, NetworkText, WordList>
       kind;
   std::string meaning;  ///< one sentence without a full stop
 };

@@ -94,6 +94,10 @@ SurfaceText surface() {
   return {reach<path...>};
 }
 template <auto... path>
+NetworkText network() {
+  return {reach<path...>};
+}
+template <auto... path>
 WordList word_list() {
   using List = std::remove_reference_t<decltype(reach<path...>(std::declval<Preset&>()))>;
   using Enum = typename List::value_type;

@@ -6,18 +6,14 @@
 #include "engine/preset/mesh_draft.h"
 
 namespace gridshell::preset {
-namespace {
 
-/// "7", "7/1/2" or "-1": the number of a vertex from 0; below zero counts back from the last.
-std::optional<long> corner_of(std::string_view word, std::size_t vertices) {
+std::optional<long> obj_vertex(std::string_view word, std::size_t vertices) {
   word = word.substr(0, word.find('/'));
   long number = 0;
   const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), number);
   if (fault != std::errc() || end != word.data() + word.size() || number == 0) return std::nullopt;
   return number > 0 ? number - 1 : long(vertices) + number;
 }
-
-}  // namespace
 
 Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name) {
   MeshDraft draft;
@@ -36,7 +32,7 @@ Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name) {
     }
     std::vector<long> corners;
     for (std::size_t k = 1; k < words.size(); ++k) {
-      const auto corner = corner_of(words[k], draft.vertices());
+      const auto corner = obj_vertex(words[k], draft.vertices());
       if (!corner)
         return fail(Fault::bad_input, fmt::format("{}: '{}' is no vertex, must be its number",
                                                   place, words[k].substr(0, 40)));

@@ -82,12 +82,13 @@ struct Curve {
   Points points;                                ///< (x, y) of a polygon or spline
 };
 
-enum class FootprintKind { circle, net, curve, blocks };
+enum class FootprintKind { circle, net, curve, blocks, network };
 constexpr auto words(FootprintKind) {
   return word_table<FootprintKind>({{FootprintKind::circle, "circle"},
                                     {FootprintKind::net, "net"},
                                     {FootprintKind::curve, "curve"},
-                                    {FootprintKind::blocks, "blocks"}});
+                                    {FootprintKind::blocks, "blocks"},
+                                    {FootprintKind::network, "network"}});
 }
 enum class Placement { half, on_axis };
 constexpr auto words(Placement) {
@@ -101,6 +102,7 @@ struct Footprint {
   double longest_leg = 0;    ///< L_d, of d; 0: `radius_mm` says how large a circle is
   double spacing_mm = 20.0;  ///< d
   Placement placement = Placement::half;
+  NetworkData file;  ///< of kind network
 };
 
 enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation, surface };

@@ -77,6 +77,20 @@ void check_join(const Preset& preset, int item, const char* key, const std::stri
                    item});
 }
 
+void check_network(const Preset& preset, std::vector<Conflict>& found) {
+  const NetworkData& file = preset.footprint.file;
+  if (file.empty())
+    found.push_back({"footprint",
+                     "file",
+                     {"[footprint] kind"},
+                     "kind = \"network\" needs rods, must be the name of a file"});
+  if (preset.rod.rectangular() && !file.diameters.empty())
+    found.push_back({"footprint",
+                     "file",
+                     {"[rod] width_mm"},
+                     "gives diameters, and rectangular rods have none, [rod] width_mm must be 0"});
+}
+
 }  // namespace
 
 std::vector<Conflict> shape_conflicts(const Preset& preset) {
@@ -88,6 +102,7 @@ std::vector<Conflict> shape_conflicts(const Preset& preset) {
   if (preset.footprint.kind == FootprintKind::net) check_net("net", preset.net, -1, found);
   if (preset.footprint.kind == FootprintKind::net && preset.net.kind == NetKind::surface)
     check_surface(preset.net, found);
+  if (preset.footprint.kind == FootprintKind::network) check_network(preset, found);
   return found;
 }
 

@@ -90,7 +90,9 @@ std::vector<Field> boundary_fields() {
       "footprint", "boundary of a footprint of kind \"curve\", about the origin");
   append(fields, {{"actuation", "scale", "", real<&P::actuation, &Actuation::scale>(between(0, 1)),
                    "of a footprint of kind \"curve\": the actuated boundary is the original one "
-                   "times this; 0: it is given by `boundary`"}});
+                   "times this; 0: it is given by `boundary`. Of kind \"network\": ends of which "
+                   "the file says nothing move to this times their place from the middle of the "
+                   "box around the rods; 0: they stay"}});
   append(fields, curve_fields<&P::actuation, &Actuation::boundary>(
                      "actuation", "actuated boundary of a footprint of kind \"curve\""));
   append(fields,

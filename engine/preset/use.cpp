@@ -87,6 +87,7 @@ class Idle {
     push();
     steps();
     motion();
+    tables();
     jitter();
     sweep();
     pictures();
@@ -127,6 +128,14 @@ class Idle {
                          word_of(user));
     };
     if (kind != K::circle) add("footprint", "rods", decider, of(K::circle));
+    if (kind != K::network) {
+      add("footprint", "file", decider, of(K::network));
+    } else {
+      for (const char* key : {"spacing_mm", "placement"})
+        add("footprint", key, decider,
+            "of a footprint of kind \"network\" the file says where rods and joints lie");
+      add_all("rod_v", decider, "a network's rods are of one kind, with diameters in its file");
+    }
     if (kind == K::net)
       net();
     else
@@ -161,9 +170,11 @@ class Idle {
     } else {
       for (const char* key : {"boundary", "half_x_mm", "half_y_mm", "exponent", "points_mm"})
         add("footprint", key, decider, by_kind + "\"curve\"");
-      for (const char* key : {"scale", "boundary", "half_x_mm", "half_y_mm", "exponent",
-                              "points_mm", "correspondence"})
+      for (const char* key :
+           {"boundary", "half_x_mm", "half_y_mm", "exponent", "points_mm", "correspondence"})
         add("actuation", key, decider, by_kind + "\"curve\"");
+      if (preset_.footprint.kind != FootprintKind::network)
+        add("actuation", "scale", decider, by_kind + "\"curve\" or \"network\"");
     }
     radii(circle, by_kind);
     if (!curve && !circle)
@@ -240,6 +251,16 @@ class Idle {
         add("step", "progress", {bracketed("step", "radius_mm", k)}, "radius_mm takes its place",
             k);
     }
+  }
+
+  /// rows that name rods of a square grid
+  void tables() {
+    if (preset_.footprint.kind != FootprintKind::network) return;
+    for (const char* table : {"ends", "rod"})
+      add(table, "table", {"[footprint] kind"},
+          "it names rods of a square grid, a network's file says it");
+    for (const char* key : {"rings", "second_ring_mm"})
+      add("ends", key, {"[footprint] kind"}, "a network has no net whose end rings it could be");
   }
 
   void motion() {

@@ -7,6 +7,7 @@
 #include "engine/scene/block_design.h"
 #include "engine/scene/curve_design.h"
 #include "engine/scene/net_design.h"
+#include "engine/scene/network_design.h"
 #include "engine/scene/scene_rods.h"
 #include "engine/scene/second_ring.h"
 #include "engine/scene/shell_ends.h"
@@ -26,12 +27,8 @@ Eigen::Matrix2Xd edge_points(const Footprint& footprint) {
   Eigen::Matrix2Xd points(2, 2 * footprint.rods.size());
   for (Eigen::Index r = 0; r < Eigen::Index(footprint.rods.size()); ++r) {
     const FootprintRod& rod = footprint.rods[r];
-    const auto point = [&](double along) {
-      return rod.family == Family::u ? Eigen::Vector2d(along, rod.line)
-                                     : Eigen::Vector2d(rod.line, along);
-    };
-    points.col(2 * r) = point(rod.span.begin);
-    points.col(2 * r + 1) = point(rod.span.end);
+    points.col(2 * r) = rod.at(rod.span.begin);
+    points.col(2 * r + 1) = rod.at(rod.span.end);
   }
   return points;
 }
@@ -95,15 +92,15 @@ Result<void> hold_directions(const Eigen::Matrix2Xd& ends, RodEnd hold, Scene& s
   for (Eigen::Index k = 0; k < ends.cols(); ++k) {
     FootprintRod& rod = scene.footprint.rods[std::size_t(k / 2)];
     RodEnd& held = k % 2 == 0 ? rod.begin : rod.end;
-    if (held == RodEnd::free) continue;
+    if (!is_held(held)) continue;
     held = hold;
-    const bool u = rod.family == Family::u;
-    scene.motion.begin_tangent.col(k) = scene.flat.axes.col(u ? 0 : 1);
+    scene.motion.begin_tangent.col(k) =
+        scene.flat.axes * rod.tangent(k % 2 == 0 ? rod.span.begin : rod.span.end);
     scene.motion.end_tangent.col(k) = scene.motion.begin_tangent.col(k);
     if (!scene.net) continue;
     const auto point = scene.net->at(ends(0, k), ends(1, k));
     if (!point) return tl::unexpected<Error>(point.error());
-    scene.motion.end_tangent.col(k) = u ? point->tangent_u : point->tangent_v;
+    scene.motion.end_tangent.col(k) = rod.family == Family::u ? point->tangent_u : point->tangent_v;
   }
   return {};
 }
@@ -133,16 +130,27 @@ Result<void> build_net(const preset::Preset& preset, Scene& scene) {
   return {};
 }
 
+/// Footprint, boundary and motion, as the kind has them.
+Result<void> build(const preset::Preset& preset, Scene& scene) {
+  switch (preset.footprint.kind) {
+    case preset::FootprintKind::circle:
+      return build_circle(preset, scene);
+    case preset::FootprintKind::curve:
+      return build_curve(preset, scene);
+    case preset::FootprintKind::network:
+      return build_network(preset, scene);
+    case preset::FootprintKind::net:
+    case preset::FootprintKind::blocks:
+      break;
+  }
+  return build_net(preset, scene);
+}
+
 }  // namespace
 
 Result<Scene> scene_of(const preset::Preset& preset) {
   Scene scene;
-  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
-  if (const auto built = circle            ? build_circle(preset, scene)
-                         : preset.on_net() ? build_net(preset, scene)
-                                           : build_curve(preset, scene);
-      !built)
-    return tl::unexpected<Error>(built.error());
+  if (const auto built = build(preset, scene); !built) return tl::unexpected<Error>(built.error());
   if (preset.ends.kind != preset::EndKind::pinned) {
     const bool clamped = preset.ends.kind == preset::EndKind::clamped;
     const auto held = hold_directions(edge_points(scene.footprint),
@@ -163,7 +171,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   scene.rung = preset::rung_of(preset);
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;
-  scene.imperfection = {preset.imperfection.size * preset.footprint.spacing_mm,
+  scene.imperfection = {preset.imperfection.size * scene.footprint.spacing,
                         preset.imperfection.seed,
                         preset.imperfection.form == preset::ImperfectionForm::soft_mode};
   scene.edges_per_segment = preset.accuracy.edges_per_segment;

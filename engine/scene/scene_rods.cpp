@@ -48,7 +48,8 @@ Result<std::vector<PointLoad>> points_of(const preset::Loads& loads, const Footp
 Result<std::vector<double>> diameters_of(const preset::Preset& preset, const Footprint& footprint) {
   std::vector<double> diameters;
   for (const FootprintRod& one : footprint.rods)
-    diameters.push_back(rod_of(preset, one.family).diameter_mm);
+    diameters.push_back(one.diameter_mm > 0 ? one.diameter_mm
+                                            : rod_of(preset, one.family).diameter_mm);
   std::vector<bool> named(diameters.size(), false);
   for (const auto& row : preset.rod_table) {
     const Family family = row[0] == 0 ? Family::u : Family::v;

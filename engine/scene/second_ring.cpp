@@ -42,17 +42,17 @@ Result<void> add_second_ring(double length_mm, Scene& scene) {
   scene.motion.begin_far = scene.motion.end_far = Eigen::Matrix3Xd::Zero(3, ends);
   for (Eigen::Index k = 0; k < ends; ++k) {
     FootprintRod& rod = scene.footprint.rods[std::size_t(k / 2)];
-    const bool first = k % 2 == 0, u = rod.family == Family::u;
-    if ((first ? rod.begin : rod.end) == RodEnd::free) continue;
+    const bool first = k % 2 == 0;
+    if (!is_held(first ? rod.begin : rod.end)) continue;
     (first ? rod.tail_begin : rod.tail_end) = length_mm;
     const double side = first ? -1 : 1, at = first ? rod.span.begin : rod.span.end;
-    const Eigen::Vector2d uv = u ? Eigen::Vector2d(at, rod.line) : Eigen::Vector2d(rod.line, at);
+    const Eigen::Vector2d uv = rod.at(at);
     const auto tangent = tangent_at(*scene.net, rod.family, uv);
     const auto curvature = rod_curvature(*scene.net, rod.family, uv, -side);
     for (const auto* vector : {&tangent, &curvature})
       if (!*vector) return tl::unexpected<Error>(vector->error());
     scene.motion.begin_far.col(k) =
-        scene.motion.begin.col(k) + side * length_mm * scene.flat.axes.col(u ? 0 : 1);
+        scene.motion.begin.col(k) + side * length_mm * scene.flat.axes * rod.direction;
     scene.motion.end_far.col(k) =
         far_end(scene.motion.end.col(k), side * *tangent, *curvature, length_mm);
   }

@@ -21,16 +21,12 @@ RodEnd hold_of(const Scene& scene, Eigen::Index end) {
 /// Where along its rod the joint next to an end is.
 double next_joint(const Scene& scene, Eigen::Index end) {
   const FootprintRod& rod = rod_of(scene, end);
-  const int joint = is_begin(end) ? rod.joints.front() : rod.joints.back();
-  const FootprintJoint& at = scene.footprint.joints[std::size_t(joint)];
-  return rod.family == Family::u ? at.u : at.v;
+  return is_begin(end) ? rod.marks.front() : rod.marks.back();
 }
 
 /// A point on the line of a rod of the flat footprint.
 Eigen::Vector3d flat_point(const Scene& scene, Eigen::Index end, double along) {
-  const FootprintRod& rod = rod_of(scene, end);
-  return scene.flat.at(rod.family == Family::u ? Eigen::Vector2d(along, rod.line)
-                                               : Eigen::Vector2d(rod.line, along));
+  return scene.flat.at(rod_of(scene, end).at(along));
 }
 
 void put_leg(double leg, Eigen::Index end, Scene& scene) {
@@ -76,7 +72,7 @@ void put_ends(const ShellEnds& ends, Scene& scene) {
 preset::Points table_of(const Scene& scene, const ShellEnds& ends) {
   preset::Points table;
   for (Eigen::Index k = 0; k < ends.at.cols(); ++k) {
-    if (hold_of(scene, k) == RodEnd::free) continue;
+    if (!is_held(hold_of(scene, k))) continue;
     const FootprintRod& rod = rod_of(scene, k);
     const auto at = ends.at.col(k), along = ends.direction.col(k);
     table.push_back({rod.family == Family::u ? 0.0 : 1.0, double(rod.index), double(k % 2), at.x(),
@@ -99,7 +95,7 @@ Result<void> put_table(const preset::Points& table, Scene& scene) {
   using Name = std::tuple<int, int, int>;
   std::map<Name, std::vector<Eigen::Index>> named;
   for (Eigen::Index k = 0; k < scene.motion.end.cols(); ++k)
-    if (hold_of(scene, k) != RodEnd::free)
+    if (is_held(hold_of(scene, k)))
       named[{rod_of(scene, k).family == Family::u ? 0 : 1, rod_of(scene, k).index, int(k % 2)}]
           .push_back(k);
   ShellEnds ends = ends_of(scene);

@@ -1,7 +1,9 @@
 #include "engine/solve/buckle.h"
 
 #include <cmath>
+#include <set>
 
+#include "engine/footprint/mesh_symmetry.h"
 #include "engine/solve/minimise.h"
 #include "engine/solve/rest.h"
 
@@ -10,16 +12,43 @@ namespace {
 
 constexpr double tilt = 0.8;  // of the dome towards a diagonal; small ones are lost to round-off
 
+/// Between two nodes of a rod in the flat, mm: their length along it where it is straight.
+double flat_chord(const RodMesh& mesh, std::size_t r, std::size_t from, std::size_t to) {
+  const double along = mesh.position[r][to] - mesh.position[r][from];
+  const double chord = (mesh.flat.col(mesh.rods[r][to]) - mesh.flat.col(mesh.rods[r][from])).norm();
+  return chord < (1 - 1e-9) * along ? chord : along;
+}
+
+/// Distances of what is held from its middle, all together, mm.
+double spread(const RodMesh& mesh, const Eigen::Matrix3Xd& x) {
+  const std::vector<int> held = held_nodes(mesh);
+  const Eigen::Matrix3Xd places = x(Eigen::all, held);
+  return (places.colwise() - Eigen::Vector3d(places.rowwise().mean())).colwise().norm().sum();
+}
+
 }  // namespace
 
 double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t) {
   double chords = 0, lengths = 0;
   const Eigen::Matrix3Xd x = motion.at(t);
+  const std::set<int> held(mesh.held_joints.begin(), mesh.held_joints.end());
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
-    chords += (x.col(mesh.rods[r].back()) - x.col(mesh.rods[r].front())).norm();
-    lengths += mesh.position[r].back() - mesh.position[r].front();
+    // from one node that is held to the next
+    const std::vector<int>& node = mesh.rods[r];
+    const std::size_t none = node.size();
+    std::size_t before = none;
+    for (std::size_t k = 0; k < node.size(); ++k) {
+      const bool end = k == 0 || k + 1 == node.size();
+      if (!(end && node[k] >= mesh.joints) && !held.contains(node[k])) continue;
+      if (before != none) {
+        chords += (x.col(node[k]) - x.col(node[before])).norm();
+        lengths += flat_chord(mesh, r, before, k);
+      }
+      before = k;
+    }
   }
-  return 1 - chords / lengths;
+  // where no rod is held twice, by how much what is held comes together
+  return lengths > 0 ? 1 - chords / lengths : 1 - spread(mesh, x) / spread(mesh, motion.at(0));
 }
 
 Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& motion,

@@ -63,9 +63,11 @@ Eigen::Matrix3Xd Cascade::stretched_flat(double t) const {
     rows << flat.transpose(), Eigen::VectorXd::Ones(flat.cols());
     return rows;
   };
-  const Eigen::Matrix3Xd ends =
-      levels_.front()->motion.at(t).middleCols(mesh.joints, mesh.edge_points);
-  const Eigen::MatrixXd affine = with_one(mesh.flat.middleCols(mesh.joints, mesh.edge_points))
+  std::vector<int> on_boundary = mesh.held_joints;
+  for (int end = 0; end < mesh.edge_points; ++end)
+    if (mesh.end_of(end) != RodEnd::joined) on_boundary.push_back(mesh.joints + end);
+  const Eigen::Matrix3Xd ends = levels_.front()->motion.at(t)(Eigen::all, on_boundary);
+  const Eigen::MatrixXd affine = with_one(mesh.flat(Eigen::all, on_boundary))
                                      .colPivHouseholderQr()
                                      .solve(Eigen::MatrixXd(ends.transpose()));
   return (with_one(mesh.flat) * affine).transpose();

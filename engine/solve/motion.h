@@ -61,8 +61,8 @@ struct PinnedMotion {
   void velocity(Linearisation& system, double t, const State& state, State& velocity) const;
 };
 
-/// The motion of a mesh's pinned nodes: its edge points, the far ends of tails, which turn about
-/// them, and, beyond those whose direction is held, their ghosts.
+/// The motion of a mesh's pinned nodes: its edge points and held joints, the far ends of tails,
+/// which turn about them, and, beyond those whose direction is held, their ghosts.
 PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion);
 
 }  // namespace gridshell

@@ -84,7 +84,13 @@ void draw_footprint(Canvas& canvas, const Workpiece& work, const Box& box) {
   // names where they do not touch one another
   const double size = std::clamp(0.6 * work.spacing_mm * fit.scale(), 3.0, 7.0);
   for (const CutRod& rod : work.rods) {
-    canvas.line(fit(rod.begin), fit(rod.end), {rod.hard_to_build() ? red : ink, 0.6});
+    Eigen::Vector2d from = rod.begin;
+    const auto draw_to = [&](const Eigen::Vector2d& to) {
+      canvas.line(fit(from), fit(to), {rod.hard_to_build() ? red : ink, 0.6});
+      from = to;
+    };
+    for (const Eigen::Vector2d& corner : rod.corners) draw_to(corner);
+    draw_to(rod.end);
     const Point at = fit(work.name_place(rod, 1.3 * size / fit.scale()));
     canvas.text(rod.name, at, {size, ink, false, AlignX::centre, AlignY::middle});
   }

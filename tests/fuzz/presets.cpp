@@ -1,8 +1,10 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "engine/footprint/network.h"
 #include "engine/geometry/mesh_surface.h"
 #include "engine/preset/cloud_file.h"
+#include "engine/preset/network_file.h"
 #include "engine/preset/point_file.h"
 #include "engine/preset/reader.h"
 #include "engine/preset/surface_file.h"
@@ -81,6 +83,29 @@ void surface(std::string_view bytes) {
     vertices.col(k) = Eigen::Vector3d::Map(read->vertices[std::size_t(k)].data());
   if (const auto mesh = TriangleMesh::make(vertices, read->triangles))
     (void)MeshSurface::fit(*mesh, 20);
+}
+
+void network(std::string_view bytes) {
+  const std::string name = name_before(bytes);
+  const auto read = preset::read_network(bytes, name);
+  if (!read && read.error().message.empty()) complain("refused without a word", name);
+  if (!read) return;
+  if (const auto wrong = preset::network_fault(*read); !wrong.empty())
+    complain("does not agree with its own check", wrong);
+  const auto again = preset::read_network(preset::network_json(*read), "again.json");
+  if (!again) complain("does not read its own text", again.error().message);
+  if (again->rods != read->rods) complain("comes back as another network", name);
+  RodNetwork rods;
+  rods.points.resize(2, Eigen::Index(read->points.size()));
+  for (Eigen::Index k = 0; k < rods.points.cols(); ++k)
+    rods.points.col(k) = Eigen::Vector2d::Map(read->points[std::size_t(k)].data());
+  rods.rods = read->rods;
+  rods.supported.assign(read->points.size(), 0);
+  rods.free = rods.supported;
+  for (const auto& row : read->supports) rods.supported[std::size_t(row[0])] = 1;
+  for (const int point : read->free) rods.free[std::size_t(point)] = 1;
+  if (const auto made = network_footprint(rods); !made && made.error().message.empty())
+    complain("refused without a word", name);
 }
 
 }  // namespace gridshell::fuzz

@@ -22,6 +22,9 @@ void preset(std::string_view bytes);
 void points(std::string_view bytes);
 /// A surface in a file whose name is the first line; a mesh that is read is checked and fitted.
 void surface(std::string_view bytes);
+/// A network of rods in a file whose name is the first line; one that is read must read again from
+/// its own text.
+void network(std::string_view bytes);
 /// A cloud of points in a file whose name is the first line.
 void cloud(std::string_view bytes);
 /// summary.json
@@ -39,9 +42,11 @@ void sweep_log(std::string_view bytes);
 /// A picture for `compare`.
 void png(std::string_view bytes);
 
-inline constexpr Target targets[] = {
-    {"preset", preset},       {"points", points},   {"surface", surface},       {"cloud", cloud},
-    {"summary", summary},     {"journal", journal}, {"trajectory", trajectory}, {"states", states},
-    {"sweep_log", sweep_log}, {"png", png}};
+inline constexpr Target targets[] = {{"preset", preset},   {"points", points},
+                                     {"surface", surface}, {"cloud", cloud},
+                                     {"network", network}, {"summary", summary},
+                                     {"journal", journal}, {"trajectory", trajectory},
+                                     {"states", states},   {"sweep_log", sweep_log},
+                                     {"png", png}};
 
 }  // namespace gridshell::fuzz

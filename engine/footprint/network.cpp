@@ -1,0 +1,355 @@
+#include "engine/footprint/network.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace gridshell {
+namespace {
+
+constexpr double straight = 1e-9;   // of its length: how far a straight rod's points are off a line
+constexpr double on_a_line = 1e-6;  // of their extent: three points that do not hold a piece
+constexpr double of_a_grid = 1e-6;  // of d: how far a line of a square grid is off its place
+
+/// How often rods go through a point, and how often they end there.
+struct Visits {
+  int passes = 0, ends = 0;
+};
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+bool is_ring(const std::vector<int>& rod) { return rod.front() == rod.back(); }
+
+bool is_straight(const Eigen::Matrix2Xd& points, const std::vector<int>& rod) {
+  if (is_ring(rod)) return false;
+  const Eigen::Vector2d first = points.col(rod.front()), way = points.col(rod.back()) - first;
+  double reached = -1;
+  return std::ranges::all_of(rod, [&](int point) {
+    const Eigen::Vector2d at = points.col(point) - first;
+    const bool onwards = at.dot(way) > std::exchange(reached, at.dot(way));
+    return (onwards || point == rod.front()) &&
+           std::abs(cross(way, at)) < straight * way.squaredNorm();
+  });
+}
+
+Result<void> check_rod(const RodNetwork& network, std::size_t r,
+                       std::map<std::pair<int, int>, std::size_t>& stretches) {
+  const std::vector<int>& rod = network.rods[r];
+  const auto wrong = [&](const std::string& what) {
+    return fail(Fault::bad_input, fmt::format("rods[{}]: {}", r, what));
+  };
+  const std::set<int> points(rod.begin(), rod.end());
+  if (points.size() < 2) return wrong("has one point, must have at least two, apart");
+  if (is_ring(rod) && points.size() < 3) return wrong("a ring must have at least three points");
+  for (std::size_t k = 1; k < rod.size(); ++k) {
+    const auto ends = std::minmax(rod[k - 1], rod[k]);
+    if (ends.first == ends.second)
+      return wrong(fmt::format("point {} follows itself, must be another one", rod[k]));
+    if (const auto [other, is_new] = stretches.try_emplace(ends, r); !is_new)
+      return wrong(fmt::format("runs from point {} to {}, as rods[{}] does, must be one rod",
+                               ends.first, ends.second, other->second));
+  }
+  if (points.size() + (is_ring(rod) ? 1 : 0) < rod.size())
+    return wrong(
+        "comes through a point twice, must be several rods, or a ring that ends where it "
+        "begins");
+  return {};
+}
+
+std::vector<Visits> visits_of(const RodNetwork& network) {
+  std::vector<Visits> visits(std::size_t(network.points.cols()));
+  for (const std::vector<int>& rod : network.rods) {
+    for (std::size_t k = 1; k + 1 < rod.size(); ++k) ++visits[std::size_t(rod[k])].passes;
+    if (is_ring(rod)) {
+      ++visits[std::size_t(rod.front())].passes;
+    } else {
+      ++visits[std::size_t(rod.front())].ends;
+      ++visits[std::size_t(rod.back())].ends;
+    }
+  }
+  return visits;
+}
+
+/// What the points of a network are.
+class Roles {
+ public:
+  explicit Roles(const RodNetwork& network) : network_(network), visits_(visits_of(network)) {
+    for (const std::vector<int>& rod : network.rods) {
+      if (is_straight(network.points, rod)) continue;
+      corners_.insert(rod.begin() + 1, rod.end() - 1);
+      if (is_ring(rod)) corners_.insert(rod.front());
+    }
+  }
+
+  bool is_joint(int point) const {
+    const auto [passes, ends] = visits_[std::size_t(point)];
+    if (passes == 0) return ends > 1 && network_.free[std::size_t(point)] != 0;
+    return passes + ends > 1 || is_supported(point) || corners_.contains(point);
+  }
+  bool is_supported(int point) const { return network_.supported[std::size_t(point)] != 0; }
+  /// Of a point where rods only end.
+  RodEnd end_at(int point) const {
+    if (is_joint(point)) return RodEnd::joined;
+    return network_.free[std::size_t(point)] != 0 ? RodEnd::free : RodEnd::pinned;
+  }
+  /// Whether the boundary holds what is there.
+  bool is_held(int point) const {
+    return is_joint(point) ? is_supported(point) : end_at(point) == RodEnd::pinned;
+  }
+  const Visits& at(int point) const { return visits_[std::size_t(point)]; }
+
+ private:
+  const RodNetwork& network_;
+  std::vector<Visits> visits_;
+  std::set<int> corners_;  // inside rods that are not straight
+};
+
+Result<void> check_points(const RodNetwork& network, const Roles& roles) {
+  for (int point = 0; point < int(network.points.cols()); ++point) {
+    const auto [passes, ends] = roles.at(point);
+    const bool free = network.free[std::size_t(point)] != 0;
+    if ((free || roles.is_supported(point)) && passes + ends == 0)
+      return fail(Fault::bad_input, fmt::format("point {} is {}, and no rod has it", point,
+                                                free ? "free" : "a support"));
+    if (free && passes > 0)
+      return fail(Fault::bad_input, fmt::format("point {} is free, and inside a rod: only ends of "
+                                                "rods are held unless they are free",
+                                                point));
+    if (free && roles.is_supported(point))
+      return fail(Fault::bad_input, fmt::format("point {} is a support and free", point));
+  }
+  return {};
+}
+
+/// The polyline of a rod; where it is straight, its line.
+void lay(const Eigen::Matrix2Xd& points, const std::vector<int>& numbers, FootprintRod& rod) {
+  rod.origin = points.col(numbers.front());
+  if (is_straight(points, numbers)) {
+    rod.direction = (points.col(numbers.back()) - rod.origin).normalized();
+    return;
+  }
+  double position = 0;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const Eigen::Vector2d at = points.col(numbers[k]);
+    if (k > 0) position += (at - rod.path.back().head<2>()).norm();
+    rod.path.emplace_back(at.x(), at.y(), position);
+  }
+}
+
+Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Roles& roles,
+                            const std::map<int, int>& joint_at) {
+  const std::vector<int>& numbers = network.rods[r];
+  FootprintRod rod;
+  rod.family = Family::other;
+  rod.index = int(r);
+  lay(network.points, numbers, rod);
+  double position = 0;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (k > 0)
+      position += (network.points.col(numbers[k]) - network.points.col(numbers[k - 1])).norm();
+    const auto joint = joint_at.find(numbers[k]);
+    if (joint == joint_at.end()) continue;
+    rod.joints.push_back(joint->second);
+    rod.marks.push_back(position);
+  }
+  rod.span = {0, position};
+  if (rod.joints.empty())
+    return fail(Fault::bad_input,
+                fmt::format("rods[{}]: is joined to no other rod, must share a point with one", r));
+  rod.begin = roles.end_at(numbers.front());
+  rod.end = roles.end_at(numbers.back());
+  return rod;
+}
+
+/// Whether points of a plane are off a line.
+bool off_a_line(const std::vector<Eigen::Vector2d>& points) {
+  if (points.empty()) return false;
+  Eigen::Vector2d far = points.front();
+  for (const Eigen::Vector2d& p : points)
+    if ((p - points.front()).norm() > (far - points.front()).norm()) far = p;
+  const Eigen::Vector2d way = far - points.front();
+  return std::ranges::any_of(points, [&](const Eigen::Vector2d& p) {
+    return std::abs(cross(way, p - points.front())) > on_a_line * way.squaredNorm();
+  });
+}
+
+/// Every piece that hangs together is held where it cannot turn.
+Result<void> check_held(const RodNetwork& network, const Roles& roles, const Footprint& footprint) {
+  std::vector<int> piece(footprint.joints.size());
+  std::iota(piece.begin(), piece.end(), 0);
+  const auto root = [&](int joint) {
+    while (piece[std::size_t(joint)] != joint)
+      joint = piece[std::size_t(joint)] = piece[std::size_t(piece[std::size_t(joint)])];
+    return joint;
+  };
+  for (const FootprintRod& rod : footprint.rods)
+    for (const int joint : rod.joints) piece[std::size_t(root(joint))] = root(rod.joints.front());
+  std::map<int, std::vector<Eigen::Vector2d>> held;
+  std::map<int, std::size_t> first_rod;
+  for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
+    const int at = root(footprint.rods[r].joints.front());
+    first_rod.try_emplace(at, r);
+    for (const int point : network.rods[r])
+      if (roles.is_held(point) && (roles.is_joint(point) || roles.at(point).ends > 0))
+        held[at].push_back(network.points.col(point));
+  }
+  for (const auto& [at, rod] : first_rod)
+    if (!off_a_line(held[at]))
+      return fail(Fault::bad_input,
+                  fmt::format("rods[{}] and what is joined to it: held at fewer than three points, "
+                              "or at points on one line, and would turn freely about it",
+                              rod));
+  return {};
+}
+
+/// The median length between neighbouring joints; where no rod has two of them, of the legs.
+double spacing_of(const Footprint& footprint) {
+  std::vector<double> segments;
+  for (const FootprintRod& rod : footprint.rods)
+    for (std::size_t k = 1; k < rod.marks.size(); ++k)
+      segments.push_back(rod.marks[k] - rod.marks[k - 1]);
+  if (segments.empty())
+    for (const FootprintRod& rod : footprint.rods) segments.push_back(rod.span.end / 2);
+  const auto middle = segments.begin() + std::ptrdiff_t(segments.size() / 2);
+  std::nth_element(segments.begin(), middle, segments.end());
+  return *middle;
+}
+
+/// k of a line of the grid; none: it is none of its lines.
+std::optional<int> line_number(Placement placement, double line, double spacing) {
+  const double k = line / spacing - (placement == Placement::half ? 0.5 : 0);
+  if (std::abs(k - std::round(k)) > of_a_grid) return std::nullopt;
+  return int(std::lround(k));
+}
+
+/// A rod along u or v as one of the square grid, its positions growing with u or v.
+std::optional<FootprintRod> grid_rod(const FootprintRod& rod, const Footprint& footprint) {
+  const bool u = std::abs(rod.direction.y()) < straight, v = std::abs(rod.direction.x()) < straight;
+  if (!rod.path.empty() || u == v || rod.begin == RodEnd::joined || rod.end == RodEnd::joined)
+    return std::nullopt;
+  const int along = u ? 0 : 1;
+  const double line = rod.origin[1 - along];
+  const auto number = line_number(footprint.placement, line, footprint.spacing);
+  if (!number) return std::nullopt;
+  const double first = rod.at(rod.span.begin)[along], last = rod.at(rod.span.end)[along];
+  auto named = FootprintRod::of_grid(u ? Family::u : Family::v, *number, line,
+                                     {std::min(first, last), std::max(first, last)});
+  named.joints = rod.joints;
+  if (first > last) std::ranges::reverse(named.joints);
+  for (const int joint : named.joints) {
+    const FootprintJoint& at = footprint.joints[std::size_t(joint)];
+    named.marks.push_back(u ? at.u : at.v);
+  }
+  named.begin = first > last ? rod.end : rod.begin;
+  named.end = first > last ? rod.begin : rod.end;
+  return named;
+}
+
+/// Names rods and joints as those of a square grid, u-rods first, if they all are; else changes
+/// nothing.
+void name_as_grid(NetworkFootprint& network, Placement placement) {
+  NetworkFootprint named = network;
+  Footprint& grid = named.footprint;
+  grid.placement = placement;
+  std::vector<std::size_t> order(grid.rods.size());
+  for (std::size_t r = 0; r < grid.rods.size(); ++r) {
+    const FootprintRod given = grid.rods[r];
+    const auto rod = grid_rod(given, grid);
+    if (!rod) return;
+    grid.rods[r] = *rod;
+    const int along = rod->family == Family::u ? 0 : 1;
+    if (given.at(given.span.begin)[along] > given.at(given.span.end)[along])
+      std::swap(named.ends[2 * r], named.ends[2 * r + 1]);
+    order[r] = r;
+  }
+  std::vector<Visits> through(grid.joints.size());  // u-rods, v-rods
+  for (const FootprintRod& rod : grid.rods)
+    for (const int joint : rod.joints) {
+      const bool u = rod.family == Family::u;
+      ++(u ? through[std::size_t(joint)].passes : through[std::size_t(joint)].ends);
+      (u ? grid.joints[std::size_t(joint)].j : grid.joints[std::size_t(joint)].i) = rod.index;
+    }
+  if (std::ranges::any_of(through, [](const Visits& v) { return v.passes != 1 || v.ends != 1; }))
+    return;
+  std::ranges::stable_sort(
+      order, {}, [&](std::size_t r) { return std::pair(grid.rods[r].family, grid.rods[r].index); });
+  network = named;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t r = order[k];
+    network.footprint.rods[k] = grid.rods[r];
+    network.rods[k] = named.rods[r];
+    network.ends[2 * k] = named.ends[2 * r];
+    network.ends[2 * k + 1] = named.ends[2 * r + 1];
+  }
+  find_cells(network.footprint);
+}
+
+}  // namespace
+
+Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
+  std::map<std::pair<int, int>, std::size_t> stretches;
+  for (std::size_t r = 0; r < network.rods.size(); ++r)
+    if (auto fine = check_rod(network, r, stretches); !fine)
+      return tl::unexpected<Error>(fine.error());
+  const Roles roles(network);
+  if (auto fine = check_points(network, roles); !fine) return tl::unexpected<Error>(fine.error());
+
+  NetworkFootprint made;
+  Footprint& footprint = made.footprint;
+  std::map<int, int> joint_at;
+  for (int point = 0; point < int(network.points.cols()); ++point) {
+    if (!roles.is_joint(point)) continue;
+    joint_at[point] = int(footprint.joints.size());
+    if (roles.is_supported(point)) {
+      footprint.held_joints.push_back(joint_at[point]);
+      made.joints.push_back(point);
+    }
+    const Eigen::Vector2d at = network.points.col(point);
+    footprint.joints.push_back({point, 0, at.x(), at.y()});
+  }
+  for (std::size_t r = 0; r < network.rods.size(); ++r) {
+    auto rod = rod_of(network, r, roles, joint_at);
+    if (!rod) return tl::unexpected<Error>(rod.error());
+    footprint.rods.push_back(std::move(*rod));
+    made.rods.push_back(int(r));
+    made.ends.insert(made.ends.end(), {network.rods[r].front(), network.rods[r].back()});
+  }
+  if (auto held = check_held(network, roles, footprint); !held)
+    return tl::unexpected<Error>(held.error());
+  footprint.spacing = spacing_of(footprint);
+  for (const Placement placement : {Placement::half, Placement::on_axis})
+    if (footprint.cells.empty()) name_as_grid(made, placement);
+  return made;
+}
+
+std::vector<int> hull_of(const Eigen::Matrix2Xd& points) {
+  std::vector<int> order(std::size_t(points.cols()));
+  std::iota(order.begin(), order.end(), 0);
+  const auto place = [&](int k) { return std::pair(points(0, k), points(1, k)); };
+  std::ranges::sort(order, {}, place);
+  // the lower side from left to right, then the upper one back [Andrew 1979]
+  std::vector<int> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const int k : order) {
+      while (hull.size() >= first + 2 &&
+             cross(points.col(hull.back()) - points.col(hull[hull.size() - 2]),
+                   points.col(k) - points.col(hull.back())) <= 0)
+        hull.pop_back();
+      hull.push_back(k);
+    }
+    hull.pop_back();
+    std::ranges::reverse(order);
+  }
+  return hull;
+}
+
+}  // namespace gridshell

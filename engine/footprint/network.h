@@ -1,0 +1,45 @@
+// A footprint from any flat network of rods: straight ones in all directions, polylines and rings.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/footprint/footprint.h"
+
+namespace gridshell {
+
+/// Rods as lists of points. Rods that name the same point are joined there.
+struct RodNetwork {
+  Eigen::Matrix2Xd points;             ///< mm
+  std::vector<std::vector<int>> rods;  ///< numbers of points; a ring ends with its first one
+  std::vector<char> supported;         ///< of each point: what it is on is held there
+  std::vector<char> free;              ///< of each point: rods' ends there are not held
+};
+
+/// The footprint, and which points of the network its ends and held joints are.
+struct NetworkFootprint {
+  Footprint footprint;
+  std::vector<int> rods;    ///< of each rod its number in the network
+  std::vector<int> ends;    ///< of each end: begin of rod r at 2 r
+  std::vector<int> joints;  ///< of each of its held_joints
+};
+
+/// What points are:
+///   a rod's inner point that is on another rod too, or supported: a joint (held, if supported);
+///   an inner point of a rod that is not straight: a joint of this rod alone;
+///   a point where rods only end: there each has an edge point of its own, pinned;
+///   the same, but free: with one rod its free end, with several a joint of their ends;
+///   where rods end at an inner point of another: they are joined to that joint.
+/// Rods are naturally straight and as long as their polyline. Rods that cross without a common
+/// point pass one another. Where all rods are of a square grid about the origin, rods, joints and
+/// cells are named as its.
+/// Errors (bad_input), naming rods ("rods[3]") and points: a rod of one point, of no length, twice
+/// through a point, twice along a stretch, or joined to nothing; a free point that is no end; a
+/// piece that is not held at three points off a line, as it would turn freely.
+Result<NetworkFootprint> network_footprint(const RodNetwork& network);
+
+/// The corners of the convex hull of points, counter-clockwise.
+std::vector<int> hull_of(const Eigen::Matrix2Xd& points);
+
+}  // namespace gridshell

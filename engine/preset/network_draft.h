@@ -1,0 +1,52 @@
+// A network of rods while it is read: points at one place become one.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/preset/points.h"
+
+namespace gridshell::preset {
+
+class NetworkDraft {
+ public:
+  /// Number of the point at a place of two or three coordinates: of one that is there already, or
+  /// new. `at` says where it stands in the file. Errors (bad_input): another number of coordinates,
+  /// one that is not finite or above 1e9, too many points.
+  Result<int> place(const std::vector<double>& xyz, const std::string& at);
+  /// A new point; it stands for an earlier one at its place.
+  Result<void> add_point(const std::vector<double>& xyz, const std::string& at);
+  /// The earliest point at the place of point `number`. Errors (bad_input): there is no such point.
+  Result<int> point(long number, const std::string& at) const;
+  /// A rod through points; those that follow themselves are one. Errors (bad_input): fewer than
+  /// two points apart, too many rods.
+  Result<void> add_rod(std::vector<int> points, double diameter_mm, const std::string& at);
+  void add_support(std::vector<double> row) { network_.supports.push_back(std::move(row)); }
+  void add_free(int point) { network_.free.push_back(point); }
+  /// Joins rods where they cross or touch, as drawings have them: a point more on each.
+  Result<void> join_crossings(const std::string& name);
+  std::size_t points() const { return network_.points.size(); }
+  /// Errors (bad_input): no rods; what network_fault() says.
+  Result<NetworkData> take(const std::string& name);
+
+ private:
+  using Cell = std::tuple<long, long, long>;
+  int known(const std::vector<double>& xyz) const;
+
+  NetworkData network_;
+  std::vector<int> same_as_;  // per point: the earliest one at its place
+  std::map<Cell, std::vector<int>> at_;
+  std::size_t entries_ = 0;
+  bool diameters_ = false;
+};
+
+// the formats; errors as read_network()
+Result<NetworkData> read_network_json(std::string_view bytes, const std::string& name);
+Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& name);
+Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& name);
+
+}  // namespace gridshell::preset

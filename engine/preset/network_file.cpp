@@ -1,0 +1,156 @@
+#include "engine/preset/network_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "engine/preset/network_draft.h"
+
+namespace gridshell::preset {
+namespace {
+
+constexpr std::size_t most = 100000, most_entries = 1000000;
+constexpr double largest_mm = 1e9;
+
+std::string coordinates_fault(const std::vector<double>& xyz) {
+  if (xyz.size() < 2 || xyz.size() > 3)
+    return fmt::format("a point of {} coordinates, must be [x, y] or [x, y, z]", xyz.size());
+  for (const double value : xyz)
+    if (!(std::abs(value) <= largest_mm))
+      return "a coordinate that is no number of at most 1e9, must be mm";
+  return "";
+}
+
+}  // namespace
+
+int NetworkDraft::known(const std::vector<double>& xyz) const {
+  const auto cell = [&](std::size_t k, long beside) {
+    return long(std::floor(xyz[k] / one_point_mm)) + beside;
+  };
+  for (long i = -1; i <= 1; ++i)
+    for (long j = -1; j <= 1; ++j)
+      for (long k = -1; k <= 1; ++k) {
+        const auto found = at_.find({cell(0, i), cell(1, j), cell(2, k)});
+        if (found == at_.end()) continue;
+        for (const int point : found->second) {
+          const auto& other = network_.points[std::size_t(point)];
+          if (std::hypot(other[0] - xyz[0], other[1] - xyz[1], other[2] - xyz[2]) < one_point_mm)
+            return point;
+        }
+      }
+  return -1;
+}
+
+Result<void> NetworkDraft::add_point(const std::vector<double>& xyz, const std::string& at) {
+  if (const auto wrong = coordinates_fault(xyz); !wrong.empty())
+    return fail(Fault::bad_input, at + ": " + wrong);
+  if (points() == most)
+    return fail(Fault::bad_input, fmt::format("{}: must be at most {} points", at, most));
+  const std::vector<double> place{xyz[0], xyz[1], xyz.size() == 3 ? xyz[2] : 0};
+  if (points() > 0 && !(std::abs(place[2] - network_.points[0][2]) < one_point_mm))
+    return fail(Fault::bad_input,
+                fmt::format("{}: a point at z = {:g} mm, must be in the first one's horizontal "
+                            "plane, z = {:g} mm",
+                            at, place[2], network_.points[0][2]));
+  const int number = int(points()), same = known(place);
+  same_as_.push_back(same >= 0 ? same : number);
+  network_.points.push_back(place);
+  if (same < 0)
+    at_[{long(std::floor(place[0] / one_point_mm)), long(std::floor(place[1] / one_point_mm)),
+         long(std::floor(place[2] / one_point_mm))}]
+        .push_back(number);
+  return {};
+}
+
+Result<int> NetworkDraft::place(const std::vector<double>& xyz, const std::string& at) {
+  if (const auto wrong = coordinates_fault(xyz); !wrong.empty())
+    return fail(Fault::bad_input, at + ": " + wrong);
+  const int same = known({xyz[0], xyz[1], xyz.size() == 3 ? xyz[2] : 0});
+  if (same >= 0) return same;
+  if (auto added = add_point(xyz, at); !added) return tl::unexpected(added.error());
+  return int(points()) - 1;
+}
+
+Result<int> NetworkDraft::point(long number, const std::string& at) const {
+  if (number < 0 || number >= long(points()))
+    return fail(Fault::bad_input,
+                points() == 0
+                    ? fmt::format("{}: point {}, and there are none", at, number)
+                    : fmt::format("{}: point {}, must be from 0 to {}", at, number, points() - 1));
+  return same_as_[std::size_t(number)];
+}
+
+Result<void> NetworkDraft::add_rod(std::vector<int> points, double diameter_mm,
+                                   const std::string& at) {
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 2)
+    return fail(Fault::bad_input, at + ": a rod of one point, must have at least two, apart");
+  entries_ += points.size();
+  if (network_.rods.size() == most || entries_ > most_entries)
+    return fail(Fault::bad_input, fmt::format("{}: must be at most {} rods through {} points", at,
+                                              most, most_entries));
+  diameters_ = diameters_ || diameter_mm > 0;
+  network_.rods.push_back(std::move(points));
+  network_.diameters.push_back(diameter_mm);
+  return {};
+}
+
+Result<NetworkData> NetworkDraft::take(const std::string& name) {
+  if (network_.rods.empty()) return fail(Fault::bad_input, name + ": holds no rods");
+  if (!diameters_) network_.diameters.clear();
+  if (const auto wrong = network_fault(network_); !wrong.empty())
+    return fail(Fault::bad_input, name + ": " + wrong);
+  return std::move(network_);
+}
+
+std::string network_fault(const NetworkData& network) {
+  const std::size_t points = network.points.size(), rods = network.rods.size();
+  if (rods == 0 || rods > most || points > most)
+    return fmt::format("holds {} points and {} rods, must be from 1 to {}", points, rods, most);
+  for (const auto& point : network.points)
+    if (point.size() != 3 || !coordinates_fault(point).empty())
+      return "points_mm must be points [x, y, z], mm";
+  for (const auto& point : network.points)
+    if (!(std::abs(point[2] - network.points[0][2]) < one_point_mm))
+      return "points_mm must be in one horizontal plane";
+  const auto there = [&](double number) {
+    return number >= 0 && number < double(points) && number == std::floor(number);
+  };
+  for (std::size_t r = 0; r < rods; ++r) {
+    if (network.rods[r].size() < 2) return fmt::format("rods[{}] must have at least two points", r);
+    for (const int point : network.rods[r])
+      if (!there(point)) return fmt::format("rods[{}] names point {} of {}", r, point, points);
+  }
+  if (!network.diameters.empty() && network.diameters.size() != rods)
+    return fmt::format("holds {} diameters_mm, must be one for each of {} rods",
+                       network.diameters.size(), rods);
+  for (const double diameter : network.diameters)
+    if (diameter != 0 && !(diameter >= 1e-6 && diameter <= 1e6))
+      return fmt::format("a diameter of {:g} mm, must be from 1e-6 to 1e6", diameter);
+  std::set<double> named;
+  for (const auto& row : network.supports) {
+    if (row.size() != 1 && row.size() != 4)
+      return "supports_mm must be rows [point] or [point, x, y, z]";
+    if (!there(row[0])) return fmt::format("a support at point {} of {}", row[0], points);
+    if (!named.insert(row[0]).second)
+      return fmt::format("point {} is named as a support twice", row[0]);
+  }
+  for (const int point : network.free)
+    if (!there(point)) return fmt::format("free names point {} of {}", point, points);
+  return "";
+}
+
+Result<NetworkData> read_network(std::string_view bytes, const std::string& name) {
+  std::string ending = std::filesystem::path(name).extension().string();
+  for (char& c : ending) c = char(std::tolower((unsigned char)c));
+  if (ending == ".json") return read_network_json(bytes, name);
+  if (ending == ".obj") return read_network_obj(bytes, name);
+  if (ending == ".dxf") return read_network_dxf(bytes, name);
+  return fail(Fault::bad_input, fmt::format("{}: its name must end in .json (points, rods and "
+                                            "supports), .obj or .dxf (rods)",
+                                            name));
+}
+
+}  // namespace gridshell::preset

@@ -1,0 +1,134 @@
+#include "engine/scene/network_design.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "engine/footprint/network.h"
+
+namespace gridshell {
+namespace {
+
+Eigen::Vector3d vector_of(const std::vector<double>& row, std::size_t first) {
+  return {row.at(first), row.at(first + 1), row.at(first + 2)};
+}
+
+/// Of the box around the points of all rods.
+Eigen::Vector3d middle_of(const preset::NetworkData& file) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
+  for (const auto& rod : file.rods)
+    for (const int point : rod) {
+      const Eigen::Vector3d at = vector_of(file.points[std::size_t(point)], 0);
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+    }
+  return 0.5 * (low + high);
+}
+
+RodNetwork network_of(const preset::NetworkData& file, const Eigen::Vector3d& middle) {
+  RodNetwork network;
+  network.points.resize(2, Eigen::Index(file.points.size()));
+  for (std::size_t k = 0; k < file.points.size(); ++k)
+    network.points.col(Eigen::Index(k)) = (vector_of(file.points[k], 0) - middle).head<2>();
+  network.rods = file.rods;
+  network.supported.assign(file.points.size(), 0);
+  network.free.assign(file.points.size(), 0);
+  for (const auto& row : file.supports) network.supported[std::size_t(row[0])] = 1;
+  for (const int point : file.free) network.free[std::size_t(point)] = 1;
+  return network;
+}
+
+/// Where what is held goes.
+class Way {
+ public:
+  Way(const preset::Preset& preset, const Scene& scene)
+      : scale_(preset.actuation.scale > 0 ? preset.actuation.scale : 1), flat_(scene.flat) {
+    for (const auto& row : preset.footprint.file.supports)
+      if (row.size() == 4) to_[int(row[0])] = vector_of(row, 1);
+  }
+  Eigen::Vector3d of(int point, const Eigen::Vector2d& from) const {
+    const auto named = to_.find(point);
+    return named == to_.end() ? flat_.at(scale_ * from) : named->second;
+  }
+
+ private:
+  double scale_;
+  FlatFrame flat_;
+  std::map<int, Eigen::Vector3d> to_;
+};
+
+/// The motion of ends and held joints; columns of what is held in `held`, from and to.
+void put_motion(const NetworkFootprint& made, const Eigen::Matrix2Xd& points, const Way& way,
+                Scene& scene) {
+  const auto fill = [&](const std::vector<int>& numbers, Eigen::Matrix3Xd& begin,
+                        Eigen::Matrix3Xd& end) {
+    begin.resize(3, Eigen::Index(numbers.size()));
+    end.resizeLike(begin);
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      const Eigen::Vector2d from = points.col(numbers[k]);
+      begin.col(Eigen::Index(k)) = scene.flat.at(from);
+      end.col(Eigen::Index(k)) = way.of(numbers[k], from);
+    }
+  };
+  fill(made.ends, scene.motion.begin, scene.motion.end);
+  fill(made.joints, scene.motion.begin_joints, scene.motion.end_joints);
+}
+
+void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix2Xd& points, Scene& scene) {
+  std::vector<int> numbers = made.joints;
+  std::vector<Eigen::Vector3d> to;
+  for (Eigen::Index k = 0; k < scene.motion.end_joints.cols(); ++k)
+    to.push_back(scene.motion.end_joints.col(k));
+  for (std::size_t end = 0; end < made.ends.size(); ++end) {
+    const FootprintRod& rod = made.footprint.rods[end / 2];
+    if (!is_held(end % 2 == 0 ? rod.begin : rod.end)) continue;
+    numbers.push_back(made.ends[end]);
+    to.push_back(scene.motion.end.col(Eigen::Index(end)));
+  }
+  const Eigen::Matrix2Xd held = points(Eigen::all, numbers);
+  const std::vector<int> hull = hull_of(held);
+  scene.original_boundary = scene.flat.all(held(Eigen::all, hull));
+  scene.actuated_boundary.resizeLike(scene.original_boundary);
+  for (std::size_t k = 0; k < hull.size(); ++k)
+    scene.actuated_boundary.col(Eigen::Index(k)) = to[std::size_t(hull[k])];
+}
+
+/// Diameters of the file, of rods that have one.
+Result<void> put_diameters(const preset::Preset& preset, NetworkFootprint& made) {
+  const std::vector<double>& diameters = preset.footprint.file.diameters;
+  for (std::size_t r = 0; r < made.rods.size(); ++r) {
+    const int number = made.rods[r];
+    const double given = diameters.empty() ? 0 : diameters[std::size_t(number)];
+    const double diameter = given > 0 ? given : preset.rod.diameter_mm;
+    if (!(diameter < made.footprint.spacing))
+      return fail(Fault::bad_input,
+                  fmt::format("rods[{}]: a diameter of {:g} mm, must be less than the usual "
+                              "distance of {:g} mm between joints",
+                              number, diameter, made.footprint.spacing));
+    made.footprint.rods[r].diameter_mm = given;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> build_network(const preset::Preset& preset, Scene& scene) {
+  const preset::NetworkData& file = preset.footprint.file;
+  scene.flat.origin = middle_of(file);
+  const RodNetwork network = network_of(file, scene.flat.origin);
+  const auto refuse = [](const Error& error) {
+    return fail(error.fault, "[footprint] file: " + error.message);
+  };
+  auto made = network_footprint(network);
+  if (!made) return refuse(made.error());
+  if (auto put = put_diameters(preset, *made); !put) return refuse(put.error());
+  put_motion(*made, network.points, Way(preset, scene), scene);
+  put_boundaries(*made, network.points, scene);
+  const Eigen::Matrix3Xd& ring = scene.original_boundary;
+  scene.length_scale_mm = 0.5 * (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();
+  scene.footprint = std::move(made->footprint);
+  return {};
+}
+
+}  // namespace gridshell

@@ -1,0 +1,150 @@
+// Footprints from networks of rods: what points become, and what does not hang together.
+#include "engine/footprint/network.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/footprint/mesh.h"
+
+using namespace gridshell;
+
+namespace {
+
+/// Rods between numbered places; points that are supported, and free.
+RodNetwork network(const std::vector<Eigen::Vector2d>& points,
+                   const std::vector<std::vector<int>>& rods,
+                   const std::vector<int>& supported = {}, const std::vector<int>& free = {}) {
+  RodNetwork net;
+  net.points.resize(2, Eigen::Index(points.size()));
+  for (std::size_t k = 0; k < points.size(); ++k) net.points.col(Eigen::Index(k)) = points[k];
+  net.rods = rods;
+  net.supported.assign(points.size(), 0);
+  net.free.assign(points.size(), 0);
+  for (const int point : supported) net.supported[std::size_t(point)] = 1;
+  for (const int point : free) net.free[std::size_t(point)] = 1;
+  return net;
+}
+
+/// three rods through one point, and their ends
+const std::vector<Eigen::Vector2d> star{{0, 0},   {10, 0}, {-10, 0}, {6, 8},
+                                        {-6, -8}, {-6, 8}, {6, -8}};
+const std::vector<std::vector<int>> through{{1, 0, 2}, {3, 0, 4}, {5, 0, 6}};
+
+void refused(const RodNetwork& net, const std::string& reason) {
+  const auto made = network_footprint(net);
+  const auto fault = made ? "none" : made.error().message;
+  INFO(fault);
+  CHECK(fault.find(reason) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("three rods through one joint") {
+  const auto made = network_footprint(network(star, through, {}, {1}));
+  if (!made) FAIL(made.error().message);
+  const Footprint& net = made->footprint;
+  CHECK(net.joints.size() == 1);
+  CHECK(net.cells.empty());
+  CHECK(net.rods[0].begin == RodEnd::free);
+  CHECK(net.rods[0].end == RodEnd::pinned);
+  CHECK(net.spacing == Approx(10));
+  CHECK(made->ends == std::vector<int>{1, 2, 3, 4, 5, 6});
+  const RodMesh mesh = mesh_rods(net, 4);
+  CHECK(mesh.nodes() == 1 + 6 + 3 * 2 * 3);
+  for (std::size_t r = 0; r < 3; ++r) CHECK(mesh.rods[r][4] == 0);
+  CHECK((mesh.flat.col(mesh.rods[1][2]) - Eigen::Vector2d(3, 4)).norm() < 1e-12);
+}
+
+TEST_CASE("a rod that ends on another is joined there, ends alone at a free point to one another") {
+  // a T, its stem ending inside the bar, and a foot that goes on from the stem by a hinge
+  const auto made =
+      network_footprint(network({{-10, 0}, {0, 0}, {10, 0}, {0, -10}, {5, -20}, {-5, -20}},
+                                {{0, 1, 2}, {1, 3}, {3, 4}, {3, 5}}, {}, {3}));
+  if (!made) FAIL(made.error().message);
+  const Footprint& net = made->footprint;
+  CHECK(net.joints.size() == 2);
+  CHECK(net.rods[1].begin == RodEnd::joined);
+  CHECK(net.rods[1].end == RodEnd::joined);
+  CHECK(net.rods[2].begin == RodEnd::joined);
+  CHECK(net.rods[2].end == RodEnd::pinned);
+  const RodMesh mesh = mesh_rods(net, 2);
+  CHECK(mesh.rods[1].front() == 0);
+  CHECK(mesh.rods[1].back() == 1);
+  CHECK(mesh.flat.col(mesh.rods[1][1]).isApprox(Eigen::Vector2d(0, -5)));
+}
+
+TEST_CASE("a ring comes back to its first joint; a polyline is as long as its pieces") {
+  const std::vector<Eigen::Vector2d> square{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+  const auto made = network_footprint(network(square, {{0, 1, 2, 3, 0}}, {1, 2, 3}));
+  if (!made) FAIL(made.error().message);
+  const FootprintRod& ring = made->footprint.rods.front();
+  CHECK(ring.closed());
+  CHECK(ring.span.end == Approx(8));
+  CHECK(ring.at(3).isApprox(Eigen::Vector2d(-1, 0)));
+  CHECK(ring.tangent(3).isApprox(Eigen::Vector2d(0, -1)));
+  CHECK(made->footprint.joints.size() == 4);
+  CHECK(made->footprint.held_joints == std::vector<int>{1, 2, 3});
+  const RodMesh mesh = mesh_rods(made->footprint, 4);
+  CHECK(mesh.rods[0].front() == mesh.rods[0].back());
+  CHECK(mesh.rods[0].size() == 17);
+}
+
+TEST_CASE("a network that is a square grid is named as one, whichever way its rods run") {
+  // 3 x 2 lines at 10 mm about the origin, rods crosswise and backwards
+  std::vector<Eigen::Vector2d> points;
+  std::vector<std::vector<int>> rods;
+  const auto point = [&](double x, double y) {
+    points.emplace_back(x, y);
+    return int(points.size()) - 1;
+  };
+  int joint[4][2];
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 2; ++j) joint[i][j] = point(10 * (i - 1.5), 10 * (j - 0.5));
+  for (int i = 0; i < 4; ++i)
+    rods.push_back(
+        {point(10 * (i - 1.5), 12), joint[i][1], joint[i][0], point(10 * (i - 1.5), -12)});
+  for (int j = 0; j < 2; ++j)
+    rods.push_back({point(-22, 10 * (j - 0.5)), joint[0][j], joint[1][j], joint[2][j], joint[3][j],
+                    point(22, 10 * (j - 0.5))});
+  const auto made = network_footprint(network(points, rods));
+  if (!made) FAIL(made.error().message);
+  const Footprint& net = made->footprint;
+  CHECK(net.cells.size() == 3);
+  CHECK(net.rods[0].family == Family::u);
+  CHECK(net.rods[0].index == -1);
+  CHECK(made->rods == std::vector<int>{4, 5, 0, 1, 2, 3});
+  CHECK(net.rods[2].family == Family::v);
+  CHECK(net.rods[2].span.begin == -12);
+  CHECK(made->ends[4] == rods[0].back());
+  CHECK(net.spacing == 10);
+  // a rod that ends on another is of no grid
+  rods[5] = {rods[5][0], rods[5][1], rods[5][2]};
+  const auto cut = network_footprint(network(points, rods));
+  if (!cut) FAIL(cut.error().message);
+  CHECK(cut->footprint.cells.empty());
+  CHECK(cut->footprint.rods[0].family == Family::other);
+}
+
+TEST_CASE("networks that do not make a shell are refused") {
+  refused(network(star, {{1, 0, 2}, {3, 3, 0, 4}}), "rods[1]: point 3 follows itself");
+  refused(network(star, {{1, 0, 2}, {3}}), "rods[1]: has one point");
+  refused(network(star, {{1, 0, 2}, {1, 0, 3}}),
+          "rods[1]: runs from point 0 to 1, as rods[0] does");
+  refused(network(star, {{1, 0, 2}, {3, 0, 4, 5, 0, 6}}), "rods[1]: comes through a point twice");
+  refused(network(star, {{1, 0, 1}}), "rods[0]");
+  refused(network(star, {{1, 2}, {3, 4}}), "rods[0]: is joined to no other rod");
+  refused(network(star, {{1, 0, 2}, {3, 0, 4}, {5, 6}}), "rods[2]: is joined to no other rod");
+  refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {5}), "point 5 is a support, and no rod has it");
+  refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {}, {0}), "point 0 is free, and inside a rod");
+  refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {1}, {1}), "point 1 is a support and free");
+  refused(network(star, {{1, 0, 2}, {3, 0, 4}}, {}, {3, 4}), "fewer than three points");
+  // a second piece, held at one line
+  refused(network({{0, 0}, {9, 0}, {-9, 0}, {0, 9}, {0, -9}, {50, 0}, {60, 0}, {55, 0}, {55, 5}},
+                  {{1, 0, 2}, {3, 0, 4}, {5, 7, 6}, {7, 8}}, {}, {8}),
+          "rods[2] and what is joined to it");
+}
+
+TEST_CASE("the convex hull goes round once") {
+  Eigen::Matrix2Xd points(2, 6);
+  points << 0, 1, 1, 0, 0.5, 0.5, 0, 0, 1, 1, 0.5, 0;
+  CHECK(hull_of(points) == std::vector<int>{0, 1, 2, 3});
+}
