@@ -12,7 +12,7 @@ namespace py = pybind11;
 /// An array over memory that `owner` keeps for as long as the array lives.
 template <class Number>
 py::array_t<Number> view(const Number* data, const std::vector<py::ssize_t>& shape,
-               const std::vector<py::ssize_t>& strides, const py::object& owner) {
+                         const std::vector<py::ssize_t>& strides, const py::object& owner) {
   py::array_t<Number> array(shape, strides, data, owner);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;

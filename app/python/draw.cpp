@@ -9,8 +9,8 @@
 namespace gridshell::python {
 namespace {
 
-Result<void> draw_on(const State& state, const render::MovieStyle& style, const std::filesystem::path& path,
-                     const std::string& context) {
+Result<void> draw_on(const State& state, const render::MovieStyle& style,
+                     const std::filesystem::path& path, const std::string& context) {
   // OpenGL stays on the thread that began it, which is that of this call
   auto artist = app::Artist::create(context, 0, state.preset->style.font);
   if (!artist) return tl::unexpected(artist.error());

@@ -1,4 +1,8 @@
 # The Python module `gridshell`, where pybind11 is there.
+# outside of a virtual environment the system's, to which the packages' numpy belongs
+if(NOT DEFINED ENV{VIRTUAL_ENV} AND EXISTS /usr/bin/python3)
+  set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "of the Python module")
+endif()
 find_package(Python3 COMPONENTS Interpreter Development.Module QUIET)
 find_package(pybind11 2.10 CONFIG QUIET)
 if(NOT pybind11_FOUND OR NOT Python3_Development.Module_FOUND)

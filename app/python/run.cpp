@@ -76,9 +76,10 @@ py::array_t<Value> column(const Run& run, const Find& find) {
   return all;
 }
 
-Run load(const std::filesystem::path& folder, const std::optional<std::string>& name, bool unfinished) {
-  auto runs = value_of(
-      interruptible([&](const Watch&) { return app::read_runs(folder, {}, false); }));
+Run load(const std::filesystem::path& folder, const std::optional<std::string>& name,
+         bool unfinished) {
+  auto runs =
+      value_of(interruptible([&](const Watch&) { return app::read_runs(folder, {}, false); }));
   std::string names;
   for (app::FinishedRun& run : runs) {
     names.append(names.empty() ? "" : ", ").append(run.name);
@@ -86,8 +87,7 @@ Run load(const std::filesystem::path& folder, const std::optional<std::string>& 
     if (!run.summary.finished && !unfinished)
       raise({Fault::bad_input,
              fmt::format("'{}' is a run that was cut short: {}; unfinished=True takes it",
-                         folder.string(),
-                         app::how_far(run))});
+                         folder.string(), app::how_far(run))});
     return Run(std::move(run));
   }
   raise({Fault::bad_input, fmt::format("'{}': case must be one of: {}", folder.string(),
@@ -154,8 +154,7 @@ void add_run(py::module_& module) {
       .def_property_readonly(
           "summary",
           [](const Run& run) {
-            return py::module_::import("json").attr("loads")(
-                record::to_json(run.read().summary));
+            return py::module_::import("json").attr("loads")(record::to_json(run.read().summary));
           },
           "summary.json as a dict.")
       .def_property_readonly(

@@ -103,9 +103,9 @@ void add_steps(py::class_<Session>& type) {
   type.def(
           "actuate",
           [](Session& self, double progress, const py::object& radius, const py::object& edges) {
-            return self.step("move", py::dict(py::arg("progress") = progress,
-                                              py::arg("radius_mm") = radius,
-                                              py::arg("edge_points") = edges));
+            return self.step("move",
+                             py::dict(py::arg("progress") = progress, py::arg("radius_mm") = radius,
+                                      py::arg("edge_points") = edges));
           },
           py::arg("progress") = 1.0, py::kw_only(), py::arg("radius_mm") = none,
           py::arg("edge_points") = none,
@@ -132,8 +132,7 @@ void add_steps(py::class_<Session>& type) {
       .def(
           "hold",
           [](Session& self, const py::object& joint, const py::object& along) {
-            return self.step("hold",
-                             py::dict(py::arg("joint") = joint, py::arg("along") = along));
+            return self.step("hold", py::dict(py::arg("joint") = joint, py::arg("along") = along));
           },
           py::arg("joint"), py::kw_only(), py::arg("along") = none,
           "Holds the joint (i, j) where it is, along a direction or in all.")
@@ -196,13 +195,12 @@ void add_looks(py::class_<Session>& type) {
           "A state to go back to with restore().")
       .def("restore", &Session::restore, py::arg("kept"),
            "Back to a state that this session saved.")
-      .def(
-          "__repr__",
-          [](const Session& self) {
-            const State& now = *self.state();
-            return "Session(" + now.preset->name + ", progress " +
-                   std::string(py::str(py::float_(now.frame.progress))) + ")";
-          })
+      .def("__repr__",
+           [](const Session& self) {
+             const State& now = *self.state();
+             return "Session(" + now.preset->name + ", progress " +
+                    std::string(py::str(py::float_(now.frame.progress))) + ")";
+           })
       .def(
           "picture",
           [](const Session& self, const std::filesystem::path& path,
@@ -210,13 +208,13 @@ void add_looks(py::class_<Session>& type) {
             const auto state = self.state();
             draw(*state, path, size, context);
           },
-          py::arg("path"), py::kw_only(), py::arg("size") = py::none(),
-          py::arg("context") = "auto", picture_doc);
+          py::arg("path"), py::kw_only(), py::arg("size") = py::none(), py::arg("context") = "auto",
+          picture_doc);
   // what the state knows, without the detour
   const py::object state = py::module_::import("gridshell").attr("State");
   for (const char* name :
-       {"nodes", "layout", "certificate", "energies", "energy_mJ", "force_N", "depth_mm", "height_mm",
-        "progress", "boundary_radius_mm", "cell_K", "total_K", "held"})
+       {"nodes", "layout", "certificate", "energies", "energy_mJ", "force_N", "depth_mm",
+        "height_mm", "progress", "boundary_radius_mm", "cell_K", "total_K", "held"})
     type.def_property_readonly(
         name, [name](const Session& self) { return py::cast(self.state()).attr(name); },
         py::str(state.attr(name).attr("__doc__")).cast<std::string>().c_str());
@@ -232,9 +230,10 @@ void add_session(py::module_& module) {
       "certified state, or raises and stays in the last one. Ctrl-C stops a step.\n\n"
       "preset: name of a preset that comes with the program, or path of a TOML file. changes: what "
       "is laid over it, {\"footprint.rods\": 14}. case: which of its cases.");
-  type.def(py::init<const std::filesystem::path&, const py::dict&, const std::optional<std::string>&>(),
-           py::arg("preset"), py::arg("changes") = py::dict(), py::kw_only(),
-           py::arg("case") = py::none());
+  type.def(
+      py::init<const std::filesystem::path&, const py::dict&, const std::optional<std::string>&>(),
+      py::arg("preset"), py::arg("changes") = py::dict(), py::kw_only(),
+      py::arg("case") = py::none());
   add_steps(type);
   add_looks(type);
 }

@@ -38,7 +38,8 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
 }
 
 Result<Done> Shell::form(double progress, const Watch& watch) {
-  if (progress == 0) return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
+  if (progress == 0)
+    return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
   auto course = experiment::course_of(
       *scene_,
       [&](const LevelPlan& plan, const Watch& w) {
@@ -105,8 +106,7 @@ Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
 Kept Shell::save() const { return {scene_, session_->save(), boundary_, grips_, formed_}; }
 
 Result<void> Shell::restore(const Kept& kept) {
-  if (kept.scene != scene_)
-    return fail(Fault::bad_input, "the state was kept by another session");
+  if (kept.scene != scene_) return fail(Fault::bad_input, "the state was kept by another session");
   session_->restore(kept.checkpoint);
   boundary_ = kept.boundary;
   grips_ = kept.grips;
@@ -123,8 +123,10 @@ Result<State> Shell::look() {
     layout_ = std::make_shared<const record::Layout>(std::move(*layout));
     layout_nodes_ = mesh.rod_nodes();
   }
-  State state{preset_, layout_, formed_ ? experiment::frame_of(*session_)
-                                        : experiment::flat_frame(*session_), {}};
+  State state{preset_,
+              layout_,
+              formed_ ? experiment::frame_of(*session_) : experiment::flat_frame(*session_),
+              {}};
   record::Frame& frame = state.frame;
   frame.progress = frame.actuation = boundary_.progress;
   frame.boundary_radius_mm = scene_->radius_at(frame.actuation);

@@ -30,11 +30,10 @@ void add_certificate(py::module_& module) {
                     "Of an edge along its rod, by size; below 0 compressed, nan: not known.")
       .def_property_readonly("stable", &Certificate::stable, "Whether it has no negative pivot.")
       .def("__repr__", [](const Certificate& of) {
-        return fmt::format("Certificate(residual_N={:.2g}, {}, error_estimate_mm={:.2g})",
-                           of.residual_N,
-                           of.stable() ? "stable"
-                                       : fmt::format("negative_pivots={}", of.negative_pivots),
-                           of.error_estimate_mm);
+        return fmt::format(
+            "Certificate(residual_N={:.2g}, {}, error_estimate_mm={:.2g})", of.residual_N,
+            of.stable() ? "stable" : fmt::format("negative_pivots={}", of.negative_pivots),
+            of.error_estimate_mm);
       });
 }
 
@@ -118,16 +117,21 @@ void add_layout(py::module_& module) {
                         {py::ssize_t(of.size()), 4}, {sizeof(of[0]), sizeof(int)}, self);
           },
           "Of each complete cell its four joints around, cells x 4.");
-  add_view(type, "edge_points", "Nodes on the boundary.",
-           [](const Layout& of) -> auto& { return of.edge_points; });
-  add_view(type, "supports", "Nodes that something may hold: those of reactions_N.",
-           [](const Layout& of) -> auto& { return of.supports; });
-  add_view(type, "original_boundary", "Points of a closed polyline x 3, mm.",
-           [](const Layout& of) -> auto& { return of.original_boundary; });
-  add_view(type, "actuated_boundary", "As many points, in correspondence, mm.",
-           [](const Layout& of) -> auto& { return of.actuated_boundary; });
-  add_view(type, "net_nodes", "Where the nodes lie on the net designed on, mm; 0 x 3: none.",
-           [](const Layout& of) -> auto& { return of.net_nodes; });
+  add_view(
+      type, "edge_points", "Nodes on the boundary.",
+      [](const Layout& of) -> auto& { return of.edge_points; });
+  add_view(
+      type, "supports", "Nodes that something may hold: those of reactions_N.",
+      [](const Layout& of) -> auto& { return of.supports; });
+  add_view(
+      type, "original_boundary", "Points of a closed polyline x 3, mm.",
+      [](const Layout& of) -> auto& { return of.original_boundary; });
+  add_view(
+      type, "actuated_boundary", "As many points, in correspondence, mm.",
+      [](const Layout& of) -> auto& { return of.actuated_boundary; });
+  add_view(
+      type, "net_nodes", "Where the nodes lie on the net designed on, mm; 0 x 3: none.",
+      [](const Layout& of) -> auto& { return of.net_nodes; });
 }
 
 void add_state(py::module_& module) {
@@ -135,23 +139,29 @@ void add_state(py::module_& module) {
       module, "State",
       "One state. It never changes: a session that moves on has another. Its arrays look into it "
       "without a copy, are read-only and keep it alive.");
-  add_view(type, "nodes", "Positions, nodes x 3, mm; joints come first, z is up.",
-           [](const State& of) -> auto& { return of.frame.nodes; });
-  add_view(type, "cell_K", "Integrated Gauss curvature of each cell, rad.",
-           [](const State& of) -> auto& { return of.frame.cell_K; });
-  add_view(type, "axial_force_N",
-           "Of each edge, rod after rod, N; below 0 compressed. Of the finest mesh itself, as the "
-           "curvature and the reactions are.",
-           [](const State& of) -> auto& { return of.frame.axial_force_N; });
-  add_view(type, "curvature_per_mm", "At each point of each rod, rod after rod, 1/mm.",
-           [](const State& of) -> auto& { return of.frame.curvature_per_mm; });
-  add_view(type, "reactions_N", "What holds each of layout.supports, supports x 3, N.",
-           [](const State& of) -> auto& { return of.frame.reactions_N; });
+  add_view(
+      type, "nodes", "Positions, nodes x 3, mm; joints come first, z is up.",
+      [](const State& of) -> auto& { return of.frame.nodes; });
+  add_view(
+      type, "cell_K", "Integrated Gauss curvature of each cell, rad.",
+      [](const State& of) -> auto& { return of.frame.cell_K; });
+  add_view(
+      type, "axial_force_N",
+      "Of each edge, rod after rod, N; below 0 compressed. Of the finest mesh itself, as the "
+      "curvature and the reactions are.",
+      [](const State& of) -> auto& { return of.frame.axial_force_N; });
+  add_view(
+      type, "curvature_per_mm", "At each point of each rod, rod after rod, 1/mm.",
+      [](const State& of) -> auto& { return of.frame.curvature_per_mm; });
+  add_view(
+      type, "reactions_N", "What holds each of layout.supports, supports x 3, N.",
+      [](const State& of) -> auto& { return of.frame.reactions_N; });
   for (const Number& number : numbers)
     type.def_property_readonly(
         number.name, [=](const State& of) { return of.frame.*number.member; }, number.doc);
   type.def_property_readonly(
-          "layout", [](const State& of) { return std::const_pointer_cast<record::Layout>(of.layout); },
+          "layout",
+          [](const State& of) { return std::const_pointer_cast<record::Layout>(of.layout); },
           "The net that it is a state of.")
       .def_readonly("certificate", &State::certificate, "Residual, stability and error.")
       .def_property_readonly(

@@ -8,8 +8,8 @@ namespace gridshell::experiment {
 
 void Grips::note(const Session& session) {
   for (int joint = 0; joint < int(session.scene().footprint.joints.size()); ++joint) {
-    const bool held = std::ranges::any_of(session.holds(),
-                                          [&](const Hold& hold) { return hold.node == joint; });
+    const bool held =
+        std::ranges::any_of(session.holds(), [&](const Hold& hold) { return hold.node == joint; });
     if (!held) at_[joint] = session.nodes().col(joint);
   }
 }
