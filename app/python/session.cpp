@@ -176,7 +176,7 @@ void add_steps(py::class_<Session>& type) {
           "Finer meshes until the error estimate is below tolerance_mm, else the preset's.");
 }
 
-void add_looks(py::class_<Session>& type) {
+void add_looks(const py::module_& module, py::class_<Session>& type) {
   type.def_property_readonly("state", &Session::state,
                              "The state that the shell stands in, as it is now and stays.")
       .def_property_readonly(
@@ -211,12 +211,12 @@ void add_looks(py::class_<Session>& type) {
           py::arg("path"), py::kw_only(), py::arg("size") = py::none(), py::arg("context") = "auto",
           picture_doc);
   // what the state knows, without the detour
-  const py::object state = py::module_::import("gridshell").attr("State");
+  const py::object state = module.attr("State");
   for (const char* name :
        {"nodes", "layout", "certificate", "energies", "energy_mJ", "force_N", "depth_mm",
         "height_mm", "progress", "boundary_radius_mm", "cell_K", "total_K", "held"})
     type.def_property_readonly(
-        name, [name](const Session& self) { return py::cast(self.state()).attr(name); },
+        name, [name](const Session& self) -> py::object { return py::cast(self.state()).attr(name); },
         py::str(state.attr(name).attr("__doc__")).cast<std::string>().c_str());
 }
 
@@ -235,7 +235,7 @@ void add_session(py::module_& module) {
       py::arg("preset"), py::arg("changes") = py::dict(), py::kw_only(),
       py::arg("case") = py::none());
   add_steps(type);
-  add_looks(type);
+  add_looks(module, type);
 }
 
 }  // namespace gridshell::python
