@@ -69,8 +69,11 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libfmt-dev, libeigen3-dev, libexpected-dev, \
 libsuitesparse-dev, libmuparser-dev, libhdf5-dev, libtomlplusplus-dev")
   if(TARGET gridshell_python)
-    string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", python3 (>= ${Python3_VERSION_MAJOR}.\
-${Python3_VERSION_MINOR}), python3-numpy")
+    # a module is of one minor version of Python
+    set(python ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR})
+    math(EXPR next "${Python3_VERSION_MINOR} + 1")
+    string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS
+      ", python3 (>= ${python}), python3 (<< ${Python3_VERSION_MAJOR}.${next}), python3-numpy")
   endif()
   include(CPack)
 endif()

@@ -216,7 +216,8 @@ void add_looks(const py::module_& module, py::class_<Session>& type) {
        {"nodes", "layout", "certificate", "energies", "energy_mJ", "force_N", "depth_mm",
         "height_mm", "progress", "boundary_radius_mm", "cell_K", "total_K", "held"})
     type.def_property_readonly(
-        name, [name](const Session& self) -> py::object { return py::cast(self.state()).attr(name); },
+        name,
+        [name](const Session& self) -> py::object { return py::cast(self.state()).attr(name); },
         py::str(state.attr(name).attr("__doc__")).cast<std::string>().c_str());
 }
 
