@@ -15,12 +15,13 @@ add_custom_command(OUTPUT ${embedded_presets}
   DEPENDS ${preset_files} ${named_files} ${PROJECT_SOURCE_DIR}/app/embed_presets.cmake VERBATIM)
 
 file(GLOB_RECURSE APP_SOURCES CONFIGURE_DEPENDS app/*.cpp app/*.h)
-list(FILTER APP_SOURCES EXCLUDE REGEX "/app/(main\\.cpp$|examples/)")
+list(FILTER APP_SOURCES EXCLUDE REGEX "/app/(main\\.cpp$|examples/|python/)")
 add_library(gridshell_app STATIC ${APP_SOURCES} ${embedded_presets})
 target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
   PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json Threads::Threads
           PkgConfig::IMGUI PkgConfig::FONTCONFIG)
 target_include_directories(gridshell_app SYSTEM PRIVATE ${GL_CORE_INCLUDE_DIR})
+gridshell_position_independent(gridshell_app)
 gridshell_read_once(gridshell_app)
 gridshell_compile_by_folder(gridshell_app)
 gridshell_compile_lightly(gridshell_app -O1)

@@ -40,3 +40,41 @@ if(TARGET gridshell)
   install(FILES ${completion} RENAME gridshell
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 endif()
+
+if(TARGET gridshell_python)
+  # where the Python of the prefix looks: of /usr and /usr/local one of its own folders
+  install(CODE "
+    execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/app/python/folder.py
+      \${CMAKE_INSTALL_PREFIX} OUTPUT_VARIABLE python_folder OUTPUT_STRIP_TRAILING_WHITESPACE
+      COMMAND_ERROR_IS_FATAL ANY)")
+  install(TARGETS gridshell_python DESTINATION "\${python_folder}")
+  install(FILES app/python/gridshell.pyi DESTINATION "\${python_folder}")
+endif()
+
+# cpack --config build/CPackConfig.cmake: a Debian package of all this.
+if(PROJECT_IS_TOP_LEVEL)
+  set(CPACK_GENERATOR DEB)
+  set(CPACK_PACKAGE_NAME gridshell)
+  set(CPACK_PACKAGE_VENDOR "the authors of gridshell")
+  set(CPACK_PACKAGE_CONTACT "the authors of gridshell <gridshell@localhost>")
+  set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Forms, pokes, measures and shows elastic gridshells")
+  set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+  set(CPACK_STRIP_FILES ON)
+  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+  set(CPACK_DEBIAN_PACKAGE_SECTION science)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+  # OpenGL is looked for at run time
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri, fonts-dejavu-core")
+  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, libosmesa6, libglfw3")
+  # what whoever compiles against the library needs
+  set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libfmt-dev, libeigen3-dev, libexpected-dev, \
+libsuitesparse-dev, libmuparser-dev, libhdf5-dev, libtomlplusplus-dev")
+  if(TARGET gridshell_python)
+    # a module is of one minor version of Python
+    set(python ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR})
+    math(EXPR next "${Python3_VERSION_MINOR} + 1")
+    string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS
+      ", python3 (>= ${python}), python3 (<< ${Python3_VERSION_MAJOR}.${next}), python3-numpy")
+  endif()
+  include(CPack)
+endif()

@@ -25,4 +25,5 @@ target_include_directories(gridshell_render SYSTEM PRIVATE
   ${GLFW_INCLUDE_DIR})
 target_link_libraries(gridshell_render PUBLIC gridshell_engine
   PRIVATE PNG::PNG PkgConfig::DEFLATE PkgConfig::PANGOCAIRO ${CMAKE_DL_LIBS})
+gridshell_position_independent(gridshell_render)
 gridshell_read_once(gridshell_render)

@@ -107,6 +107,13 @@ add_test(NAME "an installed library is found by CMake and pkg-config"
 set_tests_properties("an installed library is found by CMake and pkg-config"
   PROPERTIES LABELS full TIMEOUT 600)
 
+# The Python module: tests/app/python, by pytest where it is there.
+if(TARGET gridshell_python)
+  add_test(NAME "python module" COMMAND ${PROJECT_SOURCE_DIR}/tests/python.sh ${Python3_EXECUTABLE})
+  set_tests_properties("python module" PROPERTIES LABELS quick TIMEOUT 300 SKIP_RETURN_CODE 77
+    ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1;GRIDSHELL_PROGRAM=$<TARGET_FILE:gridshell>")
+endif()
+
 # Benches are programs of their own, built on demand: `cmake --build build --target benches`.
 add_custom_target(benches)
 file(GLOB bench_sources CONFIGURE_DEPENDS tests/bench/bench_*.cpp)

@@ -9,6 +9,7 @@
 
 #include "engine/experiment/actuation.h"
 #include "engine/experiment/frames.h"
+#include "engine/experiment/grip.h"
 #include "engine/experiment/sampler.h"
 #include "engine/experiment/steps.h"
 
@@ -17,16 +18,10 @@ namespace {
 
 using preset::Deed;
 
-/// The joint held last, and where it was when it was taken hold of.
-struct Taken {
-  int joint = -1;  ///< none
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();
-};
-
 /// One step that was done: its leg of the course stands at the same place.
 struct Done {
   HandBoundary before, after;
-  Taken taken;
+  Grip taken;
   Checkpoint way_end, end;  ///< where its way ended, and where it stands after it
 };
 
@@ -45,12 +40,6 @@ bool has_way(const preset::Step& step) {
 bool snapped(const Leg& leg) {
   return std::ranges::any_of(leg.report.events,
                              [](const Event& one) { return one.to.has_value(); });
-}
-
-Taken taken_after(Session& session, const std::map<int, Eigen::Vector3d>& taken_at) {
-  if (session.holds().empty()) return {};
-  const int joint = session.holds().back().node;
-  return {joint, taken_at.at(joint)};
 }
 
 /// A step without a way is a leg from its begin to its end, which is all that is known of it.
@@ -81,14 +70,10 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   work.course.one_motion = false;
   Session& session = work.course.session;
   HandBoundary boundary = HandBoundary::of(*scene);
-  std::map<int, Eigen::Vector3d> taken_at;
+  Grips grips;
   for (std::size_t k = 0; k < steps.size(); ++k) {
     Done done{.before = boundary, .after = {}, .taken = {}, .way_end = {}, .end = {}};
-    for (Eigen::Index joint = 0; joint < Eigen::Index(scene->footprint.joints.size()); ++joint) {
-      const bool held = std::ranges::any_of(session.holds(),
-                                            [&](const Hold& hold) { return hold.node == joint; });
-      if (!held) taken_at[int(joint)] = session.nodes().col(joint);
-    }
+    grips.note(session);
     const Deed deed = steps[k].deed;
     const double to = deed == Deed::move ? std::sqrt(progress_of(steps[k], *scene)) : 1;
     Leg& leg = work.course.legs.emplace_back(Leg{0, to, {}, {}});
@@ -103,7 +88,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     close(leg, session);
     done.way_end = std::move(way.end);
     done.after = boundary;
-    done.taken = taken_after(session, taken_at);
+    done.taken = grips.last(session);
     done.end = session.save();
     work.done.push_back(std::move(done));
     if (leg.report.end != Outcome::reached) break;
@@ -184,7 +169,7 @@ class Show {
   Caption caption() {
     return {[](double t, std::optional<double>) { return fmt::format("at {:.3f} of its way", t); },
             [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
-            [this](record::Frame& frame) { put_push(frame); }};
+            [this](record::Frame& frame) { put_push(work_.course.session, taken_, frame); }};
   }
 
   void put_boundary(record::Frame& frame, double t) const {
@@ -194,23 +179,13 @@ class Show {
     frame.boundary_radius_mm = work_.course.session.scene().radius_at(frame.actuation);
   }
 
-  void put_push(record::Frame& frame) const {
-    const Session& session = work_.course.session;
-    if (taken_.joint < 0 || session.holds().empty()) return;
-    const Hold& hold = session.holds().back();
-    const Eigen::Vector3d moved = hold.part(frame.nodes.col(taken_.joint) - taken_.at);
-    frame.depth_mm = moved.norm();
-    const Eigen::Vector3d force = hold.part(session.force(session.holds().size() - 1));
-    frame.force_N = frame.depth_mm > nearest_mm ? force.dot(moved.normalized()) : 0;
-  }
-
   Work& work_;
   const std::vector<preset::Step>& steps_;
   Watch& watch_;
   std::vector<int> shares_;
   int count_ = 0, index_ = 0;
   std::size_t step_ = 0;
-  Taken taken_;
+  Grip taken_;
   std::array<double, 2> boundary_{1, 1};  // progress before and after the step
   std::optional<Sampler> sampler_;
 };

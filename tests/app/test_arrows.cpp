@@ -14,7 +14,7 @@ namespace {
 using Folders = std::set<std::string>;
 
 // What a folder may see beside itself. A folder that is not here may see nothing; `render/` and
-// `app/` stand for every folder in them, but for `app/window` and `app/examples`.
+// `app/` stand for every folder in them, but for `app/window`, `app/python` and `app/examples`.
 const std::map<std::string, Folders> may_see{
     {"engine/core", {}},
     {"engine/geometry", {"engine/core"}},
@@ -65,11 +65,15 @@ const std::map<std::string, Folders> may_see{
     {"app",
      {"engine/core", "engine/preset", "engine/record", "engine/export", "engine/experiment",
       "engine/design", "engine/study", "engine/scan", "render", "app/window"}},
+    // a session in Python's hand, with the program's presets, runs and pictures
+    {"app/python",
+     {"engine/core", "engine/preset", "engine/record", "engine/session", "engine/experiment",
+      "render", "app"}},
 };
 
 // "engine/preset" for engine/preset/reader.h, "render" and "app" for all below them
 std::string folder_of(const std::string& path) {
-  for (const char* own : {"app/window", "app/examples"})
+  for (const char* own : {"app/window", "app/python", "app/examples"})
     if (path.starts_with(std::string(own) + "/")) return own;
   if (!path.starts_with("engine/")) return path.substr(0, path.find('/'));
   return path.substr(0, path.find('/', 7));

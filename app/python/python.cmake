@@ -1,0 +1,23 @@
+# The Python module `gridshell`, where pybind11 is there.
+# outside of a virtual environment the system's, to which the packages' numpy belongs
+if(NOT DEFINED ENV{VIRTUAL_ENV} AND EXISTS /usr/bin/python3)
+  set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "of the Python module")
+endif()
+find_package(Python3 COMPONENTS Interpreter Development.Module QUIET)
+find_package(pybind11 2.10 CONFIG QUIET)
+if(NOT pybind11_FOUND OR NOT Python3_Development.Module_FOUND)
+  message(STATUS "No Python module: it needs the packages pybind11-dev, python3-dev, python3-numpy")
+  return()
+endif()
+
+file(GLOB python_sources CONFIGURE_DEPENDS app/python/*.cpp app/python/*.h)
+pybind11_add_module(gridshell_python MODULE NO_EXTRAS ${python_sources})
+# what it takes in stays its own
+target_link_options(gridshell_python PRIVATE LINKER:--exclude-libs,ALL)
+target_link_libraries(gridshell_python PRIVATE gridshell_app gridshell_render gridshell_engine)
+set_target_properties(gridshell_python PROPERTIES OUTPUT_NAME gridshell
+  LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/python)
+gridshell_read_once(gridshell_python <pybind11/numpy.h> <pybind11/stl.h>
+  <pybind11/stl/filesystem.h>)
+gridshell_compile_lightly(gridshell_python -O0)
+configure_file(app/python/gridshell.pyi ${PROJECT_BINARY_DIR}/python/gridshell.pyi COPYONLY)

@@ -1,0 +1,242 @@
+// gridshell.Session: a shell in a Python program's hand.
+#include "app/python/session.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+
+#include "app/preset_library.h"
+#include "app/python/arguments.h"
+#include "app/python/interruptible.h"
+#include "app/python/values.h"
+#include "engine/preset/writer.h"
+
+namespace gridshell::python {
+
+preset::Preset chosen(const preset::Presets& presets, const std::optional<std::string>& name) {
+  std::string names;
+  for (const preset::Case& one : presets.cases) {
+    if (name == one.name) return one.preset;
+    names.append(names.empty() ? "" : ", ").append(one.name);
+  }
+  if (!name && presets.cases.empty()) return presets.base;
+  if (names.empty()) names = "none";
+  raise({Fault::bad_input, "case must be one of the preset's cases: " + names});
+}
+
+namespace {
+
+/// A shell with the state that it stands in, for one thread at a time.
+class Session {
+ public:
+  Session(const std::filesystem::path& preset, const py::dict& changes,
+          const std::optional<std::string>& name) {
+    const auto read = value_of(app::load_preset(preset.string(), overrides_of(changes)));
+    const preset::Preset one = chosen(read, name);
+    shell_.emplace(value_of(interruptible([&](const Watch&) { return Shell::open(one); })));
+    look();
+  }
+
+  /// Does `work` on the shell, and looks at what became of it, however it ended.
+  template <class Work>
+  auto at_work(const Work& work) {
+    const Turn turn(*this);
+    auto done = [&] {
+      try {
+        return interruptible([&](const Watch& watch) { return work(*shell_, watch); });
+      } catch (const py::error_already_set&) {
+        look();
+        throw;
+      }
+    }();
+    look();
+    return value_of(std::move(done));
+  }
+
+  template <class Work>
+  auto in_hand(const Work& work) {
+    const Turn turn(*this);
+    return work(*shell_);
+  }
+
+  Done step(const char* deed, const py::dict& keys) {
+    const auto step = in_hand([&](Shell& shell) { return step_of(shell.preset(), deed, keys); });
+    return at_work([&](Shell& shell, const Watch& watch) {
+      return step.deed == preset::Deed::move ? shell.move(step, watch) : shell.take(step, watch);
+    });
+  }
+
+  void restore(const Kept& kept) {
+    in_hand([&](Shell& shell) { value_of(shell.restore(kept)); });
+    look();
+  }
+
+  const std::shared_ptr<State>& state() const { return state_; }
+
+ private:
+  /// Another thread that comes in between is told so. Taken and given back under the GIL.
+  class Turn {
+   public:
+    explicit Turn(Session& of) : of_(of) {
+      if (of_.busy_)
+        throw std::runtime_error("the session is at work already: one thread at a time");
+      of_.busy_ = true;
+    }
+    ~Turn() { of_.busy_ = false; }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    Session& of_;
+  };
+
+  void look() { state_ = std::make_shared<State>(value_of(shell_->look())); }
+
+  std::optional<Shell> shell_;
+  std::shared_ptr<State> state_;
+  bool busy_ = false;
+};
+
+void add_steps(py::class_<Session>& type) {
+  const auto none = py::none();
+  type.def(
+          "actuate",
+          [](Session& self, double progress, const py::object& radius, const py::object& edges) {
+            return self.step("move",
+                             py::dict(py::arg("progress") = progress, py::arg("radius_mm") = radius,
+                                      py::arg("edge_points") = edges));
+          },
+          py::arg("progress") = 1.0, py::kw_only(), py::arg("radius_mm") = none,
+          py::arg("edge_points") = none,
+          "Moves the boundary: progress 0 is the original, 1 the actuated one, beyond it further "
+          "on. The first time this forms the shell as a run of the preset does, on meshes that its "
+          "tolerance asks for.\n\n"
+          "radius_mm: of a circular boundary, in the place of progress, mm. edge_points: rows (k, "
+          "x, y, z): by how much edge points, counted from 0, lie off the motion, mm; others lie "
+          "on it.")
+      .def(
+          "push",
+          [](Session& self, const py::object& joint, const py::object& depth, const py::object& to,
+             const py::object& along, const std::string& lateral) {
+            return self.step("push", py::dict(py::arg("joint") = joint, py::arg("depth_mm") = depth,
+                                              py::arg("to_mm") = to, py::arg("along") = along,
+                                              py::arg("lateral") = lateral));
+          },
+          py::arg("joint"), py::arg("depth_mm") = none, py::kw_only(), py::arg("to_mm") = none,
+          py::arg("along") = none, py::arg("lateral") = "free",
+          "Moves the joint (i, j), which is held from then on: by depth_mm against the shell's "
+          "normal, inward (below 0 outward), or to the position to_mm, mm.\n\n"
+          "along: direction in which it is held, else that of the push. lateral: \"free\" or "
+          "\"held\": whether it may move across the push.")
+      .def(
+          "hold",
+          [](Session& self, const py::object& joint, const py::object& along) {
+            return self.step("hold", py::dict(py::arg("joint") = joint, py::arg("along") = along));
+          },
+          py::arg("joint"), py::kw_only(), py::arg("along") = none,
+          "Holds the joint (i, j) where it is, along a direction or in all.")
+      .def(
+          "release",
+          [](Session& self, const py::object& joint) {
+            return self.step("release", py::dict(py::arg("joint") = joint));
+          },
+          py::arg("joint") = none, "Lets the joint (i, j) go, or all that are held.")
+      .def(
+          "load",
+          [](Session& self, double factor) {
+            return self.step("load", py::dict(py::arg("factor") = factor));
+          },
+          py::arg("factor"), "From now on what [loads] says counts `factor` times.")
+      .def(
+          "rest",
+          [](Session& self, const std::string& side) {
+            return self.step("rest", py::dict(py::arg("side") = side));
+          },
+          py::arg("side") = "lower",
+          "Down the energy to rest. side: from a state that is not stable \"lower\", or \"plus\" "
+          "or \"minus\" its soft mode.")
+      .def(
+          "jitter",
+          [](Session& self, int seed, double force) {
+            return self.step("jitter",
+                             py::dict(py::arg("seed") = seed, py::arg("force_N") = force));
+          },
+          py::arg("seed") = 1, py::arg("force_N") = 0.4,
+          "Random forces on all joints come on and go away again; force_N: the largest along each "
+          "axis, N.")
+      .def(
+          "refine",
+          [](Session& self, double tolerance_mm) {
+            return self.at_work([&](Shell& shell, const Watch& watch) {
+              return shell.refine(tolerance_mm, watch);
+            });
+          },
+          py::arg("tolerance_mm") = std::numeric_limits<double>::quiet_NaN(),
+          "Finer meshes until the error estimate is below tolerance_mm, else the preset's.");
+}
+
+void add_looks(const py::module_& module, py::class_<Session>& type) {
+  type.def_property_readonly("state", &Session::state,
+                             "The state that the shell stands in, as it is now and stays.")
+      .def_property_readonly(
+          "preset",
+          [](Session& self) {
+            return self.in_hand([](Shell& shell) { return preset::to_toml(shell.preset()); });
+          },
+          "The preset as TOML, changes and defaults in it.")
+      .def_property_readonly(
+          "edges_per_segment",
+          [](Session& self) { return self.in_hand([](Shell& shell) { return shell.meshes(); }); },
+          "Of the meshes that it is solved on, coarse to fine.")
+      .def(
+          "save",
+          [](Session& self) { return self.in_hand([](Shell& shell) { return shell.save(); }); },
+          "A state to go back to with restore().")
+      .def("restore", &Session::restore, py::arg("kept"),
+           "Back to a state that this session saved.")
+      .def("__repr__",
+           [](const Session& self) {
+             const State& now = *self.state();
+             return "Session(" + now.preset->name + ", progress " +
+                    std::string(py::str(py::float_(now.frame.progress))) + ")";
+           })
+      .def(
+          "picture",
+          [](const Session& self, const std::filesystem::path& path,
+             const std::optional<std::pair<int, int>>& size, const std::string& context) {
+            const auto state = self.state();
+            draw(*state, path, size, context);
+          },
+          py::arg("path"), py::kw_only(), py::arg("size") = py::none(), py::arg("context") = "auto",
+          picture_doc);
+  // what the state knows, without the detour
+  const py::object state = module.attr("State");
+  for (const char* name :
+       {"nodes", "layout", "certificate", "energies", "energy_mJ", "force_N", "depth_mm",
+        "height_mm", "progress", "boundary_radius_mm", "cell_K", "total_K", "held"})
+    type.def_property_readonly(
+        name,
+        [name](const Session& self) -> py::object { return py::cast(self.state()).attr(name); },
+        py::str(state.attr(name).attr("__doc__")).cast<std::string>().c_str());
+}
+
+}  // namespace
+
+void add_session(py::module_& module) {
+  py::class_<Kept>(module, "Checkpoint", "A state that Session.restore() goes back to.");
+  py::class_<Session> type(
+      module, "Session",
+      "A shell in hand: flat at first, then actuated, pushed, loaded, let go. Every step ends in a "
+      "certified state, or raises and stays in the last one. Ctrl-C stops a step.\n\n"
+      "preset: name of a preset that comes with the program, or path of a TOML file. changes: what "
+      "is laid over it, {\"footprint.rods\": 14}. case: which of its cases.");
+  type.def(
+      py::init<const std::filesystem::path&, const py::dict&, const std::optional<std::string>&>(),
+      py::arg("preset"), py::arg("changes") = py::dict(), py::kw_only(),
+      py::arg("case") = py::none());
+  add_steps(type);
+  add_looks(module, type);
+}
+
+}  // namespace gridshell::python

@@ -1,0 +1,142 @@
+#include "app/python/shell.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "engine/core/clock.h"
+#include "engine/experiment/actuation.h"
+#include "engine/experiment/course.h"
+#include "engine/experiment/frames.h"
+
+namespace gridshell::python {
+
+Result<Shell> Shell::open(const preset::Preset& preset) {
+  auto scene = scene_of(preset);
+  if (!scene) return tl::unexpected<Error>(scene.error());
+  if (scene->rung == preset::Rung::net)
+    return fail(Fault::bad_input,
+                "[accuracy] model = \"net\": the net is geometry alone, there is nothing to hold");
+  Shell shell(std::make_shared<const preset::Preset>(preset),
+              std::make_shared<const Scene>(std::move(*scene)));
+  auto session = Session::open(shell.scene_, experiment::first_plan(*shell.scene_));
+  if (!session) return tl::unexpected<Error>(session.error());
+  shell.session_ = std::move(*session);
+  shell.session_->begin_flat();
+  shell.boundary_.progress = 0;
+  return shell;
+}
+
+/// What ended early is an error; the shell stands in the last certified state.
+Result<Done> Shell::ended(const std::string& what, Report report) const {
+  if (report.end == Outcome::cancelled) return fail(Fault::cancelled, "stopped");
+  if (report.end == Outcome::reached) return Done{std::move(report)};
+  return fail(Fault::no_equilibrium,
+              fmt::format("{}: {}; it stands in the last certified state, at progress {:.4g}", what,
+                          words_of(report.end).what, boundary_.progress));
+}
+
+Result<Done> Shell::form(double progress, const Watch& watch) {
+  if (progress == 0)
+    return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
+  auto course = experiment::course_of(
+      *scene_,
+      [&](const LevelPlan& plan, const Watch& w) {
+        return experiment::follow_actuation(scene_, plan, false, progress, w);
+      },
+      watch);
+  if (!course) return tl::unexpected<Error>(course.error());
+  session_ = std::move(course->session);
+  formed_ = true;
+  boundary_.progress = session_->progress();
+  const experiment::Leg* last = course->legs.empty() ? nullptr : &course->legs.back();
+  if (last && !last->back && last->report.end != Outcome::reached)
+    return fail(Fault::no_equilibrium, "actuate: " + course->limit_reason);
+  Done done;
+  for (const experiment::Leg& leg : course->legs)
+    done.report.events.insert(done.report.events.end(), leg.report.events.begin(),
+                              leg.report.events.end());
+  done.report.certificate = session_->certificate();
+  done.report.effort = session_->effort();
+  done.told = course->limit_reason;
+  return done;
+}
+
+Result<Done> Shell::move(const preset::Step& step, const Watch& watch) {
+  const double progress = experiment::progress_of(step, *scene_), begin = seconds_now();
+  if (formed_) return take(step, watch);
+  auto formed = form(progress, watch);
+  if (!formed || !formed_) return formed;
+  // a net's shell begins at progress 1, one from the flat at its first buckled state
+  auto moved = take(step, watch);
+  if (!moved) return moved;
+  formed->report.events.insert(formed->report.events.end(), moved->report.events.begin(),
+                               moved->report.events.end());
+  formed->report.certificate = moved->report.certificate;
+  formed->report.effort += moved->report.effort;
+  formed->report.seconds = seconds_now() - begin;
+  return formed;
+}
+
+Result<Done> Shell::take(const preset::Step& step, const Watch& watch) {
+  if (!formed_) return fail(Fault::bad_input, "the shell is still flat: actuate it first");
+  grips_.note(*session_);
+  auto report = experiment::take_step(*session_, boundary_, step, watch);
+  if (!report) return tl::unexpected<Error>(report.error());
+  return ended(experiment::text_of(step), std::move(*report));
+}
+
+Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
+  if (!formed_) return fail(Fault::bad_input, "the shell is still flat: actuate it first");
+  const double wanted =
+      std::isnan(tolerance_mm) ? scene_->tolerance * scene_->length_scale_mm : tolerance_mm;
+  if (!(wanted > 0)) return fail(Fault::bad_input, "tolerance_mm must be above 0");
+  auto done = ended("refine", session_->refine(wanted, watch));
+  const double left = session_->certificate().error_estimate_mm;
+  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+  if (done && !(left <= wanted))
+    return fail(Fault::no_equilibrium,
+                fmt::format("refine: the finest meshes leave an estimated error of {:.2g} mm, more "
+                            "than {:g}",
+                            left, wanted));
+  return done;
+}
+
+Kept Shell::save() const { return {scene_, session_->save(), boundary_, grips_, formed_}; }
+
+Result<void> Shell::restore(const Kept& kept) {
+  if (kept.scene != scene_) return fail(Fault::bad_input, "the state was kept by another session");
+  session_->restore(kept.checkpoint);
+  boundary_ = kept.boundary;
+  grips_ = kept.grips;
+  formed_ = kept.formed;
+  return {};
+}
+
+Result<State> Shell::look() {
+  const RodMesh& mesh = session_->shell().finest();
+  if (layout_nodes_ != mesh.rod_nodes()) {
+    auto layout = experiment::layout_of(*scene_, mesh);
+    if (!layout) return tl::unexpected<Error>(layout.error());
+    layout->extrapolated = session_->shell().plan().extrapolate;
+    layout_ = std::make_shared<const record::Layout>(std::move(*layout));
+    layout_nodes_ = mesh.rod_nodes();
+  }
+  State state{preset_,
+              layout_,
+              formed_ ? experiment::frame_of(*session_) : experiment::flat_frame(*session_),
+              {}};
+  record::Frame& frame = state.frame;
+  frame.progress = frame.actuation = boundary_.progress;
+  frame.boundary_radius_mm = scene_->radius_at(frame.actuation);
+  experiment::put_push(*session_, grips_.last(*session_), frame);
+  state.certificate = session_->certificate();
+  for (const Hold& hold : session_->holds()) {
+    const FootprintJoint& joint = scene_->footprint.joints[std::size_t(hold.node)];
+    state.held.push_back({joint.i, joint.j});
+  }
+  return state;
+}
+
+}  // namespace gridshell::python

@@ -1,0 +1,88 @@
+// The shell that a Python program holds: formed as its preset says, then moved step by step. Knows
+// no Python.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/experiment/grip.h"
+#include "engine/experiment/steps.h"
+#include "engine/preset/preset.h"
+#include "engine/record/snapshot.h"
+#include "engine/session/session.h"
+
+namespace gridshell::python {
+
+/// One state, of a session or of a run, which never changes: what arrays look into.
+struct State {
+  std::shared_ptr<const preset::Preset> preset;  ///< how its pictures look
+  std::shared_ptr<const record::Layout> layout;
+  record::Frame frame;
+  Certificate certificate;
+  std::vector<std::array<int, 2>> held = {};  ///< (i, j) of the joints that are held
+};
+
+/// What a step came to.
+struct Done {
+  Report report;
+  std::string told = {};  ///< of the forming: what a run would tell as its limit; empty: nothing
+};
+
+/// A state to go back to, of one shell.
+struct Kept {
+  std::shared_ptr<const Scene> scene;
+  Checkpoint checkpoint;
+  experiment::HandBoundary boundary;
+  experiment::Grips grips;
+  bool formed = false;
+};
+
+class Shell {
+ public:
+  /// Flat. Errors (bad_input): as scene_of(); a preset that asks for the net alone.
+  static Result<Shell> open(const preset::Preset& preset);
+
+  /// Forms the shell by the course that a run of its preset follows, meshes chosen and events
+  /// confirmed, to a progress; once it stands this is a step like any other. Errors: bad_input,
+  /// no_equilibrium (also where the path ends early), cancelled; the shell stands in the last
+  /// certified state.
+  Result<Done> move(const preset::Step& step, const Watch& watch);
+  /// Does a step of a hand. Errors as move().
+  Result<Done> take(const preset::Step& step, const Watch& watch);
+  /// Finer meshes until the error estimate is below `tolerance_mm`; not a number: as the preset has
+  /// it. Errors: bad_input, no_equilibrium (the tolerance is not met), cancelled.
+  Result<Done> refine(double tolerance_mm, const Watch& watch);
+
+  Kept save() const;
+  /// Errors (bad_input): a state of another shell.
+  Result<void> restore(const Kept& kept);
+
+  const preset::Preset& preset() const { return *preset_; }
+  const std::vector<int>& meshes() const { return session_->shell().plan().edges_per_segment; }
+  /// The state that it stands in.
+  Result<State> look();
+
+ private:
+  Shell(std::shared_ptr<const preset::Preset> preset, std::shared_ptr<const Scene> scene)
+      : preset_(std::move(preset)),
+        scene_(std::move(scene)),
+        boundary_(experiment::HandBoundary::of(*scene_)) {}
+  Result<Done> form(double progress, const Watch& watch);
+  Result<Done> ended(const std::string& what, Report report) const;
+
+  std::shared_ptr<const preset::Preset> preset_;
+  std::shared_ptr<const Scene> scene_;
+  std::optional<Session> session_;
+  experiment::HandBoundary boundary_;
+  experiment::Grips grips_;
+  std::shared_ptr<const record::Layout> layout_;
+  int layout_nodes_ = 0;
+  bool formed_ = false;
+};
+
+}  // namespace gridshell::python

@@ -1,0 +1,203 @@
+#include "app/python/values.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "app/python/arrays.h"
+#include "app/python/interruptible.h"
+#include "app/python/numbers.h"
+
+namespace gridshell::python {
+namespace {
+
+/// A property whose array looks into the object that it is read from.
+template <class Class, class Find>
+void add_view(py::class_<Class, std::shared_ptr<Class>>& type, const char* name, const char* doc,
+              Find find) {
+  type.def_property_readonly(
+      name, [find](const py::object& self) { return view(find(self.cast<Class&>()), self); }, doc);
+}
+
+void add_certificate(py::module_& module) {
+  py::class_<Certificate>(module, "Certificate", "What is known of a state.")
+      .def_readonly("residual_N", &Certificate::residual_N, "Largest force that nothing holds, N.")
+      .def_readonly("negative_pivots", &Certificate::negative_pivots,
+                    "Of the Hessian with what is held held; 0: stable, -1: not known.")
+      .def_readonly("error_estimate_mm", &Certificate::error_estimate_mm,
+                    "Of the joints' positions, mm; nan: not known, as on one mesh.")
+      .def_readonly("largest_strain", &Certificate::largest_strain,
+                    "Of an edge along its rod, by size; below 0 compressed, nan: not known.")
+      .def_property_readonly("stable", &Certificate::stable, "Whether it has no negative pivot.")
+      .def("__repr__", [](const Certificate& of) {
+        return fmt::format(
+            "Certificate(residual_N={:.2g}, {}, error_estimate_mm={:.2g})", of.residual_N,
+            of.stable() ? "stable" : fmt::format("negative_pivots={}", of.negative_pivots),
+            of.error_estimate_mm);
+      });
+}
+
+const char* word_of(Event::Kind kind) {
+  switch (kind) {
+    case Event::Kind::stability_lost:
+      return "stability_lost";
+    case Event::Kind::turned_back:
+      return "turned_back";
+    case Event::Kind::locked:
+      return "locked";
+  }
+  return "";
+}
+
+void add_report(py::module_& module) {
+  py::class_<Event>(module, "Event", "Something that happened to the shell on its way.")
+      .def_property_readonly(
+          "kind", [](const Event& of) { return word_of(of.kind); },
+          "\"stability_lost\", \"turned_back\" (the path came to a limit point) or \"locked\" (the "
+          "rods came to their length).")
+      .def_readonly("t", &Event::t,
+                    "Where: the square root of the progress in an actuation, else from 0 at the "
+                    "begin of the step to 1 at its end.")
+      .def_readonly("to", &Event::to,
+                    "Where the state stands that it snapped to; None: it did not snap.")
+      .def("__repr__", [](const Event& of) {
+        return fmt::format("Event({}, t={:.4f}{})", word_of(of.kind), of.t,
+                           of.to ? fmt::format(", to={:.4f}", *of.to) : "");
+      });
+  py::class_<Done>(module, "Report", "What a step came to.")
+      .def_property_readonly(
+          "certificate", [](const Done& of) { return of.report.certificate; },
+          "Of the state that the shell stands in.")
+      .def_property_readonly(
+          "events", [](const Done& of) { return of.report.events; }, "What happened on the way.")
+      .def_property_readonly(
+          "newton_iterations", [](const Done& of) { return of.report.effort.newton_iterations; },
+          "What it took.")
+      .def_property_readonly(
+          "seconds", [](const Done& of) { return of.report.seconds; }, "And for how long, s.")
+      .def_readonly("told", &Done::told,
+                    "Of the forming: what a run would tell as its limit; empty: nothing.")
+      .def("__repr__", [](const Done& of) {
+        return fmt::format("Report({}, {} events, {:.2f} s)",
+                           py::str(py::repr(py::cast(of.report.certificate))).cast<std::string>(),
+                           of.report.events.size(), of.report.seconds);
+      });
+}
+
+void add_layout(py::module_& module) {
+  using record::Layout;
+  py::class_<Layout, std::shared_ptr<Layout>> type(module, "Layout",
+                                                   "The net, which no step changes.");
+  type.def_readonly("spacing_mm", &Layout::spacing_mm, "Between rods in the flat, d, mm.")
+      .def_readonly("rod_diameter_mm", &Layout::rod_diameter_mm, "mm.")
+      .def_readonly("length_scale_mm", &Layout::length_scale_mm,
+                    "What errors are over: R_o of a circle, the radius of a net, mm.")
+      .def_readonly("families", &Layout::families, "Of each rod, \"u\" or \"v\".")
+      .def_property_readonly(
+          "rods",
+          [](const py::object& self) {
+            py::list rods;
+            for (const auto& rod : self.cast<Layout&>().rods) rods.append(view(rod, self));
+            return rods;
+          },
+          "Of each rod its nodes, from edge point to edge point.")
+      .def_property_readonly(
+          "joints",
+          [](const py::object& self) {
+            const auto& of = self.cast<Layout&>().joints;
+            return view(&of.data()->i, {py::ssize_t(of.size()), 2}, {sizeof(of[0]), sizeof(int)},
+                        self);
+          },
+          "Of each joint its (i, j), joints x 2. Joint k is node k.")
+      .def_property_readonly(
+          "cells",
+          [](const py::object& self) {
+            const auto& of = self.cast<Layout&>().cells;
+            return view(of.empty() ? nullptr : of.data()->joints.data(),
+                        {py::ssize_t(of.size()), 4}, {sizeof(of[0]), sizeof(int)}, self);
+          },
+          "Of each complete cell its four joints around, cells x 4.");
+  add_view(
+      type, "edge_points", "Nodes on the boundary.",
+      [](const Layout& of) -> auto& { return of.edge_points; });
+  add_view(
+      type, "supports", "Nodes that something may hold: those of reactions_N.",
+      [](const Layout& of) -> auto& { return of.supports; });
+  add_view(
+      type, "original_boundary", "Points of a closed polyline x 3, mm.",
+      [](const Layout& of) -> auto& { return of.original_boundary; });
+  add_view(
+      type, "actuated_boundary", "As many points, in correspondence, mm.",
+      [](const Layout& of) -> auto& { return of.actuated_boundary; });
+  add_view(
+      type, "net_nodes", "Where the nodes lie on the net designed on, mm; 0 x 3: none.",
+      [](const Layout& of) -> auto& { return of.net_nodes; });
+}
+
+void add_state(py::module_& module) {
+  py::class_<State, std::shared_ptr<State>> type(
+      module, "State",
+      "One state. It never changes: a session that moves on has another. Its arrays look into it "
+      "without a copy, are read-only and keep it alive.");
+  add_view(
+      type, "nodes", "Positions, nodes x 3, mm; joints come first, z is up.",
+      [](const State& of) -> auto& { return of.frame.nodes; });
+  add_view(
+      type, "cell_K", "Integrated Gauss curvature of each cell, rad.",
+      [](const State& of) -> auto& { return of.frame.cell_K; });
+  add_view(
+      type, "axial_force_N",
+      "Of each edge, rod after rod, N; below 0 compressed. Of the finest mesh itself, as the "
+      "curvature and the reactions are.",
+      [](const State& of) -> auto& { return of.frame.axial_force_N; });
+  add_view(
+      type, "curvature_per_mm", "At each point of each rod, rod after rod, 1/mm.",
+      [](const State& of) -> auto& { return of.frame.curvature_per_mm; });
+  add_view(
+      type, "reactions_N", "What holds each of layout.supports, supports x 3, N.",
+      [](const State& of) -> auto& { return of.frame.reactions_N; });
+  for (const Number& number : numbers)
+    type.def_property_readonly(
+        number.name, [=](const State& of) { return of.frame.*number.member; }, number.doc);
+  type.def_property_readonly(
+          "layout",
+          [](const State& of) { return std::const_pointer_cast<record::Layout>(of.layout); },
+          "The net that it is a state of.")
+      .def_readonly("certificate", &State::certificate, "Residual, stability and error.")
+      .def_property_readonly(
+          "energies", [](const State& of) { return dict_of(of.frame.energies); },
+          "By term, mJ: bend, stretch, twist, joint, shear, load.")
+      .def_property_readonly(
+          "energy_mJ", [](const State& of) { return of.frame.energies.total(); },
+          "All of them, mJ: what an equilibrium minimises.")
+      .def_property_readonly(
+          "event", [](const State& of) { return of.frame.event; },
+          "Of a run: a snap, a limit, a recovery; empty: nothing.")
+      .def_property_readonly(
+          "held",
+          [](const State& of) {
+            py::list held;
+            for (const auto& [i, j] : of.held) held.append(py::make_tuple(i, j));
+            return held;
+          },
+          "Of a session: (i, j) of the joints that are held.")
+      .def("picture", &draw, py::arg("path"), py::kw_only(), py::arg("size") = py::none(),
+           py::arg("context") = "auto", picture_doc);
+}
+
+}  // namespace
+
+py::dict dict_of(const Energies& energies) {
+  py::dict terms;
+  for (const TermName& term : energy_terms) terms[term.name] = energies[term.term];
+  return terms;
+}
+
+void add_values(py::module_& module) {
+  add_certificate(module);
+  add_report(module);
+  add_layout(module);
+  add_state(module);
+}
+
+}  // namespace gridshell::python
