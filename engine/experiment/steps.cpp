@@ -58,14 +58,22 @@ Result<Report> move(Session& session, HandBoundary& boundary, const preset::Step
   return report;
 }
 
-Result<Report> push(Session& session, const preset::Step& step, const Watch& watch, Way* path) {
+/// Where a step takes a joint: to `target`, or as far as it lies along `along` where the joint is
+/// free across.
+struct Goal {
+  int joint = 0;
+  Eigen::Vector3d target, along;
+  bool free = false;
+};
+
+Result<Goal> goal_of(const Session& session, const preset::Step& step) {
   const auto joint = joint_of(step, session.scene().footprint);
   if (!joint) return tl::unexpected<Error>(joint.error());
   if (auto free = not_on_boundary(session.scene().footprint, *joint); !free)
     return tl::unexpected<Error>(free.error());
   const Eigen::Vector3d at = session.nodes().col(*joint);
   const bool holds = step.deed == preset::Deed::hold;
-  Eigen::Vector3d way = Eigen::Vector3d::Zero(), along = way;
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
   if (!holds && !step.to_mm.empty()) way = vector_of(step.to_mm) - at;
   if (!holds && step.to_mm.empty()) {
     const Eigen::Vector3d normal = normal_at(session, *joint);
@@ -75,31 +83,40 @@ Result<Report> push(Session& session, const preset::Step& step, const Watch& wat
                   "say where it goes");
     way = -step.depth_mm * normal;
   }
-  const bool free = holds ? !step.along.empty() : step.lateral == preset::Lateral::free;
-  if (!step.along.empty()) {
-    along = vector_of(step.along).normalized();
-    way = along * along.dot(way);
-  }
+  Goal goal{*joint, at + way, Eigen::Vector3d::UnitZ(), false};
+  goal.free = holds ? !step.along.empty() : step.lateral == preset::Lateral::free;
+  if (!step.along.empty())
+    goal.along = vector_of(step.along).normalized();
+  else if (way.norm() >= nearest_mm)
+    goal.along = way.normalized();
+  if (!step.along.empty()) goal.target = at + goal.along * goal.along.dot(way);
+  return goal;
+}
+
+Result<Report> push(Session& session, const Goal& goal, const Watch& watch, Way* path) {
+  Eigen::Vector3d way = goal.target - session.nodes().col(goal.joint);
+  if (goal.free) way = goal.along * goal.along.dot(way);
   // a hand that does not move yet takes hold along its own direction
-  if (way.norm() < nearest_mm)
-    way = nearest_mm * (along.isZero(0) ? Eigen::Vector3d::UnitZ() : along);
-  const Report report = session.push(*joint, way, free ? Across::free : Across::held, watch,
-                                     path ? &path->trail : nullptr);
+  if (way.norm() < nearest_mm) way = nearest_mm * goal.along;
+  const Report report = session.push(goal.joint, way, goal.free ? Across::free : Across::held,
+                                     watch, path ? &path->trail : nullptr);
   if (path) path->end = session.save();
   return report;
 }
 
 /// The same led by the coarsest mesh alone: finer ones then hold the joint where that one has it,
-/// and not each where it came from its own place.
+/// and not each where it came from its own place. Where it goes is measured on all of them.
 Result<Report> push_by_coarsest(Session& session, const preset::Step& step, const Watch& watch,
                                 Way* path) {
+  const auto goal = goal_of(session, step);
+  if (!goal) return tl::unexpected<Error>(goal.error());
   const LevelPlan plan = session.shell().plan();
-  if (plan.edges_per_segment.size() == 1) return push(session, step, watch, path);
+  if (plan.edges_per_segment.size() == 1) return push(session, *goal, watch, path);
   const Checkpoint before = session.save();
   const auto coarse = session.remesh({{plan.edges_per_segment.front()}, false}, watch);
   if (!coarse) return coarse;
   if (coarse->end != Outcome::reached) return session.restore(before), coarse;
-  auto report = push(session, step, watch, path);
+  auto report = push(session, *goal, watch, path);
   if (!report) return session.restore(before), report;
   const auto fine = session.remesh(plan, watch);
   if (!fine) return fine;

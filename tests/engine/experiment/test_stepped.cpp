@@ -77,6 +77,18 @@ TEST_CASE("a push let go is the shell before, and every step says what it came t
   REQUIRE(outcome.trajectory.layout.loaded_joints.size() == 1);
 }
 
+TEST_CASE("a push is as deep as it is asked to be, however many meshes follow") {
+  preset::Preset preset = small_shell();
+  preset.movie.frames = 3;
+  for (const double depth : {0.5, 4.0}) {
+    preset.step = {push(0, 0, depth)};
+    const experiment::Finished finished = run(preset);
+    CAPTURE(depth, finished.summary.limit_reason);
+    REQUIRE(finished.summary.edges_per_segment > 4);
+    CHECK(finished.trajectory.frames.back().depth_mm == Approx(depth).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("frames only sample the steps, which end where they end") {
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), move(0.9), push(1, -1, 2)};
