@@ -13,7 +13,7 @@ TEST_CASE("footprint: the circle of Fig. 1") {
   // the longest leg on the circle's axis: R_o/d - (n-1)/2 = 0.8 there would be a rod through the
   // middle; with half placement the legs are cut exactly where the circle meets the rods
   for (const FootprintRod& rod : net.rods) {
-    CHECK(std::hypot(rod.span.end, rod.line) == Approx(126.0).epsilon(1e-15));
+    CHECK(std::hypot(rod.span.end, rod.line()) == Approx(126.0).epsilon(1e-15));
     CHECK(rod.span.begin == -rod.span.end);
     for (std::size_t k = 1; k < rod.joints.size(); ++k) {
       const auto& a = net.joints[rod.joints[k - 1]];

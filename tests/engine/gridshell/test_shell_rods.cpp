@@ -22,7 +22,7 @@ BoundaryMotion shrinking(const Footprint& net, double ratio) {
     const int along = rod.family == Family::u ? 0 : 1;
     for (int end : {0, 1}) {
       motion.begin(along, 2 * r + end) = end == 0 ? rod.span.begin : rod.span.end;
-      motion.begin(1 - along, 2 * r + end) = rod.line;
+      motion.begin(1 - along, 2 * r + end) = rod.line();
     }
   }
   motion.end = ratio * motion.begin;
