@@ -72,7 +72,7 @@ TEST_CASE("a rod that ends on another is joined there, ends alone at a free poin
   CHECK(mesh.flat.col(mesh.rods[1][1]).isApprox(Eigen::Vector2d(0, -5)));
 }
 
-TEST_CASE("a ring comes back to its first joint; a polyline is as long as its pieces") {
+TEST_CASE("a ring comes back to its first joint and a polyline is as long as its pieces") {
   const std::vector<Eigen::Vector2d> square{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
   const auto made = network_footprint(network(square, {{0, 1, 2, 3, 0}}, {1, 2, 3}));
   if (!made) FAIL(made.error().message);

@@ -199,6 +199,10 @@ std::vector<Preset> samples() {
     all.back().net.height.clear();
     all.back().net.file = file;
   }
+  Preset network;
+  network.footprint.kind = FootprintKind::network;
+  network.footprint.file = {{{0, 0, 0}, {1e2 / 3, 0, 0}, {0, 20, 0}}, {{0, 1, 2}}, {0.25}, {}, {2}};
+  all.push_back(network);
   for (Preset& preset : stepped()) all.push_back(std::move(preset));
   return all;
 }
