@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "engine/core/clock.h"
 #include "engine/experiment/actuation.h"
@@ -144,6 +145,32 @@ double seconds_for(const Scene& scene, const preset::Preset& preset) {
   return seconds;
 }
 
+/// Steps name joints that are there, and let go of what a step before took.
+Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint& footprint) {
+  std::set<std::vector<int>> held;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const preset::Step& step = steps[k];
+    const bool one = !step.joint.empty();
+    if (one)
+      if (auto joint = joint_of(step, footprint); !joint)
+        return fail(joint.error().fault,
+                    fmt::format("[[step]] {} {}", k + 1, joint.error().message));
+    if (step.deed == preset::Deed::push || step.deed == preset::Deed::hold) held.insert(step.joint);
+    if (step.deed != preset::Deed::release) continue;
+    if (one ? !held.contains(step.joint) : held.empty())
+      return fail(
+          Fault::bad_input,
+          fmt::format("[[step]] {}: no joint is held that could be let go: a step before it "
+                      "must push or hold it",
+                      k + 1));
+    if (one)
+      held.erase(step.joint);
+    else
+      held.clear();
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Plan> plan(const preset::Preset& preset) {
@@ -155,11 +182,8 @@ Result<Plan> plan(const preset::Preset& preset) {
   if (preset.indentation.wanted() && preset.indentation.joint.size() == 2)
     if (auto joint = pushed_joint(preset.indentation, scene->footprint, {}); !joint)
       return tl::unexpected<Error>(joint.error());
-  for (std::size_t k = 0; k < preset.step.size(); ++k)
-    if (!preset.step[k].joint.empty())
-      if (auto joint = joint_of(preset.step[k], scene->footprint); !joint)
-        return fail(joint.error().fault,
-                    fmt::format("[[step]] {} {}", k + 1, joint.error().message));
+  if (auto there = check_steps(preset.step, scene->footprint); !there)
+    return tl::unexpected<Error>(there.error());
   Plan plan;
   plan.model = word_of(scene->rung);
   plan.memory_GB = memory_GB(scene->footprint, scene->rung, levels);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <set>
 
 #include "engine/preset/field_makers.h"
 
@@ -98,34 +97,12 @@ void check_step(const Preset& preset, int item, std::vector<Conflict>& found) {
       wrong("edge_points", "names an edge point that is no whole number from 0 on");
 }
 
-/// What is let go was pushed or held by a step before.
-void check_releases(const Preset& preset, std::vector<Conflict>& found) {
-  std::set<std::vector<int>> held;
-  for (int k = 0; k < int(preset.step.size()); ++k) {
-    const Step& step = preset.step[std::size_t(k)];
-    if (step.deed == Deed::push || step.deed == Deed::hold) held.insert(step.joint);
-    if (step.deed != Deed::release) continue;
-    if (step.joint.empty() ? held.empty() : !held.contains(step.joint))
-      found.push_back({"step",
-                       step.joint.empty() ? "do" : "joint",
-                       {},
-                       "no step before it pushes or holds what it lets go, must be a joint that is "
-                       "held then",
-                       k});
-    if (step.joint.empty())
-      held.clear();
-    else
-      held.erase(step.joint);
-  }
-}
-
 }  // namespace
 
 std::vector<Conflict> step_conflicts(const Preset& preset) {
   std::vector<Conflict> found;
   if (preset.step.empty()) return found;
   for (int k = 0; k < int(preset.step.size()); ++k) check_step(preset, k, found);
-  check_releases(preset, found);
   const auto alone = [&](std::vector<std::string> others, const char* what) {
     others.push_back("[[step]] 1 ");
     found.push_back({"step", "do", std::move(others), what, 0});

@@ -154,6 +154,10 @@ TEST_CASE("steps on what is not there are errors with their number") {
   CHECK_THAT(refused(push(40, 0, 1)), Catch::Contains("[[step]] 2") &&
                                           Catch::Contains("joint = [40, 0]: the footprint has no"));
   CHECK_THAT(refused(of(Deed::release)), Catch::Contains("[[step]] 2: no joint is held"));
+  // which `check` says as well
+  const auto plan = experiment::plan(preset);
+  REQUIRE_FALSE(plan);
+  CHECK_THAT(plan.error().message, Catch::StartsWith("[[step]] 2: no joint is held"));
   preset::Step edge = of(Deed::move);
   edge.edge_points = {{400, 1, 0, 0}};
   CHECK_THAT(refused(edge), Catch::Contains("there is no edge point 400, they go from 0 to 23"));

@@ -65,9 +65,6 @@ TEST_CASE("what is wrong with a step is said with its place, its number and what
       {"[[step]]\ndo = \"push\"\njoint = [0, 0]",
        "bad.toml:1:1: [[step]] 1 depth_mm = 0.0: a push goes to `to_mm` or by `depth_mm`, must be "
        "one of the two"},
-      {"[[step]]\ndo = \"hold\"\njoint = [0, 0]\n[[step]]\ndo = \"release\"\njoint = [1, 0]",
-       "bad.toml:6:9: [[step]] 2 joint = [1, 0]: no step before it pushes or holds what it lets "
-       "go, must be a joint that is held then"},
       {"[[step]]\ndo = \"rest\"\nfactor = 2.0",
        "bad.toml:3:10: [[step]] 1 factor = 2.0: counts for nothing here, must be left out: "
        "[[step]] 1 do = \"rest\" does not use it, only \"load\""},
