@@ -229,8 +229,8 @@ Result<Course> course_for(const preset::Preset& preset, const std::shared_ptr<co
 }
 
 /// Runs a scene on a rung that solves, and says what was followed.
-Result<void> follow(const preset::Preset& preset, std::shared_ptr<const Scene> scene, bool stills,
-                    LastFrame& sink, Watch& watch, record::Summary& summary) {
+Result<void> follow(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
+                    bool stills, LastFrame& sink, Watch& watch, record::Summary& summary) {
   const double begin = seconds_now();
   std::vector<std::string> told;
   auto course = course_for(preset, scene, stills, told, sink, watch);
@@ -254,7 +254,7 @@ Result<record::Summary> run(const preset::Preset& preset, bool stills, record::S
   return run(preset, std::make_shared<const Scene>(std::move(*scene)), stills, sink, watch);
 }
 
-Result<record::Summary> run(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
+Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
                             bool stills, record::Sink& sink, Watch& watch) {
   LastFrame seen(sink, watch);
   record::Summary summary;

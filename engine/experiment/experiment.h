@@ -47,7 +47,7 @@ Result<record::Summary> run(const preset::Preset& preset, bool stills, record::S
                             Watch& watch);
 
 /// The same on a scene of that preset which was changed: other meshes, other load steps.
-Result<record::Summary> run(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
+Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
                             bool stills, record::Sink& sink, Watch& watch);
 
 /// The same with all frames kept in memory.
