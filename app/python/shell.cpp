@@ -30,7 +30,7 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
 
 /// What ended early is an error; the shell stands in the last certified state.
 Result<Done> Shell::ended(const std::string& what, Report report) const {
-  if (report.end == Outcome::cancelled) return fail(Fault::cancelled, "stopped");
+  if (report.end == Outcome::cancelled) return stopped();
   if (report.end == Outcome::reached) return Done{std::move(report)};
   return fail(Fault::no_equilibrium,
               fmt::format("{}: {}; it stands in the last certified state, at progress {:.4g}", what,
@@ -94,7 +94,7 @@ Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
   if (!(wanted > 0)) return fail(Fault::bad_input, "tolerance_mm must be above 0");
   auto done = ended("refine", session_->refine(wanted, watch));
   const double left = session_->certificate().error_estimate_mm;
-  if (watch.cancelled()) return fail(Fault::cancelled, "stopped");
+  if (watch.cancelled()) return stopped();
   if (done && !(left <= wanted))
     return fail(Fault::no_equilibrium,
                 fmt::format("refine: the finest meshes leave an estimated error of {:.2g} mm, more "

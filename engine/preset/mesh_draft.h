@@ -17,10 +17,6 @@ std::vector<std::string_view> blank_apart(std::string_view line);
 /// The next line of a text, without its end; the text goes on behind it.
 std::string_view next_line(std::string_view& text);
 
-/// "7", "7/1/2" or "-1" in a .obj file: the number of a vertex from 0; below zero counts back from
-/// the last.
-std::optional<long> obj_vertex(std::string_view word, std::size_t vertices);
-
 /// Gathers vertices and polygons; `place` begins every error: "dome.obj:17".
 class MeshDraft {
  public:

@@ -1,47 +1,16 @@
-// Wavefront OBJ: lines "v x y z" and "f a b c ...", all others left out.
-#include <fmt/format.h>
-
-#include <charconv>
-
+// Meshes as Wavefront OBJ: vertices and faces.
 #include "engine/preset/mesh_draft.h"
+#include "engine/preset/obj_file.h"
 
 namespace gridshell::preset {
 
-std::optional<long> obj_vertex(std::string_view word, std::size_t vertices) {
-  word = word.substr(0, word.find('/'));
-  long number = 0;
-  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (fault != std::errc() || end != word.data() + word.size() || number == 0) return std::nullopt;
-  return number > 0 ? number - 1 : long(vertices) + number;
-}
-
 Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name) {
   MeshDraft draft;
-  for (int number = 1; !bytes.empty(); ++number) {
-    const auto words = blank_apart(next_line(bytes));
-    if (words.empty() || (words[0] != "v" && words[0] != "f")) continue;
-    const auto place = fmt::format("{}:{}", name, number);
-    if (words[0] == "v") {
-      std::vector<double> xyz;
-      for (std::size_t k = 1; k < words.size() && k < 4; ++k)
-        if (const auto value = number_of(words[k])) xyz.push_back(*value);
-      if (xyz.size() != 3)
-        return fail(Fault::bad_input, place + ": a vertex must have three numbers, v x y z");
-      if (auto added = draft.add_vertex(xyz, place); !added) return tl::unexpected(added.error());
-      continue;
-    }
-    std::vector<long> corners;
-    for (std::size_t k = 1; k < words.size(); ++k) {
-      const auto corner = obj_vertex(words[k], draft.vertices());
-      if (!corner)
-        return fail(Fault::bad_input, fmt::format("{}: '{}' is no vertex, must be its number",
-                                                  place, words[k].substr(0, 40)));
-      corners.push_back(*corner);
-    }
-    if (auto added = draft.add_polygon(corners, place); !added)
-      return tl::unexpected(added.error());
-  }
-  return draft.take(name);
+  return read_obj_lines(
+             bytes, name, "f",
+             {[&](const auto& xyz, const auto& at) { return draft.add_vertex(xyz, at); },
+              [&](const auto& corners, const auto& at) { return draft.add_polygon(corners, at); }})
+      .and_then([&] { return draft.take(name); });
 }
 
 }  // namespace gridshell::preset

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <set>
 
 #include "engine/preset/network_draft.h"
+#include "engine/preset/point_file.h"
 
 namespace gridshell::preset {
 namespace {
@@ -143,8 +143,7 @@ std::string network_fault(const NetworkData& network) {
 }
 
 Result<NetworkData> read_network(std::string_view bytes, const std::string& name) {
-  std::string ending = std::filesystem::path(name).extension().string();
-  for (char& c : ending) c = char(std::tolower((unsigned char)c));
+  const std::string ending = ending_of(name);
   if (ending == ".json") return read_network_json(bytes, name);
   if (ending == ".obj") return read_network_obj(bytes, name);
   if (ending == ".dxf") return read_network_dxf(bytes, name);
