@@ -31,10 +31,11 @@ Result<void> write_worst(const std::vector<study::TrustScene>& scenes, const fs:
 
 Json summary_of(const std::vector<record::TrustRow>& rows, int seed) {
   std::map<std::string, int> classes;
-  int silent = 0;
+  int silent = 0, snap_alone = 0;
   for (const auto& row : rows) {
     ++classes[std::string(word_of(row.found))];
     silent += record::silently_wrong(row.found);
+    snap_alone += row.snap_alone();
   }
   Json summary = Json::object();
   summary["chart"] = "trust";
@@ -42,6 +43,7 @@ Json summary_of(const std::vector<record::TrustRow>& rows, int seed) {
   summary["seed"] = seed;
   summary["classes"] = classes;
   summary["silently_wrong"] = silent;
+  summary["snap_alone"] = snap_alone;
   return summary;
 }
 
@@ -80,6 +82,8 @@ int chart_trust(const ChartOptions& options) {
     fmt::print("{}: {} scenes, {} silently wrong\n", folder.string(), how.scenes, silent);
     for (const auto& [name, count] : summary["classes"].items())
       fmt::print("  {:22} {}\n", name, count.get<int>());
+    fmt::print("a snap that one family of meshes alone tells of: {}\n",
+               summary["snap_alone"].get<int>());
   }
   return silent == 0 ? ExitCode::done : ExitCode::different;
 }

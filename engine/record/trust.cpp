@@ -11,10 +11,11 @@ bool silently_wrong(TrustClass found) {
 
 std::string trust_csv(const std::vector<TrustRow>& rows) {
   Csv csv;
-  csv.line("scene", "kind", "class", "error", "estimate", "exit_default", "exit_fine");
+  csv.line("scene", "kind", "class", "error", "estimate", "exit_default", "exit_fine",
+           "snap_default", "snap_fine");
   for (const TrustRow& row : rows)
     csv.line(row.scene, row.kind, std::string(word_of(row.found)), row.error, row.estimate,
-             row.exit_default, row.exit_fine);
+             row.exit_default, row.exit_fine, int(row.snap_default), int(row.snap_fine));
   return std::move(csv).text();
 }
 

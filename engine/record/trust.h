@@ -48,6 +48,12 @@ struct TrustRow {
       unknown;  ///< largest distance of a joint in a frame of both, over the length scale
   double estimate = unknown;  ///< what that frame said of it
   int exit_default = 0, exit_fine = 0;
+  bool snap_default = false, snap_fine = false;  ///< whether a snap was told
+
+  /// A snap that one family of meshes alone tells of.
+  bool snap_alone() const {
+    return exit_default == 0 && exit_fine == 0 && snap_default != snap_fine;
+  }
 };
 
 /// The text of trust.csv; unknown numbers are empty.

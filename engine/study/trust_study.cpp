@@ -31,7 +31,7 @@ struct Trial {
     const auto limit = outcome->summary.limit;
     return limit == record::Limit::none || limit == record::Limit::snap;
   }
-  bool snapped() const { return outcome->summary.limit == record::Limit::snap; }
+  bool snapped() const { return outcome && outcome->summary.limit == record::Limit::snap; }
 };
 
 Trial try_scene(preset::Preset preset, int count, bool fine, const TrustOptions& options,
@@ -135,6 +135,8 @@ TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
   const Trial other = try_scene(scene.preset, other_frames, false, options, watch);
   scene.row.exit_default = asked.exit;
   scene.row.exit_fine = fine.exit;
+  scene.row.snap_default = asked.snapped();
+  scene.row.snap_fine = fine.snapped();
   scene.row.found = judge(asked, fine, other, scene.row);
   scene.preset.movie.frames = frames;
   // why, for whoever opens the preset

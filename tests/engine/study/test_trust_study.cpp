@@ -23,10 +23,10 @@ TEST_CASE("random presets are the same from the same seed, of every kind, and re
   }
 }
 
-TEST_CASE("thirty random scenes: none is silently wrong", "[full]") {
+TEST_CASE("sixty random scenes: none is silently wrong", "[full]") {
   Watch watch;
-  const auto scenes = study::trust_study({.scenes = 30, .seed = 20, .seconds = 60}, watch).value();
-  REQUIRE(scenes.size() == 30);
+  const auto scenes = study::trust_study({.scenes = 60, .seed = 20, .seconds = 60}, watch).value();
+  REQUIRE(scenes.size() == 60);
   std::set<std::string> kinds;
   int judged = 0;
   for (const auto& scene : scenes) {
@@ -37,5 +37,5 @@ TEST_CASE("thirty random scenes: none is silently wrong", "[full]") {
     CHECK_FALSE(record::silently_wrong(scene.row.found));
   }
   CHECK(kinds.size() == words(study::SceneKind{}).size());
-  CHECK(judged > 15);
+  CHECK(judged > 30);
 }
