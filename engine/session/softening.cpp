@@ -21,7 +21,7 @@ double Softening::shortened(double step) const {
   // also where a stiffness is not known
   if (!(fall > 0)) return step;
   const double to_zero = now_->stiffness / fall;
-  return to_zero < 2 * step ? std::clamp(to_zero / 2, step / 8, step) : step;
+  return to_zero < 3 * step ? std::clamp(to_zero / 3, step / 8, step) : step;
 }
 
 }  // namespace gridshell
