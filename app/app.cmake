@@ -14,9 +14,16 @@ add_custom_command(OUTPUT ${embedded_presets}
           -P ${PROJECT_SOURCE_DIR}/app/embed_presets.cmake
   DEPENDS ${preset_files} ${named_files} ${PROJECT_SOURCE_DIR}/app/embed_presets.cmake VERBATIM)
 
+file(GLOB card_files CONFIGURE_DEPENDS presets/pictures/cards/*.png)
+set(embedded_cards ${PROJECT_BINARY_DIR}/generated/embedded_cards.cpp)
+add_custom_command(OUTPUT ${embedded_cards}
+  COMMAND ${CMAKE_COMMAND} "-DCARDS=${card_files}" -DOUTPUT=${embedded_cards}
+          -P ${PROJECT_SOURCE_DIR}/app/embed_cards.cmake
+  DEPENDS ${card_files} ${PROJECT_SOURCE_DIR}/app/embed_cards.cmake VERBATIM)
+
 file(GLOB_RECURSE APP_SOURCES CONFIGURE_DEPENDS app/*.cpp app/*.h)
 list(FILTER APP_SOURCES EXCLUDE REGEX "/app/(main\\.cpp$|examples/|python/)")
-add_library(gridshell_app STATIC ${APP_SOURCES} ${embedded_presets})
+add_library(gridshell_app STATIC ${APP_SOURCES} ${embedded_presets} ${embedded_cards})
 target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
   PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json Threads::Threads
           PkgConfig::IMGUI PkgConfig::FONTCONFIG)

@@ -72,14 +72,20 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
   }
   if (!options.dpi.empty()) overrides.push_back({"--dpi", "figure.dpi", options.dpi});
   if (!options.size.empty()) {
-    std::smatch part;
-    if (!std::regex_match(options.size, part, std::regex("([0-9]{1,6})x([0-9]{1,6})")))
-      return fail(Fault::bad_input,
-                  fmt::format("--size {}: must be WxH, for example 1280x720", options.size));
+    const auto size = size_of(options.size);
+    if (!size) return tl::unexpected<Error>(size.error());
     overrides.push_back(
-        {"--size", "movie.size", fmt::format("[{}, {}]", std::stoi(part[1]), std::stoi(part[2]))});
+        {"--size", "movie.size", fmt::format("[{}, {}]", size->first, size->second)});
   }
   return overrides;
+}
+
+Result<std::pair<int, int>> size_of(const std::string& text) {
+  std::smatch part;
+  if (!std::regex_match(text, part, std::regex("([0-9]{1,6})x([0-9]{1,6})")))
+    return fail(Fault::bad_input,
+                fmt::format("--size {}: must be WxH, for example 1280x720", text));
+  return std::pair(std::stoi(part[1]), std::stoi(part[2]));
 }
 
 Result<std::vector<preset::Override>> overrides_of_run(const Options& options,

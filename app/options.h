@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/preset/reader.h"
@@ -49,5 +50,8 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options);
 /// Errors: bad_input for any other key.
 Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
                                                        const std::vector<std::string>& also = {});
+
+/// The width and height that --size names. Errors (bad_input): not WxH.
+Result<std::pair<int, int>> size_of(const std::string& text);
 
 }  // namespace gridshell::app

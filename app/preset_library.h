@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/preset/reader.h"
@@ -20,6 +21,9 @@ const std::vector<EmbeddedPreset>& embedded_presets();
 
 /// The files that they name, as text, by name.
 const std::map<std::string, std::string>& embedded_files();
+
+/// The picture of a preset's shell, presets/pictures/cards/NAME.png; empty where there is none.
+std::string_view embedded_card(const std::string& name);
 
 /// The preset at the path `argument`, else the embedded one of that name. Errors: bad_input, with
 /// every fault of the preset, or the nearest name when there is none.

@@ -9,17 +9,21 @@
 #include <fstream>
 #include <memory>
 #include <thread>
+#include <tuple>
 
 #include "app/commands/commands.h"
 #include "app/console.h"
 #include "app/interrupt.h"
+#include "app/options.h"
 #include "app/preset_library.h"
 #include "app/ui/desktop.h"
 #include "app/ui/playback.h"
+#include "app/ui/shell_picture.h"
 #include "app/window/workspace.h"
 #include "engine/core/atomic_file.h"
 #include "engine/record/json.h"
 #include "render/image/png.h"
+#include "render/movie/child.h"
 
 namespace gridshell::app {
 namespace {
@@ -27,10 +31,21 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ViewOptions {
-  std::string input, record, play, shot, context = "auto";
+  std::string input, record, play, shot, picture, size, quality = "movie", context = "auto";
   fs::path output = "out", workspace;
+  bool bare = false;
   double bench = 0;
+
+  bool off_screen() const {
+    return !play.empty() || !shot.empty() || !picture.empty() || bench > 0;
+  }
 };
+
+Result<std::unique_ptr<render::Context>> make_context(const std::string& name) {
+  const auto kind = find_word<render::ContextKind>(name);
+  if (!kind) return fail(Fault::bad_input, "--context " + name + ": no such context");
+  return render::Context::create(*kind);
+}
 
 /// Of several cases the first.
 Result<preset::Preset> first_preset_of(const std::string& name) {
@@ -39,12 +54,39 @@ Result<preset::Preset> first_preset_of(const std::string& name) {
   return presets->cases.empty() ? presets->base : presets->cases.front().preset;
 }
 
+/// The program itself makes it, in a process of its own that can be stopped.
+Result<void> make_movie(const fs::path& preset, const fs::path& folder, const window::Heard& heard,
+                        const Watch& watch) {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) return fail(Fault::io, "cannot find this program's file: " + error.message());
+  return render::run_child({program.string(), "movie", preset.string(), "-o", folder.string()},
+                           watch, heard);
+}
+
+/// In a context of its own, which does not hold up the window's.
+Result<void> draw_picture(const window::PictureOrder& order, const fs::path& file,
+                          const std::string& context) {
+  auto made = make_context(context);
+  if (!made) return tl::unexpected<Error>(made.error());
+  auto renderer = render::Renderer::create(**made);
+  if (!renderer) return tl::unexpected<Error>(renderer.error());
+  return ui::picture_of(order, **renderer).and_then([&](const render::Image& image) {
+    return render::write_png(image, file);
+  });
+}
+
 window::Library library_of(const ViewOptions& options) {
   window::Library library;
   for (const EmbeddedPreset& embedded : embedded_presets())
     if (const auto presets = load_preset(embedded.name, {}))
-      library.cards.push_back({embedded.name, presets->base.title});
+      library.cards.push_back({embedded.name, presets->base.title, embedded_card(embedded.name)});
   library.load = first_preset_of;
+  library.make_movie = make_movie;
+  library.draw_picture = [context = options.context](const window::PictureOrder& order,
+                                                     const fs::path& file) {
+    return draw_picture(order, file, context);
+  };
   library.save_to = options.output;
   return library;
 }
@@ -63,9 +105,7 @@ void share_processors() {
 }
 
 Result<Aside> open_aside(const ViewOptions& options, window::Desk& desk) {
-  const auto kind = find_word<render::ContextKind>(options.context);
-  if (!kind) return fail(Fault::bad_input, "--context " + options.context + ": no such context");
-  auto context = render::Context::create(*kind);
+  auto context = make_context(options.context);
   if (!context) return tl::unexpected<Error>(context.error());
   auto renderer = render::Renderer::create(**context);
   if (!renderer) return tl::unexpected<Error>(renderer.error());
@@ -109,8 +149,21 @@ void print_state(const window::Desk& desk) {
   fmt::print("{}\n", record::line_of(line));
 }
 
+/// The shell alone, as the view has it; of a preset that nobody turned all of it.
+Result<void> draw_alone(const ViewOptions& options, window::Desk& desk) {
+  if (!desk.sight->any()) return fail(Fault::no_equilibrium, desk.message);
+  if (options.play.empty() && desk.picture.width > 0) {
+    desk.view = {double(desk.picture.width), double(desk.picture.height)};
+    desk.fit_view();
+  }
+  return draw_picture(desk.picture_order(), options.picture, options.context);
+}
+
 int play_aside(const ViewOptions& options, window::Desk& desk) {
   std::vector<window::InputEvent> events;
+  // a picture of a preset is of its end, pushed as far as it pushes
+  if (!options.picture.empty() && options.play.empty())
+    events.push_back({.kind = window::InputKind::act, .text = "to_end"});
   if (!options.play.empty()) {
     const auto text = as_input(read_whole(options.play));
     if (!text) return report(text.error());
@@ -129,8 +182,21 @@ int play_aside(const ViewOptions& options, window::Desk& desk) {
   if (!options.shot.empty())
     if (auto kept = render::write_png(aside->interface->read(), options.shot); !kept)
       return report(kept.error());
+  if (!options.picture.empty())
+    if (auto drawn = draw_alone(options, desk); !drawn) return report(drawn.error());
   print_state(desk);
   return ExitCode::done;
+}
+
+/// How the picture is wanted.
+Result<void> size_picture(const ViewOptions& options, window::PictureKept& picture) {
+  picture.quality = *find_word<render::Quality>(options.quality);
+  picture.legend = !options.bare;
+  if (options.size.empty()) return {};
+  const auto size = size_of(options.size);
+  if (!size) return tl::unexpected<Error>(size.error());
+  std::tie(picture.width, picture.height) = *size;
+  return window::check_picture(picture.width, picture.height);
 }
 
 /// The workspace of the last visit; one that cannot be read is none.
@@ -173,13 +239,16 @@ int view(ViewOptions options) {
   if (options.bench > 0 && options.input.empty())
     return report(
         {Fault::bad_input, "view --bench S takes a preset: gridshell view PRESET --bench S"});
-  if (!options.shot.empty() && options.play.empty() && options.input.empty())
-    return report({Fault::bad_input, "view --shot PNG takes a preset or --play FILE"});
-  const bool off_screen = !options.play.empty() || !options.shot.empty() || options.bench > 0;
+  if (options.off_screen() && options.play.empty() && options.input.empty())
+    return report(
+        {Fault::bad_input, "view --shot PNG and --picture PNG take a preset or --play FILE"});
+  const bool off_screen = options.off_screen();
   // what is played is the same everywhere
   if (options.workspace.empty() && !off_screen) options.workspace = window::workspace_file();
   share_processors();
   window::Desk desk(library_of(options));
+  desk.timed = !off_screen;
+  if (auto sized = size_picture(options, desk.picture); !sized) return report(sized.error());
   restore(options, desk);
   if (!options.input.empty()) {
     const auto preset = first_preset_of(options.input);
@@ -207,6 +276,13 @@ void add_view(CLI::App& program, Action& action) {
   command->add_option("--play", options->play,
                       "plays recorded input off-screen, each event's equilibrium awaited");
   command->add_option("--shot", options->shot, "with it, the last frame as a PNG");
+  command->add_option("--picture", options->picture,
+                      "draws the shell alone, off-screen, as 'Save picture' does");
+  command->add_option("--size", options->size,
+                      "width and height of kept pictures: WxH; by default twice the view's");
+  command->add_option("--quality", options->quality, "of kept pictures: draft, movie or figure")
+      ->check(CLI::IsMember(all_words<render::Quality>()));
+  command->add_flag("--bare", options->bare, "no legend in kept pictures");
   command
       ->add_option("--bench", options->bench,
                    "drags the radius to and fro for so many seconds, off-screen, and prints a "

@@ -9,7 +9,6 @@
 
 #include "app/ui/look.h"
 #include "render/draw/camera.h"
-#include "render/image/png.h"
 
 namespace gridshell::ui {
 namespace {
@@ -44,6 +43,7 @@ Interface::Interface(const render::Gl& gl, render::Renderer& renderer, window::D
       desk_(desk),
       hand_(desk),
       picture_(gl_, renderer),
+      picker_(gl_),
       target_(gl_, render::Target::Depth::none) {}
 
 Result<std::unique_ptr<Interface>> Interface::create(const render::Context& context,
@@ -249,8 +249,7 @@ void Interface::lay_out() {
   if (desk_.numbers) numbers_.draw(panel, {width_ - right, top, right, half});
   if (desk_.plots) plots_panel(panel, {width_ - right, top + height - half, right, half});
   status_line(panel, {0, top + height, double(width_), status});
-  const render::Box middle = render::Box{left, top, width_ - left, height}.inset(24 * density_);
-  if (desk_.picking && !desk_.help) preset_picker(panel, middle);
+  if (desk_.picking && !desk_.help) picker_.draw(panel, {left, top, width_ - left, height});
   if (desk_.help)
     help_sheet(panel, render::Box{0, top, double(width_), height}.inset(20 * density_));
 }
@@ -281,13 +280,8 @@ Result<void> Interface::compose(double seconds) {
   lay_out();
   ImGui::Render();
   io.MouseWheel = 0;
-  if (auto drawn = draw_shell(); !drawn) return drawn;
-  if (desk_.picture_wanted.empty()) return {};
-  const std::string file = std::exchange(desk_.picture_wanted, "");
-  const auto kept = picture_.for_file(desk_).and_then(
-      [&](const render::Image& image) { return render::write_png(image, file); });
-  desk_.say(kept ? "saved " + file : kept.error().message, !kept);
-  return {};
+  if (!desk_.copied.empty()) ImGui::SetClipboardText(std::exchange(desk_.copied, "").c_str());
+  return draw_shell();
 }
 
 bool Interface::busy() const {

@@ -10,6 +10,7 @@
 
 #include "app/ui/interface_painter.h"
 #include "app/ui/panel.h"
+#include "app/ui/preset_picker.h"
 #include "app/ui/shell_picture.h"
 #include "app/window/input_event.h"
 #include "app/window/view_hand.h"
@@ -75,6 +76,7 @@ class Interface {
   window::ViewHand hand_;
   ShellPicture picture_;
   NumbersPanel numbers_;
+  PresetPicker picker_;
   render::Target target_;
   std::deque<window::InputEvent> events_;
   std::map<std::string, render::Box> controls_;

@@ -44,7 +44,6 @@ void shell_panel(const Panel& panel, const render::Box& box);
 void plots_panel(const Panel& panel, const render::Box& box);
 void status_line(const Panel& panel, const render::Box& box);
 void help_sheet(const Panel& panel, const render::Box& box);
-void preset_picker(const Panel& panel, const render::Box& box);
 void colour_legend(const Panel& panel, const render::Box& view);
 
 /// Every number of the preset, from the field table; remembers what is being changed.

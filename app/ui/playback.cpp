@@ -20,10 +20,12 @@ constexpr int frames_to_sharpen = 30;
 Result<void> rest(Interface& interface, window::Desk& desk) {
   for (int k = 0; k < most_frames; ++k) {
     desk.engine.wait();
+    desk.picture_work.wait();
+    desk.movie_work.wait();
     if (auto drawn = interface.frame_aside(frame_s); !drawn) return drawn;
-    if (desk.engine.idle() && desk.engine.sight() == desk.sight && !interface.events_wait() &&
-        !desk.playing)
-      return {};
+    const bool rests = desk.engine.idle() && desk.engine.sight() == desk.sight && !desk.playing &&
+                       desk.picture_work.idle() && desk.movie_work.idle();
+    if (rests && !interface.events_wait()) return {};
   }
   return {};
 }

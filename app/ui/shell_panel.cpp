@@ -154,15 +154,59 @@ void colour_range(const Panel& panel) {
 void colours(const Panel& panel) {
   Desk& desk = panel.desk;
   heading(panel, "Colour");
+  const auto action_of = [](window::ColourBy by) {
+    return window::find_action("colour_" + std::string(word_of(by)));
+  };
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##colour", window::label_of(desk.show.colour_by))) {
+  if (ImGui::BeginCombo("##colour", action_of(desk.show.colour_by)->label)) {
     for (const auto& entry : words(window::ColourBy{}))
-      if (ImGui::Selectable(window::label_of(entry.value), entry.value == desk.show.colour_by))
-        window::find_action("colour_" + std::string(entry.word))->act(desk);
+      if (ImGui::Selectable(action_of(entry.value)->label, entry.value == desk.show.colour_by))
+        action_of(entry.value)->act(desk);
     ImGui::EndCombo();
   }
   panel.named("colour", window::meaning_of(desk.show.colour_by));
   colour_range(panel);
+}
+
+/// Sizes to choose from; 0: twice the view.
+struct SizeChoice {
+  int width, height;
+};
+constexpr SizeChoice sizes[] = {{0, 0}, {1280, 720}, {1920, 1080}, {3840, 2160}};
+
+std::string text_of(const SizeChoice& size) {
+  return size.width == 0 ? "twice the view" : fmt::format("{} x {}", size.width, size.height);
+}
+
+void keep(const Panel& panel) {
+  Desk& desk = panel.desk;
+  window::PictureKept& picture = desk.picture;
+  heading(panel, "Keep");
+  panel.button("save_picture");
+  ImGui::SameLine();
+  panel.button("save_movie");
+  ImGui::SetNextItemWidth(panel.px(120));
+  if (ImGui::BeginCombo("##size", text_of({picture.width, picture.height}).c_str())) {
+    for (const SizeChoice& size : sizes)
+      if (ImGui::Selectable(text_of(size).c_str(), size.width == picture.width))
+        picture.width = size.width, picture.height = size.height;
+    int asked[2] = {picture.width, picture.height};
+    if (ImGui::InputInt2("##asked", asked, ImGuiInputTextFlags_EnterReturnsTrue))
+      desk.size_picture(asked[0], asked[1]);
+    panel.named("picture_pixels", "width and height, pixels; Enter takes them");
+    ImGui::EndCombo();
+  }
+  panel.named("picture_size", "size of a kept picture, pixels");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##quality", std::string(word_of(picture.quality)).c_str())) {
+    for (const auto& entry : words(render::Quality{}))
+      if (ImGui::Selectable(std::string(entry.word).c_str(), entry.value == picture.quality))
+        picture.quality = entry.value;
+    ImGui::EndCombo();
+  }
+  panel.named("picture_quality",
+              "of a kept picture: draft has no shadow, figure has soft light and takes seconds");
 }
 
 void picked(const Panel& panel) {
@@ -206,6 +250,7 @@ void shell_panel(const Panel& panel, const render::Box& box) {
     stability(panel);
     accuracy(panel);
     colours(panel);
+    keep(panel);
     picked(panel);
   }
   ImGui::End();

@@ -17,9 +17,6 @@ class ShellPicture {
   /// Draws what the desk shows, in its view's size, at half the resolution while it moves. Errors:
   /// those of the renderer.
   Result<void> draw(const window::Desk& desk, window::Sharpness sharpness);
-  /// The picture for a file: twice the view's size, with the colours' legend.
-  Result<render::Image> for_file(const window::Desk& desk) const;
-
   GLuint texture() const { return texture_.id(); }
 
  private:
@@ -27,5 +24,8 @@ class ShellPicture {
   render::Renderer* renderer_;
   render::Texture texture_;
 };
+
+/// The picture for a file, with the colours' legend where it is wanted.
+Result<render::Image> picture_of(const window::PictureOrder& order, render::Renderer& renderer);
 
 }  // namespace gridshell::ui

@@ -15,13 +15,29 @@ std::string meshes_of(const std::vector<int>& meshes) {
   return text;
 }
 
-std::string certificate_of(const window::Sight& sight) {
+std::string certificate_of(const window::Sight& sight, bool timed) {
   const Certificate& c = sight.certificate;
   const std::string error = std::isfinite(c.error_estimate_mm)
                                 ? fmt::format("error {:.1e} mm", c.error_estimate_mm)
                                 : "error not known";
-  return fmt::format("residual {:.1e} N   pivots {}   {}   {} edges   {:.0f} ms", c.residual_N,
-                     c.negative_pivots, error, meshes_of(sight.meshes), 1000 * sight.seconds);
+  const std::string took = timed ? fmt::format("   {:.0f} ms", 1000 * sight.seconds) : "";
+  return fmt::format("residual {:.1e} N   pivots {}   {}   {} edges{}", c.residual_N,
+                     c.negative_pivots, error, meshes_of(sight.meshes), took);
+}
+
+/// How far the movie is that is made beside the window.
+void movie_standing(const Panel& panel) {
+  const std::string said = panel.desk.movie_work.standing();
+  const std::string line = "movie " + (said.empty() ? "0 %" : said);
+  const char* stop = window::find_action("stop_movie")->label;
+  const float width = ImGui::CalcTextSize(line.c_str()).x + ImGui::CalcTextSize(stop).x +
+                      3 * ImGui::GetStyle().FramePadding.x + panel.px(18);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+  ImGui::TextUnformatted(line.c_str());
+  ImGui::SameLine(0, panel.px(10));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {panel.px(6), 0});
+  panel.button("stop_movie");
+  ImGui::PopStyleVar();
 }
 
 }  // namespace
@@ -37,8 +53,13 @@ void status_line(const Panel& panel, const render::Box& box) {
     ImGui::TextUnformatted(sight.stable() ? "● stable" : "● not stable");
     ImGui::PopStyleColor();
     panel.named("stability", "whether the Hessian is positive definite with what is held held");
+    if (!sight.symmetry.empty()) {
+      ImGui::SameLine(0, panel.px(14));
+      ImGui::TextUnformatted(sight.symmetry.c_str());
+      panel.named("symmetry", "symmetries of the square that leave this shape as it is");
+    }
     ImGui::SameLine(0, panel.px(14));
-    ImGui::TextUnformatted(certificate_of(sight).c_str());
+    ImGui::TextUnformatted(certificate_of(sight, desk.timed).c_str());
     panel.named("certificate",
                 "largest force that nothing holds; negative pivots of the Hessian; estimated error "
                 "of the joints; meshes, edges a segment; time of the last equilibrium");
@@ -55,6 +76,7 @@ void status_line(const Panel& panel, const render::Box& box) {
   ImGui::TextUnformatted(line.c_str());
   ImGui::PopStyleColor();
   panel.named("message", said);
+  if (desk.movie_work.under_way()) movie_standing(panel);
   ImGui::End();
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/plot/ticks.h"
+
 namespace gridshell::window {
 namespace {
 
@@ -23,7 +25,7 @@ constexpr ColourWords colour_words[] = {
 
 /// Both meshes' nodes lie at other places, but the joints come first in each.
 Eigen::VectorXd displacement(const Sight& sight) {
-  const Eigen::Matrix3Xd &now = sight.frame.nodes, &then = sight.first.nodes;
+  const Eigen::Matrix3Xd &now = sight.frame.nodes, &then = sight.first->nodes;
   if (now.cols() == then.cols()) return (now - then).colwise().norm().transpose();
   // by the joints, along the rods in between
   const record::Layout& layout = *sight.layout;
@@ -58,8 +60,8 @@ Values values_of(const Sight& sight, ColourBy by) {
     case ColourBy::K:
       return {sight.frame.cell_K, {}};
     case ColourBy::K_change:
-      if (sight.first.cell_K.size() != sight.frame.cell_K.size()) return {};
-      return {sight.frame.cell_K - sight.first.cell_K, {}};
+      if (sight.first->cell_K.size() != sight.frame.cell_K.size()) return {};
+      return {sight.frame.cell_K - sight.first->cell_K, {}};
     case ColourBy::deviation:
       return {sight.deviation, {}};
     case ColourBy::energy:
@@ -82,7 +84,10 @@ render::ColourScale scale_of(const Values& values, ColourBy by) {
     if (scale.high < least) scale.low = -least, scale.high = least;
     return scale;
   }
-  const double end = all.size() > 0 && all.maxCoeff() > 1e-9 ? scale.high : 1;
+  const bool any = all.size() > 0 && all.maxCoeff() > 1e-9;
+  // of these the farthest is what is asked for
+  const bool whole = by == ColourBy::displacement || by == ColourBy::deviation;
+  const double end = !any ? 1 : whole ? render::nice_ceiling(all.maxCoeff()) : scale.high;
   return {render::ColourMap::sequential, 0, end, values.of_nodes.size() > 0 ? 0.2 : 0};
 }
 

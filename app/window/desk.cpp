@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/atomic_file.h"
-#include "engine/preset/writer.h"
-
 namespace gridshell::window {
 namespace {
 
@@ -16,16 +13,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_readings = 4000;
 constexpr double look_every_s = 0.5;  // at the preset's file
 constexpr double earth_m_s2 = 9.81, nitinol_kg_m3 = 6450;
-
-double rounded(double value, double step) { return step * std::round(value / step); }
-
-/// What the picture is to hold: rods and both boundaries.
-Eigen::Matrix3Xd bounds_of(const Sight& sight) {
-  const record::Layout& layout = *sight.layout;
-  Eigen::Matrix3Xd points(3, sight.frame.nodes.cols() + layout.original_boundary.cols());
-  points << sight.frame.nodes, layout.original_boundary;
-  return points;
-}
 
 }  // namespace
 
@@ -112,63 +99,24 @@ void Desk::play(bool on) {
 
 // ---- the camera ----
 
+/// From where the camera looks, all in sight.
+render::Camera Desk::fitted_view() const {
+  render::Camera fitted = camera;
+  // rods and both boundaries
+  const record::Layout& layout = *sight->layout;
+  Eigen::Matrix3Xd points(3, sight->frame.nodes.cols() + layout.original_boundary.cols());
+  points << sight->frame.nodes, layout.original_boundary;
+  fit(fitted, view, points);
+  return fitted;
+}
+
 void Desk::fit_view() {
-  if (sight->any()) fit(camera, view, bounds_of(*sight));
+  if (sight->any()) camera = fitted_view();
 }
 
 void Desk::look(const ViewFrom& from) {
   look_from(camera, from);
   fit_view();
-}
-
-// ---- keeping ----
-
-fs::path Desk::file_to_save(const char* ending) const {
-  for (int k = 1;; ++k) {
-    const fs::path file =
-        library.save_to /
-        fmt::format("{}_{}{}", fs::path(sight->preset.name).filename().string(), k, ending);
-    std::error_code error;
-    if (!fs::exists(file, error)) return file;
-  }
-}
-
-preset::Preset Desk::preset_to_save() const {
-  preset::Preset preset = sight->preset;
-  preset.movie.azimuth_deg = rounded(camera.azimuth_deg, 0.1);
-  preset.movie.elevation_deg = rounded(camera.elevation_deg, 0.1);
-  preset.movie.view = preset::View::free;
-  preset.movie.turn_deg = 0;
-  preset.movie.orthographic = camera.field_of_view_deg == 0;
-  preset.indentation = {};
-  // a boundary that was moved and nothing else is a preset of that radius
-  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
-  const bool moves = std::ranges::all_of(sight->steps, [](const preset::Step& step) {
-    return step.deed == preset::Deed::move && step.edge_points.empty();
-  });
-  if (circle && moves) return preset;
-  preset.step = sight->steps;
-  if (circle) preset.actuation.radius_mm = sight->radius_end_mm;
-  return preset;
-}
-
-void Desk::save_preset() {
-  if (!sight->any()) return say("there is no shell to save", true);
-  const fs::path file = file_to_save(".toml");
-  std::error_code error;
-  fs::create_directories(library.save_to, error);
-  const auto written = write_atomically(file, preset::to_toml(preset_to_save()));
-  if (!written) return say(written.error().message, true);
-  std::string left_out;
-  if (sight->changed_late) left_out = "; numbers that were changed on the way count from its begin";
-  say("saved " + file.string() + left_out, !left_out.empty());
-}
-
-void Desk::save_picture() {
-  if (!sight->any()) return say("there is no shell to draw", true);
-  std::error_code error;
-  fs::create_directories(library.save_to, error);
-  picture_wanted = file_to_save(".png").string();
 }
 
 // ---- frame by frame ----
@@ -193,6 +141,7 @@ bool Desk::tick(double seconds) {
     show.mode_mm = mode_phase = 0;
     anew = true;
   }
+  tell_of_kept();
   watch_file(seconds);
   return anew;
 }
@@ -243,12 +192,19 @@ void Desk::read_off() {
   for (const TermName& term : energy_terms) now.energy_mJ += frame.energies[term.term];
   now.total_K = frame.total_K;
   now.stable = sight->stable();
+  now.steps = sight->steps.size();
+  now.refined = sight->refined;
   if (!sight->held.empty()) {
     const HeldJoint& held = sight->held.back();
+    now.joint = held.joint;
     now.depth_mm = held.moved_mm.norm();
     const double along = held.force_N.dot(held.moved_mm.normalized());
     now.force_N = std::isfinite(along) ? along : 0;
   }
+  // the finer meshes of a drag's end take the place of its coarse one
+  if (now.refined && !readings.empty() && !readings.back().refined &&
+      readings.back().steps == now.steps)
+    readings.pop_back();
   readings.push_back(now);
   if (readings.size() > most_readings)
     readings.erase(readings.begin(), readings.begin() + most_readings / 4);

@@ -6,23 +6,52 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "app/window/aside_work.h"
 #include "app/window/camera_hand.h"
 #include "app/window/engine_thread.h"
 #include "app/window/shell_drawing.h"
+#include "render/movie/style.h"
 
 namespace gridshell::window {
 
 /// A preset that can be picked.
 struct PresetCard {
   std::string name, title;
+  std::string_view picture;  ///< a PNG of its shell; empty: none
 };
 
-/// Where presets come from and pictures and presets are saved to.
+/// How pictures are kept.
+struct PictureKept {
+  int width = 0, height = 0;  ///< pixels; 0: twice the view's
+  render::Quality quality = render::Quality::movie;
+  bool legend = true;  ///< of the colours
+};
+
+/// Errors (bad_input): pixels that no picture can have.
+Result<void> check_picture(int width, int height);
+
+/// All that a picture hangs on.
+struct PictureOrder {
+  std::shared_ptr<const Sight> sight;
+  render::Camera camera;
+  PictureSize view;  ///< that the camera looks into
+  Show show;
+  PictureKept kept;
+};
+
+/// Where presets come from, what makes pictures and movies, and where all that is kept goes.
 struct Library {
   std::vector<PresetCard> cards;
   std::function<Result<preset::Preset>(const std::string& name)> load;
+  std::function<Result<void>(const PictureOrder& order, const std::filesystem::path& file)>
+      draw_picture;
+  /// The movie of a preset's file in a folder.
+  std::function<Result<void>(const std::filesystem::path& preset,
+                             const std::filesystem::path& folder, const Heard&, const Watch&)>
+      make_movie;
   std::filesystem::path save_to = "out";
 };
 
@@ -30,7 +59,9 @@ struct Library {
 struct Reading {
   double radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0, force_N = 0,
          total_K = 0;
-  bool stable = true;
+  int joint = -1;  ///< that is held and was taken last; none
+  int steps = 0;   ///< that the hand had done
+  bool stable = true, refined = true;
 };
 
 /// How a shell was looked at last.
@@ -70,8 +101,11 @@ class Desk {
   double mode_phase = 0;
   bool playing = false;
   double play_head = 1, play_speed = 0.25;  ///< of the path a second
-  std::string picture_wanted;               ///< a file that the next frame is to be kept in
-  bool over = false;                        ///< the window is to close
+  PictureKept picture;
+  AsideWork picture_work, movie_work;
+  std::string copied;  ///< text for the clipboard
+  bool timed = true;   ///< whether what took how long is shown
+  bool over = false;   ///< the window is to close
 
   // ---- what is done ----
 
@@ -97,10 +131,20 @@ class Desk {
   void look(const ViewFrom& from);
   void say(const std::string& text, bool bad = false);
 
-  /// The preset as the shell stands now: radius, or what the hand did step by step; camera.
+  // ---- what is kept ----
+
+  /// The preset as the shell stands now: radius, or what the hand did step by step; camera,
+  /// colours.
   preset::Preset preset_to_save() const;
   void save_preset();
   void save_picture();
+  PictureOrder picture_order() const { return {sight, camera, view, show, picture}; }
+  /// The size of kept pictures, pixels; of no pixels twice the view's. One that cannot be says so.
+  void size_picture(int width, int height);
+  /// Of what was done, or where nothing was, of the preset; beside the window.
+  void save_movie();
+  /// The camera as keys of [movie].
+  void copy_camera();
 
   /// Once a frame: takes the latest sight, plays, looks at the preset's file. Whether anything is
   /// to be drawn anew.
@@ -112,7 +156,11 @@ class Desk {
   void look_anew();
   void read_off();
   void watch_file(double seconds);
-  std::filesystem::path file_to_save(const char* ending) const;
+  render::Camera fitted_view() const;
+  void put_view(preset::Preset& preset) const;
+  std::filesystem::path path_to_save(const std::vector<std::string>& endings) const;
+  Result<void> write_preset(const preset::Preset& preset, const std::filesystem::path& file) const;
+  void tell_of_kept();
 
   int stroke_ = 1;
   bool fresh_ = true;  // the next sight is of another shell: the camera goes round it

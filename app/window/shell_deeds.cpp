@@ -74,11 +74,11 @@ void ShellInHand::keep(preset::Step step, const Report& report) {
   if (step.deed == preset::Deed::move) step.edge_points = rows_of(boundary_.dragged);
   const bool eventful = !report.events.empty();
   const bool same = now_stroke_ != 0 && now_stroke_ == kept_stroke_ && !steps_.empty() &&
-                    !eventful && !kept_eventful_ && goes_on(steps_.back(), step);
+                    !eventful && !kept_eventful_ && goes_on(steps_.last(), step);
   if (same)
-    steps_.back() = std::move(step);
+    steps_.replace_last(std::move(step));
   else
-    steps_.push_back(std::move(step));
+    steps_.add(std::move(step));
   kept_stroke_ = now_stroke_;
   kept_eventful_ = eventful;
 }

@@ -14,15 +14,28 @@
 namespace gridshell::window {
 namespace {
 
-constexpr std::size_t most_bytes = 400u << 20;  // of steps to undo
+constexpr std::int64_t most_bytes_aside = std::int64_t(8) << 30;
 
-std::size_t bytes_of(const Checkpoint& kept) {
-  std::size_t doubles = 0;
-  for (const State& level : kept.state.levels)
-    doubles += std::size_t(level.x.size() + level.force.size() + level.director.size());
-  for (const PinnedMotion& motion : kept.motions)
-    doubles += std::size_t(motion.begin.size() + motion.change.size());
-  return sizeof(double) * (doubles + std::size_t(kept.state.x.size()));
+/// Calls visit(array) for each of a checkpoint's arrays of numbers, as long as it returns true.
+template <class Kept, class Visit>
+bool each_array(Kept& kept, const Visit& visit) {
+  if (!visit(kept.state.x)) return false;
+  for (auto& level : kept.state.levels)
+    if (!visit(level.x) || !visit(level.force) || !visit(level.director) ||
+        !visit(level.reference_twist))
+      return false;
+  for (auto& motion : kept.motions)
+    if (!visit(motion.begin) || !visit(motion.change)) return false;
+  return true;
+}
+
+std::int64_t bytes_of(const Checkpoint& kept) {
+  std::int64_t doubles = 0;
+  each_array(kept, [&](const auto& array) {
+    doubles += array.size();
+    return true;
+  });
+  return doubles * std::int64_t(sizeof(double));
 }
 
 /// "the path lost its stability; came to rest in another state" of what a step came past.
@@ -79,8 +92,8 @@ void ShellInHand::refine(const Watch& watch) {
   if (!session_ || refined_) return;
   const double begin = seconds_now();
   // a shell that nothing happened to since it was formed
-  const bool untouched = sight_.first.nodes.cols() == sight_.frame.nodes.cols() &&
-                         sight_.first.nodes == sight_.frame.nodes;
+  const bool untouched = sight_.first && sight_.first->nodes.cols() == sight_.frame.nodes.cols() &&
+                         sight_.first->nodes == sight_.frame.nodes;
   const LevelPlan plan = experiment::first_plan(*scene_);
   const std::vector<int>& now = session_->shell().plan().edges_per_segment;
   const bool fine_enough = scene_->edges_per_segment == 0 && now.size() > 1 &&
@@ -98,7 +111,7 @@ void ShellInHand::refine(const Watch& watch) {
     session_->refine(scene_->tolerance * scene_->length_scale_mm, watch);
   refined_ = !watch.cancelled();
   look();
-  if (untouched) sight_.first = sight_.frame;
+  if (untouched) sight_.first = std::make_shared<const record::Frame>(sight_.frame);
   sight_.seconds = seconds_now() - begin;
 }
 
@@ -123,13 +136,45 @@ bool ShellInHand::remember(const Wish& wish) {
   stroke_ = wish.stroke;
   redo_.clear();
   undo_.push_back(step());
-  std::size_t bytes = 0;
-  for (auto one = undo_.rbegin(); one != undo_.rend(); ++one) bytes += bytes_of(one->checkpoint);
-  while (bytes > most_bytes && undo_.size() > 1) {
-    bytes -= bytes_of(undo_.front().checkpoint);
-    undo_.pop_front();
-  }
+  keep_within_memory(undo_);
   return true;
+}
+
+/// Older steps go to a file; where that has no room, they are forgotten.
+void ShellInHand::keep_within_memory(std::deque<Step>& steps) {
+  forget_aside();
+  std::int64_t bytes = 0;
+  std::size_t kept = 0;
+  while (kept < steps.size() && bytes <= most_bytes_)
+    bytes += bytes_of(steps[steps.size() - 1 - kept++].checkpoint);
+  // those before are aside already but for the last few
+  for (std::size_t k = steps.size() - kept; k-- > 0 && steps[k].aside.empty();)
+    if (!put_aside(steps[k])) {
+      steps.erase(steps.begin(), steps.begin() + std::ptrdiff_t(k) + 1);
+      return;
+    }
+}
+
+/// What nobody can go back to makes room.
+void ShellInHand::forget_aside() {
+  const auto aside = [](const Step& step) { return !step.aside.empty(); };
+  if (std::ranges::none_of(undo_, aside) && std::ranges::none_of(redo_, aside))
+    aside_ = NumbersFile();
+}
+
+bool ShellInHand::put_aside(Step& step) {
+  if (aside_.bytes() > most_bytes_aside) return false;
+  return each_array(step.checkpoint,
+                    [&](auto& array) { return aside_.put(array, step.aside.emplace_back()); });
+}
+
+bool ShellInHand::take_back(Step& step) const {
+  auto at = step.aside.begin();
+  const bool back = at == step.aside.end() || each_array(step.checkpoint, [&](auto& array) {
+                      return aside_.take(*at++, array);
+                    });
+  step.aside.clear();
+  return back;
 }
 
 Result<void> ShellInHand::stand(const Step& step) {
@@ -155,15 +200,20 @@ Result<void> ShellInHand::stand(const Step& step) {
 
 Result<void> ShellInHand::travel(std::deque<Step>& from, std::deque<Step>& to, const char* none) {
   if (from.empty()) return fail(Fault::bad_input, none);
-  to.push_back(step());
   Step back = std::move(from.back());
   from.pop_back();
+  if (!take_back(back))
+    return fail(Fault::io, "the state was put aside into a file that cannot be read");
+  to.push_back(step());
+  keep_within_memory(to);
   stroke_ = 0;
   return stand(back);
 }
 
-Result<void> ShellInHand::act(const Undo&, const Watch&) {
-  return travel(undo_, redo_, "there is nothing to undo");
+Result<void> ShellInHand::act(const Undo& wish, const Watch&) {
+  auto back = travel(undo_, redo_, "there is nothing to undo");
+  while (wish.all && back && !undo_.empty()) back = travel(undo_, redo_, "");
+  return back;
 }
 
 Result<void> ShellInHand::act(const Redo&, const Watch&) {
@@ -201,7 +251,7 @@ Result<void> ShellInHand::form(const preset::Preset& preset, const Watch& watch)
   sight_.told = course->limit_reason;
   sight_.push = {};
   sight_.layout.reset();
-  sight_.first = {};
+  sight_.first.reset();
   for (const preset::Step& step : preset.step) {
     // what stands before a step is what it is seen against
     look();

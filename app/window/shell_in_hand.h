@@ -1,6 +1,7 @@
 // The shell that a window holds: fulfils wishes on a session and remembers the steps, one thread.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <memory>
@@ -8,11 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "app/window/numbers_file.h"
 #include "app/window/sight.h"
 #include "app/window/wish.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/experiment/steps.h"
+#include "engine/footprint/mesh_symmetry.h"
 #include "engine/session/session.h"
 
 namespace gridshell::window {
@@ -20,6 +23,10 @@ namespace gridshell::window {
 /// A failed wish leaves the shell in its last certified state and says why in the sight.
 class ShellInHand {
  public:
+  /// Steps to undo take that much memory; older ones stand in a file.
+  explicit ShellInHand(std::int64_t most_bytes = std::int64_t(100) << 20)
+      : most_bytes_(most_bytes) {}
+
   /// Fulfils a wish as far as it can.
   void fulfil(const Wish& wish, const Watch& watch);
   /// Onto the meshes that the preset's accuracy asks for, where the shell stands on coarser ones.
@@ -37,9 +44,10 @@ class ShellInHand {
     experiment::HandBoundary boundary;
     std::map<int, Eigen::Vector3d> taken_at;
     PresetPush push;
-    record::Frame first;
-    std::vector<preset::Step> steps;
+    std::shared_ptr<const record::Frame> first;
+    StepChain steps;
     bool refined = true, changed_late = false;
+    std::vector<PutAside> aside = {};  ///< the checkpoint's arrays, where they are not in it
   };
 
   Result<void> act(const Open& wish, const Watch& watch);
@@ -64,10 +72,15 @@ class ShellInHand {
   bool remember(const Wish& wish);
   Result<void> travel(std::deque<Step>& from, std::deque<Step>& to, const char* none);
   Step step() const;
+  void keep_within_memory(std::deque<Step>& steps);
+  void forget_aside();
+  bool put_aside(Step& step);
+  bool take_back(Step& step) const;
   Result<void> stand(const Step& step);
   void look();
   void look_at_layout();
   void look_at_normals();
+  void look_at_symmetry();
   void look_at_rods();
   void look_at_soft_mode();
 
@@ -77,12 +90,15 @@ class ShellInHand {
   experiment::HandBoundary boundary_;
   std::map<int, Eigen::Vector3d> taken_at_;  // where joints were taken hold of
   std::deque<Step> undo_, redo_;
+  NumbersFile aside_;  // the arrays of older ones
+  std::int64_t most_bytes_;
   int stroke_ = 0;                        // that the last step to undo belongs to
-  std::vector<preset::Step> steps_;       // what the hand did since the shell was formed
+  StepChain steps_;                       // what the hand did since the shell was formed
   int now_stroke_ = 0, kept_stroke_ = 0;  // of the wish at hand, and of the last of steps_
   bool kept_eventful_ = false;            // whether that came past something
   bool refined_ = false, changed_late_ = false;
-  int nodes_shown_ = 0;  // of the layout in sight
+  int nodes_shown_ = 0;                   // of the layout in sight
+  std::vector<MeshSymmetry> symmetries_;  // that a state of this shell may have
   Sight sight_;
 };
 

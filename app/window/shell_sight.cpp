@@ -1,16 +1,20 @@
 // What is seen of the shell in hand: the sight is made anew after every wish.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "app/window/shell_in_hand.h"
 #include "engine/experiment/frames.h"
+#include "engine/experiment/state_measures.h"
 #include "engine/measure/deviation.h"
 #include "engine/measure/gauss.h"
+#include "engine/measure/symmetry_group.h"
 #include "engine/solve/buckle.h"
 
 namespace gridshell::window {
 namespace {
 
+constexpr double same_shape = 2e-3;        // of the length scale
 constexpr double least_shortening = 1e-3;  // nearer to the flat no path is followed
 
 /// Where each of the motions' parameters is as near to the flat as a path goes, as a progress.
@@ -19,6 +23,20 @@ double least_progress_of(const Session& session) {
   PinnedMotion motion = pinned_motion(shell.mesh(0), session.scene().motion);
   const auto t = parameter_of_shortening(shell.mesh(0), motion, least_shortening);
   return t ? std::min(1.0, *t * *t) : 0;
+}
+
+/// Of a group by Schoenflies' name.
+std::string words_of_group(const std::string& group) {
+  static const std::map<std::string, std::string> words{{"C1", "no symmetry"},
+                                                        {"Cs_axis", "one axial mirror"},
+                                                        {"Cs_diagonal", "one diagonal mirror"},
+                                                        {"C2", "half turn"},
+                                                        {"C2v_axes", "two axial mirrors"},
+                                                        {"C2v_diagonals", "two diagonal mirrors"},
+                                                        {"C4", "quarter turns"},
+                                                        {"C4v", "all symmetries of the square"}};
+  const auto found = words.find(group);
+  return found == words.end() ? "symmetry " + group : found->second;
 }
 
 }  // namespace
@@ -57,9 +75,10 @@ void ShellInHand::look() {
     if (held.along.dot(s.normals.col(hold.node)) < 0) held.along *= -1;
     s.held.push_back(held);
   }
+  look_at_symmetry();
   look_at_rods();
   look_at_soft_mode();
-  if (s.first.nodes.cols() == 0) s.first = s.frame;
+  if (!s.first) s.first = std::make_shared<const record::Frame>(s.frame);
   ++s.equilibria;
 }
 
@@ -72,9 +91,26 @@ void ShellInHand::look_at_layout() {
     sight_.trouble = layout.error().message;
     return;
   }
+  // a record has it beside a net alone
+  if (layout->flat_nodes.cols() == 0)
+    layout->flat_nodes = scene_->flat.all(mesh.flat.leftCols(mesh.rod_nodes()));
   sight_.layout = std::make_shared<const record::Layout>(std::move(*layout));
   sight_.least_progress = least_progress_of(*session_);
   nodes_shown_ = mesh.rod_nodes();
+  // joints come first on every mesh, and the coarsest is the quickest to look at
+  const NestedShell& shell = session_->shell();
+  symmetries_ =
+      experiment::symmetries_of_shell(*scene_, symmetries_of(shell.mesh(0), shell.motion(0).at(1)));
+}
+
+/// Of the shape, whatever holds it. A square that is mapped onto itself alone has none to tell of.
+void ShellInHand::look_at_symmetry() {
+  sight_.symmetry.clear();
+  if (!refined_ || symmetries_.size() < 2) return;
+  const Eigen::Matrix3Xd joints =
+      sight_.frame.nodes.leftCols(Eigen::Index(sight_.layout->joints.size()));
+  const double within_mm = same_shape * scene_->length_scale_mm;
+  sight_.symmetry = words_of_group(name_of_group(group_of(symmetries_, joints, within_mm)));
 }
 
 /// Of the net where there is one, as a preset's push has it; else of the shell as it stands.

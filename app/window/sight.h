@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/window/step_chain.h"
 #include "engine/preset/preset.h"
 #include "engine/record/snapshot.h"
 #include "engine/session/report.h"
@@ -31,16 +32,18 @@ struct PresetPush {
 struct Sight {
   preset::Preset preset;                         ///< as it stands, the boundary's radius in it
   std::shared_ptr<const record::Layout> layout;  ///< of the frame's nodes
-  record::Frame frame, first;                    ///< `first`: where the shell began
+  record::Frame frame;
+  std::shared_ptr<const record::Frame> first;  ///< where the shell began; null before
   Certificate certificate;
   std::vector<int> meshes;    ///< edges a segment, coarse to fine
   bool refined = false;       ///< to the preset's tolerance; else coarse, as in a drag
   double progress = 0;        ///< of the boundary; beyond 1 further than the preset has it
   double least_progress = 0;  ///< to which it can be let out
+  std::string symmetry;       ///< "two diagonal mirrors"; empty while a drag passes
   std::vector<HeldJoint> held;
   PresetPush push;
-  std::vector<preset::Step> steps;  ///< what the hand did since the shell was formed
-  double radius_end_mm = 0;         ///< of a circle's boundary where its motion ends
+  StepChain steps;           ///< what the hand did since the shell was formed
+  double radius_end_mm = 0;  ///< of a circle's boundary where its motion ends
   bool edges_dragged = false;
   bool changed_late = false;     ///< numbers of its rods were changed after steps
   Eigen::Matrix3Xd normals;      ///< one a joint: t_u x t_v

@@ -44,7 +44,10 @@ struct Rest {
 struct Jitter {
   int seed = 1;
 };
-struct Undo {};
+/// The last step, or every one.
+struct Undo {
+  bool all = false;
+};
 struct Redo {};
 /// Nothing but the finer meshes that follow a stroke.
 struct Settle {};

@@ -159,17 +159,20 @@ Result<void> write_png(const Image& image, const std::filesystem::path& path, do
   return write_atomically(path, *bytes);
 }
 
-Result<Image> read_png(const std::filesystem::path& path) {
-  auto bytes = read_whole(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  std::string_view left = *bytes;
+Result<Image> decode_png(std::string_view bytes, const std::string& name) {
   Image image;
   std::vector<png_bytep> rows;
   Failure failure;
-  if (!decode_rows(left, image, rows, failure))
+  if (!decode_rows(bytes, image, rows, failure))
     return fail(Fault::bad_input,
-                fmt::format("'{}' is not a readable PNG: {}", path.string(), failure.message));
+                fmt::format("'{}' is not a readable PNG: {}", name, failure.message));
   return image;
+}
+
+Result<Image> read_png(const std::filesystem::path& path) {
+  auto bytes = read_whole(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return decode_png(*bytes, path.string());
 }
 
 }  // namespace gridshell::render

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "engine/core/result.h"
 #include "render/image/image.h"
@@ -19,8 +20,12 @@ Result<std::string> encode_png(const Image& image, double dpi = 0);
 /// said; those of encode_png.
 Result<void> write_png(const Image& image, const std::filesystem::path& path, double dpi = 0);
 
-/// Reads a PNG of any colour type and bit depth as 8-bit RGBA. Errors: Fault::io naming the path
-/// and why it cannot be opened; Fault::bad_input when it is no PNG or is damaged.
+/// The picture in the bytes of a PNG of any colour type and bit depth, as 8-bit RGBA. Errors:
+/// Fault::bad_input, with `name`, when it is no PNG or is damaged.
+Result<Image> decode_png(std::string_view bytes, const std::string& name);
+
+/// The same of a file. Errors: Fault::io naming the path and why it cannot be opened;
+/// Fault::bad_input as above.
 Result<Image> read_png(const std::filesystem::path& path);
 
 }  // namespace gridshell::render

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <string_view>
 #include <system_error>
 
 extern char** environ;
@@ -51,9 +52,21 @@ std::string last_line(std::string text) {
   return start == std::string::npos ? text : text.substr(start + 1);
 }
 
+// whole lines; what is left of the last one waits for its end
+void pass_on(std::string_view said, std::string& line, const Listener& heard) {
+  for (const char c : said) {
+    if (c != '\n' && c != '\r') {
+      line += c;
+    } else if (!line.empty()) {
+      heard(line);
+      line.clear();
+    }
+  }
+}
+
 // what the child says until it closes its stderr; it is told to end once the watch is cancelled
-std::string listen(int pipe_end, pid_t child, const Watch& watch) {
-  std::string words;
+std::string listen(int pipe_end, pid_t child, const Watch& watch, const Listener& heard) {
+  std::string words, line;
   bool told = false;
   for (;;) {
     if (watch.cancelled() && !told) {
@@ -71,13 +84,15 @@ std::string listen(int pipe_end, pid_t child, const Watch& watch) {
     words.append(block, std::size_t(got));
     // only the end counts
     if (words.size() > (1 << 16)) words.erase(0, words.size() - (1 << 15));
+    if (heard) pass_on(std::string_view(block, std::size_t(got)), line, heard);
   }
   return words;
 }
 
 }  // namespace
 
-Result<void> run_child(const std::vector<std::string>& arguments, const Watch& watch) {
+Result<void> run_child(const std::vector<std::string>& arguments, const Watch& watch,
+                       const Listener& heard) {
   Pipe pipe;
   if (::pipe2(pipe.ends, O_CLOEXEC) != 0)
     return fail(Fault::io, fmt::format("cannot start {}: {}", arguments[0], reason(errno)));
@@ -85,7 +100,7 @@ Result<void> run_child(const std::vector<std::string>& arguments, const Watch& w
   if (const int code = spawn(arguments, pipe.ends[1], child); code != 0)
     return fail(Fault::io, fmt::format("cannot start {}: {}", arguments[0], reason(code)));
   pipe.close_end(1);
-  const std::string words = listen(pipe.ends[0], child, watch);
+  const std::string words = listen(pipe.ends[0], child, watch, heard);
 
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

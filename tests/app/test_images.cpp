@@ -88,6 +88,9 @@ TEST_CASE("every preset and figure looks as its kept pictures do, in either cont
     INFO(name << "\n" << ended.err);
     CHECK(ended.code == 0);
   }
+  const std::string visits = "cd '" + at.string() + "' && '" + (images / "visits.sh").string() +
+                             "' '" + GRIDSHELL_PROGRAM + "' egl --context egl";
+  REQUIRE(std::system(visits.c_str()) == 0);
   check_kept("egl");
 }
 

@@ -96,3 +96,14 @@ TEST_CASE("pictures and pages that the READMEs point to exist") {
     }
   }
 }
+
+TEST_CASE("every preset has its picture for the window, and no picture stands without one") {
+  const auto stems = [](const fs::path& folder, const char* ending) {
+    std::set<std::string> names;
+    for (const auto& file : fs::directory_iterator(root / folder))
+      if (file.path().extension() == ending) names.insert(file.path().stem().string());
+    return names;
+  };
+  // drawn by presets/pictures/cards.sh
+  CHECK(stems("presets/pictures/cards", ".png") == stems("presets", ".toml"));
+}

@@ -1,6 +1,6 @@
 #!/bin/sh
-# tests/images/draw.sh PROGRAM FOLDER [OPTIONS]: draws all that list.txt names into FOLDER, pictures
-# alone. To keep them: PROGRAM compare tests/images FOLDER --update --why "..."
+# tests/images/draw.sh PROGRAM FOLDER [OPTIONS]: draws all that list.txt names into FOLDER, and what
+# the window shows after each of visits; pictures alone. To keep them: PROGRAM compare tests/images FOLDER --update --why "..."
 # RUNS=FOLDER keeps the runs that they are of.
 set -e
 program=$1 folder=$2 here=$(dirname "$0")
@@ -21,3 +21,4 @@ grep -v '^#' "$here/list.txt" | while IFS=: read -r name arguments; do
     cp "$work/$kept" "$folder/$kept"
   done
 done
+"$here/visits.sh" "$program" "$folder" "$@"

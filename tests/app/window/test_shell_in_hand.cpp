@@ -48,6 +48,21 @@ TEST_CASE("the shell in hand is the one that a run ends in") {
   CHECK(hand.sight().certificate.error_estimate_mm < 1e-3 * 66);
 }
 
+TEST_CASE("the symmetry of a state is told once it is refined") {
+  ShellInHand hand = formed();
+  CHECK(hand.sight().symmetry == "two diagonal mirrors");
+  hand.fulfil({Move{0.9}, 7, true}, unwatched);
+  CHECK(hand.sight().symmetry == "");
+  hand.fulfil({Settle{}, 7, false}, unwatched);
+  hand.refine(unwatched);
+  CHECK(hand.sight().symmetry == "two diagonal mirrors");
+  const int beside = joint_of(hand.sight(), -2, 1);
+  const Eigen::Vector3d from = hand.sight().frame.nodes.col(beside);
+  hand.fulfil({Push{beside, from - Eigen::Vector3d(0, 0, 5)}}, unwatched);
+  hand.refine(unwatched);
+  CHECK(hand.sight().symmetry == "no symmetry");
+}
+
 TEST_CASE("a drag of the boundary is coarse, then refined, and one step to undo") {
   ShellInHand hand = formed();
   const Sight before = hand.sight();
@@ -99,6 +114,42 @@ TEST_CASE("an edge point goes where it is dragged, and the radius still moves") 
   CHECK(hand.sight().progress == Approx(1));
 }
 
+TEST_CASE("steps that are put aside into a file are undone and done again to the bit") {
+  // no memory for more than the latest
+  ShellInHand hand(0);
+  hand.fulfil({Open{small_shell()}}, unwatched);
+  hand.refine(unwatched);
+  std::vector<Sight> seen{hand.sight()};
+  const auto act = [&](const Deed& deed) {
+    hand.fulfil({deed}, unwatched);
+    hand.refine(unwatched);
+    REQUIRE(hand.sight().trouble == "");
+    seen.push_back(hand.sight());
+  };
+  act(Move{0.9});
+  const int joint = joint_of(hand.sight(), 0, 0);
+  act(Push{joint, hand.sight().frame.nodes.col(joint) - Eigen::Vector3d(0, 0, 2)});
+  act(Release{joint});
+  act(Move{0.8});
+  const auto stands = [&](const Sight& then) {
+    CHECK(hand.sight().frame.nodes == then.frame.nodes);
+    CHECK(hand.sight().held.size() == then.held.size());
+    CHECK(hand.sight().steps.size() == then.steps.size());
+    CHECK(hand.sight().certificate.residual_N == then.certificate.residual_N);
+  };
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t k = seen.size() - 1; k-- > 0;) {
+      hand.fulfil({Undo{}}, unwatched);
+      stands(seen[k]);
+    }
+    CHECK(hand.sight().undo_steps == 0);
+    for (std::size_t k = 1; k < seen.size(); ++k) {
+      hand.fulfil({Redo{}}, unwatched);
+      stands(seen[k]);
+    }
+  }
+}
+
 TEST_CASE("the boundary moves in a drag while a joint is held, which stays in its place") {
   ShellInHand hand = formed();
   const int joint = joint_of(hand.sight(), 0, 0);
@@ -116,7 +167,7 @@ TEST_CASE("the boundary moves in a drag while a joint is held, which stays in it
 /// What a window would save.
 preset::Preset saved(const Sight& sight) {
   preset::Preset preset = sight.preset;
-  preset.step = sight.steps;
+  preset.step = sight.steps.all();
   preset.actuation.radius_mm = sight.radius_end_mm;
   return preset;
 }
