@@ -66,7 +66,7 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
   for (const CaseRecord& one : records) {
     const std::string name = one.name.empty() ? name_of(one.preset) : one.name;
     const double largest =
-        render::deviation_of_nodes(one.run).head(long(one.run.layout.joints.size())).maxCoeff();
+        render::last_deviation(one.run).head(long(one.run.layout.joints.size())).maxCoeff();
     shells.push_back({&one.run, name, scan_of(one.preset)});
     const auto unit = render::deviation_unit(one.run.layout);
     shades.push_back({&one.run, fmt::format("{}: at most {:.2f} {}", name, unit.factor * largest,

@@ -154,6 +154,9 @@ void add_state(py::module_& module) {
       type, "curvature_per_mm", "At each point of each rod, rod after rod, 1/mm.",
       [](const State& of) -> auto& { return of.frame.curvature_per_mm; });
   add_view(
+      type, "bending_mJ_per_m", "Bending energy over length at the same points, mJ/m.",
+      [](const State& of) -> auto& { return of.frame.bending_mJ_per_m; });
+  add_view(
       type, "reactions_N", "What holds each of layout.supports, supports x 3, N.",
       [](const State& of) -> auto& { return of.frame.reactions_N; });
   for (const Number& number : numbers)

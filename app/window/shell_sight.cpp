@@ -6,9 +6,10 @@
 #include "app/window/shell_in_hand.h"
 #include "engine/experiment/frames.h"
 #include "engine/experiment/state_measures.h"
-#include "engine/measure/deviation.h"
 #include "engine/measure/gauss.h"
 #include "engine/measure/symmetry_group.h"
+#include "engine/record/net_deviation.h"
+#include "engine/record/rod_values.h"
 #include "engine/solve/buckle.h"
 
 namespace gridshell::window {
@@ -128,45 +129,12 @@ void ShellInHand::look_at_normals() {
   }
 }
 
-/// Axial force and bending energy at the nodes of the finest mesh, and the cells' deviation.
+/// What colours show: axial force and bending energy at the nodes, and the cells' deviation.
 void ShellInHand::look_at_rods() {
-  const int last = session_->shell().levels() - 1;
-  const Model& model = session_->shell().model(last);
-  const State& state = session_->shell().state().levels.back();
-  const Eigen::Index nodes = sight_.frame.nodes.cols();
-  const auto own = [&](int node) { return node < nodes; };
-  Eigen::VectorXd axial = Eigen::VectorXd::Zero(nodes), weight = axial, bending = axial,
-                  bends = axial;
-  for (std::size_t k = 0; k < model.edges.size(); ++k) {
-    const ModelEdge& edge = model.edges[k];
-    if (edge.EA == 0) continue;
-    for (int node : {edge.from, edge.to})
-      if (own(node)) axial[node] += state.force[Eigen::Index(k)], weight[node] += 1;
-  }
-  for (const ModelBend& bend : model.bends) {
-    const ModelEdge &e = model.edges[std::size_t(bend.e)], &f = model.edges[std::size_t(bend.f)];
-    if (!own(e.to)) continue;
-    const Eigen::Vector3d te = (state.x.col(e.to) - state.x.col(e.from)).normalized(),
-                          tf = (state.x.col(f.to) - state.x.col(f.from)).normalized();
-    const double c = te.dot(tf), length = 0.5 * (e.rest_length + f.rest_length);
-    bending[e.to] += 1000 * bend.stiffness * (1 - c) / (1 + c) / length;
-    bends[e.to] += 1;
-  }
-  sight_.axial_N = axial.array() / weight.array().max(1);
-  sight_.bending_mJ_m = bending.array() / bends.array().max(1);
-  sight_.deviation.resize(0);
   const record::Layout& layout = *sight_.layout;
-  const auto joints = Eigen::Index(layout.joints.size());
-  if (layout.net_nodes.cols() < joints) return;
-  const Eigen::VectorXd off = Deviation(sight_.frame.nodes.leftCols(joints),
-                                        layout.net_nodes.leftCols(joints), layout.length_scale_mm)
-                                  .of_joints();
-  sight_.deviation.resize(Eigen::Index(layout.cells.size()));
-  for (std::size_t k = 0; k < layout.cells.size(); ++k) {
-    double sum = 0;
-    for (int joint : layout.cells[k].joints) sum += off[joint];
-    sight_.deviation[Eigen::Index(k)] = sum / 4;
-  }
+  sight_.axial_N = record::axial_force_of_nodes_N(layout, sight_.frame);
+  sight_.bending_mJ_m = record::bending_of_nodes_mJ_per_m(layout, sight_.frame);
+  sight_.deviation = record::deviation_of_cells(layout, sight_.frame);
 }
 
 /// How a state that is not stable would leave: its softest mode on the finest mesh, its largest

@@ -5,6 +5,7 @@
 #include "engine/measure/bins.h"
 #include "engine/measure/gauss.h"
 #include "engine/preset/rung.h"
+#include "engine/rod/bend.h"
 #include "engine/scene/second_ring.h"
 
 namespace gridshell::experiment {
@@ -59,38 +60,77 @@ std::vector<int> supports_of(const RodMesh& mesh) {
   return nodes;
 }
 
-/// Curvature between two edges, 1/mm: |2 t x t'| / (1 + t.t') over the mean of their rest lengths;
-/// a ghost has none.
-double curvature_between(const Model& model, const Assembly& at, int e, int f) {
+/// What bends between two edges: the mean of their rest lengths; a ghost has none.
+double length_between(const Model& model, int e, int f) {
   const auto length = [&](int edge) {
     const ModelEdge& one = model.edges[std::size_t(edge)];
     return one.EA > 0 ? one.rest_length : 0;
   };
-  const Eigen::Vector3d te = at.tangents.col(e), tf = at.tangents.col(f);
-  return 2 * te.cross(tf).norm() / (1 + te.dot(tf)) / (0.5 * (length(e) + length(f)));
+  return 0.5 * (length(e) + length(f));
 }
 
-/// Forces and curvature along the rods; ends that hold no direction have none.
-void put_rods(const Model& model, const Assembly& at, record::Frame& frame) {
-  std::vector<double> force, curvature;
+/// Curvature (1/mm) and bending energy over length (mJ/m), point after point.
+class Bending {
+ public:
+  Bending(const Model& model, const State& state, const Assembly& at)
+      : model_(model), at_(at), energy_(bending_of(model, state)) {}
+
+  void put(int bend) {
+    const auto& [e, f, stiffness, slot] = model_.bends[std::size_t(bend)];
+    const double length = length_between(model_, e, f);
+    curvature_.push_back(curvature_between(at_.tangents.col(e), at_.tangents.col(f), length));
+    over_length_.push_back(1000 * energy_[bend] / length);
+  }
+  void put_straight() {
+    curvature_.push_back(0);
+    over_length_.push_back(0);
+  }
+  void fill(record::Frame& frame) const {
+    const auto vector_of = [](const std::vector<double>& values) {
+      return Eigen::VectorXd(
+          Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(values.size())));
+    };
+    frame.curvature_per_mm = vector_of(curvature_);
+    frame.bending_mJ_per_m = vector_of(over_length_);
+  }
+
+ private:
+  const Model& model_;
+  const Assembly& at_;
+  Eigen::VectorXd energy_;
+  std::vector<double> curvature_, over_length_;
+};
+
+/// Forces, curvature and bending along the rods; ends that hold no direction do not bend.
+void put_rods(const Model& model, const State& state, const Assembly& at, record::Frame& frame) {
+  std::vector<double> force;
+  Bending bending(model, state, at);
+  // what closes rings comes last
+  int closing = int(model.bends.size());
+  for (const Model::Rod& rod : model.rods) closing -= rod.closed;
   for (const Model::Rod& rod : model.rods) {
     const auto ghost = [&](std::size_t k) {
       return model.edges[std::size_t(rod.edges[k])].EA == 0;
     };
-    // where a ring closes its two ends are one node
-    const double at_ends =
-        rod.closed ? curvature_between(model, at, rod.edges.back(), rod.edges.front()) : 0;
+    const auto put_end = [&] {
+      // where a ring closes its two ends are one node
+      if (rod.closed)
+        bending.put(closing);
+      else
+        bending.put_straight();
+    };
     for (std::size_t k = 0; k < rod.edges.size(); ++k) {
       if (k > 0)
-        curvature.push_back(curvature_between(model, at, rod.edges[k - 1], rod.edges[k]));
+        bending.put(rod.first_bend + int(k) - 1);
       else if (!ghost(k))
-        curvature.push_back(at_ends);
+        put_end();
       if (!ghost(k)) force.push_back(at.force[rod.edges[k]]);
     }
-    if (!ghost(rod.edges.size() - 1)) curvature.push_back(at_ends);
+    if (!ghost(rod.edges.size() - 1)) put_end();
+    closing += rod.closed;
   }
   frame.axial_force_N = Eigen::Map<Eigen::VectorXd>(force.data(), long(force.size()));
-  frame.curvature_per_mm = Eigen::Map<Eigen::VectorXd>(curvature.data(), long(curvature.size()));
+  bending.fill(frame);
 }
 
 /// What holds the supports: all of the force on a pinned node, with what turns its end; of a joint
@@ -122,7 +162,7 @@ void put_forces(const Session& session, record::Frame& frame) {
   const NestedShell& shell = session.shell();
   const int last = shell.levels() - 1;
   const Assembly at = shell.forces(last);
-  put_rods(shell.model(last), at, frame);
+  put_rods(shell.model(last), shell.state().levels[std::size_t(last)], at, frame);
   put_reactions(shell.mesh(last), shell.model(last), at, session.holds(), frame);
 }
 

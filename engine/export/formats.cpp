@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "engine/record/csv.h"
+#include "engine/record/rod_values.h"
 
 namespace gridshell::exports {
 namespace {
@@ -51,7 +52,7 @@ class VtkArray {
 
 std::vector<double> curvature_of(const record::Layout& layout, const record::Frame& frame,
                                  std::size_t rod) {
-  return curvature_per_mm(layout, frame, rod);
+  return record::curvature_per_mm(layout, frame, rod);
 }
 
 /// Of the points of rods; the cells' corners have none.
@@ -190,7 +191,7 @@ std::string to_vtp(const Shape& shape) {
     for (const record::Joint& joint : layout.joints) array.put(moved(joint.node));
   }
   put_along_rods(shape, "curvature_per_mm", curvature_of, text);
-  put_along_rods(shape, "axial_force_N", axial_force_N, text);
+  put_along_rods(shape, "axial_force_N", record::axial_force_N, text);
   put_reactions(shape, text);
   text += "</PointData>\n<CellData>\n";
   {

@@ -15,50 +15,6 @@ Eigen::Matrix3Xd rod_points(const record::Layout& layout, const record::Frame& f
   return points;
 }
 
-std::vector<double> curvature_per_mm(const Eigen::Matrix3Xd& points) {
-  std::vector<double> curvature(std::size_t(points.cols()), 0.0);
-  for (Eigen::Index k = 1; k + 1 < points.cols(); ++k) {
-    const Eigen::Vector3d before = points.col(k) - points.col(k - 1),
-                          after = points.col(k + 1) - points.col(k);
-    const double lengths = before.norm() * after.norm();
-    const double mean = (before.norm() + after.norm()) / 2;
-    curvature[std::size_t(k)] =
-        2 * before.cross(after).norm() / (lengths + before.dot(after)) / mean;
-  }
-  return curvature;
-}
-
-namespace {
-
-/// How many points the rods before a rod have.
-std::size_t points_before(const record::Layout& layout, std::size_t rod) {
-  std::size_t points = 0;
-  for (std::size_t k = 0; k < rod; ++k) points += layout.rods[k].size();
-  return points;
-}
-
-}  // namespace
-
-std::vector<double> curvature_per_mm(const record::Layout& layout, const record::Frame& frame,
-                                     std::size_t rod) {
-  if (frame.curvature_per_mm.size() == 0) return curvature_per_mm(rod_points(layout, frame, rod));
-  const double* first = frame.curvature_per_mm.data() + points_before(layout, rod);
-  return {first, first + layout.rods[rod].size()};
-}
-
-std::vector<double> axial_force_N(const record::Layout& layout, const record::Frame& frame,
-                                  std::size_t rod) {
-  const std::size_t points = layout.rods[rod].size();
-  std::vector<double> force(points, record::unknown);
-  if (frame.axial_force_N.size() == 0 || points < 2) return force;
-  // a rod has one edge less than points
-  const double* edges = frame.axial_force_N.data() + points_before(layout, rod) - rod;
-  force.front() = edges[0];
-  force.back() = edges[points - 2];
-  for (std::size_t k = 1; k + 1 < points; ++k) force[k] = 0.5 * (edges[k - 1] + edges[k]);
-  return force;
-}
-
 Eigen::Matrix3Xd reactions_N(const record::Layout& layout, const record::Frame& frame) {
   if (frame.reactions_N.size() == 0)
     return Eigen::Matrix3Xd::Constant(3, frame.nodes.cols(), record::unknown);

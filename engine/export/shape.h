@@ -22,19 +22,6 @@ struct Shape {
 Eigen::Matrix3Xd rod_points(const record::Layout& layout, const record::Frame& frame,
                             std::size_t rod);
 
-/// Curvature at each of a rod's points, 1/mm: |2 t x t'| / (1 + t.t') over the mean of the two
-/// edges' lengths, t and t' their unit tangents [Bergou 2008, eq. 1]; 0 at the ends.
-std::vector<double> curvature_per_mm(const Eigen::Matrix3Xd& points);
-
-/// The same of a rod of the frame as its run recorded it; else from its points.
-std::vector<double> curvature_per_mm(const record::Layout& layout, const record::Frame& frame,
-                                     std::size_t rod);
-
-/// Axial force at each of a rod's points, N: the mean of the edges that meet there, below 0 where
-/// they are compressed; NaN where the run did not record it.
-std::vector<double> axial_force_N(const record::Layout& layout, const record::Frame& frame,
-                                  std::size_t rod);
-
 /// The force that holds each node of the frame, N: 0 where nothing does, NaN where the run did not
 /// record it.
 Eigen::Matrix3Xd reactions_N(const record::Layout& layout, const record::Frame& frame);

@@ -302,6 +302,19 @@ void rod_hessian(const Model& model, const State& state, const Stiffness& how, A
 
 }  // namespace
 
+Eigen::VectorXd bending_of(const Model& model, const State& state) {
+  Eigen::VectorXd energy(Eigen::Index(model.bends.size()));
+  Eigen::Index next = 0;
+  along_rods(
+      model, state.x, [](int, const ModelEdge&, const EdgeGeometry&) {},
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        energy[next++] = bend_value(bend.stiffness, e, f);
+      });
+  for (const Pair<SectionBending>& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs))
+    energy[pair.bend] += pair.law.value(pair_geometry(model, state, pair));
+  return energy;
+}
+
 Energies energies_of(const Model& model, const State& state, const Outside& outside) {
   Energies sum;
   along_rods(

@@ -39,6 +39,9 @@ struct Stiffness {
 /// Energies by term at a state.
 Energies energies_of(const Model& model, const State& state, const Outside& outside = {});
 
+/// Bending energy of every bend, one with axes or curved at rest too, mJ.
+Eigen::VectorXd bending_of(const Model& model, const State& state);
+
 /// Energies, gradient and axial forces at a state.
 void assemble_gradient(const Model& model, const State& state, const Outside& outside,
                        Assembly& out);

@@ -97,6 +97,12 @@ std::vector<Conflict> conflicts(const Preset& preset) {
                                           {"movie", "bins_range", &preset.movie.bins_range}})
     if (!range->empty() && (range->size() != 2 || (*range)[0] >= (*range)[1]))
       found.push_back({table, key, {}, "must be [low, high] with low < high, or empty"});
+  if (preset.movie.colour_by == ColourBy::deviation && !net)
+    found.push_back({"movie",
+                     "colour_by",
+                     {"[footprint] kind"},
+                     "\"deviation\" is from the net that a footprint was designed on, must be "
+                     "another, or [footprint] kind = \"net\" or \"blocks\""});
   if (const auto count = preset.movie.target_mm.size(); count != 0 && count != 3)
     found.push_back(
         {"movie", "target_mm", {}, fmt::format("a list of {}, must be [x, y, z] or empty", count)});

@@ -132,8 +132,10 @@ std::vector<Field> picture_fields() {
       {"movie", "quality", "", word<&P::movie, &Movie::quality>(),
        "draft: no shadow; movie: a soft shadow; figure: many passes with jittered light"},
       {"movie", "colour_by", "", word<&P::movie, &Movie::colour_by>(),
-       "none; the cells by their integrated Gauss curvature K, or by how much it changed since the "
-       "first frame; or the rods by how far they moved over the depth of the push"},
+       "none; the cells by their integrated Gauss curvature K, by how much it changed since the "
+       "first frame, or by how far their joints lie off the net, over rho; or the rods by how far "
+       "they moved over the depth of the push, by their bending energy over length or by their "
+       "axial force"},
       {"movie", "azimuth_deg", "deg", real<&P::movie, &Movie::azimuth_deg>(between(-360, 360)),
        "direction of the camera at the first frame, from +x towards +y"},
       {"movie", "elevation_deg", "deg", real<&P::movie, &Movie::elevation_deg>(between(-90, 90)),

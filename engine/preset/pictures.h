@@ -15,12 +15,15 @@ constexpr auto words(Quality) {
   return word_table<Quality>(
       {{Quality::draft, "draft"}, {Quality::movie, "movie"}, {Quality::figure, "figure"}});
 }
-enum class ColourBy { none, K, displacement, K_change };
+enum class ColourBy { none, K, displacement, K_change, deviation, energy, axial_force };
 constexpr auto words(ColourBy) {
   return word_table<ColourBy>({{ColourBy::none, "none"},
                                {ColourBy::K, "K"},
                                {ColourBy::displacement, "displacement"},
-                               {ColourBy::K_change, "K_change"}});
+                               {ColourBy::K_change, "K_change"},
+                               {ColourBy::deviation, "deviation"},
+                               {ColourBy::energy, "energy"},
+                               {ColourBy::axial_force, "axial_force"}});
 }
 enum class View { free, front, side, top, corner };
 constexpr auto words(View) {

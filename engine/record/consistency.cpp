@@ -129,6 +129,9 @@ Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k
         return fits("curvature_per_mm", frame.curvature_per_mm.size(), points_of_rods(layout));
       })
       .and_then([&] {
+        return fits("bending_mJ_per_m", frame.bending_mJ_per_m.size(), points_of_rods(layout));
+      })
+      .and_then([&] {
         return fits("reactions_N", frame.reactions_N.cols(), Eigen::Index(layout.supports.size()));
       });
 }

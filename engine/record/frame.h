@@ -36,6 +36,7 @@ struct Frame {
   /// where they are not known (in motion, a net, an older version).
   Eigen::VectorXd axial_force_N;     ///< of each edge, rod after rod; below 0: compressed
   Eigen::VectorXd curvature_per_mm;  ///< at each point of each rod, rod after rod
+  Eigen::VectorXd bending_mJ_per_m;  ///< bending energy over length, at the same points
   Eigen::Matrix3Xd reactions_N;      ///< on each of Layout::supports; 0 where nothing holds it
   /// K of the cells by their centroid's x/L, L the half-span of the actuated boundary, in bins of
   /// equal width from -1 to 1, one a row: mean (rad), standard deviation (rad), number of cells
@@ -53,6 +54,7 @@ inline Frame without_nodes(const Frame& frame) {
   head.cell_K.resize(0);
   head.axial_force_N.resize(0);
   head.curvature_per_mm.resize(0);
+  head.bending_mJ_per_m.resize(0);
   head.reactions_N.resize(3, 0);
   return head;
 }

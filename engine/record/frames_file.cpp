@@ -72,6 +72,8 @@ void each_of_rods(const Layout& layout, Visit visit) {
         &Frame::axial_force_N);
   visit("/curvature_per_mm", "1/mm", points_of_rods(layout), "at each point, rod after rod",
         &Frame::curvature_per_mm);
+  visit("/bending_mJ_per_m", "mJ/m", points_of_rods(layout), "energy over length, at each point",
+        &Frame::bending_mJ_per_m);
   visit("/reactions_N", "N", Eigen::Index(layout.supports.size()), "on each of /layout/supports",
         &Frame::reactions_N);
 }

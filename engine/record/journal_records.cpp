@@ -66,6 +66,7 @@ std::string packed_frame(const Frame& frame) {
   out.matrix(frame.axial_force_N);
   out.matrix(frame.curvature_per_mm);
   out.matrix(frame.reactions_N);
+  out.matrix(frame.bending_mJ_per_m);
   return out.bytes();
 }
 
@@ -89,12 +90,13 @@ Result<Frame> unpacked_frame(std::string_view bytes, const std::vector<std::stri
   in.matrix(frame.nodes, 3);
   in.matrix(frame.cell_K);
   in.matrix(frame.K_bins);
-  // an older version ended here
+  // older versions ended here, or before the energies
   if (!in.at_end()) {
     in.matrix(frame.axial_force_N);
     in.matrix(frame.curvature_per_mm);
     in.matrix(frame.reactions_N, 3);
   }
+  if (!in.at_end()) in.matrix(frame.bending_mJ_per_m);
   if (!in.at_end()) return fail(Fault::bad_input, "a frame is damaged");
   return frame;
 }

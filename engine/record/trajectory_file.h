@@ -7,6 +7,7 @@
 //   /cell_K         frames x cells      integrated Gauss curvature, rad
 //   /axial_force_N    frames x edges     of each edge, rod after rod
 //   /curvature_per_mm frames x points    at each point of each rod, rod after rod
+//   /bending_mJ_per_m frames x points    bending energy over length, at the same points
 //   /reactions_N      frames x supports x 3   on joints, edge points and far ends of tails
 //   /frames/<name>  frames              the columns of frames.csv, and `actuation`
 //   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),
@@ -14,7 +15,7 @@
 //                   "u" or "v"), supports (nodes that something may hold)
 //   /               title, preset, program (attributes)
 //
-// Forces, curvature and reactions are those of the finest mesh itself, never extrapolated, so that
+// Forces, curvature, energies and reactions are those of the finest mesh itself, never extrapolated, so that
 // with the loads they balance to residual_N. NaN, or no dataset: not known.
 //
 // Before the HDF5 part stand 512 bytes with its size and checksum, which HDF5 programs skip.

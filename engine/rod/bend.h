@@ -18,6 +18,12 @@ struct BendEnergy {
   Block3 hessian_ee, hessian_ef, hessian_ff;  ///< N/mm
 };
 
+/// Curvature at the node between two edges, |kb|/l, from their unit tangents and their mean length.
+inline double curvature_between(const Eigen::Vector3d& te, const Eigen::Vector3d& tf,
+                                double length) {
+  return 2 * te.cross(tf).norm() / (1 + te.dot(tf)) / length;
+}
+
 inline double bend_value(double stiffness, const EdgeGeometry& e, const EdgeGeometry& f) {
   const double c = e.tangent.dot(f.tangent);
   return stiffness * (1 - c) / (1 + c);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/record/net_deviation.h"
 #include "render/figure/block_figure.h"
 #include "render/figure/vector_shell.h"
 #include "render/movie/stage.h"
@@ -89,9 +90,8 @@ std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
 
 }  // namespace
 
-Eigen::VectorXd deviation_of_nodes(const record::Trajectory& run) {
-  return (run.frames.back().nodes - run.layout.net_nodes).colwise().norm().transpose() /
-         run.layout.length_scale_mm;
+Eigen::VectorXd last_deviation(const record::Trajectory& run) {
+  return record::deviation_of_nodes(run.layout, run.frames.back());
 }
 
 bool on_sphere(const record::Layout& layout) {
@@ -132,10 +132,10 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
   double largest = 0;
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
   for (const NetRun& one : runs)
-    largest = std::max(largest, unit.factor * deviation_of_nodes(*one.run).maxCoeff());
+    largest = std::max(largest, unit.factor * last_deviation(*one.run).maxCoeff());
   const ColourScale scale{ColourMap::sequential, 0, round_end(largest), 0.2};
   const auto dress = [&](const NetRun& one, Drawing& drawing) {
-    const Eigen::VectorXd deviation = deviation_of_nodes(*one.run);
+    const Eigen::VectorXd deviation = last_deviation(*one.run);
     for (double share : deviation) drawing.node_colours.push_back(scale(unit.factor * share));
     drawing.rod_diameter_mm *= 1.8;
     drawing.sheen = 0.2;

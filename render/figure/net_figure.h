@@ -21,7 +21,7 @@ struct NetRun {
 };
 
 /// Distance of every node of the last frame from its place on the net, over rho.
-Eigen::VectorXd deviation_of_nodes(const record::Trajectory& run);
+Eigen::VectorXd last_deviation(const record::Trajectory& run);
 
 /// What deviations over the length scale are multiplied by to be shown, and what they are then:
 /// per cent of rho, or for building blocks millimetres.

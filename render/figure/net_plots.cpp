@@ -177,7 +177,7 @@ Plot quantile_plot(const std::vector<NamedRun>& runs) {
   plot.y.low = 0;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     const record::Trajectory& run = *runs[r].run;
-    Eigen::VectorXd sorted = deviation_of_nodes(run).head(long(run.layout.joints.size()));
+    Eigen::VectorXd sorted = last_deviation(run).head(long(run.layout.joints.size()));
     std::sort(sorted.begin(), sorted.end());
     Series series{.name = runs[r].name, .colour = series_colour(r)};
     for (long k = 0; k < sorted.size(); ++k) {

@@ -114,9 +114,12 @@ class Beside {
                       0.95 * em_);
     }
     if (!style_.captions) return;
-    TextStyle title{.size = 1.15 * em_, .colour = ink, .bold = true, .align_y = AlignY::middle};
-    canvas.text(plain(canvas.shortened(style_.title, style_.width - 2 * em_, title)),
-                {em_, 1.5 * em_}, title);
+    constexpr double least = 0.7;
+    const double room = style_.width - 2 * em_;
+    const TextStyle title = canvas.fitted(
+        plain(style_.title), room,
+        {.size = 1.15 * em_, .colour = ink, .bold = true, .align_y = AlignY::middle}, least);
+    canvas.text(plain(canvas.shortened(style_.title, room, title)), {em_, 1.5 * em_}, title);
     canvas.text(frame_caption(index, frames()), {em_, style_.height - 1.2 * em_},
                 {.size = em_, .colour = ink, .align_y = AlignY::middle});
   }

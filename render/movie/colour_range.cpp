@@ -2,28 +2,67 @@
 
 #include <algorithm>
 
+#include "render/movie/coloured.h"
+
 namespace gridshell::render {
 namespace {
 
-constexpr double quantile = 0.9;    // of the cells lie within the scale
-constexpr double least_end = 0.02;  // rad: below, a shell that is not curved would look curved
-constexpr double one_sign = 0.05;   // the other side's share of the larger one that is no sign
+constexpr double quantile = 0.9;   // of the cells or nodes lie within the scale
+constexpr double one_sign = 0.05;  // the other side's share of the larger one that is no sign
+constexpr double paling = 0.2;     // of a map for rods, which are thin lines on white
 
-ColourBar curvature_bar(const std::vector<const Survey*>& runs, bool change) {
-  std::vector<double> most;
-  Interval all;
-  for (const Survey* run : runs) {
-    const Eigen::ArrayXd& values = change ? run->most_K_change : run->most_K;
-    most.insert(most.end(), values.begin(), values.end());
-    all.take(change ? run->K_change : run->K);
+// what is coloured, as a bar says it
+struct Quantity {
+  const char *label, *words;
+  double least_end;   // below, round-off would have a colour
+  bool size = false;  // never below zero
+};
+
+Quantity quantity_of(ColourBy by) {
+  switch (by) {
+    case ColourBy::none:
+      break;
+    case ColourBy::K:
+      return {"*K*_{□} (rad)", "Gauss curvature of a cell", 0.02};
+    case ColourBy::K_change:
+      return {"Δ*K*_{□} (rad)", "change of Gauss curvature", 0.02};
+    case ColourBy::deviation:
+      return {"Δ/*ρ*", "distance from the net", 1e-6, true};
+    case ColourBy::displacement:
+      return {"|*u*| / *δ*_{0}", "displacement over depth", 0, true};
+    case ColourBy::energy:
+      return {"*e*_{b} (mJ/m)", "bending energy over length", 1e-6, true};
+    case ColourBy::axial_force:
+      return {"*N* (N)", "axial force", 1e-6};
   }
-  ColourBar bar{change ? "Δ*K*_{□} (rad)" : "*K*_{□} (rad)", symmetric_scale(most, quantile)};
-  const double end = std::max(bar.scale.high, least_end);
-  const bool positive = all.any() && -all.low < one_sign * all.high;
+  return {};
+}
+
+using Surveys = std::vector<const Survey*>;
+
+Interval all_of(const Surveys& runs, ColourBy by) {
+  Interval all;
+  for (const Survey* run : runs)
+    if (by != ColourBy::displacement)
+      all.take(run->spread(by).all);
+    else if (run->depth_mm > 0)
+      all.take(run->largest_move_mm / run->depth_mm);
+  return all;
+}
+
+// from zero to where most of the sizes lie, and as far to the other side where both signs occur
+ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
+  std::vector<double> most;
+  for (const Survey* run : runs)
+    most.insert(most.end(), run->spread(by).most.begin(), run->spread(by).most.end());
+  const Interval all = all_of(runs, by);
+  ColourBar bar{.label = {}, .scale = symmetric_scale(most, quantile)};
+  const Quantity quantity = quantity_of(by);
+  const double end = std::max(bar.scale.high, quantity.least_end);
+  const bool positive = quantity.size || (all.any() && -all.low < one_sign * all.high);
   const bool negative = all.any() && all.high < -one_sign * all.low;
-  bar.words = change ? "change of Gauss curvature" : "Gauss curvature of a cell";
   bar.scale = {positive || negative ? ColourMap::sequential : ColourMap::diverging,
-               positive ? 0 : -end, negative ? 0 : end};
+               positive ? 0 : -end, negative ? 0 : end, of_cells(by) ? 0 : paling};
   if (all.any()) {
     bar.beyond_low = all.low < bar.scale.low && !positive;
     bar.beyond_high = all.high > bar.scale.high && !negative;
@@ -31,9 +70,8 @@ ColourBar curvature_bar(const std::vector<const Survey*>& runs, bool change) {
   return bar;
 }
 
-ColourBar displacement_bar(const std::vector<const Survey*>& runs) {
-  ColourBar bar{"|*u*| / *δ*_{0}", {ColourMap::sequential, 0, 1, 0.2}};
-  bar.words = "displacement over depth";
+ColourBar displacement_bar(const Surveys& runs) {
+  ColourBar bar{.label = {}, .scale = {ColourMap::sequential, 0, 1, paling}};
   for (const Survey* run : runs)
     bar.beyond_high |= run->depth_mm > 0 && run->largest_move_mm > 1.02 * run->depth_mm;
   return bar;
@@ -41,24 +79,20 @@ ColourBar displacement_bar(const std::vector<const Survey*>& runs) {
 
 }  // namespace
 
-std::optional<ColourBar> colour_bar_of(const std::vector<const Survey*>& runs,
-                                       const MovieStyle& style) {
-  const bool of_rods = style.colour_by == ColourBy::displacement;
-  const bool any_cell = std::any_of(runs.begin(), runs.end(),
-                                    [](const Survey* run) { return run->most_K.size() > 0; });
-  if (runs.empty() || style.colour_by == ColourBy::none) return std::nullopt;
-  if (!of_rods && (!any_cell || !style.look.cells)) return std::nullopt;
-  ColourBar bar =
-      of_rods ? displacement_bar(runs) : curvature_bar(runs, style.colour_by == ColourBy::K_change);
+std::optional<ColourBar> colour_bar_of(const Surveys& runs, const MovieStyle& style) {
+  const ColourBy by = style.colour_by;
+  const bool any_cell = std::any_of(
+      runs.begin(), runs.end(), [&](const Survey* run) { return run->spread(by).most.size() > 0; });
+  if (runs.empty() || by == ColourBy::none) return std::nullopt;
+  if (of_cells(by) && (!any_cell || !style.look.cells)) return std::nullopt;
+  ColourBar bar = by == ColourBy::displacement ? displacement_bar(runs) : bar_of_sizes(runs, by);
+  bar.label = quantity_of(by).label;
+  bar.words = quantity_of(by).words;
   if (style.look.map) bar.scale.map = *style.look.map;
   if (!style.look.range) return bar;
   bar.scale.low = (*style.look.range)[0];
   bar.scale.high = (*style.look.range)[1];
-  Interval all;
-  for (const Survey* run : runs) {
-    if (of_rods && run->depth_mm > 0) all.take(run->largest_move_mm / run->depth_mm);
-    if (!of_rods) all.take(style.colour_by == ColourBy::K_change ? run->K_change : run->K);
-  }
+  const Interval all = all_of(runs, by);
   bar.beyond_low = all.any() && all.low < bar.scale.low;
   bar.beyond_high = all.any() && all.high > bar.scale.high;
   return bar;

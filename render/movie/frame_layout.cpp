@@ -12,6 +12,18 @@ double bar_width(const ColourBar& bar, double font_size) {
   return width;
 }
 
+// the title in at most two lines; what is longer still is shortened
+std::vector<std::string> lines_of_title(const MovieStyle& style, double width, double font_size) {
+  std::vector<std::string> lines;
+  draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
+    const TextStyle font = title_style(style, font_size);
+    lines = canvas.wrapped(style.title, width, font);
+    for (; lines.size() > 2; lines.pop_back()) lines[lines.size() - 2] += " " + lines.back();
+    for (std::string& line : lines) line = canvas.shortened(line, width, font);
+  });
+  return lines;
+}
+
 // cuts a strip off one side of `box` and returns it
 Box cut_top(Box& box, double height) {
   const Box strip{box.x, box.y, box.width, height};
@@ -29,6 +41,12 @@ Box cut_right(Box& box, double width) {
 }
 
 }  // namespace
+
+TextStyle title_style(const MovieStyle& style, double font_size) {
+  return {.size = (style.captions ? 1.15 : 1) * font_size,
+          .colour = {0.1f, 0.1f, 0.12f, 1},
+          .bold = true};
+}
 
 FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
   FrameLayout layout;
@@ -80,10 +98,15 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
   }
 
   if (captions) {
-    layout.title = cut_top(rest, 1.15 * line);
+    layout.title_lines = lines_of_title(style, rest.width, em);
+    const double lines = std::max(1.0, double(layout.title_lines.size()));
+    layout.title = cut_top(rest, 1.15 * line * lines);
     layout.state = cut_top(rest, line);
   }
-  if (!captions && style.heading) cut_top(rest, 2.2 * line);
+  if (!captions && style.heading) {
+    layout.title_lines = lines_of_title(style, w - 2 * still_margin * em, em);
+    cut_top(rest, (1.2 + std::max(1.0, double(layout.title_lines.size()))) * line);
+  }
   const bool scale_bar = style.scale_bar_mm > 0 && rest.height > 6 * line;
   Box foot = cut_bottom(rest, captions ? 2.8 * line : (scale_bar ? 1.7 * line : 0));
   if (scale_bar) {

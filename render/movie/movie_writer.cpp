@@ -25,6 +25,8 @@ Result<MovieReport> write_movie(const FrameSource& source, Survey survey, const 
                                 const OnFrame& on_frame) {
   if (auto sized = check_size(style); !sized) return tl::unexpected(sized.error());
   if (source.count < 1) return fail(Fault::bad_input, "the run has no frame to show");
+  if (auto coloured = check_coloured(survey, style); !coloured)
+    return tl::unexpected(coloured.error());
   if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
   const Stage stage(*source.layout, std::move(survey), style, bar);
   FrameWriter writer(folder, source.count, watch, on_frame);

@@ -9,6 +9,7 @@
 #include "render/movie/boundary.h"
 #include "render/movie/captions.h"
 #include "render/movie/colour_range.h"
+#include "render/movie/coloured.h"
 #include "render/movie/load_marks.h"
 #include "render/movie/timeline.h"
 
@@ -32,7 +33,8 @@ double least_pixels(const MovieStyle& style) {
   return std::max(1.1, 1.5 * std::min(style.height / 720.0, style.width / 1000.0));
 }
 
-bool by_cells(ColourBy by) { return by == ColourBy::K || by == ColourBy::K_change; }
+// K is a frame's own
+bool by_K(ColourBy by) { return by == ColourBy::K || by == ColourBy::K_change; }
 
 // columns of equal width; a single view has the whole picture to itself, so that the ground goes on
 // under the captions
@@ -96,10 +98,15 @@ Result<void> check_frame(const record::Layout& layout, const record::Frame& fram
                 fmt::format("frame {} of the run has {} nodes where {} with finite positions are "
                             "needed",
                             at, frame.nodes.cols(), nodes));
-  if (by_cells(style.colour_by) && frame.cell_K.size() != cells)
+  if (by_K(style.colour_by) && frame.cell_K.size() != cells)
     return fail(Fault::bad_input, fmt::format("frame {} of the run has K of {} cells instead of {}",
                                               at, frame.cell_K.size(), cells));
   return {};
+}
+
+Result<void> check_coloured(const Survey& survey, const MovieStyle& style) {
+  if (!may_lack(style.colour_by) || survey.spread(style.colour_by).all.any()) return {};
+  return nothing_coloured(style.colour_by);
 }
 
 Result<void> check_showable(const record::Trajectory& run, const MovieStyle& style) {
@@ -109,7 +116,11 @@ Result<void> check_showable(const record::Trajectory& run, const MovieStyle& sty
     return fail(Fault::bad_input, "the run's two boundaries differ in their number of points");
   for (std::size_t k = 0; k < run.frames.size(); ++k)
     if (auto good = check_frame(run.layout, run.frames[k], int(k), style); !good) return good;
-  return {};
+  const ColourBy by = style.colour_by;
+  if (!may_lack(by)) return {};
+  for (const record::Frame& frame : run.frames)
+    if (coloured_values(by, run.layout, frame, {frame}).size() > 0) return {};
+  return nothing_coloured(by);
 }
 
 Stage::Stage(const record::Layout& layout, Survey survey, const MovieStyle& style,
@@ -129,25 +140,29 @@ Stage::Stage(const record::Trajectory& run, const MovieStyle& style)
 
 Camera Stage::camera(int at) const { return framings_.front().camera(moment(at)); }
 
-std::vector<Colour> Stage::cell_colours(const record::Frame& frame, float alpha) const {
+std::vector<Colour> Stage::colours_of(const record::Frame& frame, float alpha) const {
+  if (!bar_) return {};
+  const Eigen::VectorXd values =
+      coloured_values(style_.colour_by, run_, frame, {survey_.first, survey_.depth_mm});
   std::vector<Colour> colours;
-  if (!bar_ || !by_cells(style_.colour_by) || !style_.look.cells) return colours;
-  const bool change = style_.colour_by == ColourBy::K_change;
-  for (long k = 0; k < frame.cell_K.size(); ++k) {
-    colours.push_back(bar_->scale(frame.cell_K[k] - (change ? survey_.first.cell_K[k] : 0)));
+  for (const double value : values) {
+    colours.push_back(bar_->scale(value));
     colours.back().a = alpha;
   }
   return colours;
 }
 
+std::vector<Colour> Stage::cell_colours(const record::Frame& frame, float alpha) const {
+  if (!of_cells(style_.colour_by) || !style_.look.cells) return {};
+  return colours_of(frame, alpha);
+}
+
 std::vector<Colour> Stage::node_colours(const record::Frame& frame) const {
-  std::vector<Colour> colours;
-  if (style_.colour_by != ColourBy::displacement) return colours;
-  const Eigen::Matrix3Xd& before = survey_.first.nodes;
-  const double depth = survey_.depth_mm;
-  for (long n = 0; n < frame.nodes.cols(); ++n)
-    colours.push_back(
-        bar_->scale(depth > 0 ? (frame.nodes.col(n) - before.col(n)).norm() / depth : 0));
+  if (of_cells(style_.colour_by)) return {};
+  auto colours = colours_of(frame, 1);
+  // what moves in time knows no forces: its rods are as wide as the others
+  if (colours.empty() && bar_)
+    colours.assign(std::size_t(frame.nodes.cols()), bar_->scale(record::unknown));
   return colours;
 }
 
@@ -164,6 +179,9 @@ Drawing Stage::drawing(const record::Frame& frame) const {
       look.joint_mm > 0 ? std::max(look.joint_mm, 1.5 * drawing.rod_diameter_mm) : 0;
   drawing.cell_colours = cell_colours(frame, 0.93f);
   drawing.node_colours = node_colours(frame);
+  // a red joint would look like tension
+  if (style_.colour_by == ColourBy::axial_force && look.joint == Look{}.joint)
+    drawing.joint_colour = look.rod;
   // colours need some width to be seen
   if (!drawing.node_colours.empty()) drawing.rod_diameter_mm *= 1.8;
   // where both boundaries coincide the stronger one hides the fainter
@@ -215,12 +233,16 @@ Result<Image> Stage::draw(Renderer& renderer, const Shown& shown) const {
 
 void Stage::draw_captions(Canvas& canvas, const Shown& shown) const {
   const double em = layout_.font_size;
-  const TextStyle title{.size = 1.15 * em, .colour = ink, .bold = true, .align_y = AlignY::middle};
+  TextStyle title = title_style(style_, em);
+  title.align_y = AlignY::middle;
   const TextStyle line{.size = em, .colour = ink, .align_y = AlignY::middle};
   const TextStyle small{.size = 0.85 * em, .colour = pale_ink, .align_y = AlignY::middle};
   const auto place = [](const Box& box) { return Point{box.x, box.middle().y}; };
-  canvas.text(plain(canvas.shortened(style_.title, layout_.title.width, title)),
-              place(layout_.title), title);
+  const std::vector<std::string>& lines = layout_.title_lines;
+  const double line_height = layout_.title.height / std::max<double>(1, double(lines.size()));
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    canvas.text(plain(lines[k]),
+                {layout_.title.x, layout_.title.y + (double(k) + 0.5) * line_height}, title);
 
   // columns of fixed width, so that the words stand still while the numbers run; what does not
   // fit is left out

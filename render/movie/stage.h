@@ -18,9 +18,12 @@
 
 namespace gridshell::render {
 
-/// Whether a run can be shown: it has frames, each with a position for every node and a K for every
-/// cell, and the picture has a size. Errors: Fault::bad_input naming the frame.
+/// Whether a run can be shown: it has frames, each with a position for every node and, where K is
+/// shown, one for every cell; some frame knows what is to be coloured; the picture has a size.
+/// Errors: Fault::bad_input naming the frame or what is lacking.
 Result<void> check_showable(const record::Trajectory& run, const MovieStyle& style);
+/// Of that, whether any frame knows what is to be coloured.
+Result<void> check_coloured(const Survey& survey, const MovieStyle& style);
 Result<void> check_size(const MovieStyle& style);
 /// `at`: the frame's position in the run.
 Result<void> check_frame(const record::Layout& layout, const record::Frame& frame, int at,
@@ -45,7 +48,7 @@ class Stage {
   const MovieStyle& style() const { return style_; }
   const FrameLayout& layout() const { return layout_; }
   const Survey& survey() const { return survey_; }
-  /// of K□ over all frames, or of the displacement; none when nothing is coloured
+  /// over all frames; none when nothing is coloured
   const std::optional<ColourBar>& colour_bar() const { return bar_; }
   double pixels_per_mm() const { return framings_.front().pixels_per_mm(); }
   /// what the shell covers over all frames, in pixels
@@ -66,6 +69,7 @@ class Stage {
   void draw_overlay(Canvas& canvas, const Shown& shown) const;
 
  private:
+  std::vector<Colour> colours_of(const record::Frame& frame, float alpha) const;
   std::vector<Colour> cell_colours(const record::Frame& frame, float alpha) const;
   std::vector<Colour> node_colours(const record::Frame& frame) const;
   void draw_captions(Canvas& canvas, const Shown& shown) const;

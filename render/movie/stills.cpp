@@ -16,29 +16,6 @@ namespace {
 
 constexpr int largest_columns = 3;
 
-// a still stands alone in print: no title, no frame count, no second view, no turn
-MovieStyle still_style(MovieStyle style) {
-  style.captions = false;
-  style.heading = true;
-  style.inset = false;
-  style.turn_deg = 0;
-  return style;
-}
-
-// legends of a single still; its caption stands where a movie has its title
-void finish_still(Image& picture, const Stage& stage, const record::Frame& frame, int index,
-                  const std::string& caption) {
-  draw_over(picture, [&](Canvas& canvas) {
-    stage.draw_overlay(canvas, {frame, index});
-    const double em = stage.layout().font_size;
-    TextStyle title{.size = em, .bold = true, .align_y = AlignY::top};
-    const double room = stage.layout().view.right() - 0.9 * em;
-    canvas.text(plain(canvas.shortened(stage.style().title, room, title)), {0.9 * em, 0.9 * em},
-                title);
-    canvas.text(caption, {0.9 * em, 2.4 * em}, {.size = em, .align_y = AlignY::top});
-  });
-}
-
 // side by side, panels need no more ground than the shell takes
 Image around(const Image& picture, const Box& shell) {
   const double margin = 0.05 * shell.width;
@@ -58,6 +35,30 @@ std::filesystem::path with_suffix(const std::filesystem::path& stem, const std::
 }
 
 }  // namespace
+
+MovieStyle still_style(MovieStyle style) {
+  style.captions = false;
+  style.heading = true;
+  style.inset = false;
+  style.turn_deg = 0;
+  return style;
+}
+
+void draw_still_words(Canvas& canvas, const Stage& stage, const Shown& shown,
+                      const std::string& caption) {
+  stage.draw_overlay(canvas, shown);
+  const double em = stage.layout().font_size, x = still_margin * em;
+  TextStyle title = title_style(stage.style(), em);
+  title.align_y = AlignY::top;
+  double y = still_margin * em;
+  for (const std::string& line : stage.layout().title_lines) {
+    canvas.text(plain(line), {x, y}, title);
+    y += still_line * em;
+  }
+  if (stage.layout().title_lines.empty()) y += still_line * em;
+  const TextStyle text{.size = em, .align_y = AlignY::top};
+  canvas.text(caption, {x, y}, canvas.fitted(caption, canvas.width() - 2 * x, text));
+}
 
 std::string still_caption(const record::Frame& frame) { return state_captions(frame).front(); }
 
@@ -92,7 +93,9 @@ Result<std::vector<std::filesystem::path>> write_stills(
         {around(*picture, stage.shell_box()),
          stage.frames() > 1 && style.look.letters ? std::string(1, char('a' + k % 26)) : "",
          caption});
-    finish_still(*picture, stage, frame, k, caption);
+    draw_over(*picture, [&](Canvas& canvas) {
+      draw_still_words(canvas, stage, {frame, k}, caption);
+    });
     files.push_back(with_suffix(stem, fmt::format("_{}.png", k + 1)));
     if (auto written = write_png(*picture, files.back(), dpi); !written)
       return tl::unexpected(written.error());

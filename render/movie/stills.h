@@ -10,10 +10,19 @@
 #include "engine/core/watch.h"
 #include "engine/record/snapshot.h"
 #include "render/draw/renderer.h"
+#include "render/movie/stage.h"
 #include "render/movie/style.h"
 #include "render/plot/legend.h"
 
 namespace gridshell::render {
+
+/// As stills are shown: one alone in print has no title bar, frame count, second view or turn.
+MovieStyle still_style(MovieStyle style);
+
+/// Heading, caption and legends of a still whose stage has such a style: its title in one or two
+/// lines where a movie has its own, the caption (marked text) below.
+void draw_still_words(Canvas& canvas, const Stage& stage, const Shown& shown,
+                      const std::string& caption);
 
 /// What one still shows under it, as marked text: "*R*_{a} = 115.9 mm".
 std::string still_caption(const record::Frame& frame);

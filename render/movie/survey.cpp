@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "render/movie/boundary.h"
+#include "render/movie/coloured.h"
 #include "render/movie/load_marks.h"
 
 namespace gridshell::render {
@@ -64,14 +65,6 @@ double lowest(const Eigen::Matrix3Xd& points) {
   return points.cols() > 0 ? points.row(2).minCoeff() : infinity;
 }
 
-// the largest size of each value so far, and the extent of all
-void take_values(const Eigen::ArrayXd& values, Eigen::ArrayXd& most, Interval& extent) {
-  const Eigen::ArrayXd known = values.isFinite().select(values, 0.0);
-  if (most.size() != known.size()) most = Eigen::ArrayXd::Zero(known.size());
-  most = most.max(known.abs());
-  for (double value : known) extent.take(value);
-}
-
 MarkKind kind_of(const record::Frame& frame) {
   if (frame.event.starts_with("snap")) return MarkKind::snap;
   if (frame.event.starts_with("locking")) return MarkKind::lock;
@@ -90,6 +83,15 @@ void Interval::take(double value) {
 void Interval::take(const Interval& other) {
   take(other.low);
   take(other.high);
+}
+
+void Spread::take(const Eigen::VectorXd& values, bool counts) {
+  if (values.size() == 0) return;
+  for (const double value : values) all.take(value);
+  if (!counts) return;
+  const Eigen::ArrayXd known = values.array().isFinite().select(values.array(), 0.0);
+  if (most.size() != known.size()) most = Eigen::ArrayXd::Zero(known.size());
+  most = most.max(known.abs());
 }
 
 FrameSource source_of(const record::Trajectory& run) {
@@ -121,9 +123,15 @@ void Survey::take(const record::Frame& frame) {
   for (long k = 0; k < frame.K_bins.rows(); ++k)
     for (const double sign : {-1.0, 1.0})
       bins_rad.take(frame.K_bins(k, 0) + sign * frame.K_bins(k, 1));
-  take_values(frame.cell_K, most_K, K);
-  if (first.cell_K.size() == frame.cell_K.size())
-    take_values(frame.cell_K - first.cell_K, most_K_change, K_change);
+  // a shell lies near its net once its boundary does: what is before does not set the scale
+  if (frame.actuation > farthest_) spreads_[std::size_t(ColourBy::deviation)].most.setZero();
+  farthest_ = std::max(farthest_, frame.actuation);
+  for (const auto& entry : words(ColourBy{})) {
+    const bool counts = entry.value != ColourBy::deviation || frame.actuation == farthest_;
+    if (entry.value != ColourBy::displacement)
+      spreads_[std::size_t(entry.value)].take(
+          coloured_values(entry.value, *layout_, frame, {first}), counts);
+  }
   if (first.nodes.cols() == frame.nodes.cols())
     for (const record::Joint& joint : layout_->joints)
       if (joint.node < frame.nodes.cols())

@@ -3,11 +3,13 @@
 // others some points.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
 #include "engine/core/result.h"
 #include "engine/record/snapshot.h"
+#include "render/movie/style.h"
 
 namespace gridshell::render {
 
@@ -27,6 +29,16 @@ struct Interval {
   void take(double value);
   void take(const Interval& other);
   bool any() const { return low <= high; }
+};
+
+/// A quantity of cells or nodes over all frames. All count for the scale, but for the deviation
+/// from the net: those with the boundary farthest on its way alone, as a flat shell lies off by its
+/// size.
+struct Spread {
+  Eigen::ArrayXd most;  ///< largest size of each one's, of the frames that count for the scale
+  Interval all;         ///< of all that are known
+
+  void take(const Eigen::VectorXd& values, bool counts);
 };
 
 /// Something that happened to the shell, and in which frame.
@@ -54,14 +66,15 @@ class Survey {
   void take(const record::Frame& frame);
 
   int frames = 0;
-  record::Frame first;                   ///< what later frames are compared with
-  double depth_mm = 0;                   ///< of a push, at its deepest; 0 without one
-  double lowest_z_mm = 0;                ///< of all that is drawn
-  Interval bins_rad;                     ///< mean K of the bins, with their standard deviations
-  Eigen::ArrayXd most_K, most_K_change;  ///< largest size of each cell's, over all frames
-  Interval K, K_change;                  ///< over all cells and frames, rad
-  double largest_move_mm = 0;            ///< of a joint, from where it was in the first frame
-  std::vector<Mark> marks;               ///< in order
+  record::Frame first;         ///< what later frames are compared with
+  double depth_mm = 0;         ///< of a push, at its deepest; 0 without one
+  double lowest_z_mm = 0;      ///< of all that is drawn
+  Interval bins_rad;           ///< mean K of the bins, with their standard deviations
+  double largest_move_mm = 0;  ///< of a joint, from where it was in the first frame
+  std::vector<Mark> marks;     ///< in order
+
+  /// Of what is coloured (coloured.h), but for displacements, whose depth the end alone knows.
+  const Spread& spread(ColourBy by) const { return spreads_[std::size_t(by)]; }
 
   /// Points that bound all frames, what is drawn of both boundaries, and the arrows of loads: some
   /// hundreds of some dozen frames, and the boundaries themselves. They lie at the same places of
@@ -73,7 +86,9 @@ class Survey {
   void keep_points(const record::Frame& frame);
 
   const record::Layout* layout_;
+  std::array<Spread, words(ColourBy{}).size()> spreads_;
   std::vector<RodPoint> rod_points_;    ///< the same places of the rods on every mesh
+  double farthest_ = -1;                ///< the boundary has come
   int every_ = 1;                       ///< frame whose points are kept
   std::vector<Eigen::Matrix3Xd> kept_;  ///< of every so many frames
   Eigen::Matrix3Xd last_;               ///< of the last frame

@@ -1,7 +1,6 @@
 #include "render/movie/title_card.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "render/plot/canvas.h"
 
@@ -10,21 +9,12 @@ namespace {
 
 constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, pale_ink{0.38f, 0.39f, 0.42f, 1};
 
-// words in lines of at most `width`
-std::string wrapped(const Canvas& canvas, const std::string& text, double width,
-                    const TextStyle& style) {
-  std::istringstream words(text);
-  std::string all, line;
-  for (std::string word; words >> word;) {
-    const std::string longer = line.empty() ? word : line + " " + word;
-    if (!line.empty() && canvas.measure(plain(longer), style).width > width) {
-      all += line + "\n";
-      line = word;
-    } else {
-      line = longer;
-    }
-  }
-  return all + line;
+std::string in_lines(const Canvas& canvas, const std::string& text, double width,
+                     const TextStyle& style) {
+  std::string all;
+  for (const std::string& line : canvas.wrapped(text, width, style))
+    all += (all.empty() ? "" : "\n") + line;
+  return all;
 }
 
 }  // namespace
@@ -37,12 +27,12 @@ Image title_card(const MovieStyle& style) {
                     .bold = true,
                     .align_x = AlignX::centre,
                     .align_y = AlignY::middle};
-    std::string text = wrapped(canvas, style.title, 0.84 * w, title);
+    std::string text = in_lines(canvas, style.title, 0.84 * w, title);
     for (int k = 0; k < 12; ++k) {
       const Box box = canvas.measure(plain(text), title);
       if (box.width <= 0.9 * w && box.height <= 0.5 * h) break;
       title.size *= 0.9;
-      text = wrapped(canvas, style.title, 0.84 * w, title);
+      text = in_lines(canvas, style.title, 0.84 * w, title);
     }
     canvas.text(plain(text), {w / 2, 0.45 * h}, title);
     TextStyle source{.size = 0.5 * title.size,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -341,6 +342,26 @@ Box Canvas::measure(const std::string& marked, const TextStyle& style) const {
   const Box box = to_box(logical);
   const Point at = corner(layout.get(), box, style);
   return {at.x, at.y, box.width, box.height};
+}
+
+TextStyle Canvas::fitted(const std::string& marked, double width, TextStyle style,
+                         double least) const {
+  style.size *= std::clamp(width / std::max(1.0, measure(marked, style).width), least, 1.0);
+  return style;
+}
+
+std::vector<std::string> Canvas::wrapped(const std::string& text, double width,
+                                         const TextStyle& style) const {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string longer = lines.empty() ? word : lines.back() + " " + word;
+    if (lines.empty() || measure(plain(longer), style).width > width)
+      lines.push_back(word);
+    else
+      lines.back() = longer;
+  }
+  return lines;
 }
 
 std::string Canvas::shortened(const std::string& text, double width, const TextStyle& style) const {

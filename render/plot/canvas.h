@@ -91,6 +91,13 @@ class Canvas {
   Box text(const std::string& marked, Point anchor, const TextStyle& style);
   /// The box `text` would take: its line height and advance, before rotation, anchor at (0, 0).
   Box measure(const std::string& marked, const TextStyle& style) const;
+  /// The style with its size lessened so that the text is at most `width` wide, but to no less than
+  /// `least` of it.
+  TextStyle fitted(const std::string& marked, double width, TextStyle style,
+                   double least = 0) const;
+  /// The text broken at blanks so that no line is wider than `width`; a longer word has its own.
+  std::vector<std::string> wrapped(const std::string& plain_text, double width,
+                                   const TextStyle& style) const;
   /// The text shortened by '…' to at most `width`.
   std::string shortened(const std::string& plain_text, double width, const TextStyle& style) const;
 

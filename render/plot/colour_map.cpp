@@ -76,13 +76,13 @@ Colour to_colour(Oklab lab, float alpha) {
           float(gamma(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)), alpha};
 }
 
-Colour diverging(double t) {
+Colour diverging(double t, double start) {
   // lightness and chroma of the ends are the strongest that both hues have within sRGB
   constexpr double middle_L = 0.975, end_L = 0.46, end_chroma = 0.165;
   constexpr double blue = 258 * 3.14159265358979 / 180, red = 26 * 3.14159265358979 / 180;
   t = std::clamp(t, -1.0, 1.0);
-  return to_colour(
-      mix({middle_L, 0, 0}, from_polar(end_L, end_chroma, t < 0 ? blue : red), std::abs(t)));
+  return to_colour(mix({middle_L + start * (end_L - middle_L), 0, 0},
+                       from_polar(end_L, end_chroma, t < 0 ? blue : red), std::abs(t)));
 }
 
 Colour sequential(double t) {
@@ -106,7 +106,7 @@ Colour ColourScale::operator()(double value) const {
   if (map != ColourMap::diverging && high <= 0 && low < 0) t = 1 - t;
   switch (map) {
     case ColourMap::diverging:
-      return diverging(2 * t - 1);
+      return diverging(2 * t - 1, start);
     case ColourMap::sequential:
       return sequential(start + (1 - start) * std::clamp(t, 0.0, 1.0));
     case ColourMap::grey:

@@ -18,8 +18,9 @@ Oklab to_oklab(Colour colour);
 Colour to_colour(Oklab lab, float alpha = 1);
 
 /// Blue - white - red over t in [-1, 1] (clipped): from the neutral middle two straight lines of
-/// equal length and equal lightness, so that equal |t| looks equally strong.
-Colour diverging(double t);
+/// equal length and equal lightness, so that equal |t| looks equally strong. `start` greys the
+/// middle by that share of the way to the ends' lightness.
+Colour diverging(double t, double start = 0);
 
 /// Sand - apricot - coral - plum - indigo over t in [0, 1] (clipped): lightness falls evenly, and
 /// equal steps of t are equal distances in Oklab. Light where there is little, so that dark rods
@@ -36,7 +37,7 @@ enum class ColourMap { diverging, sequential, grey };
 struct ColourScale {
   ColourMap map = ColourMap::diverging;
   double low = -1, high = 1;
-  double start = 0;  ///< where in a sequential map `low` stands, for thin lines on white
+  double start = 0;  ///< where in its map the least size stands, for thin lines on white
 
   Colour operator()(double value) const;
   bool operator==(const ColourScale&) const = default;

@@ -19,15 +19,19 @@ double words_column(const ColourBar& bar, double font_size) {
   return bar.words.empty() ? 0 : 1.35 * font_size;
 }
 
+constexpr int fewest_ticks = 2, most_ticks = 6;
+
 std::vector<Tick> bar_ticks(const ColourScale& scale, double height, double font_size) {
-  const int count = std::clamp(int(height / (2.2 * font_size)), 2, 6);
+  const int count = std::clamp(int(height / (2.2 * font_size)), fewest_ticks, most_ticks);
   return linear_ticks(scale.low, scale.high, count);
 }
 
-double widest_label(const Canvas& canvas, const std::vector<Tick>& ticks, const TextStyle& style) {
+// of all ticks that bars of this scale may have: taller ones have more, with more digits
+double widest_label(const Canvas& canvas, const ColourScale& scale, const TextStyle& style) {
   double width = 0;
-  for (const Tick& tick : ticks)
-    if (tick.major) width = std::max(width, canvas.measure(tick.label, style).width);
+  for (int count = fewest_ticks; count <= most_ticks; ++count)
+    for (const Tick& tick : linear_ticks(scale.low, scale.high, count))
+      if (tick.major) width = std::max(width, canvas.measure(tick.label, style).width);
   return width;
 }
 
@@ -58,7 +62,7 @@ void draw_words(Canvas& canvas, const Box& box, const ColourBar& bar, double fon
 
 double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_size) {
   const TextStyle style{.size = font_size};
-  const double ticks = widest_label(canvas, bar_ticks(bar.scale, 8 * font_size, font_size), style);
+  const double ticks = widest_label(canvas, bar.scale, style);
   const double with_ticks =
       bar_thickness(font_size) + tick_length(font_size) + 0.25 * font_size + ticks;
   const double words = words_column(bar, font_size);

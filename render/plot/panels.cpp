@@ -56,11 +56,10 @@ Grid make_grid(const PanelFigure& figure) {
 
 void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool lines) {
   const double em = grid.em;
-  TextStyle title{.size = em, .bold = true, .align_y = AlignY::middle};
   const double room = grid.total_width() - 2 * grid.margin;
-  title.size *=
-      std::min(1.0, room / std::max(1.0, canvas.measure(plain(figure.title), title).width));
-  canvas.text(plain(figure.title), {grid.left(), grid.top() + grid.head / 2}, title);
+  canvas.text(plain(figure.title), {grid.left(), grid.top() + grid.head / 2},
+              canvas.fitted(plain(figure.title), room,
+                            {.size = em, .bold = true, .align_y = AlignY::middle}));
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
     const Panel& panel = figure.panels[k];
     const Box box = grid.panel(int(k));
@@ -73,10 +72,9 @@ void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool line
           panel.letter, {box.x + 0.4 * em, box.y + 0.2 * em},
           {.size = 1.2 * em, .bold = true, .align_y = AlignY::top, .halo = {1, 1, 1, 0.8f}});
     // a caption wider than its panel is set smaller
-    TextStyle caption{.size = em, .align_x = AlignX::centre, .align_y = AlignY::middle};
-    caption.size *=
-        std::min(1.0, box.width / std::max(1.0, canvas.measure(panel.caption, caption).width));
-    canvas.text(panel.caption, {box.middle().x, box.bottom() + grid.caption / 2}, caption);
+    const TextStyle caption{.size = em, .align_x = AlignX::centre, .align_y = AlignY::middle};
+    canvas.text(panel.caption, {box.middle().x, box.bottom() + grid.caption / 2},
+                canvas.fitted(panel.caption, box.width, caption));
   }
   const Box last = grid.panel(grid.columns - 1);
   const double left = grid.left(), bottom = grid.bottom();

@@ -18,27 +18,6 @@ constexpr double a4_width = 595.28, a4_height = 841.89, margin = 42;  // points
 constexpr double line_height = 13;
 const Colour ink{0.1f, 0.1f, 0.12f, 1}, blue{0.1f, 0.3f, 0.65f, 1}, red{0.7f, 0.1f, 0.1f, 1};
 
-/// `text` broken at blanks so that no line is wider than `width`.
-std::vector<std::string> wrapped(const Canvas& canvas, const std::string& text, double width,
-                                 const TextStyle& style) {
-  std::vector<std::string> lines;
-  std::string line;
-  for (std::size_t from = 0; from < text.size();) {
-    const std::size_t to = std::min(text.find(' ', from), text.size());
-    const std::string word = text.substr(from, to - from);
-    const std::string longer = line.empty() ? word : line + " " + word;
-    if (!line.empty() && canvas.measure(plain(longer), style).width > width) {
-      lines.push_back(line);
-      line = word;
-    } else {
-      line = longer;
-    }
-    from = to + 1;
-  }
-  if (!line.empty()) lines.push_back(line);
-  return lines;
-}
-
 /// Over the page, smaller where it would not fit.
 void draw_title(Canvas& canvas, const std::string& title, double size) {
   TextStyle style{size, ink, true};
@@ -173,7 +152,7 @@ std::string cut_list_pdf(const Workpiece& work) {
       canvas.text(rod.name, {name_x, y}, {8, colour});
       canvas.text(fmt::format("{:.1f}", rod.length_mm), {length_x, y},
                   {8, colour, false, AlignX::right});
-      const auto lines = wrapped(canvas, marks_of(rod), a4_width - margin - marks_x, text);
+      const auto lines = canvas.wrapped(marks_of(rod), a4_width - margin - marks_x, text);
       for (std::size_t k = 0; k < lines.size(); ++k) {
         if (k > 0) y += line_height;
         canvas.text(lines[k], {marks_x, y}, text);
@@ -199,7 +178,7 @@ std::string assembly_sheet_pdf(const Workpiece& work) {
     draw_plate(canvas, work, {margin + half + 16, margin + 26, half, half + 10});
     double y = margin + half + 70;
     const auto put = [&](const std::string& words, double indent) {
-      for (const std::string& line : wrapped(canvas, words, wide - indent, text)) {
+      for (const std::string& line : canvas.wrapped(words, wide - indent, text)) {
         canvas.text(plain(line), {margin + indent, y}, text);
         y += 14;
       }

@@ -285,6 +285,9 @@ TEST_CASE("a run folder of version 0.1 is drawn, and replaced as a run") {
   // what it did not say is unknown
   CHECK(summary["energy_load_mJ"].is_null());
   CHECK(summary["finished"] == true);
+  const auto forces = bench.run({"render", "old", "--set", "movie.colour_by=axial_force"});
+  CHECK(forces.code == 2);
+  CHECK_THAT(forces.err, Contains("no frame of the run knows the rods' axial forces"));
   bench.good({"run", "small.toml", "-o", "old"});
   CHECK(fs::exists(bench.at / "old/manifest.txt"));
 }

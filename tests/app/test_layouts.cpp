@@ -10,6 +10,7 @@
 #include "render/figure/push_figure.h"
 #include "render/movie/bins_plot.h"
 #include "render/movie/stage.h"
+#include "render/movie/stills.h"
 #include "tests/render/synthetic.h"
 #include "tests/temporary_folder.h"
 
@@ -92,6 +93,31 @@ TEST_CASE("in every preset's frames and stills no text leaves the picture or mee
       }
     }
   }
+}
+
+TEST_CASE("a narrow still has its whole title, in two lines where one is too short") {
+  int wrapped = 0;
+  for (const auto& embedded : app::embedded_presets()) {
+    const auto presets = app::load_preset(embedded.name, {});
+    REQUIRE(presets);
+    MovieStyle style = still_style(app::style_of(presets->base, app::Pictures::stills));
+    style.width = 302;
+    style.height = 170;
+    const record::Trajectory run = eventful(true);
+    const Stage stage(run, style);
+    const auto words = words_of(style.width, style.height, [&](Canvas& canvas) {
+      draw_still_words(canvas, stage, {run.frames[2], 2},
+                       "push [-2, -2], a joint far from its middle: *δ* = 10.00 mm");
+    });
+    INFO(embedded.name);
+    check_apart(words, {0, 0, double(style.width), double(style.height)});
+    std::string title;
+    for (const std::string& line : stage.layout().title_lines)
+      title += (title.empty() ? "" : " ") + line;
+    CHECK(title == style.title);
+    wrapped += stage.layout().title_lines.size() == 2;
+  }
+  CHECK(wrapped > 0);
 }
 
 TEST_CASE("in what `figure` and `movie` make of every preset no text meets another or a data point",

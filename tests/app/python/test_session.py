@@ -106,6 +106,7 @@ def test_shapes_fit_each_other(formed):
     assert len(layout.rods) == len(layout.families)
     assert state.axial_force_N.size == sum(len(rod) - 1 for rod in layout.rods)
     assert state.curvature_per_mm.size == sum(len(rod) for rod in layout.rods)
+    assert state.bending_mJ_per_m.size == state.curvature_per_mm.size
     assert state.reactions_N.shape == (layout.supports.size, 3)
     assert state.cell_K.size == len(layout.cells)
     assert state.total_K == pytest.approx(state.cell_K.sum())

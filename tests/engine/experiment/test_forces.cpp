@@ -68,6 +68,39 @@ TEST_CASE("curvature gives the bending energy, stretch the axial force, as one m
   CHECK(frame.axial_force_N.minCoeff() < 0);
 }
 
+TEST_CASE("bending over length adds up to the bending energy, of any section and end") {
+  preset::Preset p = circle();
+  p.accuracy.edges_per_segment = 8;
+  SECTION("round rods") {}
+  SECTION("strips curved at rest") {
+    p.rod.shear_GPa = 31;
+    p.rod.width_mm = 0.4;
+    p.rod.thickness_mm = 0.2;
+    p.rod.curvature_per_mm = 0.004;
+  }
+  SECTION("clamped ends") {
+    p.rod.shear_GPa = 31;
+    p.ends.kind = preset::EndKind::clamped;
+  }
+  const experiment::Finished outcome = run(p);
+  const record::Frame& frame = outcome.trajectory.frames.back();
+  REQUIRE(frame.energies[Term::bend] > 0.01);
+  double energy = 0;
+  Eigen::Index at = 0;
+  for (const auto& rod : outcome.trajectory.layout.rods)
+    for (std::size_t k = 0; k < rod.size(); ++k, ++at) {
+      const auto edge = [&](std::size_t n) {
+        return n == 0 || n == rod.size()
+                   ? 0.0
+                   : (frame.nodes.col(rod[n]) - frame.nodes.col(rod[n - 1])).norm();
+      };
+      // mJ/m over mm
+      energy += 1e-3 * frame.bending_mJ_per_m[at] * 0.5 * (edge(k) + edge(k + 1));
+    }
+  CHECK(at == frame.bending_mJ_per_m.size());
+  CHECK(energy == Approx(frame.energies[Term::bend]).epsilon(1e-4));
+}
+
 TEST_CASE("at a pinned end the reaction along the rod is its axial force") {
   const experiment::Finished outcome = run(circle());
   const record::Layout& layout = outcome.trajectory.layout;
@@ -108,5 +141,6 @@ TEST_CASE("a net and what is in motion know no forces") {
   p.accuracy.tolerance = 0.05;
   const experiment::Finished outcome = run_stills(p);
   CHECK(outcome.trajectory.frames.back().axial_force_N.size() == 0);
+  CHECK(outcome.trajectory.frames.back().bending_mJ_per_m.size() == 0);
   CHECK(outcome.trajectory.frames.back().reactions_N.size() == 0);
 }

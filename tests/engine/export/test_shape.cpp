@@ -1,4 +1,4 @@
-// Tubes, curvature and the files of a shape.
+// Tubes and the files of a shape.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -18,16 +18,6 @@ using record::sample_trajectory;
 
 namespace {
 
-// points on a circle of that radius, evenly
-Eigen::Matrix3Xd arc(double radius, int points) {
-  Eigen::Matrix3Xd places(3, points);
-  for (int k = 0; k < points; ++k) {
-    const double angle = 0.05 * k;
-    places.col(k) << radius * std::cos(angle), 1, radius * std::sin(angle);
-  }
-  return places;
-}
-
 int count(const std::string& text, const std::string& part) {
   int found = 0;
   for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; at += part.size()) ++found;
@@ -41,16 +31,6 @@ std::size_t rod_points_of(const record::Layout& layout) {
 }
 
 }  // namespace
-
-TEST_CASE("the curvature of points on a circle is one over its radius") {
-  const auto curvature = curvature_per_mm(arc(50, 20));
-  REQUIRE(curvature.size() == 20);
-  CHECK(curvature.front() == 0);
-  CHECK(curvature.back() == 0);
-  // 2 tan(a/2) over the chord 2 R sin(a/2)
-  for (std::size_t k = 1; k + 1 < curvature.size(); ++k)
-    CHECK(curvature[k] == Approx(1 / (50 * std::cos(0.025))).epsilon(1e-9));
-}
 
 TEST_CASE("a tube is closed, its triangles look outwards, its volume is that of a prism") {
   Eigen::Matrix3Xd line(3, 3);
@@ -164,19 +144,10 @@ TEST_CASE("a page holds the run, and a title cannot end its script") {
   CHECK(json["frames"][0]["nodes"].get<std::string>().size() == (bytes + 2) / 3 * 4);
 }
 
-TEST_CASE("forces at points are those of the edges beside them, and unknown where not recorded") {
+TEST_CASE("reactions are those of the supports, and unknown where not recorded") {
   const record::Trajectory run = sample_trajectory();
-  const record::Frame& frame = run.frames.back();
-  // the second rod's three edges follow the first one's
-  const auto force = axial_force_N(run.layout, frame, 1);
-  REQUIRE(force.size() == 4);
-  CHECK(force[0] == frame.axial_force_N[3]);
-  CHECK(force[1] == 0.5 * (frame.axial_force_N[3] + frame.axial_force_N[4]));
-  CHECK(force[3] == frame.axial_force_N[5]);
-  CHECK(curvature_per_mm(run.layout, frame, 1)[2] == frame.curvature_per_mm[6]);
-  CHECK(reactions_N(run.layout, frame) == frame.reactions_N);
+  CHECK(reactions_N(run.layout, run.frames.back()) == run.frames.back().reactions_N);
   const record::Frame& between = run.frames[1];
-  CHECK(std::isnan(axial_force_N(run.layout, between, 0)[1]));
   CHECK(reactions_N(run.layout, between).array().isNaN().all());
 }
 

@@ -47,6 +47,9 @@ TEST_CASE("auto takes the lowest rung that is exact") {
        "bend"},
       {"[footprint]\nkind = \"net\"\n[accuracy]\ntolerance = 0.05\n[loads]\nfield_N_per_mm = 1e-6",
        "bend"},
+      {"[footprint]\nkind = \"net\"\n[accuracy]\ntolerance = 0.05\n[movie]\ncolour_by = "
+       "\"axial_force\"",
+       "bend"},
   }));
   CAPTURE(text);
   const Preset preset = good(text);
@@ -63,6 +66,14 @@ TEST_CASE("a rung that cannot serve the scene, and physics that lacks something,
       {"[accuracy]\nmodel = \"net\"\ntolerance = 0.1",
        "bad.toml:2:9: [accuracy] model = \"net\": cannot serve [footprint] kind: a footprint that "
        "was not designed on a net has none"},
+      {"[footprint]\nkind = \"net\"\n[accuracy]\nmodel = \"net\"\ntolerance = 0.05\n[movie]\n"
+       "colour_by = \"energy\"",
+       "bad.toml:4:9: [accuracy] model = \"net\": cannot serve [movie] colour_by: a net's rods "
+       "bear "
+       "no forces"},
+      {"[movie]\ncolour_by = \"deviation\"",
+       "bad.toml:2:13: [movie] colour_by = \"deviation\": \"deviation\" is from the net that a "
+       "footprint was designed on, must be another, or [footprint] kind = \"net\" or \"blocks\""},
       {"[ends]\nkind = \"clamped\"",
        "bad.toml:2:8: [ends] kind = \"clamped\": twists the rods (clamped ends hold the rods' "
        "spin), and their torsional stiffness is not known: [rod] shear_GPa must be above 0"},

@@ -57,6 +57,7 @@ inline Trajectory sample_trajectory() {
   for (Frame* frame : {&run.frames[0], &run.frames[2]}) {
     frame->axial_force_N = Eigen::VectorXd::Random(12);
     frame->curvature_per_mm = Eigen::VectorXd::Random(16);
+    frame->bending_mJ_per_m = Eigen::VectorXd::Random(16);
     frame->reactions_N = Eigen::Matrix3Xd::Random(3, 12);
   }
   run.origin = {"Sample \xC3\xA9", "s1_actuation", "gridshell 0.0"};

@@ -78,6 +78,7 @@ TEST_CASE("datasets bear their names, shapes and units") {
   CHECK(unit("/cell_K") == "rad");
   CHECK(unit("/axial_force_N") == "N");
   CHECK(unit("/curvature_per_mm") == "1/mm");
+  CHECK(unit("/bending_mJ_per_m") == "mJ/m");
   CHECK(unit("/reactions_N") == "N");
   CHECK(unit("/frames/force_N") == "N");
   CHECK(unit("/frames/energy_bend_mJ") == "mJ");

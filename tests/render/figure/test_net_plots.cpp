@@ -42,7 +42,7 @@ record::Trajectory one_cell() {
 TEST_CASE("the deviation of a shell two per cent inside its sphere is two per cent") {
   const record::Trajectory run = one_cell();
   CHECK(on_sphere(run.layout));
-  for (double one : deviation_of_nodes(run)) CHECK(one == Approx(0.02));
+  for (double one : last_deviation(run)) CHECK(one == Approx(0.02));
 }
 
 TEST_CASE("K is plotted at the centroid of the cell over the half-span") {

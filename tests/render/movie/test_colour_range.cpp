@@ -17,6 +17,23 @@ record::Trajectory of_K(double first, double last) {
   return run;
 }
 
+// two frames whose rods all bear these forces and energies, whose joints lie that far off a net
+record::Trajectory of_rods(double force_N, double other_N, double energy = 0) {
+  record::Trajectory run = synthetic::dome(2, 1);
+  for (record::Frame& frame : run.frames) {
+    frame.axial_force_N.setConstant(record::edges_of_rods(run.layout), force_N);
+    frame.axial_force_N[0] = other_N;
+    frame.bending_mJ_per_m.setConstant(record::points_of_rods(run.layout), energy);
+  }
+  return run;
+}
+
+MovieStyle by(ColourBy what) {
+  MovieStyle style;
+  style.colour_by = what;
+  return style;
+}
+
 std::optional<ColourBar> bar(const std::vector<record::Trajectory>& runs,
                              const MovieStyle& style = {}) {
   std::vector<Survey> surveys;
@@ -68,4 +85,54 @@ TEST_CASE("the change of K starts at nothing, and the style's range goes before"
   CHECK_FALSE(given->beyond_high);
   style.look.cells = false;
   CHECK_FALSE(bar({of_K(0.5, 0.45)}, style));
+}
+
+TEST_CASE("axial forces of both signs diverge about zero over all runs, of one sign they do not") {
+  const auto both = bar({of_rods(0.2, 0.2), of_rods(-0.4, -0.4)}, by(ColourBy::axial_force));
+  REQUIRE(both);
+  CHECK(both->label == "*N* (N)");
+  CHECK(both->words == "axial force");
+  CHECK(both->scale.map == ColourMap::diverging);
+  CHECK(both->scale.high >= 0.4);
+  CHECK(both->scale.low == -both->scale.high);
+  // a rod without force is seen on white
+  CHECK(both->scale(0).r < 0.9f);
+  CHECK(both->scale(0).r == Approx(both->scale(0).b).margin(0.01));
+  const auto pressed = bar({of_rods(-0.2, -0.1)}, by(ColourBy::axial_force));
+  CHECK(pressed->scale.map == ColourMap::sequential);
+  CHECK(pressed->scale.high == 0);
+  CHECK(pressed->scale.low <= -0.2);
+  // few that bear more than the scale has
+  CHECK(bar({of_rods(0.2, -3)}, by(ColourBy::axial_force))->beyond_low);
+}
+
+TEST_CASE("bending energy goes up from zero, and the style's range and map go before") {
+  MovieStyle style = by(ColourBy::energy);
+  const auto energy = bar({of_rods(0, 0, 1.5), of_rods(0, 0, 0.2)}, style);
+  CHECK(energy->label.find("(mJ/m)") != std::string::npos);
+  CHECK(energy->scale.map == ColourMap::sequential);
+  CHECK(energy->scale.low == 0);
+  CHECK(energy->scale.high >= 1.5);
+  style.look.range = {{0, 1}};
+  style.look.map = ColourMap::grey;
+  const auto given = bar({of_rods(0, 0, 1.5)}, style);
+  CHECK(given->scale.high == 1);
+  CHECK(given->scale.map == ColourMap::grey);
+  CHECK(given->beyond_high);
+  // without any, as in the flat
+  CHECK(bar({of_rods(0, 0, 0)}, by(ColourBy::energy))->scale.map == ColourMap::sequential);
+}
+
+TEST_CASE("the deviation's scale is that of the shell at the end of its boundary's way") {
+  record::Trajectory run = synthetic::dome(3, 1);
+  run.layout.net_nodes = run.frames[2].nodes;
+  run.layout.net_nodes.row(2).array() += 0.01 * run.layout.length_scale_mm;
+  const auto near = bar({run}, by(ColourBy::deviation));
+  REQUIRE(near);
+  CHECK(near->scale.low == 0);
+  CHECK(near->scale.high == Approx(0.01));
+  CHECK(near->beyond_high);
+  CHECK_FALSE(near->beyond_low);
+  // none without a net
+  CHECK_FALSE(bar({synthetic::dome(3, 1)}, by(ColourBy::deviation)));
 }

@@ -45,6 +45,27 @@ TEST_CASE("a colour bar stays in its box and shows its scale from end to end") {
   }
 }
 
+TEST_CASE("sign, ticks and words of a colour bar stay apart, on any scale and at any height") {
+  for (const double end : {0.0006, 0.02, 0.5, 0.8, 1.0, 2.0, 12.0, 250.0})
+    for (const double low : {-end, 0.0})
+      for (const double font : {7.1, 16.4})
+        for (const double lines : {9.0, 12.0, 18.0, 24.0}) {
+          const ColourBar bar{
+              "*K*_{□} (rad)", {ColourMap::diverging, low, end}, true, true, "Gauss curvature"};
+          INFO(low << " to " << end << ", font " << font << ", " << lines << " lines");
+          draw_picture(20 * font, lines * font + 20, 1, white, [&](Canvas& c) {
+            const Box box{10, 10, colour_bar_width(c, bar, font), lines * font};
+            draw_colour_bar(c, box, bar, font);
+            const std::vector<Box>& words = c.text_boxes();
+            for (std::size_t a = 0; a < words.size(); ++a) {
+              CHECK((words[a].empty() || box.inset(-1).contains(words[a])));
+              for (std::size_t b = a + 1; b < words.size(); ++b)
+                CHECK_FALSE(words[a].inset(-0.05 * font).overlaps(words[b]));
+            }
+          });
+        }
+}
+
 TEST_CASE("a scale bar is as long as it says") {
   const Image image = draw_picture(200, 40, 1, white, [](Canvas& c) {
     CHECK(draw_scale_bar(c, {0, 0, 200, 40}, 20, 4.5, 12));
