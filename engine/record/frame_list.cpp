@@ -8,10 +8,10 @@ constexpr std::size_t kept_bytes = std::size_t(64) << 20, kept_frames = 8;
 
 std::size_t bytes_of(const Frame& frame) {
   return sizeof(Frame) +
-         sizeof(double) * std::size_t(frame.nodes.size() + frame.cell_K.size() +
-                                      frame.K_bins.size() + frame.axial_force_N.size() +
-                                      frame.curvature_per_mm.size() + frame.bending_mJ_per_m.size() +
-                                      frame.reactions_N.size());
+         sizeof(double) *
+             std::size_t(frame.nodes.size() + frame.cell_K.size() + frame.K_bins.size() +
+                         frame.axial_force_N.size() + frame.curvature_per_mm.size() +
+                         frame.bending_mJ_per_m.size() + frame.reactions_N.size());
 }
 
 }  // namespace

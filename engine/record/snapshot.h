@@ -85,7 +85,8 @@ struct Trajectory {
   Origin origin = {};
 };
 
-/// How many numbers the forces, curvatures and energies of a frame are: edges and points of all rods.
+/// How many numbers the forces, curvatures and energies of a frame are: edges and points of all
+/// rods.
 inline Eigen::Index edges_of_rods(const Layout& layout) {
   Eigen::Index edges = 0;
   for (const auto& rod : layout.rods) edges += std::max<Eigen::Index>(0, long(rod.size()) - 1);

@@ -104,8 +104,12 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
     layout.state = cut_top(rest, line);
   }
   if (!captions && style.heading) {
-    layout.title_lines = lines_of_title(style, w - 2 * still_margin * em, em);
-    cut_top(rest, (1.2 + std::max(1.0, double(layout.title_lines.size()))) * line);
+    // over the colour bar too, but not over a plot
+    const double right = layout.plot.empty() ? w : rest.right(), x = still_margin * em;
+    layout.title_lines = lines_of_title(style, right - 2 * x, em);
+    const double lines = std::max(1.0, double(layout.title_lines.size()));
+    cut_top(rest, (1.2 + lines) * line);
+    layout.heading = {x, x, right - 2 * x, (1 + lines) * line};
   }
   const bool scale_bar = style.scale_bar_mm > 0 && rest.height > 6 * line;
   Box foot = cut_bottom(rest, captions ? 2.8 * line : (scale_bar ? 1.7 * line : 0));

@@ -14,18 +14,20 @@ namespace gridshell::render {
 struct FrameLayout {
   double font_size = 17;          ///< of captions; follows the picture's height
   Box title, state;               ///< upper left; the title in the lines below
+  Box heading;                    ///< of a still: its title's lines and its caption
   Box event, progress, timeline;  ///< lower left, a line each
   Box colour_bar, inset, scale_bar, plot;
   Box view;                              ///< what is left for the shell
   std::vector<std::string> title_lines;  ///< of the title, or of a still's heading
 
   std::vector<Box> parts() const {
-    return {title, state, event, progress, timeline, colour_bar, inset, scale_bar, plot, view};
+    return {title,      state, heading,   event, progress, timeline,
+            colour_bar, inset, scale_bar, plot,  view};
   }
 };
 
-/// Of a still's heading from the picture's edge, and its lines from one another, in ems.
-inline constexpr double still_margin = 0.9, still_line = 1.5;
+/// Of a still's heading from the picture's edge, in ems.
+inline constexpr double still_margin = 0.9;
 
 /// The title's font, at the layout's size of font.
 TextStyle title_style(const MovieStyle& style, double font_size);

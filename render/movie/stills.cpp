@@ -47,17 +47,15 @@ MovieStyle still_style(MovieStyle style) {
 void draw_still_words(Canvas& canvas, const Stage& stage, const Shown& shown,
                       const std::string& caption) {
   stage.draw_overlay(canvas, shown);
-  const double em = stage.layout().font_size, x = still_margin * em;
-  TextStyle title = title_style(stage.style(), em);
+  const FrameLayout& layout = stage.layout();
+  const Box& room = layout.heading;
+  const double line = room.height / (1 + std::max(1.0, double(layout.title_lines.size())));
+  TextStyle title = title_style(stage.style(), layout.font_size);
   title.align_y = AlignY::top;
-  double y = still_margin * em;
-  for (const std::string& line : stage.layout().title_lines) {
-    canvas.text(plain(line), {x, y}, title);
-    y += still_line * em;
-  }
-  if (stage.layout().title_lines.empty()) y += still_line * em;
-  const TextStyle text{.size = em, .align_y = AlignY::top};
-  canvas.text(caption, {x, y}, canvas.fitted(caption, canvas.width() - 2 * x, text));
+  for (std::size_t k = 0; k < layout.title_lines.size(); ++k)
+    canvas.text(plain(layout.title_lines[k]), {room.x, room.y + double(k) * line}, title);
+  const TextStyle text{.size = layout.font_size, .align_y = AlignY::top};
+  canvas.text(caption, {room.x, room.bottom() - line}, canvas.fitted(caption, room.width, text));
 }
 
 std::string still_caption(const record::Frame& frame) { return state_captions(frame).front(); }
