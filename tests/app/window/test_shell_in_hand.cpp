@@ -56,7 +56,7 @@ TEST_CASE("the symmetry of a state is told once it is refined") {
   hand.fulfil({Settle{}, 7, false}, unwatched);
   hand.refine(unwatched);
   CHECK(hand.sight().symmetry == "two diagonal mirrors");
-  const int beside = joint_of(hand.sight(), -2, 1);
+  const int beside = joint_of(hand.sight(), -2, 0);
   const Eigen::Vector3d from = hand.sight().frame.nodes.col(beside);
   hand.fulfil({Push{beside, from - Eigen::Vector3d(0, 0, 5)}}, unwatched);
   hand.refine(unwatched);
