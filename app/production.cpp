@@ -290,6 +290,9 @@ void print_result(const Job& job, const fs::path& folder) {
   if (!std::isnan(at.max_seam_gap_mm))
     fmt::print("\n  {:.2f} mm from its blocks at most; seams: gap {:.2f} mm, kink {:.1f} degrees",
                at.max_deviation * job.length_scale_mm, at.max_seam_gap_mm, at.max_seam_kink_deg);
+  // why it ended early is said as the error that it is
+  if (!at.limit_reason.empty() && shortcoming(at, true).empty())
+    fmt::print("\n  on its way: {}", at.limit_reason);
   fmt::print("\n");
   if (is_search(job.preset)) fmt::print("{}", found_text(job.states));
   fmt::print("{}", how_to_make_movie(folder_of(folder, job.name), job.preset));

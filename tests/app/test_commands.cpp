@@ -241,6 +241,15 @@ TEST_CASE("a path that ends early is written as far as it is certified, and exit
   CHECK(json_of(bench.at / "out/small/summary.json")["limit"] == "locking");
 }
 
+TEST_CASE("a run says on the terminal what its path came past") {
+  const TemporaryFolder folder;
+  const Ended ended =
+      gridshell_program({"run", "s1_imperfect", "--frames", "2", "-o", "run"}, folder.path());
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.out,
+             Catch::Contains("on its way: the path lost its stability at progress 0.018"));
+}
+
 TEST_CASE("check explains what would run and writes nothing") {
   const Bench bench(small);
   const auto said = bench.good({"check", "small.toml"});
