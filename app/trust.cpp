@@ -31,11 +31,12 @@ Result<void> write_worst(const std::vector<study::TrustScene>& scenes, const fs:
 
 Json summary_of(const std::vector<record::TrustRow>& rows, int seed) {
   std::map<std::string, int> classes;
-  int silent = 0, snap_alone = 0;
+  int silent = 0, snap_alone = 0, doubts = 0;
   for (const auto& row : rows) {
     ++classes[std::string(word_of(row.found))];
     silent += record::silently_wrong(row.found);
     snap_alone += row.snap_alone();
+    doubts += row.doubt;
   }
   Json summary = Json::object();
   summary["chart"] = "trust";
@@ -44,6 +45,7 @@ Json summary_of(const std::vector<record::TrustRow>& rows, int seed) {
   summary["classes"] = classes;
   summary["silently_wrong"] = silent;
   summary["snap_alone"] = snap_alone;
+  summary["doubts"] = doubts;
   return summary;
 }
 
@@ -84,6 +86,8 @@ int chart_trust(const ChartOptions& options) {
       fmt::print("  {:22} {}\n", name, count.get<int>());
     fmt::print("a snap that one family of meshes alone tells of: {}\n",
                summary["snap_alone"].get<int>());
+    fmt::print("runs that told of leading meshes which do not agree: {}\n",
+               summary["doubts"].get<int>());
   }
   return silent == 0 ? ExitCode::done : ExitCode::different;
 }

@@ -102,6 +102,7 @@ void put_course(const Course& course, record::Summary& s) {
   s.dof = shell.model(shell.levels() - 1).dof();
   s.limit = course.limit;
   s.limit_reason = course.limit_reason;
+  s.doubt = course.doubt;
   s.largest_strain = course.session.certificate().largest_strain;
   const Effort effort = course.session.effort();
   s.newton_iterations = effort.newton_iterations;

@@ -31,7 +31,8 @@ struct Summary {
   bool stable = false;
   int negative_pivots = 0;
   Limit limit = Limit::none;
-  std::string limit_reason;  ///< a sentence when limit is not none
+  std::string limit_reason;  ///< what the path came past, sentences; never empty beside a limit
+  std::string doubt;         ///< what leading meshes do not agree on; empty: nothing is in doubt
   double residual_N = 0;
   double largest_strain = unknown;  ///< of an edge along the rod, by size, with its sign
   double error_estimate_mm = unknown;

@@ -32,6 +32,7 @@ void each_field(SummaryType& summary, Visit visit) {
   visit("negative_pivots", summary.negative_pivots);
   visit("limit", summary.limit);
   visit("limit_reason", summary.limit_reason);
+  visit("doubt", summary.doubt);
   visit("residual_N", summary.residual_N);
   visit("largest_strain", summary.largest_strain);
   visit("error_estimate_mm", summary.error_estimate_mm);

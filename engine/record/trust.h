@@ -16,6 +16,7 @@ enum class TrustClass {
   estimate_small,        ///< the same states, further apart than twice the estimate
   other_branch,          ///< another state, and no event was told: silently wrong
   after_snap,            ///< another state after a snap that was told
+  doubted,               ///< another state, and its leading meshes were told not to agree
   limited,               ///< both ended before their end, and said so
   limited_only_default,  ///< only the default did
   inner_unphysical,      ///< a frame that is no shell, and does not say so
@@ -28,6 +29,7 @@ constexpr auto words(TrustClass) {
                                  {TrustClass::estimate_small, "estimate_small"},
                                  {TrustClass::other_branch, "other_branch"},
                                  {TrustClass::after_snap, "after_snap"},
+                                 {TrustClass::doubted, "doubted"},
                                  {TrustClass::limited, "limited"},
                                  {TrustClass::limited_only_default, "limited_only_default"},
                                  {TrustClass::inner_unphysical, "inner_unphysical"},
@@ -49,6 +51,7 @@ struct TrustRow {
   double estimate = unknown;  ///< what that frame said of it
   int exit_default = 0, exit_fine = 0;
   bool snap_default = false, snap_fine = false;  ///< whether a snap was told
+  bool doubt = false;  ///< whether the default told that its leading meshes do not agree
 
   /// A snap that one family of meshes alone tells of.
   bool snap_alone() const {

@@ -32,6 +32,7 @@ struct Trial {
     return limit == record::Limit::none || limit == record::Limit::snap;
   }
   bool snapped() const { return outcome && outcome->summary.limit == record::Limit::snap; }
+  bool doubted() const { return outcome && !outcome->summary.doubt.empty(); }
 };
 
 Trial try_scene(preset::Preset preset, int count, bool fine, const TrustOptions& options,
@@ -116,7 +117,8 @@ TrustClass judge(const Trial& asked, const Trial& fine, const Trial& other, reco
   compare(*asked.outcome, *fine.outcome, row);
   if (!(row.error > 2 * row.estimate + 1e-7)) return TrustClass::right;
   if (row.error < branch && row.error < 20 * row.estimate) return TrustClass::estimate_small;
-  return asked.snapped() ? TrustClass::after_snap : TrustClass::other_branch;
+  if (asked.snapped()) return TrustClass::after_snap;
+  return asked.doubted() ? TrustClass::doubted : TrustClass::other_branch;
 }
 
 TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
@@ -137,6 +139,7 @@ TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
   scene.row.exit_fine = fine.exit;
   scene.row.snap_default = asked.snapped();
   scene.row.snap_fine = fine.snapped();
+  scene.row.doubt = asked.doubted();
   scene.row.found = judge(asked, fine, other, scene.row);
   scene.preset.movie.frames = frames;
   // why, for whoever opens the preset

@@ -70,6 +70,8 @@ Colour trust_colour(TrustClass found) {
       return hex_colour(0xC0262B);
     case TrustClass::after_snap:
       return hex_colour(0xF0E2A8);
+    case TrustClass::doubted:
+      return hex_colour(0xE9BE7C);
     case TrustClass::limited:
       return hex_colour(0xC9CDD3);
     case TrustClass::limited_only_default:

@@ -76,6 +76,7 @@ inline Summary sample_summary() {
   summary.stable = true;
   summary.limit = Limit::snap;
   summary.limit_reason = "a branch was lost at R_a = 97.1 mm";
+  summary.doubt = "leading meshes of 4 and 8 edges do not agree";
   summary.residual_N = 1.0 / 3e9;
   summary.energies[Term::bend] = 39.979;
   summary.height_mm = 0.1;

@@ -52,6 +52,7 @@ TEST_CASE("summary.json has the keys of a run in order, and null for what is unk
                                          "negative_pivots",
                                          "limit",
                                          "limit_reason",
+                                         "doubt",
                                          "residual_N",
                                          "largest_strain",
                                          "error_estimate_mm",
