@@ -1,7 +1,7 @@
 #!/bin/sh
 # tests/formats.sh PROGRAM: opens what `gridshell export` writes with programs that are not ours, as
 # far as they are installed (python3-ezdxf, python3-vtk9, paraview, librsvg2-bin, libxml2-utils,
-# poppler-utils, chromium; glTF: npm's gltf-validator); says what was left out. Exit code 1 where one fails.
+# poppler-utils, chromium, blender; glTF: npm's gltf-validator); says what was left out. Exit code 1 where one fails.
 set -e
 program=$1
 work=$(mktemp -d)
@@ -18,13 +18,15 @@ done
 "$program" export run --what cutlist --to cutlist.pdf > /dev/null
 
 failed=0
-# try NAME COMMAND...: the command, where its program is there
+# try NAME PROGRAM COMMAND...: the command, where the program is there
 try() {
   name=$1
-  shift
-  if ! command -v "$1" > /dev/null; then
-    echo "left out: $name ($1 is not installed)"
-  elif "$@" > log 2>&1; then
+  if ! command -v "$2" > /dev/null; then
+    echo "left out: $name ($2 is not installed)"
+    return
+  fi
+  shift 2
+  if "$@" > log 2>&1; then
     echo "ok: $name"
   else
     echo "FAILED: $name"
@@ -36,15 +38,15 @@ try() {
 python() {
   cat > script.py
   if /usr/bin/python3 -c "import $2" 2> /dev/null; then
-    try "$1" /usr/bin/python3 script.py
+    try "$1" /usr/bin/python3 /usr/bin/python3 script.py
   else
     echo "left out: $1 ($2 is not installed)"
   fi
 }
 
-try 'XML' xmllint --noout a.xdmf a.vtp a.pvd footprint.svg plate.svg
-try 'SVG' rsvg-convert footprint.svg -o footprint.png
-try 'PDF' sh -c 'pdftotext sheet.pdf - | grep -q "Cut 24 rods" && pdftotext cutlist.pdf - | grep -q 251.2'
+try 'XML' xmllint xmllint --noout a.xdmf a.vtp a.pvd footprint.svg plate.svg
+try 'SVG' rsvg-convert rsvg-convert footprint.svg -o footprint.png
+try 'PDF' pdftotext sh -c 'pdftotext sheet.pdf - | grep -q "Cut 24 rods" && pdftotext cutlist.pdf - | grep -q 251.2'
 python 'DXF' ezdxf << 'END'
 import ezdxf
 for name, lines in (("a", 0), ("footprint", 24 + 240), ("plate", 0)):
@@ -79,7 +81,26 @@ xdmf = reader.GetDataInformation()
 for name in "axial_force_N", "reaction_N":
     assert xdmf.GetCellDataInformation().GetArrayInformation(name), name
 END
-try 'PVD and XDMF' pvpython open.py
-try 'page' sh -c 'chromium --headless --no-sandbox --disable-gpu --virtual-time-budget=3000 --dump-dom \
+try 'PVD and XDMF' pvpython pvpython open.py
+cat > blender.py << 'END'
+import bpy, numpy
+numpy.bool = bool  # of Debian 12: its Blender asks for what its NumPy no longer has
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.import_scene.gltf(filepath="a.glb")
+meshes = [thing for thing in bpy.data.objects if thing.type == "MESH"]
+assert len(meshes) == 2 + 120, len(meshes)  # rods, cells, joints
+rods = next(mesh for mesh in meshes if "rods" in mesh.name)
+shapes = rods.data.shape_keys
+assert len(shapes.key_blocks) == 1 + 11, len(shapes.key_blocks)  # the first frame is the mesh itself
+keys = shapes.animation_data.action or shapes.animation_data.nla_tracks[0].strips[0].action
+assert all(len(curve.keyframe_points) == 12 for curve in keys.fcurves)
+assert {"rods", "joints", "cells"} <= {material.name for material in bpy.data.materials}
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.import_scene.obj(filepath="a.obj")
+lines = bpy.data.objects[0].data
+assert len(bpy.data.objects) == 1 and len(lines.vertices) == 1080 and len(lines.edges) == 1272
+END
+try 'glTF and OBJ in Blender' blender blender --background --python-exit-code 3 --python blender.py
+try 'page' chromium sh -c 'chromium --headless --no-sandbox --disable-gpu --virtual-time-budget=3000 --dump-dom \
   "file://$PWD/a.html" | grep -q "frame 12 of 12"'
 exit $failed
