@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
+#include "app/pictures.h"
 #include "app/state_pictures.h"
 #include "app/sweep_folder.h"
 #include "engine/record/legs.h"
 #include "engine/record/phase_diagram.h"
+#include "render/figure/net_figure.h"
 #include "render/figure/phase_chart.h"
 #include "render/figure/state_map.h"
 #include "render/figure/vector_shell.h"
@@ -63,7 +66,23 @@ std::string place_of(const preset::Preset& preset) {
                      record::longest_leg(radius, preset.footprint.rods), preset.footprint.rods);
 }
 
-/// The first record's states ii, iii and iv in space, at one scale and with one colour bar.
+/// Which of the states joints measured lie nearest to, by the mean distance to its own joints; -1:
+/// none were measured.
+int state_measured(const Eigen::Matrix3Xd& measured, const record::Trajectory& states) {
+  if (measured.cols() == 0) return -1;
+  std::vector<double> away;
+  for (const record::Frame& frame : states.frames) {
+    const auto joints = frame.nodes.leftCols(Eigen::Index(states.layout.joints.size()));
+    double sum = 0;
+    for (const auto& joint : measured.colwise())
+      sum += (joints.colwise() - joint).colwise().norm().minCoeff();
+    away.push_back(sum);
+  }
+  return int(std::ranges::min_element(away) - away.begin());
+}
+
+/// The first record's states ii, iii and iv in space, at one scale and with one colour bar; joints
+/// measured over the one that they lie nearest to.
 Result<void> add_states(Page& page, const CaseRecord& one, render::MovieStyle style,
                         render::Renderer& renderer, Watch& watch) {
   std::vector<std::size_t> which;
@@ -81,20 +100,28 @@ Result<void> add_states(Page& page, const CaseRecord& one, render::MovieStyle st
   style.turn_deg = 0;
   const record::Trajectory run = states_alone(one.run, which);
   const render::Stage stage(run, style);
+  const Eigen::Matrix3Xd measured = scan_of(one.preset);
+  const int over = state_measured(measured, run);
   for (std::size_t k = 0; k < which.size(); ++k) {
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a page");
     const record::StateRow& row = one.states.rows[which[k]];
-    auto picture = stage.draw_views(renderer, {run.frames[k], int(k)});
+    render::Drawing drawing = stage.drawing(run.frames[k]);
+    if (over == int(k)) render::dress_for_scan(measured, drawing);
+    auto picture = renderer.draw(drawing, stage.camera(int(k)), render::draw_quality(style),
+                                 style.width, style.height);
     if (!picture) return tl::unexpected(picture.error());
     render::Panel panel{std::move(*picture), "A" + std::to_string(k + 1), ""};
-    if (style.vector)
-      panel.lines = render::shell_lines(stage.drawing(run.frames[k]), stage.camera(int(k)));
+    if (style.vector) panel.lines = render::shell_lines(std::move(drawing), stage.camera(int(k)));
     page.add_panel(fmt::format("state *{}*, {}: {:.2f} mJ, {:.1f} mm high", word_of(row.kind),
                                group_text(row.group), row.energy_mJ(), row.height_mm),
                    {above.x + double(k) * width, above.y, width, above.height}, std::move(panel));
     watch.report(double(k + 1) / double(which.size()));
   }
   if (const auto& bar = stage.colour_bar()) page.add_colour_bar({162, 3, 14, 34}, *bar);
+  if (over >= 0)
+    page.add("", "", {158, 44, 18, 5}, [](Canvas& canvas, const Box& box) {
+      render::draw_colour_keys(canvas, box, {render::scan_key()}, page_font);
+    });
   const double units =
       (above.height * points_per_mm - caption) * stage.pixels_per_mm() / style.height;
   page.add("", "", {158, 38, 18, 8},

@@ -121,7 +121,7 @@ void forget(T&) {}  // the default is what it was then
 /// Whether version 0.1 wrote the key.
 bool always_written(const std::string& key) {
   return !key.starts_with("energy_") && key != "kind" && key != "finished" &&
-         key != "largest_strain" && key != "steps";
+         key != "largest_strain" && key != "steps" && key != "doubt";
 }
 
 }  // namespace

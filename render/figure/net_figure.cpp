@@ -84,7 +84,7 @@ std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
     keys.push_back(std::move(key));
   }
   if (std::any_of(runs.begin(), runs.end(), [](const NetRun& one) { return one.scanned.size(); }))
-    keys.push_back({scan_ink, "joints measured"});
+    keys.push_back(scan_key());
   return keys;
 }
 
@@ -100,13 +100,19 @@ bool on_sphere(const record::Layout& layout) {
   return (radius - layout.length_scale_mm).abs().maxCoeff() < 1e-6 * layout.length_scale_mm;
 }
 
+void dress_for_scan(const Eigen::Matrix3Xd& measured, Drawing& drawing) {
+  for (const auto& joint : measured.colwise())
+    drawing.marks.push_back({joint, std::max(3.0, 3 * drawing.rod_diameter_mm), scan_ink});
+  drawing.rod_colour = shell_ink;
+  drawing.joint_diameter_mm = 0;
+}
+
+ColourKey scan_key() { return {scan_ink, "joints measured"}; }
+
 Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
                                    Renderer& renderer, Watch& watch, int columns) {
   const auto dress = [](const NetRun& one, Drawing& drawing) {
-    for (const auto& joint : one.scanned.colwise())
-      drawing.marks.push_back({joint, std::max(3.0, 3 * drawing.rod_diameter_mm), scan_ink});
-    drawing.rod_colour = shell_ink;
-    drawing.joint_diameter_mm = 0;
+    dress_for_scan(one.scanned, drawing);
     const record::Layout& layout = one.run->layout;
     // blocks each on a net of its own
     for (std::size_t k = 0; k < layout.parts.size(); ++k)

@@ -34,6 +34,13 @@ DeviationUnit deviation_unit(const record::Layout& layout);
 /// Whether the net is a part of a sphere about the origin, of radius rho.
 bool on_sphere(const record::Layout& layout);
 
+/// A drawing with the joints measured on it, red, over a dark shell without joints of its own;
+/// `measured` in mm, in the drawing's frame.
+void dress_for_scan(const Eigen::Matrix3Xd& measured, Drawing& drawing);
+
+/// What its red joints stand for.
+ColourKey scan_key();
+
 /// The shells, dark, over their nets, blue, with the joints scanned, red, at most `columns` side by
 /// side. Progress and errors as write_stills.
 Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
