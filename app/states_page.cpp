@@ -106,6 +106,8 @@ Result<void> add_states(Page& page, const CaseRecord& one, render::MovieStyle st
     if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a page");
     const record::StateRow& row = one.states.rows[which[k]];
     render::Drawing drawing = stage.drawing(run.frames[k]);
+    // joints are drawn red too: where some are measured no others are
+    if (over >= 0) drawing.joint_diameter_mm = 0;
     if (over == int(k)) render::dress_for_scan(measured, drawing);
     auto picture = renderer.draw(drawing, stage.camera(int(k)), render::draw_quality(style),
                                  style.width, style.height);
@@ -119,7 +121,7 @@ Result<void> add_states(Page& page, const CaseRecord& one, render::MovieStyle st
   }
   if (const auto& bar = stage.colour_bar()) page.add_colour_bar({162, 3, 14, 34}, *bar);
   if (over >= 0)
-    page.add("", "", {158, 44, 18, 5}, [](Canvas& canvas, const Box& box) {
+    page.add("", "", {128, 1, 32, 4}, [](Canvas& canvas, const Box& box) {
       render::draw_colour_keys(canvas, box, {render::scan_key()}, page_font);
     });
   const double units =
