@@ -71,16 +71,19 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[ful
   const std::string empty = text_of(at / "out/page/page_page.svg");
   CHECK(empty.find("names no sweep") != std::string::npos);
   CHECK(empty.find("longest leg") == std::string::npos);
+  CHECK(empty.find("joints measured") == std::string::npos);
   REQUIRE(gridshell_program({"sweep", "sweep.toml", "--quiet"}, at).code == 0);
   // drawn again with the sweep, shells as lines too
-  const Ended drawn = gridshell_program({"render", "out/page", "-o", "again", "--quiet", "--set",
-                                         "page.sweep=out/sweep", "--set", "figure.vector=true"},
-                                        at);
+  const Ended drawn = gridshell_program(
+      {"render", "out/page", "-o", "again", "--quiet", "--set", "page.sweep=out/sweep", "--set",
+       "figure.vector=true", "--set", "figure.scan=[[0, 0, 20], [10, 10, 18]]"},
+      at);
   CAPTURE(drawn.err);
   REQUIRE(drawn.code == 0);
   const std::string page = text_of(at / "again/page_page.svg");
   CHECK(page.find("longest leg") != std::string::npos);
   CHECK(page.find("names no sweep") == std::string::npos);
+  CHECK(page.find("joints measured") != std::string::npos);
   CHECK(fs::exists(at / "again/page_page.pdf"));
   CHECK(fs::exists(at / "again/page_page_lines.svg"));
   // a folder that holds none, and one that is not finished
