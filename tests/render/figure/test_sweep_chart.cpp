@@ -77,8 +77,8 @@ TEST_CASE("the place of a departure is interpolated, from the right") {
 
 TEST_CASE("names with their units") {
   CHECK(label_of("height_mm") == "height (mm)");
-  CHECK(label_of("energy_bend_mJ") == "energy bend (mJ)");
-  CHECK(label_of("rod.young_GPa") == "young (GPa)");
+  CHECK(label_of("energy_bend_mJ") == "bending energy (mJ)");
+  CHECK(label_of("rod.young_GPa") == "Young's modulus *E* (GPa)");
   CHECK(label_of("joints.stiffness_N_per_mm") == "stiffness (N/mm)");
   CHECK(label_of("newton_iterations") == "newton iterations");
 }
