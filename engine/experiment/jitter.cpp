@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/even.h"
 #include "engine/experiment/actuation.h"
 #include "engine/experiment/state_measures.h"
 
@@ -25,9 +26,6 @@ std::mt19937 generator(int seed, Purpose purpose, int k) {
   return std::mt19937(seeds);
 }
 
-/// Evenly in [-1, 1); not by std::uniform_real_distribution, whose numbers differ from library to
-/// library.
-double even(std::mt19937& random) { return double(random()) / double(1u << 31) - 1; }
 double share(std::mt19937& random) { return 0.5 * (1 + even(random)); }
 
 /// A direction, all alike.

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
+#include "engine/core/even.h"
 #include "engine/experiment/indentation.h"
 #include "engine/measure/gauss.h"
 
@@ -152,11 +152,9 @@ Result<Report> release(Session& session, const preset::Step& step, const Watch& 
 /// One random force on every joint.
 std::vector<NodeAction> random_field(const Scene& scene, int seed, double force_N) {
   std::mt19937 random{std::uint32_t(seed)};
-  // not by a distribution of the standard library, whose numbers differ from one to the next
-  const auto draw = [&] { return 2.0 * double(random()) / double(random.max()) - 1; };
   std::vector<NodeAction> field;
   for (int joint = 0; joint < int(scene.footprint.joints.size()); ++joint) {
-    const double x = draw(), y = draw(), z = draw();
+    const double x = even(random), y = even(random), z = even(random);
     field.push_back({joint, force_N * Eigen::Vector3d(x, y, z)});
   }
   return field;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/measure/symmetry.h"
+
 namespace gridshell {
 namespace {
 
@@ -33,16 +35,6 @@ std::optional<bool> runs_along_u(const record::Layout& layout, std::size_t rod,
   return std::nullopt;
 }
 
-/// Whether a map of space leaves these points as they are, all of them.
-bool maps_onto_itself(const Eigen::Matrix3Xd& points, const Eigen::Matrix3d& map, double within) {
-  for (const auto& p : points.colwise()) {
-    const Eigen::Vector3d there = map * p;
-    if ((points.colwise() - there).colwise().squaredNorm().minCoeff() > within * within)
-      return false;
-  }
-  return true;
-}
-
 /// One of the four upright mirrors of the square that leaves footprint and boundary as they are.
 std::optional<Eigen::Matrix3d> mirror_of(const record::Layout& layout, const record::Frame& frame) {
   Eigen::Matrix3Xd flat(3, Eigen::Index(layout.joints.size())),
@@ -51,12 +43,14 @@ std::optional<Eigen::Matrix3d> mirror_of(const record::Layout& layout, const rec
     flat.col(k) << layout.joints[std::size_t(k)].u_mm, layout.joints[std::size_t(k)].v_mm, 0;
   for (Eigen::Index k = 0; k < ends.cols(); ++k)
     ends.col(k) = frame.nodes.col(layout.edge_points[std::size_t(k)]);
-  for (const auto& [across, along] :
-       {std::pair(-1.0, 0.0), std::pair(1.0, 0.0), std::pair(0.0, 1.0), std::pair(0.0, -1.0)}) {
+  const double within = same_place * layout.spacing_mm;
+  for (const Eigen::Vector2d& across : {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1),
+                                        Eigen::Vector2d(1, -1), Eigen::Vector2d(1, 1)}) {
+    const Eigen::Vector2d normal = across.normalized();
+    if (!(mirror_defect(flat, normal) <= within && mirror_defect(ends, normal) <= within)) continue;
     Eigen::Matrix3d map = Eigen::Matrix3d::Identity();
-    map.topLeftCorner<2, 2>() << across, along, along, -across;
-    const double within = same_place * layout.spacing_mm;
-    if (maps_onto_itself(flat, map, within) && maps_onto_itself(ends, map, within)) return map;
+    map.topLeftCorner<2, 2>() -= 2 * normal * normal.transpose();
+    return map;
   }
   return std::nullopt;
 }

@@ -1,8 +1,8 @@
 #include "engine/session/leave.h"
 
 #include <optional>
-#include <random>
 
+#include "engine/core/even.h"
 #include "engine/solve/minimise.h"
 #include "engine/solve/newton.h"
 
@@ -56,10 +56,8 @@ Departure departure_of(const Scene& scene, const RodMesh& mesh, const Model& mod
   if (imperfection.soft_mode && imperfection.seed % 2 == 0) departure.side = Leave::against;
   std::mt19937 random{imperfection.soft_mode ? 0u : std::uint32_t(imperfection.seed)};
   departure.start = Eigen::Matrix3Xd::Zero(3, model.columns());
-  // not by std::uniform_real_distribution, whose numbers differ from library to library
   for (int joint = 0; joint < mesh.joints; ++joint)
-    for (int axis = 0; axis < 3; ++axis)
-      departure.start(axis, joint) = double(random()) / double(1u << 31) - 1;
+    for (int axis = 0; axis < 3; ++axis) departure.start(axis, joint) = even(random);
   return departure;
 }
 
