@@ -7,6 +7,7 @@
 #include "app/ui/look.h"
 #include "app/ui/panel.h"
 #include "app/window/colouring.h"
+#include "engine/record/rod_values.h"
 
 namespace gridshell::ui {
 namespace {
@@ -209,6 +210,38 @@ void keep(const Panel& panel) {
               "of a kept picture: draft has no shadow, figure has soft light and takes seconds");
 }
 
+/// "u-rod 3", by the index that its joints have in common; of other networks "Rod 12".
+std::string rod_name(const record::Layout& layout, int rod) {
+  const std::string family =
+      layout.families.empty() ? std::string() : layout.families[std::size_t(rod)];
+  for (const int node : layout.rods[std::size_t(rod)]) {
+    if (node >= int(layout.joints.size())) continue;
+    const record::Joint& joint = layout.joints[std::size_t(node)];
+    if (family == "u") return fmt::format("u-rod {}", joint.j);
+    if (family == "v") return fmt::format("v-rod {}", joint.i);
+  }
+  return fmt::format("Rod {}", rod);
+}
+
+void picked_rod(const Panel& panel, const window::PointOnRod& at) {
+  const Sight& sight = *panel.desk.sight;
+  const record::Layout& layout = *sight.layout;
+  const std::vector<int>& nodes = layout.rods[std::size_t(at.rod)];
+  const std::size_t k = std::min(std::size_t(at.point), nodes.size() - 1);
+  double along = 0, length = 0;
+  for (std::size_t n = 1; n < nodes.size(); ++n) {
+    length += (sight.frame.nodes.col(nodes[n]) - sight.frame.nodes.col(nodes[n - 1])).norm();
+    if (n == k) along = length;
+  }
+  heading(panel, rod_name(layout, at.rod).c_str());
+  ImGui::Text("%.1f of %.1f mm along it", along, length);
+  const auto force = record::axial_force_N(layout, sight.frame, std::size_t(at.rod));
+  ImGui::Text("axial force %.3g N", force[k]);
+  const double curvature = record::curvature_per_mm(layout, sight.frame, std::size_t(at.rod))[k];
+  ImGui::Text("curvature %.4f 1/mm", curvature);
+  ImGui::Text("bending %.3g mJ/m", sight.bending_mJ_m[nodes[k]]);
+}
+
 void picked(const Panel& panel) {
   const Desk& desk = panel.desk;
   const Sight& sight = *desk.sight;
@@ -221,6 +254,8 @@ void picked(const Panel& panel) {
     ImGui::Text("axial force %.3g N", sight.axial_N[desk.picked_joint]);
     ImGui::Text("bending %.3g mJ/m", sight.bending_mJ_m[desk.picked_joint]);
   }
+  if (desk.picked_rod.rod >= 0 && desk.picked_rod.rod < int(layout.rods.size()))
+    picked_rod(panel, desk.picked_rod);
   if (desk.picked_cell >= 0 && desk.picked_cell < int(layout.cells.size())) {
     const record::Cell& cell = layout.cells[std::size_t(desk.picked_cell)];
     heading(panel, fmt::format("Cell ({}, {})", cell.i, cell.j).c_str());
@@ -238,11 +273,13 @@ void shell_panel(const Panel& panel, const render::Box& box) {
   ImGui::TextUnformatted(desk.sight->any() ? desk.sight->preset.title.c_str()
                                            : "No shell yet: pick a preset.");
   ImGui::PopTextWrapPos();
+  // all four in one row
+  const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
   panel.button("pick_preset");
-  ImGui::SameLine();
-  panel.button("undo");
-  ImGui::SameLine();
-  panel.button("redo");
+  for (const char* action : {"undo", "redo", "numbers"}) {
+    ImGui::SameLine(0, gap);
+    panel.button(action);
+  }
   if (desk.sight->any()) {
     path(panel);
     boundary(panel);

@@ -195,7 +195,7 @@ const std::array mouse{
                 Over::nothing, true},
     MouseAction{Gesture::zoom, "wheel", "goes closer to what is under the cursor", Button::middle,
                 Over::nothing},
-    MouseAction{Gesture::pick, "left click", "shows the figures of a joint or a cell", Button::left,
+    MouseAction{Gesture::pick, "left click", "shows the figures of a joint, a rod or a cell", Button::left,
                 Over::nothing},
 };
 // clang-format on

@@ -45,6 +45,7 @@ void Desk::open(const std::string& name) {
   fresh_ = true;
   readings.clear();
   picked_joint = picked_cell = -1;
+  picked_rod = {};
   say("forming '" + preset->title + "'");
   wish(Open{std::move(*preset)});
 }

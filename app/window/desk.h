@@ -55,6 +55,12 @@ struct Library {
   std::filesystem::path save_to = "out";
 };
 
+/// A rod, and which of its nodes.
+struct PointOnRod {
+  int rod = -1;  ///< none
+  int point = 0;
+};
+
 /// What the plots show of an equilibrium.
 struct Reading {
   double radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0, force_N = 0,
@@ -94,7 +100,8 @@ class Desk {
   std::vector<Reading> readings;
   std::string message;  ///< what was done last
   bool message_bad = false;
-  int picked_joint = -1, picked_cell = -1;
+  int picked_joint = -1, picked_cell = -1;  ///< whose figures are shown
+  PointOnRod picked_rod;
   int joint_under = -1, edge_under = -1;  ///< marked: what the cursor is at
   PushWay push_way = PushWay::normal;
   bool animate_mode = false;

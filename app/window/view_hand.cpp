@@ -1,5 +1,6 @@
 #include "app/window/view_hand.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/draw/camera.h"
@@ -8,7 +9,15 @@ namespace gridshell::window {
 namespace {
 
 constexpr double near_px = 11;  // of a joint or an edge point, at 1280 x 720
+constexpr double rod_px = 5;    // of a rod
 constexpr double click_px = 3;  // a press that moves less is a click
+
+/// Where between two places, 0 to 1, a point's nearest lies.
+double share_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                   const Eigen::Vector2d& at) {
+  const Eigen::Vector2d way = to - from;
+  return std::clamp((at - from).dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
+}
 
 }  // namespace
 
@@ -116,11 +125,40 @@ void ViewHand::release(double x, double y) {
   if (moved_) return;
   if (gesture_ == Gesture::let_go_joint) return desk_.wish(Release{joint_});
   desk_.picked_joint = joint_;
-  desk_.picked_cell = joint_ < 0 && edge_ < 0 ? cell_at(x, y) : -1;
+  desk_.picked_rod = joint_ < 0 && edge_ < 0 ? rod_at(x, y) : PointOnRod{};
+  const bool nothing = joint_ < 0 && edge_ < 0 && desk_.picked_rod.rod < 0;
+  desk_.picked_cell = nothing ? cell_at(x, y) : -1;
 }
 
 void ViewHand::wheel(double steps, double x, double y) {
   zoom(desk_.camera, desk_.view, steps, x, y);
+}
+
+/// The rod under the mouse, and which of its points is next to it; of several near ones the nearest
+/// to the eye.
+PointOnRod ViewHand::rod_at(double x, double y) const {
+  PointOnRod found;
+  if (!desk_.sight->any()) return found;
+  const auto& rods = desk_.sight->layout->rods;
+  const Eigen::Vector3d forward = render::camera_axes(desk_.camera).forward;
+  const double within = rod_px * std::max(1.0, desk_.view.height / 720);
+  const Eigen::Vector2d at(x, y);
+  double best = 1e300;
+  for (int r = 0; r < int(rods.size()); ++r) {
+    const std::vector<int>& nodes = rods[std::size_t(r)];
+    for (int k = 0; k + 1 < int(nodes.size()); ++k) {
+      const int from = nodes[std::size_t(k)], to = nodes[std::size_t(k) + 1];
+      const Eigen::Vector2d p = pixel_of(from), q = pixel_of(to);
+      const double share = share_along(p, q, at), off = (p + share * (q - p) - at).norm();
+      if (off > within) continue;
+      const double depth = forward.dot(desk_.sight->frame.nodes.col(share < 0.5 ? from : to)),
+                   score = off + 0.05 * depth / mm_per_pixel(desk_.camera, desk_.view);
+      if (score >= best) continue;
+      best = score;
+      found = {r, share < 0.5 ? k : k + 1};
+    }
+  }
+  return found;
 }
 
 /// The cell whose picture holds the pixel; of several the nearest to the eye.

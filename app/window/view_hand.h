@@ -27,6 +27,7 @@ class ViewHand {
 
  private:
   void find(double x, double y);
+  PointOnRod rod_at(double x, double y) const;
   int cell_at(double x, double y) const;
   Eigen::Vector2d pixel_of(int node) const;
 
