@@ -4,7 +4,14 @@
 
 namespace gridshell::window {
 
-EngineThread::EngineThread() : sight_(std::make_shared<Sight>()), thread_([this] { work(); }) {}
+EngineThread::EngineThread() : sight_(std::make_shared<Sight>()) {
+  hand_.tell([this](const Sight& sight) {
+    auto seen = std::make_shared<const Sight>(sight);
+    const std::lock_guard lock(mutex_);
+    sight_ = std::move(seen);
+  });
+  thread_ = std::thread([this] { work(); });
+}
 
 EngineThread::~EngineThread() {
   {
