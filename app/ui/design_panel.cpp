@@ -126,8 +126,8 @@ void standing(const Panel& panel, const DesignCourse& course) {
   const DesignPoint &first = course.points.front(), &now = course.points.back();
   const char* how = course.under_way ? "under way"
                     : course.kept    ? "kept"
-                    : course.stopped ? "stopped: keep it or put it back"
-                                     : "done: keep it or put it back";
+                    : course.stopped ? "stopped: keep or put back"
+                                     : "done: keep or put back";
   ImGui::Text("iteration %d, %s", course.iterations, how);
   ImGui::Text("largest %.3f %% of ρ, %.3g mm", percent * now.max_mm, now.max_mm);
   ImGui::Text("mean %.3f %% of ρ, %.3g mm", percent * now.mean_mm, now.mean_mm);

@@ -20,7 +20,7 @@ std::string told_of_design(const DesignCourse& course) {
       fmt::format("{} after {} iteration{}: largest {:.3f} %, before {:.3f} %",
                   course.stopped ? "stopped" : "designed", course.iterations,
                   course.iterations == 1 ? "" : "s", percent * last.max_mm, percent * first.max_mm);
-  if (course.inverse.round_mm > 0)
+  if (course.inverse.round_mm > 0 && !course.stopped)
     told += course.rounded_max_mm
                 ? fmt::format(", rounded to {:g} mm {:.3f} %", course.inverse.round_mm,
                               percent * *course.rounded_max_mm)

@@ -94,8 +94,6 @@ void Desk::set_range(double low, double high) {
 void Desk::stop() {
   playing = help = false;
   engine.cancel();
-  // the finer meshes that a wish that was stopped does not ask for
-  if (sight->designing()) engine.post({Settle{}, 0, false});
 }
 
 void Desk::start_design() {

@@ -84,7 +84,8 @@ void EngineThread::work() {
       lock.unlock();
       hand_.fulfil(wish, *watch);
       lock.lock();
-      if (watch->cancelled()) unrefined_ = false;
+      // of a design that is stopped the last step stands, and is to be certified as any other
+      if (watch->cancelled()) unrefined_ = std::holds_alternative<Design>(wish.deed);
     } else {
       refining_ = true;
       lock.unlock();

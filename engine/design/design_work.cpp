@@ -61,12 +61,12 @@ ShellEnds rounded(ShellEnds ends, double to_mm) {
 }
 
 Result<DesignWork> begin_design(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
-                                std::unique_ptr<MovedShell> coarse) {
+                                std::unique_ptr<MovedShell> coarse, const Watch& watch) {
   auto target = design_target(*scene, preset.inverse.target);
   if (!target) return tl::unexpected<Error>(target.error());
   // the same shell on the mesh that certifies
-  auto fine =
-      MovedShell::make(*scene, certified_on, coarse->mesh(), coarse->model(), coarse->state());
+  auto fine = MovedShell::make(*scene, certified_on, coarse->mesh(), coarse->model(),
+                               coarse->state(), watch);
   if (!fine) return tl::unexpected<Error>(fine.error());
   const double spacing = scene->footprint.spacing;
   const auto symmetries = symmetries_of(*scene, coarse->joints(), same_place * spacing);

@@ -29,9 +29,9 @@ Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene);
 
 /// The work of a preset's [inverse] on a shell of its scene, at rest on the mesh that is designed
 /// on. Errors: bad_input (ends that have nothing of what is to vary), no_equilibrium (on the mesh
-/// that certifies).
+/// that certifies), cancelled.
 Result<DesignWork> begin_design(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
-                                std::unique_ptr<MovedShell> coarse);
+                                std::unique_ptr<MovedShell> coarse, const Watch& watch = unwatched);
 
 /// What a design aims at, for the joints of a scene that has a net. Errors: those of the net.
 Result<DesignTarget> design_target(const Scene& scene, preset::Target kind);

@@ -9,34 +9,31 @@ Result<LiveDesign> design_live(const preset::Preset& preset, const DesignFrom& f
                                const std::function<void(const CertifiedStep&)>& seen) {
   if (auto can = can_be_designed(preset, *from.scene); !can)
     return tl::unexpected<Error>(can.error());
-  auto shell = MovedShell::make(*from.scene, designed_on, from.mesh, from.model, from.state);
+  auto shell = MovedShell::make(*from.scene, designed_on, from.mesh, from.model, from.state, watch);
   if (!shell) return tl::unexpected<Error>(shell.error());
-  if (watch.cancelled()) return stopped();
-  auto begun = begin_design(preset, from.scene, std::move(*shell));
+  auto begun = begin_design(preset, from.scene, std::move(*shell), watch);
   if (!begun) return tl::unexpected<Error>(begun.error());
-  if (watch.cancelled()) return stopped();
   DesignWork& work = *begun;
   work.options.most_iterations = most_iterations;
   ShellEnds last = work.coarse->ends();
   const auto hand_over = [&](const DesignStep& step, double eigenvalue) {
     last = work.coarse->ends();
-    const Eigen::VectorXd distances = work.target.distances(work.coarse->joints()).size();
-    seen({step, *work.coarse, distances, eigenvalue, table_of(*from.scene, last),
+    const Eigen::VectorXd now = work.target.distances(work.coarse->joints()).size();
+    seen({step, *work.coarse, now, eigenvalue, table_of(*from.scene, last),
           rod_table_of(*from.scene, last)});
   };
 
-  const double softest = work.fine->smallest_eigenvalue(),
+  const double softest = work.fine->smallest_eigenvalue(watch),
                allowed = preset.inverse.min_stability * softest;
-  {
-    const Eigen::VectorXd distances = work.target.distances(work.coarse->joints()).size();
-    DesignStep begin;
-    begin.max_mm = distances.maxCoeff();
-    begin.mean_mm = distances.mean();
-    begin.eigenvalue = work.coarse->smallest_eigenvalue();
-    begin.taken = true;
-    begin.q = Eigen::VectorXd::Zero(work.variables.count());
-    hand_over(begin, softest);
-  }
+  DesignStep begin;
+  begin.eigenvalue = work.coarse->smallest_eigenvalue(watch);
+  if (watch.cancelled()) return stopped();
+  const Eigen::VectorXd distances = work.target.distances(work.coarse->joints()).size();
+  begin.max_mm = distances.maxCoeff();
+  begin.mean_mm = distances.mean();
+  begin.taken = true;
+  begin.q = Eigen::VectorXd::Zero(work.variables.count());
+  hand_over(begin, softest);
   LiveDesign end;
   optimise(*work.coarse, work.target, work.variables, work.options, from.scene->footprint.spacing,
            watch, [&](const DesignStep& step) {
@@ -47,7 +44,9 @@ Result<LiveDesign> design_live(const preset::Preset& preset, const DesignFrom& f
              if (eigenvalue >= allowed && !watch.cancelled()) hand_over(step, eigenvalue);
            });
   end.stopped = watch.cancelled();
-  if (work.fine->move_in_steps(rounded(last, preset.inverse.round_mm), work.jump_mm))
+  // who stops it does not wait for more
+  if (!end.stopped &&
+      work.fine->move_in_steps(rounded(last, preset.inverse.round_mm), work.jump_mm))
     end.rounded_max_mm = work.target.distances(work.fine->joints()).size().maxCoeff();
   return end;
 }

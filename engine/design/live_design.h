@@ -31,7 +31,7 @@ struct LiveDesign {
   bool stopped = false;  ///< before the optimum
   int iterations = 0;    ///< refused ones too
   /// Largest distance at 32 edges with pins and legs rounded to `[inverse] round_mm`; none where
-  /// that shell is lost.
+  /// that shell is lost, and where it was stopped.
   std::optional<double> rounded_max_mm;
 };
 

@@ -30,7 +30,7 @@ double lengths_at(const Model& model, const ModelBend& bend) {
 
 Result<std::unique_ptr<MovedShell>> MovedShell::make(const Scene& scene, int edges_per_segment,
                                                      const RodMesh& mesh, const Model& model,
-                                                     const State& state) {
+                                                     const State& state, const Watch& watch) {
   std::unique_ptr<MovedShell> made(
       new MovedShell(scene, mesh_rods(scene.footprint, edges_per_segment)));
   auto built = build_model(made->mesh_, scene.rods, Rung::bend);
@@ -43,7 +43,7 @@ Result<std::unique_ptr<MovedShell>> MovedShell::make(const Scene& scene, int edg
                      : StateTransfer(mesh, model, made->mesh_, made->model_).carry(state);
   made->system_ = std::make_unique<Linearisation>(made->model_);
   made->find_legs();
-  if (auto rests = made->settle(made->ends_, 0.5 * scene.footprint.spacing, unwatched); !rests)
+  if (auto rests = made->settle(made->ends_, 0.5 * scene.footprint.spacing, watch); !rests)
     return tl::unexpected<Error>(rests.error());
   return made;
 }

@@ -23,10 +23,11 @@ struct Sensitivity {
 class MovedShell {
  public:
   /// From a state of the scene's model on a mesh, at rest with the scene's ends. Errors:
-  /// bad_input, no_equilibrium.
+  /// bad_input, no_equilibrium, cancelled.
   static Result<std::unique_ptr<MovedShell>> make(const Scene& scene, int edges_per_segment,
                                                   const RodMesh& mesh, const Model& model,
-                                                  const State& state);
+                                                  const State& state,
+                                                  const Watch& watch = unwatched);
 
   /// Gives it other ends: predicted by its sensitivity to them, then brought to rest by Newton's
   /// method, which may lead no further than `farthest_mm` from there. Errors (no_equilibrium): no

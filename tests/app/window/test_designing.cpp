@@ -158,7 +158,6 @@ TEST_CASE("the engine's thread shows the steps of a design and stops within one 
   const auto points = engine.sight()->design->points.size();
   CHECK(points >= 1);
   engine.cancel();
-  engine.post({Settle{}});
   engine.wait();
   CHECK_FALSE(engine.sight()->designing());
   CHECK(engine.sight()->refined);
