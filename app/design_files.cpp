@@ -43,6 +43,8 @@ std::string design_json(const Designed& found, const FromFlat& from_flat) {
   json["largest_move_mm"] = found.largest_move_mm;
   json["largest_turn_deg"] = found.largest_turn_deg;
   json["largest_thickening"] = found.largest_thickening;
+  json["thinnest_mm"] = found.thinnest_mm;
+  json["thickest_mm"] = found.thickest_mm;
   json["iterations"] = int(found.steps.size()) - 1;
   json["cpu_s"] = found.cpu_s;
   json["stable"] = true;  // nothing else is ever delivered
@@ -103,11 +105,6 @@ std::string rods_csv(const preset::Points& table) {
   return std::move(csv).text();
 }
 
-bool varies_diameters(const preset::Preset& preset) {
-  return std::ranges::find(preset.inverse.vary, preset::Vary::diameters) !=
-         preset.inverse.vary.end();
-}
-
 /// A line a variable; legs and diameters before and after are lengths, pins and directions
 /// coordinates along the variable's own axis.
 std::string design_csv(const Designed& found, const preset::Points& table) {
@@ -138,17 +135,23 @@ std::string design_csv(const Designed& found, const preset::Points& table) {
 void put_name(std::string& text, const std::string& section, const std::string& file) {
   const std::string none = "\ntable = []";
   const auto at = text.find(none, text.find("\n[" + section + "]"));
-  text.replace(at, none.size(), "\ntable = \"" + file + "\"");
+  std::string name;
+  for (const char c : file) {
+    if (c == '"' || c == '\\') name += '\\';
+    name += c;
+  }
+  text.replace(at, none.size(), "\ntable = \"" + name + "\"");
 }
 
 /// The preset with its tables in the files beside it.
-std::string preset_text(preset::Preset designed) {
-  const bool rods = varies_diameters(designed);
+std::string preset_text(preset::Preset designed, const std::string& ends_file,
+                        const std::string& rods_file) {
+  const bool ends = !designed.ends.table.empty(), rods = !designed.rod_table.empty();
   designed.ends.table.clear();
-  if (rods) designed.rod_table.clear();
+  designed.rod_table.clear();
   std::string text = preset::to_toml(designed);
-  put_name(text, "ends", "ends.csv");
-  if (rods) put_name(text, "rod", "rods.csv");
+  if (ends) put_name(text, "ends", ends_file);
+  if (rods) put_name(text, "rod", rods_file);
   return text;
 }
 
@@ -164,10 +167,25 @@ Result<void> write_design(const fs::path& folder, const preset::Preset& designed
       .and_then([&] { return write("ends.csv", ends_csv(found.table)); })
       .and_then([&] { return write("ends_rounded.csv", ends_csv(found.rounded_table)); })
       .and_then([&] {
-        return varies_diameters(designed) ? write("rods.csv", rods_csv(found.rod_table))
-                                          : Result<void>();
+        return designed.rod_table.empty() ? Result<void>()
+                                          : write("rods.csv", rods_csv(designed.rod_table));
       })
-      .and_then([&] { return write("preset.toml", preset_text(designed)); });
+      .and_then(
+          [&] { return write("preset.toml", preset_text(designed, "ends.csv", "rods.csv")); });
+}
+
+Result<void> write_preset_with_tables(const preset::Preset& preset, const fs::path& file) {
+  const std::string stem = file.stem().string(), ends = stem + "_ends.csv",
+                    rods = stem + "_rods.csv";
+  const auto write = [&](const std::string& name, const std::string& text) {
+    return write_atomically(file.parent_path() / name, text);
+  };
+  // the tables first: the preset is whole once it is there
+  return (preset.ends.table.empty() ? Result<void>() : write(ends, ends_csv(preset.ends.table)))
+      .and_then([&] {
+        return preset.rod_table.empty() ? Result<void>() : write(rods, rods_csv(preset.rod_table));
+      })
+      .and_then([&] { return write_atomically(file, preset_text(preset, ends, rods)); });
 }
 
 std::string design_text(const Designed& found, const FromFlat& from_flat) {
@@ -178,7 +196,8 @@ std::string design_text(const Designed& found, const FromFlat& from_flat) {
       found.q.size(), found.free_variables, found.symmetries, found.steps.size() - 1, found.cpu_s,
       found.largest_move_mm, found.largest_turn_deg,
       found.largest_thickening > 0
-          ? fmt::format(", diameters by {:.1f} %", 100 * found.largest_thickening)
+          ? fmt::format(", diameters by {:.1f} %, to {:.3f} ... {:.3f} mm",
+                        100 * found.largest_thickening, found.thinnest_mm, found.thickest_mm)
           : "");
   const auto line = [&](const char* name, const DesignedState& state) {
     text += fmt::format(

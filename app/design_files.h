@@ -23,7 +23,12 @@ struct FromFlat {
 Result<void> write_design(const std::filesystem::path& folder, const preset::Preset& designed,
                           const Designed& found, const FromFlat& from_flat);
 
-/// The same as a few lines for the terminal.
+/// A preset whose `[ends] table` and `[rod] table`, where it has them, stand in STEM_ends.csv and
+/// STEM_rods.csv beside it. Errors: io.
+Result<void> write_preset_with_tables(const preset::Preset& preset,
+                                      const std::filesystem::path& file);
+
+/// What a design came to, as a few lines for the terminal.
 std::string design_text(const Designed& found, const FromFlat& from_flat);
 
 }  // namespace gridshell::app

@@ -56,6 +56,19 @@ Result<void> draw_block_pictures(const CaseRecord& one, const render::MovieStyle
       });
 }
 
+/// "hemisphere: at most 3.10 %", of the joints; with the rods where they lie further off between
+/// them, which the colours show too.
+std::string caption_of(const record::Trajectory& run, const std::string& name) {
+  constexpr double further = 1.2;
+  const Eigen::VectorXd deviation = render::last_deviation(run);
+  const render::DeviationUnit unit = render::deviation_unit(run.layout);
+  const double joints = unit.factor * deviation.head(long(run.layout.joints.size())).maxCoeff(),
+               rods = unit.factor * deviation.maxCoeff();
+  const char* word = run.layout.parts.empty() ? "%" : "mm";
+  if (rods <= further * joints) return fmt::format("{}: at most {:.2f} {}", name, joints, word);
+  return fmt::format("{}: joints at most {:.2f}, rods {:.2f} {}", name, joints, rods, word);
+}
+
 }  // namespace
 
 Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::Renderer& renderer,
@@ -65,12 +78,8 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
   std::vector<render::NamedRun> named;
   for (const CaseRecord& one : records) {
     const std::string name = one.name.empty() ? name_of(one.preset) : one.name;
-    const double largest =
-        render::last_deviation(one.run).head(long(one.run.layout.joints.size())).maxCoeff();
     shells.push_back({&one.run, name, scan_of(one.preset)});
-    const auto unit = render::deviation_unit(one.run.layout);
-    shades.push_back({&one.run, fmt::format("{}: at most {:.2f} {}", name, unit.factor * largest,
-                                            one.run.layout.parts.empty() ? "%" : "mm")});
+    shades.push_back({&one.run, caption_of(one.run, name)});
     named.push_back({&one.run, name});
   }
   const auto titled = [&](render::Plot plot) {

@@ -13,6 +13,7 @@
 
 #include "app/commands/commands.h"
 #include "app/console.h"
+#include "app/design_files.h"
 #include "app/interrupt.h"
 #include "app/options.h"
 #include "app/preset_library.h"
@@ -87,6 +88,7 @@ window::Library library_of(const ViewOptions& options) {
                                                      const fs::path& file) {
     return draw_picture(order, file, context);
   };
+  library.write_preset = write_preset_with_tables;
   library.save_to = options.output;
   return library;
 }
@@ -145,6 +147,13 @@ void print_state(const window::Desk& desk) {
   line["gravity"] = desk.gravity();
   line["undo_steps"] = sight.undo_steps;
   line["redo_steps"] = sight.redo_steps;
+  if (sight.design) {
+    const window::DesignCourse& course = *sight.design;
+    line["design"] = {
+        {"steps", int(course.points.size()) - 1},        {"iterations", course.iterations},
+        {"max_before_mm", course.points.front().max_mm}, {"max_mm", course.points.back().max_mm},
+        {"mean_mm", course.points.back().mean_mm},       {"kept", course.kept}};
+  }
   line["message"] = desk.message;
   fmt::print("{}\n", record::line_of(line));
 }

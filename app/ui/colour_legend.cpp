@@ -11,7 +11,7 @@ void colour_legend(const Panel& panel, const render::Box& view) {
   if (!desk.sight->any() || desk.show.colour_by == window::ColourBy::none) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
-  const char* label = window::label_of(desk.show.colour_by);
+  const char* label = window::label_of(*desk.sight, desk.show.colour_by);
   const float line = ImGui::GetTextLineHeight(), width = panel.px(14), height = panel.px(170);
   const float right = float(view.right()) - panel.px(14), top = float(view.y) + panel.px(14);
   list.AddText({right - ImGui::CalcTextSize(label).x, top}, ink, label);

@@ -33,6 +33,28 @@ void map_keys(ImGuiIO& io) {
   map(ImGuiKey_X, Key::x), map(ImGuiKey_Y, Key::y), map(ImGuiKey_Z, Key::z);
 }
 
+/// Heights of the panels on the right, pixels; 0: not there.
+struct Column {
+  double numbers = 0, design = 0, plots = 0;
+  bool any() const { return numbers + design + plots > 0; }
+};
+
+/// The design has a plot of its own; beside it the others are there where they have room.
+Column column_of(const window::Desk& desk, double height, double density) {
+  const double least = 300 * density;
+  Column column;
+  double rest = height;
+  if (desk.design_panel) {
+    column.design = std::min(height, std::round(480 * density));
+    rest -= column.design;
+  }
+  const bool plots = desk.plots && (!desk.design_panel || rest >= (desk.numbers ? 2 : 1) * least);
+  if (desk.numbers) column.numbers = plots ? rest - std::round(0.5 * rest) : rest;
+  if (plots) column.plots = rest - column.numbers;
+  if (!desk.numbers && !plots && desk.design_panel) column.design = height;
+  return column;
+}
+
 bool is_modifier(Key key) { return key == Key::ctrl || key == Key::shift || key == Key::alt; }
 
 }  // namespace
@@ -242,12 +264,17 @@ void Interface::lay_out() {
   controls_.clear();
   menu_bar(panel);
   const double top = ImGui::GetFrameHeight(), height = height_ - top - status;
-  const bool aside = desk_.numbers || desk_.plots;
+  const Column column = column_of(desk_, height, density_);
   shell_panel(panel, {0, top, left, height});
-  view_panel(panel, {left, top, width_ - left - (aside ? right : 0), height});
-  const double half = desk_.numbers && desk_.plots ? std::round(0.5 * height) : height;
-  if (desk_.numbers) numbers_.draw(panel, {width_ - right, top, right, half});
-  if (desk_.plots) plots_panel(panel, {width_ - right, top + height - half, right, half});
+  view_panel(panel, {left, top, width_ - left - (column.any() ? right : 0), height});
+  double from = top;
+  const auto next = [&](double part) {
+    from += part;
+    return render::Box{width_ - right, from - part, right, part};
+  };
+  if (column.numbers > 0) numbers_.draw(panel, next(column.numbers));
+  if (column.design > 0) design_panel(panel, next(column.design));
+  if (column.plots > 0) plots_panel(panel, next(column.plots));
   status_line(panel, {0, top + height, double(width_), status});
   if (desk_.picking && !desk_.help) picker_.draw(panel, {left, top, width_ - left, height});
   if (desk_.help)

@@ -35,6 +35,14 @@ void Panel::button(const char* name) const {
   named(name, help_of(action));
 }
 
+void Panel::button(const char* name, const char* text, bool able) const {
+  const window::Action& action = *window::find_action(name);
+  ImGui::BeginDisabled(!able);
+  if (ImGui::Button(text)) action.act(desk);
+  ImGui::EndDisabled();
+  named(name, help_of(action));
+}
+
 void Panel::tick(const char* name) const {
   const window::Action& action = *window::find_action(name);
   bool on = action.on(desk);

@@ -25,6 +25,8 @@ struct Panel {
   void named(const std::string& name, const std::string& tip) const;
   /// A button or a tick of an action, with its help and key.
   void button(const char* action) const;
+  /// With a text of its own where the panel says the rest; pale where it can do nothing now.
+  void button(const char* action, const char* text, bool able) const;
   void tick(const char* action) const;
 };
 
@@ -42,6 +44,7 @@ void heading(const Panel& panel, const char* text);
 void menu_bar(const Panel& panel);
 void shell_panel(const Panel& panel, const render::Box& box);
 void plots_panel(const Panel& panel, const render::Box& box);
+void design_panel(const Panel& panel, const render::Box& box);
 void status_line(const Panel& panel, const render::Box& box);
 void help_sheet(const Panel& panel, const render::Box& box);
 void colour_legend(const Panel& panel, const render::Box& view);

@@ -53,7 +53,7 @@ Result<render::Image> picture_of(const window::PictureOrder& asked, render::Rend
       !window::values_of(*order.sight, by).any())
     return image;
   const double font = std::max(9.0, height / 45.0);
-  const render::ColourBar bar{window::label_of(by), order.show.scale};
+  const render::ColourBar bar{window::label_of(*order.sight, by), order.show.scale};
   render::draw_over(*image, [&](render::Canvas& canvas) {
     const double room = render::colour_bar_width(canvas, bar, font);
     draw_colour_bar(canvas, {width - room - 1.5 * font, 1.5 * font, room, 0.4 * height}, bar, font);

@@ -25,6 +25,13 @@ std::string certificate_of(const window::Sight& sight, bool timed) {
                      c.negative_pivots, error, meshes_of(sight.meshes), took);
 }
 
+std::string standing_of(const window::DesignCourse& course) {
+  const double percent = 100 / course.length_scale_mm;
+  const window::DesignPoint& now = course.points.back();
+  return fmt::format("designing: iteration {}, largest {:.3f} %, mean {:.3f} % (Esc stops)",
+                     course.iterations, percent * now.max_mm, percent * now.mean_mm);
+}
+
 /// How far the movie is that is made beside the window.
 void movie_standing(const Panel& panel) {
   const std::string said = panel.desk.movie_work.standing();
@@ -66,9 +73,10 @@ void status_line(const Panel& panel, const render::Box& box) {
     ImGui::SameLine(0, panel.px(18));
   }
   const double busy = desk.engine.busy_seconds();
-  const std::string said =
+  std::string said =
       busy > 0.3 ? fmt::format("solving for {:.1f} s (Esc stops)", busy) : desk.message;
-  const bool bad = busy <= 0.3 && desk.message_bad;
+  if (sight.designing()) said = standing_of(*sight.design);
+  const bool bad = busy <= 0.3 && desk.message_bad && !sight.designing();
   ImGui::PushStyleColor(ImGuiCol_Text,
                         bad ? bad_ink(dark) : ImGui::GetColorU32(ImGuiCol_TextDisabled));
   // one line, however much was said: the tooltip has all of it

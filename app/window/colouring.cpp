@@ -49,7 +49,11 @@ Eigen::VectorXd displacement(const Sight& sight) {
 
 }  // namespace
 
-const char* label_of(ColourBy by) { return colour_words[std::size_t(by)].label; }
+const char* label_of(const Sight& sight, ColourBy by) {
+  const bool surface = sight.design && sight.design->inverse.target == preset::Target::surface;
+  if (by == ColourBy::deviation && surface) return "Δ/ρ from the surface";
+  return colour_words[std::size_t(by)].label;
+}
 const char* meaning_of(ColourBy by) { return colour_words[std::size_t(by)].meaning; }
 
 Values values_of(const Sight& sight, ColourBy by) {

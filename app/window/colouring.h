@@ -29,8 +29,8 @@ constexpr auto words(RangeOf) {
       {{RangeOf::state, "state"}, {RangeOf::run, "run"}, {RangeOf::hand, "hand"}});
 }
 
-/// As the interface names it, with its unit: "bending energy (mJ/m)".
-const char* label_of(ColourBy by);
+/// As the interface names it of a sight, with its unit: "bending energy (mJ/m)".
+const char* label_of(const Sight& sight, ColourBy by);
 /// What it is, in a sentence.
 const char* meaning_of(ColourBy by);
 

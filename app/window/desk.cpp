@@ -24,11 +24,17 @@ void Desk::say(const std::string& text, bool bad) {
 // ---- wishes ----
 
 void Desk::post(Deed deed, bool passing) {
+  if (sight->designing()) {
+    if (!std::holds_alternative<Settle>(deed))
+      say("the shell is being designed; Esc stops that, and it can be moved", true);
+    return;
+  }
   engine.post({std::move(deed), stroke_, passing});
   if (!passing) ++stroke_;
 }
 
 void Desk::wish(Deed deed) {
+  if (sight->designing()) engine.cancel();
   engine.post({std::move(deed), 0, false});
   ++stroke_;
 }
@@ -83,6 +89,29 @@ void Desk::set_range(double low, double high) {
   show.scale.low = low;
   show.scale.high = high;
 }
+
+// ---- design ----
+
+void Desk::stop() {
+  playing = help = false;
+  engine.cancel();
+}
+
+void Desk::start_design() {
+  if (const std::string why = why_not_designed(*sight); !why.empty()) return say(why, true);
+  if (sight->designing()) return say("the shell is being designed already", true);
+  if (design.inverse.vary.empty())
+    return say("nothing may change: tick pins, legs, directions or diameters", true);
+  design_panel = true;
+  play(false);
+  // of all steps, so that what is left is seen beside what was
+  show.colour_by = ColourBy::deviation;
+  show.scale = scale_of(values_of(*sight, show.colour_by), show.colour_by);
+  range_of = RangeOf::run;
+  wish(Design{design.inverse, design.most_iterations});
+}
+
+void Desk::end_design(Deed keep_or_put_back) { wish(std::move(keep_or_put_back)); }
 
 void Desk::toggle_gravity() {
   if (!sight->any()) return;
@@ -168,6 +197,10 @@ void Desk::look_anew() {
   fresh_ = false;
   const preset::Movie& movie = sight->preset.movie;
   show.footprint = show.net = false;
+  design = {sight->preset.inverse};
+  // one that says what may change asks for it
+  if (!design.inverse.vary.empty()) design_panel = true;
+  if (design.inverse.vary.empty()) design.inverse.vary = {preset::Vary::pins};
   // the same words
   if (const auto by = find_word<ColourBy>(word_of(movie.colour_by))) show.colour_by = *by;
   camera.field_of_view_deg = movie.orthographic ? 0 : 20;

@@ -48,6 +48,9 @@ struct Library {
   std::function<Result<preset::Preset>(const std::string& name)> load;
   std::function<Result<void>(const PictureOrder& order, const std::filesystem::path& file)>
       draw_picture;
+  /// A preset as a file, its tables in files beside it, whose names begin as its own.
+  std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file)>
+      write_preset;
   /// The movie of a preset's file in a folder.
   std::function<Result<void>(const std::filesystem::path& preset,
                              const std::filesystem::path& folder, const Heard&, const Watch&)>
@@ -79,6 +82,12 @@ struct KeptView {
 
 enum class PushWay { normal, freely };
 
+/// What the next design may change, and how far it goes.
+struct DesignChoice {
+  preset::Inverse inverse;
+  int most_iterations = 25;
+};
+
 /// Drawn as the camera moves: at half the resolution; still: at all of it.
 enum class Sharpness { moving, still };
 
@@ -96,7 +105,8 @@ class Desk {
   Show show;
   std::optional<KeptView> kept_view;  ///< for when that preset's shell comes
   RangeOf range_of = RangeOf::state;  ///< of the colours
-  bool numbers = false, plots = true, help = false, picking = true;
+  bool numbers = false, plots = true, help = false, picking = true, design_panel = false;
+  DesignChoice design;
   std::vector<Reading> readings;
   std::string message;  ///< what was done last
   bool message_bad = false;
@@ -128,6 +138,12 @@ class Desk {
   /// The hand comes to rest: the stroke is over.
   void let_go();
   void play(bool on);
+  /// Stops what the engine is at; of a design the last step stays in hand.
+  void stop();
+  /// Designs the shell by what was chosen, coloured by its deviation.
+  void start_design();
+  /// The same as it stands is the shell now; or the one before the design is again.
+  void end_design(Deed keep_or_put_back);
   /// Where on its path the shell is, 0 to 1.
   double part() const;
   /// The colours' ends by hand; ends that are none change nothing.

@@ -4,7 +4,14 @@
 
 namespace gridshell::window {
 
-EngineThread::EngineThread() : sight_(std::make_shared<Sight>()), thread_([this] { work(); }) {}
+EngineThread::EngineThread() : sight_(std::make_shared<Sight>()) {
+  hand_.tell([this](const Sight& sight) {
+    auto seen = std::make_shared<const Sight>(sight);
+    const std::lock_guard lock(mutex_);
+    sight_ = std::move(seen);
+  });
+  thread_ = std::thread([this] { work(); });
+}
 
 EngineThread::~EngineThread() {
   {
@@ -77,7 +84,8 @@ void EngineThread::work() {
       lock.unlock();
       hand_.fulfil(wish, *watch);
       lock.lock();
-      if (watch->cancelled()) unrefined_ = false;
+      // of a design that is stopped the last step stands, and is to be certified as any other
+      if (watch->cancelled()) unrefined_ = std::holds_alternative<Design>(wish.deed);
     } else {
       refining_ = true;
       lock.unlock();

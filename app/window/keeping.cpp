@@ -6,7 +6,6 @@
 
 #include "app/window/desk.h"
 #include "engine/core/atomic_file.h"
-#include "engine/preset/writer.h"
 
 namespace gridshell::window {
 namespace {
@@ -82,14 +81,12 @@ preset::Preset Desk::preset_to_save() const {
 }
 
 Result<void> Desk::write_preset(const preset::Preset& preset, const fs::path& file) const {
-  return make_folder(library.save_to).and_then([&] {
-    return write_atomically(file, preset::to_toml(preset));
-  });
+  return make_folder(library.save_to).and_then([&] { return library.write_preset(preset, file); });
 }
 
 void Desk::save_preset() {
   if (!sight->any()) return say("there is no shell to save", true);
-  const fs::path file = path_to_save({".toml"}).string() + ".toml";
+  const fs::path file = path_to_save({".toml", "_ends.csv", "_rods.csv"}).string() + ".toml";
   if (auto written = write_preset(preset_to_save(), file); !written)
     return say(written.error().message, true);
   say("saved " + file.string() + left_out(*sight), sight->changed_late);
@@ -115,7 +112,8 @@ void Desk::size_picture(int width, int height) {
 void Desk::save_movie() {
   if (!sight->any()) return say("there is no shell to make a movie of", true);
   if (movie_work.under_way()) return say("one movie is being made; 'Stop the movie' ends it", true);
-  const fs::path folder = path_to_save({".toml", ""}), file = folder.string() + ".toml";
+  const fs::path folder = path_to_save({".toml", "_ends.csv", "_rods.csv", ""}),
+                 file = folder.string() + ".toml";
   preset::Preset preset = preset_to_save();
   if (sight->steps.empty()) {
     preset = sight->preset;

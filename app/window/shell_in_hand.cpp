@@ -70,6 +70,7 @@ void ShellInHand::fulfil(const Wish& wish, const Watch& watch) {
   sight_.told.clear();
   now_stroke_ = wish.stroke;
   const bool remembered = remember(wish);
+  accept_design(wish);
   if (session_ && wish.passing && session_->shell().levels() > 1) coarsen(watch);
   const auto done = std::visit([&](const auto& deed) { return act(deed, watch); }, wish.deed);
   if (!done)
@@ -82,7 +83,8 @@ void ShellInHand::fulfil(const Wish& wish, const Watch& watch) {
   }
   // whether these meshes still meet the tolerance is for refine() to find out
   const bool travelled =
-      std::holds_alternative<Undo>(wish.deed) || std::holds_alternative<Redo>(wish.deed);
+      std::holds_alternative<Undo>(wish.deed) || std::holds_alternative<Redo>(wish.deed) ||
+      std::holds_alternative<KeepDesign>(wish.deed) || std::holds_alternative<PutBack>(wish.deed);
   if (!travelled) refined_ = false;
   look();
   sight_.seconds = seconds_now() - begin;
@@ -123,19 +125,21 @@ void ShellInHand::coarsen(const Watch& watch) {
 // ---- steps ----
 
 ShellInHand::Step ShellInHand::step() const {
-  return {preset_,     scene_,       session_->save(), boundary_, taken_at_,
-          sight_.push, sight_.first, steps_,           refined_,  changed_late_};
+  return {preset_,      scene_, session_->save(), boundary_,     taken_at_, sight_.push,
+          sight_.first, steps_, refined_,         changed_late_, design_,   target_};
 }
 
 /// Keeps the state before a wish, but for one of the stroke that the last step began.
 bool ShellInHand::remember(const Wish& wish) {
-  const bool travels = std::holds_alternative<Undo>(wish.deed) ||
-                       std::holds_alternative<Redo>(wish.deed) ||
-                       std::holds_alternative<Settle>(wish.deed);
+  const bool travels =
+      std::holds_alternative<Undo>(wish.deed) || std::holds_alternative<Redo>(wish.deed) ||
+      std::holds_alternative<KeepDesign>(wish.deed) || std::holds_alternative<PutBack>(wish.deed) ||
+      std::holds_alternative<Settle>(wish.deed);
   if (travels || !session_ || (wish.stroke != 0 && wish.stroke == stroke_)) return false;
   stroke_ = wish.stroke;
   redo_.clear();
   undo_.push_back(step());
+  undo_.back().before_design = std::holds_alternative<Design>(wish.deed);
   keep_within_memory(undo_);
   return true;
 }
@@ -195,6 +199,8 @@ Result<void> ShellInHand::stand(const Step& step) {
   kept_stroke_ = 0;
   refined_ = step.refined;
   changed_late_ = step.changed_late;
+  design_ = step.design;
+  target_ = step.target;
   return {};
 }
 
@@ -205,6 +211,8 @@ Result<void> ShellInHand::travel(std::deque<Step>& from, std::deque<Step>& to, c
   if (!take_back(back))
     return fail(Fault::io, "the state was put aside into a file that cannot be read");
   to.push_back(step());
+  // of what is done again it is known what it was
+  to.back().before_design = back.before_design;
   keep_within_memory(to);
   stroke_ = 0;
   return stand(back);
@@ -238,27 +246,40 @@ Result<void> ShellInHand::form(const preset::Preset& preset, const Watch& watch)
   const auto scene = std::make_shared<const Scene>(std::move(*made));
   auto course = experiment::follow_actuation(scene, coarse_plan(*scene), false, 1, watch);
   if (!course) return tl::unexpected<Error>(course.error());
-  preset_ = preset;
-  preset_.step.clear();
-  scene_ = scene;
-  session_ = std::move(course->session);
-  boundary_ = experiment::HandBoundary::of(*scene);
-  boundary_.progress = session_->progress();
-  taken_at_.clear();
-  steps_.clear();
-  kept_stroke_ = 0;
-  refined_ = changed_late_ = false;
+  begin_again(preset, scene, std::move(course->session));
+  design_.reset();
+  target_.reset();
   sight_.told = course->limit_reason;
-  sight_.push = {};
-  sight_.layout.reset();
   sight_.first.reset();
   for (const preset::Step& step : preset.step) {
     // what stands before a step is what it is seen against
     look();
     if (auto done = do_step(step, watch); !done) return done;
   }
-  if (!preset.indentation.wanted()) return {};
-  const auto push = experiment::push_of(preset.indentation, *scene, session_->shell().finest(),
+  return take_push();
+}
+
+/// Another shell, which no hand has touched.
+void ShellInHand::begin_again(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
+                              Session session) {
+  preset_ = preset;
+  preset_.step.clear();
+  scene_ = std::move(scene);
+  session_ = std::move(session);
+  boundary_ = experiment::HandBoundary::of(*scene_);
+  boundary_.progress = session_->progress();
+  taken_at_.clear();
+  steps_.clear();
+  kept_stroke_ = 0;
+  refined_ = changed_late_ = false;
+  sight_.push = {};
+  sight_.layout.reset();
+}
+
+/// What the preset itself pushes, from where the shell stands.
+Result<void> ShellInHand::take_push() {
+  if (!preset_.indentation.wanted()) return {};
+  const auto push = experiment::push_of(preset_.indentation, *scene_, session_->shell().finest(),
                                         session_->nodes());
   if (!push) return tl::unexpected<Error>(push.error());
   sight_.push = {push->joint, session_->nodes().col(push->joint), push->displacement};

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "app/window/wish.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
+#include "engine/design/live_design.h"
 #include "engine/experiment/steps.h"
 #include "engine/footprint/mesh_symmetry.h"
 #include "engine/session/session.h"
@@ -34,6 +36,8 @@ class ShellInHand {
 
   /// The state that it stands in.
   const Sight& sight() const { return sight_; }
+  /// Calls it while a wish is at work, each time that there is something to see.
+  void tell(std::function<void(const Sight&)> told) { told_ = std::move(told); }
 
  private:
   /// All that a wish can change, to go back to.
@@ -47,6 +51,9 @@ class ShellInHand {
     std::shared_ptr<const record::Frame> first;
     StepChain steps;
     bool refined = true, changed_late = false;
+    std::shared_ptr<const DesignCourse> design = {};
+    std::shared_ptr<DesignTarget> target = {};
+    bool before_design = false;        ///< a design was wished for then
     std::vector<PutAside> aside = {};  ///< the checkpoint's arrays, where they are not in it
   };
 
@@ -60,9 +67,18 @@ class ShellInHand {
   Result<void> act(const Jitter& wish, const Watch& watch);
   Result<void> act(const Undo& wish, const Watch& watch);
   Result<void> act(const Redo& wish, const Watch& watch);
+  Result<void> act(const Design& wish, const Watch& watch);
+  Result<void> act(const KeepDesign&, const Watch&);
+  Result<void> act(const PutBack&, const Watch&);
   Result<void> act(const Settle&, const Watch&) { return {}; }
 
   Result<void> form(const preset::Preset& preset, const Watch& watch);
+  void begin_again(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
+                   Session session);
+  Result<void> take_push();
+  Result<void> stand_designed(const preset::Preset& designed, const State& state);
+  void see_step(const Scene& scene, const CertifiedStep& step, DesignCourse& course);
+  void accept_design(const Wish& wish);
   Result<void> put_rods(const preset::Preset& preset, const Watch& watch);
   void take_numbers(const preset::Preset& preset);
   Result<void> do_step(preset::Step step, const Watch& watch);
@@ -83,6 +99,7 @@ class ShellInHand {
   void look_at_symmetry();
   void look_at_rods();
   void look_at_soft_mode();
+  void look_at_deviation(const Eigen::VectorXd& of_joints_mm);
 
   preset::Preset preset_;
   std::shared_ptr<const Scene> scene_;
@@ -97,8 +114,11 @@ class ShellInHand {
   int now_stroke_ = 0, kept_stroke_ = 0;  // of the wish at hand, and of the last of steps_
   bool kept_eventful_ = false;            // whether that came past something
   bool refined_ = false, changed_late_ = false;
-  int nodes_shown_ = 0;                   // of the layout in sight
-  std::vector<MeshSymmetry> symmetries_;  // that a state of this shell may have
+  int nodes_shown_ = 0;                         // of the layout in sight
+  std::vector<MeshSymmetry> symmetries_;        // that a state of this shell may have
+  std::shared_ptr<const DesignCourse> design_;  // that the shell is of
+  std::shared_ptr<DesignTarget> target_;        // and what it aims at
+  std::function<void(const Sight&)> told_;
   Sight sight_;
 };
 

@@ -62,6 +62,7 @@ void ShellInHand::look() {
   s.radius_end_mm = scene_->radius_end_mm;
   s.edges_dragged = !boundary_.dragged.isZero(0);
   s.changed_late = changed_late_;
+  s.design = design_;
   look_at_normals();
   s.held.clear();
   for (std::size_t k = 0; k < session_->holds().size(); ++k) {
@@ -135,6 +136,20 @@ void ShellInHand::look_at_rods() {
   sight_.axial_N = record::axial_force_of_nodes_N(layout, sight_.frame);
   sight_.bending_mJ_m = record::bending_of_nodes_mJ_per_m(layout, sight_.frame);
   sight_.deviation = record::deviation_of_cells(layout, sight_.frame);
+  if (!design_ || !target_) return;
+  const Eigen::Index joints = Eigen::Index(layout.joints.size());
+  look_at_deviation(target_->distances(sight_.frame.nodes.leftCols(joints)).size());
+}
+
+/// From what a design aims at.
+void ShellInHand::look_at_deviation(const Eigen::VectorXd& of_joints_mm) {
+  const record::Layout& layout = *sight_.layout;
+  sight_.deviation.resize(Eigen::Index(layout.cells.size()));
+  for (std::size_t k = 0; k < layout.cells.size(); ++k) {
+    double sum_mm = 0;
+    for (const int joint : layout.cells[k].joints) sum_mm += of_joints_mm[joint];
+    sight_.deviation[Eigen::Index(k)] = sum_mm / 4 / layout.length_scale_mm;
+  }
 }
 
 /// How a state that is not stable would leave: its softest mode on the finest mesh, its largest

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,25 @@ struct PresetPush {
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), displacement = Eigen::Vector3d::Zero();
 };
 
+/// A step of a design that was certified; the first is the shell before.
+struct DesignPoint {
+  int iteration = 0;
+  double max_mm = 0, mean_mm = 0;  ///< distances of the joints from the target
+  double eigenvalue = 0;           ///< smallest on 32 edges a segment, N/mm^2
+  double largest_move_mm = 0;
+  double thinnest_mm = 0, thickest_mm = 0;  ///< rods
+};
+
+/// How a design goes, or went.
+struct DesignCourse {
+  preset::Inverse inverse;
+  double length_scale_mm = 1;
+  std::vector<DesignPoint> points;
+  int iterations = 0;  ///< refused ones too
+  bool under_way = true, stopped = false, kept = false;
+  std::optional<double> rounded_max_mm;  ///< once it has ended, where the rounded shell holds
+};
+
 /// One equilibrium of one shell, or none yet (no layout).
 struct Sight {
   preset::Preset preset;                         ///< as it stands, the boundary's radius in it
@@ -49,16 +69,23 @@ struct Sight {
   Eigen::Matrix3Xd normals;      ///< one a joint: t_u x t_v
   Eigen::VectorXd axial_N;       ///< one a node, the mean of its edges
   Eigen::VectorXd bending_mJ_m;  ///< one a node: energy over length, J/m / 1000
-  Eigen::VectorXd deviation;     ///< one a cell, mean of its joints, over rho; empty without a net
-  Eigen::Matrix3Xd soft_mode;    ///< of a state that is not stable: unit moves of its nodes
-  std::string told;              ///< what happened on the way; empty: nothing
-  std::string trouble;           ///< why the last wish was not met; empty: it was
+  /// One a cell, mean of its joints, over rho: from the net, of a designed shell from what the
+  /// design aims at; empty without a net.
+  Eigen::VectorXd deviation;
+  std::shared_ptr<const DesignCourse> design;  ///< that the shell is of; null: none
+  Eigen::Matrix3Xd soft_mode;  ///< of a state that is not stable: unit moves of its nodes
+  std::string told;            ///< what happened on the way; empty: nothing
+  std::string trouble;         ///< why the last wish was not met; empty: it was
   int undo_steps = 0, redo_steps = 0;
   int equilibria = 0;  ///< found so far
   double seconds = 0;  ///< the last one took
 
   bool any() const { return layout != nullptr; }
   bool stable() const { return certificate.stable(); }
+  bool designing() const { return design && design->under_way; }
 };
+
+/// Why the shell in sight cannot be designed, a sentence; empty: it can.
+std::string why_not_designed(const Sight& sight);
 
 }  // namespace gridshell::window

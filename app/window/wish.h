@@ -49,11 +49,21 @@ struct Undo {
   bool all = false;
 };
 struct Redo {};
+/// The ends or rods of the shell moved until it meets its surface; the steps on the way are seen,
+/// and stopped it stands in the last of them.
+struct Design {
+  preset::Inverse inverse;
+  int most_iterations = 25;
+};
+/// What was designed is the shell now.
+struct KeepDesign {};
+/// The shell before the design, to the bit.
+struct PutBack {};
 /// Nothing but the finer meshes that follow a stroke.
 struct Settle {};
 
-using Deed =
-    std::variant<Open, Change, Move, Push, Release, DragEdge, Rest, Jitter, Undo, Redo, Settle>;
+using Deed = std::variant<Open, Change, Move, Push, Release, DragEdge, Rest, Jitter, Undo, Redo,
+                          Design, KeepDesign, PutBack, Settle>;
 
 /// Wishes of one stroke (a drag) are one step to undo. While a stroke passes, the shell is followed
 /// on its coarsest mesh, and a newer wish of the stroke takes the place of one not yet begun.

@@ -21,6 +21,7 @@ void each_switch(AnyDesk& desk, const Visit& visit) {
   visit("dark", desk.show.dark);
   visit("numbers", desk.numbers);
   visit("plots", desk.plots);
+  visit("design", desk.design_panel);
 }
 
 /// The same for the camera's numbers.

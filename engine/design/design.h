@@ -43,7 +43,8 @@ struct Designed {
   int kept = 0;       ///< the step that was: the last that both meshes find stable enough
   int symmetries = 1, free_variables = 0;
   double largest_move_mm = 0, largest_turn_deg = 0;
-  double largest_thickening = 0;  ///< change of a diameter over the one before
+  double largest_thickening = 0;            ///< change of a diameter over the one before
+  double thinnest_mm = 0, thickest_mm = 0;  ///< of the designed rods
   double cpu_s = 0;
   preset::Points table, rounded_table;    ///< of `[ends] table`
   std::vector<int> row_of_end;            ///< in them; -1: a free end

@@ -30,7 +30,7 @@ double lengths_at(const Model& model, const ModelBend& bend) {
 
 Result<std::unique_ptr<MovedShell>> MovedShell::make(const Scene& scene, int edges_per_segment,
                                                      const RodMesh& mesh, const Model& model,
-                                                     const State& state) {
+                                                     const State& state, const Watch& watch) {
   std::unique_ptr<MovedShell> made(
       new MovedShell(scene, mesh_rods(scene.footprint, edges_per_segment)));
   auto built = build_model(made->mesh_, scene.rods, Rung::bend);
@@ -43,7 +43,7 @@ Result<std::unique_ptr<MovedShell>> MovedShell::make(const Scene& scene, int edg
                      : StateTransfer(mesh, model, made->mesh_, made->model_).carry(state);
   made->system_ = std::make_unique<Linearisation>(made->model_);
   made->find_legs();
-  if (auto rests = made->settle(made->ends_, 0.5 * scene.footprint.spacing); !rests)
+  if (auto rests = made->settle(made->ends_, 0.5 * scene.footprint.spacing, watch); !rests)
     return tl::unexpected<Error>(rests.error());
   return made;
 }
@@ -138,7 +138,7 @@ void MovedShell::back_to(const Stand& stand) {
 }
 
 /// From where its columns are.
-Result<void> MovedShell::settle(const ShellEnds& ends, double farthest_mm) {
+Result<void> MovedShell::settle(const ShellEnds& ends, double farthest_mm, const Watch& watch) {
   const auto failed = [](const std::string& why) { return fail(Fault::no_equilibrium, why); };
   set_legs(ends);
   set_diameters(ends);
@@ -146,7 +146,8 @@ Result<void> MovedShell::settle(const ShellEnds& ends, double farthest_mm) {
   const Eigen::Matrix3Xd from = state_.x;
   NewtonOptions options;
   options.tolerance_mm = 1e-8;
-  const NewtonReport report = newton(*system_, state_, options);
+  const NewtonReport report = newton(*system_, state_, options, watch);
+  if (report.outcome == Outcome::cancelled) return stopped();
   if (report.outcome != Outcome::reached) return failed(words_of(report.outcome).what);
   if (largest_column(state_.x - from) > farthest_mm) return failed("the state jumped");
   if (!system_->at(state_, false).positive_definite()) return failed("the state is not stable");
@@ -154,7 +155,7 @@ Result<void> MovedShell::settle(const ShellEnds& ends, double farthest_mm) {
   return {};
 }
 
-Result<void> MovedShell::move(const ShellEnds& ends, double farthest_mm) {
+Result<void> MovedShell::move(const ShellEnds& ends, double farthest_mm, const Watch& watch) {
   const Stand before = stand();
   Eigen::Matrix3Xd there = state_.x;
   impose(ends, there);
@@ -163,12 +164,13 @@ Result<void> MovedShell::move(const ShellEnds& ends, double farthest_mm) {
               (ends.diameter.array() / ends_.diameter.array()).log().matrix()});
   state_.force += system_->force_change(dx);
   state_.x += dx;
-  auto settled = settle(ends, farthest_mm);
+  auto settled = settle(ends, farthest_mm, watch);
   if (!settled) back_to(before);
   return settled;
 }
 
-Result<void> MovedShell::move_in_steps(const ShellEnds& ends, double farthest_mm) {
+Result<void> MovedShell::move_in_steps(const ShellEnds& ends, double farthest_mm,
+                                       const Watch& watch) {
   constexpr double shortest = 1.0 / 64;
   const Stand before = stand();
   double at = 0, step = 1;
@@ -182,14 +184,14 @@ Result<void> MovedShell::move_in_steps(const ShellEnds& ends, double farthest_mm
       for (auto direction : there.direction.colwise()) direction.normalize();
       there.diameter = before.ends.diameter + next * (ends.diameter - before.ends.diameter);
     }
-    const auto moved = move(there, farthest_mm);
+    const auto moved = move(there, farthest_mm, watch);
     if (moved) {
       at = next;
       step *= 2;
       continue;
     }
     step /= 2;
-    if (step >= shortest) continue;
+    if (step >= shortest && !watch.cancelled()) continue;
     back_to(before);
     return moved;
   }
@@ -263,10 +265,10 @@ void MovedShell::add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minu
 
 Sensitivity MovedShell::sensitivity(const std::vector<DesignVariable>& variables,
                                     const std::vector<DesignVariables::Rate>& rates,
-                                    const Eigen::MatrixXd& changes) {
+                                    const Eigen::MatrixXd& changes, const Watch& watch) {
   Sensitivity found;
   found.leg_force = Eigen::MatrixXd::Zero(mesh_.edge_points, changes.cols());
-  for (Eigen::Index c = 0; c < changes.cols(); ++c) {
+  for (Eigen::Index c = 0; c < changes.cols() && !watch.cancelled(); ++c) {
     Eigen::Matrix3Xd prescribed = Eigen::Matrix3Xd::Zero(3, model_.columns());
     Eigen::VectorXd longer = Eigen::VectorXd::Zero(mesh_.edge_points),
                     thicker = Eigen::VectorXd::Zero(mesh_.edge_points / 2);
@@ -308,7 +310,7 @@ Eigen::VectorXd MovedShell::leg_forces() const {
   return forces;
 }
 
-double MovedShell::smallest_eigenvalue() {
+double MovedShell::smallest_eigenvalue(const Watch& watch) {
   const Eigen::VectorXd mass = lumped(mesh_, std::vector<double>(mesh_.rods.size(), 1.0));
   const int times = modes_.empty() ? first_iterations : iterations;
   if (modes_.empty())
@@ -326,7 +328,7 @@ double MovedShell::smallest_eigenvalue() {
     return (a.array() * b.array()).sum();
   };
   double smallest = 0;
-  for (int iteration = 0; iteration < times; ++iteration) {
+  for (int iteration = 0; iteration < times && !watch.cancelled(); ++iteration) {
     // Rayleigh-Ritz on y = H^-1 M x: y^T H y = y^T M x
     std::vector<Eigen::Matrix3Xd> loads, found;
     for (const auto& mode : modes_) {

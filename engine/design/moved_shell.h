@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/core/watch.h"
 #include "engine/design/variables.h"
 #include "engine/scene/scene.h"
 #include "engine/solve/newton.h"
@@ -22,18 +23,20 @@ struct Sensitivity {
 class MovedShell {
  public:
   /// From a state of the scene's model on a mesh, at rest with the scene's ends. Errors:
-  /// bad_input, no_equilibrium.
+  /// bad_input, no_equilibrium, cancelled.
   static Result<std::unique_ptr<MovedShell>> make(const Scene& scene, int edges_per_segment,
                                                   const RodMesh& mesh, const Model& model,
-                                                  const State& state);
+                                                  const State& state,
+                                                  const Watch& watch = unwatched);
 
   /// Gives it other ends: predicted by its sensitivity to them, then brought to rest by Newton's
   /// method, which may lead no further than `farthest_mm` from there. Errors (no_equilibrium): no
-  /// convergence, a jump, a state that is not stable; the shell then stays as it was.
-  Result<void> move(const ShellEnds& ends, double farthest_mm);
+  /// convergence, a jump, a state that is not stable; cancelled; the shell then stays as it was.
+  Result<void> move(const ShellEnds& ends, double farthest_mm, const Watch& watch = unwatched);
 
   /// The same from where it is, in as many steps as it takes, evenly, of at least 1/64 of the way.
-  Result<void> move_in_steps(const ShellEnds& ends, double farthest_mm);
+  Result<void> move_in_steps(const ShellEnds& ends, double farthest_mm,
+                             const Watch& watch = unwatched);
 
   /// Where it stands, to go back to.
   struct Stand {
@@ -43,13 +46,15 @@ class MovedShell {
   Stand stand() const { return {state_, ends_}; }
   void back_to(const Stand& stand);
 
-  /// dg/dq of changes (one a column of `changes`, over variables with `rates`) times -H^-1.
+  /// dg/dq of changes (one a column of `changes`, over variables with `rates`) times -H^-1; of a
+  /// watch that is cancelled it says nothing.
   Sensitivity sensitivity(const std::vector<DesignVariable>& variables,
                           const std::vector<DesignVariables::Rate>& rates,
-                          const Eigen::MatrixXd& changes);
+                          const Eigen::MatrixXd& changes, const Watch& watch = unwatched);
   /// Smallest eigenvalue of the Hessian against the rods' length lumped on the nodes, N/mm^2, by
-  /// inverse iteration of a few vectors at once, which the next call begins from.
-  double smallest_eigenvalue();
+  /// inverse iteration of a few vectors at once, which the next call begins from. Of a watch that
+  /// is cancelled it says nothing.
+  double smallest_eigenvalue(const Watch& watch = unwatched);
 
   const RodMesh& mesh() const { return mesh_; }
   const Model& model() const { return model_; }
@@ -60,6 +65,8 @@ class MovedShell {
   Eigen::VectorXd leg_forces() const;
   const Energies& energies() const { return system_->assembly().energies; }
   double residual() const { return system_->residual(); }
+  /// Of the state, under what acts.
+  const Assembly& forces() const { return system_->assembly(); }
 
  private:
   MovedShell(const Scene& scene, RodMesh mesh) : scene_(scene), mesh_(std::move(mesh)) {}
@@ -73,7 +80,7 @@ class MovedShell {
     Eigen::VectorXd longer, thicker;
   };
   Eigen::Matrix3Xd follow(const Change& change) const;
-  Result<void> settle(const ShellEnds& ends, double farthest_mm);
+  Result<void> settle(const ShellEnds& ends, double farthest_mm, const Watch& watch);
   void add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minus_dg) const;
   void add_diameter_gradient(std::size_t rod, double change, Eigen::Matrix3Xd& minus_dg) const;
   void add_bend_gradient(const ModelBend& bend, double share, Eigen::Matrix3Xd& minus_dg) const;

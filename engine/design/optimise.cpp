@@ -20,11 +20,12 @@ constexpr double least_damping = 1e-4, most_damping = 1e4;
 class Optimiser {
  public:
   Optimiser(MovedShell& shell, DesignTarget& target, const DesignVariables& variables,
-            const OptimiseOptions& options, double spacing_mm)
+            const OptimiseOptions& options, double spacing_mm, const Watch& watch)
       : shell_(shell),
         target_(target),
         variables_(variables),
         options_(options),
+        watch_(watch),
         jump_mm_(jump * spacing_mm) {
     q_ = Eigen::VectorXd::Zero(variables.count());
     eigenvalue_ = shell.smallest_eigenvalue();
@@ -33,11 +34,12 @@ class Optimiser {
         options.max_leg_force_N > 0 ? std::max(options.max_leg_force_N, largest_force()) : INFINITY;
   }
 
-  /// One iteration; whether the stage may go on.
+  /// One iteration; whether the stage may go on. One that is stopped never was.
   bool step(const Stage& stage, const std::function<void(const DesignStep&)>& seen) {
     const double p = stage.norm;
     const auto rates = variables_.rates_at(q_);
-    if (!fresh_) moved_ = shell_.sensitivity(variables_.all(), rates, variables_.basis());
+    if (!fresh_) moved_ = shell_.sensitivity(variables_.all(), rates, variables_.basis(), watch_);
+    if (watch_.cancelled()) return false;
     fresh_ = true;
     const Objective now = objective(target_.distances(shell_.joints()), q_, shell_.leg_forces(),
                                     variables_.basis(), moved_, p, options_.weights);
@@ -47,6 +49,7 @@ class Optimiser {
     const Eigen::VectorXd q =
         variables_.limited(q_ + variables_.basis() * wanted, options_.move_limit_mm);
     const std::string refused = attempt(q, now.value, p);
+    if (!refused.empty() && watch_.cancelled()) return false;
     DesignStep step = described(p, refused.empty() ? q : q_);
     step.taken = refused.empty();
     step.refused = refused;
@@ -92,7 +95,7 @@ class Optimiser {
   /// Moves the shell to q, or says why not and leaves it where it was.
   std::string attempt(const Eigen::VectorXd& q, double value, double p) {
     const MovedShell::Stand before = shell_.stand();
-    if (auto moved = shell_.move(variables_.ends_at(q), jump_mm_); !moved)
+    if (auto moved = shell_.move(variables_.ends_at(q), jump_mm_, watch_); !moved)
       return moved.error().message;
     const std::string wrong = wrong_with(q, value, p);
     if (!wrong.empty()) shell_.back_to(before);
@@ -105,7 +108,8 @@ class Optimiser {
     if (!(there < value)) return "the objective did not fall";
     if (largest_force() > most_force_)
       return fmt::format("a leg's force of {:.3g} N is above its limit", largest_force());
-    const double eigenvalue = shell_.smallest_eigenvalue();
+    const double eigenvalue = shell_.smallest_eigenvalue(watch_);
+    if (watch_.cancelled()) return "it was stopped";
     if (eigenvalue < allowed_)
       return fmt::format("the smallest eigenvalue of {:.3g} N/mm^2 is below its limit of {:.3g}",
                          eigenvalue, allowed_);
@@ -117,6 +121,7 @@ class Optimiser {
   DesignTarget& target_;
   const DesignVariables& variables_;
   OptimiseOptions options_;
+  const Watch& watch_;
   double jump_mm_;
   double eigenvalue_ = 0;  // of the state
   double allowed_ = 0, most_force_ = 0;
@@ -129,21 +134,18 @@ class Optimiser {
 
 }  // namespace
 
-Result<std::vector<DesignStep>> optimise(MovedShell& shell, DesignTarget& target,
-                                         const DesignVariables& variables,
-                                         const OptimiseOptions& options, double spacing_mm,
-                                         const Watch& watch,
-                                         const std::function<void(const DesignStep&)>& seen) {
-  Optimiser run(shell, target, variables, options, spacing_mm);
+std::vector<DesignStep> optimise(MovedShell& shell, DesignTarget& target,
+                                 const DesignVariables& variables, const OptimiseOptions& options,
+                                 double spacing_mm, const Watch& watch,
+                                 const std::function<void(const DesignStep&)>& seen) {
+  Optimiser run(shell, target, variables, options, spacing_mm, watch);
   run.begin();
   // towards the largest distance the way is more crooked
   for (const Stage& stage : {Stage{2, 0.3, 0.03}, {options.norm, 1, 0.002}}) {
     run.begin_stage(stage);
-    while (run.iterations() < options.most_iterations) {
-      if (watch.cancelled()) return stopped();
+    while (run.iterations() < options.most_iterations && !watch.cancelled())
       if (!run.step(stage, seen)) break;
-    }
-    if (options.norm == 2) break;
+    if (options.norm == 2 || watch.cancelled()) break;
   }
   return std::move(run.steps());
 }

@@ -4,7 +4,6 @@
 #include <functional>
 #include <vector>
 
-#include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/design/moved_shell.h"
 #include "engine/design/objective.h"
@@ -38,12 +37,12 @@ struct DesignStep {
 /// Makes the objective small, with p = 2 first and then the norm asked for: damped steps of the
 /// linearised problem, each predicted by x + S dq and brought to rest by Newton's method. A step
 /// counts only if it converged, without a jump and a negative pivot, with the smallest eigenvalue
-/// and the leg forces within their limits, and if the objective fell. The shell ends at the
-/// optimum. All steps, the begin first. Errors: cancelled.
-Result<std::vector<DesignStep>> optimise(MovedShell& shell, DesignTarget& target,
-                                         const DesignVariables& variables,
-                                         const OptimiseOptions& options, double spacing_mm,
-                                         const Watch& watch,
-                                         const std::function<void(const DesignStep&)>& seen = {});
+/// and the leg forces within their limits, and if the objective fell. `seen` after every step,
+/// while the shell stands in it where it was taken. The shell ends at the optimum; cancelled,
+/// between two steps or within one, in the last that was taken. All steps, the begin first.
+std::vector<DesignStep> optimise(MovedShell& shell, DesignTarget& target,
+                                 const DesignVariables& variables, const OptimiseOptions& options,
+                                 double spacing_mm, const Watch& watch,
+                                 const std::function<void(const DesignStep&)>& seen = {});
 
 }  // namespace gridshell

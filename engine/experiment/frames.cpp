@@ -1,5 +1,6 @@
 #include "engine/experiment/frames.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "engine/measure/bins.h"
@@ -212,6 +213,9 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
   record::Layout layout;
   layout.spacing_mm = scene.footprint.spacing;
   layout.rod_diameter_mm = scene.rod_diameter_mm;
+  const auto other = [&](double diameter) { return diameter != scene.rod_diameter_mm; };
+  if (std::ranges::any_of(scene.drawn_diameters_mm, other))
+    layout.diameters_mm = scene.drawn_diameters_mm;
   layout.length_scale_mm = scene.length_scale_mm;
   for (const std::vector<int>& nodes : mesh.rods) {
     layout.rods.emplace_back();
@@ -272,6 +276,18 @@ record::Frame frame_of(const Session& session) {
   frame.negative_pivots = certificate.negative_pivots;
   frame.error_estimate_mm = certificate.error_estimate_mm;
   put_forces(session, frame);
+  return frame;
+}
+
+record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& model,
+                       const State& state, const Assembly& forces) {
+  const Eigen::Matrix3Xd nodes = nodes_of(mesh, model, state.x);
+  record::Frame frame;
+  put_shape(scene, mesh, nodes,
+            cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)), frame);
+  frame.energies = forces.energies;
+  put_rods(model, state, forces, frame);
+  put_reactions(mesh, model, forces, {}, frame);
   return frame;
 }
 

@@ -26,6 +26,10 @@ void put_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& 
 /// push and event are the experiment's to add.
 record::Frame frame_of(const Session& session);
 
+/// The same of an equilibrium on one mesh that no session stands in, with the forces there.
+record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& model,
+                       const State& state, const Assembly& forces);
+
 /// The flat footprint as a frame at progress 0; straight rods are exact on any mesh.
 record::Frame flat_frame(Session& session);
 

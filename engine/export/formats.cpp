@@ -133,7 +133,7 @@ std::string to_obj_tubes(const Shape& shape) {
   long first = 1;
   for (std::size_t rod = 0; rod < shape.layout.rods.size(); ++rod) {
     const Tube tube = tube_around(rod_points(shape.layout, shape.frame, rod),
-                                  shape.layout.rod_diameter_mm / 2, tube_sides);
+                                  record::diameter_of(shape.layout, rod) / 2, tube_sides);
     fmt::format_to(into(text), "g rod_{}\n", rod);
     for (Eigen::Index k = 0; k < tube.vertices.cols(); ++k) put_vertex(tube.vertices.col(k), text);
     for (Eigen::Index k = 0; k < tube.normals.cols(); ++k)

@@ -89,7 +89,7 @@ Surface tubes(const record::Layout& layout, const record::Frame& frame, int side
   Eigen::Index first = 0;
   for (std::size_t rod = 0; rod < layout.rods.size(); ++rod) {
     const Tube tube =
-        tube_around(rod_points(layout, frame, rod), layout.rod_diameter_mm / 2, sides);
+        tube_around(rod_points(layout, frame, rod), record::diameter_of(layout, rod) / 2, sides);
     all.vertices.middleCols(first, tube.vertices.cols()) = tube.vertices;
     all.normals.middleCols(first, tube.vertices.cols()) = tube.normals;
     for (const auto& [a, b, c] : tube.triangles)

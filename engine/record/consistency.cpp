@@ -63,6 +63,8 @@ Result<void> check_numbers(const Layout& layout) {
   };
   for (const double length : {layout.spacing_mm, layout.rod_diameter_mm, layout.length_scale_mm})
     if (!(length >= 0 && length <= largest_mm)) return refuse("/layout");
+  for (const double diameter : layout.diameters_mm)
+    if (!(diameter >= 0 && diameter <= largest_mm)) return refuse("a rod's diameter");
   if (!computable(layout.original_boundary) || !computable(layout.actuated_boundary))
     return refuse("a boundary");
   if (!computable(layout.net_nodes) || !computable(layout.flat_nodes)) return refuse("the net");
@@ -90,6 +92,9 @@ Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
   if (!layout.families.empty() && layout.families.size() != layout.rods.size())
     return fail(Fault::bad_input, fmt::format("{} families are named for {} rods",
                                               layout.families.size(), layout.rods.size()));
+  if (!layout.diameters_mm.empty() && layout.diameters_mm.size() != layout.rods.size())
+    return fail(Fault::bad_input, fmt::format("{} diameters are given for {} rods",
+                                              layout.diameters_mm.size(), layout.rods.size()));
   for (const auto* net : {&layout.net_nodes, &layout.flat_nodes})
     if (net->cols() > 0 && net->cols() < most)
       return fail(Fault::bad_input,

@@ -78,6 +78,9 @@ void write_layout(hdf5::Writer& file, const Layout& layout) {
   file.attribute("/layout", "spacing_mm", layout.spacing_mm);
   file.attribute("/layout", "rod_diameter_mm", layout.rod_diameter_mm);
   file.attribute("/layout", "length_scale_mm", layout.length_scale_mm);
+  if (!layout.diameters_mm.empty())
+    file.dataset("/layout/diameters", H5T_NATIVE_DOUBLE, {layout.diameters_mm.size()},
+                 layout.diameters_mm.data(), "mm");
   file.lists("/rods", layout.rods);
   if (!layout.families.empty()) file.strings("/layout/families", layout.families);
   if (!layout.supports.empty())
@@ -145,6 +148,8 @@ Layout read_layout(hdf5::Reader& file) {
   layout.spacing_mm = file.attribute("/layout", "spacing_mm");
   layout.rod_diameter_mm = file.attribute("/layout", "rod_diameter_mm");
   layout.length_scale_mm = file.attribute("/layout", "length_scale_mm");
+  if (file.has("/layout/diameters"))
+    layout.diameters_mm = file.vector<double>("/layout/diameters", H5T_NATIVE_DOUBLE);
   layout.rods = file.lists("/rods");
   if (file.has("/layout/families")) layout.families = file.strings("/layout/families");
   if (file.has("/layout/supports"))

@@ -52,6 +52,8 @@ struct LoadedJoint {
 struct Layout {
   double spacing_mm = 0;
   double rod_diameter_mm = 0;
+  /// Of each rod, that of a round section of its area; empty: all of rod_diameter_mm.
+  std::vector<double> diameters_mm;
   double length_scale_mm = 0;  ///< R_o for a circle, rho for a net: what errors are relative to
   std::vector<std::vector<int>> rods;  ///< nodes of each rod from edge point to edge point
   std::vector<std::string> families;   ///< of each rod: "u" or "v"; empty: not known
@@ -84,6 +86,16 @@ struct Trajectory {
   FrameList frames;
   Origin origin = {};
 };
+
+/// Diameter of a rod, mm.
+inline double diameter_of(const Layout& layout, std::size_t rod) {
+  return rod < layout.diameters_mm.size() ? layout.diameters_mm[rod] : layout.rod_diameter_mm;
+}
+/// The same over that of the layout; 1 where neither is known.
+inline double thickness_of(const Layout& layout, std::size_t rod) {
+  const double over = diameter_of(layout, rod) / layout.rod_diameter_mm;
+  return over > 0 && over < 1e3 ? over : 1;
+}
 
 /// How many numbers the forces, curvatures and energies of a frame are: edges and points of all
 /// rods.

@@ -12,7 +12,8 @@
 //   /frames/<name>  frames              the columns of frames.csv, and `actuation`
 //   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),
 //                   original_boundary, actuated_boundary (points x 3, mm); families (of each rod,
-//                   "u" or "v"), supports (nodes that something may hold)
+//                   "u" or "v"), supports (nodes that something may hold), diameters (of each
+//                   rod, mm, where they differ)
 //   /               title, preset, program (attributes)
 //
 // Forces, curvature, energies and reactions are those of the finest mesh itself, never

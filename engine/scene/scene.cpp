@@ -167,6 +167,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   scene.rods = std::move(rods->shell);
   scene.mass_t_per_mm = std::move(rods->mass_t_per_mm);
   scene.rod_diameter_mm = rods->drawn_diameter_mm;
+  scene.drawn_diameters_mm = rods->drawn_diameters_mm;
   scene.diameters_mm = std::move(rods->diameters_mm);
   scene.rung = preset::rung_of(preset);
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;

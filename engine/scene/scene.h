@@ -31,6 +31,7 @@ struct Scene {
   preset::Rung rung = preset::Rung::bend;  ///< chosen: net, bend or twist
   std::vector<double> mass_t_per_mm;       ///< one a rod; 0: not known
   double rod_diameter_mm = 0;              ///< as it is drawn
+  std::vector<double> drawn_diameters_mm;  ///< one a rod, of round sections of their areas
   std::vector<double> diameters_mm;        ///< one a rod; of no meaning where it is rectangular
   BoundaryMotion motion;
   double length_scale_mm = 0;                ///< R_o, rho or half a diagonal: what errors are over

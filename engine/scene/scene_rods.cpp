@@ -93,6 +93,7 @@ Result<SceneRods> scene_rods(const preset::Preset& preset, const Footprint& foot
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     preset::Rod rod = rod_of(preset, footprint.rods[r].family);
     rod.diameter_mm = rods.diameters_mm[r];
+    rods.drawn_diameters_mm.push_back(2 * std::sqrt(area_of(rod) / M_PI));
     const double mass = 1e-12 * rod.density_kg_m3 * area_of(rod);  // 1 kg/m^3 = 1e-12 t/mm^3
     rods.shell.materials.push_back(material_of(rod));
     rods.mass_t_per_mm.push_back(mass);

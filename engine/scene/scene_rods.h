@@ -11,9 +11,10 @@ namespace gridshell {
 /// The rods of a footprint as a preset wants them.
 struct SceneRods {
   ShellRods shell;
-  std::vector<double> mass_t_per_mm;  ///< one a rod; 0 where no density is given
-  std::vector<double> diameters_mm;   ///< one a rod, of round ones
-  double drawn_diameter_mm = 0;       ///< of a round section of the area of [rod]'s
+  std::vector<double> mass_t_per_mm;       ///< one a rod; 0 where no density is given
+  std::vector<double> diameters_mm;        ///< one a rod, of round ones
+  double drawn_diameter_mm = 0;            ///< of a round section of the area of [rod]'s
+  std::vector<double> drawn_diameters_mm;  ///< of every rod's
 };
 
 /// Errors (bad_input): a load on a joint that the footprint does not have; a diameter of a rod that

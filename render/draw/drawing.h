@@ -54,7 +54,8 @@ struct PointMark {
 struct Drawing {
   const record::Layout* layout = nullptr;  ///< never null when drawn
   Eigen::Matrix3Xd nodes;                  ///< mm
-  double rod_diameter_mm = 1;              ///< as drawn, may be thicker than the rod
+  /// As drawn, may be thicker than the rod; of those of other diameters in proportion.
+  double rod_diameter_mm = 1;
   Colour rod_colour{0.16f, 0.17f, 0.20f};
   std::vector<Colour> node_colours;  ///< empty: all rods in rod_colour; else one a node
   double joint_diameter_mm = 3;      ///< 0: none

@@ -138,13 +138,15 @@ class Weaver {
   void add_rods() {
     const Neighbours neighbours(*drawing_.layout);
     node_depth_.assign(std::size_t(drawing_.nodes.cols()), INFINITY);
-    const float radius = radius_of(drawing_.rod_diameter_mm, mm_per_sample_);
     Colours of_node(drawing_.node_colours.size());
     std::transform(drawing_.node_colours.begin(), drawing_.node_colours.end(), of_node.begin(),
                    opaque);
     const Eigen::Vector4f plain = opaque(drawing_.rod_colour);
-    for (const auto& rod : drawing_.layout->rods) {
+    for (std::size_t r = 0; r < drawing_.layout->rods.size(); ++r) {
+      const auto& rod = drawing_.layout->rods[r];
       if (rod.size() < 2) continue;
+      const float radius = radius_of(
+          record::thickness_of(*drawing_.layout, r) * drawing_.rod_diameter_mm, mm_per_sample_);
       Colours colours;
       for (int node : rod) colours.push_back(of_node.empty() ? plain : of_node[node]);
       const Points points = points_of(drawing_.nodes, rod);

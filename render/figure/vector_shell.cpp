@@ -101,7 +101,9 @@ class Lines {
       for (const auto& rod : ghost.rods)
         polyline(ghost.nodes(Eigen::all, rod), hidden,
                  {ink(ghost.colour), width(ghost.diameter_mm)}, {});
-    for (const auto& rod : drawing_.layout->rods) {
+    for (std::size_t r = 0; r < drawing_.layout->rods.size(); ++r) {
+      const auto& rod = drawing_.layout->rods[r];
+      const double thick = record::thickness_of(*drawing_.layout, r) * drawing_.rod_diameter_mm;
       Eigen::Matrix3Xd points(3, rod.size());
       std::vector<Colour> colours;
       for (std::size_t k = 0; k < rod.size(); ++k) {
@@ -109,8 +111,7 @@ class Lines {
         if (!drawing_.node_colours.empty())
           colours.push_back(ink(drawing_.node_colours[std::size_t(rod[k])]));
       }
-      polyline(points, hidden, {ink(drawing_.rod_colour), width(drawing_.rod_diameter_mm)},
-               colours);
+      polyline(points, hidden, {ink(drawing_.rod_colour), width(thick)}, colours);
     }
     if (drawing_.joint_diameter_mm > 0)
       for (const record::Joint& joint : drawing_.layout->joints) {

@@ -61,7 +61,8 @@ const std::map<std::string, Folders> may_see{
     // what the desktop window knows and does, with a shell in hand
     {"app/window",
      {"engine/core", "engine/footprint", "engine/solve", "engine/measure", "engine/preset",
-      "engine/record", "engine/scene", "engine/session", "engine/experiment", "render"}},
+      "engine/record", "engine/scene", "engine/session", "engine/experiment", "engine/design",
+      "render"}},
     {"app",
      {"engine/core", "engine/preset", "engine/record", "engine/export", "engine/experiment",
       "engine/design", "engine/study", "engine/scan", "render", "app/window"}},

@@ -24,8 +24,8 @@ const std::string shell =
 
 /// What the program says at the end of a recording played on a small shell.
 json played(const TemporaryFolder& folder, const std::string& input,
-            const std::vector<std::string>& more = {}) {
-  REQUIRE(write_atomically(folder.path() / "small.toml", shell));
+            const std::vector<std::string>& more = {}, const std::string& preset = shell) {
+  REQUIRE(write_atomically(folder.path() / "small.toml", preset));
   REQUIRE(write_atomically(folder.path() / "visit.txt", input));
   std::vector<std::string> arguments{"view", "small.toml", "--play", "visit.txt"};
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -135,6 +135,49 @@ TEST_CASE("every panel, light and dark, at twice the density") {
   CHECK(gridshell::render::read_png(folder.path() / "all.png")->width == 2560);
 }
 
+TEST_CASE(
+    "a shell is designed in the window, kept and saved with its tables, and runs as it stood") {
+  const std::string cap =
+      "title = \"cap\"\n[footprint]\nkind = \"net\"\nplacement = \"on_axis\"\n"
+      "[net]\nkind = \"sphere\"\nradius_mm = 80.0\ncut_height = 0.5\n"
+      "[actuation]\nstart = \"net\"\n[inverse]\nvary = [\"pins\"]\n";
+  const TemporaryFolder folder;
+  // a panel that comes up with the preset; diameters too
+  const std::string design =
+      "mouse @vary_diameters 0.05 0.5\npress left\nrelease left\ndown Ctrl\ndown D\nup D\nup "
+      "Ctrl\n";
+  const json begin = played(folder, "wait 0.1\n", {}, cap);
+  const json designed = played(folder, design, {"--shot", "designed.png"}, cap);
+  INFO(designed.dump());
+  const json& course = designed["design"];
+  CHECK(course["steps"].get<int>() > 2);
+  CHECK(course["kept"] == false);
+  CHECK(course["max_mm"].get<double>() < 0.5 * course["max_before_mm"].get<double>());
+  CHECK(designed["undo_steps"] == 1);
+  // the same input gives the same state
+  CHECK(played(folder, design, {}, cap) == designed);
+  const json kept =
+      played(folder, design + "do design_keep\ndo save_preset\n", {"-o", "kept"}, cap);
+  CHECK(kept["design"]["kept"] == true);
+  CHECK(fs::exists(folder.path() / "kept/small_1_ends.csv"));
+  CHECK(fs::exists(folder.path() / "kept/small_1_rods.csv"));
+  const Ended ran = gridshell_program({"run", "kept/small_1.toml", "-o", "ran"}, folder.path());
+  INFO(ran.err);
+  REQUIRE(ran.code == 0);
+  const json summary =
+      json::parse(gridshell::read_whole(folder.path() / "ran/summary.json").value());
+  CHECK(summary["energy_bend_mJ"].get<double>() ==
+        Approx(kept["energy_bend_mJ"].get<double>()).epsilon(1e-7));
+  CHECK(summary["height_mm"].get<double>() ==
+        Approx(kept["height_mm"].get<double>()).epsilon(1e-7));
+  const json back = played(folder, design + "do design_put_back\n", {}, cap);
+  CHECK_FALSE(back.contains("design"));
+  for (const char* key : {"energy_bend_mJ", "height_mm", "residual_N", "undo_steps"})
+    CHECK(back[key] == begin[key]);
+  const json refused = played(folder, "do design\ndo design_start\n", {"--shot", "refused.png"});
+  CHECK(refused["message"].get<std::string>().find("not designed on a net") != std::string::npos);
+}
+
 TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undone", "[full]") {
   // more events by GRIDSHELL_TRIALS, others by GRIDSHELL_SEED
   const auto number = [](const char* name, unsigned usual) {
@@ -143,11 +186,12 @@ TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undo
   };
   std::mt19937 random{number("GRIDSHELL_SEED", 7)};
   const auto draw = [&](unsigned below) { return unsigned(random()) % below; };
-  const char* deeds[] = {"do step_back",   "do gravity",       "do rest",      "do release",
-                         "do numbers",     "do view_iso",      "do undo",      "do redo",
-                         "do soft_mode",   "do colour_energy", "do range_run", "do push_freely",
-                         "do dark",        "do orthographic",  "wheel 1",      "wheel -1",
-                         "do copy_camera", "do save_preset",   "do jitter",    "do pick_preset"};
+  const char* deeds[] = {
+      "do step_back", "do gravity",      "do rest",           "do release",      "do numbers",
+      "do view_iso",  "do undo",         "do redo",           "do soft_mode",    "do colour_energy",
+      "do range_run", "do push_freely",  "do dark",           "do orthographic", "wheel 1",
+      "wheel -1",     "do copy_camera",  "do save_preset",    "do jitter",       "do pick_preset",
+      "do design",    "do design_start", "do design_put_back"};
   std::string input;
   bool down = false;
   for (unsigned k = 0; k < number("GRIDSHELL_TRIALS", 80); ++k) {

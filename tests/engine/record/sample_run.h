@@ -15,6 +15,7 @@ inline Trajectory sample_trajectory() {
   Layout& layout = run.layout;
   layout.spacing_mm = 20;
   layout.rod_diameter_mm = 0.254;
+  layout.diameters_mm = {0.254, 0.3, 0.2, 1.0 / 3};
   layout.length_scale_mm = 126;
   // four crossings of two rods each way, edge points 4 ... 11
   layout.rods = {{4, 0, 1, 5}, {6, 3, 2, 7}, {8, 0, 3, 9}, {10, 1, 2, 11}};

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "render/draw/camera.h"
+#include "render/draw/ribbon.h"
 #include "tests/render/draw/square_shell.h"
 
 using namespace gridshell::render;
@@ -97,4 +98,23 @@ TEST_CASE("rods throw shadows, a ring only when asked, ghosts never", "[scene]")
   CHECK(count() == rods + 4 * 6);
   drawing.ghosts.push_back({drawing.nodes, shell.layout.rods, 0.5, {0, 0, 1, 1}});
   CHECK(count() == rods + 4 * 6);
+}
+
+TEST_CASE("rods of other diameters are drawn thicker and thinner in proportion", "[scene]") {
+  test::SquareShell shell = test::square_shell(3, 2);
+  auto& layout = shell.layout;
+  layout.diameters_mm.assign(layout.rods.size(), layout.rod_diameter_mm);
+  layout.diameters_mm[1] *= 2;
+  Drawing drawing = test::square_drawing(shell);
+  drawing.layout = &layout;
+  drawing.rod_diameter_mm = 3;
+  drawing.rings.clear();
+  const auto scene = make_scene(drawing, Camera{}, 0.3);
+  REQUIRE(scene);
+  std::map<int, int> widths;  // in tenths of a millimetre of the radius
+  for (const Vertex& v : scene->ribbons.vertices)
+    ++widths[int(std::lround(10 * std::abs(v.normal[3]) * widest_radius_mm / 32767.0))];
+  const int points = int(layout.rods[1].size());
+  CHECK(widths[30] == 2 * points);
+  CHECK(widths[15] >= 2 * points * (int(layout.rods.size()) - 1));
 }
