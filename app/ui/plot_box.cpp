@@ -61,8 +61,8 @@ class PlotBox {
     if (curve.bars)
       draw_bars(points_of(curve.y), height_of(y, 0));
     else
-      draw_line(points_of(curve.y), ink());
-    if (!curve.second.empty()) draw_line(points_of(curve.second), pale());
+      draw_line(points_of(curve.y), curve.jumps, ink());
+    if (!curve.second.empty()) draw_line(points_of(curve.second), curve.jumps, pale());
     label_y(y, curve, shown);
     label_x(curve.bars ? x : Span(least(curve.x), most(curve.x)), curve.x_label);
   }
@@ -92,8 +92,13 @@ class PlotBox {
                           ink());
     list_.AddLine({from_.x, zero}, {to_.x, zero}, pale());
   }
-  void draw_line(const std::vector<ImVec2>& points, ImU32 colour) {
-    list_.AddPolyline(points.data(), int(points.size()), colour, 0, panel_.px(1.4));
+  void draw_line(const std::vector<ImVec2>& points, std::vector<std::size_t> ends, ImU32 colour) {
+    ends.push_back(points.size());
+    std::size_t from = 0;
+    for (const std::size_t end : ends) {
+      list_.AddPolyline(points.data() + from, int(end - from), colour, 0, panel_.px(1.4));
+      from = end;
+    }
     list_.AddCircleFilled(points.back(), panel_.px(3), colour);
   }
   void write_left(float value, float y) {

@@ -15,6 +15,7 @@ struct Curve {
   const char* without;  ///< said where there is nothing to plot
   std::vector<float> x, y;
   bool bars = false;
+  std::vector<std::size_t> jumps = {};  ///< points that no line leads to
   std::vector<float> second = {};  ///< another one, paler
   bool logarithmic = false;        ///< y, which is above 0
 };

@@ -12,6 +12,8 @@
 namespace gridshell::ui {
 namespace {
 
+constexpr double jump = 0.2;  // of the boundary's way, between two equilibria
+
 /// What the curves of height and energy run over: the depth of the last push, else the boundary's
 /// way, else, where it rests, one equilibrium after the other.
 struct Abscissa {
@@ -46,7 +48,11 @@ std::vector<Curve> curves_of(const window::Desk& desk) {
     const window::Reading& reading = readings[k];
     const auto x = float(abscissa ? abscissa(reading) : double(k + 1));
     const double values[] = {reading.height_mm, reading.energy_mJ, reading.force_N};
+    // the boundary was put elsewhere, not drawn there
+    const bool jumped = k > 0 && abscissa && !pushed &&
+                        std::abs(reading.progress - readings[k - 1].progress) > jump;
     for (std::size_t c = 0; c < (pushed ? 3 : 2); ++c) {
+      if (jumped) curves[c].jumps.push_back(k);
       curves[c].x.push_back(x);
       curves[c].y.push_back(float(values[c]));
     }
