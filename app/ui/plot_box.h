@@ -16,8 +16,8 @@ struct Curve {
   std::vector<float> x, y;
   bool bars = false;
   std::vector<std::size_t> jumps = {};  ///< points that no line leads to
-  std::vector<float> second = {};  ///< another one, paler
-  bool logarithmic = false;        ///< y, which is above 0
+  std::vector<float> second = {};       ///< another one, paler
+  bool logarithmic = false;             ///< y, which is above 0
 };
 
 /// Draws it between two corners, pixels.
