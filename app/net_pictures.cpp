@@ -56,16 +56,17 @@ Result<void> draw_block_pictures(const CaseRecord& one, const render::MovieStyle
       });
 }
 
-/// "hemisphere: at most 3.10 %", of the joints; with the rods where they lie further off between
-/// them, which the colours show too.
-std::string caption_of(const record::Trajectory& run, const std::string& name) {
+/// "hemisphere: at most 3.10 %", of the joints; where there is room for it, of one shell alone,
+/// with the rods where they lie further off between them, which the colours show too.
+std::string caption_of(const record::Trajectory& run, const std::string& name, bool alone) {
   constexpr double further = 1.2;
   const Eigen::VectorXd deviation = render::last_deviation(run);
   const render::DeviationUnit unit = render::deviation_unit(run.layout);
   const double joints = unit.factor * deviation.head(long(run.layout.joints.size())).maxCoeff(),
                rods = unit.factor * deviation.maxCoeff();
   const char* word = run.layout.parts.empty() ? "%" : "mm";
-  if (rods <= further * joints) return fmt::format("{}: at most {:.2f} {}", name, joints, word);
+  if (!alone || rods <= further * joints)
+    return fmt::format("{}: at most {:.2f} {}", name, joints, word);
   return fmt::format("{}: joints at most {:.2f}, rods {:.2f} {}", name, joints, rods, word);
 }
 
@@ -79,7 +80,7 @@ Result<void> draw_net_pictures(const std::vector<CaseRecord>& records, render::R
   for (const CaseRecord& one : records) {
     const std::string name = one.name.empty() ? name_of(one.preset) : one.name;
     shells.push_back({&one.run, name, scan_of(one.preset)});
-    shades.push_back({&one.run, caption_of(one.run, name)});
+    shades.push_back({&one.run, caption_of(one.run, name, records.size() == 1)});
     named.push_back({&one.run, name});
   }
   const auto titled = [&](render::Plot plot) {

@@ -33,7 +33,8 @@ DesignedState described(MovedShell& shell, DesignTarget& target) {
 }
 
 /// The shell of the scene as it is, on the mesh that is designed on.
-Result<std::unique_ptr<MovedShell>> begin(std::shared_ptr<const Scene> scene, const Watch& watch) {
+Result<std::unique_ptr<MovedShell>> begin(const std::shared_ptr<const Scene>& scene,
+                                          const Watch& watch) {
   auto course = experiment::follow_actuation(scene, plan_of_mesh(designed_on), false, 1, watch);
   if (!course) return tl::unexpected<Error>(course.error());
   const Session& session = course->session;
