@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/measure/symmetry.h"
+#include "engine/geometry/symmetry.h"
 
 namespace gridshell {
 namespace {

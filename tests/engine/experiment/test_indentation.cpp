@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "engine/experiment/experiment.h"
+#include "engine/geometry/symmetry.h"
 #include "engine/measure/gauss.h"
-#include "engine/measure/symmetry.h"
 #include "engine/scene/scene.h"
 #include "tests/engine/experiment/run.h"
 

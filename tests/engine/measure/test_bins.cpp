@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "engine/geometry/symmetry.h"
 #include "engine/measure/bins.h"
 #include "engine/measure/displacement.h"
-#include "engine/measure/symmetry.h"
 
 using namespace gridshell;
 

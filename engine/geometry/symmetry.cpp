@@ -1,4 +1,4 @@
-#include "engine/measure/symmetry.h"
+#include "engine/geometry/symmetry.h"
 
 #include <algorithm>
 #include <cmath>
