@@ -31,7 +31,7 @@ until_true() {
 until_true test -s display || fail "Xvfb did not start"
 export DISPLAY=":$(cat display)"
 
-"$program" view s1_actuation --record visit.txt -o kept 2>error.txt &
+"$program" view s1_actuation --record visit.txt --workspace workspace.json -o kept 2>error.txt &
 view=$!
 window=$(xdotool search --sync --onlyvisible --name '^gridshell$' | head -1)
 xdotool windowfocus "$window"

@@ -253,7 +253,8 @@ int view(ViewOptions options) {
         {Fault::bad_input, "view --shot PNG and --picture PNG take a preset or --play FILE"});
   const bool off_screen = options.off_screen();
   // what is played is the same everywhere
-  if (options.workspace.empty() && !off_screen) options.workspace = window::workspace_file();
+  if (options.workspace.empty() && !off_screen && options.record.empty())
+    options.workspace = window::workspace_file();
   share_processors();
   window::Desk desk(library_of(options));
   desk.timed = !off_screen;
@@ -278,9 +279,10 @@ void add_view(CLI::App& program, Action& action) {
   command->add_option("preset", options->input, "a preset's file or name, or a run's folder");
   command->add_option("-o,--output", options->output,
                       "folder that pictures and presets are saved to, by default out");
-  command->add_option("--workspace", options->workspace,
-                      "file that keeps camera, colours and panels from one visit to the next, by "
-                      "default ~/.local/state/gridshell/workspace.json; off-screen none");
+  command->add_option(
+      "--workspace", options->workspace,
+      "file that keeps camera, colours and panels from one visit to the next, by "
+      "default ~/.local/state/gridshell/workspace.json; off-screen and with --record none");
   command->add_option("--record", options->record, "keeps the input as text, a line an event");
   command->add_option("--play", options->play,
                       "plays recorded input off-screen, each event's equilibrium awaited");

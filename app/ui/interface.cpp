@@ -203,8 +203,13 @@ void Interface::press_key(Key key) {
   const ImGuiIO& io = ImGui::GetIO();
   if (is_modifier(key) || io.WantTextInput) return;
   if (key == Key::escape && desk_.picking && desk_.sight->any()) desk_.picking = false;
-  if (const window::Action* action = window::action_of({key, io.KeyCtrl, io.KeyShift}))
-    action->act(desk_);
+  const window::Action* action = window::action_of({key, io.KeyCtrl, io.KeyShift});
+  if (!action) return;
+  // nothing happens to a shell that is not seen
+  const bool hidden = desk_.help || desk_.picking;
+  const std::string menu = action->menu;
+  if (hidden && (menu == "Shell" || menu == "Edit")) return;
+  action->act(desk_);
 }
 
 // ---- a frame ----
@@ -237,6 +242,7 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
     hand_.leave();
   }
   mark_under();
+  write_forces();
   colour_legend(panel, box);
   ImGui::End();
 }
@@ -255,6 +261,24 @@ void Interface::mark_under() {
   const Eigen::Vector2d at = in_view(node);
   ImGui::GetWindowDrawList()->AddCircle({float(at.x()), float(at.y())}, float(7 * density_),
                                         IM_COL32(50, 140, 240, 255), 0, float(2.2 * density_));
+}
+
+/// Force and way beside each joint that is held.
+void Interface::write_forces() {
+  const window::Sight& sight = *desk_.sight;
+  if (!sight.any()) return;
+  for (const window::HeldJoint& held : sight.held) {
+    const Eigen::Vector2d at = in_view(held.joint);
+    const std::string text =
+        fmt::format("{:.3g} N, {:.2f} mm", held.force_N.norm(), held.moved_mm.norm());
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str()),
+                 low{float(at.x() + 12 * density_), float(at.y() - 1.4 * size.y)};
+    const auto room = float(3 * density_);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({low.x - room, low.y - room}, {low.x + size.x + room, low.y + size.y + room},
+                       ImGui::GetColorU32(ImGuiCol_PopupBg, 0.85f), room);
+    list.AddText(low, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  }
 }
 
 void Interface::lay_out() {

@@ -63,6 +63,7 @@ class Interface {
   Result<Eigen::Vector2d> place_of(const window::InputEvent& event) const;
   Eigen::Vector2d in_view(int node) const;
   void mark_under();
+  void write_forces();
   void press_key(window::Key key);
   void lay_out();
   void view_panel(const Panel& panel, const render::Box& box);

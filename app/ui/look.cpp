@@ -94,6 +94,9 @@ ImU32 bad_ink(bool dark) {
 ImU32 good_ink(bool dark) {
   return dark ? IM_COL32(110, 210, 130, 255) : IM_COL32(24, 122, 52, 255);
 }
+ImU32 doubt_ink(bool dark) {
+  return dark ? IM_COL32(240, 185, 80, 255) : IM_COL32(168, 98, 0, 255);
+}
 ImU32 pale_ink(bool dark) {
   return dark ? IM_COL32(139, 145, 156, 255) : IM_COL32(107, 114, 128, 255);
 }

@@ -14,9 +14,11 @@ Result<void> load_fonts(double density);
 /// Light or dark.
 void choose_colours(bool dark, double density);
 
-/// Red of what is wrong or not stable, green of what holds, grey of what is said beside.
+/// Red of what is wrong or not stable, green of what holds, amber of what lacks something, grey of
+/// what is said beside.
 ImU32 bad_ink(bool dark);
 ImU32 good_ink(bool dark);
+ImU32 doubt_ink(bool dark);
 ImU32 pale_ink(bool dark);
 
 }  // namespace gridshell::ui

@@ -81,7 +81,11 @@ bool NumbersPanel::edit(const Panel& panel, const Field& field) {
               fmt::format("{}{}; {}", field.meaning, field.unit.empty() ? "" : ", in " + field.unit,
                           allowed(field)));
   if (ImGui::IsItemActive()) active_ = name;
-  if (changed) {
+  // a number is meant when its last digit stands
+  const bool meant = is_typed_into() ? false : changed || (typed_ && ImGui::IsItemDeactivated());
+  if (changed && is_typed_into()) typed_ = true;
+  if (meant) {
+    typed_ = false;
     panel.desk.change(edited_, ImGui::IsItemActive());
     find_idle();
   }
@@ -89,7 +93,7 @@ bool NumbersPanel::edit(const Panel& panel, const Field& field) {
     if (active_ == name) panel.desk.let_go();
     active_.clear();
   }
-  return changed;
+  return meant;
 }
 
 void NumbersPanel::find_idle() {

@@ -59,6 +59,8 @@ void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more
                    (layer == Layer::fixed ? ImGuiWindowFlags_NoBringToFrontOnFocus : 0) | more);
 }
 
+bool is_typed_into() { return ImGui::IsItemActive() && ImGui::GetIO().WantTextInput; }
+
 void heading(const Panel& panel, const char* text) {
   ImGui::Dummy({0, panel.px(2)});
   ImGui::TextDisabled("%s", text);

@@ -36,6 +36,9 @@ enum class Layer { fixed, over };
 void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more = 0,
                  Layer layer = Layer::fixed);
 
+/// Whether the last control is being typed into: what stands there is not meant yet.
+bool is_typed_into();
+
 /// A small heading within a panel.
 void heading(const Panel& panel, const char* text);
 
@@ -63,6 +66,7 @@ class NumbersPanel {
   preset::Preset edited_;
   std::set<std::string> idle_;  // keys that count for nothing in it
   std::string active_;          // the key under the hand
+  bool typed_ = false;          // digits that are not meant yet
 };
 
 }  // namespace gridshell::ui

@@ -15,25 +15,55 @@ namespace {
 using window::Desk;
 using window::Sight;
 
-/// A slider over the panel's width; true while the hand changes its value.
+/// A slider over the panel's width; true while the hand changes its value, and once what was typed
+/// is done.
 bool slider(const Panel& panel, const char* name, float& value, float low, float high,
             const char* format, const std::string& tip) {
+  const std::string label = std::string("##") + name;
   ImGui::SetNextItemWidth(-1);
-  const bool changed = ImGui::SliderFloat((std::string("##") + name).c_str(), &value, low, high,
-                                          format, ImGuiSliderFlags_AlwaysClamp);
+  const bool changed =
+      ImGui::SliderFloat(label.c_str(), &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
   panel.named(name, tip);
-  return changed;
+  ImGuiStorage& kept = *ImGui::GetStateStorage();
+  const ImGuiID number = ImGui::GetID((label + " typed").c_str()),
+                any = ImGui::GetID((label + " any typed").c_str());
+  if (is_typed_into()) {
+    if (changed) kept.SetFloat(number, value), kept.SetBool(any, true);
+    return false;
+  }
+  if (!ImGui::IsItemDeactivated() || !kept.GetBool(any)) return changed;
+  kept.SetBool(any, false);
+  value = kept.GetFloat(number);
+  return true;
+}
+
+/// Without the digits that a float adds.
+double four_digits(float value) { return std::round(1e4 * double(value)) / 1e4; }
+
+void speed(const Panel& panel, float gap) {
+  double& now = panel.desk.play_speed;
+  const auto text = [](double speed) { return fmt::format("{:g} s", 1 / speed); };
+  ImGui::SameLine(0, gap);
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##speed", text(now).c_str())) {
+    for (const double seconds : {2, 4, 8, 16, 32})
+      if (ImGui::Selectable(text(1 / seconds).c_str(), now == 1 / seconds)) now = 1 / seconds;
+    ImGui::EndCombo();
+  }
+  panel.named("speed", "how long the whole path plays");
 }
 
 void path(const Panel& panel) {
   Desk& desk = panel.desk;
   heading(panel, "Path");
   const bool push = desk.sight->push.joint >= 0;
-  panel.button("play");
-  ImGui::SameLine();
-  panel.button("step_back");
-  ImGui::SameLine();
-  panel.button("step_on");
+  const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
+  panel.button("play", desk.playing ? "Stop##play" : "Play##play", true);
+  for (const char* action : {"step_back", "step_on"}) {
+    ImGui::SameLine(0, gap);
+    panel.button(action);
+  }
+  speed(panel, gap);
   float part = float(desk.part());
   if (slider(panel, "path", part, 0, std::max(1.f, part), push ? "push %.3f" : "progress %.3f",
              push ? "share of the preset's depth" : "share of the boundary's way"))
@@ -52,7 +82,7 @@ void boundary(const Panel& panel) {
   float radius = float(now);
   if (slider(panel, "R_a", radius, float(0.6 * from), float(from + sight.least_progress * way),
              "R_a = %.2f mm", "radius of the actuated boundary, mm; Ctrl+click to type"))
-    desk.playing = false, desk.move((radius - from) / way, true);
+    desk.playing = false, desk.move((four_digits(radius) - from) / way, true);
   if (ImGui::IsItemDeactivated()) desk.let_go();
 }
 

@@ -55,9 +55,12 @@ void status_line(const Panel& panel, const render::Box& box) {
   const bool dark = desk.show.dark;
   begin_fixed("status", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   if (sight.any()) {
-    const ImU32 ink = sight.stable() ? good_ink(dark) : bad_ink(dark);
+    const ImU32 ink = !sight.stable()          ? bad_ink(dark)
+                      : sight.weakness.empty() ? good_ink(dark)
+                                               : doubt_ink(dark);
+    const std::string lacks = sight.weakness.empty() ? "" : ", " + sight.weakness;
     ImGui::PushStyleColor(ImGuiCol_Text, ink);
-    ImGui::TextUnformatted(sight.stable() ? "● stable" : "● not stable");
+    ImGui::TextUnformatted(((sight.stable() ? "● stable" : "● not stable") + lacks).c_str());
     ImGui::PopStyleColor();
     panel.named("stability", "whether the Hessian is positive definite with what is held held");
     if (!sight.symmetry.empty()) {

@@ -17,8 +17,18 @@ constexpr double shift_seen_px = 2;  // of the view, that a hand gave it
 
 double rounded(double value, double step) { return step * std::round(value / step); }
 
-const char* left_out(const Sight& sight) {
-  return sight.changed_late ? "; numbers that were changed on the way count from its begin" : "";
+/// What of a shell its preset may not bring back; empty: nothing.
+std::string left_out(const Sight& sight) {
+  std::string text;
+  if (sight.changed_late) text += "; numbers that were changed on the way count from its begin";
+  const std::vector<preset::Step> steps = sight.steps.all();
+  const bool shaken = std::ranges::any_of(
+      steps, [](const preset::Step& step) { return step.deed == preset::Deed::jitter; });
+  if (shaken || sight.snapped)
+    text += "; which state a jitter or a snap comes to hangs on meshes: 'run' may come to another";
+  else if (!sight.weakness.empty())
+    text += "; its state is " + sight.weakness + ": 'run' may come to another";
+  return text;
 }
 
 }  // namespace
@@ -89,7 +99,7 @@ void Desk::save_preset() {
   const fs::path file = path_to_save({".toml", "_ends.csv", "_rods.csv"}).string() + ".toml";
   if (auto written = write_preset(preset_to_save(), file); !written)
     return say(written.error().message, true);
-  say("saved " + file.string() + left_out(*sight), sight->changed_late);
+  say("saved " + file.string() + left_out(*sight), !left_out(*sight).empty());
 }
 
 void Desk::save_picture() {
@@ -126,7 +136,7 @@ void Desk::save_movie() {
         return make(file, folder, heard, watch);
       },
       folder);
-  say("making a movie in " + folder.string() + left_out(*sight), sight->changed_late);
+  say("making a movie in " + folder.string() + left_out(*sight), !left_out(*sight).empty());
 }
 
 void Desk::tell_of_kept() {

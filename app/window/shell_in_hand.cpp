@@ -66,8 +66,12 @@ LevelPlan coarse_plan(const Scene& scene) {
 
 void ShellInHand::fulfil(const Wish& wish, const Watch& watch) {
   const double begin = seconds_now();
-  sight_.trouble.clear();
-  sight_.told.clear();
+  // what a drag came past stays said when the hand lets go
+  const bool settles = std::holds_alternative<Settle>(wish.deed);
+  if (!settles) {
+    sight_.trouble.clear();
+    sight_.told.clear();
+  }
   now_stroke_ = wish.stroke;
   const bool remembered = remember(wish);
   accept_design(wish);
@@ -76,8 +80,11 @@ void ShellInHand::fulfil(const Wish& wish, const Watch& watch) {
   if (!done)
     sight_.trouble = done.error().fault == Fault::cancelled ? "stopped" : done.error().message;
   // what moved nothing is no step
+  const bool refused = !done && done.error().fault == Fault::bad_input;
   if (!done && remembered && undo_.back().scene == scene_ &&
-      undo_.back().checkpoint.state.x == session_->nodes()) {
+      (refused || undo_.back().checkpoint.state.x == session_->nodes())) {
+    // on the meshes of before, too
+    if (refused) session_->restore(undo_.back().checkpoint);
     undo_.pop_back();
     stroke_ = 0;
   }
@@ -86,8 +93,9 @@ void ShellInHand::fulfil(const Wish& wish, const Watch& watch) {
       std::holds_alternative<Undo>(wish.deed) || std::holds_alternative<Redo>(wish.deed) ||
       std::holds_alternative<KeepDesign>(wish.deed) || std::holds_alternative<PutBack>(wish.deed);
   if (!travelled) refined_ = false;
+  coarse_alone_ = false;
   look();
-  sight_.seconds = seconds_now() - begin;
+  if (!settles) sight_.seconds = seconds_now() - begin;
 }
 
 void ShellInHand::refine(const Watch& watch) {
@@ -105,7 +113,7 @@ void ShellInHand::refine(const Watch& watch) {
     if (watch.cancelled()) return;
     if (!fine || fine->end != Outcome::reached) {
       sight_.trouble = "finer meshes do not have this state";
-      refined_ = true;
+      refined_ = coarse_alone_ = true;
       return look();
     }
   }
@@ -125,8 +133,8 @@ void ShellInHand::coarsen(const Watch& watch) {
 // ---- steps ----
 
 ShellInHand::Step ShellInHand::step() const {
-  return {preset_,      scene_, session_->save(), boundary_,     taken_at_, sight_.push,
-          sight_.first, steps_, refined_,         changed_late_, design_,   target_};
+  return {preset_, scene_,   session_->save(), boundary_, taken_at_, sight_.push, sight_.first,
+          steps_,  refined_, changed_late_,    snapped_,  design_,   target_};
 }
 
 /// Keeps the state before a wish, but for one of the stroke that the last step began.
@@ -199,6 +207,7 @@ Result<void> ShellInHand::stand(const Step& step) {
   kept_stroke_ = 0;
   refined_ = step.refined;
   changed_late_ = step.changed_late;
+  snapped_ = step.snapped;
   design_ = step.design;
   target_ = step.target;
   return {};
@@ -233,6 +242,7 @@ Result<void> ShellInHand::act(const Redo&, const Watch&) {
 /// Notes what a step came past; an end before its end is the error.
 Result<void> ShellInHand::ended(const Report& report) {
   sight_.told = told_of(report.events);
+  for (const Event& event : report.events) snapped_ = snapped_ || event.to.has_value();
   if (report.end == Outcome::cancelled) return stopped();
   if (report.end == Outcome::reached) return {};
   return fail(Fault::no_equilibrium, words_of(report.end).what);
@@ -271,7 +281,7 @@ void ShellInHand::begin_again(const preset::Preset& preset, std::shared_ptr<cons
   taken_at_.clear();
   steps_.clear();
   kept_stroke_ = 0;
-  refined_ = changed_late_ = false;
+  refined_ = changed_late_ = snapped_ = false;
   sight_.push = {};
   sight_.layout.reset();
 }
@@ -318,15 +328,25 @@ Result<void> ShellInHand::act(const Change& wish, const Watch& watch) {
     case ChangeKind::rods:
       return put_rods(wish.preset, watch);
     case ChangeKind::shape:
-      return form(wish.preset, watch);
+      return form_anew(wish.preset, watch);
   }
   return {};
+}
+
+/// A shell of other numbers, to which nothing that the hand did is done again.
+Result<void> ShellInHand::form_anew(const preset::Preset& preset, const Watch& watch) {
+  const bool untouched = steps_.empty() && taken_at_.empty();
+  return form(preset, watch).map([&] {
+    if (untouched) return;
+    if (!sight_.told.empty()) sight_.told += "; ";
+    sight_.told += "formed anew, without what was done by hand: Undo brings that back";
+  });
 }
 
 Result<void> ShellInHand::put_rods(const preset::Preset& preset, const Watch& watch) {
   auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
-  if (scene->rung != scene_->rung) return form(preset, watch);
+  if (scene->rung != scene_->rung) return form_anew(preset, watch);
   const auto report = session_->set_rods(scene->rods, watch);
   if (!report) return tl::unexpected<Error>(report.error());
   if (auto done = ended(*report); !done) return done;

@@ -50,7 +50,7 @@ class ShellInHand {
     PresetPush push;
     std::shared_ptr<const record::Frame> first;
     StepChain steps;
-    bool refined = true, changed_late = false;
+    bool refined = true, changed_late = false, snapped = false;
     std::shared_ptr<const DesignCourse> design = {};
     std::shared_ptr<DesignTarget> target = {};
     bool before_design = false;        ///< a design was wished for then
@@ -73,6 +73,7 @@ class ShellInHand {
   Result<void> act(const Settle&, const Watch&) { return {}; }
 
   Result<void> form(const preset::Preset& preset, const Watch& watch);
+  Result<void> form_anew(const preset::Preset& preset, const Watch& watch);
   void begin_again(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
                    Session session);
   Result<void> take_push();
@@ -94,6 +95,7 @@ class ShellInHand {
   bool take_back(Step& step) const;
   Result<void> stand(const Step& step);
   void look();
+  std::string weakness() const;
   void look_at_layout();
   void look_at_normals();
   void look_at_symmetry();
@@ -113,7 +115,8 @@ class ShellInHand {
   StepChain steps_;                       // what the hand did since the shell was formed
   int now_stroke_ = 0, kept_stroke_ = 0;  // of the wish at hand, and of the last of steps_
   bool kept_eventful_ = false;            // whether that came past something
-  bool refined_ = false, changed_late_ = false;
+  bool refined_ = false, changed_late_ = false, snapped_ = false;
+  bool coarse_alone_ = false;                   // finer meshes do not have the state in hand
   int nodes_shown_ = 0;                         // of the layout in sight
   std::vector<MeshSymmetry> symmetries_;        // that a state of this shell may have
   std::shared_ptr<const DesignCourse> design_;  // that the shell is of

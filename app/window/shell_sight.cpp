@@ -1,4 +1,6 @@
 // What is seen of the shell in hand: the sight is made anew after every wish.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -42,6 +44,16 @@ std::string words_of_group(const std::string& group) {
 
 }  // namespace
 
+/// Why a state at rest is less than what the tolerance asks for.
+std::string ShellInHand::weakness() const {
+  if (!refined_ || scene_->edges_per_segment != 0) return "";
+  if (coarse_alone_) return "on coarse meshes alone";
+  const double asked_mm = scene_->tolerance * scene_->length_scale_mm;
+  const double error_mm = sight_.certificate.error_estimate_mm;
+  if (std::isnan(error_mm)) return "its error not known";
+  return error_mm <= asked_mm ? "" : fmt::format("error above the {:.2g} mm asked for", asked_mm);
+}
+
 void ShellInHand::look() {
   Sight& s = sight_;
   s.undo_steps = int(undo_.size());
@@ -58,10 +70,12 @@ void ShellInHand::look() {
   s.certificate = session_->certificate();
   s.meshes = session_->shell().plan().edges_per_segment;
   s.refined = refined_;
+  s.weakness = weakness();
   s.steps = steps_;
   s.radius_end_mm = scene_->radius_end_mm;
   s.edges_dragged = !boundary_.dragged.isZero(0);
   s.changed_late = changed_late_;
+  s.snapped = snapped_;
   s.design = design_;
   look_at_normals();
   s.held.clear();

@@ -57,6 +57,7 @@ struct Sight {
   Certificate certificate;
   std::vector<int> meshes;    ///< edges a segment, coarse to fine
   bool refined = false;       ///< to the preset's tolerance; else coarse, as in a drag
+  std::string weakness;       ///< of a refined state: what it lacks; empty: nothing
   double progress = 0;        ///< of the boundary; beyond 1 further than the preset has it
   double least_progress = 0;  ///< to which it can be let out
   std::string symmetry;       ///< "two diagonal mirrors"; empty while a drag passes
@@ -66,6 +67,7 @@ struct Sight {
   double radius_end_mm = 0;  ///< of a circle's boundary where its motion ends
   bool edges_dragged = false;
   bool changed_late = false;     ///< numbers of its rods were changed after steps
+  bool snapped = false;          ///< it came to rest elsewhere on its way
   Eigen::Matrix3Xd normals;      ///< one a joint: t_u x t_v
   Eigen::VectorXd axial_N;       ///< one a node, the mean of its edges
   Eigen::VectorXd bending_mJ_m;  ///< one a node: energy over length, J/m / 1000

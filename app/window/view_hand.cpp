@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/window/colouring.h"
 #include "render/draw/camera.h"
 
 namespace gridshell::window {
@@ -34,17 +35,33 @@ void ViewHand::find(double x, double y) {
   const Eigen::Vector3d forward = render::camera_axes(desk_.camera).forward;
   const double within = near_px * std::max(1.0, desk_.view.height / 720);
   double best = 1e300;
-  const auto score = [&](int node, double bonus) {
+  const bool cells_shown = values_of(*desk_.sight, desk_.show.colour_by).of_cells.size() > 0;
+  const auto score = [&](int node) {
     const double off = (pixel_of(node) - Eigen::Vector2d(x, y)).norm();
-    if (off > within) return 1e300;
+    if (off > within || (cells_shown && is_covered(node))) return 1e300;
     const double depth = forward.dot(desk_.sight->frame.nodes.col(node));
-    return bonus * off + 0.05 * depth / mm_per_pixel(desk_.camera, desk_.view);
+    return off + 0.05 * depth / mm_per_pixel(desk_.camera, desk_.view);
   };
   for (int k = 0; k < int(layout.joints.size()); ++k)
-    if (const double s = score(k, 1); s < best) best = s, joint_ = k;
+    if (const double s = score(k); s < best) best = s, joint_ = k;
   for (int k = 0; k < int(layout.edge_points.size()); ++k)
-    if (const double s = score(layout.edge_points[std::size_t(k)], 1); s < best)
+    if (const double s = score(layout.edge_points[std::size_t(k)]); s < best)
       best = s, joint_ = -1, edge_ = k;
+}
+
+/// Whether a cell lies before a node, nearer to the eye by more than a cell's own slope makes.
+bool ViewHand::is_covered(int node) const {
+  const Eigen::Vector2d at = pixel_of(node);
+  const int cell = cell_at(at.x(), at.y());
+  if (cell < 0) return false;
+  const record::Layout& layout = *desk_.sight->layout;
+  const auto& joints = layout.cells[std::size_t(cell)].joints;
+  if (std::ranges::find(joints, node) != joints.end()) return false;
+  const Eigen::Vector3d forward = render::camera_axes(desk_.camera).forward;
+  double depth = -1e300;
+  for (const int joint : joints)
+    depth = std::max(depth, forward.dot(desk_.sight->frame.nodes.col(joint)));
+  return depth < forward.dot(desk_.sight->frame.nodes.col(node));
 }
 
 void ViewHand::hover(double x, double y) {

@@ -97,7 +97,7 @@ std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix
     auto image = image_of(mesh, symmetry.map);
     if (!image) continue;
     symmetry.image = std::move(*image);
-    const Eigen::Matrix3Xd moved = symmetry.of(ends);
+    const Eigen::Matrix3Xd moved = symmetry.of(ends.leftCols(Eigen::Index(symmetry.image.size())));
     const bool same = std::all_of(held.begin(), held.end(), [&](int node) {
       return (moved.col(node) - ends.col(node)).norm() < same_mm;
     });

@@ -37,8 +37,8 @@ struct MeshSymmetry {
 };
 
 /// Those of the sixteen that map the flat mesh onto itself and the ends of its rods, where `ends`
-/// (3 x nodes, mm; what is free is ignored) holds them, onto one another. The identity is the
-/// first.
+/// (3 x nodes or more columns, mm; what is free is ignored) holds them, onto one another. The
+/// identity is the first.
 std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix3Xd& ends);
 
 /// The part of a shape that all of these leave as it is: the mean of its images under a group.

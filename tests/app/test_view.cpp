@@ -80,6 +80,50 @@ TEST_CASE("a joint dragged by the mouse is pushed and held, and saved it is a pr
         Approx(pushed["height_mm"].get<double>()).epsilon(1e-9));
 }
 
+TEST_CASE("a number that is typed is meant when it is entered, not digit by digit") {
+  const TemporaryFolder folder;
+  const std::string typing =
+      "down Ctrl\nmouse @R_a 0.5 0.5\npress left\nrelease left\nup Ctrl\n"
+      "down Ctrl\ndown A\nup A\nup Ctrl\ntype 5\ntype 6\n";
+  const json before = played(folder, typing);
+  CHECK(before["boundary_radius_mm"].get<double>() == Approx(54));
+  CHECK(before["undo_steps"] == 0);
+  const json after = played(folder, typing + "down Enter\nup Enter\n");
+  CHECK(after["boundary_radius_mm"].get<double>() == Approx(56));
+  CHECK(after["undo_steps"] == 1);
+}
+
+TEST_CASE("a number that is refused says why, and is no step") {
+  const TemporaryFolder folder;
+  const json refused =
+      played(folder,
+             "do numbers\ndown Ctrl\nmouse @rod.diameter_mm 0.5 0.5\npress left\nrelease left\n"
+             "up Ctrl\ndown Ctrl\ndown A\nup A\nup Ctrl\ntype 99\ndown Enter\nup Enter\n");
+  CHECK(refused["message"].get<std::string>().find("neighbouring rods would touch") !=
+        std::string::npos);
+  CHECK(refused["undo_steps"] == 0);
+  CHECK(refused["error_estimate_mm"].is_number());
+}
+
+TEST_CASE("a joint is pushed where rods twist, too") {
+  const TemporaryFolder folder;
+  std::string twisting = shell;
+  twisting.insert(twisting.find("[accuracy]\n") + 11, "model = \"twist\"\n");
+  twisting += "[rod]\nshear_GPa = 30\n";
+  const json pushed =
+      played(folder, "mouse @joint:0,0 0 0\npress left\nmouse @joint:0,0 0 6\nrelease left\n", {},
+             twisting);
+  CHECK(pushed["held"] == 1);
+  CHECK(pushed["depth_mm"].get<double>() > 0.5);
+}
+
+TEST_CASE("keys do nothing to a shell that is hidden") {
+  const TemporaryFolder folder;
+  const json still = played(folder, "do help\ndown J\nup J\ndown G\nup G\n");
+  CHECK(still["undo_steps"] == 0);
+  CHECK(still["gravity"] == false);
+}
+
 TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what they say") {
   const TemporaryFolder folder;
   const json dragged = played(folder,
