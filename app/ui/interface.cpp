@@ -271,8 +271,12 @@ void Interface::write_forces() {
     const Eigen::Vector2d at = in_view(held.joint);
     const std::string text =
         fmt::format("{:.3g} N, {:.2f} mm", held.force_N.norm(), held.moved_mm.norm());
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str()),
-                 low{float(at.x() + 12 * density_), float(at.y() - 1.4 * size.y)};
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    // to the left where the legend stands
+    const double beside = 12 * density_, legend = view_.right() - 110 * density_;
+    const bool left = at.x() + beside + size.x > legend;
+    const ImVec2 low{float(left ? at.x() - beside - size.x : at.x() + beside),
+                     float(at.y() - 1.4 * size.y)};
     const auto room = float(3 * density_);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled({low.x - room, low.y - room}, {low.x + size.x + room, low.y + size.y + room},
