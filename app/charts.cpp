@@ -41,16 +41,20 @@ Result<Findings> draw_accuracy(const preset::Preset& preset, const ChartOptions&
       write("accuracy.csv", record::accuracy_csv(found->rows))
           .and_then([&] { return write("scaling.csv", record::scaling_csv(found->scaling)); })
           .and_then([&] {
-            return render::write_plot(folder / "accuracy",
-                                      render::accuracy_plot(found->rows, title), {wide_mm}, high);
+            return render::write_plot(
+                folder / "accuracy",
+                render::accuracy_plot(found->rows, title + ": error over time"), {wide_mm}, high);
           })
           .and_then([&] {
-            return render::write_plot(folder / "unknowns",
-                                      render::unknowns_plot(found->rows, title), {wide_mm}, high);
+            return render::write_plot(
+                folder / "unknowns",
+                render::unknowns_plot(found->rows, title + ": error over unknowns"), {wide_mm},
+                high);
           })
           .and_then([&] {
-            return render::write_plot(folder / "scaling",
-                                      render::scaling_plot(found->scaling, title), {wide_mm}, low);
+            return render::write_plot(
+                folder / "scaling",
+                render::scaling_plot(found->scaling, title + ": time over size"), {wide_mm}, low);
           });
   if (!written) return tl::unexpected(written.error());
   Findings findings;
@@ -107,7 +111,9 @@ Result<Findings> draw_stability(const preset::Preset& preset, const ChartOptions
   if (!rows) return tl::unexpected(rows.error());
   const auto written =
       write_atomically(folder / "stability.csv", record::stability_csv(*rows)).and_then([&] {
-        return render::write_outcome_maps(folder / "stability", *rows, render::plain(preset.title));
+        return render::write_outcome_maps(
+            folder / "stability", *rows,
+            render::plain(preset.title) + ": where methods hold and fail");
       });
   if (!written) return tl::unexpected(written.error());
   Findings findings;

@@ -9,9 +9,10 @@
 namespace gridshell::window {
 namespace {
 
-constexpr double near_px = 11;  // of a joint or an edge point, at 1280 x 720
-constexpr double rod_px = 5;    // of a rod
-constexpr double click_px = 3;  // a press that moves less is a click
+constexpr double near_px = 11;        // of a joint or an edge point, at 1280 x 720
+constexpr double rod_px = 5;          // of a rod
+constexpr double bulge_spacings = 3;  // of d: through which edge points may be taken
+constexpr double click_px = 3;        // a press that moves less is a click
 
 /// Where between two places, 0 to 1, a point's nearest lies.
 double share_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
@@ -36,21 +37,23 @@ void ViewHand::find(double x, double y) {
   const double within = near_px * std::max(1.0, desk_.view.height / 720);
   double best = 1e300;
   const bool cells_shown = values_of(*desk_.sight, desk_.show.colour_by).of_cells.size() > 0;
-  const auto score = [&](int node) {
+  const auto score = [&](int node, double through_mm) {
     const double off = (pixel_of(node) - Eigen::Vector2d(x, y)).norm();
-    if (off > within || (cells_shown && is_covered(node))) return 1e300;
+    if (off > within || (cells_shown && is_covered(node, through_mm))) return 1e300;
     const double depth = forward.dot(desk_.sight->frame.nodes.col(node));
     return off + 0.05 * depth / mm_per_pixel(desk_.camera, desk_.view);
   };
+  // from above a shell that bulges hides its boundary, which a hand may want all the same
+  const double under_mm = bulge_spacings * layout.spacing_mm;
   for (int k = 0; k < int(layout.joints.size()); ++k)
-    if (const double s = score(k); s < best) best = s, joint_ = k;
+    if (const double s = score(k, 0); s < best) best = s, joint_ = k;
   for (int k = 0; k < int(layout.edge_points.size()); ++k)
-    if (const double s = score(layout.edge_points[std::size_t(k)]); s < best)
+    if (const double s = score(layout.edge_points[std::size_t(k)], under_mm); s < best)
       best = s, joint_ = -1, edge_ = k;
 }
 
-/// Whether a cell lies before a node, nearer to the eye by more than a cell's own slope makes.
-bool ViewHand::is_covered(int node) const {
+/// Whether a cell lies before a node, all of it nearer to the eye by so much.
+bool ViewHand::is_covered(int node, double by_mm) const {
   const Eigen::Vector2d at = pixel_of(node);
   const int cell = cell_at(at.x(), at.y());
   if (cell < 0) return false;
@@ -61,7 +64,7 @@ bool ViewHand::is_covered(int node) const {
   double depth = -1e300;
   for (const int joint : joints)
     depth = std::max(depth, forward.dot(desk_.sight->frame.nodes.col(joint)));
-  return depth < forward.dot(desk_.sight->frame.nodes.col(node));
+  return depth + by_mm < forward.dot(desk_.sight->frame.nodes.col(node));
 }
 
 void ViewHand::hover(double x, double y) {

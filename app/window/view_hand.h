@@ -29,7 +29,7 @@ class ViewHand {
   void find(double x, double y);
   PointOnRod rod_at(double x, double y) const;
   int cell_at(double x, double y) const;
-  bool is_covered(int node) const;
+  bool is_covered(int node, double by_mm) const;
   Eigen::Vector2d pixel_of(int node) const;
 
   Desk& desk_;

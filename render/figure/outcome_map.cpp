@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "render/figure/sweep_numbers.h"
 #include "render/plot/legend.h"
 #include "render/plot/text.h"
 #include "render/plot/ticks.h"
@@ -142,7 +143,7 @@ void draw_panel(Canvas& canvas, const Panel& panel, Point at) {
   for (std::size_t k = 0; k < panel.y.size(); ++k)
     canvas.text(number(panel.y[k]), {left - 3, row_of(k) + cell_height / 2},
                 {.size = size - 1, .align_x = AlignX::right, .align_y = AlignY::middle});
-  canvas.text(plain(spaced(panel.x_name)), {left + width / 2, top + height + 11},
+  canvas.text(label_of(panel.x_name), {left + width / 2, top + height + 11},
               {.size = size - 1, .align_x = AlignX::centre, .align_y = AlignY::top});
 }
 

@@ -23,7 +23,7 @@ std::string text_of(const fs::path& file) { return read_whole(file).value(); }
 
 TEST_CASE("a search for states: tables, pictures, and the same pictures again from the run") {
   const TemporaryFolder folder;
-  const fs::path at = folder.path();
+  const fs::path& at = folder.path();
   REQUIRE(write_atomically(at / "shell.toml", search));
   const Ended one = gridshell_program({"figure", "shell.toml", "--threads", "1"}, at);
   CAPTURE(one.err);
@@ -50,7 +50,7 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
 
 TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[full]") {
   const TemporaryFolder folder;
-  const fs::path at = folder.path();
+  const fs::path& at = folder.path();
   const std::string shell =
       "[footprint]\nkind = \"circle\"\n{}[actuation]\nratio = 0.75\n"
       "[accuracy]\nedges_per_segment = 8\n[jitter]\ntrials = 3\nconfined = 7\n";
@@ -100,7 +100,7 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[ful
 
 TEST_CASE("joints measured lie over a state of a page of states", "[full]") {
   const TemporaryFolder folder;
-  const fs::path at = folder.path();
+  const fs::path& at = folder.path();
   REQUIRE(write_atomically(
       at / "page.toml",
       "[footprint]\nkind = \"circle\"\nrods = 6\nlongest_leg = 0.4\n[actuation]\nratio = 0.75\n"
@@ -118,7 +118,7 @@ TEST_CASE("joints measured lie over a state of a page of states", "[full]") {
 
 TEST_CASE("a search for states has no movie, and damaged tables are refused") {
   const TemporaryFolder folder;
-  const fs::path at = folder.path();
+  const fs::path& at = folder.path();
   REQUIRE(write_atomically(at / "shell.toml", search));
   const Ended movie = gridshell_program({"movie", "shell.toml"}, at);
   CHECK(movie.code == 2);
