@@ -54,8 +54,8 @@ Case circle(int rods) {
     const double ends[] = {rod.span.begin, rod.span.end};
     for (int e = 0; e < 2; ++e)
       c.motion.begin.col(Eigen::Index(2 * r) + e) = rod.family == Family::u
-                                                        ? Eigen::Vector3d(ends[e], rod.line, 0)
-                                                        : Eigen::Vector3d(rod.line, ends[e], 0);
+                                                        ? Eigen::Vector3d(ends[e], rod.line(), 0)
+                                                        : Eigen::Vector3d(rod.line(), ends[e], 0);
   }
   c.motion.end = 0.75 * c.motion.begin;
   return c;
