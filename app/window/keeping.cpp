@@ -21,14 +21,17 @@ double rounded(double value, double step) { return step * std::round(value / ste
 std::string left_out(const Sight& sight) {
   std::string text;
   if (sight.changed_late) text += "; numbers that were changed on the way count from its begin";
-  const std::vector<preset::Step> steps = sight.steps.all();
-  const bool shaken = std::ranges::any_of(
-      steps, [](const preset::Step& step) { return step.deed == preset::Deed::jitter; });
-  if (shaken || sight.snapped)
-    text += "; which state a jitter or a snap comes to hangs on meshes: 'run' may come to another";
-  else if (!sight.weakness.empty())
+  if (!sight.weakness.empty())
     text += "; its state is " + sight.weakness + ": 'run' may come to another";
   return text;
+}
+
+/// Whether meshes decided which state it came to.
+bool jumped(const Sight& sight) {
+  const std::vector<preset::Step> steps = sight.steps.all();
+  return sight.snapped || std::ranges::any_of(steps, [](const preset::Step& step) {
+           return step.deed == preset::Deed::jitter;
+         });
 }
 
 }  // namespace
@@ -84,7 +87,9 @@ preset::Preset Desk::preset_to_save() const {
   const bool moves = std::ranges::all_of(steps, [](const preset::Step& step) {
     return step.deed == preset::Deed::move && step.edge_points.empty();
   });
-  if (circle && moves) return preset;
+  if (jumped(*sight) && preset.accuracy.edges_per_segment == 0)
+    preset.accuracy.leading_edges = sight->meshes.front();
+  if (circle && moves && !sight->snapped) return preset;
   preset.step = steps;
   if (circle) preset.actuation.radius_mm = sight->radius_end_mm;
   return preset;

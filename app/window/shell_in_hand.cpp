@@ -257,6 +257,7 @@ Result<void> ShellInHand::form(const preset::Preset& preset, const Watch& watch)
   auto course = experiment::follow_actuation(scene, coarse_plan(*scene), false, 1, watch);
   if (!course) return tl::unexpected<Error>(course.error());
   begin_again(preset, scene, std::move(course->session));
+  snapped_ = course->eventful();
   design_.reset();
   target_.reset();
   sight_.told = course->limit_reason;

@@ -134,6 +134,15 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
       course.doubt.clear();
       return course;
     }
+    const std::string disagreed =
+        fmt::format("leading meshes of {} and {} edges a segment do not agree: {}",
+                    leader_of(course), leader_of(*fine), *differs);
+    // whoever asks for a leader has its path
+    if (scene.leader_asked) {
+      course.doubt = disagreed;
+      course.session.charge(fine->session.effort());
+      return course;
+    }
     // a path that came through is not given up for one that did not: a still finer one is asked
     if (whole(course) && !whole(*fine)) {
       course.doubt = fmt::format("a leading mesh of {} edges a segment did not come so far: {}",
@@ -143,8 +152,7 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
     }
     fine->session.charge(course.session.effort());
     fine->seconds_setup += course.seconds_setup;
-    fine->doubt = fmt::format("leading meshes of {} and {} edges a segment do not agree: {}",
-                              leader_of(course), leader_of(*fine), *differs);
+    fine->doubt = disagreed;
     course = std::move(*fine);
     if (!chose()) course.doubt.clear();
   }

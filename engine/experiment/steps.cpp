@@ -104,19 +104,21 @@ Result<Report> push(Session& session, const Goal& goal, const Watch& watch, Way*
   return report;
 }
 
-/// The same led by the coarsest mesh alone: finer ones then hold the joint where that one has it,
-/// and not each where it came from its own place. Where it goes is measured on all of them.
-Result<Report> push_by_coarsest(Session& session, const preset::Step& step, const Watch& watch,
-                                Way* path) {
-  const auto goal = goal_of(session, step);
-  if (!goal) return tl::unexpected<Error>(goal.error());
+/// A deed led by the coarsest mesh alone, which finer ones follow: where a shell snaps or is shaken
+/// to then hangs on no other mesh, and each holds a joint where that one has it. What the coarsest
+/// mesh does not know is left to all of them.
+template <class Do>
+Result<Report> led_by_coarsest(Session& session, const Watch& watch, const Do& deed) {
   const LevelPlan plan = session.shell().plan();
-  if (plan.edges_per_segment.size() == 1) return push(session, *goal, watch, path);
+  if (plan.edges_per_segment.size() == 1) return deed();
   const Checkpoint before = session.save();
   const auto coarse = session.remesh({{plan.edges_per_segment.front()}, false}, watch);
   if (!coarse) return coarse;
-  if (coarse->end != Outcome::reached) return session.restore(before), coarse;
-  auto report = push(session, *goal, watch, path);
+  if (coarse->end != Outcome::reached) {
+    session.restore(before);
+    return watch.cancelled() ? coarse : deed();
+  }
+  auto report = deed();
   if (!report) return session.restore(before), report;
   const auto fine = session.remesh(plan, watch);
   if (!fine) return fine;
@@ -126,6 +128,14 @@ Result<Report> push_by_coarsest(Session& session, const preset::Step& step, cons
   }
   report->certificate = session.certificate();
   return report;
+}
+
+/// Where it goes is measured on all meshes.
+Result<Report> push_by_coarsest(Session& session, const preset::Step& step, const Watch& watch,
+                                Way* path) {
+  const auto goal = goal_of(session, step);
+  if (!goal) return tl::unexpected<Error>(goal.error());
+  return led_by_coarsest(session, watch, [&] { return push(session, *goal, watch, path); });
 }
 
 Result<Report> release(Session& session, const preset::Step& step, const Watch& watch) {
@@ -160,7 +170,7 @@ std::vector<NodeAction> random_field(const Scene& scene, int seed, double force_
   return field;
 }
 
-Report jitter(Session& session, const preset::Step& step, const Watch& watch) {
+Result<Report> jitter(Session& session, const preset::Step& step, const Watch& watch) {
   const Checkpoint before = session.save();
   const auto field = random_field(session.scene(), step.seed, step.force_N);
   const Report thrown = session.set_field(field, watch);
@@ -206,13 +216,15 @@ Result<Report> take_step(Session& session, HandBoundary& boundary, const preset:
     case preset::Deed::hold:
       return push_by_coarsest(session, step, watch, way);
     case preset::Deed::release:
-      return release(session, step, watch);
+      return led_by_coarsest(session, watch, [&] { return release(session, step, watch); });
     case preset::Deed::load:
       return session.load(step.factor, watch);
     case preset::Deed::rest:
-      return session.rest(watch, same_word<Leave>(step.side));
+      return led_by_coarsest(session, watch, [&]() -> Result<Report> {
+        return session.rest(watch, same_word<Leave>(step.side));
+      });
     case preset::Deed::jitter:
-      return jitter(session, step, watch);
+      return led_by_coarsest(session, watch, [&] { return jitter(session, step, watch); });
   }
   return Report{};
 }

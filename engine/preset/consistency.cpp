@@ -12,6 +12,7 @@ namespace gridshell::preset {
 namespace {
 
 constexpr const char* spacing = "[footprint] spacing_mm";
+constexpr int least_leader = 4;
 
 bool has_rings(const Preset& preset) {
   const NetKind kind = preset.net.kind;
@@ -93,6 +94,20 @@ std::vector<Conflict> conflicts(const Preset& preset) {
   if (const auto count = preset.indentation.joint.size(); count != 0 && count != 2)
     found.push_back(
         {"indentation", "joint", {}, fmt::format("a list of {}, must be [i, j] or empty", count)});
+  if (const int leader = preset.accuracy.leading_edges; leader > 0) {
+    if (leader < least_leader)
+      found.push_back({"accuracy",
+                       "leading_edges",
+                       {},
+                       fmt::format("{} edges know bifurcations that the shell does not have, must "
+                                   "be 0 or at least {}",
+                                   leader, least_leader)});
+    if (preset.accuracy.edges_per_segment > 0)
+      found.push_back({"accuracy",
+                       "leading_edges",
+                       {"[accuracy] edges_per_segment"},
+                       "the mesh asked for says which one leads, must be 0"});
+  }
   for (const auto& [table, key, range] : {std::tuple("style", "range", &preset.style.range),
                                           {"movie", "bins_range", &preset.movie.bins_range}})
     if (!range->empty() && (range->size() != 2 || (*range)[0] >= (*range)[1]))

@@ -95,6 +95,11 @@ std::vector<Field> numerics_fields() {
       {"accuracy", "edges_per_segment", "",
        integer<&P::accuracy, &Accuracy::edges_per_segment>(between(0, 64)),
        "edges between two joints of a rod; 0 chooses them from the tolerance"},
+      {"accuracy", "leading_edges", "",
+       integer<&P::accuracy, &Accuracy::leading_edges>(between(0, 32)),
+       "of the coarsest mesh, which leads over bifurcations and snaps, and finer ones follow: its "
+       "path is kept where a finer leader would go another, which is said; 0: 4, and the finer "
+       "leader's path then. The window writes it where a shell was shaken or snapped by hand"},
       {"accuracy", "model", "", word<&P::accuracy, &Accuracy::model>(),
        "\"net\": the smooth net itself, nothing solved; \"bend\": stretching and bending, 3 "
        "unknowns "

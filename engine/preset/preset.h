@@ -318,6 +318,7 @@ constexpr auto words(Rung) {
 struct Accuracy {
   double tolerance = 1e-3;
   int edges_per_segment = 0;  ///< 0: chosen from the tolerance
+  int leading_edges = 0;      ///< of the mesh that leads; 0: 4, or more where finer ones disagree
   Rung model = Rung::automatic;
   double memory_GB = 0;  ///< 0: half of the machine's
 };

@@ -81,6 +81,8 @@ std::vector<Demand> beyond_net(const Preset& preset) {
     found.push_back({"ends", "table", "a net's ends lie where the net has them"});
   if (preset.accuracy.edges_per_segment > 0)
     found.push_back({"accuracy", "edges_per_segment", "a mesh is asked for"});
+  if (preset.accuracy.leading_edges > 0)
+    found.push_back({"accuracy", "leading_edges", "a mesh is asked for"});
   if (preset.movie.colour_by == ColourBy::energy || preset.movie.colour_by == ColourBy::axial_force)
     found.push_back({"movie", "colour_by", "a net's rods bear no forces"});
   return found;

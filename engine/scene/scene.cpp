@@ -176,6 +176,8 @@ Result<Scene> scene_of(const preset::Preset& preset) {
                         preset.imperfection.seed,
                         preset.imperfection.form == preset::ImperfectionForm::soft_mode};
   scene.edges_per_segment = preset.accuracy.edges_per_segment;
+  scene.leader_asked = preset.accuracy.leading_edges > 0;
+  if (scene.leader_asked) scene.leading_edges = preset.accuracy.leading_edges;
   scene.tolerance = preset.accuracy.tolerance;
   scene.memory_GB = preset.accuracy.memory_GB;
   scene.max_strain = preset.limits.max_strain;

@@ -47,6 +47,7 @@ struct Scene {
   Imperfection imperfection;  ///< and every later one
   int edges_per_segment = 0;  ///< the mesh asked for; 0: as the tolerance asks
   int leading_edges = 4;      ///< of the mesh that leads, where the tolerance chooses
+  bool leader_asked = false;  ///< whether its path is kept where finer leaders go another
   double load_step = 1;       ///< largest load steps, of the usual ones
   double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
   double memory_GB = 0;       ///< that the meshes may take; 0: half of the machine's
