@@ -47,7 +47,7 @@ render::WindowListener listener_to(const std::function<void(const InputEvent&)>&
 
 Result<void> run_desktop(window::Desk& desk, const std::function<void(const InputEvent&)>& seen,
                          const std::function<bool()>& stopped) {
-  auto window = render::Window::open({});
+  auto window = render::Window::open({.least_width = 720, .least_height = 480});
   if (!window)
     return fail(Fault::io, "no window can be opened (" + window.error().message +
                                "): 'gridshell movie' and 'gridshell figure' draw without one, and "

@@ -17,6 +17,8 @@ using window::InputEvent;
 using window::InputKind;
 using window::Key;
 
+constexpr ImU32 mark_colour = IM_COL32(50, 140, 240, 255);
+constexpr double least_view = 400;      // px of a view beside plots
 constexpr double sharp_after_s = 0.15;  // of stillness the view is drawn at full resolution
 
 /// What the interface library does with keys of its own.
@@ -39,8 +41,9 @@ struct Column {
   bool any() const { return numbers + design + plots > 0; }
 };
 
-/// The design has a plot of its own; beside it the others are there where they have room.
-Column column_of(const window::Desk& desk, double height, double density) {
+/// The design has a plot of its own; beside it the others are there where they have room. In a
+/// small window the shell has the room of the plots.
+Column column_of(const window::Desk& desk, double height, bool small, double density) {
   const double least = 300 * density;
   Column column;
   double rest = height;
@@ -48,7 +51,8 @@ Column column_of(const window::Desk& desk, double height, double density) {
     column.design = std::min(height, std::round(480 * density));
     rest -= column.design;
   }
-  const bool plots = desk.plots && (!desk.design_panel || rest >= (desk.numbers ? 2 : 1) * least);
+  const bool plots =
+      desk.plots && !small && (!desk.design_panel || rest >= (desk.numbers ? 2 : 1) * least);
   if (desk.numbers) column.numbers = plots ? rest - std::round(0.5 * rest) : rest;
   if (plots) column.plots = rest - column.numbers;
   if (!desk.numbers && !plots && desk.design_panel) column.design = height;
@@ -241,10 +245,41 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
   } else {
     hand_.leave();
   }
+  mark_picked();
   mark_under();
   write_forces();
   colour_legend(panel, box);
   ImGui::End();
+}
+
+/// What the panel shows the figures of: a ring on a joint, a rod and the point on it, a cell's
+/// edge.
+void Interface::mark_picked() {
+  const window::Sight& sight = *desk_.sight;
+  if (!sight.any()) return;
+  const record::Layout& layout = *sight.layout;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto wide = float(2.2 * density_);
+  const auto line = [&](const auto& nodes, bool closed) {
+    for (const int node : nodes) {
+      const Eigen::Vector2d at = in_view(node);
+      list.PathLineTo({float(at.x()), float(at.y())});
+    }
+    list.PathStroke(mark_colour, closed, wide);
+  };
+  const auto ring = [&](int node, double radius) {
+    const Eigen::Vector2d at = in_view(node);
+    list.AddCircle({float(at.x()), float(at.y())}, float(radius * density_), mark_colour, 0, wide);
+  };
+  if (desk_.picked_joint >= 0 && desk_.picked_joint < int(layout.joints.size()))
+    ring(desk_.picked_joint, 9);
+  if (const auto [rod, point] = desk_.picked_rod; rod >= 0 && rod < int(layout.rods.size())) {
+    const std::vector<int>& nodes = layout.rods[std::size_t(rod)];
+    line(nodes, false);
+    ring(nodes[std::min(std::size_t(point), nodes.size() - 1)], 5);
+  }
+  if (desk_.picked_cell >= 0 && desk_.picked_cell < int(layout.cells.size()))
+    line(layout.cells[std::size_t(desk_.picked_cell)].joints, true);
 }
 
 /// A ring around the joint or edge point that the mouse would take.
@@ -260,7 +295,7 @@ void Interface::mark_under() {
   if (node < 0) return;
   const Eigen::Vector2d at = in_view(node);
   ImGui::GetWindowDrawList()->AddCircle({float(at.x()), float(at.y())}, float(7 * density_),
-                                        IM_COL32(50, 140, 240, 255), 0, float(2.2 * density_));
+                                        mark_colour, 0, float(2.2 * density_));
 }
 
 /// Force and way beside each joint that is held.
@@ -292,7 +327,8 @@ void Interface::lay_out() {
   controls_.clear();
   menu_bar(panel);
   const double top = ImGui::GetFrameHeight(), height = height_ - top - status;
-  const Column column = column_of(desk_, height, density_);
+  const bool small = width_ - left - right < least_view * density_;
+  const Column column = column_of(desk_, height, small, density_);
   shell_panel(panel, {0, top, left, height});
   view_panel(panel, {left, top, width_ - left - (column.any() ? right : 0), height});
   double from = top;

@@ -62,6 +62,7 @@ class Interface {
   void feed(const window::InputEvent& event);
   Result<Eigen::Vector2d> place_of(const window::InputEvent& event) const;
   Eigen::Vector2d in_view(int node) const;
+  void mark_picked();
   void mark_under();
   void write_forces();
   void press_key(window::Key key);

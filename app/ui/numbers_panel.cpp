@@ -100,6 +100,11 @@ void NumbersPanel::find_idle() {
   idle_.clear();
   for (const auto& key : preset::idle_keys(edited_))
     if (key.item < 0) idle_.insert(key.table + "." + key.key);
+  // the second family has numbers of its own once it differs
+  if (edited_.rod_v.differs) return;
+  for (const Field& field : preset::field_table())
+    if (field.table == "rod_v" && field.key != "differs")
+      idle_.insert(field.table + "." + field.key);
 }
 
 /// While a hand is at a number, the engine's answer may be older than its wish.

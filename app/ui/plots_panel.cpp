@@ -42,7 +42,7 @@ std::vector<Curve> curves_of(const window::Desk& desk) {
   const bool pushed = !readings.empty() && readings.back().joint >= 0;
   std::vector<Curve> curves{{"height (mm)", over, "", {}, {}},
                             {"energy (mJ)", over, "", {}, {}},
-                            {"force (N)", "depth (mm)", "no joint is held", {}, {}},
+                            {"force along its way (N)", "depth (mm)", "no joint is held", {}, {}},
                             {"K□ in bins (rad)", "x/L", "no cells", {}, {}, true}};
   for (std::size_t k = 0; k < readings.size(); ++k) {
     const window::Reading& reading = readings[k];

@@ -86,6 +86,33 @@ void boundary(const Panel& panel) {
   if (ImGui::IsItemDeactivated()) desk.let_go();
 }
 
+/// At the right end of a line, the small button that takes back what the line tells.
+bool small_button(const Panel& panel, const char* label, const std::string& name, const char* help,
+                  double width) {
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - panel.px(width));
+  const bool pressed = ImGui::SmallButton(fmt::format("{}##{}", label, name).c_str());
+  panel.named(name, help);
+  return pressed;
+}
+
+/// The first of the edge points off the boundary, and how many more.
+void dragged_edges(const Panel& panel) {
+  constexpr std::size_t most = 3;
+  const auto& dragged = panel.desk.sight->edges_dragged;
+  for (std::size_t k = 0; k < std::min(most, dragged.size()); ++k) {
+    const auto [edge_point, off_mm] = dragged[k];
+    ImGui::Text("edge point %d  %.2f mm off", edge_point, off_mm);
+    if (small_button(panel, "put back", fmt::format("put back {}", edge_point),
+                     "takes this edge point back onto the boundary", 64))
+      panel.desk.wish(window::PutEdgeBack{edge_point});
+  }
+  if (dragged.size() < 2) return;
+  ImGui::Text("%d edge points off in all", int(dragged.size()));
+  if (small_button(panel, "put back", "put back all",
+                   "takes every edge point back onto the boundary", 64))
+    panel.desk.wish(window::PutEdgeBack{});
+}
+
 void held(const Panel& panel) {
   Desk& desk = panel.desk;
   const Sight& sight = *desk.sight;
@@ -95,12 +122,13 @@ void held(const Panel& panel) {
     const record::Joint& joint = sight.layout->joints[std::size_t(one.joint)];
     ImGui::Text("(%d, %d)  %.4f N  %.2f mm", joint.i, joint.j, one.force_N.norm(),
                 one.moved_mm.norm());
-    const std::string name = fmt::format("let go##{}", one.joint);
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - panel.px(52));
-    if (ImGui::SmallButton(name.c_str())) desk.wish(window::Release{one.joint});
-    panel.named(fmt::format("let go {},{}", joint.i, joint.j), "takes the force off this joint");
+    if (small_button(panel, "let go", fmt::format("let go {},{}", joint.i, joint.j),
+                     "takes the force off this joint", 52))
+      desk.wish(window::Release{one.joint});
   }
-  if (sight.held.empty()) ImGui::TextDisabled("drag a joint or an edge point");
+  dragged_edges(panel);
+  if (sight.held.empty() && sight.edges_dragged.empty())
+    ImGui::TextDisabled("drag a joint or an edge point");
   panel.tick("gravity");
   ImGui::SameLine();
   panel.button("jitter");

@@ -8,6 +8,8 @@
 namespace gridshell::window {
 namespace {
 
+constexpr double paling = 0.2;  // of a map for rods, which are thin lines on white
+
 struct ColourWords {
   ColourBy by;
   const char* label;
@@ -86,13 +88,14 @@ render::ColourScale scale_of(const Values& values, ColourBy by) {
     // round-off has no colour
     const double least = by == ColourBy::axial_force ? 1e-6 : 0.02;
     if (scale.high < least) scale.low = -least, scale.high = least;
+    if (values.of_nodes.size() > 0) scale.start = paling;
     return scale;
   }
   const bool any = all.size() > 0 && all.maxCoeff() > 1e-9;
   // of these the farthest is what is asked for
   const bool whole = by == ColourBy::displacement || by == ColourBy::deviation;
   const double end = !any ? 1 : whole ? render::nice_ceiling(all.maxCoeff()) : scale.high;
-  return {render::ColourMap::sequential, 0, end, values.of_nodes.size() > 0 ? 0.2 : 0};
+  return {render::ColourMap::sequential, 0, end, values.of_nodes.size() > 0 ? paling : 0};
 }
 
 render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,

@@ -88,7 +88,7 @@ preset::Preset Desk::preset_to_save() const {
     return step.deed == preset::Deed::move && step.edge_points.empty();
   });
   if (jumped(*sight) && preset.accuracy.edges_per_segment == 0)
-    preset.accuracy.leading_edges = sight->meshes.front();
+    preset.accuracy.leading_edges = sight->leader;
   if (circle && moves && !sight->snapped) return preset;
   preset.step = steps;
   if (circle) preset.actuation.radius_mm = sight->radius_end_mm;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/window/shell_in_hand.h"
+#include "engine/experiment/course.h"
 
 namespace gridshell::window {
 namespace {
@@ -52,6 +53,11 @@ Result<void> ShellInHand::do_step(preset::Step step, const Watch& watch) {
       taken_at_.emplace(*joint, sight_.frame.nodes.cols() > *joint
                                     ? Eigen::Vector3d(sight_.frame.nodes.col(*joint))
                                     : Eigen::Vector3d(session_->nodes().col(*joint)));
+  // a leap is taken from a state at rest on all meshes, as a run takes it
+  const bool leaps = step.deed == preset::Deed::jitter || step.deed == preset::Deed::rest ||
+                     step.deed == preset::Deed::release;
+  if (leaps && session_->shell().levels() == 1)
+    session_->remesh(experiment::first_plan(*scene_), watch);
   const auto report = experiment::take_step(*session_, boundary_, step, watch);
   if (!report) return tl::unexpected<Error>(report.error());
   std::erase_if(taken_at_, [&](const auto& taken) {
@@ -100,6 +106,21 @@ Result<void> ShellInHand::act(const DragEdge& wish, const Watch& watch) {
   dragged.col(k) =
       wish.to - motion.begin.col(k) - boundary_.progress * (motion.end - motion.begin).col(k);
   if ((dragged - boundary_.dragged).norm() < experiment::nearest_mm) return {};
+  preset::Step step = step_of(preset::Deed::move);
+  step.progress = boundary_.progress;
+  step.edge_points = rows_of(dragged);
+  return do_step(step, watch);
+}
+
+Result<void> ShellInHand::act(const PutEdgeBack& wish, const Watch& watch) {
+  const bool all = wish.edge_point < 0;
+  Eigen::Matrix3Xd dragged = boundary_.dragged;
+  if (all)
+    dragged.setZero();
+  else if (wish.edge_point < dragged.cols())
+    dragged.col(wish.edge_point).setZero();
+  if (!session_ || (dragged - boundary_.dragged).isZero(0))
+    return fail(Fault::bad_input, "no such edge point was dragged");
   preset::Step step = step_of(preset::Deed::move);
   step.progress = boundary_.progress;
   step.edge_points = rows_of(dragged);

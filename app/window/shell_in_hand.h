@@ -63,6 +63,7 @@ class ShellInHand {
   Result<void> act(const Push& wish, const Watch& watch);
   Result<void> act(const Release& wish, const Watch& watch);
   Result<void> act(const DragEdge& wish, const Watch& watch);
+  Result<void> act(const PutEdgeBack& wish, const Watch& watch);
   Result<void> act(const Rest& wish, const Watch& watch);
   Result<void> act(const Jitter& wish, const Watch& watch);
   Result<void> act(const Undo& wish, const Watch& watch);

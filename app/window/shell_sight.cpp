@@ -69,11 +69,15 @@ void ShellInHand::look() {
     s.preset.set_radii(scene_->radius_begin_mm, s.frame.boundary_radius_mm);
   s.certificate = session_->certificate();
   s.meshes = session_->shell().plan().edges_per_segment;
+  s.leader = coarse_plan(*scene_).edges_per_segment.front();
   s.refined = refined_;
   s.weakness = weakness();
   s.steps = steps_;
   s.radius_end_mm = scene_->radius_end_mm;
-  s.edges_dragged = !boundary_.dragged.isZero(0);
+  s.edges_dragged.clear();
+  for (Eigen::Index k = 0; k < boundary_.dragged.cols(); ++k)
+    if (!boundary_.dragged.col(k).isZero(0))
+      s.edges_dragged.push_back({int(k), boundary_.dragged.col(k).norm()});
   s.changed_late = changed_late_;
   s.snapped = snapped_;
   s.design = design_;

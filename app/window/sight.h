@@ -23,6 +23,12 @@ struct HeldJoint {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();     ///< unit; zero: held in every direction
 };
 
+/// An edge point that a hand dragged off the boundary's motion.
+struct DraggedEdge {
+  int edge_point = 0;
+  double off_mm = 0;
+};
+
 /// What a preset itself pushes: the joint, from where, and all the way.
 struct PresetPush {
   int joint = -1;  ///< none
@@ -56,6 +62,7 @@ struct Sight {
   std::shared_ptr<const record::Frame> first;  ///< where the shell began; null before
   Certificate certificate;
   std::vector<int> meshes;    ///< edges a segment, coarse to fine
+  int leader = 4;             ///< of the mesh that led when the shell was formed
   bool refined = false;       ///< to the preset's tolerance; else coarse, as in a drag
   std::string weakness;       ///< of a refined state: what it lacks; empty: nothing
   double progress = 0;        ///< of the boundary; beyond 1 further than the preset has it
@@ -65,7 +72,7 @@ struct Sight {
   PresetPush push;
   StepChain steps;           ///< what the hand did since the shell was formed
   double radius_end_mm = 0;  ///< of a circle's boundary where its motion ends
-  bool edges_dragged = false;
+  std::vector<DraggedEdge> edges_dragged;
   bool changed_late = false;     ///< numbers of its rods were changed after steps
   bool snapped = false;          ///< it came to rest elsewhere on its way
   Eigen::Matrix3Xd normals;      ///< one a joint: t_u x t_v

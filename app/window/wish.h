@@ -36,6 +36,10 @@ struct DragEdge {
   int edge_point = 0;
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
 };
+/// One edge point back onto the boundary's motion; every one (-1).
+struct PutEdgeBack {
+  int edge_point = -1;
+};
 /// Down the energy to rest, off a saddle to a side.
 struct Rest {
   Leave side = Leave::lower;
@@ -62,8 +66,8 @@ struct PutBack {};
 /// Nothing but the finer meshes that follow a stroke.
 struct Settle {};
 
-using Deed = std::variant<Open, Change, Move, Push, Release, DragEdge, Rest, Jitter, Undo, Redo,
-                          Design, KeepDesign, PutBack, Settle>;
+using Deed = std::variant<Open, Change, Move, Push, Release, DragEdge, PutEdgeBack, Rest, Jitter,
+                          Undo, Redo, Design, KeepDesign, PutBack, Settle>;
 
 /// Wishes of one stroke (a drag) are one step to undo. While a stroke passes, the shell is followed
 /// on its coarsest mesh, and a newer wish of the stroke takes the place of one not yet begun.

@@ -13,9 +13,7 @@ namespace {
 constexpr int most_leaders = 3;
 constexpr double near_t = 0.05;  // events that two leaders place so near are the same
 
-int leader_of(const Course& course) {
-  return course.session.shell().plan().edges_per_segment.front();
-}
+int leader_of(const Course& course) { return course.asked.edges_per_segment.front(); }
 
 /// Whether every leg came to its end, or to a limit of the rods.
 bool whole(const Course& course) {
@@ -110,7 +108,7 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
                          const Watch& watch) {
   // the first buckling is a choice too, which the coarsest mesh made
   const auto chose = [&] { return course.eventful() || !scene.from_net; };
-  auto plan = std::optional(course.session.shell().plan());
+  auto plan = std::optional(course.asked);
   for (int asked = 0; asked < most_leaders && chose(); ++asked) {
     plan = with_finer_leader(*plan);
     if (!plan || !fits_memory(scene, *plan)) {
@@ -125,6 +123,7 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
                                  plan->edges_per_segment.front(), fine.error().message);
       return course;
     }
+    fine->asked = *plan;
     auto differs = disagreement(course, *fine);
     if (!differs) differs = only_on_leaders(course, *fine, watch);
     if (!differs) {

@@ -80,6 +80,7 @@ Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& 
     if (auto fits = fits_memory(scene, plan); !fits) return tl::unexpected<Error>(fits.error());
     auto course = follow(plan, watch);
     if (!course || watch.cancelled()) return course;
+    course->asked = plan;
     course->seconds_setup += setup;
     course->session.charge(spent);
     const double worst = worst_estimate_mm(*course);

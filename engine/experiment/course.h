@@ -31,6 +31,7 @@ struct Course {
   Session session;
   std::vector<Leg> legs = {};
   std::vector<Leg> earlier = {};  ///< of a push: those of the actuation before it
+  LevelPlan asked = {};           ///< meshes that it was followed on; steps may end on finer ones
   bool one_motion = true;         ///< whether all legs are of the motion that the session is on
   double seconds_setup = 0;
   std::string doubt = {};  ///< what meshes do not agree on, a sentence; empty: nothing is known

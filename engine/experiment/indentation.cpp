@@ -265,7 +265,7 @@ Result<Course> run_indentation(std::shared_ptr<const Scene> scene,
       },
       watch);
   if (!course) return course;
-  Pushed* kept = &tried.at(course->session.shell().plan().edges_per_segment);
+  Pushed* kept = &tried.at(course->asked.edges_per_segment);
   kept->course = std::move(*course);
   tell(*kept, watch);
   auto layout = layout_of(*scene, kept->course.session.shell().finest());

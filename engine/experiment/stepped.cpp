@@ -32,9 +32,13 @@ struct Work {
   std::vector<Done> done = {};
 };
 
-/// Whether frames are taken on the way of a step, which a leg then knows.
-bool has_way(const preset::Step& step) {
-  return step.deed == Deed::push || (step.deed == Deed::move && step.edge_points.empty());
+/// Whether frames are taken on the way of a step, which a leg then knows: of a push, and of a move
+/// of the whole boundary, before and after which no edge point lies off it.
+bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
+  if (steps[k].deed != Deed::move) return steps[k].deed == Deed::push;
+  const auto before = std::find_if(steps.rend() - std::ptrdiff_t(k), steps.rend(),
+                                   [](const auto& step) { return step.deed == Deed::move; });
+  return steps[k].edge_points.empty() && (before == steps.rend() || before->edge_points.empty());
 }
 
 bool snapped(const Leg& leg) {
@@ -108,10 +112,12 @@ class Show {
 
   Result<void> all() {
     Session& session = work_.course.session;
-    session.restore(work_.begin);
+    if (!work_.done.empty()) meshes_ = work_.done.back().end.plan;
+    if (auto stood = stand(work_.begin); !stood) return stood;
     boundary_ = {1, 1};
     // of no step
     if (auto first = sampler_->stand({0, steps_.size(), 1, 0}, ""); !first) return first;
+    shown_ = true;
     for (step_ = 0; step_ < work_.done.size(); ++step_)
       if (auto shown = one(); !shown) return shown;
     session.restore(work_.done.empty() ? work_.begin : work_.done.back().end);
@@ -119,6 +125,22 @@ class Show {
   }
 
  private:
+  /// Stands in a state, on the meshes of the last one: frames have the same nodes. Errors:
+  /// no_equilibrium where these meshes do not have it.
+  Result<void> stand(const Checkpoint& state) {
+    Session& session = work_.course.session;
+    session.restore(state);
+    if (state.plan.edges_per_segment == meshes_.edges_per_segment) return {};
+    const auto fine = session.remesh(meshes_, watch_);
+    if (watch_.cancelled()) return stopped();
+    if (fine && fine->end == Outcome::reached) return {};
+    return fail(Fault::no_equilibrium,
+                fmt::format("the steps end on {} edges a segment, which do not have the state {} "
+                            "step {}; what may help: --set accuracy.leading_edges={}",
+                            meshes_.edges_per_segment.back(), shown_ ? "after" : "before",
+                            step_ + 1, meshes_.edges_per_segment.front()));
+  }
+
   /// The frames on the way of a step, and the one at its end.
   Result<void> one() {
     const Done& done = work_.done[step_];
@@ -133,7 +155,7 @@ class Show {
                              : leg.from + part * (leg.end() - leg.from);
       if (auto taken = between(done, sample(t)); !taken) return taken;
     }
-    work_.course.session.restore(done.end);
+    if (auto stood = stand(done.end); !stood) return stood;
     const Sample last = sample(leg.end());
     return sampler_->stand(last, event(last));
   }
@@ -145,8 +167,8 @@ class Show {
     const Report stood = stand_at(work_.course, sample, watch_);
     if (watch_.cancelled()) return stopped();
     if (stood.end != Outcome::reached) return {};
-    if (done.way_end.plan.edges_per_segment != done.end.plan.edges_per_segment) {
-      const auto fine = session.remesh(done.end.plan, watch_);
+    if (session.shell().plan().edges_per_segment != meshes_.edges_per_segment) {
+      const auto fine = session.remesh(meshes_, watch_);
       if (watch_.cancelled()) return stopped();
       if (!fine || fine->end != Outcome::reached) return {};
     }
@@ -162,7 +184,7 @@ class Show {
   std::string event(const Sample& sample) const {
     const Leg& leg = work_.course.legs[step_];
     if (leg.report.end == Outcome::locked) return "locking";
-    if (has_way(steps_[step_])) return sampler_->events(sample);
+    if (has_way(steps_, step_)) return sampler_->events(sample);
     return text_of(steps_[step_]) + (snapped(leg) ? ": snap to another state" : "");
   }
 
@@ -174,7 +196,7 @@ class Show {
 
   void put_boundary(record::Frame& frame, double t) const {
     const bool on_way = step_ < steps_.size() && steps_[step_].deed == Deed::move &&
-                        has_way(steps_[step_]) && boundary_[0] != boundary_[1];
+                        has_way(steps_, step_) && boundary_[0] != boundary_[1];
     frame.actuation = on_way ? t * t : boundary_[1];
     frame.boundary_radius_mm = work_.course.session.scene().radius_at(frame.actuation);
   }
@@ -182,9 +204,11 @@ class Show {
   Work& work_;
   const std::vector<preset::Step>& steps_;
   Watch& watch_;
+  LevelPlan meshes_ = work_.begin.plan;  // of all frames
   std::vector<int> shares_;
   int count_ = 0, index_ = 0;
   std::size_t step_ = 0;
+  bool shown_ = false;  // the state before the first step
   Grip taken_;
   std::array<double, 2> boundary_{1, 1};  // progress before and after the step
   std::optional<Sampler> sampler_;
@@ -237,10 +261,11 @@ void put_loads(const Work& work, const std::vector<preset::Step>& steps, record:
 
 std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int frames) {
   std::vector<int> shares(steps.size(), 1);
-  const auto ways = int(std::ranges::count_if(steps, has_way));
+  int ways = 0;
+  for (std::size_t k = 0; k < steps.size(); ++k) ways += has_way(steps, k);
   int left = frames - 1 - int(steps.size()), to_come = ways;
   for (std::size_t k = 0; k < steps.size() && left > 0; ++k) {
-    if (!has_way(steps[k])) continue;
+    if (!has_way(steps, k)) continue;
     const int more = (left + to_come - 1) / to_come;
     shares[k] += more;
     left -= more;
@@ -263,7 +288,7 @@ Result<Stepped> run_steps(const std::shared_ptr<const Scene>& scene,
       },
       watch);
   if (!course) return tl::unexpected<Error>(course.error());
-  Work& work = tried.at(course->session.shell().plan().edges_per_segment);
+  Work& work = tried.at(course->asked.edges_per_segment);
   work.course = std::move(*course);
   tell(work, steps);
   auto layout = layout_of(*scene, work.course.session.shell().finest());

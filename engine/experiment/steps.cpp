@@ -9,6 +9,7 @@
 #include "engine/core/even.h"
 #include "engine/experiment/indentation.h"
 #include "engine/measure/gauss.h"
+#include "engine/session/budget.h"
 
 namespace gridshell::experiment {
 namespace {
@@ -104,29 +105,56 @@ Result<Report> push(Session& session, const Goal& goal, const Watch& watch, Way*
   return report;
 }
 
-/// A deed led by the coarsest mesh alone, which finer ones follow: where a shell snaps or is shaken
-/// to then hangs on no other mesh, and each holds a joint where that one has it. What the coarsest
-/// mesh does not know is left to all of them.
-template <class Do>
-Result<Report> led_by_coarsest(Session& session, const Watch& watch, const Do& deed) {
-  const LevelPlan plan = session.shell().plan();
-  if (plan.edges_per_segment.size() == 1) return deed();
-  const Checkpoint before = session.save();
-  const auto coarse = session.remesh({{plan.edges_per_segment.front()}, false}, watch);
-  if (!coarse) return coarse;
-  if (coarse->end != Outcome::reached) {
-    session.restore(before);
-    return watch.cancelled() ? coarse : deed();
+/// The meshes to try where finer ones do not have what `plan`'s leader came to.
+std::optional<LevelPlan> with_next_leader(const Scene& scene, const LevelPlan& plan) {
+  if (scene.edges_per_segment == 0) {
+    auto next = with_finer_leader(plan);
+    return next && fits_memory(scene, *next) ? next : std::nullopt;
   }
+  // the mesh asked for stays the finest
+  LevelPlan next = plan;
+  auto& edges = next.edges_per_segment;
+  edges.erase(edges.begin());
+  return edges.empty() ? std::nullopt : std::optional(next);
+}
+
+/// Does a deed on the coarsest mesh of a plan alone, then brings the finer ones there; what they do
+/// not have is Outcome::meshes_disagree.
+template <class Do>
+Result<Report> do_led(Session& session, const LevelPlan& plan, const Watch& watch, const Do& deed) {
+  const auto refused = [&] {
+    return watch.cancelled() ? Outcome::cancelled : Outcome::meshes_disagree;
+  };
+  auto coarse = session.remesh({{plan.edges_per_segment.front()}, false}, watch);
+  if (!coarse) return coarse;
+  if (coarse->end != Outcome::reached) return coarse->end = refused(), coarse;
   auto report = deed();
-  if (!report) return session.restore(before), report;
+  if (!report) return report;
   const auto fine = session.remesh(plan, watch);
   if (!fine) return fine;
-  if (fine->end != Outcome::reached) {
-    session.restore(before);
-    report->end = watch.cancelled() ? Outcome::cancelled : Outcome::meshes_disagree;
-  }
+  if (fine->end != Outcome::reached) report->end = refused();
   report->certificate = session.certificate();
+  return report;
+}
+
+/// A deed led by the coarsest mesh alone, which finer ones follow: where a shell snaps or is shaken
+/// to then hangs on no other mesh, and each holds a joint where that one has it. Where they cannot
+/// follow, a finer one leads; last of all the shell stands where it was.
+template <class Do>
+Result<Report> led_by_coarsest(Session& session, const Watch& watch, const Do& deed) {
+  constexpr int most_leaders = 3;
+  std::optional<LevelPlan> plan = session.shell().plan();
+  if (plan->edges_per_segment.size() == 1) return deed();
+  const Checkpoint before = session.save();
+  Result<Report> report;
+  for (int tried = 0; plan && tried < most_leaders; ++tried) {
+    report = do_led(session, *plan, watch, deed);
+    if (report && report->end != Outcome::meshes_disagree && report->end != Outcome::cancelled)
+      return report;
+    session.restore(before);
+    if (!report || report->end == Outcome::cancelled) return report;
+    plan = with_next_leader(session.scene(), *plan);
+  }
   return report;
 }
 

@@ -41,7 +41,8 @@ struct Way {
 
 /// Does one step; `boundary` follows what was reached. A step that ends early leaves the session in
 /// its last certified state, a `release`, `rest` or `jitter` where it was before. All but moves and
-/// loads are led by the coarsest mesh alone: `way.end` of a push stands on that one. Errors
+/// loads are led by the coarsest mesh alone (`way.end` of a push stands on that one), or by a finer
+/// one where others do not follow it: the session then stands on finer meshes. Errors
 /// (bad_input): a joint or an edge point that is not there, nothing to release, edge points to be
 /// moved by themselves whose rods' directions are held.
 Result<Report> take_step(Session& session, HandBoundary& boundary, const preset::Step& step,

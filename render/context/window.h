@@ -23,7 +23,8 @@ struct WindowListener {
 
 struct WindowWish {
   std::string title = "gridshell";
-  int width = 1280, height = 720;  ///< at a pixel a point
+  int width = 1280, height = 720;         ///< at a pixel a point
+  int least_width = 0, least_height = 0;  ///< that a hand can make it; 0: any
   bool visible = true;
 };
 

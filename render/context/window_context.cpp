@@ -33,7 +33,8 @@
   X(on_button, SetMouseButtonCallback)      \
   X(on_scroll, SetScrollCallback)           \
   X(on_key, SetKeyCallback)                 \
-  X(on_char, SetCharCallback)
+  X(on_char, SetCharCallback)               \
+  X(size_limits, SetWindowSizeLimits)
 
 namespace gridshell::render {
 namespace {
@@ -206,6 +207,8 @@ Result<std::unique_ptr<Window>> Window::open(const WindowWish& wish) {
     glfw.terminate();
     return fail(Fault::io, "window: no OpenGL 3.3 core context: " + reason);
   }
+  if (wish.least_width > 0)
+    glfw.size_limits(window, wish.least_width, wish.least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
   return std::make_unique<GlfwWindow>(glfw, window);
 }
 

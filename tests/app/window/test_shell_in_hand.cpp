@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
+#include "app/window/desk.h"
 #include "app/window/engine_thread.h"
 #include "app/window/preset_change.h"
 #include "engine/experiment/experiment.h"
@@ -172,6 +173,41 @@ preset::Preset saved(const Sight& sight) {
   return preset;
 }
 
+TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run comes to it") {
+  preset::Preset shell = small_shell();
+  shell.footprint.rods = 8;
+  shell.footprint.radius_mm = 88;
+  shell.actuation.radius_mm = 66;
+  ShellInHand hand = formed(shell);
+  const double unshaken = hand.sight().frame.energies[Term::bend];
+  int elsewhere = 0;
+  for (int seed = 1; seed <= 3; ++seed) {
+    hand.fulfil({Jitter{seed}}, unwatched);
+    hand.refine(unwatched);
+    REQUIRE(hand.sight().trouble == "");
+    Desk desk({});
+    desk.sight = std::make_shared<const Sight>(hand.sight());
+    const preset::Preset kept = desk.preset_to_save();
+    CHECK(kept.accuracy.leading_edges == 4);
+    REQUIRE(check_preset(kept));
+    Watch watch;
+    const auto run = experiment::run(kept, false, watch);
+    REQUIRE(run);
+    const double energy = hand.sight().frame.energies[Term::bend];
+    elsewhere += std::abs(energy - unshaken) > 1e-2 * unshaken;
+    // each on the meshes that it took to meet the tolerance
+    const record::Frame& ran = run->trajectory.frames.back();
+    const auto joints = Eigen::Index(hand.sight().layout->joints.size());
+    const double apart = (ran.nodes.leftCols(joints) - hand.sight().frame.nodes.leftCols(joints))
+                             .colwise()
+                             .norm()
+                             .maxCoeff();
+    CHECK(apart < ran.error_estimate_mm + hand.sight().certificate.error_estimate_mm);
+    hand.fulfil({Undo{}}, unwatched);
+  }
+  CHECK(elsewhere > 0);
+}
+
 TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same state", "[full]") {
   ShellInHand hand = formed();
   const Sight begun = hand.sight();
@@ -220,6 +256,29 @@ TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same 
   CHECK((again.sight().held[0].moved_mm - hand.sight().held[0].moved_mm).norm() < 0.2);
   hand.fulfil({Undo{}}, unwatched);
   CHECK(hand.sight().steps.size() == 6);
+}
+
+TEST_CASE("edge points dragged off the boundary are told, and put back the shell is as before") {
+  ShellInHand hand = formed();
+  const Sight before = hand.sight();
+  CHECK(before.edges_dragged.empty());
+  for (const int k : {3, 5}) {
+    const int node = before.layout->edge_points[std::size_t(k)];
+    hand.fulfil({DragEdge{k, before.frame.nodes.col(node) + Eigen::Vector3d(1.5, -1, 0)}},
+                unwatched);
+  }
+  REQUIRE(hand.sight().edges_dragged.size() == 2);
+  CHECK(hand.sight().edges_dragged[1].edge_point == 5);
+  CHECK(hand.sight().edges_dragged[1].off_mm == Approx(std::hypot(1.5, 1)));
+  CHECK(difference(hand.sight(), before) > 0.1);
+  hand.fulfil({PutEdgeBack{3}}, unwatched);
+  CHECK(hand.sight().edges_dragged.size() == 1);
+  hand.fulfil({PutEdgeBack{}}, unwatched);
+  REQUIRE(hand.sight().trouble == "");
+  CHECK(hand.sight().edges_dragged.empty());
+  CHECK(difference(hand.sight(), before) < 1e-6);
+  hand.fulfil({PutEdgeBack{}}, unwatched);
+  CHECK(hand.sight().trouble == "no such edge point was dragged");
 }
 
 TEST_CASE("a number of the rods changes the shell in hand, one of its shape forms another") {

@@ -50,6 +50,11 @@ TEST_CASE("frames fall to the steps that have a way, one to each of the others")
   CHECK(experiment::frames_of_steps(steps, 11) == std::vector{5, 1, 4});
   CHECK(experiment::frames_of_steps(steps, 2) == std::vector{1, 1, 1});
   CHECK(experiment::frames_of_steps({of(Deed::rest)}, 20) == std::vector{1});
+  // edge points go straight to their places, and back
+  preset::Step dragged = move(0.9);
+  dragged.edge_points = {{0, 1, 0, 0}};
+  CHECK(experiment::frames_of_steps({dragged, of(Deed::release), move(0.8), move(0.7)}, 11) ==
+        std::vector{1, 1, 1, 7});
 }
 
 TEST_CASE("a push let go is the shell before, and every step says what it came to") {
