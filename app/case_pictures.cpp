@@ -21,9 +21,11 @@ Result<void> draw_beside(const std::vector<CaseRecord>& records, const std::stri
   style.title = title;
   std::vector<render::BesideRun> runs;
   for (const CaseRecord& one : records) runs.push_back({&one.run, one.preset.title});
-  return render::write_beside(runs, style, renderer, folder / "frames", watch)
-      .and_then([&](const auto& report) {
-        return make_movie_files(folder, records.front().preset, style, report.frames, watch);
+  std::size_t frames = 0;
+  for (const CaseRecord& one : records) frames = std::max(frames, one.run.frames.size());
+  return make_movie(
+      folder, records.front().preset, style, int(frames), watch, [&](const render::OnFrame& seen) {
+        return render::write_beside(runs, style, renderer, folder / "frames", watch, seen);
       });
 }
 

@@ -220,10 +220,10 @@ Result<void> Artist::draw_pictures(Pictures pictures, const preset::Preset& pres
     return drawn && style.vector ? write_lines(run, style, stem) : drawn;
   }
   if (auto showable = render::check_showable(run, style); !showable) return showable;
-  return render::write_movie(render::source_of(run), render::survey_of(run), style, bar, *renderer_,
-                             folder / "frames", watch)
-      .and_then([&](const auto& report) {
-        return make_movie_files(folder, preset, style, report.frames, watch);
+  return make_movie(
+      folder, preset, style, int(run.frames.size()), watch, [&](const render::OnFrame& seen) {
+        return render::write_movie(render::source_of(run), render::survey_of(run), style, bar,
+                                   *renderer_, folder / "frames", watch, seen);
       });
 }
 
@@ -231,26 +231,36 @@ render::Timing timing_of(const render::MovieStyle& style, int frames) {
   return {style.fps, frames, style.seconds, style.hold_s, style.pace, style.title_s};
 }
 
-Result<void> make_movie_files(const fs::path& folder, const preset::Preset& preset,
-                              const render::MovieStyle& style, int frames, Watch& watch) {
-  const auto pictures = folder / "frames";
+Result<void> make_movie(const fs::path& folder, const preset::Preset& preset,
+                        const render::MovieStyle& style, int frames, Watch& watch,
+                        const DrawFrames& draw) {
+  const fs::path pictures = folder / "frames";
+  const render::Timing timing = timing_of(style, frames);
+  if (auto made = make_folder(pictures); !made) return made;
   if (style.title_s > 0)
     if (auto written = render::write_png(render::title_card(style), pictures / "title.png");
         !written)
       return written;
+  auto movie = render::MovieInTheMaking::begin(pictures, timing, style.width, style.height,
+                                               folder / "movie.mp4");
+  if (!movie) return tl::unexpected(movie.error());
+  const auto drawn = draw([&](int, const render::Image& picture) {
+    if (*movie) (*movie)->put(picture, watch);
+  });
+  if (!drawn) return tl::unexpected(drawn.error());
+  if (*movie)
+    if (auto made = (*movie)->finish(watch); !made) return made;
   if (preset.movie.poster) {
     std::error_code error;
     fs::copy_file(pictures / render::frame_name(frames - 1), folder / "poster.png",
                   fs::copy_options::overwrite_existing, error);
     if (error) return fail(Fault::io, "cannot write poster.png: " + error.message());
   }
-  std::vector<const char*> kinds{"movie.mp4"};
-  if (preset.movie.webm) kinds.push_back("movie.webm");
-  if (preset.movie.gif) kinds.push_back("movie.gif");
-  for (const char* kind : kinds) {
-    auto made = render::encode_movie(pictures, timing_of(style, frames), folder / kind, watch);
-    if (!made) return tl::unexpected(made.error());
-  }
+  for (const auto& [wanted, kind] :
+       {std::pair(preset.movie.webm, "movie.webm"), {preset.movie.gif, "movie.gif"}})
+    if (wanted)
+      if (auto made = render::encode_movie(pictures, timing, folder / kind, watch); !made)
+        return tl::unexpected(made.error());
   return {};
 }
 

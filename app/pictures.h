@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "render/context/context.h"
 #include "render/draw/renderer.h"
 #include "render/movie/encode.h"
+#include "render/movie/movie_writer.h"
 #include "render/movie/style.h"
 #include "render/plot/legend.h"
 
@@ -66,10 +68,14 @@ class Artist {
 /// How fast the movie of `frames` frames plays.
 render::Timing timing_of(const render::MovieStyle& style, int frames);
 
-/// What is made of the frames in folder/frames: movie.mp4 and what else the preset asks for, where
-/// ffmpeg is on the PATH; poster.png. Errors: io, cancelled.
-Result<void> make_movie_files(const std::filesystem::path& folder, const preset::Preset& preset,
-                              const render::MovieStyle& style, int frames, Watch& watch);
+/// Writes the frames of a movie, and shows each to whoever wants to see it.
+using DrawFrames = std::function<Result<render::MovieReport>(const render::OnFrame& seen)>;
+
+/// Draws so many frames into folder/frames and makes of them, where ffmpeg is on the PATH,
+/// movie.mp4 and what else the preset asks for; poster.png. Errors: those of `draw`, io, cancelled.
+Result<void> make_movie(const std::filesystem::path& folder, const preset::Preset& preset,
+                        const render::MovieStyle& style, int frames, Watch& watch,
+                        const DrawFrames& draw);
 
 /// What drawing will take about, for the progress bar and `check`.
 double expected_seconds(Pictures pictures, const preset::Preset& preset);

@@ -139,14 +139,14 @@ double seconds() {
 
 Result<MovieReport> write_beside(const std::vector<BesideRun>& runs, const MovieStyle& style,
                                  Renderer& renderer, const std::filesystem::path& folder,
-                                 Watch& watch) {
+                                 Watch& watch, const OnFrame& on_frame) {
   if (runs.empty()) return fail(Fault::bad_input, "there is no run to show");
   for (const BesideRun& one : runs)
     if (auto showable = check_showable(*one.run, style); !showable)
       return tl::unexpected(showable.error());
   if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
   const Beside beside(runs, style);
-  FrameWriter writer(folder, beside.frames(), watch);
+  FrameWriter writer(folder, beside.frames(), watch, on_frame);
   MovieReport report;
   for (int k = 0; k < beside.frames(); ++k) {
     if (auto wanted = writer.check(); !wanted) return tl::unexpected(wanted.error());

@@ -21,6 +21,6 @@ struct BesideRun {
 /// as write_movie.
 Result<MovieReport> write_beside(const std::vector<BesideRun>& runs, const MovieStyle& style,
                                  Renderer& renderer, const std::filesystem::path& folder,
-                                 Watch& watch);
+                                 Watch& watch, const OnFrame& on_frame = {});
 
 }  // namespace gridshell::render

@@ -5,43 +5,51 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 extern char** environ;
 
 namespace gridshell::render {
 namespace {
 
+constexpr int poll_ms = 100;  // between two looks at whether to stop
+
 std::string reason(int code) { return std::generic_category().message(code); }
 
-struct Pipe {
-  int ends[2] = {-1, -1};
-  ~Pipe() {
-    close_end(0);
-    close_end(1);
-  }
-  void close_end(int k) {
-    if (ends[k] >= 0) ::close(ends[k]);
-    ends[k] = -1;
+void close_one(int& descriptor) {
+  if (descriptor >= 0) ::close(descriptor);
+  descriptor = -1;
+}
+
+struct Pair {
+  int ours = -1, theirs = -1;
+  ~Pair() {
+    close_one(ours);
+    close_one(theirs);
   }
 };
 
-// stdin and stdout to nowhere, stderr into the pipe
-int spawn(const std::vector<std::string>& arguments, int stderr_end, pid_t& child) {
-  std::vector<char*> words;
-  for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
-  words.push_back(nullptr);
+// stdout to nowhere, stderr into a pipe, stdin from a socket or from nowhere
+int spawn(const std::vector<std::string>& arguments, int input, int words, pid_t& child) {
+  std::vector<char*> list;
+  for (const std::string& word : arguments) list.push_back(const_cast<char*>(word.c_str()));
+  list.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  if (input < 0)
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  else
+    posix_spawn_file_actions_adddup2(&actions, input, 0);
   posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, stderr_end, 2);
-  const int code = posix_spawn(&child, words[0], &actions, nullptr, words.data(), environ);
+  posix_spawn_file_actions_adddup2(&actions, words, 2);
+  const int code = posix_spawn(&child, list[0], &actions, nullptr, list.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   return code;
 }
@@ -64,55 +72,110 @@ void pass_on(std::string_view said, std::string& line, const Listener& heard) {
   }
 }
 
-// what the child says until it closes its stderr; it is told to end once the watch is cancelled
-std::string listen(int pipe_end, pid_t child, const Watch& watch, const Listener& heard) {
-  std::string words, line;
+}  // namespace
+
+Result<Child> Child::start(const std::vector<std::string>& arguments, Input input) {
+  const auto failed = [&](int code) {
+    return fail(Fault::io, fmt::format("cannot start {}: {}", arguments[0], reason(code)));
+  };
+  Pair words, fed;
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return failed(errno);
+  words.ours = ends[0], words.theirs = ends[1];
+  if (input == Input::fed) {
+    // a socket can be written to without a signal where nobody reads any more
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return failed(errno);
+    fed.ours = ends[0], fed.theirs = ends[1];
+  }
+  pid_t child = -1;
+  if (const int code = spawn(arguments, fed.theirs, words.theirs, child); code != 0)
+    return failed(code);
+  return Child(arguments[0], child, std::exchange(fed.ours, -1), std::exchange(words.ours, -1));
+}
+
+Child::Child(Child&& other) noexcept
+    : name_(std::move(other.name_)),
+      child_(std::exchange(other.child_, -1)),
+      input_(std::exchange(other.input_, -1)),
+      words_(std::exchange(other.words_, -1)),
+      said_(std::move(other.said_)),
+      line_(std::move(other.line_)) {}
+
+Child::~Child() {
+  close_one(input_);
+  close_one(words_);
+  if (child_ < 0) return;
+  ::kill(child_, SIGTERM);
+  wait();
+}
+
+/// Takes what it wrote to stderr; false once that is closed.
+bool Child::listen(const Listener& heard) {
+  char block[4096];
+  const ssize_t got = ::read(words_, block, sizeof block);
+  if (got < 0 && errno == EINTR) return true;
+  if (got <= 0) return false;
+  said_.append(block, std::size_t(got));
+  // only the end counts
+  if (said_.size() > (1 << 16)) said_.erase(0, said_.size() - (1 << 15));
+  if (heard) pass_on(std::string_view(block, std::size_t(got)), line_, heard);
+  return true;
+}
+
+bool Child::feed(std::span<const std::uint8_t> bytes, const Watch& watch) {
+  while (!bytes.empty()) {
+    if (watch.cancelled()) return false;
+    pollfd waiting[] = {{input_, POLLOUT, 0}, {words_, POLLIN, 0}};
+    const int ready = ::poll(waiting, 2, poll_ms);
+    if (ready < 0 && errno != EINTR) return false;
+    if (ready <= 0) continue;
+    // a child that waits to be heard takes nothing
+    if ((waiting[1].revents & POLLIN) != 0 && !listen({})) return false;
+    if ((waiting[0].revents & (POLLERR | POLLHUP)) != 0) return false;
+    if ((waiting[0].revents & POLLOUT) == 0) continue;
+    const ssize_t sent = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && errno != EINTR && errno != EAGAIN) return false;
+    if (sent > 0) bytes = bytes.subspan(std::size_t(sent));
+  }
+  return true;
+}
+
+int Child::wait() {
+  int status = 0;
+  while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+  }
+  child_ = -1;
+  return status;
+}
+
+Result<void> Child::end(const Watch& watch, const Listener& heard) {
+  close_one(input_);
   bool told = false;
   for (;;) {
     if (watch.cancelled() && !told) {
-      ::kill(child, SIGTERM);
+      ::kill(child_, SIGTERM);
       told = true;
     }
-    pollfd waiting{pipe_end, POLLIN, 0};
-    const int ready = ::poll(&waiting, 1, 100);
+    pollfd waiting{words_, POLLIN, 0};
+    const int ready = ::poll(&waiting, 1, poll_ms);
     if (ready < 0 && errno != EINTR) break;
-    if (ready <= 0) continue;
-    char block[4096];
-    const ssize_t got = ::read(pipe_end, block, sizeof block);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) break;
-    words.append(block, std::size_t(got));
-    // only the end counts
-    if (words.size() > (1 << 16)) words.erase(0, words.size() - (1 << 15));
-    if (heard) pass_on(std::string_view(block, std::size_t(got)), line, heard);
+    if (ready > 0 && !listen(heard)) break;
   }
-  return words;
+  const int status = wait();
+  if (watch.cancelled()) return fail(Fault::cancelled, fmt::format("stopped {}", name_));
+  if (WIFSIGNALED(status))
+    return fail(Fault::io, fmt::format("{} was killed by signal {}", name_, WTERMSIG(status)));
+  if (WEXITSTATUS(status) != 0)
+    return fail(Fault::io, fmt::format("{} failed with exit code {}: {}", name_,
+                                       WEXITSTATUS(status), last_line(said_)));
+  return {};
 }
-
-}  // namespace
 
 Result<void> run_child(const std::vector<std::string>& arguments, const Watch& watch,
                        const Listener& heard) {
-  Pipe pipe;
-  if (::pipe2(pipe.ends, O_CLOEXEC) != 0)
-    return fail(Fault::io, fmt::format("cannot start {}: {}", arguments[0], reason(errno)));
-  pid_t child = -1;
-  if (const int code = spawn(arguments, pipe.ends[1], child); code != 0)
-    return fail(Fault::io, fmt::format("cannot start {}: {}", arguments[0], reason(code)));
-  pipe.close_end(1);
-  const std::string words = listen(pipe.ends[0], child, watch, heard);
-
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (watch.cancelled()) return fail(Fault::cancelled, fmt::format("stopped {}", arguments[0]));
-  if (WIFSIGNALED(status))
-    return fail(Fault::io,
-                fmt::format("{} was killed by signal {}", arguments[0], WTERMSIG(status)));
-  if (WEXITSTATUS(status) != 0)
-    return fail(Fault::io, fmt::format("{} failed with exit code {}: {}", arguments[0],
-                                       WEXITSTATUS(status), last_line(words)));
-  return {};
+  return Child::start(arguments, Input::none).and_then([&](Child&& child) {
+    return child.end(watch, heard);
+  });
 }
 
 }  // namespace gridshell::render

@@ -47,18 +47,13 @@ std::vector<std::string> output_options(const std::string& kind) {
   return options;
 }
 
-}  // namespace
-
-std::vector<std::string> encode_arguments(const std::filesystem::path& frames, const Timing& timing,
-                                          const std::filesystem::path& movie) {
-  // in the pattern a percent sign of the folder's own name is doubled
-  std::string pattern;
-  for (char c : frames.string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+/// ffmpeg with its first input, which is the frames.
+std::vector<std::string> arguments_of(const std::vector<std::string>& input,
+                                      const std::filesystem::path& frames, const Timing& timing,
+                                      const std::filesystem::path& movie) {
   const std::string kind = movie.extension().string(), rate = std::to_string(timing.fps);
-  // ffmpeg takes what stands before a colon for a protocol, and a leading dash for an option
-  std::vector<std::string> words{"ffmpeg",    "-nostdin", "-y",
-                                 "-loglevel", "error",    "-framerate",
-                                 rate,        "-i",       "file:" + pattern + "/frame_%05d.png"};
+  std::vector<std::string> words{"ffmpeg", "-nostdin", "-y", "-loglevel", "error"};
+  words.insert(words.end(), input.begin(), input.end());
   const bool gif = kind == ".gif";
   std::string chain = "[0:v]" + timing_filters(timing) + "format=rgb24[run]", last = "run";
   if (timing.title_s > 0) {
@@ -75,6 +70,29 @@ std::vector<std::string> encode_arguments(const std::filesystem::path& frames, c
   for (const std::string& option : output_options(kind)) words.push_back(option);
   words.push_back("file:" + movie.string());
   return words;
+}
+
+/// Of ffmpeg, in the words of who asked for a movie.
+Error told(Error error, const std::filesystem::path& frames, const std::filesystem::path& movie) {
+  if (error.fault == Fault::io)
+    error.message = fmt::format(
+        "cannot make '{}' of the frames in '{}', which are whole: {} (ffmpeg takes pictures of "
+        "less than 16384 x 16384 pixels; a smaller --size needs less memory too)",
+        movie.string(), frames.string(), error.message);
+  return error;
+}
+
+}  // namespace
+
+std::vector<std::string> encode_arguments(const std::filesystem::path& frames, const Timing& timing,
+                                          const std::filesystem::path& movie) {
+  // in the pattern a percent sign of the folder's own name is doubled
+  std::string pattern;
+  for (char c : frames.string()) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+  // ffmpeg takes what stands before a colon for a protocol, and a leading dash for an option
+  return arguments_of(
+      {"-framerate", std::to_string(timing.fps), "-i", "file:" + pattern + "/frame_%05d.png"},
+      frames, timing, movie);
 }
 
 std::string shell_line(const std::vector<std::string>& words) {
@@ -111,18 +129,41 @@ Result<Encoding> encode_movie(const std::filesystem::path& frames, const Timing&
   AtomicFile file(movie);
   std::vector<std::string> arguments = encode_arguments(frames, timing, file.temporary());
   arguments[0] = program.string();
-  if (auto run = run_child(arguments, watch); !run) {
-    auto error = run.error();
-    if (error.fault == Fault::io)
-      error.message = fmt::format(
-          "cannot make '{}' of the frames in '{}', which are whole: {} (ffmpeg takes pictures of "
-          "less than 16384 x 16384 pixels; a smaller --size needs less memory too)",
-          movie.string(), frames.string(), error.message);
-    return tl::unexpected(error);
-  }
+  if (auto run = run_child(arguments, watch); !run)
+    return tl::unexpected(told(run.error(), frames, movie));
   if (auto placed = file.commit(); !placed) return tl::unexpected(placed.error());
   encoding.made = true;
   return encoding;
+}
+
+Result<std::optional<MovieInTheMaking>> MovieInTheMaking::begin(
+    const std::filesystem::path& frames, const Timing& timing, int width, int height,
+    const std::filesystem::path& movie) {
+  const std::filesystem::path program = find_program("ffmpeg");
+  if (program.empty()) return std::nullopt;
+  auto file = std::make_unique<AtomicFile>(movie);
+  std::vector<std::string> arguments =
+      arguments_of({"-f", "rawvideo", "-pixel_format", "rgba", "-video_size",
+                    fmt::format("{}x{}", width, height), "-framerate", std::to_string(timing.fps),
+                    "-i", "pipe:0"},
+                   frames, timing, file->temporary());
+  arguments[0] = program.string();
+  auto ffmpeg = Child::start(arguments, Input::fed);
+  if (!ffmpeg) return tl::unexpected(told(ffmpeg.error(), frames, movie));
+  return MovieInTheMaking(frames, movie, std::move(file), std::move(*ffmpeg));
+}
+
+void MovieInTheMaking::put(const Image& picture, const Watch& watch) {
+  takes_more_ = takes_more_ && ffmpeg_.feed(picture.rgba, watch);
+}
+
+Result<void> MovieInTheMaking::finish(const Watch& watch) {
+  if (auto ended = ffmpeg_.end(watch); !ended)
+    return tl::unexpected(told(ended.error(), frames_, movie_));
+  if (!takes_more_)
+    return tl::unexpected(
+        told({Fault::io, "ffmpeg took no more pictures, and said nothing"}, frames_, movie_));
+  return file_->commit();
 }
 
 }  // namespace gridshell::render

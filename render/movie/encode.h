@@ -2,11 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
+#include "render/image/image.h"
+#include "render/movie/child.h"
 #include "render/movie/style.h"
 
 namespace gridshell::render {
@@ -44,5 +49,35 @@ std::filesystem::path find_program(const std::string& name);
 /// it failed, Fault::cancelled.
 Result<Encoding> encode_movie(const std::filesystem::path& frames, const Timing& timing,
                               const std::filesystem::path& movie, const Watch& watch);
+
+/// A movie that is made while its frames are drawn: the same file, to the bit, as encode_movie()
+/// makes of them afterwards.
+class MovieInTheMaking {
+ public:
+  /// Starts ffmpeg for pictures of width x height pixels; a title card stands in `frames` already.
+  /// Nothing without ffmpeg. Errors: Fault::io when it cannot start.
+  static Result<std::optional<MovieInTheMaking>> begin(const std::filesystem::path& frames,
+                                                       const Timing& timing, int width, int height,
+                                                       const std::filesystem::path& movie);
+
+  /// The next frame. What goes wrong finish() says: the pictures themselves are to be kept.
+  void put(const Image& picture, const Watch& watch);
+
+  /// Puts the movie in place once it is whole. Errors: as of encode_movie().
+  Result<void> finish(const Watch& watch);
+
+ private:
+  MovieInTheMaking(std::filesystem::path frames, std::filesystem::path movie,
+                   std::unique_ptr<AtomicFile> file, Child ffmpeg)
+      : frames_(std::move(frames)),
+        movie_(std::move(movie)),
+        file_(std::move(file)),
+        ffmpeg_(std::move(ffmpeg)) {}
+
+  std::filesystem::path frames_, movie_;
+  std::unique_ptr<AtomicFile> file_;
+  Child ffmpeg_;
+  bool takes_more_ = true;
+};
 
 }  // namespace gridshell::render

@@ -10,21 +10,22 @@ namespace gridshell::render {
 
 std::string frame_name(int index) { return fmt::format("frame_{:05d}.png", index); }
 
-Result<void> FrameWriter::put(Image picture) {
+Result<void> FrameWriter::put(Image picture, Finish over) {
   return finish().and_then([&] { return check(); }).map([&] {
     picture_ = std::move(picture);
-    // where no thread is to be had it waits until it is asked for
-    writing_ = std::async(std::launch::async | std::launch::deferred,
-                          [this] { return write_png(picture_, folder_ / frame_name(written_)); });
+    worker_.begin([this, over = std::move(over), index = begun_++] {
+      if (over) over(picture_);
+      return write_png(picture_, folder_ / frame_name(index)).map([&] {
+        watch_.report(double(index + 1) / count_);
+        if (on_frame_) on_frame_(index, picture_);
+      });
+    });
   });
 }
 
 Result<void> FrameWriter::finish() {
-  if (!writing_.valid()) return {};
-  if (auto written = writing_.get(); !written) return written;
-  const int index = written_++;
-  watch_.report(double(written_) / count_);
-  if (on_frame_) on_frame_(index, picture_);
+  if (auto written = worker_.wait(); !written) return written;
+  written_ = begun_;
   return {};
 }
 

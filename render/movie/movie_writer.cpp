@@ -1,6 +1,7 @@
 #include "render/movie/movie_writer.h"
 
 #include <chrono>
+#include <memory>
 
 #include "engine/core/atomic_file.h"
 #include "render/movie/stage.h"
@@ -34,16 +35,17 @@ Result<MovieReport> write_movie(const FrameSource& source, Survey survey, const 
   for (int k = 0; k < source.count; ++k) {
     if (auto wanted = writer.check(); !wanted) return tl::unexpected(wanted.error());
     auto time = Clock::now();
-    const auto frame = source.at(k);
-    if (!frame) return tl::unexpected(frame.error());
+    auto read = source.at(k);
+    if (!read) return tl::unexpected(read.error());
+    const auto frame = std::make_shared<const record::Frame>(std::move(*read));
     if (auto good = check_frame(*source.layout, *frame, k, style); !good)
       return tl::unexpected(good.error());
     auto picture = stage.draw_views(renderer, {*frame, k});
     if (!picture) return tl::unexpected(picture.error());
     time = lap(time, report.seconds_draw);
-    stage.finish(*picture, {*frame, k});
-    time = lap(time, report.seconds_overlay);
-    if (auto put = writer.put(std::move(*picture)); !put) return tl::unexpected(put.error());
+    const auto overlay = [&stage, frame, k](Image& image) { stage.finish(image, {*frame, k}); };
+    if (auto put = writer.put(std::move(*picture), overlay); !put)
+      return tl::unexpected(put.error());
     lap(time, report.seconds_write);
   }
   auto time = Clock::now();

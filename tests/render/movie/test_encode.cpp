@@ -165,3 +165,85 @@ TEST_CASE("a real ffmpeg makes movies of the length asked for") {
     CHECK(seconds == Approx(2.0).margin(0.15));
   }
 }
+
+namespace {
+
+/// Pictures of one size that differ.
+Image shade(int k) {
+  Image image(64, 49);
+  for (std::size_t n = 0; n < image.rgba.size(); ++n)
+    image.rgba[n] = n % 4 == 3 ? 255 : std::uint8_t(40 * k + int(n / 64) % 7);
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("a movie made while its frames are drawn is that of the frames, to the bit") {
+  if (find_program("ffmpeg").empty()) {
+    WARN("no ffmpeg, skipped");
+    return;
+  }
+  const TemporaryFolder folder;
+  const fs::path frames = folder.path() / "frames";
+  REQUIRE(make_folder(frames));
+  MovieStyle style;
+  style.width = 64;
+  style.height = 49;
+  REQUIRE(write_png(title_card(style), frames / "title.png"));
+  const Timing timing{.fps = 20, .frames = 6, .hold_s = 0.5, .title_s = 0.5};
+  auto movie = MovieInTheMaking::begin(frames, timing, 64, 49, folder.path() / "a.mp4");
+  REQUIRE(movie);
+  REQUIRE(*movie);
+  for (int k = 0; k < 6; ++k) {
+    REQUIRE(write_png(shade(k), frames / frame_name(k)));
+    (*movie)->put(shade(k), unwatched);
+  }
+  CHECK_FALSE(fs::exists(folder.path() / "a.mp4"));
+  REQUIRE((*movie)->finish(unwatched));
+  REQUIRE(encode_movie(frames, timing, folder.path() / "b.mp4", unwatched));
+  CHECK(read_whole(folder.path() / "a.mp4").value() == read_whole(folder.path() / "b.mp4").value());
+}
+
+TEST_CASE("without ffmpeg no movie is in the making; one that stops reading is an error") {
+  const TemporaryFolder folder;
+  const Image large(800, 600);  // more than a socket holds
+  {
+    const FakeFfmpeg none("");
+    const auto movie = MovieInTheMaking::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+    REQUIRE(movie);
+    CHECK_FALSE(*movie);
+  }
+  const FakeFfmpeg broken("echo 'No space left on device' >&2\nexit 3\n");
+  auto movie = MovieInTheMaking::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+  REQUIRE(movie);
+  for (int k = 0; k < 3; ++k) (*movie)->put(large, unwatched);
+  const auto ended = (*movie)->finish(unwatched);
+  REQUIRE_FALSE(ended);
+  CHECK(ended.error().fault == Fault::io);
+  CHECK(ended.error().message.find("exit code 3: No space left on device") != std::string::npos);
+  CHECK(folder.entries().empty());
+}
+
+TEST_CASE("a movie that is given up, or cancelled while ffmpeg takes nothing, leaves nothing") {
+  const TemporaryFolder folder;
+  const FakeFfmpeg slow("exec /bin/sleep 30\n");
+  const auto start = std::chrono::steady_clock::now();
+  {
+    auto movie = MovieInTheMaking::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+    REQUIRE(movie);
+  }
+  auto movie = MovieInTheMaking::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+  REQUIRE(movie);
+  Watch watch;
+  std::thread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    watch.cancel();
+  });
+  (*movie)->put(Image(800, 600), watch);
+  stopper.join();
+  const auto ended = (*movie)->finish(watch);
+  REQUIRE_FALSE(ended);
+  CHECK(ended.error().fault == Fault::cancelled);
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(10));
+  CHECK(folder.entries().empty());
+}
