@@ -68,6 +68,8 @@ Preset all_changed() {
   preset.figure.radii_mm.clear();
   preset.indentation.depth = preset.indentation.depth_mm = 0;
   preset.dynamics.snap = false;
+  // a mesh asked for has a leader of its own
+  preset.accuracy.leading_edges = 0;
   // only pinned ends have tails
   preset.ends.second_ring_mm = 0;
   preset.footprint.kind = FootprintKind::net;
@@ -172,6 +174,7 @@ std::vector<Preset> samples() {
   Preset by_leg;
   by_leg.footprint.longest_leg = 2.3;
   by_leg.actuation.ratio = 0.81;
+  by_leg.accuracy.leading_edges = 5;
   by_leg.page = {PageKind::fig2, "its photo.png", "out/a sweep"};
   std::vector<Preset> all{Preset{},   pushed(true), pushed(false),
                           at_highest, by_leg,       of_curve(CurveKind::ellipse, 0.77)};

@@ -204,7 +204,7 @@ TEST_CASE("a movie made while its frames are drawn is that of the frames, to the
   CHECK(read_whole(folder.path() / "a.mp4").value() == read_whole(folder.path() / "b.mp4").value());
 }
 
-TEST_CASE("without ffmpeg no movie is in the making; one that stops reading is an error") {
+TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading is an error") {
   const TemporaryFolder folder;
   const Image large(800, 600);  // more than a socket holds
   {
