@@ -285,9 +285,9 @@ double expected_seconds(Pictures pictures, const preset::Preset& preset) {
   const bool stills = pictures == Pictures::stills;
   const auto quality = stills ? preset.figure.quality : movie.quality;
   // a megapixel on two cores of a software rasteriser; captions and PNG are in it
-  const double megapixel_seconds = quality == preset::Quality::draft   ? 0.08
-                                   : quality == preset::Quality::movie ? 0.15
-                                                                       : 2.2;
+  const double megapixel_seconds = quality == preset::Quality::draft   ? 0.05
+                                   : quality == preset::Quality::movie ? 0.085
+                                                                       : 1.4;
   double count = movie.frames;
   if (stills) {
     // the stills, and what stands beside nets and loads
