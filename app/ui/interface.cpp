@@ -19,7 +19,8 @@ using window::Key;
 
 constexpr ImU32 mark_colour = IM_COL32(50, 140, 240, 255);
 constexpr double least_view = 400;      // px of a view beside plots
-constexpr double sharp_after_s = 0.15;  // of stillness the view is drawn at full resolution
+// of stillness the view is drawn at full resolution: later while an equilibrium is on its way
+constexpr double sharp_after_s = 0.15, sharp_while_busy_s = 0.6;
 
 /// What the interface library does with keys of its own.
 void map_keys(ImGuiIO& io) {
@@ -351,7 +352,8 @@ Result<void> Interface::draw_shell() {
   const ShownShell shown{desk_.camera, desk_.view, desk_.show};
   const bool anew = shell_anew_ || shown != shown_;
   if (anew) still_seconds_ = 0;
-  const bool sharp = !anew && still_seconds_ >= sharp_after_s;
+  const double wait_s = desk_.engine.idle() ? sharp_after_s : sharp_while_busy_s;
+  const bool sharp = !anew && still_seconds_ >= wait_s;
   if (!anew && (!sharp || sharp_)) return {};
   shown_ = shown;
   shell_anew_ = false;
