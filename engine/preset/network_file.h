@@ -19,11 +19,12 @@ inline constexpr double one_point_mm = 1e-3;
 ///   .json  {"points_mm": [[x, y], ...], "rods": [[0, 1, ...], ...], "supports": [...]}; a rod is a
 ///          list of numbers of points (from 0) or of places [x, y], or {"points": list,
 ///          "diameter_mm": d}; a support {"point": number or place, "to_mm": [x, y, z]}, where
-///          "to_mm" may be "free" (of an end that nothing holds) or left out (as the preset says)
+///          "to_mm" may be "free" (of an end that nothing holds) or left out (as the preset says);
+///          "joints": [[a, b, ...], ...] lists points that are one joint though they lie apart
 ///   .obj   "v x y z" and polylines "l a b c ..."
 ///   .dxf   LINE, LWPOLYLINE and POLYLINE, where there is a layer "rods" of that one alone
 /// In the drawings of the last two rods are joined wherever they cross or touch, in JSON where they
-/// name the same point or place.
+/// name the same point or place, or points of one listed joint.
 /// Points are in one horizontal plane; a rod that ends where it begins is a ring. Errors
 /// (bad_input), with `name` and the line: not of the format, NaN, a point that is not there, more
 /// than 100 000 points or rods, another ending.

@@ -1,4 +1,4 @@
-// Networks as JSON: points, rods, supports and where these go.
+// Networks as JSON: points, rods, listed joints, supports and where these go.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -50,6 +50,8 @@ class CountingIterator {
 // values nested deeper are of no network
 constexpr int deepest = 6;
 
+constexpr std::size_t most_at_a_joint = 100;
+
 /// A text with the lines on which the items of its lists begin.
 struct Document {
   Json json;
@@ -98,19 +100,21 @@ class Reader {
   Reader(const Document& document, const std::string& name) : document_(document), name_(name) {}
 
   Result<NetworkData> read() {
-    const std::vector<std::string> known{"points_mm", "rods", "supports"};
+    const std::vector<std::string> known{"points_mm", "rods", "joints", "supports"};
     for (const auto& [key, value] : document_.json.items()) {
       if (std::find(known.begin(), known.end(), key) == known.end())
         return fail(Fault::bad_input,
-                    fmt::format("{}: unknown key '{}', must be points_mm, rods or "
-                                "supports{}",
+                    fmt::format("{}: unknown key '{}', must be points_mm, rods, joints "
+                                "or supports{}",
                                 name_, key.substr(0, 40), did_you_mean(key, known)));
       if (!value.is_array())
         return fail(Fault::bad_input, fmt::format("{}: '{}' must be a list", name_, key));
     }
     return each("points_mm", &Reader::point)
         .and_then([&] { return each("rods", &Reader::rod); })
+        .and_then([&] { return each("joints", &Reader::joint); })
         .and_then([&] { return each("supports", &Reader::support); })
+        .and_then([&] { return draft_.join_listed(); })
         .and_then([&] { return draft_.take(name_); });
   }
 
@@ -172,6 +176,21 @@ class Reader {
       points.push_back(*point);
     }
     return draft_.add_rod(std::move(points), diameter, at_);
+  }
+
+  Result<void> joint(const Json& value) {
+    if (!value.is_array() || value.size() < 2 || value.size() > most_at_a_joint)
+      return wrong("must be a list of 2 to 100 points, by number or place");
+    std::vector<int> points;
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      const auto point = point_of(value[k]);
+      if (!point) return tl::unexpected(point.error());
+      if (std::find(value.begin(), value.begin() + std::ptrdiff_t(k), value[k]) !=
+          value.begin() + std::ptrdiff_t(k))
+        return wrong("lists a point twice, must list each once");
+      points.push_back(*point);
+    }
+    return draft_.add_joint(std::move(points), at_);
   }
 
   Result<void> support(const Json& value) {
