@@ -27,6 +27,10 @@ class NetworkDraft {
   /// two points apart, too many rods.
   Result<void> add_rod(std::vector<int> points, double diameter_mm, const std::string& at);
   void add_support(std::vector<double> row) { network_.supports.push_back(std::move(row)); }
+  /// The spring of a support, along x, y, z, N/mm.
+  void add_spring(int point, const std::vector<double>& k) {
+    network_.springs.push_back({double(point), k[0], k[1], k[2]});
+  }
   void add_free(int point) { network_.free.push_back(point); }
   /// Points that are to be one joint, as `at` lists them. Errors (bad_input): one that another
   /// joint has too.

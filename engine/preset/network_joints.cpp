@@ -129,7 +129,8 @@ void NetworkDraft::rename(const std::vector<int>& joint_of) {
   };
   for (std::vector<int>& rod : network_.rods)
     for (int& point : rod) point = name(point);
-  for (std::vector<double>& row : network_.supports) row[0] = name(int(row[0]));
+  for (Points* rows : {&network_.supports, &network_.springs})
+    for (std::vector<double>& row : *rows) row[0] = name(int(row[0]));
   std::set<int> free, supported;
   for (const std::vector<double>& row : network_.supports) supported.insert(int(row[0]));
   for (const int point : network_.free) free.insert(name(point));

@@ -198,21 +198,36 @@ class Reader {
       return wrong("must be {\"point\": number, \"to_mm\": [x, y, z] or \"free\"}");
     const auto point = point_of(value["point"]);
     if (!point) return tl::unexpected(point.error());
+    for (const auto& [key, inner] : value.items())
+      if (key != "point" && key != "to_mm" && key != "spring_N_per_mm")
+        return wrong(
+            "must be {\"point\": number, \"to_mm\": [x, y, z], \"spring_N_per_mm\": number}");
+    if (value.contains("to_mm") && value["to_mm"] == "free") {
+      if (value.contains("spring_N_per_mm"))
+        return wrong("an end that is free has no spring_N_per_mm");
+      draft_.add_free(*point);
+      return {};
+    }
     std::vector<double> row{double(*point)};
-    for (const auto& [key, inner] : value.items()) {
-      if (key == "point") continue;
-      if (key != "to_mm") return wrong("must be {\"point\": number, \"to_mm\": [x, y, z]}");
-      if (inner.is_string() && inner.get<std::string>() == "free") {
-        draft_.add_free(*point);
-        return {};
-      }
-      const auto to = numbers_in(inner);
+    if (value.contains("to_mm")) {
+      const auto to = numbers_in(value["to_mm"]);
       if (!to || to->size() != 3) return wrong("to_mm must be [x, y, z], or \"free\"");
       for (const double one : *to)
         if (!(std::abs(one) <= 1e9)) return wrong("to_mm must be at most 1e9");
       row.insert(row.end(), to->begin(), to->end());
     }
     draft_.add_support(std::move(row));
+    return value.contains("spring_N_per_mm") ? spring(*point, value["spring_N_per_mm"])
+                                             : Result<void>();
+  }
+
+  /// The same along x, y and z, or one along each.
+  Result<void> spring(int point, const Json& value) {
+    const auto k = value.is_number() ? std::vector<double>(3, value.get<double>())
+                                     : numbers_in(value).value_or(std::vector<double>());
+    if (k.size() != 3) return wrong("spring_N_per_mm must be a number, or [kx, ky, kz]");
+    if (const auto fault = spring_fault(k); !fault.empty()) return wrong(fault.c_str());
+    draft_.add_spring(point, k);
     return {};
   }
 
@@ -240,11 +255,15 @@ std::string network_json(const NetworkData& network) {
                        ? fmt::format("    {{\"points\": {}, \"diameter_mm\": {}}}", list, diameter)
                        : "    " + list);
   }
-  for (const auto& row : network.supports)
-    supports.push_back(row.size() == 1
-                           ? fmt::format("    {{\"point\": {}}}", row[0])
-                           : fmt::format("    {{\"point\": {}, \"to_mm\": [{}, {}, {}]}}", row[0],
-                                         row[1], row[2], row[3]));
+  std::map<double, std::string> springs;
+  for (const auto& row : network.springs)
+    springs[row[0]] = fmt::format(", \"spring_N_per_mm\": [{}, {}, {}]", row[1], row[2], row[3]);
+  for (const auto& row : network.supports) {
+    const auto to = row.size() == 1
+                        ? std::string()
+                        : fmt::format(", \"to_mm\": [{}, {}, {}]", row[1], row[2], row[3]);
+    supports.push_back(fmt::format("    {{\"point\": {}{}{}}}", row[0], to, springs[row[0]]));
+  }
   for (const int point : network.free)
     supports.push_back(fmt::format("    {{\"point\": {}, \"to_mm\": \"free\"}}", point));
   return fmt::format(
