@@ -135,7 +135,7 @@ void put_rods(const Model& model, const State& state, const Assembly& at, record
 }
 
 /// What holds the supports: all of the force on a pinned node, with what turns its end; of a joint
-/// what its hold prescribes.
+/// what its hold prescribes; the force of its spring where it is on one.
 void put_reactions(const RodMesh& mesh, const Model& model, const Assembly& at,
                    const std::vector<Hold>& holds, record::Frame& frame) {
   const std::vector<int> supports = supports_of(mesh);
@@ -153,6 +153,8 @@ void put_reactions(const RodMesh& mesh, const Model& model, const Assembly& at,
     }
   }
   for (const Hold& hold : holds) on[std::size_t(hold.node)] = hold.part(at.gradient.col(hold.node));
+  for (const MeshSpring& spring : mesh.springs)
+    on[std::size_t(spring.node)] += at.gradient.col(spring.support);
   frame.reactions_N.resize(3, long(supports.size()));
   for (std::size_t k = 0; k < supports.size(); ++k)
     frame.reactions_N.col(long(k)) = on[std::size_t(supports[k])];

@@ -40,7 +40,9 @@ int best_joint(const Footprint& footprint, const Eigen::VectorXd& score) {
 }  // namespace
 
 Result<void> not_on_boundary(const Footprint& footprint, int joint) {
-  if (std::ranges::find(footprint.held_joints, joint) == footprint.held_joints.end()) return {};
+  if (std::ranges::find(footprint.held_joints, joint) == footprint.held_joints.end() ||
+      footprint.is_sprung(joint))
+    return {};
   const FootprintJoint& at = footprint.joints[std::size_t(joint)];
   return fail(Fault::bad_input,
               fmt::format("joint [{}, {}] is a support: nothing can push it", at.i, at.j));

@@ -8,6 +8,7 @@
 
 #include "engine/core/even.h"
 #include "engine/experiment/actuation.h"
+#include "engine/experiment/indentation.h"
 #include "engine/experiment/state_measures.h"
 
 namespace gridshell::experiment {
@@ -86,6 +87,8 @@ Jitter::Jitter(std::shared_ptr<const Scene> scene, const preset::Jitter& jitter,
   // what lies between joints counts half to each
   const RodMesh mesh = mesh_rods(scene_->footprint, 1);
   joint_length_ = lumped(mesh, std::vector<double>(mesh.rods.size(), 1.0)).head(mesh.joints);
+  for (int joint = 0; joint < mesh.joints; ++joint)
+    if (not_on_boundary(scene_->footprint, joint)) pushable_.push_back(joint);
 }
 
 Result<Jitter> Jitter::make(std::shared_ptr<const Scene> scene, const preset::Jitter& jitter,
@@ -127,9 +130,10 @@ Result<State> Jitter::pushed(const PartlyActuated& form, std::mt19937& random, c
   if (session_.begin_at(form.t, form.state, watch).end != Outcome::reached)
     return watch.cancelled() ? Result<State>(stopped())
                              : Result<State>(no_rest("the form to push is not at rest"));
+  if (pushable_.empty()) return no_rest("every joint is a support, nothing can push it");
   const unsigned pushes = 1 + random() % most_pushes;
   for (unsigned k = 0; k < pushes; ++k) {
-    const int joint = int(random() % std::uint32_t(scene_->footprint.joints.size()));
+    const int joint = pushable_[random() % std::uint32_t(pushable_.size())];
     const double depth = jitter_.depth * scene_->footprint.spacing * share(random);
     // how far it came is far enough: a hand stops where the rods are at their length
     session_.push(joint, depth * direction(random), Across::free, watch);

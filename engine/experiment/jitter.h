@@ -71,6 +71,7 @@ class Jitter {
   std::vector<MeshSymmetry> symmetries_;  // of the shell, on the mesh that states are judged on
   std::vector<SymmetryGroup> groups_;
   Eigen::VectorXd joint_length_;  // of rod that each joint stands for, mm
+  std::vector<int> pushable_;     // joints that no support holds
   Cascade cascade_;
   Session session_;
 };

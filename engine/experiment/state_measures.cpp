@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/experiment/course.h"
 #include "engine/experiment/frames.h"
@@ -39,6 +40,24 @@ std::string modes_told(const std::vector<int>& modes, const Footprint& footprint
   return fmt::format("{} | {}", fmt::join(u, " "), fmt::join(v, " "));
 }
 
+bool alike(const std::vector<RodMaterial>& materials) {
+  return std::ranges::all_of(materials, [&](const RodMaterial& material) {
+    const RodMaterial& first = materials.front();
+    return material.EA == first.EA && material.EI1 == first.EI1 && material.EI2 == first.EI2 &&
+           material.GJ == first.GJ;
+  });
+}
+
+/// Whether the rods of each direction of a square grid are of one kind; of a network that is no
+/// grid nothing tells which rod a map takes to which.
+bool alike_by_family(const Scene& scene) {
+  std::map<Family, std::vector<RodMaterial>> materials;
+  for (std::size_t r = 0; r < scene.footprint.rods.size(); ++r)
+    materials[scene.footprint.rods[r].family].push_back(scene.rods.material(r));
+  return !materials.contains(Family::other) &&
+         std::ranges::all_of(materials, [](const auto& family) { return alike(family.second); });
+}
+
 }  // namespace
 
 std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene,
@@ -47,16 +66,12 @@ std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene,
   const bool shaped = std::ranges::any_of(rods.materials, [](const RodMaterial& material) {
     return !material.curvature.isZero(0) || material.twist != 0;
   });
-  const RodMaterial& first = rods.materials.front();
-  const bool one_kind = std::ranges::all_of(rods.materials, [&](const RodMaterial& material) {
-    return material.EA == first.EA && material.EI1 == first.EI1 && material.EI2 == first.EI2 &&
-           material.GJ == first.GJ;
-  });
+  const bool one_kind = alike(rods.materials), by_family = alike_by_family(scene);
   std::vector<MeshSymmetry> kept;
   for (const MeshSymmetry& symmetry : mesh) {
     const bool identity = symmetry.index == 0;
     const bool allowed = !shaped && rods.points.empty() &&
-                         (one_kind || !symmetry.swaps_families()) &&
+                         (one_kind || (by_family && !symmetry.swaps_families())) &&
                          (!rods.loaded() || !symmetry.turns_over());
     if (identity || allowed) kept.push_back(symmetry);
   }

@@ -124,6 +124,10 @@ void find_cells(Footprint& net) {
   }
 }
 
+bool Footprint::is_sprung(int joint) const {
+  return std::ranges::find(springs, joint, &SupportSpring::joint) != springs.end();
+}
+
 double Footprint::shortest_leg() const {
   return leg(*this, std::numeric_limits<double>::infinity(),
              [](double a, double b) { return std::min(a, b); });

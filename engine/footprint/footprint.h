@@ -2,6 +2,7 @@
 // [Baek 2018, 'Anatomy and Actuation'], or any other flat network of rods (network.h).
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <string>
 #include <vector>
@@ -28,8 +29,9 @@ struct FootprintCell {
 };
 
 /// What holds a rod's end: nothing, its position, its position and direction, or its spin too; or
-/// it is `joined`: it ends at a joint, of another rod or of its own other end.
-enum class RodEnd { free, pinned, tangent, clamped, joined };
+/// it is `joined`: it ends at a joint, of another rod or of its own other end; or `sprung`: a
+/// spring pulls it to its support.
+enum class RodEnd { free, pinned, tangent, clamped, joined, sprung };
 
 inline bool holds_direction(RodEnd end) { return end == RodEnd::tangent || end == RodEnd::clamped; }
 /// Whether the boundary holds it.
@@ -64,14 +66,24 @@ struct FootprintRod {
   bool closed() const { return joints.size() > 1 && joints.front() == joints.back(); }
 };
 
+/// A support on a spring: of a rod's end, which is `sprung`, or of one of the held joints.
+struct SupportSpring {
+  int end = -1;                       ///< begin of rod r at 2 r; -1: of a joint
+  int joint = -1;                     ///< -1: of an end
+  Eigen::Vector3d N_per_mm{0, 0, 0};  ///< along x, y, z; 0: it slides that way
+};
+
 /// All rods, joints and complete cells inside an original boundary. Lengths in mm.
 struct Footprint {
   double spacing = 0;  ///< of a network that is no square grid its median segment
   Placement placement = Placement::half;
   std::vector<FootprintJoint> joints;
   std::vector<FootprintRod> rods;
-  std::vector<FootprintCell> cells;  ///< none where rods are not of a square grid
-  std::vector<int> held_joints{};    ///< those that the boundary holds, as it does edge points
+  std::vector<FootprintCell> cells;      ///< none where rods are not of a square grid
+  std::vector<int> held_joints{};        ///< those that the boundary holds, as it does edge points
+  std::vector<SupportSpring> springs{};  ///< of what is held by springs; of the rest none
+
+  bool is_sprung(int joint) const;  ///< whether a held joint is on a spring
 
   /// shortest and longest leg: from an edge point to the joint next to it
   double shortest_leg() const;

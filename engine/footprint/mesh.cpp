@@ -56,6 +56,13 @@ void add_ghosts(const Footprint& footprint, int& next, RodMesh& mesh) {
   mesh.ghosts = next - first;
 }
 
+void add_supports(const Footprint& footprint, int& next, RodMesh& mesh) {
+  for (const SupportSpring& spring : footprint.springs) {
+    const int node = spring.joint >= 0 ? spring.joint : mesh.joints + spring.end;
+    mesh.springs.push_back({next++, node, spring.N_per_mm});
+  }
+}
+
 }  // namespace
 
 RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
@@ -87,6 +94,7 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   }
 
   add_ghosts(footprint, next, mesh);
+  add_supports(footprint, next, mesh);
   mesh.flat.resize(2, next);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const FootprintRod& rod = footprint.rods[r];
@@ -102,6 +110,8 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
   }
   for (Eigen::Index k = 0; k < mesh.joints; ++k)
     mesh.flat.col(k) << footprint.joints[std::size_t(k)].u, footprint.joints[std::size_t(k)].v;
+  for (const MeshSpring& spring : mesh.springs)
+    mesh.flat.col(spring.support) = mesh.flat.col(spring.node);
   return mesh;
 }
 
@@ -155,6 +165,8 @@ MeshTransfer::MeshTransfer(const RodMesh& from, const RodMesh& to) : nodes_to_(t
   for (int end = 0; end < to.edge_points; ++end)
     if (to.end_of(end) == RodEnd::joined)
       stencils_.push_back({to.joints + end, {from.joints + end, 0, 0, 0}, {1, 0, 0, 0}});
+  for (std::size_t k = 0; k < to.springs.size(); ++k)
+    stencils_.push_back({to.springs[k].support, {from.springs[k].support, 0, 0, 0}, {1, 0, 0, 0}});
   int first_edge = 0;
   for (std::size_t r = 0; r < from.rods.size(); ++r) {
     const std::vector<int>& node = from.rods[r];

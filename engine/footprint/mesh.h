@@ -8,9 +8,17 @@
 
 namespace gridshell {
 
+/// A support on a spring: the node of the support, which is pinned and of no rod, and the rods'
+/// node that it pulls.
+struct MeshSpring {
+  int support = 0, node = 0;
+  Eigen::Vector3d N_per_mm{0, 0, 0};  ///< along x, y, z
+};
+
 /// Nodes of all rods. An end whose direction is held has one node more, a *ghost* beyond its edge
-/// point, pinned where the direction asks for it: ghosts are the last nodes of the mesh and the
-/// first or last of their rod, `ghost_length` from the edge point on every mesh.
+/// point, pinned where the direction asks for it: ghosts come after the nodes of the rods and are
+/// the first or last of their rod, `ghost_length` from the edge point on every mesh. The last nodes
+/// of the mesh are the supports of springs, in their order.
 /// Joints come first (node = index of the joint, shared by its rods), then
 /// edge points (rod r has node joints + 2r at its begin, joints + 2r + 1 at its end), then the
 /// nodes inside segments, legs and tails, rod by rod. A rod with a tail begins or ends at the
@@ -23,7 +31,8 @@ struct RodMesh {
   int edge_points = 0;
   std::vector<RodEnd> ends;      ///< of every edge point; empty: all pinned
   std::vector<int> far_ends;     ///< of every edge point, -1: no tail; empty: none has one
-  std::vector<int> held_joints;  ///< that the boundary holds
+  std::vector<int> held_joints;  ///< that the boundary holds, some by springs
+  std::vector<MeshSpring> springs;
   int ghosts = 0;
   double ghost_length = 0;                    ///< mm
   std::vector<std::vector<int>> rods;         ///< nodes of each rod from end to end
@@ -31,7 +40,8 @@ struct RodMesh {
   Eigen::Matrix2Xd flat;                      ///< (u, v) of every node, mm
 
   int nodes() const { return int(flat.cols()); }
-  int rod_nodes() const { return nodes() - ghosts; }  ///< those that are not ghosts
+  int beside_rods() const { return ghosts + int(springs.size()); }  ///< ghosts and supports
+  int rod_nodes() const { return nodes() - beside_rods(); }
   bool is_ghost(int node) const { return node >= rod_nodes(); }
   RodEnd end_of(int edge_point) const {
     return ends.empty() ? RodEnd::pinned : ends[std::size_t(edge_point)];

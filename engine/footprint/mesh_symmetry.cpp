@@ -16,16 +16,33 @@ std::pair<long long, long long> place_of(const Eigen::Vector2d& p) {
   return {std::llround(p.x() / same_mm), std::llround(p.y() / same_mm)};
 }
 
+/// Supports go where what hangs on them goes, if springs as stiff are there.
+std::optional<std::vector<int>> with_supports(const RodMesh& mesh, const Eigen::Matrix3d& map,
+                                              std::vector<int> image) {
+  for (const MeshSpring& spring : mesh.springs) {
+    const int node = image[std::size_t(spring.node)];
+    const Eigen::Vector3d turned = map.cwiseAbs() * spring.N_per_mm;
+    const auto there = std::ranges::find_if(mesh.springs, [&](const MeshSpring& other) {
+      return other.node == node && other.N_per_mm.isApprox(turned);
+    });
+    if (there == mesh.springs.end()) return std::nullopt;
+    image[std::size_t(spring.support)] = there->support;
+  }
+  return image;
+}
+
 /// Where each node goes, if each goes to the place of a node.
 std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matrix3d& map) {
   std::map<std::pair<long long, long long>, int> node_at;
-  for (int node = 0; node < mesh.nodes(); ++node) node_at[place_of(mesh.flat.col(node))] = node;
+  // supports lie on what hangs on them and go with it
+  const int placed = mesh.nodes() - int(mesh.springs.size());
+  for (int node = 0; node < placed; ++node) node_at[place_of(mesh.flat.col(node))] = node;
   std::vector<int> image(std::size_t(mesh.nodes()));
   std::iota(image.begin(), image.end(), 0);
   if (map.isIdentity(0)) return image;
   // of nodes on one another nothing tells which goes where
-  if (int(node_at.size()) < mesh.nodes()) return std::nullopt;
-  for (int node = 0; node < mesh.nodes(); ++node) {
+  if (int(node_at.size()) < placed) return std::nullopt;
+  for (int node = 0; node < placed; ++node) {
     const Eigen::Vector2d p = map.topLeftCorner<2, 2>() * mesh.flat.col(node);
     const auto [u, v] = place_of(p);
     int found = -1;
@@ -36,7 +53,7 @@ std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matri
     if (found < 0) return std::nullopt;
     image[std::size_t(node)] = found;
   }
-  return image;
+  return with_supports(mesh, map, std::move(image));
 }
 
 }  // namespace
@@ -45,7 +62,8 @@ std::vector<int> held_nodes(const RodMesh& mesh) {
   std::vector<int> held = mesh.held_joints;
   for (int k = 0; k < mesh.edge_points; ++k)
     if (is_held(mesh.end_of(k))) held.push_back(mesh.joints + k);
-  for (int node = mesh.rod_nodes(); node < mesh.nodes(); ++node) held.push_back(node);
+  for (int node = mesh.rod_nodes(); node < mesh.rod_nodes() + mesh.ghosts; ++node)
+    held.push_back(node);
   return held;
 }
 
@@ -89,6 +107,8 @@ Eigen::Matrix3Xd MeshSymmetry::of(const Eigen::Matrix3Xd& x) const {
 
 std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix3Xd& ends) {
   const std::vector<int> held = held_nodes(mesh);
+  std::vector<int> sorted = held;
+  std::ranges::sort(sorted);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const int node : held) centre.z() += ends(2, node) / double(held.size());
   std::vector<MeshSymmetry> found;
@@ -97,6 +117,11 @@ std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix
     auto image = image_of(mesh, symmetry.map);
     if (!image) continue;
     symmetry.image = std::move(*image);
+    // what is held goes to what is held
+    if (!std::ranges::all_of(held, [&](int node) {
+          return std::ranges::binary_search(sorted, symmetry.image[std::size_t(node)]);
+        }))
+      continue;
     const Eigen::Matrix3Xd moved = symmetry.of(ends.leftCols(Eigen::Index(symmetry.image.size())));
     const bool same = std::all_of(held.begin(), held.end(), [&](int node) {
       return (moved.col(node) - ends.col(node)).norm() < same_mm;

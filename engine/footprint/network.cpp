@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -91,18 +93,21 @@ class Roles {
 
   bool is_joint(int point) const {
     const auto [passes, ends] = visits_[std::size_t(point)];
-    if (passes == 0) return ends > 1 && network_.free[std::size_t(point)] != 0;
+    if (passes == 0)
+      return ends > 1 && (network_.free[std::size_t(point)] != 0 || is_sprung(point));
     return passes + ends > 1 || is_supported(point) || corners_.contains(point);
   }
   bool is_supported(int point) const { return network_.supported[std::size_t(point)] != 0; }
+  bool is_sprung(int point) const { return network_.springs.contains(point); }
   /// Of a point where rods only end.
   RodEnd end_at(int point) const {
     if (is_joint(point)) return RodEnd::joined;
+    if (is_sprung(point)) return RodEnd::sprung;
     return network_.free[std::size_t(point)] != 0 ? RodEnd::free : RodEnd::pinned;
   }
   /// Whether the boundary holds what is there.
   bool is_held(int point) const {
-    return is_joint(point) ? is_supported(point) : end_at(point) == RodEnd::pinned;
+    return is_joint(point) ? is_supported(point) : gridshell::is_held(end_at(point));
   }
   const Visits& at(int point) const { return visits_[std::size_t(point)]; }
 
@@ -169,16 +174,51 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
   return rod;
 }
 
+/// What holds a piece: a place, and the directions in which it is held there.
+struct HeldPlace {
+  Eigen::Vector2d at;
+  Eigen::Vector3d along;  ///< 1 or 0 of x, y, z
+};
+
+/// The directions in which a support holds: all, or those that its spring has.
+Eigen::Vector3d held_along(const RodNetwork& network, int point) {
+  const auto spring = network.springs.find(point);
+  if (spring == network.springs.end()) return Eigen::Vector3d::Ones();
+  return (spring->second.array() > 0).cast<double>();
+}
+
 /// Whether points of a plane are off a line.
-bool off_a_line(const std::vector<Eigen::Vector2d>& points) {
-  if (points.empty()) return false;
-  Eigen::Vector2d far = points.front();
-  for (const Eigen::Vector2d& p : points)
-    if ((p - points.front()).norm() > (far - points.front()).norm()) far = p;
-  const Eigen::Vector2d way = far - points.front();
-  return std::ranges::any_of(points, [&](const Eigen::Vector2d& p) {
-    return std::abs(cross(way, p - points.front())) > on_a_line * way.squaredNorm();
+bool off_a_line(const std::vector<HeldPlace>& places) {
+  if (places.empty()) return false;
+  const Eigen::Vector2d first = places.front().at;
+  Eigen::Vector2d far = first;
+  for (const HeldPlace& place : places)
+    if ((place.at - first).norm() > (far - first).norm()) far = place.at;
+  const Eigen::Vector2d way = far - first;
+  return std::ranges::any_of(places, [&](const HeldPlace& place) {
+    return std::abs(cross(way, place.at - first)) > on_a_line * way.squaredNorm();
   });
+}
+
+/// Whether places hold a piece against every small move and turn: the six columns of
+/// (e, p x e/L) over all places p and held directions e are independent.
+bool hold_all(const std::vector<HeldPlace>& places) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const HeldPlace& place : places) middle += place.at / double(places.size());
+  double reach = 0;
+  for (const HeldPlace& place : places) reach = std::max(reach, (place.at - middle).norm());
+  Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(3 * Eigen::Index(places.size()), 6);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+    arm.head<2>() = (places[k].at - middle) / reach;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d e = places[k].along[axis] * Eigen::Vector3d::Unit(axis);
+      moves.row(3 * Eigen::Index(k) + axis) << e.transpose(), arm.cross(e).transpose();
+    }
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(on_a_line);
+  return qr.compute(moves).rank() == 6;
 }
 
 /// Every piece that hangs together is held where it cannot turn.
@@ -192,21 +232,27 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
   };
   for (const FootprintRod& rod : footprint.rods)
     for (const int joint : rod.joints) piece[std::size_t(root(joint))] = root(rod.joints.front());
-  std::map<int, std::vector<Eigen::Vector2d>> held;
+  std::map<int, std::vector<HeldPlace>> held;
   std::map<int, std::size_t> first_rod;
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     const int at = root(footprint.rods[r].joints.front());
     first_rod.try_emplace(at, r);
     for (const int point : network.rods[r])
       if (roles.is_held(point) && (roles.is_joint(point) || roles.at(point).ends > 0))
-        held[at].push_back(network.points.col(point));
+        held[at].push_back({network.points.col(point), held_along(network, point)});
   }
-  for (const auto& [at, rod] : first_rod)
+  for (const auto& [at, rod] : first_rod) {
     if (!off_a_line(held[at]))
       return fail(Fault::bad_input,
                   fmt::format("rods[{}] and what is joined to it: held at fewer than three points, "
                               "or at points on one line, and would turn freely about it",
                               rod));
+    if (!hold_all(held[at]))
+      return fail(Fault::bad_input,
+                  fmt::format("rods[{}] and what is joined to it: held by springs along too few "
+                              "directions, and would move or turn freely",
+                              rod));
+  }
   return {};
 }
 
@@ -292,6 +338,19 @@ void name_as_grid(NetworkFootprint& network, Placement placement) {
   find_cells(network.footprint);
 }
 
+/// The springs of the network's supports, of its ends and held joints as they are named.
+void put_springs(const RodNetwork& network, NetworkFootprint& made) {
+  Footprint& footprint = made.footprint;
+  for (std::size_t end = 0; end < made.ends.size(); ++end) {
+    const FootprintRod& rod = footprint.rods[end / 2];
+    if ((end % 2 == 0 ? rod.begin : rod.end) == RodEnd::sprung)
+      footprint.springs.push_back({int(end), -1, network.springs.at(made.ends[end])});
+  }
+  for (std::size_t k = 0; k < made.joints.size(); ++k)
+    if (const auto spring = network.springs.find(made.joints[k]); spring != network.springs.end())
+      footprint.springs.push_back({-1, footprint.held_joints[k], spring->second});
+}
+
 }  // namespace
 
 Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
@@ -327,6 +386,7 @@ Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
   footprint.spacing = spacing_of(footprint);
   for (const Placement placement : {Placement::half, Placement::on_axis})
     if (footprint.cells.empty()) name_as_grid(made, placement);
+  put_springs(network, made);
   return made;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -11,10 +12,11 @@ namespace gridshell {
 
 /// Rods as lists of points. Rods that name the same point are joined there.
 struct RodNetwork {
-  Eigen::Matrix2Xd points;             ///< mm
-  std::vector<std::vector<int>> rods;  ///< numbers of points; a ring ends with its first one
-  std::vector<char> supported;         ///< of each point: what it is on is held there
-  std::vector<char> free;              ///< of each point: rods' ends there are not held
+  Eigen::Matrix2Xd points;                   ///< mm
+  std::vector<std::vector<int>> rods;        ///< numbers of points; a ring ends with its first one
+  std::vector<char> supported;               ///< of each point: what it is on is held there
+  std::vector<char> free;                    ///< of each point: rods' ends there are not held
+  std::map<int, Eigen::Vector3d> springs{};  ///< of supports on springs: along x, y, z, N/mm
 };
 
 /// The footprint, and which points of the network its ends and held joints are.
@@ -29,14 +31,15 @@ struct NetworkFootprint {
 ///   a rod's inner point that is on another rod too, or supported: a joint (held, if supported);
 ///   an inner point of a rod that is not straight: a joint of this rod alone;
 ///   a point where rods only end: there each has an edge point of its own, pinned;
-///   the same, but free: with one rod its free end, with several a joint of their ends;
+///   the same, but free or on a spring: with one rod its end, with several a joint of their ends;
 ///   where rods end at an inner point of another: they are joined to that joint.
 /// Rods are naturally straight and as long as their polyline. Rods that cross without a common
 /// point pass one another. Where all rods are of a square grid about the origin, rods, joints and
 /// cells are named as its.
 /// Errors (bad_input), naming rods ("rods[3]") and points: a rod of one point, of no length, twice
 /// through a point, twice along a stretch, or joined to nothing; a free point that is no end; a
-/// piece that is not held at three points off a line, as it would turn freely.
+/// piece that is not held at three points off a line, or by springs along too few directions, as it
+/// would move or turn freely.
 Result<NetworkFootprint> network_footprint(const RodNetwork& network);
 
 /// The corners of the convex hull of points, counter-clockwise.

@@ -120,7 +120,7 @@ void each_pair_list(const Model& model, Visit visit) {
   std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
 }
 
-Eigen::Vector3d gap_of(const State& state, const JointSpring& spring) {
+Eigen::Vector3d gap_of(const State& state, const NodeSpring& spring) {
   return state.x.col(spring.b) - state.x.col(spring.a);
 }
 
@@ -212,11 +212,11 @@ void add_others(const Model& model, const State& state, const Outside& outside, 
   });
   for (const ModelSpring& spring : model.springs) {
     const Eigen::Vector3d gap = gap_of(state, spring.law), pull = spring.law.gradient(gap);
-    out.energies[Term::joint] += spring.law.value(gap);
+    out.energies[spring.law.term] += spring.law.value(gap);
     out.gradient.col(spring.law.a) -= pull;
     out.gradient.col(spring.law.b) += pull;
     if (!with_hessian) continue;
-    const Eigen::Matrix3d m = spring.law.stiffness * Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d m = spring.law.stiffness.asDiagonal();
     out.hessian.diagonal[std::size_t(spring.law.a)].matrix() += m;
     out.hessian.diagonal[std::size_t(spring.law.b)].matrix() += m;
     out.hessian.add(spring.slot, -m);
@@ -330,7 +330,7 @@ Energies energies_of(const Model& model, const State& state, const Outside& outs
       sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
   });
   for (const ModelSpring& spring : model.springs)
-    sum[Term::joint] += spring.law.value(gap_of(state, spring.law));
+    sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
   each_action(model, outside, [&](const NodeAction& action, double factor) {
     sum[action.term] += factor * action.value(state.x.col(action.node));
   });

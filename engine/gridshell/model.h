@@ -13,9 +13,9 @@
 #include "engine/rod/energies.h"
 #include "engine/rod/joint_shear.h"
 #include "engine/rod/joint_spin.h"
-#include "engine/rod/joint_spring.h"
 #include "engine/rod/material.h"
 #include "engine/rod/node_action.h"
+#include "engine/rod/node_spring.h"
 #include "engine/rod/twist.h"
 
 namespace gridshell {
@@ -43,7 +43,7 @@ struct ModelBend {
 
 /// Two nodes joined by a spring.
 struct ModelSpring {
-  JointSpring law;
+  NodeSpring law;
   BlockSlot slot = 0;
 };
 

@@ -22,7 +22,10 @@ ModelRod rod_of(const RodMesh& mesh, std::size_t r, const RodMaterial& material)
   }
   // a closed rod comes back to its first node
   if (rod.nodes.front() == rod.nodes.back()) rod.nodes.pop_back();
-  const auto held = [&](RodEnd end) { return end == RodEnd::joined ? RodEnd::free : end; };
+  // what hangs on a spring is free in itself
+  const auto held = [&](RodEnd end) {
+    return end == RodEnd::joined || end == RodEnd::sprung ? RodEnd::free : end;
+  };
   rod.begin = held(mesh.end_of(int(2 * r)));
   rod.end = held(mesh.end_of(int(2 * r + 1)));
   return rod;
@@ -60,7 +63,8 @@ void add_joints(const RodMesh& mesh, const JointLaw& law, Model& model) {
   for (int joint = 0; joint < mesh.joints; ++joint) {
     const int other = springs ? mesh.nodes() + joint : joint;
     const std::vector<int>& rods = crossings[std::size_t(joint)];
-    if (springs) model.springs.push_back({{joint, other, law.spring_N_per_mm}});
+    if (springs)
+      model.springs.push_back({{joint, other, Eigen::Vector3d::Constant(law.spring_N_per_mm)}});
     const int a = rods.front();
     for (std::size_t k = 1; k < rods.size(); ++k) {
       const int b = rods[k];
@@ -71,9 +75,13 @@ void add_joints(const RodMesh& mesh, const JointLaw& law, Model& model) {
   }
 }
 
-/// edge points with a tail, or without a rod, and joints that the boundary holds
+/// edge points with a tail, or without a rod, joints that the boundary holds, supports of springs
 std::vector<int> pinned_beside_ends(const RodMesh& mesh) {
   std::vector<int> nodes = mesh.held_joints;
+  for (const MeshSpring& spring : mesh.springs) {
+    std::erase(nodes, spring.node);
+    nodes.push_back(spring.support);
+  }
   for (int end = 0; end < mesh.edge_points; ++end)
     if ((!mesh.far_ends.empty() && mesh.far_ends[std::size_t(end)] >= 0) ||
         mesh.end_of(end) == RodEnd::joined)
@@ -146,6 +154,8 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, Rung rung
   auto model = build_model(nodes, rods, rung, crossings);
   if (!model) return model;
   if (rung == Rung::twist) add_joints(mesh, shell.joints, *model);
+  for (const MeshSpring& spring : mesh.springs)
+    model->springs.push_back({{spring.support, spring.node, spring.N_per_mm, Term::support}});
   const std::vector<int> pinned = pinned_beside_ends(mesh);
   for (const int node : pinned) model->pin(node);
   if (rung == Rung::twist || !pinned.empty()) finish(*model);

@@ -47,8 +47,8 @@ Eigen::VectorXd lumped(const RodMesh& mesh, const std::vector<double>& per_mm);
 /// Dead forces on the nodes of a mesh.
 std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods);
 
-/// The model of a meshed footprint; edge points are pinned but for free ends, ghosts and the far
-/// ends of tails too. Node
+/// The model of a meshed footprint; edge points are pinned but for free ends and those on springs,
+/// ghosts, supports of springs and the far ends of tails too. Node
 /// numbers are the mesh's; with spring joints the v rod's own node of a joint comes after them, in
 /// the order of the joints. First directors stand up from the flat (+z). Errors as build_model().
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods, Rung rung = Rung::bend);

@@ -302,6 +302,7 @@ std::string put(const NetworkText& kind, const toml::node& value, Preset& preset
     wrong = read(*rods->get(r), between(0, 1e9), "rods hold ", network.rods.emplace_back());
   if (wrong.empty()) wrong = read_if_there(*table, "diameters_mm", network.diameters);
   if (wrong.empty()) wrong = read_if_there(*table, "supports_mm", network.supports);
+  if (wrong.empty()) wrong = read_if_there(*table, "springs_N_per_mm", network.springs);
   if (wrong.empty()) wrong = read_if_there(*table, "free", network.free);
   if (wrong.empty()) wrong = network_fault(network);
   if (wrong.empty()) kind.in(preset) = std::move(network);

@@ -99,6 +99,8 @@ std::string network_text(const NetworkData& network) {
     text += fmt::format(", diameters_mm = {}", reals_text(network.diameters));
   if (!network.supports.empty())
     text += fmt::format(", supports_mm = {}", rows_text(network.supports));
+  if (!network.springs.empty())
+    text += fmt::format(", springs_N_per_mm = {}", rows_text(network.springs));
   if (!network.free.empty()) text += fmt::format(", free = {}", integers_text(network.free));
   return text + "}";
 }
@@ -152,8 +154,8 @@ std::string allowed(const Field& field) {
           },
           [](const NetworkText&) {
             return std::string(
-                "the name of a file, a table {points_mm, rods, diameters_mm, supports_mm, free}, "
-                "or \"\"");
+                "the name of a file, a table {points_mm, rods, diameters_mm, supports_mm, "
+                "springs_N_per_mm, free}, or \"\"");
           },
           [](const WordList& k) { return "a list of " + words_text(k.words); },
       },

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -26,7 +27,20 @@ class NetworkDraft {
   /// two points apart, too many rods.
   Result<void> add_rod(std::vector<int> points, double diameter_mm, const std::string& at);
   void add_support(std::vector<double> row) { network_.supports.push_back(std::move(row)); }
+  /// The spring of a support, along x, y, z, N/mm.
+  void add_spring(int point, const std::vector<double>& k) {
+    network_.springs.push_back({double(point), k[0], k[1], k[2]});
+  }
   void add_free(int point) { network_.free.push_back(point); }
+  /// Points that are to be one joint, as `at` lists them. Errors (bad_input): one that another
+  /// joint has too.
+  Result<void> add_joint(std::vector<int> points, const std::string& at);
+  /// Makes the points of every joint that was added one, the first of them, at their mean place: in
+  /// rods, supports and what is free. Where rods only end there, and it is no support, they are
+  /// joined by a hinge. Errors (bad_input), at the joint: a point of no rod, two of one rod that
+  /// are not its two ends, a point further off the mean than a quarter of the shortest stretch of
+  /// rod beside the joint.
+  Result<void> join_listed();
   /// Joins rods where they cross or touch, as drawings have them: a point more on each.
   Result<void> join_crossings(const std::string& name);
   std::size_t points() const { return network_.points.size(); }
@@ -37,7 +51,18 @@ class NetworkDraft {
   using Cell = std::tuple<long, long, long>;
   int known(const std::vector<double>& xyz) const;
 
+  /// Points that are to be one, and where the file says so.
+  struct Joint {
+    std::vector<int> points;
+    std::string at;
+  };
+  Result<void> check_rods(const std::vector<int>& joint_of) const;
+  Result<void> check_reach(const std::vector<int>& joint_of) const;
+  void rename(const std::vector<int>& joint_of);
+
   NetworkData network_;
+  std::vector<Joint> joints_;
+  std::set<int> listed_;      // points of joints_
   std::vector<int> same_as_;  // per point: the earliest one at its place
   std::map<Cell, std::vector<int>> at_;
   std::size_t entries_ = 0;

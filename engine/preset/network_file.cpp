@@ -105,6 +105,17 @@ Result<NetworkData> NetworkDraft::take(const std::string& name) {
   return std::move(network_);
 }
 
+std::string spring_fault(const std::vector<double>& k) {
+  bool any = false;
+  for (const double one : k) {
+    if (!(one == 0 || (one >= softest_spring && one <= stiffest_spring)))
+      return fmt::format("a spring of {:g} N/mm, must be 0 or from {:g} to {:g}", one,
+                         softest_spring, stiffest_spring);
+    any = any || one > 0;
+  }
+  return any ? "" : "a spring of 0 N/mm holds nothing, an end that is free has \"to_mm\": \"free\"";
+}
+
 std::string network_fault(const NetworkData& network) {
   const std::size_t points = network.points.size(), rods = network.rods.size();
   if (rods == 0 || rods > most || points > most)
@@ -136,6 +147,13 @@ std::string network_fault(const NetworkData& network) {
     if (!there(row[0])) return fmt::format("a support at point {} of {}", row[0], points);
     if (!named.insert(row[0]).second)
       return fmt::format("point {} is named as a support twice", row[0]);
+  }
+  std::set<double> sprung;
+  for (const auto& row : network.springs) {
+    if (row.size() != 4) return "springs_N_per_mm must be rows [point, kx, ky, kz]";
+    if (!named.contains(row[0]) || !sprung.insert(row[0]).second)
+      return fmt::format("a spring at point {}, must be one of a support", row[0]);
+    if (const auto wrong = spring_fault({row[1], row[2], row[3]}); !wrong.empty()) return wrong;
   }
   for (const int point : network.free)
     if (!there(point)) return fmt::format("free names point {} of {}", point, points);

@@ -1,4 +1,4 @@
-// Networks as JSON: points, rods, supports and where these go.
+// Networks as JSON: points, rods, listed joints, supports and where these go.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -50,6 +50,8 @@ class CountingIterator {
 // values nested deeper are of no network
 constexpr int deepest = 6;
 
+constexpr std::size_t most_at_a_joint = 100;
+
 /// A text with the lines on which the items of its lists begin.
 struct Document {
   Json json;
@@ -98,19 +100,21 @@ class Reader {
   Reader(const Document& document, const std::string& name) : document_(document), name_(name) {}
 
   Result<NetworkData> read() {
-    const std::vector<std::string> known{"points_mm", "rods", "supports"};
+    const std::vector<std::string> known{"points_mm", "rods", "joints", "supports"};
     for (const auto& [key, value] : document_.json.items()) {
       if (std::find(known.begin(), known.end(), key) == known.end())
         return fail(Fault::bad_input,
-                    fmt::format("{}: unknown key '{}', must be points_mm, rods or "
-                                "supports{}",
+                    fmt::format("{}: unknown key '{}', must be points_mm, rods, joints "
+                                "or supports{}",
                                 name_, key.substr(0, 40), did_you_mean(key, known)));
       if (!value.is_array())
         return fail(Fault::bad_input, fmt::format("{}: '{}' must be a list", name_, key));
     }
     return each("points_mm", &Reader::point)
         .and_then([&] { return each("rods", &Reader::rod); })
+        .and_then([&] { return each("joints", &Reader::joint); })
         .and_then([&] { return each("supports", &Reader::support); })
+        .and_then([&] { return draft_.join_listed(); })
         .and_then([&] { return draft_.take(name_); });
   }
 
@@ -174,26 +178,56 @@ class Reader {
     return draft_.add_rod(std::move(points), diameter, at_);
   }
 
+  Result<void> joint(const Json& value) {
+    if (!value.is_array() || value.size() < 2 || value.size() > most_at_a_joint)
+      return wrong("must be a list of 2 to 100 points, by number or place");
+    std::vector<int> points;
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      const auto point = point_of(value[k]);
+      if (!point) return tl::unexpected(point.error());
+      if (std::find(value.begin(), value.begin() + std::ptrdiff_t(k), value[k]) !=
+          value.begin() + std::ptrdiff_t(k))
+        return wrong("lists a point twice, must list each once");
+      points.push_back(*point);
+    }
+    return draft_.add_joint(std::move(points), at_);
+  }
+
   Result<void> support(const Json& value) {
     if (!value.is_object() || !value.contains("point"))
       return wrong("must be {\"point\": number, \"to_mm\": [x, y, z] or \"free\"}");
     const auto point = point_of(value["point"]);
     if (!point) return tl::unexpected(point.error());
+    for (const auto& [key, inner] : value.items())
+      if (key != "point" && key != "to_mm" && key != "spring_N_per_mm")
+        return wrong(
+            "must be {\"point\": number, \"to_mm\": [x, y, z], \"spring_N_per_mm\": number}");
+    if (value.contains("to_mm") && value["to_mm"] == "free") {
+      if (value.contains("spring_N_per_mm"))
+        return wrong("an end that is free has no spring_N_per_mm");
+      draft_.add_free(*point);
+      return {};
+    }
     std::vector<double> row{double(*point)};
-    for (const auto& [key, inner] : value.items()) {
-      if (key == "point") continue;
-      if (key != "to_mm") return wrong("must be {\"point\": number, \"to_mm\": [x, y, z]}");
-      if (inner.is_string() && inner.get<std::string>() == "free") {
-        draft_.add_free(*point);
-        return {};
-      }
-      const auto to = numbers_in(inner);
+    if (value.contains("to_mm")) {
+      const auto to = numbers_in(value["to_mm"]);
       if (!to || to->size() != 3) return wrong("to_mm must be [x, y, z], or \"free\"");
       for (const double one : *to)
         if (!(std::abs(one) <= 1e9)) return wrong("to_mm must be at most 1e9");
       row.insert(row.end(), to->begin(), to->end());
     }
     draft_.add_support(std::move(row));
+    return value.contains("spring_N_per_mm") ? spring(*point, value["spring_N_per_mm"])
+                                             : Result<void>();
+  }
+
+  /// The same along x, y and z, or one along each.
+  Result<void> spring(int point, const Json& value) {
+    const auto k = value.is_number() ? std::vector<double>(3, value.get<double>())
+                                     : numbers_in(value).value_or(std::vector<double>());
+    if (k.size() != 3) return wrong("spring_N_per_mm must be a number, or [kx, ky, kz]");
+    if (const auto fault = spring_fault(k); !fault.empty()) return wrong(fault.c_str());
+    draft_.add_spring(point, k);
     return {};
   }
 
@@ -221,11 +255,15 @@ std::string network_json(const NetworkData& network) {
                        ? fmt::format("    {{\"points\": {}, \"diameter_mm\": {}}}", list, diameter)
                        : "    " + list);
   }
-  for (const auto& row : network.supports)
-    supports.push_back(row.size() == 1
-                           ? fmt::format("    {{\"point\": {}}}", row[0])
-                           : fmt::format("    {{\"point\": {}, \"to_mm\": [{}, {}, {}]}}", row[0],
-                                         row[1], row[2], row[3]));
+  std::map<double, std::string> springs;
+  for (const auto& row : network.springs)
+    springs[row[0]] = fmt::format(", \"spring_N_per_mm\": [{}, {}, {}]", row[1], row[2], row[3]);
+  for (const auto& row : network.supports) {
+    const auto to = row.size() == 1
+                        ? std::string()
+                        : fmt::format(", \"to_mm\": [{}, {}, {}]", row[1], row[2], row[3]);
+    supports.push_back(fmt::format("    {{\"point\": {}{}{}}}", row[0], to, springs[row[0]]));
+  }
   for (const int point : network.free)
     supports.push_back(fmt::format("    {{\"point\": {}, \"to_mm\": \"free\"}}", point));
   return fmt::format(

@@ -27,7 +27,8 @@ struct NetworkData {
   std::vector<std::vector<int>> rods;  ///< each the numbers of its points in order
   std::vector<double> diameters;       ///< one a rod, mm, 0: that of [rod]; empty: all that
   Points supports;                     ///< number of a point and where it goes: x, y, z, mm
-  std::vector<int> free;               ///< numbers of points at rods' ends that nothing holds
+  Points springs;         ///< number of a support's point, stiffness along x, y, z, N/mm
+  std::vector<int> free;  ///< numbers of points at rods' ends that nothing holds
 
   bool empty() const { return rods.empty(); }
 };

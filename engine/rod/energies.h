@@ -12,7 +12,7 @@
 namespace gridshell {
 
 /// What stores energy in a shell. A term more: a line here, one in `energy_terms`, its energy.
-enum class Term { bend, stretch, twist, joint, shear, load };
+enum class Term { bend, stretch, twist, joint, shear, load, support };
 
 /// A term's word, as in `energy_bend_mJ`, and what it is.
 struct TermName {
@@ -28,6 +28,7 @@ inline constexpr std::array energy_terms{
     TermName{Term::joint, "joint", "springs of the joints, and the twist that they pass"},
     TermName{Term::shear, "shear", "resistance of the joints to shear"},
     TermName{Term::load, "load", "minus the work of loads, and what the shell stands on"},
+    TermName{Term::support, "support", "springs of the supports"},
 };
 
 static_assert(

@@ -36,6 +36,7 @@ RodNetwork network_of(const preset::NetworkData& file, const Eigen::Vector3d& mi
   network.free.assign(file.points.size(), 0);
   for (const auto& row : file.supports) network.supported[std::size_t(row[0])] = 1;
   for (const int point : file.free) network.free[std::size_t(point)] = 1;
+  for (const auto& row : file.springs) network.springs[int(row[0])] = vector_of(row, 1);
   return network;
 }
 

@@ -92,7 +92,8 @@ Result<void> hold_directions(const Eigen::Matrix2Xd& ends, RodEnd hold, Scene& s
   for (Eigen::Index k = 0; k < ends.cols(); ++k) {
     FootprintRod& rod = scene.footprint.rods[std::size_t(k / 2)];
     RodEnd& held = k % 2 == 0 ? rod.begin : rod.end;
-    if (!is_held(held)) continue;
+    // a spring holds no direction
+    if (!is_held(held) || held == RodEnd::sprung) continue;
     held = hold;
     scene.motion.begin_tangent.col(k) =
         scene.flat.axes * rod.tangent(k % 2 == 0 ? rod.span.begin : rod.span.end);

@@ -68,7 +68,8 @@ Result<State> state_on_net(NestedShell& shell, const Scene& scene, const Watch& 
   if (!net) return tl::unexpected<Error>(net.error());
   lay_tails(scene, mesh, *net);
   net->conservativeResize(3, mesh.nodes());
-  net->rightCols(mesh.ghosts) = shell.motion(0).at(1).middleCols(mesh.rod_nodes(), mesh.ghosts);
+  net->rightCols(mesh.beside_rods()) =
+      shell.motion(0).at(1).middleCols(mesh.rod_nodes(), mesh.beside_rods());
   const Model& model = shell.model(0);
   State state = flat_state(model, mesh, shell.motion(0), scene.flat);
   move_to(model, columns_of(mesh, model, *net), state);

@@ -27,7 +27,7 @@ Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const Pi
                             const Watch& watch);
 
 /// The flat footprint as a state, at the begin of a motion: no rod is bent, every first director
-/// stands up; ghosts are where the motion begins.
+/// stands up; ghosts and supports of springs are where the motion begins.
 State flat_state(const Model& model, const RodMesh& mesh, const PinnedMotion& motion,
                  const FlatFrame& flat);
 

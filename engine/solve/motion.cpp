@@ -78,6 +78,11 @@ PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion) {
     if (mesh.is_ghost(node.front())) place(node.front(), 2 * Eigen::Index(r), -1);
     if (mesh.is_ghost(node.back())) place(node.back(), 2 * Eigen::Index(r) + 1, 1);
   }
+  // a spring's support goes where what hangs on it would be held
+  for (const MeshSpring& spring : mesh.springs) {
+    pinned.begin.col(spring.support) = pinned.begin.col(spring.node);
+    pinned.change.col(spring.support) = pinned.change.col(spring.node);
+  }
   for (Eigen::Index end = 0; end < Eigen::Index(mesh.far_ends.size()); ++end) {
     const int far_end = mesh.far_ends[std::size_t(end)];
     if (far_end < 0) continue;

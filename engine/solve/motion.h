@@ -62,7 +62,8 @@ struct PinnedMotion {
 };
 
 /// The motion of a mesh's pinned nodes: its edge points and held joints, the far ends of tails,
-/// which turn about them, and, beyond those whose direction is held, their ghosts.
+/// which turn about them, beyond those whose direction is held their ghosts, and supports of
+/// springs.
 PinnedMotion pinned_motion(const RodMesh& mesh, const BoundaryMotion& motion);
 
 }  // namespace gridshell

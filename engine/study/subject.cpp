@@ -24,7 +24,8 @@ Result<State> on_net(const Scene& scene, const RodMesh& mesh, const Model& model
   auto net = places_on_net(scene, mesh);
   if (!net) return tl::unexpected<Error>(net.error());
   net->conservativeResize(3, mesh.nodes());
-  net->rightCols(mesh.ghosts) = motion.at(1).rightCols(mesh.ghosts);
+  net->rightCols(mesh.beside_rods()) =
+      motion.at(1).middleCols(mesh.rod_nodes(), mesh.beside_rods());
   return start_state(model, columns_of(mesh, model, *net));
 }
 

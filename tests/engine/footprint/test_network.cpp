@@ -124,6 +124,56 @@ TEST_CASE("a network that is a square grid is named as one, whichever way its ro
   CHECK(cut->footprint.rods[0].family == Family::other);
 }
 
+TEST_CASE("supports on springs: of an end, of ends that meet, of a joint inside a rod") {
+  // a cross whose arm to the right ends with that of a third rod
+  RodNetwork net = network({{-10, 0}, {0, 0}, {10, 0}, {0, -10}, {0, 10}, {10, 10}},
+                           {{0, 1, 2}, {3, 1, 4}, {2, 5}}, {0, 1, 2});
+  net.springs = {{0, {1, 2, 3}}, {1, {4, 5, 0}}, {2, {6, 0, 7}}};
+  const auto made = network_footprint(net);
+  if (!made) FAIL(made.error().message);
+  const Footprint& footprint = made->footprint;
+  CHECK(footprint.rods[0].begin == RodEnd::sprung);
+  CHECK(footprint.rods[0].end == RodEnd::joined);
+  CHECK(footprint.rods[2].begin == RodEnd::joined);
+  CHECK(footprint.rods[2].end == RodEnd::pinned);
+  CHECK(footprint.held_joints == std::vector<int>{0, 1});
+  REQUIRE(footprint.springs.size() == 3);
+  CHECK(footprint.springs[0].end == 0);
+  CHECK(footprint.springs[0].N_per_mm == Eigen::Vector3d(1, 2, 3));
+  CHECK(footprint.springs[1].joint == 0);
+  CHECK(footprint.springs[2].joint == 1);
+  CHECK(footprint.springs[2].N_per_mm == Eigen::Vector3d(6, 0, 7));
+  CHECK(footprint.is_sprung(1));
+  const RodMesh mesh = mesh_rods(footprint, 2);
+  REQUIRE(mesh.springs.size() == 3);
+  CHECK(mesh.springs[0].node == mesh.joints);
+  CHECK(mesh.springs[2].node == 1);
+  CHECK(mesh.springs[2].support == mesh.nodes() - 1);
+  CHECK(mesh.flat.col(mesh.springs[2].support) == Eigen::Vector2d(10, 0));
+}
+
+TEST_CASE("springs along too few directions leave a network free") {
+  RodNetwork net = network(star, through, {1, 2, 3, 4, 5, 6});
+  const auto on = [&](const Eigen::Vector3d& k) {
+    for (int point = 1; point < 7; ++point) net.springs[point] = k;
+  };
+  const std::string free = "rods[0] and what is joined to it: held by springs along too few";
+  on({0, 1, 1});
+  refused(net, free);
+  on({1, 1, 0});
+  refused(net, free);
+  // sliding along x on one line and along y on others holds all but nothing free
+  net.springs[1] = net.springs[2] = net.springs[3] = {0, 0, 1};
+  CHECK(network_footprint(net));
+  on({0, 0, 1});
+  refused(net, free);
+  // held firmly at one point it still turns about it
+  net.springs.erase(1);
+  refused(net, free);
+  net.springs[3] = {1, 0, 1};
+  CHECK(network_footprint(net));
+}
+
 TEST_CASE("networks that do not make a shell are refused") {
   refused(network(star, {{1, 0, 2}, {3, 3, 0, 4}}), "rods[1]: point 3 follows itself");
   refused(network(star, {{1, 0, 2}, {3}}), "rods[1]: has one point");

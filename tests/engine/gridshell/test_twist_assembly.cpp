@@ -17,7 +17,8 @@ Model sample_model() {
   const ModelRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, RodEnd::tangent, RodEnd::free};
   const ModelRod c{{9, 10, 11}, {0, 5, 10}, wire, RodEnd::free, RodEnd::pinned};
   Model model = build_model(12, {a, b, c}, Rung::twist).value();
-  model.springs.push_back({{3, 9, 40}});
+  model.springs.push_back({{3, 9, {40, 40, 40}}});
+  model.springs.push_back({{10, 8, {3, 0, 5}, Term::support}});
   add_joint_shear(model, 0, 2, 1, 2, 7.5, 1.4);
   add_joint_spin(model, 0, 2, 1, 2, 3.5);
   for (int node = 0; node < 12; ++node) model.loads.push_back({node, {0, 0, -0.1}});

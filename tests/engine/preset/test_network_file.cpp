@@ -23,6 +23,7 @@ void same(const NetworkData& a, const NetworkData& b) {
   CHECK(a.rods == b.rods);
   CHECK(a.diameters == b.diameters);
   CHECK(a.supports == b.supports);
+  CHECK(a.springs == b.springs);
   CHECK(a.free == b.free);
 }
 
@@ -33,8 +34,8 @@ const std::string crossed = R"({
     {"points": [2, 5, [0, 10]], "diameter_mm": 0.5}
   ],
   "supports": [
-    {"point": 0, "to_mm": [-8, 0, 1]},
-    {"point": [10, 0]},
+    {"point": 0, "to_mm": [-8, 0, 1], "spring_N_per_mm": [2, 0.125, 0]},
+    {"point": [10, 0], "spring_N_per_mm": 3},
     {"point": 3, "to_mm": "free"}
   ]
 })";
@@ -53,6 +54,7 @@ TEST_CASE("a network in JSON: points by number or place, nearby ones are one") {
   CHECK(read->rods == std::vector<std::vector<int>>{{0, 4, 1}, {2, 4, 3}});
   CHECK(read->diameters == std::vector<double>{0, 0.5});
   CHECK(read->supports == Points{{0, -8, 0, 1}, {1}});
+  CHECK(read->springs == Points{{0, 2, 0.125, 0}, {1, 3, 3, 3}});
   CHECK(read->free == std::vector<int>{3});
   same(*read, read_network(network_json(*read), "again.json").value());
 }
@@ -115,6 +117,15 @@ TEST_CASE("files of networks that are broken say where") {
         "point 0 is named as a support twice");
   wrong(with("[-8, 0, 1]", "[-8, 0]"), "n.json", "to_mm must be [x, y, z]");
   wrong(with("\"free\"", "\"fre\""), "n.json", "to_mm must be");
+  wrong(with("mm\": 3", "mm\": 0"), "n.json", "n.json:9: supports[1]: a spring of 0 N/mm");
+  wrong(with("mm\": 3", "mm\": -3"), "n.json", "a spring of -3 N/mm, must be 0 or from 1e-06 to");
+  wrong(with("mm\": 3", "mm\": 1e7"), "n.json", "a spring of 1e+07 N/mm");
+  wrong(with("mm\": 3", "mm\": [3, 3]"), "n.json", "spring_N_per_mm must be a number, or [kx");
+  wrong(with("mm\": 3", "mm\": \"soft\""), "n.json", "spring_N_per_mm must be a number");
+  wrong(with("\"spring_N_per_mm\": 3", "\"spring\": 3"), "n.json",
+        "n.json:9: supports[1]: must be");
+  wrong(with("\"free\"", "\"free\", \"spring_N_per_mm\": 1"), "n.json",
+        "n.json:10: supports[2]: an end that is free has no spring_N_per_mm");
   wrong("v 0 0\nl 1 2\n", "n.obj", "n.obj:1: a vertex");
   wrong("v 0 0 nan\n", "n.obj", "n.obj:1: a vertex");
   wrong("v 0 0 0\nl 1 2\n", "n.obj", "n.obj:2: point 1, must be from 0 to 0");
@@ -141,6 +152,14 @@ TEST_CASE("a network is needed, and what names rods of a square grid is refused"
   CHECK(message(file) == "none");
   CHECK(message("").find("needs rods") != std::string::npos);
   CHECK(message("file = \"none.json\"\n").find("none.json") != std::string::npos);
+  const auto sprung = [&](const std::string& rows) {
+    return message(file.substr(0, file.size() - 2) + ", supports_mm = [[0]], springs_N_per_mm = [" +
+                   rows + "]}\n");
+  };
+  CHECK(sprung("[0, 1, 1, 0.5]") == "none");
+  CHECK(sprung("[0, 1, 1]").find("[point, kx, ky, kz]") != std::string::npos);
+  CHECK(sprung("[1, 1, 1, 1]").find("must be one of a support") != std::string::npos);
+  CHECK(sprung("[0, 0, 0, 0]").find("holds nothing") != std::string::npos);
   CHECK(message(file + "spacing_mm = 30.0\n").find("spacing_mm") != std::string::npos);
   CHECK(message("file = {points_mm = [[0, 0, 0]], rods = [[0, 1]]}\n")
             .find("rods[0] names point 1") != std::string::npos);

@@ -204,7 +204,12 @@ std::vector<Preset> samples() {
   }
   Preset network;
   network.footprint.kind = FootprintKind::network;
-  network.footprint.file = {{{0, 0, 0}, {1e2 / 3, 0, 0}, {0, 20, 0}}, {{0, 1, 2}}, {0.25}, {}, {2}};
+  network.footprint.file = {{{0, 0, 0}, {1e2 / 3, 0, 0}, {0, 20, 0}},
+                            {{0, 1, 2}},
+                            {0.25},
+                            {{0}, {1, 30, 0, 2}},
+                            {{1, 1e2 / 3, 0, 5}},
+                            {2}};
   all.push_back(network);
   for (Preset& preset : stepped()) all.push_back(std::move(preset));
   return all;

@@ -62,6 +62,7 @@ TEST_CASE("summary.json has the keys of a run in order, and null for what is unk
                                          "energy_joint_mJ",
                                          "energy_shear_mJ",
                                          "energy_load_mJ",
+                                         "energy_support_mJ",
                                          "height_mm",
                                          "total_K",
                                          "max_deviation",
@@ -120,8 +121,8 @@ TEST_CASE("a summary that is none is refused by its key") {
 TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {
   const TemporaryFolder folder;
   auto json = nlohmann::ordered_json::parse(to_json(sample_summary()));
-  for (const char* key :
-       {"energy_joint_mJ", "energy_shear_mJ", "energy_load_mJ", "kind", "finished"})
+  for (const char* key : {"energy_joint_mJ", "energy_shear_mJ", "energy_load_mJ",
+                          "energy_support_mJ", "kind", "finished"})
     json.erase(key);
   REQUIRE(write_atomically(folder.path() / "summary.json", json.dump()));
   const auto old = read_summary(folder.path() / "summary.json");
@@ -138,7 +139,8 @@ TEST_CASE("CSV files have the columns that others read") {
   CHECK(first_line(cells_csv(run)) == "i,j,u_mm,v_mm,cx_mm,cy_mm,cz_mm,K");
   CHECK(first_line(frames_csv(run)) ==
         "frame,progress,boundary_radius_mm,depth_mm,force_N,energy_bend_mJ,energy_stretch_mJ,"
-        "energy_twist_mJ,energy_joint_mJ,energy_shear_mJ,energy_load_mJ,height_mm,total_K,"
+        "energy_twist_mJ,energy_joint_mJ,energy_shear_mJ,energy_load_mJ,energy_support_mJ,"
+        "height_mm,total_K,"
         "residual_N,negative_pivots,error_estimate_mm,"
         "newton_iterations,event,reach_above_tenth,reach_above_half,lowest_latitude_deg,time_s");
 }
@@ -166,7 +168,7 @@ TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what
         "i,j,u_mm,v_mm,cx_mm,cy_mm,cz_mm,K\n"
         "-1,-1,0,0,1,2,0.5,0.02\n");
   const std::string frames = frames_csv(run);
-  CHECK(frames.find("\n1,0.3333333333333333,125.9,,,1e-300,0.30000000000000004,-0,0,0,0,"
+  CHECK(frames.find("\n1,0.3333333333333333,125.9,,,1e-300,0.30000000000000004,-0,0,0,0,0,"
                     "0.14285714285714285,3.141592653589793,5e-324,1,,7,,,,,\n") !=
         std::string::npos);
   CHECK(frames.substr(frames.size() - 34) == ",0.001,14,\"snap, \"\"fast\"\" \xC3\xA9\",,,,\n");

@@ -51,7 +51,8 @@ TEST_CASE("spring joints: the distance to the shared node falls as the stiffness
   double before_off = 0, before_gap = 0;
   for (double stiffness : {10.0, 100.0, 1000.0}) {
     Crossing crossing(false);
-    crossing.model.springs.push_back({{Crossing::middle, crossing.other, stiffness}});
+    crossing.model.springs.push_back(
+        {{Crossing::middle, crossing.other, Eigen::Vector3d::Constant(stiffness)}});
     finish(crossing.model);
     const State state = crossing.rest();
     const double off = (state.x.col(Crossing::middle) - shared).norm();
