@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/ui/panel.h"
 #include "render/plot/ticks.h"
@@ -47,7 +48,7 @@ void bar(const render::ColourScale& scale, ImVec2 low, ImVec2 high) {
   const float height = high.y - low.y;
   for (int k = 0; k < steps; ++k) {
     const render::Colour c = scale(scale.high - (scale.high - scale.low) * (k + 0.5) / steps);
-    const auto byte = [](float v) { return int(255 * v + 0.5f); };
+    const auto byte = [](float v) { return int(std::lround(255 * v)); };
     list.AddRectFilled({low.x, low.y + height * float(k) / steps},
                        {high.x, low.y + height * float(k + 1) / steps},
                        IM_COL32(byte(c.r), byte(c.g), byte(c.b), 255));

@@ -38,6 +38,11 @@ std::int64_t bytes_of(const Checkpoint& kept) {
   return doubles * std::int64_t(sizeof(double));
 }
 
+/// To the bit, on the same mesh.
+bool same_nodes(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
+  return a.cols() == b.cols() && a == b;
+}
+
 /// "the path lost its stability; came to rest in another state" of what a step came past.
 std::string told_of(const std::vector<Event>& events) {
   std::string told;
@@ -82,7 +87,7 @@ void ShellInHand::fulfil(const Wish& wish, const Watch& watch) {
   // what moved nothing is no step
   const bool refused = !done && done.error().fault == Fault::bad_input;
   if (!done && remembered && undo_.back().scene == scene_ &&
-      (refused || undo_.back().checkpoint.state.x == session_->nodes())) {
+      (refused || same_nodes(undo_.back().checkpoint.state.x, session_->nodes()))) {
     // on the meshes of before, too
     if (refused) session_->restore(undo_.back().checkpoint);
     undo_.pop_back();

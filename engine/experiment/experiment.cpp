@@ -18,6 +18,8 @@
 #include "engine/preset/rung.h"
 #include "engine/scene/scene.h"
 #include "engine/session/budget.h"
+#include "engine/solve/buckle.h"
+#include "engine/solve/meshed_shell.h"
 
 namespace gridshell::experiment {
 namespace {
@@ -174,6 +176,20 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
 
 }  // namespace
 
+namespace {
+
+/// Whether the boundary's motion takes the rods out of the flat at all. Errors: bad_input.
+Result<void> check_motion(const Scene& scene) {
+  if (scene.from_net || scene.rung == preset::Rung::net) return {};
+  MeshedShell flat;
+  const int edges = first_plan(scene).edges_per_segment.front();
+  if (auto built = flat.build(scene.footprint, scene.rods, Rung::bend, scene.motion, edges); !built)
+    return built;
+  return parameter_of_shortening(flat.mesh, flat.motion, flat_shortening).map([](double) {});
+}
+
+}  // namespace
+
 Result<Plan> plan(const preset::Preset& preset) {
   const auto scene = scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
@@ -185,6 +201,8 @@ Result<Plan> plan(const preset::Preset& preset) {
       return tl::unexpected<Error>(joint.error());
   if (auto there = check_steps(preset.step, scene->footprint); !there)
     return tl::unexpected<Error>(there.error());
+  if (auto shortens = check_motion(*scene); !shortens)
+    return tl::unexpected<Error>(shortens.error());
   Plan plan;
   plan.model = word_of(scene->rung);
   plan.memory_GB = memory_GB(scene->footprint, scene->rung, levels);

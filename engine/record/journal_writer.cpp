@@ -25,7 +25,10 @@ constexpr int largest_index = 10000000;
 
 Result<JournalWriter> JournalWriter::create(const fs::path& path, const RunName& name,
                                             const Layout& layout) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  // under its name once its head is whole: whoever kills the run before then leaves no journal
+  AtomicFile file(path);
+  const int descriptor =
+      ::open(file.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   JournalWriter journal(path, descriptor);
   const auto refuse = [&](int code) {
     return fail(Fault::io, fmt::format("cannot write '{}': {}", path.string(),
@@ -36,6 +39,7 @@ Result<JournalWriter> JournalWriter::create(const fs::path& path, const RunName&
   journal.end_ = journal_first_line.size();
   if (auto headed = journal.put(head_record, packed_head(name, layout)); !headed)
     return tl::unexpected(headed.error());
+  if (auto placed = file.commit(); !placed) return tl::unexpected(placed.error());
   return journal;
 }
 

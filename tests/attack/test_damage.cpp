@@ -48,6 +48,8 @@ fs::path some_file(const fs::path& run, Draw& draw) {
   for (const auto& file : files)
     if (is_plain(file)) plain.push_back(file);
   // half of the attacks on what is read
+  // an earlier damage may have left nothing of its own kind
+  if (plain.empty()) return run / "preset.toml";
   for (const char* name : {"trajectory.h5", "summary.json", "preset.toml", "frames.journal"})
     if (draw.one_in(6) && is_plain(run / name)) return run / name;
   return draw.of(plain);
@@ -142,6 +144,7 @@ void change_summary(const fs::path& run, Draw& draw) {
 }
 
 void damage(const fs::path& run, Draw& draw) {
+  if (!is_plain(some_file(run, draw))) return;
   switch (draw.below(4)) {
     case 0:
     case 1:

@@ -5,6 +5,7 @@
 
 #include "engine/experiment/experiment.h"
 #include "tests/engine/experiment/run.h"
+#include "tests/small_shell.h"
 
 using namespace gridshell;
 
@@ -164,4 +165,15 @@ TEST_CASE("a cancelled run ends as cancelled") {
   const auto outcome = experiment::run(fig1(6, 1e-3), false, watch);
   REQUIRE_FALSE(outcome.has_value());
   CHECK(outcome.error().fault == Fault::cancelled);
+}
+
+TEST_CASE("a boundary that takes no rod out of the flat is refused before a run") {
+  preset::Preset still = small_shell();
+  still.actuation.radius_mm = still.footprint.radius_mm;
+  const auto plan = experiment::plan(still);
+  REQUIRE_FALSE(plan);
+  CHECK(plan.error().fault == Fault::bad_input);
+  CHECK(plan.error().message ==
+        "the actuated boundary does not shorten the rods: nothing would buckle");
+  CHECK(experiment::plan(small_shell()));
 }
