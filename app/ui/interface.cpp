@@ -18,7 +18,7 @@ using window::InputKind;
 using window::Key;
 
 constexpr ImU32 mark_colour = IM_COL32(50, 140, 240, 255);
-constexpr double least_view = 400;      // px of a view beside plots
+constexpr double least_view = 400;  // px of a view beside plots
 // of stillness the view is drawn at full resolution: later while an equilibrium is on its way
 constexpr double sharp_after_s = 0.15, sharp_while_busy_s = 0.6;
 
