@@ -119,8 +119,9 @@ void ShellInHand::look_at_layout() {
   nodes_shown_ = mesh.rod_nodes();
   // joints come first on every mesh, and the coarsest is the quickest to look at
   const NestedShell& shell = session_->shell();
-  symmetries_ =
-      experiment::symmetries_of_shell(*scene_, symmetries_of(shell.mesh(0), shell.motion(0).at(1)));
+  const RodMesh& coarsest = shell.mesh(0);
+  symmetries_ = experiment::symmetries_of_shell(*scene_, coarsest,
+                                                symmetries_of(coarsest, shell.motion(0).at(1)));
 }
 
 /// Of the shape, whatever holds it. A square that is mapped onto itself alone has none to tell of.

@@ -80,7 +80,7 @@ Jitter::Jitter(std::shared_ptr<const Scene> scene, const preset::Jitter& jitter,
     : scene_(std::move(scene)),
       jitter_(jitter),
       forms_(&forms),
-      symmetries_(symmetries_of_shell(*scene_, cascade.symmetries())),
+      symmetries_(symmetries_of_shell(*scene_, cascade.finest(), cascade.symmetries())),
       groups_(subgroups(symmetries_)),
       cascade_(std::move(cascade)),
       session_(std::move(session)) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "engine/experiment/course.h"
 #include "engine/experiment/frames.h"
@@ -40,39 +41,41 @@ std::string modes_told(const std::vector<int>& modes, const Footprint& footprint
   return fmt::format("{} | {}", fmt::join(u, " "), fmt::join(v, " "));
 }
 
-bool alike(const std::vector<RodMaterial>& materials) {
-  return std::ranges::all_of(materials, [&](const RodMaterial& material) {
-    const RodMaterial& first = materials.front();
-    return material.EA == first.EA && material.EI1 == first.EI1 && material.EI2 == first.EI2 &&
-           material.GJ == first.GJ;
-  });
+bool alike(const ShellRods& rods, std::size_t a, std::size_t b) {
+  const RodMaterial &one = rods.material(a), &other = rods.material(b);
+  return one.EA == other.EA && one.EI1 == other.EI1 && one.EI2 == other.EI2 && one.GJ == other.GJ &&
+         (rods.weight_N_per_mm.empty() || rods.weight_N_per_mm[a] == rods.weight_N_per_mm[b]);
 }
 
-/// Whether the rods of each direction of a square grid are of one kind; of a network that is no
-/// grid nothing tells which rod a map takes to which.
-bool alike_by_family(const Scene& scene) {
-  std::map<Family, std::vector<RodMaterial>> materials;
-  for (std::size_t r = 0; r < scene.footprint.rods.size(); ++r)
-    materials[scene.footprint.rods[r].family].push_back(scene.rods.material(r));
-  return !materials.contains(Family::other) &&
-         std::ranges::all_of(materials, [](const auto& family) { return alike(family.second); });
+/// Whether every edge goes to an edge of a rod of the same kind.
+bool keeps_kinds(const ShellRods& rods, const RodMesh& mesh, const MeshSymmetry& symmetry) {
+  const auto edge = [](int a, int b) { return std::pair(std::min(a, b), std::max(a, b)); };
+  std::map<std::pair<int, int>, std::size_t> rod_of;
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r)
+    for (std::size_t k = 1; k < mesh.rods[r].size(); ++k)
+      rod_of[edge(mesh.rods[r][k - 1], mesh.rods[r][k])] = r;
+  return std::ranges::all_of(rod_of, [&](const auto& at) {
+    const auto [a, b] = at.first;
+    const auto there =
+        rod_of.find(edge(symmetry.image[std::size_t(a)], symmetry.image[std::size_t(b)]));
+    return there != rod_of.end() && alike(rods, at.second, there->second);
+  });
 }
 
 }  // namespace
 
-std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene,
-                                              const std::vector<MeshSymmetry>& mesh) {
+std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh& mesh,
+                                              const std::vector<MeshSymmetry>& of_mesh) {
   const ShellRods& rods = scene.rods;
   const bool shaped = std::ranges::any_of(rods.materials, [](const RodMaterial& material) {
     return !material.curvature.isZero(0) || material.twist != 0;
   });
-  const bool one_kind = alike(rods.materials), by_family = alike_by_family(scene);
   std::vector<MeshSymmetry> kept;
-  for (const MeshSymmetry& symmetry : mesh) {
+  for (const MeshSymmetry& symmetry : of_mesh) {
     const bool identity = symmetry.index == 0;
     const bool allowed = !shaped && rods.points.empty() &&
-                         (one_kind || (by_family && !symmetry.swaps_families())) &&
-                         (!rods.loaded() || !symmetry.turns_over());
+                         (!rods.loaded() || !symmetry.turns_over()) &&
+                         keeps_kinds(rods, mesh, symmetry);
     if (identity || allowed) kept.push_back(symmetry);
   }
   return kept;
@@ -95,7 +98,7 @@ StateMeasures::StateMeasures(std::shared_ptr<const Scene> scene, double toleranc
       path_(std::move(path)) {
   const auto on = [&](const NestedShell& shell, int level) {
     const RodMesh& mesh = shell.mesh(level);
-    return symmetries_of_shell(*scene_, symmetries_of(mesh, shell.motion(level).at(1)));
+    return symmetries_of_shell(*scene_, mesh, symmetries_of(mesh, shell.motion(level).at(1)));
   };
   coarse_ = on(session_.shell(), 0);
   fine_ = on(session_.shell(), session_.shell().levels() - 1);

@@ -14,8 +14,8 @@ namespace gridshell::experiment {
 
 /// The symmetries of a mesh that its shell has: none of those that would exchange rods of different
 /// kinds, or turn over or move loads and rods that are curved at rest.
-std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene,
-                                              const std::vector<MeshSymmetry>& mesh);
+std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh& mesh,
+                                              const std::vector<MeshSymmetry>& of_mesh);
 
 /// The meshes that the accuracy asks for, but two at least, of which energies are extrapolated.
 LevelPlan measuring_plan(const Scene& scene);

@@ -180,8 +180,8 @@ Result<StateLibrary> find_states(const std::shared_ptr<const Scene>& scene,
   auto trials = shake(scene, jitter, options.threads, watch);
   if (!trials) return tl::unexpected<Error>(trials.error());
   const RodMesh mesh = mesh_rods(scene->footprint, judged_edges);
-  const auto symmetries =
-      symmetries_of_shell(*scene, symmetries_of(mesh, pinned_motion(mesh, scene->motion).at(1)));
+  const auto symmetries = symmetries_of_shell(
+      *scene, mesh, symmetries_of(mesh, pinned_motion(mesh, scene->motion).at(1)));
   const std::vector<Met> met = told_apart(*scene, jitter, symmetries, std::move(*trials), search);
   if (met.empty()) return none_found(search);
   if (auto done = measure(scene, jitter, options, met, library, watch); !done)

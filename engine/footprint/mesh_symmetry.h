@@ -30,7 +30,6 @@ struct MeshSymmetry {
   std::vector<int> image;
 
   bool turns_over() const { return map(2, 2) < 0; }
-  bool swaps_families() const { return map(0, 0) == 0; }
 
   /// The image of a shape: 3 x n, all nodes of the mesh or, as joints come first, its joints alone.
   Eigen::Matrix3Xd of(const Eigen::Matrix3Xd& x) const;

@@ -1,5 +1,7 @@
 // The states of shells that are no square grid: shaken, pushed and judged as those of grids.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "engine/experiment/state_measures.h"
 #include "engine/experiment/states.h"
@@ -54,19 +56,40 @@ TEST_CASE("states of shipped networks are found, stable and in the order of ener
     }
 }
 
-TEST_CASE("a rod of another diameter leaves a network the symmetries that nothing has to prove") {
+TEST_CASE("a shell has the symmetries that take rods to rods of their kind") {
   preset::Preset p = shipped("network_triaxial", preset::JitterMode::random, 1);
-  const auto count = [&] {
+  const RodMesh mesh = [&] {
     const auto scene = scene_of(p);
     if (!scene) FAIL(scene.error().message);
-    const RodMesh mesh = mesh_rods(scene->footprint, 4);
+    return mesh_rods(scene->footprint, 4);
+  }();
+  const auto symmetries = [&] {
+    const auto scene = scene_of(p);
+    if (!scene) FAIL(scene.error().message);
     return experiment::symmetries_of_shell(
-               *scene, symmetries_of(mesh, pinned_motion(mesh, scene->motion).at(1)))
-        .size();
+        *scene, mesh, symmetries_of(mesh, pinned_motion(mesh, scene->motion).at(1)));
   };
-  CHECK(count() > 1);
+  const auto keeps = [&](const MeshSymmetry& symmetry, std::size_t rod) {
+    std::set<int> there, nodes(mesh.rods[rod].begin(), mesh.rods[rod].end());
+    for (int node : nodes) there.insert(symmetry.image[std::size_t(node)]);
+    return there == nodes;
+  };
+  const std::vector<MeshSymmetry> all = symmetries();
+  const auto keep = [&](std::size_t rod) {
+    return std::size_t(std::ranges::count_if(
+        all, [&](const MeshSymmetry& symmetry) { return keeps(symmetry, rod); }));
+  };
   auto& file = p.footprint.file;
-  file.diameters.assign(file.rods.size(), 0);
-  file.diameters[0] = 0.5;
-  CHECK(count() == 1);
+  for (std::size_t rod = 0; rod < mesh.rods.size(); ++rod) {
+    CAPTURE(rod);
+    file.diameters.assign(file.rods.size(), 0);
+    file.diameters[rod] = 0.5;
+    const auto left = symmetries();
+    CHECK(left.size() == keep(rod));
+    CHECK(std::ranges::all_of(left, [&](const auto& one) { return keeps(one, rod); }));
+  }
+  CHECK(all.size() > keep(0));
+  // where all the rods are thicker none is lost
+  file.diameters.assign(file.rods.size(), 0.5);
+  CHECK(symmetries().size() == all.size());
 }
