@@ -41,10 +41,16 @@ std::string modes_told(const std::vector<int>& modes, const Footprint& footprint
   return fmt::format("{} | {}", fmt::join(u, " "), fmt::join(v, " "));
 }
 
+/// To round-off, which a designed shell's diameters have.
 bool alike(const ShellRods& rods, std::size_t a, std::size_t b) {
+  const auto same = [](double one, double other) {
+    return std::abs(one - other) <= 1e-6 * std::abs(one);
+  };
   const RodMaterial &one = rods.material(a), &other = rods.material(b);
-  return one.EA == other.EA && one.EI1 == other.EI1 && one.EI2 == other.EI2 && one.GJ == other.GJ &&
-         (rods.weight_N_per_mm.empty() || rods.weight_N_per_mm[a] == rods.weight_N_per_mm[b]);
+  const bool weigh_alike =
+      rods.weight_N_per_mm.empty() || same(rods.weight_N_per_mm[a], rods.weight_N_per_mm[b]);
+  return same(one.EA, other.EA) && same(one.EI1, other.EI1) && same(one.EI2, other.EI2) &&
+         same(one.GJ, other.GJ) && weigh_alike;
 }
 
 /// Whether every edge goes to an edge of a rod of the same kind.
