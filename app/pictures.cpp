@@ -188,10 +188,14 @@ Result<void> write_lines(const record::Trajectory& run, render::MovieStyle style
 std::vector<std::string> captions_of(const preset::Preset& preset, const record::Trajectory& run) {
   std::vector<std::string> captions;
   if (preset.step.empty() || run.frames.size() != preset.step.size() + 1) return captions;
-  for (std::size_t k = 0; k < run.frames.size(); ++k) {
-    const std::string state = render::still_caption(run.frames[k]);
-    captions.push_back(k == 0 ? state
-                              : experiment::text_of(preset.step[k - 1]).append(": ").append(state));
+  captions.push_back(render::still_caption(run.frames.front()));
+  for (std::size_t k = 0; k < preset.step.size(); ++k) {
+    const preset::Step& step = preset.step[k];
+    const record::Frame& frame = run.frames[k + 1];
+    // a depth belongs to the push that made it, not to what was done while it holds
+    const bool pushes = step.deed == preset::Deed::push;
+    captions.push_back(experiment::text_of(step) + ": " +
+                       (pushes ? render::still_caption(frame) : render::unpushed_caption(frame)));
   }
   return captions;
 }

@@ -253,7 +253,7 @@ void put_loads(const Work& work, const std::vector<preset::Step>& steps, record:
     const bool there = std::ranges::any_of(
         layout.loaded_joints, [&](const auto& load) { return load.joint == done.taken.joint; });
     if (!there && moved.norm() > nearest_mm)
-      layout.loaded_joints.push_back({done.taken.joint, moved.normalized()});
+      layout.loaded_joints.push_back({done.taken.joint, moved.normalized(), true});
   }
 }
 

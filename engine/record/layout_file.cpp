@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
@@ -60,13 +61,16 @@ void write_parts(hdf5::Writer& file, const Layout& layout) {
 }
 
 void write_loads(hdf5::Writer& file, const Layout& layout) {
-  std::vector<int> joints;
+  std::vector<int> joints, at_times;
   Eigen::Matrix3Xd directions(3, layout.loaded_joints.size());
   for (const LoadedJoint& load : layout.loaded_joints) {
     directions.col(long(joints.size())) = load.direction;
     joints.push_back(load.joint);
+    at_times.push_back(load.at_times);
   }
   file.dataset("/layout/load_joints", H5T_NATIVE_INT, {joints.size()}, joints.data(), "1");
+  if (std::ranges::count(at_times, 0) < long(at_times.size()))
+    file.dataset("/layout/load_at_times", H5T_NATIVE_INT, {joints.size()}, at_times.data(), "1");
   file.dataset("/layout/load_directions", H5T_NATIVE_DOUBLE, {joints.size(), 3}, directions.data(),
                "1");
 }
@@ -137,8 +141,13 @@ void read_loads(hdf5::Reader& file, Layout& layout) {
   const Eigen::Matrix3Xd directions = read_points(file, "/layout/load_directions");
   if (file.good() && directions.cols() != long(joints.size()))
     file.fail_because("/layout has not one direction a joint that is pushed");
+  std::vector<int> at_times(joints.size(), 0);  // as older versions wrote
+  if (file.has("/layout/load_at_times"))
+    at_times = file.vector<int>("/layout/load_at_times", H5T_NATIVE_INT);
+  if (file.good() && at_times.size() != joints.size())
+    file.fail_because("/layout/load_at_times has not one number a joint that is pushed");
   for (std::size_t k = 0; file.good() && k < joints.size(); ++k)
-    layout.loaded_joints.push_back({joints[k], directions.col(long(k))});
+    layout.loaded_joints.push_back({joints[k], directions.col(long(k)), at_times[k] != 0});
 }
 
 }  // namespace

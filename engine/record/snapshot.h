@@ -46,6 +46,8 @@ struct SeamRod {
 struct LoadedJoint {
   int joint = 0;  ///< of Layout::joints
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  /// In the frames alone whose reactions say so, as a step by hand takes and lets go; else in all.
+  bool at_times = false;
 };
 
 /// The net, fixed over a run.

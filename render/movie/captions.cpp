@@ -12,7 +12,8 @@ std::vector<std::string> state_captions(const record::Frame& frame) {
   const bool pushed = std::isfinite(frame.depth_mm);
   if (pushed) captions.push_back("*δ* = " + fixed(frame.depth_mm, 2) + " mm");
   if (std::isfinite(frame.force_N)) captions.push_back("*F* = " + fixed(frame.force_N, 3) + " N");
-  if (std::isfinite(frame.boundary_radius_mm) && !pushed)
+  const bool moved = frame.actuation != 1;
+  if (std::isfinite(frame.boundary_radius_mm) && (!pushed || moved))
     captions.push_back("*R*_{a} = " + fixed(frame.boundary_radius_mm, 1) + " mm");
   captions.push_back("height " + fixed(frame.height_mm, 1) + " mm");
   return captions;

@@ -9,8 +9,8 @@
 namespace gridshell::render {
 
 /// What a frame's state is, the most telling first, as marked text: of a pushed shell "*δ* = 3.20
-/// mm" and "*F* = 0.214 N", else "*R*_{a} = 115.9 mm"; then "height 42.1 mm". What does not apply
-/// is not there.
+/// mm" and "*F* = 0.214 N"; "*R*_{a} = 115.9 mm", of a pushed shell where its boundary is not where
+/// the actuation ends; then "height 42.1 mm". What does not apply is not there.
 std::vector<std::string> state_captions(const record::Frame& frame);
 
 /// "frame 120 / 240"; `at` from 0

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/image/png.h"
+#include "render/plot/canvas.h"
 
 namespace gridshell::render {
 
@@ -13,13 +14,15 @@ std::string frame_name(int index) { return fmt::format("frame_{:05d}.png", index
 Result<void> FrameWriter::put(Image picture, Finish over) {
   return finish().and_then([&] { return check(); }).map([&] {
     picture_ = std::move(picture);
-    worker_.begin([this, over = std::move(over), index = begun_++] {
-      if (over) over(picture_);
-      return write_png(picture_, folder_ / frame_name(index)).map([&] {
-        watch_.report(double(index + 1) / count_);
-        if (on_frame_) on_frame_(index, picture_);
-      });
-    });
+    worker_.begin(
+        [this, over = std::move(over), index = begun_++, on_finished = CanvasWatch::of_thread()] {
+          const CanvasWatch canvases(on_finished);
+          if (over) over(picture_);
+          return write_png(picture_, folder_ / frame_name(index)).map([&] {
+            watch_.report(double(index + 1) / count_);
+            if (on_frame_) on_frame_(index, picture_);
+          });
+        });
   });
 }
 

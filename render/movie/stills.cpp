@@ -60,6 +60,12 @@ void draw_still_words(Canvas& canvas, const Stage& stage, const Shown& shown,
 
 std::string still_caption(const record::Frame& frame) { return state_captions(frame).front(); }
 
+std::string unpushed_caption(const record::Frame& frame) {
+  record::Frame head = record::without_nodes(frame);
+  head.depth_mm = head.force_N = record::unknown;
+  return still_caption(head);
+}
+
 Result<std::vector<std::filesystem::path>> write_stills(
     const record::Trajectory& run, const MovieStyle& movie_style,
     const std::optional<ColourBar>& bar, Renderer& renderer, const std::filesystem::path& stem,

@@ -26,6 +26,8 @@ void draw_still_words(Canvas& canvas, const Stage& stage, const Shown& shown,
 
 /// What one still shows under it, as marked text: "*R*_{a} = 115.9 mm".
 std::string still_caption(const record::Frame& frame);
+/// The same with nothing said of a push, though one may hold the shell.
+std::string unpushed_caption(const record::Frame& frame);
 
 /// Draws every frame of the run from one fixed camera in the style's size, with its caption, colour
 /// bar and scale bar (style.scale_bar_mm) as `<stem>_1.png`, `<stem>_2.png` ..., and all of them

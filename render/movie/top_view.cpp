@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/movie/boundary.h"
+#include "render/movie/load_marks.h"
 
 namespace gridshell::render {
 namespace {
@@ -59,6 +60,7 @@ void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
   for (const record::Joint& joint : layout.joints)
     canvas.circle(place(frame.nodes.col(joint.node)), radius, joint_ink);
   for (const record::LoadedJoint& load : layout.loaded_joints) {
+    if (!acts(load, layout, frame)) continue;
     const record::Joint& joint = layout.joints.at(std::size_t(load.joint));
     canvas.circle(place(frame.nodes.col(joint.node)), 2.6 * radius, {0, 0, 0, 0},
                   {load_ink, 1.2 * radius});

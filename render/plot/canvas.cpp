@@ -24,8 +24,8 @@ std::string& font_family() {
   return family;
 }
 
-std::function<void(const Canvas&)>& watcher() {
-  thread_local std::function<void(const Canvas&)> now;
+CanvasWatch::OnFinished& watcher() {
+  thread_local CanvasWatch::OnFinished now;
   return now;
 }
 
@@ -139,10 +139,12 @@ Result<void> use_font(const std::string& family) {
   return {};
 }
 
-CanvasWatch::CanvasWatch(std::function<void(const Canvas&)> on_finished) {
-  watcher() = std::move(on_finished);
-}
-CanvasWatch::~CanvasWatch() { watcher() = nullptr; }
+CanvasWatch::CanvasWatch(OnFinished on_finished)
+    : before_(std::exchange(watcher(), std::move(on_finished))) {}
+
+CanvasWatch::~CanvasWatch() { watcher() = std::move(before_); }
+
+CanvasWatch::OnFinished CanvasWatch::of_thread() { return watcher(); }
 
 bool Box::contains(const Box& b) const {
   const double e = 1e-6;

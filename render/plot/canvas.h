@@ -137,10 +137,16 @@ class Canvas {
 /// layouts look at.
 class CanvasWatch {
  public:
-  explicit CanvasWatch(std::function<void(const Canvas&)> on_finished);
+  using OnFinished = std::function<void(const Canvas&)>;
+  explicit CanvasWatch(OnFinished on_finished);
   ~CanvasWatch();
   CanvasWatch(const CanvasWatch&) = delete;
   CanvasWatch& operator=(const CanvasWatch&) = delete;
+  /// That of this thread, for a thread that draws in its place; null: there is none.
+  static OnFinished of_thread();
+
+ private:
+  OnFinished before_;
 };
 
 using DrawOn = std::function<void(Canvas&)>;

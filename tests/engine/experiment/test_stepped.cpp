@@ -2,6 +2,7 @@
 // frames say.
 #include "engine/experiment/stepped.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "engine/experiment/experiment.h"
@@ -79,7 +80,14 @@ TEST_CASE("a push let go is the shell before, and every step says what it came t
   CHECK_THAT(outcome.summary.steps[0],
              Catch::StartsWith("1 push [0, 0]: reached, residual ") && Catch::Contains("stable"));
   CHECK_THAT(outcome.summary.steps[1], Catch::StartsWith("2 release: reached"));
-  REQUIRE(outcome.trajectory.layout.loaded_joints.size() == 1);
+  // and is known to act while it holds alone
+  const record::Layout& layout = outcome.trajectory.layout;
+  REQUIRE(layout.loaded_joints.size() == 1);
+  CHECK(layout.loaded_joints[0].at_times);
+  const int node = layout.joints[std::size_t(layout.loaded_joints[0].joint)].node;
+  const auto support = std::ranges::find(layout.supports, node) - layout.supports.begin();
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    CHECK((frames[k].reactions_N.col(support).norm() > 0) == (k >= 1 && k <= 4));
 }
 
 TEST_CASE("a push is as deep as it is asked to be, however many meshes follow") {

@@ -41,6 +41,7 @@ inline void check_same_layout(const Layout& a, const Layout& b) {
   for (std::size_t k = 0; k < a.loaded_joints.size(); ++k) {
     CHECK(a.loaded_joints[k].joint == b.loaded_joints[k].joint);
     CHECK(a.loaded_joints[k].direction == b.loaded_joints[k].direction);
+    CHECK(a.loaded_joints[k].at_times == b.loaded_joints[k].at_times);
   }
   REQUIRE(a.seam_rods.size() == b.seam_rods.size());
   for (std::size_t k = 0; k < a.seam_rods.size(); ++k) {

@@ -28,7 +28,7 @@ inline Trajectory sample_trajectory() {
   layout.parts = {
       {"left", {{0, 1, 2}}, Eigen::Matrix3Xd::Random(3, 3), Eigen::Matrix3Xd::Random(3, 3)},
       {"right", {{0, 1}, {1, 0}}, Eigen::Matrix3Xd::Random(3, 2), Eigen::Matrix3Xd::Random(3, 2)}};
-  layout.loaded_joints = {{1, {0.6, 0, -0.8}}};
+  layout.loaded_joints = {{1, {0.6, 0, -0.8}}, {2, {0, 0, 1}, true}};
   layout.seam_rods = {{"left.east - right.west", 'u', -10, 1.0 / 3, 7},
                       {"left.east - right.west", 'v', 10, 1.0 / 3, 0.1}};
   layout.original_boundary = Eigen::Matrix3Xd::Random(3, 5);

@@ -94,7 +94,10 @@ TEST_CASE("captions name only what is known") {
   frame.boundary_radius_mm = 115.9;
   frame.depth_mm = 7.5;
   frame.force_N = 0.2137;
-  // of a pushed shell the depth says more than the boundary, which stands still
+  // of a pushed shell the depth says more than the boundary where it stands still
+  frame.actuation = 0.8;
+  CHECK(state_captions(frame)[2] == "*R*_{a} = 115.9 mm");
+  frame.actuation = 1;
   CHECK(state_captions(frame) ==
         std::vector<std::string>{"*δ* = 7.50 mm", "*F* = 0.214 N", "height 12.3 mm"});
   frame.depth_mm = frame.force_N = record::unknown;
@@ -148,6 +151,25 @@ TEST_CASE("a pushed joint wears a mark and an arrow that points at it, a pulled 
   const Drawing pull = Stage(run, MovieStyle{}).drawing(run.frames[2]);
   CHECK((pull.arrows[0].from - at).norm() < 4);
   CHECK(pull.arrows[0].to.z() > at.z() + 20);
+}
+
+TEST_CASE("a push of a step wears its arrow in the frames that it holds alone") {
+  record::Trajectory run = synthetic::dome(3, 2);
+  const int node = run.layout.joints[3].node;
+  run.layout.loaded_joints = {{3, -Eigen::Vector3d::UnitZ(), true}};
+  run.layout.supports = {run.layout.joints[0].node, node};
+  record::Frame frame = run.frames[2];
+  const Stage stage(run, MovieStyle{});
+  frame.reactions_N = Eigen::Matrix3Xd::Zero(3, 2);
+  CHECK(stage.drawing(frame).arrows.empty());
+  CHECK(stage.drawing(frame).marks.empty());
+  frame.reactions_N.col(0).setOnes();
+  CHECK(stage.drawing(frame).arrows.empty());
+  frame.reactions_N(2, 1) = -1e-12;
+  CHECK(stage.drawing(frame).arrows.size() == 1);
+  // what the frame does not know it does not hide
+  frame.reactions_N.resize(3, 0);
+  CHECK(stage.drawing(frame).arrows.size() == 1);
 }
 
 TEST_CASE("zoom is about the shell's own panel, and nothing of the shell leaves it") {
