@@ -107,12 +107,23 @@ const Formats<Source, ExportOptions>& shape_formats() {
 /// Of what is made for the workshop, for which a preset is enough.
 const Formats<exports::Workpiece>& workshop_formats() {
   using exports::Workpiece;
+  const auto flat = [](auto text) {
+    return [text](const Workpiece& work) -> Result<std::string> {
+      if (work.in_space)
+        return fail(Fault::bad_input,
+                    "a network that is drawn in space has no flat footprint to be cut from; its "
+                    "cut list and the pins of its plate are there: --what cutlist, plate");
+      return text(work);
+    };
+  };
   static const Formats<Workpiece> formats{
       {"footprint",
-       {{".dxf",
-         [](const Workpiece& work) { return exports::to_dxf(exports::footprint_drawing(work)); }},
-        {".svg",
-         [](const Workpiece& work) { return exports::to_svg(exports::footprint_drawing(work)); }}}},
+       {{".dxf", flat([](const Workpiece& work) {
+           return exports::to_dxf(exports::footprint_drawing(work));
+         })},
+        {".svg", flat([](const Workpiece& work) {
+           return exports::to_svg(exports::footprint_drawing(work));
+         })}}},
       {"plate",
        {{".csv", exports::pins_csv},
         {".dxf",
@@ -120,7 +131,7 @@ const Formats<exports::Workpiece>& workshop_formats() {
         {".svg",
          [](const Workpiece& work) { return exports::plate_drawing(work).map(exports::to_svg); }}}},
       {"cutlist", {{".csv", exports::cut_list_csv}, {".pdf", render::cut_list_pdf}}},
-      {"sheet", {{".pdf", render::assembly_sheet_pdf}}}};
+      {"sheet", {{".pdf", flat(render::assembly_sheet_pdf)}}}};
   return formats;
 }
 

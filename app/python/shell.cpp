@@ -23,7 +23,11 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
   auto session = Session::open(shell.scene_, experiment::first_plan(*shell.scene_));
   if (!session) return tl::unexpected<Error>(session.error());
   shell.session_ = std::move(*session);
-  shell.session_->begin_flat();
+  if (!shell.scene_->drawn_in_space) {
+    shell.session_->begin_flat();
+  } else if (auto begun = shell.form(0, unwatched); !begun) {
+    return tl::unexpected<Error>(begun.error());
+  }
   shell.boundary_.progress = 0;
   return shell;
 }
@@ -38,7 +42,7 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
 }
 
 Result<Done> Shell::form(double progress, const Watch& watch) {
-  if (progress == 0)
+  if (progress == 0 && (formed_ || !scene_->drawn_in_space))
     return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
   auto course = experiment::course_of(
       *scene_,

@@ -131,7 +131,7 @@ void ShellInHand::see_step(const Scene& scene, const CertifiedStep& now, DesignC
   if (!s.layout) {
     auto layout = experiment::layout_of(scene, shell.mesh());
     if (!layout) return;
-    layout->flat_nodes = scene.flat.all(shell.mesh().flat.leftCols(shell.mesh().rod_nodes()));
+    layout->flat_nodes = drawn_nodes(shell.mesh(), scene.flat).leftCols(shell.mesh().rod_nodes());
     s.layout = std::make_shared<const record::Layout>(std::move(*layout));
   }
   if (varies_rods(course.inverse)) {

@@ -22,6 +22,7 @@ constexpr double least_shortening = 1e-3;  // nearer to the flat no path is foll
 
 /// Where each of the motions' parameters is as near to the flat as a path goes, as a progress.
 double least_progress_of(const Session& session) {
+  if (session.scene().drawn_in_space) return 0;
   const NestedShell& shell = session.shell();
   PinnedMotion motion = pinned_motion(shell.mesh(0), session.scene().motion);
   const auto t = parameter_of_shortening(shell.mesh(0), motion, least_shortening);
@@ -113,7 +114,7 @@ void ShellInHand::look_at_layout() {
   }
   // a record has it beside a net alone
   if (layout->flat_nodes.cols() == 0)
-    layout->flat_nodes = scene_->flat.all(mesh.flat.leftCols(mesh.rod_nodes()));
+    layout->flat_nodes = drawn_nodes(mesh, scene_->flat).leftCols(mesh.rod_nodes());
   sight_.layout = std::make_shared<const record::Layout>(std::move(*layout));
   sight_.least_progress = least_progress_of(*session_);
   nodes_shown_ = mesh.rod_nodes();

@@ -105,8 +105,16 @@ Result<Course> follow_actuation(std::shared_ptr<const Scene> scene, const LevelP
   if (!session) return tl::unexpected<Error>(session.error());
   Course course{std::move(*session)};
   course.seconds_setup = seconds_now() - started;
-  if (to == 0) return course;
-  if (scene->from_net) {
+  if (scene->drawn_in_space) {
+    const auto first = course.session.begin_as_drawn(watch);
+    if (!first) return tl::unexpected<Error>(first.error());
+    if (first->end != Outcome::reached)
+      return fail(Fault::no_equilibrium, fmt::format("the network as drawn is not certified: {}",
+                                                     words_of(first->end).what));
+    follow_leg(course, std::sqrt(to), {}, watch);
+  } else if (to == 0) {
+    return course;
+  } else if (scene->from_net) {
     const auto first = course.session.begin_on_net(watch);
     if (!first) return tl::unexpected<Error>(first.error());
     if (first->end != Outcome::reached)
@@ -145,7 +153,8 @@ std::optional<std::size_t> leg_at(const Course& course, double t) {
 
 /// Whether straight rods lie in the flat without a force; its frame is then exact.
 bool rests_flat(const Scene& scene) {
-  return std::all_of(scene.rods.materials.begin(), scene.rods.materials.end(),
+  return !scene.drawn_in_space &&
+         std::all_of(scene.rods.materials.begin(), scene.rods.materials.end(),
                      [](const RodMaterial& material) { return material.curvature.isZero(0); });
 }
 

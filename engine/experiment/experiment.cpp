@@ -180,7 +180,7 @@ namespace {
 
 /// Whether the boundary's motion takes the rods out of the flat at all. Errors: bad_input.
 Result<void> check_motion(const Scene& scene) {
-  if (scene.from_net || scene.rung == preset::Rung::net) return {};
+  if (scene.from_net || scene.drawn_in_space || scene.rung == preset::Rung::net) return {};
   MeshedShell flat;
   const int edges = first_plan(scene).edges_per_segment.front();
   if (auto built = flat.build(scene.footprint, scene.rods, Rung::bend, scene.motion, edges); !built)

@@ -33,7 +33,7 @@ CutRod cut(const FootprintRod& rod, const Scene& scene) {
   if (rod.begin == RodEnd::joined) piece.leg_begin_mm = std::nan("");
   if (rod.end == RodEnd::joined) piece.leg_end_mm = std::nan("");
   for (std::size_t k = 1; k + 1 < rod.path.size(); ++k)
-    piece.corners.push_back(at(rod.path[k].z()));
+    piece.corners.push_back(at(rod.path[k].w()));
   piece.free_begin = rod.begin == RodEnd::free;
   piece.free_end = rod.end == RodEnd::free;
   return piece;
@@ -69,6 +69,7 @@ Result<exports::Workpiece> workpiece_of(const preset::Preset& preset) {
     work.joints.push_back(scene->flat.at({joint.u, joint.v}).head<2>());
   work.original_boundary = scene->original_boundary.topRows<2>();
   work.actuated_boundary = scene->actuated_boundary;
+  work.in_space = scene->drawn_in_space;
   work.original_radius_mm = scene->radius_begin_mm;
   work.actuated_radius_mm = scene->radius_end_mm;
   return work;

@@ -48,6 +48,7 @@ struct Workpiece {
   double original_radius_mm = std::numeric_limits<double>::quiet_NaN();  ///< of circles
   double actuated_radius_mm = std::numeric_limits<double>::quiet_NaN();
   std::vector<Pin> pins;
+  bool in_space = false;  ///< it has no flat footprint: rods and joints are seen from above
 
   Eigen::Vector2d middle() const {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();

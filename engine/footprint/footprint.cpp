@@ -73,10 +73,10 @@ double leg(const Footprint& net, double start, Pick pick) {
 }
 
 /// which piece of a polyline a position is on
-std::size_t piece_at(const std::vector<Eigen::Vector3d>& path, double position) {
+std::size_t piece_at(const std::vector<Eigen::Vector4d>& path, double position) {
   const auto after =
       std::upper_bound(path.begin() + 1, path.end() - 1, position,
-                       [](double at, const auto& corner) { return at < corner.z(); });
+                       [](double at, const auto& corner) { return at < corner.w(); });
   return std::size_t(after - path.begin()) - 1;
 }
 
@@ -94,8 +94,18 @@ FootprintRod FootprintRod::of_grid(Family family, int index, double line, const 
 
 Eigen::Vector2d FootprintRod::at(double position) const {
   if (path.empty()) return origin + position * direction;
-  const Eigen::Vector3d& corner = path[piece_at(path, position)];
-  return corner.head<2>() + (position - corner.z()) * tangent(position);
+  return on_path(position).head<2>();
+}
+
+double FootprintRod::height(double position) const {
+  return path.empty() ? 0 : on_path(position).z();
+}
+
+Eigen::Vector3d FootprintRod::on_path(double position) const {
+  const std::size_t piece = piece_at(path, position);
+  const Eigen::Vector4d& corner = path[piece];
+  const Eigen::Vector3d way = (path[piece + 1] - corner).head<3>().normalized();
+  return corner.head<3>() + (position - corner.w()) * way;
 }
 
 Eigen::Vector2d FootprintRod::tangent(double position) const {
@@ -122,6 +132,14 @@ void find_cells(Footprint& net) {
         linked.contains({a, d->second}) && linked.contains({b->second, c->second}))
       net.cells.push_back({i, j, {a, b->second, c->second, d->second}});
   }
+}
+
+bool Footprint::in_space() const {
+  return std::ranges::any_of(joints,
+                             [](const FootprintJoint& joint) { return joint.height != 0; }) ||
+         std::ranges::any_of(rods, [](const FootprintRod& rod) {
+           return std::ranges::any_of(rod.path, [](const auto& corner) { return corner.z() != 0; });
+         });
 }
 
 bool Footprint::is_sprung(int joint) const {

@@ -1,5 +1,6 @@
 // The footprint of a gridshell: a square grid of straight rods cut along an original boundary
-// [Baek 2018, 'Anatomy and Actuation'], or any other flat network of rods (network.h).
+// [Baek 2018, 'Anatomy and Actuation'], or any other network of rods, in the plane or drawn in
+// space (network.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -20,6 +21,7 @@ enum class Placement { half, on_axis };
 struct FootprintJoint {
   int i = 0, j = 0;
   double u = 0, v = 0;  ///< mm
+  double height = 0;    ///< above their plane, mm; of a network that is drawn in space
 };
 
 /// A complete cell: joints (i,j), (i+1,j), (i+1,j+1), (i,j+1), all four rods between them present.
@@ -41,14 +43,15 @@ inline bool is_held(RodEnd end) { return end != RodEnd::free && end != RodEnd::j
 /// along the rod: u on a u-rod, v on a v-rod.
 struct FootprintRod {
   Family family = Family::u;
-  int index = 0;                        ///< j of a u-rod, i of a v-rod, else its number
-  Eigen::Vector2d origin{0, 0};         ///< where its position is 0, mm
-  Eigen::Vector2d direction{1, 0};      ///< unit; of a straight rod
-  std::vector<Eigen::Vector3d> path{};  ///< (u, v, position) of one that is not; empty: straight
-  Interval span;                        ///< edge points
-  std::vector<int> joints;              ///< in order along the rod, at least one
-  std::vector<double> marks{};          ///< where they are
-  double diameter_mm = 0;               ///< of a network's rod with its own; 0: none
+  int index = 0;                    ///< j of a u-rod, i of a v-rod, else its number
+  Eigen::Vector2d origin{0, 0};     ///< where its position is 0, mm
+  Eigen::Vector2d direction{1, 0};  ///< unit; of a straight rod
+  /// (u, v, height, position) of one that is not, or not in the plane; empty: straight
+  std::vector<Eigen::Vector4d> path{};
+  Interval span;                ///< edge points
+  std::vector<int> joints;      ///< in order along the rod, at least one
+  std::vector<double> marks{};  ///< where they are
+  double diameter_mm = 0;       ///< of a network's rod with its own; 0: none
   RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
   double tail_begin = 0, tail_end = 0;  ///< beyond the edge point to a second pin, mm; 0: none
   /// of a designed shell: what its legs are longer than those that end on the net's boundary, mm
@@ -56,9 +59,13 @@ struct FootprintRod {
 
   /// On the grid line v = `line` (u-rod) or u = `line`.
   static FootprintRod of_grid(Family family, int index, double line, const Interval& span);
-  /// (u, v) of a position, and the unit tangent there.
+  /// (u, v) of a position, and the unit tangent there in the plane.
   Eigen::Vector2d at(double position) const;
   Eigen::Vector2d tangent(double position) const;
+  /// Above the plane.
+  double height(double position) const;
+  /// (u, v, height) of a position on the path.
+  Eigen::Vector3d on_path(double position) const;
   /// The grid line of a u- or v-rod.
   double line() const { return family == Family::u ? origin.y() : origin.x(); }
   bool has_tails() const { return tail_begin > 0 || tail_end > 0; }
@@ -84,6 +91,7 @@ struct Footprint {
   std::vector<SupportSpring> springs{};  ///< of what is held by springs; of the rest none
 
   bool is_sprung(int joint) const;  ///< whether a held joint is on a spring
+  bool in_space() const;            ///< whether a joint or a rod leaves the plane
 
   /// shortest and longest leg: from an edge point to the joint next to it
   double shortest_leg() const;

@@ -63,6 +63,23 @@ void add_supports(const Footprint& footprint, int& next, RodMesh& mesh) {
   }
 }
 
+/// Of a network in space.
+void lay_heights(const Footprint& footprint, RodMesh& mesh) {
+  mesh.height = Eigen::RowVectorXd::Zero(mesh.nodes());
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
+    const FootprintRod& rod = footprint.rods[r];
+    for (std::size_t k = 0; k < mesh.rods[r].size(); ++k)
+      mesh.height[mesh.rods[r][k]] = rod.height(mesh.position[r][k]);
+    const Eigen::Index begin = mesh.joints + 2 * Eigen::Index(r);
+    mesh.height[begin] = rod.height(rod.span.begin);
+    mesh.height[begin + 1] = rod.height(rod.span.end);
+  }
+  for (Eigen::Index k = 0; k < mesh.joints; ++k)
+    mesh.height[k] = footprint.joints[std::size_t(k)].height;
+  for (const MeshSpring& spring : mesh.springs)
+    mesh.height[spring.support] = mesh.height[spring.node];
+}
+
 }  // namespace
 
 RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
@@ -112,7 +129,14 @@ RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment) {
     mesh.flat.col(k) << footprint.joints[std::size_t(k)].u, footprint.joints[std::size_t(k)].v;
   for (const MeshSpring& spring : mesh.springs)
     mesh.flat.col(spring.support) = mesh.flat.col(spring.node);
+  if (footprint.in_space()) lay_heights(footprint, mesh);
   return mesh;
+}
+
+Eigen::Matrix3Xd drawn_nodes(const RodMesh& mesh, const FlatFrame& flat) {
+  Eigen::Matrix3Xd nodes = flat.all(mesh.flat);
+  if (mesh.height.size() > 0) nodes.row(2) += mesh.height;
+  return nodes;
 }
 
 /// Hermite weights in the interval [s_k, s_k+1]; slopes by a quadratic through three nodes. At the

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "engine/footprint/flat_frame.h"
 #include "engine/footprint/footprint.h"
 
 namespace gridshell {
@@ -38,6 +39,7 @@ struct RodMesh {
   std::vector<std::vector<int>> rods;         ///< nodes of each rod from end to end
   std::vector<std::vector<double>> position;  ///< of those nodes along their rod in the flat, mm
   Eigen::Matrix2Xd flat;                      ///< (u, v) of every node, mm
+  Eigen::RowVectorXd height{};                ///< above the plane, mm; empty: all in it
 
   int nodes() const { return int(flat.cols()); }
   int beside_rods() const { return ghosts + int(springs.size()); }  ///< ghosts and supports
@@ -52,6 +54,9 @@ struct RodMesh {
 /// d/4 is cut into k/4 edges (rounded, at least one). So the meshes of 4, 8, 16 ... edges nest:
 /// halving every edge of one gives the next.
 RodMesh mesh_rods(const Footprint& footprint, int edges_per_segment);
+
+/// The nodes of the unformed shell: (u, v) in the frame's plane, heights along z.
+Eigen::Matrix3Xd drawn_nodes(const RodMesh& mesh, const FlatFrame& flat);
 
 /// Carries values between two meshes of one footprint, rod by rod along the flat arc length. The
 /// plan (where each node or edge of `to` lies in `from`) is made once.

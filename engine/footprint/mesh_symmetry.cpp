@@ -1,6 +1,7 @@
 #include "engine/footprint/mesh_symmetry.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -12,8 +13,16 @@ namespace {
 
 constexpr double same_mm = 1e-3;  // places of the flat mesh that are one
 
-std::pair<long long, long long> place_of(const Eigen::Vector2d& p) {
-  return {std::llround(p.x() / same_mm), std::llround(p.y() / same_mm)};
+using Place = std::array<long long, 3>;
+
+Place place_of(const Eigen::Vector3d& p) {
+  return {std::llround(p.x() / same_mm), std::llround(p.y() / same_mm),
+          std::llround(p.z() / same_mm)};
+}
+
+/// (u, v, height) of a node.
+Eigen::Vector3d drawn(const RodMesh& mesh, int node) {
+  return {mesh.flat(0, node), mesh.flat(1, node), mesh.height.size() > 0 ? mesh.height[node] : 0};
 }
 
 /// Supports go where what hangs on them goes, if springs as stiff are there.
@@ -33,23 +42,25 @@ std::optional<std::vector<int>> with_supports(const RodMesh& mesh, const Eigen::
 
 /// Where each node goes, if each goes to the place of a node.
 std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matrix3d& map) {
-  std::map<std::pair<long long, long long>, int> node_at;
+  std::map<Place, int> node_at;
   // supports lie on what hangs on them and go with it
   const int placed = mesh.nodes() - int(mesh.springs.size());
-  for (int node = 0; node < placed; ++node) node_at[place_of(mesh.flat.col(node))] = node;
+  for (int node = 0; node < placed; ++node) node_at[place_of(drawn(mesh, node))] = node;
   std::vector<int> image(std::size_t(mesh.nodes()));
   std::iota(image.begin(), image.end(), 0);
   if (map.isIdentity(0)) return image;
   // of nodes on one another nothing tells which goes where
   if (int(node_at.size()) < placed) return std::nullopt;
   for (int node = 0; node < placed; ++node) {
-    const Eigen::Vector2d p = map.topLeftCorner<2, 2>() * mesh.flat.col(node);
-    const auto [u, v] = place_of(p);
+    const auto [u, v, w] = place_of(map * drawn(mesh, node));
     int found = -1;
     // round-off may put it beside the place it belongs to
+    const long long dw_most = mesh.height.size() > 0 ? 1 : 0;
     for (long long du = -1; du <= 1 && found < 0; ++du)
       for (long long dv = -1; dv <= 1 && found < 0; ++dv)
-        if (const auto at = node_at.find({u + du, v + dv}); at != node_at.end()) found = at->second;
+        for (long long dw = -dw_most; dw <= dw_most && found < 0; ++dw)
+          if (const auto at = node_at.find({u + du, v + dv, w + dw}); at != node_at.end())
+            found = at->second;
     if (found < 0) return std::nullopt;
     image[std::size_t(node)] = found;
   }

@@ -28,17 +28,19 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+/// The area that two ways span.
+double area(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.cross(b).norm(); }
+
 bool is_ring(const std::vector<int>& rod) { return rod.front() == rod.back(); }
 
-bool is_straight(const Eigen::Matrix2Xd& points, const std::vector<int>& rod) {
+bool is_straight(const Eigen::Matrix3Xd& points, const std::vector<int>& rod) {
   if (is_ring(rod)) return false;
-  const Eigen::Vector2d first = points.col(rod.front()), way = points.col(rod.back()) - first;
+  const Eigen::Vector3d first = points.col(rod.front()), way = points.col(rod.back()) - first;
   double reached = -1;
   return std::ranges::all_of(rod, [&](int point) {
-    const Eigen::Vector2d at = points.col(point) - first;
+    const Eigen::Vector3d at = points.col(point) - first;
     const bool onwards = at.dot(way) > std::exchange(reached, at.dot(way));
-    return (onwards || point == rod.front()) &&
-           std::abs(cross(way, at)) < straight * way.squaredNorm();
+    return (onwards || point == rod.front()) && area(way, at) < straight * way.squaredNorm();
   });
 }
 
@@ -134,18 +136,19 @@ Result<void> check_points(const RodNetwork& network, const Roles& roles) {
   return {};
 }
 
-/// The polyline of a rod; where it is straight, its line.
-void lay(const Eigen::Matrix2Xd& points, const std::vector<int>& numbers, FootprintRod& rod) {
-  rod.origin = points.col(numbers.front());
-  if (is_straight(points, numbers)) {
-    rod.direction = (points.col(numbers.back()) - rod.origin).normalized();
+/// The polyline of a rod; where it is straight in the plane, its line.
+void lay(const Eigen::Matrix3Xd& points, const std::vector<int>& numbers, FootprintRod& rod) {
+  rod.origin = points.col(numbers.front()).head<2>();
+  const bool in_plane = points(2, numbers).isZero(0);
+  if (in_plane && is_straight(points, numbers)) {
+    rod.direction = (points.col(numbers.back()).head<2>() - rod.origin).normalized();
     return;
   }
   double position = 0;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const Eigen::Vector2d at = points.col(numbers[k]);
-    if (k > 0) position += (at - rod.path.back().head<2>()).norm();
-    rod.path.emplace_back(at.x(), at.y(), position);
+    const Eigen::Vector3d at = points.col(numbers[k]);
+    if (k > 0) position += (at - rod.path.back().head<3>()).norm();
+    rod.path.emplace_back(at.x(), at.y(), at.z(), position);
   }
 }
 
@@ -176,7 +179,7 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
 
 /// What holds a piece: a place, and the directions in which it is held there.
 struct HeldPlace {
-  Eigen::Vector2d at;
+  Eigen::Vector3d at;
   Eigen::Vector3d along;  ///< 1 or 0 of x, y, z
 };
 
@@ -187,30 +190,29 @@ Eigen::Vector3d held_along(const RodNetwork& network, int point) {
   return (spring->second.array() > 0).cast<double>();
 }
 
-/// Whether points of a plane are off a line.
+/// Whether places are off a line.
 bool off_a_line(const std::vector<HeldPlace>& places) {
   if (places.empty()) return false;
-  const Eigen::Vector2d first = places.front().at;
-  Eigen::Vector2d far = first;
+  const Eigen::Vector3d first = places.front().at;
+  Eigen::Vector3d far = first;
   for (const HeldPlace& place : places)
     if ((place.at - first).norm() > (far - first).norm()) far = place.at;
-  const Eigen::Vector2d way = far - first;
+  const Eigen::Vector3d way = far - first;
   return std::ranges::any_of(places, [&](const HeldPlace& place) {
-    return std::abs(cross(way, place.at - first)) > on_a_line * way.squaredNorm();
+    return area(way, place.at - first) > on_a_line * way.squaredNorm();
   });
 }
 
 /// Whether places hold a piece against every small move and turn: the six columns of
 /// (e, p x e/L) over all places p and held directions e are independent.
 bool hold_all(const std::vector<HeldPlace>& places) {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const HeldPlace& place : places) middle += place.at / double(places.size());
   double reach = 0;
   for (const HeldPlace& place : places) reach = std::max(reach, (place.at - middle).norm());
   Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(3 * Eigen::Index(places.size()), 6);
   for (std::size_t k = 0; k < places.size(); ++k) {
-    Eigen::Vector3d arm = Eigen::Vector3d::Zero();
-    arm.head<2>() = (places[k].at - middle) / reach;
+    const Eigen::Vector3d arm = (places[k].at - middle) / reach;
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d e = places[k].along[axis] * Eigen::Vector3d::Unit(axis);
       moves.row(3 * Eigen::Index(k) + axis) << e.transpose(), arm.cross(e).transpose();
@@ -371,8 +373,8 @@ Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
       footprint.held_joints.push_back(joint_at[point]);
       made.joints.push_back(point);
     }
-    const Eigen::Vector2d at = network.points.col(point);
-    footprint.joints.push_back({point, 0, at.x(), at.y()});
+    const Eigen::Vector3d at = network.points.col(point);
+    footprint.joints.push_back({point, 0, at.x(), at.y(), at.z()});
   }
   for (std::size_t r = 0; r < network.rods.size(); ++r) {
     auto rod = rod_of(network, r, roles, joint_at);
@@ -385,7 +387,7 @@ Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
     return tl::unexpected<Error>(held.error());
   footprint.spacing = spacing_of(footprint);
   for (const Placement placement : {Placement::half, Placement::on_axis})
-    if (footprint.cells.empty()) name_as_grid(made, placement);
+    if (footprint.cells.empty() && !footprint.in_space()) name_as_grid(made, placement);
   put_springs(network, made);
   return made;
 }
@@ -410,6 +412,27 @@ std::vector<int> hull_of(const Eigen::Matrix2Xd& points) {
     std::ranges::reverse(order);
   }
   return hull;
+}
+
+std::vector<int> rim_of(const Eigen::Matrix2Xd& points) {
+  const std::vector<int> corners = hull_of(points);
+  std::vector<int> rim;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Eigen::Vector2d first = points.col(corners[k]),
+                          way = points.col(corners[(k + 1) % corners.size()]) - first;
+    std::map<double, int> on_edge;  // by how far along it
+    for (int point = 0; point < int(points.cols()); ++point) {
+      const Eigen::Vector2d at = points.col(point) - first;
+      const double along = at.dot(way) / way.squaredNorm();
+      const bool on_it = std::abs(cross(way, at)) < on_a_line * way.squaredNorm();
+      if (on_it && along > on_a_line && along < 1 - on_a_line) on_edge.try_emplace(along, point);
+    }
+    rim.push_back(corners[k]);
+    double last = 0;
+    for (const auto& [along, point] : on_edge)
+      if (along - std::exchange(last, along) > on_a_line) rim.push_back(point);
+  }
+  return rim;
 }
 
 }  // namespace gridshell

@@ -1,4 +1,5 @@
-// A footprint from any flat network of rods: straight ones in all directions, polylines and rings.
+// A footprint from any network of rods, in a plane or in space: straight ones in all directions,
+// polylines and rings.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +13,7 @@ namespace gridshell {
 
 /// Rods as lists of points. Rods that name the same point are joined there.
 struct RodNetwork {
-  Eigen::Matrix2Xd points;                   ///< mm
+  Eigen::Matrix3Xd points;                   ///< mm; all of height 0: in the plane
   std::vector<std::vector<int>> rods;        ///< numbers of points; a ring ends with its first one
   std::vector<char> supported;               ///< of each point: what it is on is held there
   std::vector<char> free;                    ///< of each point: rods' ends there are not held
@@ -34,8 +35,8 @@ struct NetworkFootprint {
 ///   the same, but free or on a spring: with one rod its end, with several a joint of their ends;
 ///   where rods end at an inner point of another: they are joined to that joint.
 /// Rods are naturally straight and as long as their polyline. Rods that cross without a common
-/// point pass one another. Where all rods are of a square grid about the origin, rods, joints and
-/// cells are named as its.
+/// point pass one another. Where all rods are in the plane and of a square grid about the origin,
+/// rods, joints and cells are named as its.
 /// Errors (bad_input), naming rods ("rods[3]") and points: a rod of one point, of no length, twice
 /// through a point, twice along a stretch, or joined to nothing; a free point that is no end; a
 /// piece that is not held at three points off a line, or by springs along too few directions, as it
@@ -44,5 +45,7 @@ Result<NetworkFootprint> network_footprint(const RodNetwork& network);
 
 /// The corners of the convex hull of points, counter-clockwise.
 std::vector<int> hull_of(const Eigen::Matrix2Xd& points);
+/// The same with the points on its edges, each place once.
+std::vector<int> rim_of(const Eigen::Matrix2Xd& points);
 
 }  // namespace gridshell

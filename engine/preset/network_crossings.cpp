@@ -1,6 +1,7 @@
 // Rods of a drawing are joined wherever they cross or touch.
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,15 +14,21 @@ namespace {
 
 constexpr std::size_t most_stretches = 20000;  // each is held against each
 
+Eigen::Vector3d place_of(const std::vector<double>& point) {
+  return {point[0], point[1], point[2]};
+}
+
 /// Two points of a rod that follow one another.
 struct Stretch {
   std::size_t rod, first;  ///< of which rod, and after which of its points
   int from, to;
-  double x0, y0, x1, y1;
+  Eigen::Vector3d begin, end;
 
-  double length() const { return std::hypot(x1 - x0, y1 - y0); }
-  double low() const { return std::min(x0, x1) - one_point_mm; }
-  double high() const { return std::max(x0, x1) + one_point_mm; }
+  Eigen::Vector3d way() const { return end - begin; }
+  Eigen::Vector3d at(double share) const { return begin + share * way(); }
+  double length() const { return way().norm(); }
+  double low() const { return std::min(begin.x(), end.x()) - one_point_mm; }
+  double high() const { return std::max(begin.x(), end.x()) + one_point_mm; }
 };
 
 /// A point to come into a stretch, at a share of its length.
@@ -33,13 +40,19 @@ struct Cut {
 
 /// Where two stretches meet, as shares of their lengths; none: nowhere, or they run alike.
 std::optional<std::pair<double, double>> meeting(const Stretch& a, const Stretch& b) {
-  const double ax = a.x1 - a.x0, ay = a.y1 - a.y0, bx = b.x1 - b.x0, by = b.y1 - b.y0;
-  const double turn = ax * by - ay * bx;
-  if (!(std::abs(turn) > 1e-9 * a.length() * b.length())) return std::nullopt;
-  const double dx = b.x0 - a.x0, dy = b.y0 - a.y0;
-  const double s = (dx * by - dy * bx) / turn, t = (dx * ay - dy * ax) / turn;
+  const Eigen::Vector3d way_a = a.way(), way_b = b.way(), apart = b.begin - a.begin;
+  const Eigen::Vector3d normal = way_a.cross(way_b);
+  if (!(normal.norm() > 1e-9 * a.length() * b.length())) return std::nullopt;
+  // seen along the axis that is nearest to their normal, of a drawing in the plane z
+  const auto beyond = [&](int k) { return std::abs(normal[2]) < std::abs(normal[k]); };
+  const int view = !beyond(0) && !beyond(1) ? 2 : std::abs(normal[0]) < std::abs(normal[1]) ? 1 : 0;
+  const int x = (view + 1) % 3, y = (view + 2) % 3;
+  const double s = (apart[x] * way_b[y] - apart[y] * way_b[x]) / normal[view],
+               t = (apart[x] * way_a[y] - apart[y] * way_a[x]) / normal[view];
   const double on_a = one_point_mm / a.length(), on_b = one_point_mm / b.length();
   if (s < -on_a || s > 1 + on_a || t < -on_b || t > 1 + on_b) return std::nullopt;
+  // one passes over the other
+  if ((a.at(s) - b.at(t)).norm() > one_point_mm) return std::nullopt;
   return std::pair(s, t);
 }
 
@@ -48,8 +61,8 @@ std::vector<Stretch> stretches_of(const NetworkData& network) {
   for (std::size_t r = 0; r < network.rods.size(); ++r)
     for (std::size_t k = 1; k < network.rods[r].size(); ++k) {
       const int from = network.rods[r][k - 1], to = network.rods[r][k];
-      const auto &a = network.points[std::size_t(from)], &b = network.points[std::size_t(to)];
-      all.push_back({r, k - 1, from, to, a[0], a[1], b[0], b[1]});
+      all.push_back({r, k - 1, from, to, place_of(network.points[std::size_t(from)]),
+                     place_of(network.points[std::size_t(to)])});
     }
   std::ranges::sort(all, {}, &Stretch::low);
   return all;
@@ -87,8 +100,8 @@ Result<void> NetworkDraft::join_crossings(const std::string& name) {
       const auto met = meeting(a, b);
       if (!met) continue;
       const auto [s, t] = *met;
-      const auto point =
-          place({a.x0 + s * (a.x1 - a.x0), a.y0 + s * (a.y1 - a.y0), network_.points[0][2]}, name);
+      const Eigen::Vector3d there = a.at(s);
+      const auto point = place({there.x(), there.y(), there.z()}, name);
       if (!point) return tl::unexpected(point.error());
       if (*point != a.from && *point != a.to) cuts.push_back({a.rod, a.first, s, *point});
       if (*point != b.from && *point != b.to) cuts.push_back({b.rod, b.first, t, *point});

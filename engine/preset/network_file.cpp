@@ -49,11 +49,6 @@ Result<void> NetworkDraft::add_point(const std::vector<double>& xyz, const std::
   if (points() == most)
     return fail(Fault::bad_input, fmt::format("{}: must be at most {} points", at, most));
   const std::vector<double> place{xyz[0], xyz[1], xyz.size() == 3 ? xyz[2] : 0};
-  if (points() > 0 && !(std::abs(place[2] - network_.points[0][2]) < one_point_mm))
-    return fail(Fault::bad_input,
-                fmt::format("{}: a point at z = {:g} mm, must be in the first one's horizontal "
-                            "plane, z = {:g} mm",
-                            at, place[2], network_.points[0][2]));
   const int number = int(points()), same = known(place);
   same_as_.push_back(same >= 0 ? same : number);
   network_.points.push_back(place);
@@ -123,9 +118,6 @@ std::string network_fault(const NetworkData& network) {
   for (const auto& point : network.points)
     if (point.size() != 3 || !coordinates_fault(point).empty())
       return "points_mm must be points [x, y, z], mm";
-  for (const auto& point : network.points)
-    if (!(std::abs(point[2] - network.points[0][2]) < one_point_mm))
-      return "points_mm must be in one horizontal plane";
   const auto there = [&](double number) {
     return number >= 0 && number < double(points) && number == std::floor(number);
   };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <map>
 
@@ -14,8 +15,8 @@ Eigen::Vector3d vector_of(const std::vector<double>& row, std::size_t first) {
   return {row.at(first), row.at(first + 1), row.at(first + 2)};
 }
 
-/// Of the box around the points of all rods.
-Eigen::Vector3d middle_of(const preset::NetworkData& file) {
+/// Of the box around the points of all rods: the middle of its floor, above which heights are.
+Eigen::Vector3d origin_of(const preset::NetworkData& file) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
   for (const auto& rod : file.rods)
     for (const int point : rod) {
@@ -23,14 +24,18 @@ Eigen::Vector3d middle_of(const preset::NetworkData& file) {
       low = low.cwiseMin(at);
       high = high.cwiseMax(at);
     }
-  return 0.5 * (low + high);
+  Eigen::Vector3d origin = 0.5 * (low + high);
+  origin.z() = low.z();
+  return origin;
 }
 
-RodNetwork network_of(const preset::NetworkData& file, const Eigen::Vector3d& middle) {
+RodNetwork network_of(const preset::NetworkData& file, const Eigen::Vector3d& origin) {
+  constexpr double in_plane_mm = 1e-3;  // as near as points are one
   RodNetwork network;
-  network.points.resize(2, Eigen::Index(file.points.size()));
+  network.points.resize(3, Eigen::Index(file.points.size()));
   for (std::size_t k = 0; k < file.points.size(); ++k)
-    network.points.col(Eigen::Index(k)) = (vector_of(file.points[k], 0) - middle).head<2>();
+    network.points.col(Eigen::Index(k)) = vector_of(file.points[k], 0) - origin;
+  if (network.points.row(2).cwiseAbs().maxCoeff() < in_plane_mm) network.points.row(2).setZero();
   network.rods = file.rods;
   network.supported.assign(file.points.size(), 0);
   network.free.assign(file.points.size(), 0);
@@ -48,9 +53,14 @@ class Way {
     for (const auto& row : preset.footprint.file.supports)
       if (row.size() == 4) to_[int(row[0])] = vector_of(row, 1);
   }
-  Eigen::Vector3d of(int point, const Eigen::Vector2d& from) const {
+  /// (u, v) and height of a place as drawn; a height is not scaled.
+  Eigen::Vector3d begin(const Eigen::Vector3d& from) const {
+    return flat_.at(from.head<2>()) + from.z() * Eigen::Vector3d::UnitZ();
+  }
+  Eigen::Vector3d end(int point, const Eigen::Vector3d& from) const {
     const auto named = to_.find(point);
-    return named == to_.end() ? flat_.at(scale_ * from) : named->second;
+    if (named != to_.end()) return named->second;
+    return begin({scale_ * from.x(), scale_ * from.y(), from.z()});
   }
 
  private:
@@ -60,39 +70,50 @@ class Way {
 };
 
 /// The motion of ends and held joints; columns of what is held in `held`, from and to.
-void put_motion(const NetworkFootprint& made, const Eigen::Matrix2Xd& points, const Way& way,
+void put_motion(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, const Way& way,
                 Scene& scene) {
   const auto fill = [&](const std::vector<int>& numbers, Eigen::Matrix3Xd& begin,
                         Eigen::Matrix3Xd& end) {
     begin.resize(3, Eigen::Index(numbers.size()));
     end.resizeLike(begin);
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-      const Eigen::Vector2d from = points.col(numbers[k]);
-      begin.col(Eigen::Index(k)) = scene.flat.at(from);
-      end.col(Eigen::Index(k)) = way.of(numbers[k], from);
+      const Eigen::Vector3d from = points.col(numbers[k]);
+      begin.col(Eigen::Index(k)) = way.begin(from);
+      end.col(Eigen::Index(k)) = way.end(numbers[k], from);
     }
   };
   fill(made.ends, scene.motion.begin, scene.motion.end);
   fill(made.joints, scene.motion.begin_joints, scene.motion.end_joints);
 }
 
-void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix2Xd& points, Scene& scene) {
+/// What is held around the rods, seen from above: of a network in the plane the corners alone. Half
+/// the diagonal of its box is the length scale.
+void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, Scene& scene) {
   std::vector<int> numbers = made.joints;
-  std::vector<Eigen::Vector3d> to;
-  for (Eigen::Index k = 0; k < scene.motion.end_joints.cols(); ++k)
+  std::vector<Eigen::Vector3d> from, to;
+  for (Eigen::Index k = 0; k < scene.motion.end_joints.cols(); ++k) {
+    from.push_back(scene.motion.begin_joints.col(k));
     to.push_back(scene.motion.end_joints.col(k));
+  }
   for (std::size_t end = 0; end < made.ends.size(); ++end) {
     const FootprintRod& rod = made.footprint.rods[end / 2];
     if (!is_held(end % 2 == 0 ? rod.begin : rod.end)) continue;
     numbers.push_back(made.ends[end]);
+    from.push_back(scene.motion.begin.col(Eigen::Index(end)));
     to.push_back(scene.motion.end.col(Eigen::Index(end)));
   }
-  const Eigen::Matrix2Xd held = points(Eigen::all, numbers);
-  const std::vector<int> hull = hull_of(held);
-  scene.original_boundary = scene.flat.all(held(Eigen::all, hull));
+  const Eigen::Matrix2Xd held = points(Eigen::all, numbers).topRows<2>();
+  const bool in_space = made.footprint.in_space();
+  const std::vector<int> hull = in_space ? rim_of(held) : hull_of(held);
+  scene.original_boundary.resize(3, Eigen::Index(hull.size()));
   scene.actuated_boundary.resizeLike(scene.original_boundary);
-  for (std::size_t k = 0; k < hull.size(); ++k)
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    scene.original_boundary.col(Eigen::Index(k)) = from[std::size_t(hull[k])];
     scene.actuated_boundary.col(Eigen::Index(k)) = to[std::size_t(hull[k])];
+  }
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& place : from) box.extend(place);
+  scene.length_scale_mm = 0.5 * box.diagonal().norm();
 }
 
 /// Diameters of the file, of rods that have one.
@@ -116,7 +137,7 @@ Result<void> put_diameters(const preset::Preset& preset, NetworkFootprint& made)
 
 Result<void> build_network(const preset::Preset& preset, Scene& scene) {
   const preset::NetworkData& file = preset.footprint.file;
-  scene.flat.origin = middle_of(file);
+  scene.flat.origin = origin_of(file);
   const RodNetwork network = network_of(file, scene.flat.origin);
   const auto refuse = [](const Error& error) {
     return fail(error.fault, "[footprint] file: " + error.message);
@@ -126,9 +147,8 @@ Result<void> build_network(const preset::Preset& preset, Scene& scene) {
   if (auto put = put_diameters(preset, *made); !put) return refuse(put.error());
   put_motion(*made, network.points, Way(preset, scene), scene);
   put_boundaries(*made, network.points, scene);
-  const Eigen::Matrix3Xd& ring = scene.original_boundary;
-  scene.length_scale_mm = 0.5 * (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();
   scene.footprint = std::move(made->footprint);
+  scene.drawn_in_space = scene.footprint.in_space();
   return {};
 }
 

@@ -147,6 +147,21 @@ Result<void> build(const preset::Preset& preset, Scene& scene) {
   return build_net(preset, scene);
 }
 
+/// What rods have at rest besides their length is known in the plane alone.
+Result<void> check_in_space(const preset::Preset& preset, const Scene& scene) {
+  if (!scene.drawn_in_space) return {};
+  const std::string reason = "of a network that is drawn in space, ";
+  if (scene.rung == preset::Rung::twist)
+    return fail(Fault::bad_input, reason +
+                                      "how rods spin and meet at rest is not known: the bend "
+                                      "rung alone takes it; " +
+                                      preset::model_reason(preset));
+  if (preset.ends.kind != preset::EndKind::pinned)
+    return fail(Fault::bad_input,
+                "[ends] kind: " + reason + "ends are pinned: where they point is not known");
+  return {};
+}
+
 }  // namespace
 
 Result<Scene> scene_of(const preset::Preset& preset) {
@@ -171,6 +186,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   scene.drawn_diameters_mm = rods->drawn_diameters_mm;
   scene.diameters_mm = std::move(rods->diameters_mm);
   scene.rung = preset::rung_of(preset);
+  if (auto fits = check_in_space(preset, scene); !fits) return tl::unexpected<Error>(fits.error());
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;
   scene.imperfection = {preset.imperfection.size * scene.footprint.spacing,

@@ -36,18 +36,27 @@ Result<State> buckled_dome(Linearisation& system, const RodMesh& mesh, const Pin
   return second && lower(*second) > lower(*first) ? second : first;
 }
 
-}  // namespace
+/// As it is drawn, at rest on the bend rung.
+Result<State> drawn_rest(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
+                         double t, const Scene& scene, const Watch& watch) {
+  State state = flat_state(system.model(), mesh, motion, scene.flat);
+  motion.impose(system, t, state);
+  return rest_near(system, state, 0.5 * scene.footprint.spacing, watch);
+}
 
-Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellRods& rods, double t,
-                            const Watch& watch) {
+using FindShape = decltype(drawn_rest);
+
+/// What `find` finds on the mesh that chooses, at rest on the coarsest.
+Result<State> chosen(FindShape& find, NestedShell& shell, const Scene& scene, const ShellRods& rods,
+                     double t, const Watch& watch) {
   const RodMesh& mesh = shell.mesh(0);
   if (scene.mechanics() == Rung::bend && shell.plan().edges_per_segment[0] == choosing_edges)
-    return buckled_dome(shell.system(0), mesh, shell.motion(0), t, scene, watch);
+    return find(shell.system(0), mesh, shell.motion(0), t, scene, watch);
   MeshedShell chooser;
   if (auto built = chooser.build(scene.footprint, rods, Rung::bend, scene.motion, choosing_edges);
       !built)
     return tl::unexpected<Error>(built.error());
-  const auto shape = buckled_dome(*chooser.system, chooser.mesh, chooser.motion, t, scene, watch);
+  const auto shape = find(*chooser.system, chooser.mesh, chooser.motion, t, scene, watch);
   shell.system(0).effort() += chooser.system->effort();
   if (!shape) return shape;
   Eigen::Matrix3Xd nodes;
@@ -57,6 +66,20 @@ Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellR
   move_to(model, columns_of(mesh, model, nodes), state);
   shell.motion(0).impose(shell.system(0), t, state);
   return rest_below(shell.system(0), std::move(state), watch);
+}
+
+}  // namespace
+
+Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellRods& rods, double t,
+                            const Watch& watch) {
+  return chosen(buckled_dome, shell, scene, rods, t, watch);
+}
+
+Result<State> state_as_drawn(NestedShell& shell, const Scene& scene, const ShellRods& rods,
+                             const Watch& watch) {
+  return chosen(drawn_rest, shell, scene, rods, 0, watch).map_error([](const Error& error) {
+    return Error{error.fault, "from the network as drawn: " + error.message};
+  });
 }
 
 Result<State> state_on_net(NestedShell& shell, const Scene& scene, const Watch& watch) {

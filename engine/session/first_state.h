@@ -1,4 +1,5 @@
-// Where a path begins: a buckled state out of the flat, or the rest beside a net.
+// Where a path begins: a buckled state out of the flat, the rest beside a net, or that of a network
+// as it is drawn in space.
 #pragma once
 
 #include "engine/core/result.h"
@@ -16,6 +17,11 @@ namespace gridshell {
 /// that the rung cannot take).
 Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellRods& rods, double t,
                             const Watch& watch);
+
+/// The rest that a network drawn in space comes to, its supports where they are drawn; found on the
+/// same mesh. Errors: as buckled_state().
+Result<State> state_as_drawn(NestedShell& shell, const Scene& scene, const ShellRods& rods,
+                             const Watch& watch);
 
 /// The state of the coarsest mesh next to the scene's net, at rest. Errors: as buckled_state(), and
 /// the net's.

@@ -115,6 +115,12 @@ Result<Report> Session::begin_on_net(const Watch& watch) {
   return begin_at(1, *rest, watch);
 }
 
+Result<Report> Session::begin_as_drawn(const Watch& watch) {
+  const auto rest = state_as_drawn(*shell_, *scene_, rods_ ? *rods_ : scene_->rods, watch);
+  if (!rest) return tl::unexpected<Error>(rest.error());
+  return begin_at(0, *rest, watch);
+}
+
 Report Session::begin_at(double t, const State& coarse, const Watch& watch) {
   const double begin = seconds_now();
   const Effort before = effort();

@@ -66,11 +66,15 @@ Eigen::Matrix3Xd Cascade::stretched_flat(double t) const {
   std::vector<int> on_boundary = mesh.held_joints;
   for (int end = 0; end < mesh.edge_points; ++end)
     if (mesh.end_of(end) != RodEnd::joined) on_boundary.push_back(mesh.joints + end);
-  const Eigen::Matrix3Xd ends = levels_.front()->motion.at(t)(Eigen::all, on_boundary);
+  Eigen::Matrix3Xd ends = levels_.front()->motion.at(t)(Eigen::all, on_boundary);
+  // what lies in the plane may be lifted off it by its ends; heights go with the plane
+  if (mesh.height.size() > 0) ends.row(2) -= mesh.height(on_boundary);
   const Eigen::MatrixXd affine = with_one(mesh.flat(Eigen::all, on_boundary))
                                      .colPivHouseholderQr()
                                      .solve(Eigen::MatrixXd(ends.transpose()));
-  return (with_one(mesh.flat) * affine).transpose();
+  Eigen::Matrix3Xd nodes = (with_one(mesh.flat) * affine).transpose();
+  if (mesh.height.size() > 0) nodes.row(2) += mesh.height;
+  return nodes;
 }
 
 State Cascade::first_state(double t, const Eigen::Matrix3Xd& nodes) const {

@@ -48,6 +48,8 @@ Result<Course> begin_push(std::shared_ptr<const Scene> scene, const preset::Inde
 
 Result<Course> begin_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
                                const Watch& watch) {
+  if (scene->drawn_in_space)
+    return fail(Fault::bad_input, "branches are looked for where a path begins flat or on a net");
   auto session = Session::open(scene, plan);
   if (!session) return tl::unexpected<Error>(session.error());
   Course course{std::move(*session)};

@@ -64,6 +64,8 @@ Result<void> Subject::set_up(const preset::Preset& preset) {
     return fail(
         Fault::bad_input,
         "a study compares methods on shells that bear no [loads] and stand on their ends alone");
+  if (scene->drawn_in_space)
+    return fail(Fault::bad_input, "a study compares methods on shells that begin flat or on a net");
   scene_ = std::make_shared<const Scene>(std::move(*scene));
   pushed_ = preset.indentation;
   task_ = pushed_.wanted() ? Task::push : scene_->from_net ? Task::beside_net : Task::actuation;

@@ -57,7 +57,9 @@ fs::path some_file(const fs::path& run, Draw& draw) {
 
 void change_bytes(const fs::path& file, Draw& draw) {
   auto bytes = read_whole(file).value();
-  const bool seal_again = file.filename() == "trajectory.h5" && !draw.one_in(4);
+  // an earlier damage may have left less than a seal
+  const bool seal_again =
+      file.filename() == "trajectory.h5" && bytes.size() >= 512 && !draw.one_in(4);
   if (seal_again) bytes = bytes.substr(512);
   for (std::size_t k = std::size_t(1) << draw.below(6); k > 0 && !bytes.empty(); --k) {
     char& at = bytes[draw.below(bytes.size())];
@@ -144,13 +146,14 @@ void change_summary(const fs::path& run, Draw& draw) {
 }
 
 void damage(const fs::path& run, Draw& draw) {
-  if (!is_plain(some_file(run, draw))) return;
+  const fs::path file = some_file(run, draw);
+  if (!is_plain(file)) return;
   switch (draw.below(4)) {
     case 0:
     case 1:
-      return change_bytes(some_file(run, draw), draw);
+      return change_bytes(file, draw);
     case 2:
-      return replace_file(some_file(run, draw), run, draw);
+      return replace_file(file, run, draw);
     case 3:
       return change_summary(run, draw);
   }

@@ -96,9 +96,9 @@ void network(std::string_view bytes) {
   if (!again) complain("does not read its own text", again.error().message);
   if (again->rods != read->rods) complain("comes back as another network", name);
   RodNetwork rods;
-  rods.points.resize(2, Eigen::Index(read->points.size()));
+  rods.points.resize(3, Eigen::Index(read->points.size()));
   for (Eigen::Index k = 0; k < rods.points.cols(); ++k)
-    rods.points.col(k) = Eigen::Vector2d::Map(read->points[std::size_t(k)].data());
+    rods.points.col(k) = Eigen::Vector3d::Map(read->points[std::size_t(k)].data());
   rods.rods = read->rods;
   rods.supported.assign(read->points.size(), 0);
   rods.free = rods.supported;

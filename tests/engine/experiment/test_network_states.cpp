@@ -48,7 +48,8 @@ void check(const experiment::StateLibrary& library, int trials) {
 }  // namespace
 
 TEST_CASE("states of shipped networks are found, stable and in the order of energy", "[full]") {
-  for (const char* name : {"network_triaxial", "network_cut", "network_ring", "network_kagome"})
+  for (const char* name :
+       {"network_triaxial", "network_cut", "network_ring", "network_kagome", "network_space"})
     for (const auto mode :
          {preset::JitterMode::random, preset::JitterMode::gravity, preset::JitterMode::poke}) {
       CAPTURE(name, int(mode));

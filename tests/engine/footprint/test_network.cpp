@@ -2,6 +2,7 @@
 #include "engine/footprint/network.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "engine/footprint/mesh.h"
 
@@ -14,8 +15,9 @@ RodNetwork network(const std::vector<Eigen::Vector2d>& points,
                    const std::vector<std::vector<int>>& rods,
                    const std::vector<int>& supported = {}, const std::vector<int>& free = {}) {
   RodNetwork net;
-  net.points.resize(2, Eigen::Index(points.size()));
-  for (std::size_t k = 0; k < points.size(); ++k) net.points.col(Eigen::Index(k)) = points[k];
+  net.points.setZero(3, Eigen::Index(points.size()));
+  for (std::size_t k = 0; k < points.size(); ++k)
+    net.points.col(Eigen::Index(k)).head<2>() = points[k];
   net.rods = rods;
   net.supported.assign(points.size(), 0);
   net.free.assign(points.size(), 0);
@@ -191,6 +193,44 @@ TEST_CASE("networks that do not make a shell are refused") {
   refused(network({{0, 0}, {9, 0}, {-9, 0}, {0, 9}, {0, -9}, {50, 0}, {60, 0}, {55, 0}, {55, 5}},
                   {{1, 0, 2}, {3, 0, 4}, {5, 7, 6}, {7, 8}}, {}, {8}),
           "rods[2] and what is joined to it");
+}
+
+TEST_CASE("rods in space are as long as their polyline there, and laid where they are drawn") {
+  RodNetwork net = network({{-3, 0}, {0, 0}, {3, 0}, {0, -8}, {0, 8}}, {{0, 1, 2}, {3, 1, 4}});
+  net.points.row(2) << 0, 4, 0, 0, 4;
+  const auto made = network_footprint(net);
+  if (!made) FAIL(made.error().message);
+  const Footprint& drawn = made->footprint;
+  CHECK(drawn.in_space());
+  CHECK(drawn.cells.empty());
+  CHECK(drawn.rods[0].family == Family::other);  // no square grid, though it looks so from above
+  CHECK(drawn.rods[0].span.end == Approx(10));
+  CHECK(drawn.rods[1].span.end == Approx(std::sqrt(80) + 8));
+  const RodMesh mesh = mesh_rods(drawn, 4);
+  const Eigen::Matrix3Xd nodes = drawn_nodes(mesh, {});
+  CHECK((nodes.col(0) - Eigen::Vector3d(0, 0, 4)).norm() < 1e-12);
+  CHECK((nodes.col(mesh.joints) - Eigen::Vector3d(-3, 0, 0)).norm() < 1e-12);
+  // each edge is as long as the rod between its positions
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r)
+    for (std::size_t k = 1; k < mesh.rods[r].size(); ++k)
+      CHECK((nodes.col(mesh.rods[r][k]) - nodes.col(mesh.rods[r][k - 1])).norm() ==
+            Approx(mesh.position[r][k] - mesh.position[r][k - 1]).epsilon(1e-12));
+  // what is level lies in the plane, whatever its height
+  net.points.row(2).setZero();
+  CHECK_FALSE(network_footprint(net)->footprint.in_space());
+  // held at places of one upright plane it stands, on one line it does not
+  RodNetwork upright = network({{-3, 0}, {0, 0}, {3, 0}, {0, 0}, {0, 0}}, {{0, 1, 2}, {3, 1, 4}});
+  upright.points.row(2) << 0, 0, 0, -5, 5;
+  CHECK(network_footprint(upright));
+  upright.points.row(2) << -3, 0, 3, -5, 5;
+  upright.points.row(0) << -3, 0, 3, -5, 5;
+  refused(upright, "at points on one line");
+}
+
+TEST_CASE("the rim of points has those on the edges of their hull, each place once") {
+  Eigen::Matrix2Xd points(2, 7);
+  points << 0, 1, 1, 0, 0.5, 0.5, 0.5, 0, 0, 1, 1, 0.5, 0, 0;
+  CHECK(rim_of(points) == std::vector<int>{0, 5, 1, 2, 3});
 }
 
 TEST_CASE("the convex hull goes round once") {
