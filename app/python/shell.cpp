@@ -27,6 +27,8 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
     shell.session_->begin_flat();
   } else if (auto begun = shell.form(0, unwatched); !begun) {
     return tl::unexpected<Error>(begun.error());
+  } else {
+    shell.as_drawn_ = true;
   }
   shell.boundary_.progress = 0;
   return shell;
@@ -42,7 +44,7 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
 }
 
 Result<Done> Shell::form(double progress, const Watch& watch) {
-  if (progress == 0 && (formed_ || !scene_->drawn_in_space))
+  if (progress == 0 && (formed_ || !scene_->drawn_in_space))  // where it stands
     return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
   auto course = experiment::course_of(
       *scene_,
@@ -69,7 +71,7 @@ Result<Done> Shell::form(double progress, const Watch& watch) {
 
 Result<Done> Shell::move(const preset::Step& step, const Watch& watch) {
   const double progress = experiment::progress_of(step, *scene_), begin = seconds_now();
-  if (formed_) return take(step, watch);
+  if (formed_ && !as_drawn_) return take(step, watch);
   auto formed = form(progress, watch);
   if (!formed || !formed_) return formed;
   // a net's shell begins at progress 1, one from the flat at its first buckled state
@@ -85,6 +87,7 @@ Result<Done> Shell::move(const preset::Step& step, const Watch& watch) {
 
 Result<Done> Shell::take(const preset::Step& step, const Watch& watch) {
   if (!formed_) return fail(Fault::bad_input, "the shell is still flat: actuate it first");
+  as_drawn_ = false;
   grips_.note(*session_);
   auto report = experiment::take_step(*session_, boundary_, step, watch);
   if (!report) return tl::unexpected<Error>(report.error());
@@ -115,6 +118,7 @@ Result<void> Shell::restore(const Kept& kept) {
   boundary_ = kept.boundary;
   grips_ = kept.grips;
   formed_ = kept.formed;
+  as_drawn_ = false;
   return {};
 }
 

@@ -83,6 +83,7 @@ class Shell {
   std::shared_ptr<const record::Layout> layout_;
   int layout_nodes_ = 0;
   bool formed_ = false;
+  bool as_drawn_ = false;  // a network in space to which nothing was done yet
 };
 
 }  // namespace gridshell::python

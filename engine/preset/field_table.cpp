@@ -21,7 +21,7 @@ std::vector<Field> shell_fields() {
        "whether a run may end in an unstable state without failing"},
       {"footprint", "kind", "", word<&P::footprint, &Footprint::kind>(),
        "boundary that cuts the flat square grid: a circle, the one that a net maps to the boundary "
-       "wanted, a curve of your own, or that of blocks joined; or \"network\": any flat rods of a "
+       "wanted, a curve of your own, or that of blocks joined; or \"network\": any rods of a "
        "file"},
       {"footprint", "file", "", network<&P::footprint, &Footprint::file>(),
        "of a footprint of kind \"network\": its points, rods, supports and where these go (.json), "

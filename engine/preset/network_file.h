@@ -29,9 +29,9 @@ inline constexpr double softest_spring = 1e-6, stiffest_spring = 1e6;
 ///   .dxf   LINE, LWPOLYLINE and POLYLINE, where there is a layer "rods" of that one alone
 /// In the drawings of the last two rods are joined wherever they cross or touch, in JSON where they
 /// name the same point or place, or points of one listed joint.
-/// Points are in one horizontal plane; a rod that ends where it begins is a ring. Errors
-/// (bad_input), with `name` and the line: not of the format, NaN, a point that is not there, more
-/// than 100 000 points or rods, another ending.
+/// Points [x, y] lie at z = 0, others [x, y, z] in space; a rod that ends where it begins is a
+/// ring. Errors (bad_input), with `name` and the line: not of the format, NaN, a point that is not
+/// there, more than 100 000 points or rods, another ending.
 Result<NetworkData> read_network(std::string_view bytes, const std::string& name);
 
 /// The text of a .json file that reads back as the same network.

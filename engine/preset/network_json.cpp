@@ -138,7 +138,7 @@ class Reader {
 
   Result<void> point(const Json& value) {
     const auto xyz = numbers_in(value);
-    if (!xyz) return wrong("must be a point [x, y], mm");
+    if (!xyz) return wrong("must be a point [x, y] or [x, y, z], mm");
     return draft_.add_point(*xyz, at_);
   }
 
@@ -150,7 +150,7 @@ class Reader {
       return draft_.point(value.get<long>(), at_);
     }
     const auto xyz = numbers_in(value);
-    if (!xyz) return wrong("a point must be its number, or its place [x, y]");
+    if (!xyz) return wrong("a point must be its number, or its place [x, y] or [x, y, z]");
     return draft_.place(*xyz, at_);
   }
 

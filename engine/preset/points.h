@@ -20,10 +20,10 @@ struct SurfaceData {
   bool empty() const { return z.empty() && triangles.empty(); }
 };
 
-/// A flat network of rods that a file gives. Points have one place each: rods that name the same
+/// A network of rods that a file gives. Points have one place each: rods that name the same
 /// point are joined there.
 struct NetworkData {
-  Points points;                       ///< x, y, z, mm; all in one horizontal plane
+  Points points;                       ///< x, y, z, mm
   std::vector<std::vector<int>> rods;  ///< each the numbers of its points in order
   std::vector<double> diameters;       ///< one a rod, mm, 0: that of [rod]; empty: all that
   Points supports;                     ///< number of a point and where it goes: x, y, z, mm

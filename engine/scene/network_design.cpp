@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -35,7 +37,10 @@ RodNetwork network_of(const preset::NetworkData& file, const Eigen::Vector3d& or
   network.points.resize(3, Eigen::Index(file.points.size()));
   for (std::size_t k = 0; k < file.points.size(); ++k)
     network.points.col(Eigen::Index(k)) = vector_of(file.points[k], 0) - origin;
-  if (network.points.row(2).cwiseAbs().maxCoeff() < in_plane_mm) network.points.row(2).setZero();
+  const bool in_plane = std::ranges::all_of(file.rods, [&](const std::vector<int>& rod) {
+    return network.points(2, rod).cwiseAbs().maxCoeff() < in_plane_mm;
+  });
+  if (in_plane) network.points.row(2).setZero();
   network.rods = file.rods;
   network.supported.assign(file.points.size(), 0);
   network.free.assign(file.points.size(), 0);
@@ -86,8 +91,16 @@ void put_motion(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, co
   fill(made.joints, scene.motion.begin_joints, scene.motion.end_joints);
 }
 
-/// What is held around the rods, seen from above: of a network in the plane the corners alone. Half
-/// the diagonal of its box is the length scale.
+/// Places across the plane that they lie nearest to.
+Eigen::Matrix2Xd seen_across(const Eigen::Matrix3Xd& places) {
+  const Eigen::Vector3d middle = places.rowwise().mean();
+  const Eigen::Matrix3Xd about = places.colwise() - middle;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(about * about.transpose());
+  return axes.eigenvectors().rightCols<2>().transpose() * about;
+}
+
+/// What is held around the rods, of a network in the plane the corners alone. Half the diagonal of
+/// the box around what is held is the length scale.
 void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, Scene& scene) {
   std::vector<int> numbers = made.joints;
   std::vector<Eigen::Vector3d> from, to;
@@ -102,9 +115,9 @@ void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points
     from.push_back(scene.motion.begin.col(Eigen::Index(end)));
     to.push_back(scene.motion.end.col(Eigen::Index(end)));
   }
-  const Eigen::Matrix2Xd held = points(Eigen::all, numbers).topRows<2>();
-  const bool in_space = made.footprint.in_space();
-  const std::vector<int> hull = in_space ? rim_of(held) : hull_of(held);
+  const Eigen::Matrix3Xd held = points(Eigen::all, numbers);
+  const std::vector<int> hull =
+      made.footprint.in_space() ? rim_of(seen_across(held)) : hull_of(held.topRows<2>());
   scene.original_boundary.resize(3, Eigen::Index(hull.size()));
   scene.actuated_boundary.resizeLike(scene.original_boundary);
   for (std::size_t k = 0; k < hull.size(); ++k) {

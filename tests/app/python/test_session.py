@@ -48,6 +48,22 @@ def test_is_flat_until_it_is_actuated():
     assert session.boundary_radius_mm == pytest.approx(56)
 
 
+def test_a_network_in_space_begins_at_rest_as_it_is_drawn():
+    session = gs.Session("network_space")
+    assert session.progress == 0 and session.certificate.stable
+    drawn = session.energy_mJ
+    assert drawn > 1 and np.ptp(session.nodes[:, 2]) > 50
+    session.push((17, 0), 5)
+    assert session.energy_mJ > drawn
+    # actuated, first or later, it comes to the state that `gridshell run` ends in
+    session.release((17, 0))
+    session.actuate()
+    first = gs.Session("network_space")
+    first.actuate()
+    assert first.progress == 1 and first.energy_mJ > 1.2 * drawn
+    assert session.energy_mJ == pytest.approx(first.energy_mJ, rel=1e-3)
+
+
 def test_a_push_resists_and_comes_back(formed):
     kept = formed.save()
     before, height = formed.nodes, formed.height_mm
