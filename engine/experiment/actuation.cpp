@@ -98,7 +98,7 @@ std::string at_progress(double t, std::optional<double> error) {
   return text;
 }
 
-Result<Course> follow_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
+Result<Course> follow_actuation(const std::shared_ptr<const Scene>& scene, const LevelPlan& plan,
                                 bool inner, double to, const Watch& watch) {
   const double started = seconds_now();
   auto session = Session::open(scene, plan);

@@ -20,7 +20,7 @@ std::string at_progress(double t, std::optional<double> error);
 /// then begins next to the flat, unless the scene's imperfection is none. From the net it is found
 /// at the equilibrium next to the net, progress 1, and where `inner` states are wanted followed
 /// backwards from there. Errors: bad_input, no_equilibrium (not a single buckled state), cancelled.
-Result<Course> follow_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
+Result<Course> follow_actuation(const std::shared_ptr<const Scene>& scene, const LevelPlan& plan,
                                 bool inner, double to, const Watch& watch);
 
 /// Hands frames at `progress` (ascending, in [0, 1]; 0 is the flat footprint) to the sink. Where

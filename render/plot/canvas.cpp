@@ -253,7 +253,7 @@ void Canvas::marker(Marker kind, Point p, double size, Colour fill, const Stroke
 namespace {
 
 std::string hex(Colour c) {
-  const auto byte = [](float v) { return int(255 * std::clamp(v, 0.f, 1.f) + 0.5f); };
+  const auto byte = [](float v) { return int(std::lround(255 * std::clamp(v, 0.f, 1.f))); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(c.r), byte(c.g), byte(c.b));
 }
 

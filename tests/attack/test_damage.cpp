@@ -28,7 +28,7 @@ const std::string small =
     small_preset({.rods = 2, .radius_mm = 25, .actuated_mm = 22, .width = 48, .height = 32});
 
 // as trajectory_file.cpp seals its files: this damage is meant
-std::string sealed(std::string hdf5) {
+std::string sealed(const std::string& hdf5) {
   gridshell::record::Checksum sum;
   sum.add(hdf5);
   auto seal =
