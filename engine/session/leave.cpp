@@ -66,7 +66,8 @@ Result<State> rest_beyond(NestedShell& shell, const Scene& scene, const PathPoin
                           const Watch& watch) {
   Linearisation& system = shell.system(0);
   const PinnedMotion& motion = shell.motion(0);
-  const Departure departure = departure_for(kind, scene, shell);
+  Departure departure = departure_for(kind, scene, shell);
+  departure.symmetries = symmetries_of(shell.mesh(0), motion.at(there));
   // the mode that went soft first, of several that are unstable beyond
   motion.load_up(system, last.t);
   system.at(last.state, false);

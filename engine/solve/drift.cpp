@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace gridshell {
 namespace {
@@ -9,39 +11,83 @@ namespace {
 constexpr int most_steps = 1000;
 constexpr double smallest_shift = 1e-9, largest_shift = 1e8;  // N/mm
 
-/// Factorises at the state with the smallest shift, from `shift` on, that keeps the move within a
-/// step; the shift that served, or a negative one where none does.
-double bounded_correction(Linearisation& system, const State& state, double step_mm, double shift,
-                          Eigen::Matrix3Xd& dx, const Watch& watch) {
-  Inertia inertia = system.at(state, true, shift);
-  for (;;) {
-    if (inertia.positive_definite()) {
-      system.correction(dx);
-      const double move = largest_column(dx);
-      if (!std::isfinite(move)) return -1;
-      if (move <= step_mm) return shift;
-    }
-    shift = std::max(2 * shift, smallest_shift);
-    if (shift > largest_shift || watch.cancelled()) return -1;
-    inertia = system.shifted(shift);
+/// What shifts are changed by: twofold at first, then the square of the last, until reset.
+class Stride {
+ public:
+  explicit Stride(double most) : most_(most) {}
+  double next() { return std::exchange(factor_, std::min(factor_ * factor_, most_)); }
+  void reset() { factor_ = 2; }
+
+ private:
+  double most_, factor_ = 2;
+};
+
+/// The way down: what changes between its steps.
+class Drift {
+ public:
+  Drift(Linearisation& system, State& state, double step_mm, const Watch& watch)
+      : system_(system), state_(state), step_mm_(step_mm), watch_(watch) {
+    system.stop_at_negative(system.holds().empty());
   }
-}
+  ~Drift() { system_.stop_at_negative(false); }
+  Drift(const Drift&) = delete;
+  Drift& operator=(const Drift&) = delete;
+
+  /// One step; true if it was Newton's own, as long as it is. Nothing: no shift serves.
+  std::optional<bool> step() {
+    bool at_once = true;
+    Stride up{16};
+    for (Inertia inertia = system_.at(state_, true, shift_);; inertia = system_.shifted(shift_)) {
+      if (inertia.positive_definite()) {
+        system_.correction(dx_);
+        const double move = largest_column(dx_);
+        if (!std::isfinite(move)) return std::nullopt;
+        if (move <= longest * step_mm_) return go(std::min(1.0, step_mm_ / move), at_once);
+      }
+      at_once = false;
+      shift_ = std::max(up.next() * shift_, smallest_shift);
+      if (shift_ > largest_shift || watch_.cancelled()) return std::nullopt;
+    }
+  }
+
+ private:
+  static constexpr double longest = 2;  // steps; what is longer is corrected anew with more shift
+
+  bool go(double share, bool at_once) {
+    ++system_.effort().newton_iterations;
+    const Eigen::VectorXd force = state_.force;
+    system_.apply(share * dx_, state_);
+    // of an unknown of its own a part of the step is a part of its change
+    state_.force += (1 - share) * (force - system_.assembly().force);
+    const bool newton = share == 1 && shift_ == 0;
+    // less and less shift as long as that goes well
+    if (at_once && share == 1) {
+      shift_ /= down_.next();
+      if (shift_ < smallest_shift) shift_ = 0;
+    } else {
+      down_.reset();
+    }
+    return newton;
+  }
+
+  Linearisation& system_;
+  State& state_;
+  const double step_mm_;
+  const Watch& watch_;
+  double shift_ = 0;
+  Stride down_{256};
+  Eigen::Matrix3Xd dx_;
+};
 
 }  // namespace
 
 Outcome drift(Linearisation& system, State& state, double step_mm, const Watch& watch) {
-  double shift = 0;
-  Eigen::Matrix3Xd dx;
+  Drift drift(system, state, step_mm, watch);
   for (int step = 0; step < most_steps; ++step) {
     if (watch.cancelled()) return Outcome::cancelled;
-    const double served = bounded_correction(system, state, step_mm, shift, dx, watch);
-    if (served < 0) return watch.cancelled() ? Outcome::cancelled : Outcome::not_finite;
-    ++system.effort().newton_iterations;
-    system.apply(dx, state);
-    if (served == 0) return Outcome::reached;
-    // twice as fast where that went well
-    shift = served > shift ? served : served / 2;
-    if (shift < smallest_shift) shift = 0;
+    const std::optional<bool> arrived = drift.step();
+    if (!arrived) return watch.cancelled() ? Outcome::cancelled : Outcome::not_finite;
+    if (*arrived) return Outcome::reached;
   }
   return Outcome::not_converged;
 }

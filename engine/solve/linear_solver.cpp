@@ -3,8 +3,8 @@
 namespace gridshell {
 
 std::unique_ptr<LinearSolver> make_linear_solver(const Model& model) {
-  constexpr int crossover = 200000;  // degrees of freedom
-  return model.dof() <= crossover ? make_block_cholesky(model) : make_cholmod(model);
+  constexpr int measured = 1000000;  // degrees of freedom
+  return model.dof() <= measured ? make_block_cholesky(model) : make_cholmod(model);
 }
 
 Eigen::Matrix3d without_held(const Model& model, int row, int column,

@@ -4,6 +4,7 @@
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/core/words.h"
+#include "engine/footprint/mesh_symmetry.h"
 #include "engine/solve/path.h"
 
 namespace gridshell {
@@ -23,6 +24,8 @@ struct Departure {
   Leave side = Leave::lower;
   double amplitude_mm = 0.5;  ///< of the push: far above round-off, far below a cell
   double step_mm = 0.5;       ///< of the way down (drift.h)
+  /// Of the mesh. Where one of them takes one side to the other, one way down is enough.
+  std::vector<MeshSymmetry> symmetries = {};
 };
 
 /// Softest mode of the Hessian last assembled in `system` by inverse iteration from `start` (empty:
@@ -43,7 +46,8 @@ Result<State> rest_below(Linearisation& system, State state, const Watch& watch,
                          const Departure& departure = {});
 
 /// From a state that is not stable, pushed along `mode` (its softest) to either side, to the rest
-/// that the steepest slope leads to; the one of lower energy, or that on the side asked for. A push
+/// that the steepest slope leads to; the one of lower energy, or that on the side asked for. One
+/// side alone is gone down where the other comes to the same or to its mirror image. A push
 /// that leads back to the saddle is repeated four times as large, up to 1 mm. Errors:
 /// no_equilibrium, cancelled.
 Result<State> settle(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& mode,
