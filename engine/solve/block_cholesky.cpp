@@ -196,6 +196,11 @@ struct Move {
   int from, to;
 };
 
+/// Blocks begin to end below the diagonal.
+struct Range {
+  int begin, end;
+};
+
 GRIDSHELL_CLONES
 void copy_blocks(const std::vector<Block3>& pair, const std::vector<Move>& straight,
                  const std::vector<Move>& turned, std::vector<Block3>& below) {
@@ -328,14 +333,18 @@ class BlockCholesky final : public LinearSolver {
       (turn ? turned_ : straight_).push_back({k, to});
       if (partly) (turn ? partly_turned_ : partly_straight_).push_back({k, to});
     }
-    for (int to = 0; to < int(filled.size()); ++to)
-      if (!filled[std::size_t(to)]) empty_.push_back(to);
+    for (int to = 0; to < int(filled.size()); ++to) {
+      if (filled[std::size_t(to)]) continue;
+      if (empty_.empty() || empty_.back().end != to) empty_.push_back({to, to});
+      empty_.back().end = to + 1;
+    }
     for (int column : column_) partly_.push_back(model_.held[std::size_t(column)] != 0);
   }
 
   void fill(const BlockHessian& hessian, double shift) {
     copy_blocks(hessian.pair, straight_, turned_, factor_.below);
-    for (int to : empty_) factor_.below[std::size_t(to)] = {};
+    for (const auto& [begin, end] : empty_)
+      std::fill(factor_.below.begin() + begin, factor_.below.begin() + end, Block3{});
     const auto held_pair = [&](int pair) {
       const auto [row, column] = model_.pattern.pairs()[std::size_t(pair)];
       return without_held(model_, row, column, hessian.pair[std::size_t(pair)].matrix());
@@ -359,7 +368,7 @@ class BlockCholesky final : public LinearSolver {
   // where the blocks of pairs go, as they are or transposed; those of columns that are partly held
   // go there again without what is held
   std::vector<Move> straight_, turned_, partly_straight_, partly_turned_;
-  std::vector<int> empty_;  // blocks below the diagonal that the Hessian does not have
+  std::vector<Range> empty_;  // blocks below the diagonal that the Hessian does not have
   Factor factor_;
   mutable std::vector<Entry> work_;  // of solve()
 };
