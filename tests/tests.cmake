@@ -4,6 +4,12 @@ find_package(Catch2 2.13 REQUIRED)
 include(Catch)
 find_package(nlohmann_json REQUIRED)
 
+# the sanitizers of the debug presets take some ten times as long
+set(quick_seconds 60)
+if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+  set(quick_seconds 900)
+endif()
+
 # gridshell_tests(NAME LIBRARIES...): one test program of tests/NAME/**/test_*.cpp, if there are any
 function(gridshell_tests folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS tests/${folder}/test_*.cpp)
@@ -27,11 +33,11 @@ function(gridshell_tests folder)
   # a name that CMake tears apart (at a semicolon) must fail instead of matching no test
   set(strict EXTRA_ARGS --warn NoTests)
   catch_discover_tests(${target} TEST_SPEC "~[full]~[alone]" TEST_LIST ${target}_quick ${strict}
-    PROPERTIES LABELS quick TIMEOUT 60)
+    PROPERTIES LABELS quick TIMEOUT ${quick_seconds})
   if(folder STREQUAL app)
     # those that look at a clock
     catch_discover_tests(${target} TEST_SPEC "~[full][alone]" TEST_LIST ${target}_alone ${strict}
-      PROPERTIES LABELS quick TIMEOUT 60 RUN_SERIAL ON)
+      PROPERTIES LABELS quick TIMEOUT ${quick_seconds} RUN_SERIAL ON)
   endif()
   catch_discover_tests(${target} TEST_SPEC "[full]" TEST_LIST ${target}_full ${strict}
     PROPERTIES LABELS full TIMEOUT 600)
@@ -99,7 +105,7 @@ foreach(source IN LISTS examples)
   target_link_libraries(example_${example} PRIVATE gridshell::gridshell)
   gridshell_compile_lightly(example_${example} -O1)
   add_test(NAME "example: ${example}" COMMAND example_${example})
-  set_tests_properties("example: ${example}" PROPERTIES LABELS quick TIMEOUT 120)
+  set_tests_properties("example: ${example}" PROPERTIES LABELS quick TIMEOUT ${quick_seconds})
 endforeach()
 # installed into an empty prefix, another project finds library and presets
 add_test(NAME "an installed library is found by CMake and pkg-config"

@@ -138,7 +138,7 @@ class StoredFrames : public FrameSource {
       of_rods_.push_back([name, size, field](hdf5::Reader& from, std::size_t k, Frame& frame) {
         Values& values = frame.*field = sized<Values>(size);
         from.read_slice(name, H5T_NATIVE_DOUBLE, k, values.data());
-        if (values.array().isNaN().all()) values.resize(values.rows() == 3 ? 3 : 0, 0);
+        if (values.array().isNaN().all()) values = sized<Values>(0);
       });
     });
   }

@@ -68,7 +68,7 @@ class Unpacker {
       return;
     }
     values.resize(rows, cols);
-    std::memcpy(values.data(), taken_.data(), taken_.size());
+    if (values.size() > 0) std::memcpy(values.data(), taken_.data(), taken_.size());
   }
   void get(int& value) { value = number<std::int32_t>(); }
   void get(double& value) { value = number<double>(); }
