@@ -93,7 +93,7 @@ inline bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a)
 template <class Matrix>
 bool same_bits(const Matrix& a, const Matrix& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() &&
-         std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
+         (a.size() == 0 || std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0);
 }
 
 }  // namespace gridshell::record
