@@ -230,19 +230,40 @@ bool is_later(const std::string& key) {
   return key == "ways_followed_for_barriers" || key == "passes_found";
 }
 
+/// Takes a value of the right kind; throws Json::exception where nothing else is right.
+template <class Value>
+bool take(const Json& json, Value& value) {
+  json.get_to(value);
+  return true;
+}
+bool take(const Json& json, int& value) {
+  const auto number = whole_number(json);
+  value = number.value_or(value);
+  return number.has_value();
+}
+bool take(const Json& json, std::map<std::string, int>& counts) {
+  return std::ranges::all_of(json.get<std::map<std::string, Json>>(), [&](const auto& item) {
+    return take(item.second, counts[item.first]);
+  });
+}
+
 Result<StateSearch> read_search(const std::filesystem::path& file) {
   const auto text = read_whole(file, largest_text);
   if (!text) return tl::unexpected(text.error());
   const Json json = parsed(*text);
   StateSearch search;
+  std::string misfit;
   try {
     each_search_key(search, [&](const char* key, auto& value) {
-      if (json.contains(key) || !is_later(key)) json.at(key).get_to(value);
+      if ((json.contains(key) || !is_later(key)) && !take(json.at(key), value)) misfit = key;
     });
   } catch (const Json::exception& error) {
     return fail(Fault::bad_input,
                 fmt::format("'{}' is no search for states: {}", file.string(), error.what()));
   }
+  if (!misfit.empty())
+    return fail(Fault::bad_input, fmt::format("'{}': \"{}\" must be a whole number, as counts are",
+                                              file.string(), misfit));
   return search;
 }
 

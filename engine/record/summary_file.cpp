@@ -71,10 +71,9 @@ bool take(const Json& json, std::string& value, const char*& expected) {
 }
 bool take(const Json& json, int& value, const char*& expected) {
   expected = "a whole number";
-  if (!json.is_number_integer()) return false;
-  const auto number = json.get<long long>();
-  value = static_cast<int>(number);
-  return value == number;
+  const auto number = whole_number(json);
+  value = number.value_or(value);
+  return number.has_value();
 }
 bool take(const Json& json, bool& value, const char*& expected) {
   expected = "true or false";

@@ -115,6 +115,12 @@ TEST_CASE("state tables: damaged ones are refused with file and line") {
   refused("states.csv", wrong, "class");
   refused("states.json", "{", "states.json");
   refused("states.json", R"({"mode": 3})", "states.json");
+  for (const char* number : {"1e300", "2.5", "4000000000", "18446744073709551615", "true"}) {
+    std::string search = record::to_json(written.search);
+    const auto at = search.find("900", search.find("\"trials\""));
+    REQUIRE(at != std::string::npos);
+    refused("states.json", search.replace(at, 3, number), "\"trials\" must be a whole number");
+  }
   refused("transitions.csv", "from,to\n", "first line");
   refused("barriers.csv", "from,to,energy_mJ,barrier_mJ,back_mJ,residual_N\n1,2,x,,,\n",
           "energy_mJ");
