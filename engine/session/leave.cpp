@@ -1,5 +1,6 @@
 #include "engine/session/leave.h"
 
+#include <cmath>
 #include <optional>
 
 #include "engine/core/even.h"
@@ -29,6 +30,32 @@ Departure departure_for(Event::Kind kind, const Scene& scene, const NestedShell&
   // a path that turns back has one way on
   if (kind != Event::Kind::stability_lost) departure.side = Leave::lower;
   return departure;
+}
+
+/// The last state of a path moved on with its boundary: by its velocity, with no more shift than
+/// keeps every node within `farthest_mm`. A boundary that moves alone would strain the legs, to
+/// thousands of times the energy that is at stake; the way down would be a release of that.
+State carried(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
+              double there, double farthest_mm, const Watch& watch) {
+  constexpr double least_shift = 1e-9, largest_shift = 1e4;  // N/mm
+  const double way = there - last.t;
+  State state = last.state;
+  motion.load_up(system, last.t);
+  Inertia inertia = system.at(last.state);
+  for (double shift = least_shift; shift <= largest_shift && !watch.cancelled(); shift *= 16) {
+    if (inertia.positive_definite()) {
+      State velocity;
+      motion.velocity(system, last.t, last.state, velocity);
+      if (std::abs(way) * largest_column(velocity.x) <= farthest_mm) {
+        move_to(system.model(), last.state.x + way * velocity.x, state);
+        state.force += way * velocity.force;
+        break;
+      }
+    }
+    inertia = system.shifted(shift);
+  }
+  motion.impose(system, there, state);
+  return state;
 }
 
 /// The branch that lost its stability, a little beyond, where it goes on: a push off it stays on
@@ -72,8 +99,7 @@ Result<State> rest_beyond(NestedShell& shell, const Scene& scene, const PathPoin
   motion.load_up(system, last.t);
   system.at(last.state, false);
   const Eigen::Matrix3Xd mode = softest_mode(system, departure.start, watch);
-  State state = last.state;
-  motion.impose(system, there, state);
+  State state = carried(system, motion, last, there, 0.2 * scene.footprint.spacing, watch);
   if (kind == Event::Kind::stability_lost)
     state = unstable_branch(system, state, 0.1 * scene.footprint.spacing, watch).value_or(state);
   if (!scene.snap.wanted) return settle(system, state, mode, departure, watch);

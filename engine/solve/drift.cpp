@@ -33,7 +33,7 @@ class Drift {
   Drift(const Drift&) = delete;
   Drift& operator=(const Drift&) = delete;
 
-  /// One step; true if it was Newton's own, as long as it is. Nothing: no shift serves.
+  /// One step; true if it was Newton's own and short. Nothing: no shift serves.
   std::optional<bool> step() {
     bool at_once = true;
     Stride up{16};
@@ -51,7 +51,8 @@ class Drift {
   }
 
  private:
-  static constexpr double longest = 2;  // steps; what is longer is corrected anew with more shift
+  // in steps: what is longer is corrected anew with more shift; a rest is within so much
+  static constexpr double longest = 2, near = 0.1;
 
   bool go(double share, bool at_once) {
     ++system_.effort().newton_iterations;
@@ -59,7 +60,7 @@ class Drift {
     system_.apply(share * dx_, state_);
     // of an unknown of its own a part of the step is a part of its change
     state_.force += (1 - share) * (force - system_.assembly().force);
-    const bool newton = share == 1 && shift_ == 0;
+    const bool newton = shift_ == 0 && largest_column(dx_) < near * step_mm_;
     // less and less shift as long as that goes well
     if (at_once && share == 1) {
       shift_ /= down_.next();

@@ -1,6 +1,7 @@
 // How long quasi-static actuation takes, in units of F = one CHOLMOD simplicial numeric
 // factorisation (its own nested dissection) of the Fig. 1 shell at 4 edges a segment, 2736 degrees
-// of freedom. CPU time of this process, medians. `bench_solver sizes` adds the table over n.
+// of freedom. CPU time of this process, medians. `bench_solver sizes` adds the table over n,
+// `bench_solver rests` rests from rough states.
 #include <fmt/format.h>
 #include <time.h>
 
@@ -8,7 +9,9 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/core/even.h"
 #include "engine/solve/buckle.h"
+#include "engine/solve/cascade.h"
 #include "engine/solve/nested.h"
 #include "tests/bench/figures.h"
 
@@ -203,10 +206,66 @@ void sizes(Figures& figures) {
   fmt::print(figures.lines(), "\n");
 }
 
+/// A hand that draws the boundary in from 0.95 to 0.76 R_o by one per cent a time, each state on
+/// meshes of 4, 8, 16 edges.
+void drag(Figures& figures) {
+  const Watch watch;
+  for (int n : {12, 24}) {
+    const Case c = circle(n);
+    NestedShell shell = shell_of(c, {{4, 8, 16}, false}, 1e-3);
+    const State first = first_buckled(shell.system(0), shell.mesh(0), shell.motion(0),
+                                      parameter(0.98), {}, {}, watch)
+                            .value();
+    constexpr int moves = 19;
+    bool reached = true;
+    const double seconds = median(
+        7,
+        [&] {
+          for (int k = 1; k <= moves; ++k)
+            reached &= shell.advance(parameter(0.95 - 0.01 * k), watch).end == Outcome::reached;
+        },
+        [&] {
+          shell.place(parameter(0.98), first);
+          shell.advance(parameter(0.95), watch);
+        });
+    fmt::print(figures.lines(), "radius less by 1 %, {} rods, meshes 4, 8, 16: {:.2f} ms{}\n", n,
+               1e3 * seconds / moves, reached ? "" : "  NOT REACHED");
+    figures.add(fmt::format("radius less by 1 %, {} rods, ms", n), 1e3 * seconds / moves);
+  }
+}
+
+/// Rests from random throws of every joint by up to one spacing, over meshes of 1, 2, 4 edges.
+void rests(Figures& figures) {
+  const Watch watch;
+  std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
+  fmt::print(figures.lines(), "\n{:>4} {:>12} {:>8}  (random throws of one spacing)\n", "n",
+             "s per 1000", "at rest");
+  for (const auto& [n, throws] : {std::pair{8, 400}, {12, 200}, {20, 60}}) {
+    const Case c = circle(n);
+    Cascade cascade =
+        Cascade::make(c.footprint, {circular_section(0.254, 83)}, Rung::bend, c.motion, {}, 4)
+            .value();
+    std::mt19937 random{1};
+    int reached = 0;
+    const double begin = cpu_now();
+    for (int k = 0; k < throws; ++k) {
+      Eigen::Matrix3Xd nodes = cascade.stretched_flat(1);
+      for (double& x : nodes.reshaped()) x += c.footprint.spacing * even(random);
+      reached += cascade.rest(1, nodes, watch).has_value();
+    }
+    const double seconds = 1000 * (cpu_now() - begin) / throws, share = double(reached) / throws;
+    fmt::print(figures.lines(), "{:4} {:12.1f} {:7.1f} %\n", n, seconds, 100 * share);
+    figures.add(fmt::format("{} rods, 1000 rests, s", n), seconds);
+    figures.add(fmt::format("{} rods, at rest", n), share);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Figures figures(argc, argv);
   paper_shell(7, figures);
+  drag(figures);
   if (std::count(figures.words().begin(), figures.words().end(), "sizes") > 0) sizes(figures);
+  if (std::count(figures.words().begin(), figures.words().end(), "rests") > 0) rests(figures);
 }
