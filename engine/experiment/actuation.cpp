@@ -169,6 +169,16 @@ Caption caption_of(const Scene& scene) {
 
 }  // namespace
 
+Result<Course> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
+                                      const LevelPlan& plan, std::string_view wanted_for,
+                                      const Watch& watch) {
+  auto actuated = follow_actuation(scene, plan, false, 1, watch);
+  if (actuated && actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
+    return fail(Fault::no_equilibrium, fmt::format("there is no actuated shell {}: {}", wanted_for,
+                                                   actuated->limit_reason));
+  return actuated;
+}
+
 Result<Course> run_actuation(std::shared_ptr<const Scene> scene,
                              const std::vector<double>& progress, record::Sink& sink,
                              Watch& watch) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "engine/experiment/course.h"
@@ -22,6 +23,12 @@ std::string at_progress(double t, std::optional<double> error);
 /// backwards from there. Errors: bad_input, no_equilibrium (not a single buckled state), cancelled.
 Result<Course> follow_actuation(const std::shared_ptr<const Scene>& scene, const LevelPlan& plan,
                                 bool inner, double to, const Watch& watch);
+
+/// The same to progress 1, for what comes after it: an actuation that ends earlier is an error,
+/// no_equilibrium, "there is no actuated shell `wanted_for`: ...".
+Result<Course> follow_whole_actuation(const std::shared_ptr<const Scene>& scene,
+                                      const LevelPlan& plan, std::string_view wanted_for,
+                                      const Watch& watch);
 
 /// Hands frames at `progress` (ascending, in [0, 1]; 0 is the flat footprint) to the sink. Where
 /// the path ends before a sample, the course's limit says why. Errors: as follow_actuation(), and

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/record/summary.h"
@@ -66,6 +68,27 @@ LevelPlan first_plan(const Scene& scene);
 /// `follow`; no_equilibrium where the finest meshes do not meet it; bad_input where they do not fit
 /// the memory.
 Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& watch);
+
+/// The same of what holds a course and more (a member `course`): follow(plan, watch) gives a
+/// Result<Holder>.
+template <class Holder, class FollowHolder>
+Result<Holder> holder_of_course(const Scene& scene, const FollowHolder& follow,
+                                const Watch& watch) {
+  std::map<std::vector<int>, Holder> tried;  // by the meshes
+  auto course = course_of(
+      scene,
+      [&](const LevelPlan& plan, const Watch& w) -> Result<Course> {
+        auto holder = follow(plan, w);
+        if (!holder) return tl::unexpected<Error>(holder.error());
+        const auto at = tried.insert_or_assign(plan.edges_per_segment, std::move(*holder)).first;
+        return std::move(at->second.course);
+      },
+      watch);
+  if (!course) return tl::unexpected<Error>(course.error());
+  Holder& kept = tried.at(course->asked.edges_per_segment);
+  kept.course = std::move(*course);
+  return std::move(kept);
+}
 
 /// A sample of a leg.
 struct Sample {

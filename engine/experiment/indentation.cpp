@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "engine/experiment/actuation.h"
@@ -100,11 +99,8 @@ Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, con
 Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
                                const preset::Indentation& asked, const LevelPlan& plan,
                                const Watch& watch) {
-  auto actuated = follow_actuation(scene, plan, false, 1, watch);
+  auto actuated = follow_whole_actuation(scene, plan, "to push", watch);
   if (!actuated) return tl::unexpected<Error>(actuated.error());
-  if (actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
-    return fail(Fault::no_equilibrium,
-                "there is no actuated shell to push: " + actuated->limit_reason);
   Session& session = actuated->session;
   const auto push = push_of(asked, *scene, session.shell().finest(), session.nodes());
   if (!push) return tl::unexpected<Error>(push.error());
@@ -256,19 +252,13 @@ Result<Course> run_indentation(std::shared_ptr<const Scene> scene,
                                const preset::Indentation& indentation,
                                const std::vector<double>& progress, record::Sink& sink,
                                Watch& watch) {
-  std::map<std::vector<int>, Pushed> tried;  // by the meshes
-  auto course = course_of(
+  auto kept = holder_of_course<Pushed>(
       *scene,
-      [&](const LevelPlan& plan, const Watch& w) -> Result<Course> {
-        auto pushed = follow_push(scene, indentation, plan, w);
-        if (!pushed) return tl::unexpected<Error>(pushed.error());
-        const auto at = tried.insert_or_assign(plan.edges_per_segment, std::move(*pushed)).first;
-        return std::move(at->second.course);
+      [&](const LevelPlan& plan, const Watch& w) {
+        return follow_push(scene, indentation, plan, w);
       },
       watch);
-  if (!course) return course;
-  Pushed* kept = &tried.at(course->asked.edges_per_segment);
-  kept->course = std::move(*course);
+  if (!kept) return tl::unexpected<Error>(kept.error());
   tell(*kept, watch);
   auto layout = layout_of(*scene, kept->course.session.shell().finest());
   if (!layout) return tl::unexpected<Error>(layout.error());

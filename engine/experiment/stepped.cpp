@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "engine/experiment/actuation.h"
@@ -63,11 +62,8 @@ void close(Leg& leg, const Session& session) {
 Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
                       const std::vector<preset::Step>& steps, const LevelPlan& plan,
                       const Watch& watch) {
-  auto actuated = follow_actuation(scene, plan, false, 1, watch);
+  auto actuated = follow_whole_actuation(scene, plan, "to begin with", watch);
   if (!actuated) return tl::unexpected<Error>(actuated.error());
-  if (actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
-    return fail(Fault::no_equilibrium,
-                "there is no actuated shell to begin with: " + actuated->limit_reason);
   Checkpoint begin = actuated->session.save();
   Work work{std::move(*actuated), std::move(begin)};
   work.course.earlier = std::exchange(work.course.legs, {});
@@ -277,29 +273,21 @@ std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int fra
 Result<Stepped> run_steps(const std::shared_ptr<const Scene>& scene,
                           const std::vector<preset::Step>& steps, int frames, record::Sink& sink,
                           Watch& watch) {
-  std::map<std::vector<int>, Work> tried;  // by the meshes
-  auto course = course_of(
+  auto work = holder_of_course<Work>(
       *scene,
-      [&](const LevelPlan& plan, const Watch& w) -> Result<Course> {
-        auto work = do_steps(scene, steps, plan, w);
-        if (!work) return tl::unexpected<Error>(work.error());
-        const auto at = tried.insert_or_assign(plan.edges_per_segment, std::move(*work)).first;
-        return std::move(at->second.course);
-      },
+      [&](const LevelPlan& plan, const Watch& w) { return do_steps(scene, steps, plan, w); },
       watch);
-  if (!course) return tl::unexpected<Error>(course.error());
-  Work& work = tried.at(course->asked.edges_per_segment);
-  work.course = std::move(*course);
-  tell(work, steps);
-  auto layout = layout_of(*scene, work.course.session.shell().finest());
+  if (!work) return tl::unexpected<Error>(work.error());
+  tell(*work, steps);
+  auto layout = layout_of(*scene, work->course.session.shell().finest());
   if (!layout) return tl::unexpected<Error>(layout.error());
-  layout->extrapolated = work.course.session.shell().plan().extrapolate;
-  put_loads(work, steps, *layout);
+  layout->extrapolated = work->course.session.shell().plan().extrapolate;
+  put_loads(*work, steps, *layout);
   if (auto begun = sink.begin(std::move(*layout)); !begun)
     return tl::unexpected<Error>(begun.error());
-  if (auto shown = Show(work, steps, frames, sink, watch).all(); !shown)
+  if (auto shown = Show(*work, steps, frames, sink, watch).all(); !shown)
     return tl::unexpected<Error>(shown.error());
-  Stepped stepped{std::move(work.course)};
+  Stepped stepped{std::move(work->course)};
   for (std::size_t k = 0; k < stepped.course.legs.size(); ++k)
     stepped.told.push_back(told_of(k, steps[k], stepped.course.legs[k]));
   return stepped;
