@@ -32,9 +32,21 @@ Departure departure_for(Event::Kind kind, const Scene& scene, const NestedShell&
   return departure;
 }
 
-/// The last state of a path moved on with its boundary: by its velocity, with no more shift than
-/// keeps every node within `farthest_mm`. A boundary that moves alone would strain the legs, to
-/// thousands of times the energy that is at stake; the way down would be a release of that.
+/// The branch that lost its stability, a little beyond, where it goes on: a push off it stays on
+/// its side. From a state that is no equilibrium the first corrections take the push back, and
+/// which side it ends on is left to chance.
+std::optional<State> unstable_branch(Linearisation& system, State state, double farthest_mm,
+                                     const Watch& watch) {
+  NewtonOptions options;
+  options.farthest_mm = farthest_mm;
+  if (newton(system, state, options, watch).outcome != Outcome::reached) return std::nullopt;
+  const Inertia inertia = system.at(state, false);
+  if (!inertia.usable || inertia.positive_definite()) return std::nullopt;
+  return state;
+}
+
+}  // namespace
+
 State carried(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
               double there, double farthest_mm, const Watch& watch) {
   constexpr double least_shift = 1e-9, largest_shift = 1e4;  // N/mm
@@ -57,21 +69,6 @@ State carried(Linearisation& system, const PinnedMotion& motion, const PathPoint
   motion.impose(system, there, state);
   return state;
 }
-
-/// The branch that lost its stability, a little beyond, where it goes on: a push off it stays on
-/// its side. From a state that is no equilibrium the first corrections take the push back, and
-/// which side it ends on is left to chance.
-std::optional<State> unstable_branch(Linearisation& system, State state, double farthest_mm,
-                                     const Watch& watch) {
-  NewtonOptions options;
-  options.farthest_mm = farthest_mm;
-  if (newton(system, state, options, watch).outcome != Outcome::reached) return std::nullopt;
-  const Inertia inertia = system.at(state, false);
-  if (!inertia.usable || inertia.positive_definite()) return std::nullopt;
-  return state;
-}
-
-}  // namespace
 
 Departure departure_of(const Scene& scene, const RodMesh& mesh, const Model& model) {
   const Imperfection& imperfection = scene.imperfection;

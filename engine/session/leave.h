@@ -16,6 +16,13 @@ namespace gridshell {
 /// same on every mesh.
 Departure departure_of(const Scene& scene, const RodMesh& mesh, const Model& model);
 
+/// The last state of a path moved on with its boundary to `there`: by its velocity, with no more
+/// shift of the stiffness than keeps every node within `farthest_mm`; with what is prescribed alone
+/// where no shift does. A boundary that moves alone would strain the legs, to thousands of times
+/// the energy that is at stake, and the way down would be a release of that.
+State carried(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
+              double there, double farthest_mm, const Watch& watch);
+
 /// Where the shell, on its coarsest mesh, comes to rest that lost its branch at `last`, with what
 /// is prescribed at `there`: down the energy, or in time where the scene wants it, every time step
 /// then in `moments`. At a loss of stability the imperfection says to which side, at a limit point
