@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <functional>
 #include <map>
 
@@ -12,6 +11,7 @@
 #include "app/manifest.h"
 #include "app/preset_library.h"
 #include "engine/core/atomic_file.h"
+#include "engine/core/number.h"
 #include "engine/experiment/workpiece.h"
 #include "engine/export/fabrication.h"
 #include "engine/export/formats.h"
@@ -166,13 +166,11 @@ Result<One> chosen(std::vector<One> cases, const ExportOptions& options) {
 
 Result<std::size_t> frame_of(const record::Trajectory& run, const std::string& asked) {
   if (asked.empty()) return run.frames.size() - 1;
-  std::size_t frame = 0;
-  const auto read = std::from_chars(asked.data(), asked.data() + asked.size(), frame);
-  if (read.ec != std::errc() || read.ptr != asked.data() + asked.size() ||
-      frame >= run.frames.size())
+  const auto frame = number_from<std::size_t>(asked);
+  if (!frame || *frame >= run.frames.size())
     return fail(Fault::bad_input, fmt::format("--frame {}: must be a number from 0 to {}", asked,
                                               run.frames.size() - 1));
-  return frame;
+  return *frame;
 }
 
 Result<Source> source_of(const ExportOptions& options) {

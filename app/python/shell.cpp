@@ -13,13 +13,13 @@
 namespace gridshell::python {
 
 Result<Shell> Shell::open(const preset::Preset& preset) {
-  auto scene = scene_of(preset);
-  if (!scene) return tl::unexpected<Error>(scene.error());
+  const auto made = shared_scene_of(preset);
+  if (!made) return tl::unexpected<Error>(made.error());
+  const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == preset::Rung::net)
     return fail(Fault::bad_input,
                 "[accuracy] model = \"net\": the net is geometry alone, there is nothing to hold");
-  Shell shell(std::make_shared<const preset::Preset>(preset),
-              std::make_shared<const Scene>(std::move(*scene)));
+  Shell shell(std::make_shared<const preset::Preset>(preset), scene);
   auto session = Session::open(shell.scene_, experiment::first_plan(*shell.scene_));
   if (!session) return tl::unexpected<Error>(session.error());
   shell.session_ = std::move(*session);

@@ -67,9 +67,9 @@ Result<void> ShellInHand::act(const Design& wish, const Watch& watch) {
   preset::Preset preset = preset_;
   preset.inverse = wish.inverse;
   if (auto agrees = check_preset(preset); !agrees) return agrees;
-  auto made = scene_of(preset);
+  const auto made = shared_scene_of(preset);
   if (!made) return tl::unexpected<Error>(made.error());
-  const auto scene = std::make_shared<const Scene>(std::move(*made));
+  const std::shared_ptr<const Scene>& scene = *made;
   auto target = design_target(*scene, preset.inverse.target);
   if (!target) return tl::unexpected<Error>(target.error());
 
@@ -110,9 +110,9 @@ Result<void> ShellInHand::act(const Design& wish, const Watch& watch) {
 
 /// The designed shell in hand, as a preset of it has it, in the state that was designed.
 Result<void> ShellInHand::stand_designed(const preset::Preset& designed, const State& state) {
-  auto made = scene_of(designed);
+  const auto made = shared_scene_of(designed);
   if (!made) return tl::unexpected<Error>(made.error());
-  const auto scene = std::make_shared<const Scene>(std::move(*made));
+  const std::shared_ptr<const Scene>& scene = *made;
   auto session = Session::open(scene, LevelPlan{{designed_on}, false});
   if (!session) return tl::unexpected<Error>(session.error());
   if (const Report report = session->begin_at(1, state, unwatched); report.end != Outcome::reached)

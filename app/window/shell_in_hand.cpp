@@ -254,11 +254,11 @@ Result<void> ShellInHand::ended(const Report& report) {
 }
 
 Result<void> ShellInHand::form(const preset::Preset& preset, const Watch& watch) {
-  auto made = scene_of(preset);
+  const auto made = shared_scene_of(preset);
   if (!made) return tl::unexpected<Error>(made.error());
-  if (made->rung == preset::Rung::net)
+  const std::shared_ptr<const Scene>& scene = *made;
+  if (scene->rung == preset::Rung::net)
     return fail(Fault::bad_input, "the rung 'net' is geometry alone: there is nothing to push");
-  const auto scene = std::make_shared<const Scene>(std::move(*made));
   auto course = experiment::follow_actuation(scene, coarse_plan(*scene), false, 1, watch);
   if (!course) return tl::unexpected<Error>(course.error());
   begin_again(preset, scene, std::move(course->session));

@@ -98,9 +98,9 @@ Result<std::size_t> certify(MovedShell& coarse, MovedShell& fine, const DesignVa
 Result<Designed> design(const preset::Preset& preset, Watch& watch,
                         const std::function<void(const DesignStep&)>& seen) {
   const double started = cpu_seconds_now();
-  auto made = scene_of(preset);
+  const auto made = shared_scene_of(preset);
   if (!made) return tl::unexpected<Error>(made.error());
-  const auto scene = std::make_shared<const Scene>(std::move(*made));
+  const std::shared_ptr<const Scene>& scene = *made;
   if (auto can = can_be_designed(preset, *scene); !can) return tl::unexpected<Error>(can.error());
   auto first = begin(scene, watch);
   if (watch.cancelled()) return stopped();

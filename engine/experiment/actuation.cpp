@@ -105,22 +105,21 @@ Result<Course> follow_actuation(const std::shared_ptr<const Scene>& scene, const
   if (!session) return tl::unexpected<Error>(session.error());
   Course course{std::move(*session)};
   course.seconds_setup = seconds_now() - started;
-  if (scene->drawn_in_space) {
-    const auto first = course.session.begin_as_drawn(watch);
+  const auto certified = [](const Result<Report>& first, const char* which) -> Result<void> {
     if (!first) return tl::unexpected<Error>(first.error());
-    if (first->end != Outcome::reached)
-      return fail(Fault::no_equilibrium, fmt::format("the network as drawn is not certified: {}",
-                                                     words_of(first->end).what));
+    if (first->end == Outcome::reached) return {};
+    return fail(Fault::no_equilibrium,
+                fmt::format("{} is not certified: {}", which, words_of(first->end).what));
+  };
+  if (scene->drawn_in_space) {
+    const auto begun = certified(course.session.begin_as_drawn(watch), "the network as drawn");
+    if (!begun) return tl::unexpected<Error>(begun.error());
     follow_leg(course, std::sqrt(to), {}, watch);
   } else if (to == 0) {
     return course;
   } else if (scene->from_net) {
-    const auto first = course.session.begin_on_net(watch);
-    if (!first) return tl::unexpected<Error>(first.error());
-    if (first->end != Outcome::reached)
-      return fail(
-          Fault::no_equilibrium,
-          fmt::format("the state beside the net is not certified: {}", words_of(first->end).what));
+    const auto begun = certified(course.session.begin_on_net(watch), "the state beside the net");
+    if (!begun) return tl::unexpected<Error>(begun.error());
     const Checkpoint start = course.session.save();
     if (inner) {
       follow_back(course, {}, watch);

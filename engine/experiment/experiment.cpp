@@ -268,9 +268,9 @@ Result<void> follow(const preset::Preset& preset, const std::shared_ptr<const Sc
 
 Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
                             Watch& watch) {
-  auto scene = scene_of(preset);
+  const auto scene = shared_scene_of(preset);
   if (!scene) return tl::unexpected<Error>(scene.error());
-  return run(preset, std::make_shared<const Scene>(std::move(*scene)), stills, sink, watch);
+  return run(preset, *scene, stills, sink, watch);
 }
 
 Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,

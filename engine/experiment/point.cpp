@@ -81,9 +81,9 @@ Result<record::Figures> figures_of_search(const preset::Preset& preset,
 
 Result<record::Figures> figures_of(const preset::Preset& asked, Watch& watch) {
   preset::Preset preset = asked;
-  auto made = scene_of(preset);
+  const auto made = shared_scene_of(preset);
   if (!made) return tl::unexpected<Error>(made.error());
-  const auto scene = std::make_shared<const Scene>(std::move(*made));
+  const std::shared_ptr<const Scene>& scene = *made;
   if (preset.jitter.wanted()) return figures_of_search(preset, scene, watch);
   // the last state is what counts: the end, or where a path ends early the last sample before that
   preset.figure.radii_mm.clear();

@@ -204,9 +204,9 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
 Result<StateRun> run_states(const preset::Preset& preset, int threads, record::Sink& sink,
                             Watch& watch) {
   const double begin = seconds_now();
-  auto made = scene_of(preset);
+  const auto made = shared_scene_of(preset);
   if (!made) return tl::unexpected<Error>(made.error());
-  const auto scene = std::make_shared<const Scene>(std::move(*made));
+  const std::shared_ptr<const Scene>& scene = *made;
   const double setup = seconds_now() - begin;
   auto library = find_states(scene, preset.jitter, {.threads = threads}, watch);
   if (!library) return tl::unexpected<Error>(library.error());

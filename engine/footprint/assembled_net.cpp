@@ -135,12 +135,9 @@ std::unique_ptr<Domain> Assemblage::domain() const {
 }
 
 Result<Eigen::Matrix3Xd> Assemblage::closed(const Eigen::Matrix2Xd& uv, double fade) const {
-  Eigen::Matrix3Xd points(3, uv.cols());
-  const AssembledNet net(places_);
+  auto points = points_on(AssembledNet(places_), uv);
+  if (!points) return points;
   for (Eigen::Index k = 0; k < uv.cols(); ++k) {
-    const auto here = net.at(uv(0, k), uv(1, k));
-    if (!here) return tl::unexpected(here.error());
-    points.col(k) = here->position;
     const auto held = holders(*places_, uv.col(k));
     if (held.size() != 1) continue;
     for (const Join& join : joins_) {
@@ -156,7 +153,7 @@ Result<Eigen::Matrix3Xd> Assemblage::closed(const Eigen::Matrix2Xd& uv, double f
       const auto a = held.front()->at(on_seam), b = other.at(on_seam);
       // beyond a seam's end one of the nets may fold: nothing is to be closed there
       if (!(t < 1) || !a || !b) continue;
-      points.col(k) += 0.5 * (1 - t) * (1 - t) * (1 + 2 * t) * (b->position - a->position);
+      points->col(k) += 0.5 * (1 - t) * (1 - t) * (1 + 2 * t) * (b->position - a->position);
     }
   }
   return points;

@@ -32,6 +32,18 @@ class Domain {
   virtual double reach() const = 0;
 };
 
+/// The points at radius_at(direction) along `points` directions, the first along +u.
+template <class Radius>
+Eigen::Matrix2Xd ring_about_origin(int points, Radius radius_at) {
+  Eigen::Matrix2Xd ring(2, points);
+  for (int k = 0; k < points; ++k) {
+    const double angle = 2 * M_PI * k / points;
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    ring.col(k) = radius_at(direction) * direction;
+  }
+  return ring;
+}
+
 /// A disk of radius R_o about the origin.
 class Disk final : public Domain {
  public:
@@ -42,12 +54,7 @@ class Disk final : public Domain {
     return {{-half, half}};
   }
   Eigen::Matrix2Xd boundary(int points) const override {
-    Eigen::Matrix2Xd ring(2, points);
-    for (int k = 0; k < points; ++k) {
-      const double angle = 2 * M_PI * k / points;
-      ring.col(k) << radius_ * std::cos(angle), radius_ * std::sin(angle);
-    }
-    return ring;
+    return ring_about_origin(points, [this](const Eigen::Vector2d&) { return radius_; });
   }
   double reach() const override { return radius_; }
 

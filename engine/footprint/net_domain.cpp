@@ -28,13 +28,9 @@ class Cap final : public Domain {
   }
 
   Eigen::Matrix2Xd boundary(int points) const override {
-    Eigen::Matrix2Xd ring(2, points);
-    for (int k = 0; k < points; ++k) {
-      const double angle = 2 * M_PI * k / points;
-      const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
-      ring.col(k) = crossing(Eigen::Vector2d::Zero(), direction, reach_) * direction;
-    }
-    return ring;
+    return ring_about_origin(points, [this](const Eigen::Vector2d& direction) {
+      return crossing(Eigen::Vector2d::Zero(), direction, reach_);
+    });
   }
 
   double reach() const override { return reach_; }

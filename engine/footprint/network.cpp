@@ -12,6 +12,8 @@
 #include <set>
 #include <utility>
 
+#include "engine/core/union_find.h"
+
 namespace gridshell {
 namespace {
 
@@ -225,19 +227,13 @@ bool hold_all(const std::vector<HeldPlace>& places) {
 
 /// Every piece that hangs together is held where it cannot turn.
 Result<void> check_held(const RodNetwork& network, const Roles& roles, const Footprint& footprint) {
-  std::vector<int> piece(footprint.joints.size());
-  std::iota(piece.begin(), piece.end(), 0);
-  const auto root = [&](int joint) {
-    while (piece[std::size_t(joint)] != joint)
-      joint = piece[std::size_t(joint)] = piece[std::size_t(piece[std::size_t(joint)])];
-    return joint;
-  };
+  UnionFind pieces(footprint.joints.size());
   for (const FootprintRod& rod : footprint.rods)
-    for (const int joint : rod.joints) piece[std::size_t(root(joint))] = root(rod.joints.front());
+    for (const int joint : rod.joints) pieces.join(joint, rod.joints.front());
   std::map<int, std::vector<HeldPlace>> held;
   std::map<int, std::size_t> first_rod;
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
-    const int at = root(footprint.rods[r].joints.front());
+    const int at = pieces.find(footprint.rods[r].joints.front());
     first_rod.try_emplace(at, r);
     for (const int point : network.rods[r])
       if (roles.is_held(point) && (roles.is_joint(point) || roles.at(point).ends > 0))

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/knots.h"
 #include "engine/geometry/root.h"
 
 namespace gridshell {
@@ -78,14 +79,12 @@ void Antiderivative::add_panel(double a, double b, double whole, double small) {
 }
 
 double Antiderivative::operator()(double t) const {
-  const auto after = std::upper_bound(ends_.begin() + 1, ends_.end() - 1, t);
-  const auto k = static_cast<std::size_t>(after - ends_.begin()) - 1;
+  const std::size_t k = piece_at(ends_, t);
   return values_[k] + panel(ends_[k], t);
 }
 
 double Antiderivative::inverse(double value) const {
-  const auto after = std::upper_bound(values_.begin() + 1, values_.end() - 1, value);
-  const auto k = static_cast<std::size_t>(after - values_.begin()) - 1;
+  const std::size_t k = piece_at(values_, value);
   const double low = ends_[k], high = ends_[k + 1];
   const auto miss = [&](double t) -> Eigen::Vector2d {
     return {values_[k] + panel(low, t) - value, f_(t)};

@@ -30,4 +30,7 @@ class ChebyshevNet {
   virtual Result<NetPoint> at(double u, double v) const = 0;
 };
 
+/// C at every column of `uv`. Errors (bad_input): those of the net.
+Result<Eigen::Matrix3Xd> points_on(const ChebyshevNet& net, const Eigen::Matrix2Xd& uv);
+
 }  // namespace gridshell

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "engine/core/knots.h"
 #include "engine/geometry/spline_curve.h"
 
 namespace gridshell {
@@ -19,9 +19,9 @@ struct Cell {
   std::array<double, 2> value, second;
 
   Cell(const std::vector<double>& knots, double t) {
-    const auto after = std::upper_bound(knots.begin() + 1, knots.end() - 1, t);
-    at = Eigen::Index(after - knots.begin()) - 1;
-    const double h = *after - *(after - 1), b = (t - *(after - 1)) / h, a = 1 - b;
+    const std::size_t k = piece_at(knots, t);
+    at = Eigen::Index(k);
+    const double h = knots[k + 1] - knots[k], b = (t - knots[k]) / h, a = 1 - b;
     value = {a, b};
     second = {h * h / 6 * (a * a * a - a), h * h / 6 * (b * b * b - b)};
   }

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+
+#include "engine/core/knots.h"
 
 namespace gridshell {
 
@@ -63,8 +64,7 @@ Result<SplineCurve> SplineCurve::through(const Eigen::MatrixXd& points) {
 }
 
 SplineCurve::Point SplineCurve::at(double t) const {
-  const auto after = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, t);
-  const auto k = static_cast<Eigen::Index>(after - knots_.begin()) - 1;
+  const auto k = Eigen::Index(piece_at(knots_, t));
   const double h = knots_[k + 1] - knots_[k], b = (t - knots_[k]) / h, a = 1 - b;
   const auto p0 = points_.col(k), p1 = points_.col(k + 1);
   const auto m0 = second_.col(k), m1 = second_.col(k + 1);

@@ -1,7 +1,6 @@
 #include "engine/gridshell/state_transfer.h"
 
-#include <algorithm>
-
+#include "engine/core/knots.h"
 #include "engine/rod/frame.h"
 
 namespace gridshell {
@@ -23,10 +22,9 @@ std::vector<double> places_along(const Model& model, const Model::Rod& rod) {
 /// Linear between known values, straight on beyond the ends.
 double interpolated(const std::vector<double>& at, const std::vector<double>& value, double s) {
   if (at.size() == 1) return value.front();
-  const auto after = std::upper_bound(at.begin() + 1, at.end() - 1, s);
-  const std::size_t k = std::size_t(after - at.begin());
-  const double share = (s - at[k - 1]) / (at[k] - at[k - 1]);
-  return value[k - 1] + share * (value[k] - value[k - 1]);
+  const std::size_t k = piece_at(at, s);
+  const double share = (s - at[k]) / (at[k + 1] - at[k]);
+  return value[k] + share * (value[k + 1] - value[k]);
 }
 
 Eigen::Vector3d tangent_of(const Model& model, const State& state, int edge) {

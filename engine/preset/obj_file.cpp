@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <optional>
 
+#include "engine/core/number.h"
 #include "engine/preset/mesh_draft.h"
 
 namespace gridshell::preset {
@@ -12,10 +12,9 @@ namespace {
 
 std::optional<long> obj_vertex(std::string_view word, long vertices) {
   word = word.substr(0, word.find('/'));
-  long number = 0;
-  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (fault != std::errc() || end != word.data() + word.size() || number == 0) return std::nullopt;
-  return number > 0 ? number - 1 : vertices + number;
+  const auto number = number_from<long>(word);
+  if (!number || *number == 0) return std::nullopt;
+  return *number > 0 ? *number - 1 : vertices + *number;
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
 #include "engine/core/atomic_file.h"
+#include "engine/core/number.h"
 
 namespace gridshell::preset {
 namespace {
@@ -37,12 +37,9 @@ std::optional<double> value_of(const std::string& word, std::size_t coordinate,
 }  // namespace
 
 std::optional<double> number_of(std::string_view word) {
-  double value = 0;
   if (word.starts_with('+')) word.remove_prefix(1);
-  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (fault != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+  const auto value = number_from<double>(word);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::string ending_of(const std::string& name) {

@@ -3,49 +3,52 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gridshell::record {
 namespace {
 
-/// "rod 3 names node 99 of 50"
-tl::unexpected<Error> out_of_range(const char* owner, std::size_t at, const char* kind, int index,
-                                   Eigen::Index count) {
-  return fail(Fault::bad_input,
-              fmt::format("{} {} names {} {} of {}", owner, at, kind, index, count));
-}
-
-bool outside(int index, Eigen::Index count) { return index < 0 || index >= count; }
-
 Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
-  for (std::size_t r = 0; r < layout.rods.size(); ++r)
-    for (const int node : layout.rods[r])
-      if (outside(node, nodes)) return out_of_range("rod", r, "node", node, nodes);
-  for (std::size_t k = 0; k < layout.joints.size(); ++k)
-    if (outside(layout.joints[k].node, nodes))
-      return out_of_range("joint", k, "node", layout.joints[k].node, nodes);
-  for (std::size_t k = 0; k < layout.edge_points.size(); ++k)
-    if (outside(layout.edge_points[k], nodes))
-      return out_of_range("edge point", k, "node", layout.edge_points[k], nodes);
-  for (std::size_t k = 0; k < layout.supports.size(); ++k)
-    if (outside(layout.supports[k], nodes))
-      return out_of_range("support", k, "node", layout.supports[k], nodes);
   const auto joints = static_cast<Eigen::Index>(layout.joints.size());
-  for (std::size_t k = 0; k < layout.cells.size(); ++k)
-    for (const int joint : layout.cells[k].joints)
-      if (outside(joint, joints)) return out_of_range("cell", k, "joint", joint, joints);
-  for (std::size_t k = 0; k < layout.loaded_joints.size(); ++k)
-    if (outside(layout.loaded_joints[k].joint, joints))
-      return out_of_range("loaded joint", k, "joint", layout.loaded_joints[k].joint, joints);
+  const auto itself = [](int index) { return std::array{index}; };
+  const auto all = [](const auto& indices) -> const auto& { return indices; };
+  // the indices that each owner names, of `count` things of that kind
+  const auto check = [](const char* owner, const auto& owners, const auto& named, const char* kind,
+                        Eigen::Index count) -> Result<void> {
+    for (std::size_t k = 0; k < owners.size(); ++k)
+      for (const int index : named(owners[k]))
+        if (index < 0 || index >= count)
+          return fail(Fault::bad_input,
+                      fmt::format("{} {} names {} {} of {}", owner, k, kind, index, count));
+    return {};
+  };
+  const auto within_layout =
+      check("rod", layout.rods, all, "node", nodes)
+          .and_then([&] {
+            return check(
+                "joint", layout.joints, [](const Joint& joint) { return std::array{joint.node}; },
+                "node", nodes);
+          })
+          .and_then([&] { return check("edge point", layout.edge_points, itself, "node", nodes); })
+          .and_then([&] { return check("support", layout.supports, itself, "node", nodes); })
+          .and_then([&] {
+            return check(
+                "cell", layout.cells, [](const Cell& cell) { return cell.joints; }, "joint",
+                joints);
+          })
+          .and_then([&] {
+            return check(
+                "loaded joint", layout.loaded_joints,
+                [](const auto& loaded) { return std::array{loaded.joint}; }, "joint", joints);
+          });
+  if (!within_layout) return within_layout;
   for (const Part& part : layout.parts) {
     if (part.net.cols() != part.flat.cols())
       return fail(Fault::bad_input, fmt::format("block \"{}\" has {} points on its net and {} in "
                                                 "the flat",
                                                 part.name, part.net.cols(), part.flat.cols()));
-    for (std::size_t r = 0; r < part.rods.size(); ++r)
-      for (const int point : part.rods[r])
-        if (outside(point, part.net.cols()))
-          return out_of_range("rod", r, "point", point, part.net.cols());
+    if (auto rods = check("rod", part.rods, all, "point", part.net.cols()); !rods) return rods;
   }
   return {};
 }

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <numeric>
 #include <type_traits>
 
 #include "engine/core/atomic_file.h"
+#include "engine/core/number.h"
 #include "engine/record/csv.h"
 #include "engine/record/json.h"
 
@@ -106,9 +106,9 @@ std::string csv_of(const std::vector<Row>& rows, const Each& each) {
 
 template <class Number>
 bool parse(const std::string& text, Number& value) {
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end;
+  const auto number = number_from<Number>(text);
+  value = number.value_or(value);
+  return number.has_value();
 }
 bool take(const std::string& text, std::string& value) {
   value = text;
@@ -290,17 +290,17 @@ Result<StateTables> read_state_tables(const std::filesystem::path& folder) {
   auto search = read_search(folder / search_name);
   if (!search) return tl::unexpected(search.error());
   tables.search = std::move(*search);
-  std::error_code error;
-  if (std::filesystem::exists(folder / transitions_name, error)) {
-    auto ways = read_csv<Transition>(folder / transitions_name, each_transition);
-    if (!ways) return tl::unexpected(ways.error());
-    tables.transitions = std::move(*ways);
-  }
-  if (std::filesystem::exists(folder / barriers_name, error)) {
-    auto passes = read_csv<Barrier>(folder / barriers_name, each_barrier);
-    if (!passes) return tl::unexpected(passes.error());
-    tables.barriers = std::move(*passes);
-  }
+  // a search need not have looked for these
+  const auto read_if_there = [&](const char* name, auto each, auto& all) -> Result<void> {
+    std::error_code error;
+    if (!std::filesystem::exists(folder / name, error)) return {};
+    using Row = typename std::decay_t<decltype(all)>::value_type;
+    return read_csv<Row>(folder / name, each).map([&](auto&& read) { all = std::move(read); });
+  };
+  if (auto read = read_if_there(transitions_name, each_transition, tables.transitions); !read)
+    return tl::unexpected(read.error());
+  if (auto read = read_if_there(barriers_name, each_barrier, tables.barriers); !read)
+    return tl::unexpected(read.error());
   return tables;
 }
 

@@ -6,12 +6,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <optional>
 #include <system_error>
 #include <utility>
 
 #include "engine/core/atomic_file.h"
+#include "engine/core/number.h"
 #include "engine/record/checksum.h"
 #include "engine/record/json.h"
 
@@ -76,10 +76,10 @@ std::optional<SweepName> name_of(std::string_view line) {
       !has(*json, "points", &Json::is_number_unsigned))
     return std::nullopt;
   const auto config = json->at("config").get<std::string>();
-  SweepName name{json->at("sweep").get<std::string>(), 0, json->at("points").get<std::size_t>()};
-  const auto read = std::from_chars(config.data(), config.data() + config.size(), name.config, 16);
-  if (read.ec != std::errc()) return std::nullopt;
-  return name;
+  const auto number = number_from<decltype(SweepName::config)>(config, 16);
+  if (!number) return std::nullopt;
+  return SweepName{json->at("sweep").get<std::string>(), *number,
+                   json->at("points").get<std::size_t>()};
 }
 
 std::string point_line(const std::vector<std::string>& axes, const PointKeys& keys,

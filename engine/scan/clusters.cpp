@@ -8,8 +8,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <optional>
+
+#include "engine/core/union_find.h"
 
 namespace gridshell {
 namespace {
@@ -21,25 +22,6 @@ constexpr double pull = 1e-3;  // of the mean, where the disc's rim sees no poin
 constexpr double wide_rim = 1.25, most_beyond = 0.05;  // radii; share of the points beyond them
 
 using Cell = std::array<std::int32_t, 3>;
-
-/// Sets that grow together.
-class Union {
- public:
-  explicit Union(std::size_t size) : of_(size) { std::iota(of_.begin(), of_.end(), 0); }
-  int find(int k) {
-    while (of_[std::size_t(k)] != k)
-      k = of_[std::size_t(k)] = of_[std::size_t(of_[std::size_t(k)])];
-    return k;
-  }
-  // the smaller number names both
-  void join(int a, int b) {
-    a = find(a), b = find(b);
-    of_[std::size_t(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> of_;
-};
 
 /// The cell of every point, and all cells once, sorted.
 struct Cells {
@@ -71,7 +53,7 @@ Result<Cells> cells_of(const Eigen::Matrix3Xd& cloud, double size) {
 
 /// The points of every set of cells that touch one another.
 std::vector<std::vector<int>> sets_of(const Cells& cells) {
-  Union sets(cells.all.size());
+  UnionFind sets(cells.all.size());
   for (std::size_t k = 0; k < cells.all.size(); ++k)
     for (int n = 0; n < 27; ++n) {
       const Cell& cell = cells.all[k];

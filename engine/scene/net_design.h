@@ -26,7 +26,4 @@ struct NetDesign {
 /// net or its boundary cannot be, with where it folds or ends.
 Result<NetDesign> net_design(const preset::Net& net, double spacing_mm);
 
-/// C at every column of `uv`. Errors (bad_input): those of the net.
-Result<Eigen::Matrix3Xd> points_on(const ChebyshevNet& net, const Eigen::Matrix2Xd& uv);
-
 }  // namespace gridshell

@@ -202,4 +202,9 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   return scene;
 }
 
+Result<std::shared_ptr<const Scene>> shared_scene_of(const preset::Preset& preset) {
+  return scene_of(preset).map(
+      [](Scene&& scene) { return std::make_shared<const Scene>(std::move(scene)); });
+}
+
 }  // namespace gridshell

@@ -66,4 +66,7 @@ struct Scene {
 /// do not make a footprint.
 Result<Scene> scene_of(const preset::Preset& preset);
 
+/// The same for several who hold it.
+Result<std::shared_ptr<const Scene>> shared_scene_of(const preset::Preset& preset);
+
 }  // namespace gridshell

@@ -24,10 +24,12 @@ constexpr int widest_panel = 8;  // columns; wider ones would not stay in the ne
 /// The plan and the numbers of one factor; plain arrays for the loops below.
 struct Factor {
   int columns = 0;
-  std::vector<int> first;   // columns + 1: first off-diagonal block of each column
-  std::vector<int> row;     // its row (in elimination order)
-  std::vector<int> panel;   // first column of each, and columns
-  std::vector<int> target;  // per pair (a <= b) of the rows below a panel: block that it updates
+  std::vector<int> first;  // columns + 1: first off-diagonal block of each column
+  std::vector<int> row;    // its row (in elimination order)
+  std::vector<int> panel;  // first column of each, and columns
+  // per pair (a <= b) of the rows below a panel: block that it updates, or ~block where nothing
+  // stands there before
+  std::vector<int> target;
   std::vector<long long> first_target;  // per panel
   std::vector<Block3> diagonal, below;  // targets < columns are diagonal, the rest is below
   std::vector<Entry> inverse;           // of the pivots
@@ -80,11 +82,14 @@ struct Scaled {
   }
 };
 
-/// target -= L_b D L_a^T
+/// target -= L_b D L_a^T, from zero where it begins so
+template <bool begins = false>
 inline void subtract(const Block3& lb, const Scaled& la, Block3& target) {
-  for (int j = 0; j < 3; ++j)
-    target.column[j] -= lb.column[0] * la.entry[0][j] + lb.column[1] * la.entry[1][j] +
-                        lb.column[2] * la.entry[2][j];
+  for (int j = 0; j < 3; ++j) {
+    const Column product = lb.column[0] * la.entry[0][j] + lb.column[1] * la.entry[1][j] +
+                           lb.column[2] * la.entry[2][j];
+    target.column[j] = begins ? -product : target.column[j] - product;
+  }
 }
 
 /// The same for `tile` targets and the columns of a panel, whose blocks stand at lb[column][0 ...].
@@ -120,7 +125,13 @@ inline void update_narrow(Factor& f, int k, const int* target) {
   for (int a = f.first[k]; a < f.first[k + 1]; ++a) {
     la.take(f, k, f.below[a]);
     subtract(f.below[a], la, f.diagonal[*target++]);
-    for (int b = a + 1; b < f.first[k + 1]; ++b) subtract(f.below[b], la, f.below[*target++]);
+    for (int b = a + 1; b < f.first[k + 1]; ++b) {
+      const int to = *target++;
+      if (to < 0)
+        subtract<true>(f.below[b], la, f.below[~to]);
+      else
+        subtract(f.below[b], la, f.below[to]);
+    }
   }
 }
 
@@ -221,7 +232,7 @@ class BlockCholesky final : public LinearSolver {
     find_structure(graph);
     find_panels();
     plan_updates();
-    plan_copies();
+    plan_first_updates(plan_copies());
   }
 
   Inertia factor(const BlockHessian& hessian, double shift) override {
@@ -318,7 +329,8 @@ class BlockCholesky final : public LinearSolver {
     }
   }
 
-  void plan_copies() {
+  /// returns which blocks below the diagonal the Hessian has
+  std::vector<char> plan_copies() {
     std::vector<char> filled(factor_.below.size(), 0);
     const auto& pattern = model_.pattern.pairs();
     for (int k = 0; k < int(pattern.size()); ++k) {
@@ -333,12 +345,36 @@ class BlockCholesky final : public LinearSolver {
       (turn ? turned_ : straight_).push_back({k, to});
       if (partly) (turn ? partly_turned_ : partly_straight_).push_back({k, to});
     }
-    for (int to = 0; to < int(filled.size()); ++to) {
-      if (filled[std::size_t(to)]) continue;
-      if (empty_.empty() || empty_.back().end != to) empty_.push_back({to, to});
-      empty_.back().end = to + 1;
-    }
     for (int column : column_) partly_.push_back(model_.held[std::size_t(column)] != 0);
+    return filled;
+  }
+
+  /// A block that the Hessian does not have begins as the first update of a narrow panel; where a
+  /// wide one comes first, it is set to zero before.
+  void plan_first_updates(std::vector<char> filled) {
+    std::vector<char> zero(filled.size(), 0);
+    const auto take = [&](int block) { zero[block] |= char(!std::exchange(filled[block], 1)); };
+    int* target = factor_.target.data();
+    for (std::size_t p = 0; p + 1 < factor_.panel.size(); ++p) {
+      const int begin = factor_.panel[p], end = factor_.panel[p + 1];
+      for (int k = begin + 1; k < end; ++k)
+        for (int i = factor_.first[k]; i < factor_.first[k + 1]; ++i) take(i);
+      const int rows = rows_below(end - 1);
+      for (int a = 0; a < rows; ++a) {
+        ++target;  // on the diagonal
+        for (int b = a + 1; b < rows; ++b, ++target) {
+          if (end - begin > 1)
+            take(*target);
+          else if (!std::exchange(filled[*target], 1))
+            *target = ~*target;
+        }
+      }
+    }
+    for (int block = 0; block < int(zero.size()); ++block) {
+      if (!zero[std::size_t(block)]) continue;
+      if (empty_.empty() || empty_.back().end != block) empty_.push_back({block, block});
+      empty_.back().end = block + 1;
+    }
   }
 
   void fill(const BlockHessian& hessian, double shift) {
@@ -368,7 +404,7 @@ class BlockCholesky final : public LinearSolver {
   // where the blocks of pairs go, as they are or transposed; those of columns that are partly held
   // go there again without what is held
   std::vector<Move> straight_, turned_, partly_straight_, partly_turned_;
-  std::vector<Range> empty_;  // blocks below the diagonal that the Hessian does not have
+  std::vector<Range> empty_;  // blocks below the diagonal that begin at zero
   Factor factor_;
   mutable std::vector<Entry> work_;  // of solve()
 };

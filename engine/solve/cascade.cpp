@@ -77,21 +77,20 @@ Eigen::Matrix3Xd Cascade::stretched_flat(double t) const {
   return nodes;
 }
 
-State Cascade::first_state(double t, const Eigen::Matrix3Xd& nodes) const {
-  const Level& level = *levels_.front();
-  State state = flat_state(level.model, level.mesh, level.motion, flat_);
-  move_to(level.model, columns_of(level.mesh, level.model, nodes), state);
+/// Where a level begins: the nodes given, on a finer one what the coarser one came to.
+State Cascade::begin_of(const Level& level, double t, const Eigen::Matrix3Xd& nodes,
+                        const State& coarser) const {
+  State state = level.from_coarser ? level.from_coarser->carry(coarser)
+                                   : flat_state(level.model, level.mesh, level.motion, flat_);
+  if (!level.from_coarser) move_to(level.model, columns_of(level.mesh, level.model, nodes), state);
   level.motion.impose(*level.system, t, state);
   return state;
 }
 
 Result<State> Cascade::rest(double t, const Eigen::Matrix3Xd& nodes, const Watch& watch) {
-  State state = first_state(t, nodes);
+  State state;
   for (auto& level : levels_) {
-    if (level->from_coarser) {
-      state = level->from_coarser->carry(state);
-      level->motion.impose(*level->system, t, state);
-    }
+    state = begin_of(*level, t, nodes, state);
     if (level == levels_.back()) break;
     // a coarse mesh need not come to rest: what it left is smoother in any case
     minimise(*level->system, state,
@@ -138,12 +137,9 @@ void Cascade::down(Level& level, const std::vector<MeshSymmetry>& group, State& 
 
 Result<State> Cascade::rest_confined(double t, const Eigen::Matrix3Xd& nodes,
                                      const std::vector<int>& group, const Watch& watch) {
-  State state = first_state(t, nodes);
+  State state;
   for (auto& level : levels_) {
-    if (level->from_coarser) {
-      state = level->from_coarser->carry(state);
-      level->motion.impose(*level->system, t, state);
-    }
+    state = begin_of(*level, t, nodes, state);
     down(*level, members(level->symmetries, group), state, watch);
   }
   Level& finest = *levels_.back();

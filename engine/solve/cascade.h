@@ -53,7 +53,8 @@ class Cascade {
     std::vector<MeshSymmetry> symmetries;
   };
   Cascade(const FlatFrame& flat, double spacing_mm) : flat_(flat), spacing_mm_(spacing_mm) {}
-  State first_state(double t, const Eigen::Matrix3Xd& nodes) const;
+  State begin_of(const Level& level, double t, const Eigen::Matrix3Xd& nodes,
+                 const State& coarser) const;
   bool step_to_equilibrium(Level& level, State& state, const Watch& watch) const;
   Result<State> let_go(Level& level, State state, const Watch& watch) const;
   void down(Level& level, const std::vector<MeshSymmetry>& group, State& state,

@@ -2,7 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+
+#include "engine/rod/stretch.h"
 
 namespace gridshell {
 namespace {
@@ -129,6 +132,17 @@ Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx) const {
         tangents_.col(Eigen::Index(k)).dot(dx.col(edge.to) - dx.col(edge.from));
   }
   return change;
+}
+
+double Linearisation::force_misfit(const State& state) const {
+  double largest = 0;
+  for (std::size_t k = 0; k < model_.edges.size(); ++k) {
+    const ModelEdge& edge = model_.edges[k];
+    const double length = (state.x.col(edge.to) - state.x.col(edge.from)).norm();
+    const double force = EA_scale_ * stretch(edge.EA, edge.rest_length, length).force;
+    largest = std::max(largest, std::abs(force - state.force[Eigen::Index(k)]));
+  }
+  return largest;
 }
 
 void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state) const {

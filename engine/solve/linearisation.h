@@ -99,6 +99,10 @@ class Linearisation {
   /// Moves the state by dx and updates its forces as the mixed form does.
   void apply(const Eigen::Matrix3Xd& dx, State& state) const;
 
+  /// By how much the axial force of an edge and that of its strain differ at most, N: what Newton's
+  /// step leaves at second order, and a residual of about that.
+  double force_misfit(const State& state) const;
+
   const Model& model() const { return model_; }
   const Assembly& assembly() const { return assembly_; }  ///< of the last assembly
   double residual() const;  ///< largest force on a free column that nothing holds, N

@@ -16,16 +16,6 @@ constexpr int climb_every = 4;      // rounds from then on
 constexpr double on_string = 2;     // spacings: how far a saddle may lie from the highest image
 constexpr double over_softest = 4;  // least shift, over the softest stiffness of the first state
 
-/// Something without symmetry, each column at most as long as one.
-Eigen::Matrix3Xd crooked(Eigen::Index columns) {
-  Eigen::Matrix3Xd any(3, columns);
-  for (Eigen::Index k = 0; k < columns; ++k) {
-    const double c = double(k);
-    any.col(k) << std::sin(0.3 + 1.7 * c), std::sin(1.1 + 0.7 * c), std::sin(2.9 + 1.1 * c);
-  }
-  return any / std::sqrt(3.0);
-}
-
 class ElasticString {
  public:
   ElasticString(Linearisation& system, const PassOptions& options, const Watch& watch)
@@ -36,7 +26,7 @@ class ElasticString {
     least_shift_ = over_softest * softest_stiffness(a);
     spacing_ = (b.x - a.x).norm() / (options_.images - 1);
     std::vector<Image> left{{a, system_.energy_at(a), 0}}, right{{b, system_.energy_at(b), 0}};
-    const Eigen::Matrix3Xd noise = options_.noise_mm * crooked(a.x.cols());
+    const Eigen::Matrix3Xd noise = options_.noise_mm * any_direction(a.x.cols());
     for (int k = 0; k < 4 * options_.images && !watch_.cancelled(); ++k) {
       auto& from = k % 2 == 0 ? left : right;
       const State& tip = from.back().state;
@@ -127,7 +117,7 @@ class ElasticString {
   /// Of a stable state, N/mm.
   double softest_stiffness(const State& state) {
     system_.at(state, false);
-    Eigen::Matrix3Xd mode = crooked(state.x.cols());
+    Eigen::Matrix3Xd mode = any_direction(state.x.cols());
     double softness = 1;
     for (int k = 0; k < 8; ++k) {
       mode /= mode.norm();

@@ -91,7 +91,7 @@ void NestedShell::load_up() {
 void NestedShell::back_to(const NestedState& state) {
   state_ = state;
   place(state.t, state.levels[0]);
-  recall(added());
+  recall(beyond());
   load_up();
 }
 
@@ -104,32 +104,35 @@ void NestedShell::restore(const NestedState& state, const std::vector<PinnedMoti
   }
   follow_anew();
   place(state.t, state.levels[0]);
-  recall(added());
+  recall(beyond());
   load_up();
 }
 
 void NestedShell::forget() {
-  for (auto& level : levels_) level->added.clear();
+  for (auto& level : levels_) level->beyond.clear();
 }
 
 /// From now on finer levels look for their states where these were.
-void NestedShell::recall(const std::vector<Added>& added) {
+void NestedShell::recall(const std::vector<Added>& beyond) {
   forget();
-  for (std::size_t k = 0; k < added.size(); ++k) levels_[k + 1]->added = {added[k]};
+  for (std::size_t k = 0; k < beyond.size(); ++k) levels_[k + 1]->beyond = {beyond[k]};
 }
 
-/// What finer levels add at the current state.
-std::vector<Added> NestedShell::added() const {
+/// What finer levels add at the current state beside what is expected.
+std::vector<Added> NestedShell::beyond() const {
   std::vector<Added> all;
+  Added below;
   for (std::size_t k = 1; k < state_.levels.size(); ++k) {
     const Level& level = *levels_[k];
-    all.push_back(added_by(level, state_.t, level.from_coarser->carry(state_.levels[k - 1]),
-                           state_.levels[k]));
+    const Added added = added_by(level, state_.t, level.from_coarser->carry(state_.levels[k - 1]),
+                                 state_.levels[k]);
+    all.push_back(added - quarter_on(k, below));
+    below = added;
   }
   return all;
 }
 
-NestedPoint NestedShell::point() const { return {followed(), added()}; }
+NestedPoint NestedShell::point() const { return {followed(), beyond()}; }
 
 NestedReport NestedShell::place(double t, const State& coarse, const Watch& watch) {
   forget();
@@ -153,12 +156,12 @@ NestedReport NestedShell::advance(double t, const Watch& watch) {
 NestedReport NestedShell::sample(double t, const NestedPoint& beside, const Watch& watch) {
   struct Memory {  // what finer meshes added stays that of the path
     std::vector<std::unique_ptr<Level>>& levels;
-    std::vector<std::vector<Added>> added;
+    std::vector<std::vector<Added>> beyond;
     explicit Memory(std::vector<std::unique_ptr<Level>>& all) : levels(all) {
-      for (const auto& level : all) added.push_back(level->added);
+      for (const auto& level : all) beyond.push_back(level->beyond);
     }
     ~Memory() {
-      for (std::size_t k = 0; k < levels.size(); ++k) levels[k]->added = std::move(added[k]);
+      for (std::size_t k = 0; k < levels.size(); ++k) levels[k]->beyond = std::move(beyond[k]);
     }
   } memory(levels_);
   PathFollower path(*levels_[0]->system, levels_[0]->motion, options_);
@@ -166,7 +169,7 @@ NestedReport NestedShell::sample(double t, const NestedPoint& beside, const Watc
   path.resume(beside);
   const PathReport report = path.advance(t, watch);
   if (report.end != Outcome::reached) return {report.end, report.t};
-  recall(beside.added);
+  recall(beside.beyond);
   return certify(t, path.point(), path.last(), Prefer::stable, watch);
 }
 

@@ -33,13 +33,18 @@ struct NestedState {
 /// looked for nearby. A guess, so in single precision.
 struct Added {
   double t = 0;
-  Eigen::Matrix3Xf x;     ///< of the nodes
-  Eigen::VectorXf force;  ///< of the edges
+  Eigen::Matrix3Xf x = {};     ///< of the nodes
+  Eigen::VectorXf force = {};  ///< of the edges
+
+  friend Added operator-(const Added& a, const Added& b) {
+    return {a.t, a.x - b.x, a.force - b.force};
+  }
 };
 
-/// A point of the path of the coarsest mesh, and what each finer one adds there.
+/// A point of the path of the coarsest mesh, and what each finer one adds there beside a quarter of
+/// what the one before it adds.
 struct NestedPoint : PathPoint {
-  std::vector<Added> added = {};  ///< coarse to fine; empty: not known
+  std::vector<Added> beyond = {};  ///< coarse to fine; empty: not known
 };
 
 /// How far a shell came, and why it ended there: reached, unstable, folded, lost, not_finite,
@@ -129,21 +134,28 @@ class NestedShell {
     std::unique_ptr<StateTransfer> from_coarser;
     std::optional<MeshTransfer> to_coarser;
     std::vector<NodeAction> steady, field;
-    std::vector<Added> added;  // at the last states
+    std::vector<Added> beyond;  // at the last two states
+  };
+  /// A state of one level, all that it adds to that of the coarser one, and how it was found.
+  struct Refined {
+    State state;
+    Added added;
+    NewtonReport report;
   };
   NestedShell(const LevelPlan& plan, const PathOptions& options) : plan_(plan), options_(options) {}
   // of equilibria of a finer level beside the coarser one's state: the first found, which tells
   // where a branch loses its stability, or one that is stable
   enum class Prefer { first, stable };
   void forget();
-  void recall(const std::vector<Added>& added);
-  std::vector<Added> added() const;
+  void recall(const std::vector<Added>& beyond);
+  std::vector<Added> beyond() const;
   void follow_anew();
   NestedReport certify(double t, const PathPoint& coarse, const NewtonReport& last, Prefer prefer,
                        const Watch& watch);
-  State guess(const Level& level, std::size_t k, double t, const State& base) const;
-  bool refine(std::size_t k, double t, const State& coarser, Prefer prefer, State& state,
-              NewtonReport& report, const Watch& watch);
+  Added quarter_on(std::size_t k, const Added& below) const;
+  State guess(const Level& level, double t, const State& base, Added expected) const;
+  std::optional<Refined> refine(std::size_t k, double t, const Refined& coarser, Prefer prefer,
+                                const Watch& watch);
   bool correct(Level& level, const State& base, State& state, NewtonReport& report,
                const Watch& watch);
   Added added_by(const Level& level, double t, const State& base, const State& state) const;

@@ -40,11 +40,30 @@ Added NestedShell::added_by(const Level& level, double t, const State& base,
   return added;
 }
 
+/// What an error of second order has level k add: a quarter of what the level below added.
+Added NestedShell::quarter_on(std::size_t k, const Added& below) const {
+  const Level& level = *levels_[k];
+  Added quarter{below.t, Eigen::Matrix3Xf::Zero(3, level.model.columns()),
+                Eigen::VectorXf::Zero(Eigen::Index(level.model.edges.size()))};
+  if (below.x.size() == 0) return quarter;
+  const MeshTransfer& from = level.from_coarser->meshes();
+  Eigen::Matrix3Xd nodes;
+  Eigen::VectorXd force;
+  from.nodes(below.x.leftCols(levels_[k - 1]->mesh.nodes()).cast<double>(), nodes);
+  from.edges(below.force.cast<double>(), force);
+  quarter.x.leftCols(nodes.cols()) = (nodes / 4).cast<float>();
+  quarter.force = (force / 4).cast<float>();
+  return quarter;
+}
+
 bool NestedShell::correct(Level& level, const State& base, State& state, NewtonReport& report,
                           const Watch& watch) {
   NewtonOptions options;
   options.tolerance_mm = options_.tolerance_mm;
   options.widest_turn = options_.widest_turn;
+  options.trusted_mm = options_.tolerance_mm;
+  // what a correction leaves strains the rods: a force that is seen beside the finest state
+  if (&level == levels_.back().get()) options.trusted_misfit = 1e-4;
   report = newton(*level.system, state, options, watch);
   if (report.outcome != Outcome::reached) return false;
   // a finer mesh moves no node by a cell, or it went to another state
@@ -53,63 +72,51 @@ bool NestedShell::correct(Level& level, const State& base, State& state, NewtonR
          0.5 * options_.spacing_mm;
 }
 
-/// What the finer mesh added at the last states carries on along the path; for the first one it is
-/// a quarter of what the level below added, the error being of second order.
-State NestedShell::guess(const Level& level, std::size_t k, double t, const State& base) const {
+/// What the mesh added beside the quarter that is expected carries on along the path.
+State NestedShell::guess(const Level& level, double t, const State& base, Added expected) const {
+  if (!level.beyond.empty()) {
+    const Added &last = level.beyond.back(), &before = level.beyond.front();
+    const double ahead = level.beyond.size() < 2 ? 0 : (t - last.t) / (last.t - before.t);
+    // nothing is told by what lies far ahead
+    const float going_on = std::abs(ahead) < 3 ? float(ahead) : 0;
+    expected.x += last.x + going_on * (last.x - before.x);
+    expected.force += last.force + going_on * (last.force - before.force);
+  }
   State state = base;
-  Eigen::Matrix3Xd x = base.x;
-  if (level.added.empty() && k > 1) {
-    const Added& below = levels_[k - 1]->added.back();
-    Eigen::Matrix3Xd quarter;
-    Eigen::VectorXd force;
-    level.from_coarser->meshes().nodes(
-        below.x.leftCols(levels_[k - 1]->mesh.nodes()).cast<double>(), quarter);
-    level.from_coarser->meshes().edges(below.force.cast<double>(), force);
-    x.leftCols(quarter.cols()) += quarter / 4;
-    state.force += force / 4;
-  }
-  if (!level.added.empty()) {
-    const Added &last = level.added.back(), &before = level.added.front();
-    const double ahead = level.added.size() < 2 ? 0 : (t - last.t) / (last.t - before.t);
-    x += last.x.cast<double>();
-    state.force += last.force.cast<double>();
-    if (std::abs(ahead) > 0 && std::abs(ahead) < 3) {
-      x += ahead * (last.x - before.x).cast<double>();
-      state.force += ahead * (last.force - before.force).cast<double>();
-    }
-  }
-  move_to(level.model, x, state);
+  state.force += expected.force.cast<double>();
+  move_to(level.model, base.x + expected.x.cast<double>(), state);
   return state;
 }
 
 /// A level's state beside that of the coarser one: from what is remembered, without it, and down
 /// the energy from there, as long as that stays nearby; on only where the one before found none, or
 /// none that is preferred.
-bool NestedShell::refine(std::size_t k, double t, const State& coarser, Prefer prefer, State& state,
-                         NewtonReport& report, const Watch& watch) {
+std::optional<NestedShell::Refined> NestedShell::refine(std::size_t k, double t,
+                                                        const Refined& coarser, Prefer prefer,
+                                                        const Watch& watch) {
   enum class From { remembered, coarser, down };
   Level& level = *levels_[k];
-  const State base = level.from_coarser->carry(coarser);
-  bool found = false;
+  const State base = level.from_coarser->carry(coarser.state);
+  const Added expected = quarter_on(k, coarser.added);
+  std::optional<Refined> found;
   for (const From from : {From::remembered, From::coarser, From::down}) {
-    State trial = from == From::remembered ? guess(level, k, t, base) : base;
+    State trial = from == From::remembered ? guess(level, t, base, expected) : base;
     level.motion.impose(*level.system, t, trial);
     if (from == From::down) minimise(*level.system, trial, {.most_iterations = 60}, watch);
     NewtonReport tried;
-    if (watch.cancelled()) return false;
+    if (watch.cancelled()) return {};
     if (!correct(level, base, trial, tried, watch)) continue;
     const bool stable =
         prefer == Prefer::stable && inertia_of(level, trial, tried).positive_definite();
     if (found && !stable) continue;
-    found = true;
-    state = std::move(trial);
-    report = tried;
+    found = Refined{std::move(trial), {}, tried};
     if (stable || prefer == Prefer::first) break;
   }
-  if (!found) return false;
-  level.added.push_back(added_by(level, t, base, state));
-  if (level.added.size() > 2) level.added.erase(level.added.begin());
-  return true;
+  if (!found) return {};
+  found->added = added_by(level, t, base, found->state);
+  level.beyond.push_back(found->added - expected);
+  if (level.beyond.size() > 2) level.beyond.erase(level.beyond.begin());
+  return found;
 }
 
 NestedReport NestedShell::certify(double t, const PathPoint& coarse, const NewtonReport& last,
@@ -118,17 +125,16 @@ NestedReport NestedShell::certify(double t, const PathPoint& coarse, const Newto
   if (options_.allow_unstable) prefer = Prefer::first;
   NestedState next;
   next.t = t;
-  next.levels.push_back(coarse.state);
-  NewtonReport report = last;
+  Refined at{coarse.state, {}, last};
   for (std::size_t k = 1; k < levels_.size(); ++k) {
-    State state;
-    const bool found = refine(k, t, next.levels.back(), prefer, state, report, watch);
+    auto finer = refine(k, t, at, prefer, watch);
     if (watch.cancelled()) return {Outcome::cancelled, state_.t};
-    if (!found) return {Outcome::meshes_disagree, state_.t};
-    next.levels.push_back(std::move(state));
+    if (!finer) return {Outcome::meshes_disagree, state_.t};
+    next.levels.push_back(std::exchange(at, std::move(*finer)).state);
   }
+  next.levels.push_back(std::move(at.state));
   NestedState before = std::exchange(state_, std::move(next));
-  finish(report);
+  finish(at.report);
   if (state_.inertia.positive_definite()) return {Outcome::reached, t};
   if (state_.inertia.usable && options_.allow_unstable) return {Outcome::reached, t};
   // what is not certified takes no certified state's place

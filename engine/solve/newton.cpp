@@ -4,6 +4,26 @@
 #include <cmath>
 
 namespace gridshell {
+namespace {
+
+/// About what the correction after one of a new factorisation is, by its square. Over thirteen
+/// presets of all kinds half were below m^2/l, nine in ten below 5 m^2/l but for three presets, and
+/// beside a snap it was a hundred times that: what is left out then is still below a tenth of the
+/// accuracy that tolerances are chosen for.
+class NextMove {
+ public:
+  explicit NextMove(const Model& model) {
+    double sum = 0;
+    for (const ModelEdge& edge : model.edges) sum += edge.rest_length;
+    by_square_ = 8 * double(model.edges.size()) / sum;
+  }
+  double after(double move) const { return by_square_ * move * move; }
+
+ private:
+  double by_square_;
+};
+
+}  // namespace
 
 NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& options,
                     const Watch& watch) {
@@ -13,6 +33,7 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     report.outcome = outcome;
     return report;
   };
+  const NextMove next_move(system.model());
   bool factor = true;
   double before = 0;
   for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
@@ -36,8 +57,11 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     system.apply(dx, state);
     report.last_move_mm = move;
     report.factored_move_mm = factor ? move : report.factored_move_mm + move;
-    const double next = factor && options.trust_quadratic ? move * std::min(move, 1.0) : move;
-    if (next <= options.tolerance_mm) return end(Outcome::reached);
+    if (move <= options.tolerance_mm) return end(Outcome::reached);
+    if (factor && next_move.after(move) <= options.trusted_mm &&
+        (!options.trusted_misfit ||
+         system.force_misfit(state) <= *options.trusted_misfit * state.force.cwiseAbs().maxCoeff()))
+      return end(Outcome::reached);
     // an old factorisation serves near the end only, and while it shrinks the corrections
     const bool near = move < options.near_mm;
     factor = !near || (!factor && move > 0.1 * before);

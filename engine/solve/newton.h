@@ -2,6 +2,8 @@
 // forces are eliminated edge by edge, so the system solved has the size and pattern of the Hessian.
 #pragma once
 
+#include <optional>
+
 #include "engine/core/outcome.h"
 #include "engine/core/watch.h"
 #include "engine/solve/linearisation.h"
@@ -12,9 +14,11 @@ struct NewtonOptions {
   double tolerance_mm = 1e-5;  ///< converged when a correction moves no node further
   int most_iterations = 25;
   double near_mm = 0.2;  ///< corrections below this may use an old factorisation
-  bool trust_quadratic =
-      false;  ///< take a correction m of a new factorisation as the last where m^2/(1 mm) is
-              ///< within the tolerance: the next would be about that
+  double trusted_mm =
+      0;  ///< take a correction m of a new factorisation as the last where 8 m^2/l, l the mean rest
+          ///< length of an edge, is no more than this: the next is about that or less
+  std::optional<double> trusted_misfit =
+      {};  ///< and where axial forces and strains agree within this share of the largest force
   double farthest_mm = 1e300;  ///< a correction that moves a node further is refused: lost
   double widest_turn = -0.5;   ///< edges that turn further than this cosine have folded
 };

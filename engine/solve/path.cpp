@@ -64,7 +64,7 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
       converge ? options_.tolerance_mm : options_.target_move * options_.spacing_mm;
   newton_options.most_iterations = 8;
   newton_options.farthest_mm = allowed;
-  newton_options.trust_quadratic = true;
+  newton_options.trusted_mm = newton_options.tolerance_mm;
   newton_options.widest_turn = options_.widest_turn;
   report = newton(system_, next.state, newton_options, watch);
   if (report.outcome != Outcome::reached)

@@ -10,9 +10,6 @@
 
 namespace gridshell {
 
-namespace {
-
-/// A direction with a part along any mode: no symmetry of the net leaves it unchanged.
 Eigen::Matrix3Xd any_direction(Eigen::Index columns) {
   Eigen::Matrix3Xd any(3, columns);
   for (Eigen::Index k = 0; k < columns; ++k) {
@@ -20,10 +17,8 @@ Eigen::Matrix3Xd any_direction(Eigen::Index columns) {
     any.col(k) << std::sin(0.7 + 1.3 * column), std::sin(1.9 + 2.1 * column),
         1 + std::sin(2.3 + 0.9 * column);
   }
-  return any;
+  return any / std::sqrt(6.0);
 }
-
-}  // namespace
 
 Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& start,
                               const Watch& watch) {

@@ -28,6 +28,10 @@ struct Departure {
   std::vector<MeshSymmetry> symmetries = {};
 };
 
+/// A direction with a part along any mode: no symmetry of a net leaves it unchanged. Columns are at
+/// most as long as one.
+Eigen::Matrix3Xd any_direction(Eigen::Index columns);
+
 /// Softest mode of the Hessian last assembled in `system` by inverse iteration from `start` (empty:
 /// any): unit vector over all columns, zero at what is held. Its side, and the mixture where
 /// several modes are equally soft, are those of the start's projection on them.

@@ -278,9 +278,9 @@ class Diagram {
 
 Result<BranchDiagram> branches_study(const preset::Preset& preset, const BranchesOptions& options,
                                      Watch& watch) {
-  auto made = scene_of(preset);
+  const auto made = shared_scene_of(preset);
   if (!made) return tl::unexpected<Error>(made.error());
-  const auto scene = std::make_shared<const Scene>(std::move(*made));
+  const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == preset::Rung::net)
     return fail(Fault::bad_input,
                 "a bifurcation diagram needs a model that is solved, not the net itself "

@@ -87,11 +87,13 @@ Cells step_cells(StabilityRow row, const Study& study, const std::vector<double>
   return cells;
 }
 
-/// Load steps on a case of their own: full steps, shifted, and by default.
-Cells load_step_cells(const StabilityRow& at, const std::shared_ptr<Lazy>& lazy,
-                      const std::vector<double>& load_steps, int edges) {
-  Cells cells;
-  const auto add = [&](const char* method, double steps, std::function<Run(const Study&)> run) {
+/// Load steps on a case of their own, made where the first is run: full steps, shifted, and by
+/// default.
+void add_load_steps(const StabilityRow& at, std::function<Result<std::unique_ptr<Subject>>()> make,
+                    const std::vector<double>& load_steps, int edges, Cells& cells) {
+  const auto lazy = std::make_shared<Lazy>(std::move(make));
+  const auto add = [&](const char* method, double steps,
+                       std::function<Cell(const Study&)> cell_of) {
     StabilityRow row = at;
     row.method = method;
     row.y_name = "load_steps";
@@ -99,25 +101,18 @@ Cells load_step_cells(const StabilityRow& at, const std::shared_ptr<Lazy>& lazy,
     cells.push_back({row, [=](const Watch& watch) {
                        const Study study = lazy->get();
                        // the engine says why there is no reference to compare with
-                       if (!study) return RunOutcome::refused;
-                       return cell({}, study, edges, run(study)).run(watch);
+                       return study ? cell_of(study).run(watch) : RunOutcome::refused;
                      }});
   };
   for (double steps : load_steps) {
     for (Globalisation how : {Globalisation::none, Globalisation::shifted})
-      add(name_of(how), steps,
-          [=](const Study&) { return marching({.load_steps = int(steps), .globalisation = how}); });
-    StabilityRow row = at;
-    row.method = default_solver;
-    row.y_name = "load_steps";
-    row.y = steps;
-    cells.push_back({row, [=](const Watch& watch) {
-                       const Study study = lazy->get();
-                       if (!study) return RunOutcome::refused;
-                       return default_cell({}, study, plan_levels(1e-3), 1e-3, steps).run(watch);
-                     }});
+      add(name_of(how), steps, [=](const Study& study) {
+        return cell({}, study, edges, marching({.load_steps = int(steps), .globalisation = how}));
+      });
+    add(default_solver, steps, [=](const Study& study) {
+      return default_cell({}, study, plan_levels(1e-3), 1e-3, steps);
+    });
   }
-  return cells;
 }
 
 }  // namespace
@@ -180,15 +175,14 @@ Cells tolerance_map(const Study& study, const std::vector<double>& tolerances,
 Cells stiffness_map(const preset::Preset& preset, const std::vector<double>& scales,
                     const std::vector<double>& load_steps, int edges) {
   Cells cells;
-  for (double scale : scales) {
-    const auto lazy = std::make_shared<Lazy>([=] {
-      Watch patient;
-      return Subject::create(preset, 16, patient, scale);
-    });
-    for (Cell& one : load_step_cells({"EA", "", "EA over the rods'", scale, "", 0, {}}, lazy,
-                                     load_steps, edges))
-      cells.push_back(std::move(one));
-  }
+  for (double scale : scales)
+    add_load_steps(
+        {"EA", "", "EA over the rods'", scale, "", 0, {}},
+        [=] {
+          Watch patient;
+          return Subject::create(preset, 16, patient, scale);
+        },
+        load_steps, edges, cells);
   return cells;
 }
 
@@ -207,13 +201,13 @@ Cells leg_map(const preset::Preset& preset, const std::vector<double>& legs,
     const double last = first + std::max(0.0, std::floor(reach - first));
     const double radius = d * std::hypot(outermost, last + leg);
     cut.set_radii(radius, preset.actuated_radius_mm() * radius / original);
-    const auto lazy = std::make_shared<Lazy>([=] {
-      Watch patient;
-      return Subject::create(cut, 16, patient);
-    });
-    for (Cell& one : load_step_cells({"shortest leg", "", "leg over d", leg, "", 0, {}}, lazy,
-                                     load_steps, edges))
-      cells.push_back(std::move(one));
+    add_load_steps(
+        {"shortest leg", "", "leg over d", leg, "", 0, {}},
+        [=] {
+          Watch patient;
+          return Subject::create(cut, 16, patient);
+        },
+        load_steps, edges, cells);
   }
   return cells;
 }

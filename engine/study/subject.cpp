@@ -54,8 +54,9 @@ Result<std::unique_ptr<Subject>> Subject::create(const preset::Preset& preset, i
 }
 
 Result<void> Subject::set_up(const preset::Preset& preset) {
-  auto scene = scene_of(preset);
-  if (!scene) return tl::unexpected<Error>(scene.error());
+  const auto made = shared_scene_of(preset);
+  if (!made) return tl::unexpected<Error>(made.error());
+  const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == preset::Rung::twist)
     return fail(Fault::bad_input,
                 "a study compares methods on rods for which the bend rung is exact: " +
@@ -66,7 +67,7 @@ Result<void> Subject::set_up(const preset::Preset& preset) {
         "a study compares methods on shells that bear no [loads] and stand on their ends alone");
   if (scene->drawn_in_space)
     return fail(Fault::bad_input, "a study compares methods on shells that begin flat or on a net");
-  scene_ = std::make_shared<const Scene>(std::move(*scene));
+  scene_ = scene;
   pushed_ = preset.indentation;
   task_ = pushed_.wanted() ? Task::push : scene_->from_net ? Task::beside_net : Task::actuation;
   return {};

@@ -1,11 +1,11 @@
 #include "render/figure/sweep_numbers.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
 
+#include "engine/core/number.h"
 #include "render/plot/canvas.h"
 #include "render/plot/text.h"
 
@@ -13,14 +13,6 @@ namespace gridshell::render {
 namespace {
 
 using record::SweepTable;
-
-/// A TOML value as a number, or nothing.
-std::optional<double> number_in(const std::string& text) {
-  double value = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (read.ec != std::errc() || read.ptr != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 /// 1.0 reads 1; a string loses its quotes.
 std::string short_text(const std::string& value) {
@@ -82,7 +74,7 @@ SweepScale scale_of(const SweepTable& table, std::size_t k) {
     const std::string& text = text_of(table, row, k, seed);
     if (std::ranges::find(scale.texts, text) != scale.texts.end()) continue;
     scale.texts.push_back(text);
-    const auto number = number_in(text);
+    const auto number = number_from<double>(text);
     scale.is_number = scale.is_number && number;
     scale.numbers.push_back(number.value_or(0));
   }

@@ -73,6 +73,17 @@ TEST_CASE("factorisations: solve, and count negative pivots as dense eigenvalues
   CHECK(eigenvalues[0] < 0);  // the counts above were not all zero
 }
 
+TEST_CASE("factorisations: what one left does not stand in the next, on long chains") {
+  const System system = bent(70, 6, 12);
+  const auto solver = make_block_cholesky(system.model), other = make_cholmod(system.model);
+  for (double shift : {0.0, 500.0, 0.3, 500.0}) {
+    const Inertia inertia = solver->factor(system.assembly.hessian, shift);
+    REQUIRE(inertia.usable);
+    CHECK(inertia.negative_pivots == other->factor(system.assembly.hessian, shift).negative_pivots);
+    CHECK(residual(system, *solver, shift) < 1e-8);
+  }
+}
+
 TEST_CASE("factorisations: a singular or infinite matrix is not usable") {
   System system = bent(70, 6, 2);
   const auto solver = make_block_cholesky(system.model);

@@ -1,0 +1,66 @@
+// Finer meshes beside a path, and how little they cost there.
+#include "engine/solve/nested.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/scene/scene.h"
+#include "engine/solve/buckle.h"
+
+using namespace gridshell;
+
+namespace {
+
+constexpr double tolerance_mm = 1e-4;
+const Watch watch;
+
+Scene eight_rods() {
+  preset::Preset asked;
+  asked.footprint.rods = 8;
+  asked.footprint.radius_mm = 86;
+  asked.actuation.radius_mm = 64.5;
+  return scene_of(asked).value();
+}
+
+NestedShell shell_of(const Scene& scene, double tolerance) {
+  PathOptions options;
+  options.tolerance_mm = tolerance;
+  return NestedShell::make(scene.footprint, scene.rods, Rung::bend, scene.motion,
+                           {{4, 8, 16}, false}, options)
+      .value();
+}
+
+double parameter(double ratio) { return std::sqrt((1 - ratio) / 0.25); }
+
+}  // namespace
+
+TEST_CASE("along a path finer meshes take one correction a state, and it is the exact state") {
+  const Scene scene = eight_rods();
+  NestedShell shell = shell_of(scene, tolerance_mm), exact = shell_of(scene, 1e-9);
+  const double first = parameter(0.95);
+  const State begin =
+      first_buckled(shell.system(0), shell.mesh(0), shell.motion(0), first, {}, scene.flat, watch)
+          .value();
+  REQUIRE(shell.start(first, begin, watch).end == Outcome::reached);
+  REQUIRE(exact.start(first, begin, watch).end == Outcome::reached);
+  const Effort before[2] = {shell.system(1).effort(), shell.system(2).effort()};
+
+  constexpr int steps = 15;
+  for (int k = 1; k <= steps; ++k) {
+    const double t = parameter(0.95 - 0.01 * k);
+    INFO("step " << k);
+    REQUIRE(shell.advance(t, watch).end == Outcome::reached);
+    REQUIRE(exact.advance(t, watch).end == Outcome::reached);
+    for (std::size_t level = 1; level <= 2; ++level)
+      CHECK(largest_column(shell.state().levels[level].x - exact.state().levels[level].x) <
+            tolerance_mm);
+    // what a correction leaves is not seen in the forces either
+    const double largest = exact.state().levels[2].force.cwiseAbs().maxCoeff();
+    CHECK(shell.state().residual_N < 2e-4 * largest);
+  }
+  for (int level = 1; level <= 2; ++level) {
+    const Effort spent = shell.system(level).effort() - before[level - 1];
+    INFO("level " << level);
+    CHECK(spent.factorizations <= steps + 1);
+    CHECK(spent.newton_iterations <= 1.5 * steps);
+  }
+}
