@@ -10,6 +10,7 @@ packages="
   libimgui-dev libfontconfig-dev
   pybind11-dev python3-dev python3-numpy python3-pytest
   catch2 ffmpeg parallel qemu-user clang-format clang-tidy
+  similarity-tester
 "
 
 install_missing_packages() {

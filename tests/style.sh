@@ -2,6 +2,7 @@
 # tests/style.sh format [--fix]  every source file stands as .clang-format says; --fix makes it so
 # tests/style.sh tidy [--all]    clang-tidy with the checks of .clang-tidy, on what changed or on all
 # tests/style.sh warnings        every source file is built with warnings as errors, none silenced
+# tests/style.sh equal           no 50 tokens stand twice in engine/ but where equal_tokens.txt says why
 #
 # BUILD (default build) is a folder that cmake has configured. `tidy` takes the files that differ
 # from the merge base with the main branch (BASE, default main), where that is this commit itself
@@ -18,7 +19,7 @@ without_git="engine/core/atomic_file.cpp engine/footprint/mesh.cpp engine/preset
 
 need() {
   command -v "$1" >/dev/null && return
-  echo "skipped: $1 is missing (package $1)"
+  echo "skipped: $1 is missing (package ${2:-$1})"
   exit 77
 }
 
@@ -118,9 +119,27 @@ warnings() {
   return $result
 }
 
+equal() {
+  need sim_c++ similarity-tester
+  # "FILE: line A-B|FILE: line C-D[TOKENS]" with blanks as they fall
+  sim_c++ -r 50 -n $(find engine -name '*.h' -o -name '*.cpp' | sort) 2>&1 | grep '|' | tr -d ' ' |
+    awk -F '|' '
+      NR == FNR { if ($0 !~ /^#/) { sub(/^[^:]*: /, ""); list[++lists] = " " $0 " " } next }
+      { a = $1; b = $2; sub(/:.*/, "", a); sub(/:.*/, "", b)
+        sub(/^engine\//, "", a); sub(/^engine\//, "", b); ++pairs
+        for (k = 1; k <= lists; ++k)
+          if (index(list[k], " " a " ") && index(list[k], " " b " ")) { ++known; used[k] = 1; next }
+        print "equal: " $0 }
+      END {
+        for (k = 1; k <= lists; ++k) if (!used[k]) { print "no such pair any more:" list[k]; ++old }
+        printf "%d pairs of places look alike, of %d it is told why\n", pairs, known
+        exit !(pairs > 0 && known == pairs && !old) }' tests/equal_tokens.txt -
+}
+
 case ${1:-} in
   format) format "${2:-}" ;;
   tidy) tidy "${2:-}" ;;
   warnings) warnings ;;
-  *) sed -n '2,4p' "$0"; exit 2 ;;
+  equal) equal ;;
+  *) sed -n '2,5p' "$0"; exit 2 ;;
 esac

@@ -88,8 +88,9 @@ if(GRIDSHELL_PICTURES)
     PROPERTIES LABELS full TIMEOUT 600 SKIP_RETURN_CODE 77)
 endif()
 
-# How the source stands: format, clang-tidy on what changed, warnings as errors (tests/style.sh).
-foreach(check format tidy warnings)
+# How the source stands: format, clang-tidy on what changed, warnings as errors, nothing that stands
+# twice (tests/style.sh).
+foreach(check format tidy warnings equal)
   add_test(NAME "style: ${check}" COMMAND ${PROJECT_SOURCE_DIR}/tests/style.sh ${check})
   set_tests_properties("style: ${check}" PROPERTIES LABELS style TIMEOUT 600 SKIP_RETURN_CODE 77
     ENVIRONMENT BUILD=${PROJECT_BINARY_DIR})

@@ -295,7 +295,9 @@ Result<StateTables> read_state_tables(const std::filesystem::path& folder) {
     std::error_code error;
     if (!std::filesystem::exists(folder / name, error)) return {};
     using Row = typename std::decay_t<decltype(all)>::value_type;
-    return read_csv<Row>(folder / name, each).map([&](auto&& read) { all = std::move(read); });
+    return read_csv<Row>(folder / name, each).map([&](std::vector<Row>&& read) {
+      all = std::move(read);
+    });
   };
   if (auto read = read_if_there(transitions_name, each_transition, tables.transitions); !read)
     return tl::unexpected(read.error());

@@ -13,6 +13,11 @@ namespace {
 // of the order of a shell's own stiffness, so that neither swamps the other
 constexpr double border_stiffness = 1;  // g, N/mm
 
+/// EA over the rest length times how much longer an edge is.
+double force_of_strain(const ModelEdge& edge, const Eigen::Matrix3Xd& x) {
+  return stretch(edge.EA, edge.rest_length, (x.col(edge.to) - x.col(edge.from)).norm()).force;
+}
+
 }  // namespace
 
 Eigen::Vector3d Hold::part(const Eigen::Vector3d& v) const {
@@ -136,12 +141,9 @@ Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx) const {
 
 double Linearisation::force_misfit(const State& state) const {
   double largest = 0;
-  for (std::size_t k = 0; k < model_.edges.size(); ++k) {
-    const ModelEdge& edge = model_.edges[k];
-    const double length = (state.x.col(edge.to) - state.x.col(edge.from)).norm();
-    const double force = EA_scale_ * stretch(edge.EA, edge.rest_length, length).force;
-    largest = std::max(largest, std::abs(force - state.force[Eigen::Index(k)]));
-  }
+  for (std::size_t k = 0; k < model_.edges.size(); ++k)
+    largest = std::max(largest, std::abs(EA_scale_ * force_of_strain(model_.edges[k], state.x) -
+                                         state.force[Eigen::Index(k)]));
   return largest;
 }
 
@@ -157,9 +159,7 @@ void Linearisation::restore_lengths(const Eigen::VectorXd& force, State& state) 
   Eigen::Matrix3Xd pull = Eigen::Matrix3Xd::Zero(3, model_.columns());
   for (std::size_t k = 0; k < model_.edges.size(); ++k) {
     const ModelEdge& edge = model_.edges[k];
-    const double strain =
-        (state.x.col(edge.to) - state.x.col(edge.from)).norm() / edge.rest_length - 1;
-    const double excess = EA_scale_ * edge.EA * strain - force[Eigen::Index(k)];
+    const double excess = EA_scale_ * force_of_strain(edge, state.x) - force[Eigen::Index(k)];
     pull.col(edge.from) += excess * tangents_.col(Eigen::Index(k));
     pull.col(edge.to) -= excess * tangents_.col(Eigen::Index(k));
   }

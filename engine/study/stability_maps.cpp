@@ -17,7 +17,7 @@ using Study = std::shared_ptr<Subject>;
 using Run = std::function<Arrival(const Problem&, const Watch&)>;
 
 /// Runs on one mesh of a case and is judged there.
-Cell cell(StabilityRow row, const Study& study, int edges, Run run,
+Cell cell(StabilityRow row, const Study& study, int edges, const Run& run,
           double promised = claimed_error) {
   return {std::move(row), [=](const Watch& watch) {
             static const Watch patient;  // references are made whole
@@ -93,7 +93,7 @@ void add_load_steps(const StabilityRow& at, std::function<Result<std::unique_ptr
                     const std::vector<double>& load_steps, int edges, Cells& cells) {
   const auto lazy = std::make_shared<Lazy>(std::move(make));
   const auto add = [&](const char* method, double steps,
-                       std::function<Cell(const Study&)> cell_of) {
+                       const std::function<Cell(const Study&)>& cell_of) {
     StabilityRow row = at;
     row.method = method;
     row.y_name = "load_steps";
