@@ -74,6 +74,11 @@ inline EstimateTrial try_estimate(const preset::Preset& preset) {
                              finer->session.nodes().col(Eigen::Index(k)))
                                 .norm());
   trial.truth = worst / preset.footprint.radius_mm;
+  // which state a snap leads to is told, and judged by the chart of trust
+  if (asked->summary.limit == record::Limit::snap && trial.truth > 1e-2) {
+    trial.refused = "reference: in another state after " + finer->limit_reason;
+    return trial;
+  }
   trial.estimate = a.frames.back().error_estimate_mm / preset.footprint.radius_mm;
   return trial;
 }
