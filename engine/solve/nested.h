@@ -134,7 +134,7 @@ class NestedShell {
     std::unique_ptr<StateTransfer> from_coarser;
     std::optional<MeshTransfer> to_coarser;
     std::vector<NodeAction> steady, field;
-    std::vector<Added> beyond;  // at the last two states
+    std::vector<Added> beyond;  // at the last three states
   };
   /// A state of one level, all that it adds to that of the coarser one, and how it was found.
   struct Refined {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "engine/solve/minimise.h"
@@ -17,6 +18,10 @@ namespace {
 // asymptotic range
 constexpr double margin = 1.25, margin_extrapolated = 2.2;
 
+// of the weights by which what finer meshes added goes on: three states and a step as long as those
+// between them have 7 in all, two states and three such steps too
+constexpr double most_weight = 8;
+
 /// What extrapolation at second order leaves where three meshes show another: with steps between
 /// them whose sizes have the ratio r, r = 4 at second order, |step| (1/(r - 1) - 1/3). Within
 /// `near` of second order the difference is that of the next order, which is estimated by itself.
@@ -28,6 +33,15 @@ double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& befor
   if (std::abs(ratio - 4) < 4 * near) return 0;
   if (ratio <= 1) return largest_column(step);
   return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * largest_column(step);
+}
+
+/// Of the polynomial through what is known at several t: its weights at this t.
+Eigen::VectorXd weights_of(std::span<const Added> known, double t) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(Eigen::Index(known.size()));
+  for (std::size_t k = 0; k < known.size(); ++k)
+    for (const Added& other : known)
+      if (&other != &known[k]) weights[Eigen::Index(k)] *= (t - other.t) / (known[k].t - other.t);
+  return weights;
 }
 
 }  // namespace
@@ -63,7 +77,7 @@ bool NestedShell::correct(Level& level, const State& base, State& state, NewtonR
   options.widest_turn = options_.widest_turn;
   options.trusted_mm = options_.tolerance_mm;
   // what a correction leaves strains the rods: a force that is seen beside the finest state
-  if (&level == levels_.back().get()) options.trusted_misfit = 1e-4;
+  if (&level == levels_.back().get()) options.trusted_misfit = 1e-5;
   report = newton(*level.system, state, options, watch);
   if (report.outcome != Outcome::reached) return false;
   // a finer mesh moves no node by a cell, or it went to another state
@@ -72,15 +86,19 @@ bool NestedShell::correct(Level& level, const State& base, State& state, NewtonR
          0.5 * options_.spacing_mm;
 }
 
-/// What the mesh added beside the quarter that is expected carries on along the path.
+/// What the mesh added beside the quarter that is expected carries on along the path, by the
+/// polynomial through the last states; fewer of them where it would make too much of their
+/// differences.
 State NestedShell::guess(const Level& level, double t, const State& base, Added expected) const {
-  if (!level.beyond.empty()) {
-    const Added &last = level.beyond.back(), &before = level.beyond.front();
-    const double ahead = level.beyond.size() < 2 ? 0 : (t - last.t) / (last.t - before.t);
-    // nothing is told by what lies far ahead
-    const float going_on = std::abs(ahead) < 3 ? float(ahead) : 0;
-    expected.x += last.x + going_on * (last.x - before.x);
-    expected.force += last.force + going_on * (last.force - before.force);
+  std::span<const Added> known = level.beyond;
+  Eigen::VectorXd weights = weights_of(known, t);
+  while (known.size() > 1 && !(weights.cwiseAbs().sum() < most_weight)) {
+    known = known.subspan(1);
+    weights = weights_of(known, t);
+  }
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    expected.x += float(weights[Eigen::Index(k)]) * known[k].x;
+    expected.force += float(weights[Eigen::Index(k)]) * known[k].force;
   }
   State state = base;
   state.force += expected.force.cast<double>();
@@ -115,7 +133,7 @@ std::optional<NestedShell::Refined> NestedShell::refine(std::size_t k, double t,
   if (!found) return {};
   found->added = added_by(level, t, base, found->state);
   level.beyond.push_back(found->added - expected);
-  if (level.beyond.size() > 2) level.beyond.erase(level.beyond.begin());
+  if (level.beyond.size() > 3) level.beyond.erase(level.beyond.begin());
   return found;
 }
 

@@ -53,9 +53,9 @@ TEST_CASE("along a path finer meshes take one correction a state, and it is the 
     for (std::size_t level = 1; level <= 2; ++level)
       CHECK(largest_column(shell.state().levels[level].x - exact.state().levels[level].x) <
             tolerance_mm);
-    // what a correction leaves is not seen in the forces either
+    // nor in the forces: 1e-5 of the largest is left in an edge, and four edges meet at a joint
     const double largest = exact.state().levels[2].force.cwiseAbs().maxCoeff();
-    CHECK(shell.state().residual_N < 2e-4 * largest);
+    CHECK(shell.state().residual_N < 4e-5 * largest);
   }
   for (int level = 1; level <= 2; ++level) {
     const Effort spent = shell.system(level).effort() - before[level - 1];
