@@ -91,7 +91,7 @@ void count_silent(const std::vector<record::StabilityRow>& rows, Findings& findi
       if (row.method != method) continue;
       ++cells;
       silent += record::silently_wrong(row.outcome);
-      ++count[record::name_of(row.outcome)];
+      ++count[std::string(word_of(row.outcome))];
     }
     std::string kinds;
     for (const auto& [name, n] : count)

@@ -21,8 +21,8 @@ Json json_of(const DesignedState& state, double scale) {
   json["edges_per_segment"] = state.edges_per_segment;
   json["max"] = state.max_mm / scale;
   json["mean"] = state.mean_mm / scale;
-  json["energy_bend_mJ"] = state.energies[Term::bend];
-  json["energy_stretch_mJ"] = state.energies[Term::stretch];
+  for (const TermName& term : energy_terms)
+    json[fmt::format("energy_{}_mJ", term.name)] = state.energies[term.term];
   json["eigenvalue_N_per_mm2"] = state.eigenvalue;
   json["largest_leg_force_N"] = state.largest_leg_force_N;
   json["largest_leg_compression_N"] = state.largest_leg_compression_N;

@@ -303,7 +303,7 @@ void print_result(const Job& job, const fs::path& folder) {
 std::string shortcoming(const record::Summary& summary, bool allow_unstable) {
   // a shell that snapped and came to rest went on to the end
   if (summary.limit != record::Limit::none && summary.limit != record::Limit::snap)
-    return fmt::format("the path ended early, limit \"{}\": {}", record::name_of(summary.limit),
+    return fmt::format("the path ended early, limit \"{}\": {}", word_of(summary.limit),
                        summary.limit_reason);
   if (summary.solved && !summary.stable && !allow_unstable)
     return fmt::format(

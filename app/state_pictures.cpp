@@ -64,7 +64,7 @@ std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Va
 render::Plot energies_plot(const record::StateTables& states) {
   render::Plot plot;
   plot.title = completeness_text(states);
-  plot.x = {.label = "elastic energy (mJ)"};
+  plot.x = {.label = "energy (mJ)"};
   plot.y = {.label = "times met", .logarithmic = true, .low = 0.5};
   plot.legend = render::LegendPlace::upper_right;
   std::vector<StateRow> met;
@@ -77,7 +77,7 @@ render::Plot energies_plot(const record::StateTables& states) {
 render::Plot lives_plot(const record::StateTables& states) {
   render::Plot plot;
   plot.title = "How far back along the path the states live";
-  plot.x = {.label = "elastic energy at the end (mJ)"};
+  plot.x = {.label = "energy at the end (mJ)"};
   const bool circle = std::ranges::none_of(
       states.rows, [](const StateRow& row) { return std::isnan(row.lives_to_radius_mm); });
   plot.y = {.label = circle ? "largest *R*_{a} (mm)" : "least progress"};
@@ -125,7 +125,7 @@ std::string found_text(const record::StateTables& states) {
     const StateRow& row = states.rows[k];
     text += fmt::format(
         "  state {}: {}, class {}, {:.3f} mJ of bending, height {:.2f} mm, met {}\n", row.state,
-        row.group, word_of(row.kind), row.energy_bend_mJ, row.height_mm, row.count);
+        row.group, word_of(row.kind), row.energies[Term::bend], row.height_mm, row.count);
   }
   if (search.ways_followed > 0)
     text += fmt::format("  barriers: {} passes found on {} ways\n", search.passes_found,

@@ -25,6 +25,14 @@ constexpr ColourWords colour_words[] = {
     {ColourBy::displacement, "|u| (mm)", "how far each point moved since the shell was formed"},
 };
 
+static_assert(
+    [] {
+      for (std::size_t k = 0; k < std::size(colour_words); ++k)
+        if (colour_words[k].by != ColourBy(k)) return false;
+      return !is_enumerator<ColourBy(std::size(colour_words))>();
+    }(),
+    "every colour has its line in colour_words, in their order");
+
 /// Both meshes' nodes lie at other places, but the joints come first in each.
 Eigen::VectorXd displacement(const Sight& sight) {
   const Eigen::Matrix3Xd &now = sight.frame.nodes, &then = sight.first->nodes;

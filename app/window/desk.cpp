@@ -223,7 +223,7 @@ void Desk::read_off() {
   now.radius_mm = frame.boundary_radius_mm;
   now.progress = sight->progress;
   now.height_mm = frame.height_mm;
-  for (const TermName& term : energy_terms) now.energy_mJ += frame.energies[term.term];
+  now.energy_mJ = frame.energies.total();
   now.total_K = frame.total_K;
   now.stable = sight->stable();
   now.steps = sight->steps.size();

@@ -327,10 +327,8 @@ Result<void> ShellInHand::act(const Change& wish, const Watch& watch) {
       refined_ = false;
       return {};
     }
-    case ChangeKind::boundary: {
-      const double from = scene_->radius_begin_mm, to = scene_->radius_end_mm;
-      return act(Move{(from - wish.preset.actuated_radius_mm()) / (from - to)}, watch);
-    }
+    case ChangeKind::boundary:
+      return act(Move{scene_->progress_of_radius(wish.preset.actuated_radius_mm())}, watch);
     case ChangeKind::rods:
       return put_rods(wish.preset, watch);
     case ChangeKind::shape:

@@ -26,7 +26,7 @@ double least_progress_of(const Session& session) {
   const NestedShell& shell = session.shell();
   PinnedMotion motion = pinned_motion(shell.mesh(0), session.scene().motion);
   const auto t = parameter_of_shortening(shell.mesh(0), motion, least_shortening);
-  return t ? std::min(1.0, *t * *t) : 0;
+  return t ? std::min(1.0, progress_at(*t)) : 0;
 }
 
 /// Of a group by Schoenflies' name.

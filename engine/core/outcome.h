@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "engine/core/words.h"
+
 namespace gridshell {
 
 enum class Outcome {
@@ -36,6 +38,14 @@ inline constexpr std::array outcomes{
     OutcomeWords{Outcome::locked, "locked", "the rods came to their length"},
     OutcomeWords{Outcome::cancelled, "cancelled", "it was stopped"},
 };
+
+static_assert(
+    [] {
+      for (std::size_t k = 0; k < outcomes.size(); ++k)
+        if (outcomes[k].outcome != Outcome(k)) return false;
+      return !is_enumerator<Outcome(outcomes.size())>();
+    }(),
+    "every outcome has its line in outcomes, in their order");
 
 constexpr const OutcomeWords& words_of(Outcome outcome) { return outcomes[std::size_t(outcome)]; }
 

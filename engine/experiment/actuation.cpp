@@ -93,7 +93,7 @@ void follow_from_flat(Course& course, const Checkpoint& first, double to, const 
 }  // namespace
 
 std::string at_progress(double t, std::optional<double> error) {
-  auto text = fmt::format("at progress {:.4f}", t * t);
+  auto text = fmt::format("at progress {:.4f}", progress_at(t));
   if (error) text += fmt::format(" ± {:.1g}", 2 * t * *error);
   return text;
 }
@@ -114,7 +114,7 @@ Result<Course> follow_actuation(const std::shared_ptr<const Scene>& scene, const
   if (scene->drawn_in_space) {
     const auto begun = certified(course.session.begin_as_drawn(watch), "the network as drawn");
     if (!begun) return tl::unexpected<Error>(begun.error());
-    follow_leg(course, std::sqrt(to), {}, watch);
+    follow_leg(course, parameter_at(to), {}, watch);
   } else if (to == 0) {
     return course;
   } else if (scene->from_net) {
@@ -129,7 +129,7 @@ Result<Course> follow_actuation(const std::shared_ptr<const Scene>& scene, const
   } else {
     const auto start = begin_from_flat(course, watch);
     if (!start) return tl::unexpected<Error>(start.error());
-    follow_from_flat(course, *start, std::sqrt(to), watch);
+    follow_from_flat(course, *start, parameter_at(to), watch);
   }
   if (watch.cancelled()) return stopped();
   tell_limit(course, at_progress);
@@ -199,7 +199,7 @@ Result<Course> run_actuation(std::shared_ptr<const Scene> scene,
   Sampler sampler(*course, caption_of(*scene), sink, watch, progress.size());
   const Checkpoint end = course->session.save();
   for (std::size_t k = 0; k < progress.size(); ++k) {
-    Sample sample{int(k), 0, std::sqrt(progress[k]), progress[k]};
+    Sample sample{int(k), 0, parameter_at(progress[k]), progress[k]};
     if (progress[k] == 0 && rests_flat(*scene)) {
       if (auto flat = sampler.take(flat_frame(course->session), sample); !flat)
         return tl::unexpected<Error>(flat.error());

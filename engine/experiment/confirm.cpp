@@ -12,6 +12,8 @@ namespace {
 
 constexpr int most_leaders = 3;
 constexpr double near_t = 0.05;  // events that two leaders place so near are the same
+// of turns: frames between the coarser leader's and the true one show the state beyond
+constexpr double same_t = 0.005;
 
 int leader_of(const Course& course) { return course.asked.edges_per_segment.front(); }
 
@@ -42,17 +44,30 @@ std::optional<std::string> leg_disagreement(const Leg& a, const Leg& b) {
   return std::nullopt;
 }
 
-/// The places of events, extrapolated with those of a leader of twice the edges.
-void extrapolate_events(const std::vector<Leg>& fine, std::vector<Leg>& legs) {
-  for (std::size_t k = 0; k < legs.size(); ++k) {
-    auto& events = legs[k].report.events;
-    for (std::size_t e = 0; e < events.size(); ++e) {
-      const double t = fine[k].report.events[e].t, step = t - events[e].t;
+/// The places of events in both, extrapolated from those of two leaders, the finer of twice the
+/// edges.
+void extrapolate_events(std::vector<Leg>& coarse, std::vector<Leg>& fine) {
+  for (std::size_t k = 0; k < coarse.size(); ++k) {
+    auto &seen = coarse[k].report.events, &found = fine[k].report.events;
+    for (std::size_t e = 0; e < seen.size(); ++e) {
+      const double step = found[e].t - seen[e].t;
       // of a lock the finest mesh decides, and the state that is kept is its own
-      if (events[e].kind != Event::Kind::locked) events[e].t = t + step / 3;
-      events[e].error = std::abs(step) / 3;
+      if (seen[e].kind != Event::Kind::locked) seen[e].t = found[e].t = found[e].t + step / 3;
+      seen[e].error = found[e].error = std::abs(step) / 3;
     }
   }
+}
+
+/// Whether a path turns back clearly further on where a finer leader leads.
+bool turns_later(const std::vector<Leg>& coarse, const std::vector<Leg>& fine) {
+  for (std::size_t k = 0; k < coarse.size(); ++k) {
+    const auto &early = coarse[k].report.events, &late = fine[k].report.events;
+    for (std::size_t e = 0; e < early.size(); ++e)
+      if (early[e].kind == Event::Kind::turned_back &&
+          coarse[k].way() * (late[e].t - early[e].t) > same_t)
+        return true;
+  }
+  return false;
 }
 
 /// Whether the finest mesh, too, loses its stability where two leaders say that the shell does:
@@ -124,12 +139,21 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
       return course;
     }
     fine->asked = *plan;
+    const auto keep_fine = [&] {
+      fine->session.charge(course.session.effort());
+      fine->seconds_setup += course.seconds_setup;
+      course = std::move(*fine);
+    };
     auto differs = disagreement(course, *fine);
     if (!differs) differs = only_on_leaders(course, *fine, watch);
     if (!differs) {
-      extrapolate_events(fine->legs, course.legs);
-      extrapolate_events(fine->earlier, course.earlier);
-      course.session.charge(fine->session.effort());
+      const bool later = !scene.leader_asked && turns_later(course.legs, fine->legs);
+      extrapolate_events(course.legs, fine->legs);
+      extrapolate_events(course.earlier, fine->earlier);
+      if (later)
+        keep_fine();
+      else
+        course.session.charge(fine->session.effort());
       course.doubt.clear();
       return course;
     }
@@ -149,10 +173,8 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
       course.session.charge(fine->session.effort());
       continue;
     }
-    fine->session.charge(course.session.effort());
-    fine->seconds_setup += course.seconds_setup;
-    fine->doubt = disagreed;
-    course = std::move(*fine);
+    keep_fine();
+    course.doubt = disagreed;
     if (!chose()) course.doubt.clear();
   }
   return course;

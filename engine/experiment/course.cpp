@@ -101,20 +101,49 @@ Result<Course> course_of(const Scene& scene, const Follow& follow, const Watch& 
   }
 }
 
-Report stand_at(Course& course, const Sample& sample, const Watch& watch) {
+namespace {
+
+/// The last station of a branch that the leading mesh left before t, where finer ones, as is told,
+/// leave it after t.
+const Station* last_of_a_branch_left_early(const Leg& leg, double t) {
+  const auto& stations = leg.trail.stations;
+  for (const Event& event : leg.report.events) {
+    if (!event.to || leg.way() * (event.t - t) <= 0) continue;
+    for (std::size_t k = 1; k < stations.size(); ++k)
+      if (stations[k].point.t == *event.to && leg.way() * (t - stations[k - 1].point.t) > 0)
+        return &stations[k - 1];
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+Stood stand_at(Course& course, const Sample& sample, const Watch& watch) {
   const Leg& leg = course.legs[sample.leg];
-  const Station &before = station_before(leg, sample.t), &after = station_after(leg, sample.t);
-  Report report = course.session.sample(sample.t, before, false, watch);
+  const double t = sample.t;
+  const auto from = [&](const Station& beside, bool unstable) {
+    return course.session.sample(t, beside, unstable, watch);
+  };
+  const auto done = [&](const Report& report) {
+    return report.end == Outcome::reached || watch.cancelled();
+  };
+  if (const Station* still = last_of_a_branch_left_early(leg, t))
+    for (const bool leader_unstable : {false, true}) {
+      const Report held = from(*still, leader_unstable);
+      if (done(held) && held.certificate.stable()) return {held, still->point.t};
+    }
+  const Station &before = station_before(leg, t), &after = station_after(leg, t);
+  Report report = from(before, false);
+  if (done(report)) return {report, t};
   // a branch was left in between: it may be a state of the next one
-  if (report.end != Outcome::reached && !watch.cancelled())
-    report = course.session.sample(sample.t, after, false, watch);
+  report = from(after, false);
+  if (done(report)) return {report, after.point.t};
   // or, where the next one does not come back so far, the rest to which the shell went
   if (report.end == Outcome::unstable || report.end == Outcome::lost)
-    report = course.session.sample_rest(sample.t, before, watch);
+    report = course.session.sample_rest(t, before, watch);
+  if (done(report)) return {report, after.point.t};
   // or any equilibrium, which says what it is
-  if (report.end != Outcome::reached && !watch.cancelled())
-    report = course.session.sample(sample.t, before, true, watch);
-  return report;
+  return {from(before, true), t};
 }
 
 namespace {

@@ -98,13 +98,21 @@ struct Sample {
   double progress = 0;  ///< of the experiment
 };
 
-/// Whether a path parameter lies where a leg jumped from one branch to the next: between the last
-/// state of the one and the first of the other, where there may be none of either.
+/// Whether t lies in the jump between two branches, where neither may have a state.
 bool in_a_jump(const Leg& leg, double t);
 
+/// How a sample was certified, and the path parameter that the leg had reached when the sample's
+/// branch was found: events before it have happened to this state.
+struct Stood {
+  Report report;
+  double past = 0;
+};
+
 /// Certifies the course at a sample and leaves the session there; what the path itself found is
-/// not changed by it. Outcomes as of a path.
-Report stand_at(Course& course, const Sample& sample, const Watch& watch);
+/// not changed by it. Where the leading mesh left its branch before the place that is told of the
+/// event, the state stays on the branch up to that place, if the finest mesh is stable there.
+/// Outcomes as of a path.
+Stood stand_at(Course& course, const Sample& sample, const Watch& watch);
 
 /// Says where a path parameter lies, in the experiment's own words: "at progress 0.4312", with its
 /// error where it is known.

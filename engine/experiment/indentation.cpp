@@ -277,7 +277,7 @@ Result<Course> run_indentation(std::shared_ptr<const Scene> scene,
     // the state in which the rods came to their length
     kept->course.session.restore(end);
     sample.t = end.state.t;
-    if (auto last = sampler.stand(sample, "locking"); !last)
+    if (auto last = sampler.stand(sample, "locking", sample.t); !last)
       return tl::unexpected<Error>(last.error());
     break;
   }

@@ -29,7 +29,7 @@ std::mt19937 generator(int seed, Purpose purpose, int k) {
 
 double share(std::mt19937& random) { return 0.5 * (1 + even(random)); }
 
-/// A direction, all alike.
+/// A random direction, each equally likely.
 Eigen::Vector3d direction(std::mt19937& random) {
   const double z = even(random), angle = M_PI * even(random), r = std::sqrt(1 - z * z);
   return {r * std::cos(angle), r * std::sin(angle), z};
@@ -58,7 +58,7 @@ Result<std::vector<PartlyActuated>> forms_to_shake(const std::shared_ptr<const S
   std::vector<PartlyActuated> forms;
   Result<void> last;
   for (const double level : levels_of(jitter)) {
-    forms.push_back({std::sqrt(level), {}});
+    forms.push_back({parameter_at(level), {}});
     if (jitter.mode == JitterMode::random) continue;
     auto course = follow_actuation(scene, judged_plan, level < 1, level, watch);
     if (watch.cancelled()) return stopped();
@@ -191,7 +191,7 @@ Result<State> Jitter::let_out(const State& from, double to, const Watch& watch) 
   if (session_.begin_at(1, from, watch).end != Outcome::reached)
     return watch.cancelled() ? Result<State>(stopped())
                              : Result<State>(no_rest("its rest is not certified"));
-  if (auto out = go(std::sqrt(to), watch); !out) return out;
+  if (auto out = go(parameter_at(to), watch); !out) return out;
   return go(1, watch);
 }
 

@@ -23,19 +23,19 @@ class Sampler {
   Sampler(Course& course, Caption caption, record::Sink& sink, Watch& watch, std::size_t count)
       : course_(course), caption_(std::move(caption)), sink_(sink), watch_(watch), count_(count) {}
 
-  /// One sample; false where it could not be certified, which is then the course's limit, or lies
-  /// in a jump that is its limit already, whose reason then tells it. Errors: cancelled, the
-  /// sink's.
+  /// One sample. False: it is not certified, which becomes the course's limit; within a jump that
+  /// already is the limit, the limit's reason says it. Errors: cancelled, the sink's.
   Result<bool> at(const Sample& sample);
-  /// The state that the session stands in as a frame, with an event of its own.
-  Result<void> stand(const Sample& sample, const std::string& event);
+  /// The state that the session stands in as a frame, with an event of its own; `past`: as of
+  /// Stood.
+  Result<void> stand(const Sample& sample, const std::string& event, double past);
   /// What happened to the leg since the sample before, in words; empty: nothing.
-  std::string events(const Sample& sample) const;
+  std::string events(const Sample& sample, double past) const;
   /// A frame made elsewhere.
   Result<void> take(record::Frame frame, const Sample& sample);
 
  private:
-  Result<void> motions(const Sample& sample);
+  Result<void> motions(const Sample& sample, double past);
 
   Course& course_;
   Caption caption_;
@@ -43,6 +43,7 @@ class Sampler {
   Watch& watch_;
   std::size_t count_, next_snap_ = 0;
   std::optional<Sample> last_;
+  double last_past_ = 0;  ///< of the last sample, as of Stood
   int taken_ = 0;
 };
 

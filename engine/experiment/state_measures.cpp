@@ -180,8 +180,7 @@ std::optional<Measured> StateMeasures::of(const State& found, bool life, const W
   row.group = name_of_group(group_of(fine_, nodes.leftCols(joints), tolerance_mm_));
   row.kind = class_of(row.group, std::ranges::all_of(modes, [](int n) { return n == 0; }));
   row.inflections = modes_told(modes, scene_->footprint);
-  row.energy_bend_mJ = one.frame.energies[Term::bend];
-  row.energy_stretch_mJ = one.frame.energies[Term::stretch];
+  row.energies = one.frame.energies;
   row.height_mm = one.frame.height_mm;
   const double plane = scene_->flat.origin.z();
   row.z_max_mm = one.frame.nodes.row(2).maxCoeff() - plane;

@@ -20,7 +20,7 @@ struct ShellState {
   double energy_mJ = 0;  ///< there
 };
 
-/// What a search found, in the order of elastic energy.
+/// What a search found, in the order of energy.
 struct StateLibrary {
   std::vector<ShellState> states;
   record::StateSearch search;

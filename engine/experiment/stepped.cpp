@@ -75,7 +75,7 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
     Done done{.before = boundary, .after = {}, .taken = {}, .way_end = {}, .end = {}};
     grips.note(session);
     const Deed deed = steps[k].deed;
-    const double to = deed == Deed::move ? std::sqrt(progress_of(steps[k], *scene)) : 1;
+    const double to = deed == Deed::move ? parameter_at(progress_of(steps[k], *scene)) : 1;
     Leg& leg = work.course.legs.emplace_back(Leg{0, to, {}, {}});
     Way way;
     auto report = take_step(session, boundary, steps[k], watch, &way);
@@ -112,7 +112,7 @@ class Show {
     if (auto stood = stand(work_.begin); !stood) return stood;
     boundary_ = {1, 1};
     // of no step
-    if (auto first = sampler_->stand({0, steps_.size(), 1, 0}, ""); !first) return first;
+    if (auto first = sampler_->stand({0, steps_.size(), 1, 0}, "", 1); !first) return first;
     shown_ = true;
     for (step_ = 0; step_ < work_.done.size(); ++step_)
       if (auto shown = one(); !shown) return shown;
@@ -147,28 +147,28 @@ class Show {
     for (int k = 1; k < share; ++k) {
       const double part = double(k) / share;
       const bool moves = steps_[step_].deed == Deed::move;
-      const double t = moves ? std::sqrt(boundary_[0] + part * (boundary_[1] - boundary_[0]))
+      const double t = moves ? parameter_at(boundary_[0] + part * (boundary_[1] - boundary_[0]))
                              : leg.from + part * (leg.end() - leg.from);
       if (auto taken = between(done, sample(t)); !taken) return taken;
     }
     if (auto stood = stand(done.end); !stood) return stood;
     const Sample last = sample(leg.end());
-    return sampler_->stand(last, event(last));
+    return sampler_->stand(last, event(last), last.t);
   }
 
   /// A sample of the way, on the meshes of its end; what has no state on them is left out.
   Result<void> between(const Done& done, const Sample& sample) {
     Session& session = work_.course.session;
     session.restore(done.way_end);
-    const Report stood = stand_at(work_.course, sample, watch_);
+    const Stood stood = stand_at(work_.course, sample, watch_);
     if (watch_.cancelled()) return stopped();
-    if (stood.end != Outcome::reached) return {};
+    if (stood.report.end != Outcome::reached) return {};
     if (session.shell().plan().edges_per_segment != meshes_.edges_per_segment) {
       const auto fine = session.remesh(meshes_, watch_);
       if (watch_.cancelled()) return stopped();
       if (!fine || fine->end != Outcome::reached) return {};
     }
-    return sampler_->stand(sample, sampler_->events(sample));
+    return sampler_->stand(sample, sampler_->events(sample, stood.past), stood.past);
   }
 
   Sample sample(double t) {
@@ -180,7 +180,7 @@ class Show {
   std::string event(const Sample& sample) const {
     const Leg& leg = work_.course.legs[step_];
     if (leg.report.end == Outcome::locked) return "locking";
-    if (has_way(steps_, step_)) return sampler_->events(sample);
+    if (has_way(steps_, step_)) return sampler_->events(sample, sample.t);
     return text_of(steps_[step_]) + (snapped(leg) ? ": snap to another state" : "");
   }
 
@@ -193,7 +193,7 @@ class Show {
   void put_boundary(record::Frame& frame, double t) const {
     const bool on_way = step_ < steps_.size() && steps_[step_].deed == Deed::move &&
                         has_way(steps_, step_) && boundary_[0] != boundary_[1];
-    frame.actuation = on_way ? t * t : boundary_[1];
+    frame.actuation = on_way ? progress_at(t) : boundary_[1];
     frame.boundary_radius_mm = work_.course.session.scene().radius_at(frame.actuation);
   }
 

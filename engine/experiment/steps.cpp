@@ -230,9 +230,7 @@ Result<int> joint_of(const preset::Step& step, const Footprint& footprint) {
 }
 
 double progress_of(const preset::Step& step, const Scene& scene) {
-  if (step.radius_mm == 0) return step.progress;
-  const double from = scene.radius_begin_mm, to = scene.radius_end_mm;
-  return from == to ? 1 : (from - step.radius_mm) / (from - to);
+  return step.radius_mm == 0 ? step.progress : scene.progress_of_radius(step.radius_mm);
 }
 
 Result<Report> take_step(Session& session, HandBoundary& boundary, const preset::Step& step,

@@ -15,7 +15,7 @@ using Places = Assemblage::Places;
 using Placed = Assemblage::Placed;
 
 std::string name_of(const Places& places, const BlockSide& side) {
-  return places[side.block].block.name + "." + gridshell::name_of(side.side);
+  return fmt::format("{}.{}", places[side.block].block.name, word_of(side.side));
 }
 
 std::string name_of(const Places& places, const Join& join) {
@@ -190,11 +190,6 @@ Result<void> check_apart(const Places& places) {
 }
 
 }  // namespace
-
-const char* name_of(Side side) {
-  constexpr std::array<const char*, 4> names{"east", "west", "north", "south"};
-  return names[std::size_t(side)];
-}
 
 double Seam::max_gap_mm() const {
   double largest = 0;

@@ -12,7 +12,15 @@ namespace gridshell {
 enum class Family { u, v, other };
 /// "u", "v", or "rod ".
 inline const char* name_of(Family family) {
-  return family == Family::u ? "u" : family == Family::v ? "v" : "rod ";
+  switch (family) {
+    case Family::u:
+      return "u";
+    case Family::v:
+      return "v";
+    case Family::other:
+      break;
+  }
+  return "rod ";
 }
 
 /// A piece of a grid line that lies inside the boundary: along the line, begin < end, mm.

@@ -57,7 +57,7 @@ class Cap final : public Domain {
   double height_, reach_;
 };
 
-/// first <= a.(u,v) <= last for two orthogonal directions a
+/// A rectangle: first <= n.(u, v) <= last for two orthogonal normals n.
 class Rectangle final : public Domain {
  public:
   struct Side {

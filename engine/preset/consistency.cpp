@@ -14,10 +14,21 @@ namespace {
 constexpr const char* spacing = "[footprint] spacing_mm";
 constexpr int least_leader = 4;
 
+/// Whether a net ends in two rings.
 bool has_rings(const Preset& preset) {
-  const NetKind kind = preset.net.kind;
-  return preset.footprint.kind == FootprintKind::net && kind != NetKind::sphere &&
-         kind != NetKind::translation && kind != NetKind::surface;
+  if (preset.footprint.kind != FootprintKind::net) return false;
+  switch (preset.net.kind) {
+    case NetKind::sphere:
+    case NetKind::translation:
+    case NetKind::surface:
+      return false;
+    case NetKind::cylinder:
+    case NetKind::spool:
+    case NetKind::beltrami:
+    case NetKind::profile:
+      break;
+  }
+  return true;
 }
 
 /// Of a circle: from R_o to R_a its boundary shrinks, through the radii of its stills.

@@ -20,12 +20,15 @@ enum class Form { text, little, big };
 enum class Number { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 std::optional<Number> number_type(std::string_view word) {
-  constexpr std::string_view names[][2] = {
-      {"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},   {"ushort", "uint16"},
-      {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}};
-  for (std::size_t k = 0; k < std::size(names); ++k)
-    if (word == names[k][0] || word == names[k][1]) return Number(k);
-  return std::nullopt;
+  static const std::map<std::string_view, Number> types{
+      {"char", Number::int8},      {"int8", Number::int8},       {"uchar", Number::uint8},
+      {"uint8", Number::uint8},    {"short", Number::int16},     {"int16", Number::int16},
+      {"ushort", Number::uint16},  {"uint16", Number::uint16},   {"int", Number::int32},
+      {"int32", Number::int32},    {"uint", Number::uint32},     {"uint32", Number::uint32},
+      {"float", Number::float32},  {"float32", Number::float32}, {"double", Number::float64},
+      {"float64", Number::float64}};
+  const auto found = types.find(word);
+  return found == types.end() ? std::nullopt : std::optional(found->second);
 }
 
 struct Property {

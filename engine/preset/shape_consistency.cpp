@@ -12,10 +12,22 @@ namespace {
 
 const std::vector<std::string> side_names{"east", "west", "north", "south"};
 
+bool given_by_points(CurveKind kind) {
+  switch (kind) {
+    case CurveKind::polygon:
+    case CurveKind::spline:
+      return true;
+    case CurveKind::circle:
+    case CurveKind::ellipse:
+    case CurveKind::superellipse:
+      break;
+  }
+  return false;
+}
+
 /// Where a curve is given by points it needs some.
 void check_curve(const std::string& table, const Curve& curve, std::vector<Conflict>& found) {
-  const bool by_points = curve.kind == CurveKind::polygon || curve.kind == CurveKind::spline;
-  if (by_points && curve.points.size() < 3)
+  if (given_by_points(curve.kind) && curve.points.size() < 3)
     found.push_back({table,
                      "points_mm",
                      {fmt::format("[{}] boundary", table)},

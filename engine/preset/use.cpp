@@ -264,6 +264,17 @@ class Idle {
   }
 
   void motion() {
+    // where the path begins
+    if (preset_.on_net() && preset_.actuation.start == Start::net)
+      for (const char* key : {"seed", "seed_diagonal"})
+        add("actuation", key, {"[actuation] start"},
+            "only a path from the flat buckles: [actuation] start is \"net\"");
+    if (preset_.accuracy.model == Rung::net) {
+      const std::string why = "nothing is solved with [accuracy] model = \"net\"";
+      for (const char* table : {"imperfection", "dynamics", "limits"})
+        add_all(table, {"[accuracy] model"}, why);
+      add("accuracy", "memory_GB", {"[accuracy] model"}, why);
+    }
     if (preset_.inverse.vary.empty())
       for (const char* key : {"target", "norm", "move_limit_mm", "round_mm", "min_stability",
                               "max_leg_force_N", "mu"})
@@ -305,6 +316,8 @@ class Idle {
   }
 
   void pictures() {
+    if (!preset_.movie.bins)
+      add("movie", "bins_range", {"[movie] bins"}, "no bins are drawn: [movie] bins is false");
     if (preset_.movie.view != View::free)
       for (const char* key : {"azimuth_deg", "elevation_deg"})
         add("movie", key, {"[movie] view"}, "[movie] view takes its place");

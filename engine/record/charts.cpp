@@ -7,28 +7,6 @@
 
 namespace gridshell::record {
 
-const char* name_of(RunOutcome outcome) {
-  switch (outcome) {
-    case RunOutcome::right:
-      return "right";
-    case RunOutcome::refused:
-      return "refused";
-    case RunOutcome::not_converged:
-      return "not_converged";
-    case RunOutcome::blow_up:
-      return "blow_up";
-    case RunOutcome::too_slow:
-      return "too_slow";
-    case RunOutcome::planar_saddle:
-      return "planar_saddle";
-    case RunOutcome::other_state:
-      return "other_state";
-    case RunOutcome::silent_wrong:
-      break;
-  }
-  return "silent_wrong";
-}
-
 bool silently_wrong(RunOutcome outcome) {
   return outcome == RunOutcome::planar_saddle || outcome == RunOutcome::other_state ||
          outcome == RunOutcome::silent_wrong;
@@ -40,7 +18,7 @@ std::string accuracy_csv(const std::vector<AccuracyRow>& rows) {
            "outcome");
   for (const AccuracyRow& row : rows)
     csv.line(row.method, row.edges_per_segment, row.dof, row.error, row.cpu_s, row.cpu_min_s,
-             row.cpu_max_s, name_of(row.outcome));
+             row.cpu_max_s, word_of(row.outcome));
   return std::move(csv).text();
 }
 
@@ -50,7 +28,7 @@ std::string scaling_csv(const std::vector<ScalingRow>& rows) {
            "outcome");
   for (const ScalingRow& row : rows)
     csv.line(row.method, row.rods, row.edges_per_segment, row.dof, row.cpu_s, row.cpu_min_s,
-             row.cpu_max_s, name_of(row.outcome));
+             row.cpu_max_s, word_of(row.outcome));
   return std::move(csv).text();
 }
 
@@ -58,7 +36,7 @@ std::string stability_csv(const std::vector<StabilityRow>& rows) {
   Csv csv;
   csv.line("map", "method", "x_name", "x", "y_name", "y", "outcome");
   for (const StabilityRow& row : rows)
-    csv.line(row.map, row.method, row.x_name, row.x, row.y_name, row.y, name_of(row.outcome));
+    csv.line(row.map, row.method, row.x_name, row.x, row.y_name, row.y, word_of(row.outcome));
   return std::move(csv).text();
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/words.h"
 #include "engine/record/snapshot.h"
 
 namespace gridshell::record {
@@ -22,8 +23,16 @@ enum class RunOutcome {
   silent_wrong,   ///< neither: off by more than ten times the tolerance, or with negative pivots
 };
 
-/// "right", "refused", ... as in the files.
-const char* name_of(RunOutcome outcome);
+constexpr auto words(RunOutcome) {
+  return word_table<RunOutcome>({{RunOutcome::right, "right"},
+                                 {RunOutcome::refused, "refused"},
+                                 {RunOutcome::not_converged, "not_converged"},
+                                 {RunOutcome::blow_up, "blow_up"},
+                                 {RunOutcome::too_slow, "too_slow"},
+                                 {RunOutcome::planar_saddle, "planar_saddle"},
+                                 {RunOutcome::other_state, "other_state"},
+                                 {RunOutcome::silent_wrong, "silent_wrong"}});
+}
 
 /// Whether a user would have been told a wrong result.
 bool silently_wrong(RunOutcome outcome);

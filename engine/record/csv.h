@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 
 namespace gridshell::record {
 
@@ -17,7 +18,7 @@ class Csv {
     std::string& text = start();
     if (!std::isnan(value)) text += fmt::format("{}", value);
   }
-  void cell(const std::string& value) {
+  void cell(std::string_view value) {
     std::string& text = start();
     if (value.find_first_of(",\"\r\n") == std::string::npos) {
       text += value;

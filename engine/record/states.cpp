@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <type_traits>
 
@@ -20,8 +21,8 @@ void each_state_column(Row& row, const Visit& visit) {
   visit("state", row.state);
   visit("class", row.kind);
   visit("group", row.group);
-  visit("energy_bend_mJ", row.energy_bend_mJ);
-  visit("energy_stretch_mJ", row.energy_stretch_mJ);
+  for (const TermName& term : energy_terms)
+    visit(fmt::format("energy_{}_mJ", term.name).c_str(), row.energies[term.term]);
   visit("height_mm", row.height_mm);
   visit("z_max_mm", row.z_max_mm);
   visit("z_min_mm", row.z_min_mm);
@@ -176,13 +177,13 @@ Result<std::vector<Row>> read_csv(const std::filesystem::path& file, const Each&
   for (std::size_t k = 1; k < lines.size(); ++k) {
     const std::vector<std::string> cells = split(lines[k], ',');
     std::size_t column = 0;
-    const char* fault = cells.size() == columns ? nullptr : "number of cells";
+    std::string fault = cells.size() == columns ? "" : "number of cells";
     Row row;
     each(row, [&](const char* name, auto& value) {
       const int place = (*places)[column++];
-      if (!fault && !take(place < 0 ? "" : cells[std::size_t(place)], value)) fault = name;
+      if (fault.empty() && !take(place < 0 ? "" : cells[std::size_t(place)], value)) fault = name;
     });
-    if (fault)
+    if (!fault.empty())
       return fail(Fault::bad_input,
                   fmt::format("'{}' line {}: its {} cannot be read", file.string(), k + 1, fault));
     rows.push_back(std::move(row));
@@ -191,6 +192,13 @@ Result<std::vector<Row>> read_csv(const std::filesystem::path& file, const Each&
 }
 
 }  // namespace
+
+double StateRow::energy_mJ() const {
+  double sum = 0;
+  for (const TermName& term : energy_terms)
+    if (!std::isnan(energies[term.term])) sum += energies[term.term];
+  return sum;
+}
 
 std::vector<std::size_t> states_to_draw(const std::vector<StateRow>& rows, int most) {
   std::vector<std::size_t> order(rows.size()), chosen;

@@ -27,12 +27,12 @@ constexpr auto words(StateClass) {
 
 /// One state.
 struct StateRow {
-  int state = 0;  ///< from 1, in the order of elastic energy
+  int state = 0;  ///< from 1, in the order of energy
   StateClass kind = StateClass::other;
-  std::string group;                                 ///< of symmetries, by Schoenflies' name
-  double energy_bend_mJ = 0, energy_stretch_mJ = 0;  ///< extrapolated over two meshes
-  double height_mm = 0;                              ///< highest joint above the boundary's plane
-  double z_max_mm = 0, z_min_mm = 0;                 ///< highest and lowest point of a rod
+  std::string group;                      ///< of symmetries, by Schoenflies' name
+  Energies energies;                      ///< extrapolated over two meshes
+  double height_mm = 0;                   ///< highest joint above the boundary's plane
+  double z_max_mm = 0, z_min_mm = 0;      ///< highest and lowest point of a rod
   std::string inflections;                ///< of every rod, u rods first: "0 0 2 2 | 0 1 1 0"
   int count = 0;                          ///< trials that ended in it
   int count_confined = 0;                 ///< of those begun in symmetric forms
@@ -42,7 +42,8 @@ struct StateRow {
   double error_estimate_mm = unknown;     ///< of the joints
   double barrier_mJ = unknown;            ///< lowest known way out of it, above it
 
-  double energy_mJ() const { return energy_bend_mJ + energy_stretch_mJ; }
+  /// The potential; terms that the files of an earlier version do not tell count for nothing.
+  double energy_mJ() const;
 };
 
 /// How many states there are, from how often each was met.

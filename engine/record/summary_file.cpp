@@ -12,11 +12,6 @@
 namespace gridshell::record {
 namespace {
 
-constexpr std::array<const char*, 5> limit_names{"none", "locking", "snap", "branch_lost",
-                                                 "no_equilibrium"};
-
-constexpr std::array<const char*, 4> kind_names{"", "run", "figure", "movie"};
-
 /// visit(key, field) for every key of summary.json, in order
 template <class SummaryType, class Visit>
 void each_field(SummaryType& summary, Visit visit) {
@@ -60,32 +55,32 @@ template <class T>
 Json json_of(const T& value) {
   return value;
 }
-Json json_of(const Limit& limit) { return name_of(limit); }
-Json json_of(const Kind& kind) { return name_of(kind); }
+Json json_of(const Limit& limit) { return word_of(limit); }
+Json json_of(const Kind& kind) { return word_of(kind); }
 
 /// takes the value if it is of the right kind; `expected` then says which kind is
-bool take(const Json& json, std::string& value, const char*& expected) {
+bool take(const Json& json, std::string& value, std::string& expected) {
   expected = "a string";
   if (json.is_string()) value = json.get<std::string>();
   return json.is_string();
 }
-bool take(const Json& json, int& value, const char*& expected) {
+bool take(const Json& json, int& value, std::string& expected) {
   expected = "a whole number";
   const auto number = whole_number(json);
   value = number.value_or(value);
   return number.has_value();
 }
-bool take(const Json& json, bool& value, const char*& expected) {
+bool take(const Json& json, bool& value, std::string& expected) {
   expected = "true or false";
   if (json.is_boolean()) value = json.get<bool>();
   return json.is_boolean();
 }
-bool take(const Json& json, double& value, const char*& expected) {
+bool take(const Json& json, double& value, std::string& expected) {
   expected = "a number or null";
   value = json.is_number() ? json.get<double>() : unknown;
   return json.is_number() || json.is_null();
 }
-bool take(const Json& json, std::vector<std::string>& value, const char*& expected) {
+bool take(const Json& json, std::vector<std::string>& value, std::string& expected) {
   expected = "a list of strings";
   if (!json.is_array()) return false;
   for (const Json& item : json) {
@@ -94,22 +89,28 @@ bool take(const Json& json, std::vector<std::string>& value, const char*& expect
   }
   return true;
 }
-template <class Enum, class Names>
-bool take_word(const Json& json, Enum& value, const Names& names) {
-  for (std::size_t k = 0; k < names.size(); ++k)
-    if (json == names[k]) {
-      value = static_cast<Enum>(k);
-      return true;
-    }
-  return false;
+/// "one of "run", "figure", "movie""; a word that is empty is none to write.
+template <class Enum>
+std::string one_of() {
+  std::string text;
+  for (const auto& [value, word] : words(Enum{}))
+    if (!word.empty()) text += fmt::format("{} \"{}\"", text.empty() ? "one of" : ",", word);
+  return text;
 }
-bool take(const Json& json, Limit& value, const char*& expected) {
-  expected = "one of \"none\", \"locking\", \"snap\", \"branch_lost\", \"no_equilibrium\"";
-  return take_word(json, value, limit_names);
+template <class Enum>
+bool take_word(const Json& json, Enum& value) {
+  const auto found =
+      json.is_string() ? find_word<Enum>(json.get<std::string>()) : std::optional<Enum>();
+  value = found.value_or(value);
+  return found.has_value();
 }
-bool take(const Json& json, Kind& value, const char*& expected) {
-  expected = "one of \"run\", \"figure\", \"movie\"";
-  return take_word(json, value, kind_names);
+bool take(const Json& json, Limit& value, std::string& expected) {
+  expected = one_of<Limit>();
+  return take_word(json, value);
+}
+bool take(const Json& json, Kind& value, std::string& expected) {
+  expected = one_of<Kind>();
+  return take_word(json, value);
 }
 
 /// What a key comes to that an older version did not write.
@@ -124,10 +125,6 @@ bool always_written(const std::string& key) {
 }
 
 }  // namespace
-
-const char* name_of(Kind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
-
-const char* name_of(Limit limit) { return limit_names[static_cast<std::size_t>(limit)]; }
 
 std::string to_json(const Summary& summary) {
   Json json = Json::object();  // made by [] it would not survive a failed allocation
@@ -174,7 +171,7 @@ Result<Summary> read_summary(const std::filesystem::path& path) {
   }
   each_field(summary, [&](const char* key, auto& value) {
     if (!fault.empty()) return;
-    const char* expected = nullptr;
+    std::string expected;
     if (!json.contains(key) && always_written(key))
       fault = fmt::format("has no \"{}\"", key);
     else if (!json.contains(key))

@@ -30,22 +30,16 @@ Result<Block> block_of(const preset::Block& wanted, const preset::Footprint& foo
   block.pose.linear() = common_frame().axes * design->flat.axes.transpose() + up * up.transpose();
   block.pose.translation().z() = -design->flat.origin.z();
   block.spacing = footprint.spacing_mm;
-  block.placement =
-      footprint.placement == preset::Placement::half ? Placement::half : Placement::on_axis;
+  block.placement = same_word<Placement>(footprint.placement);
   block.cut = {wanted.east, wanted.west, wanted.north, wanted.south};
   return block;
 }
 
-Side side_of(const std::string& name) {
-  for (const Side side : {Side::east, Side::west, Side::north})
-    if (name == name_of(side)) return side;
-  return Side::south;
-}
-
 Result<BlockSide> block_side(const preset::Preset& preset, const std::string& name) {
   const auto side = preset::side_named(preset, name);
-  if (!side) return fail(Fault::bad_input, fmt::format("\"{}\" is no side of a block", name));
-  return BlockSide{side->block, side_of(side->side)};
+  const auto facing = side ? find_word<Side>(side->side) : std::nullopt;
+  if (!facing) return fail(Fault::bad_input, fmt::format("\"{}\" is no side of a block", name));
+  return BlockSide{side->block, *facing};
 }
 
 }  // namespace

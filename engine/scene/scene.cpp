@@ -17,11 +17,6 @@ namespace {
 
 constexpr int boundary_points = 256;
 
-Placement placement_of(const preset::Preset& preset) {
-  return preset.footprint.placement == preset::Placement::half ? Placement::half
-                                                               : Placement::on_axis;
-}
-
 /// (u, v) of the edge points: begin and end of rod r at columns 2r and 2r + 1.
 Eigen::Matrix2Xd edge_points(const Footprint& footprint) {
   Eigen::Matrix2Xd points(2, 2 * footprint.rods.size());
@@ -35,7 +30,8 @@ Eigen::Matrix2Xd edge_points(const Footprint& footprint) {
 
 Result<void> build_circle(const preset::Preset& preset, Scene& scene) {
   auto footprint = circular_footprint(preset.original_radius_mm(), preset.footprint.rods,
-                                      preset.footprint.spacing_mm, placement_of(preset));
+                                      preset.footprint.spacing_mm,
+                                      same_word<Placement>(preset.footprint.placement));
   if (!footprint) return tl::unexpected<Error>(footprint.error());
   scene.footprint = std::move(*footprint);
   scene.radius_begin_mm = scene.length_scale_mm = preset.original_radius_mm();
@@ -49,7 +45,8 @@ Result<void> build_circle(const preset::Preset& preset, Scene& scene) {
 }
 
 Result<void> cut_from(const Domain& domain, const preset::Preset& preset, Scene& scene) {
-  auto footprint = cut_footprint(domain, preset.footprint.spacing_mm, placement_of(preset));
+  auto footprint = cut_footprint(domain, preset.footprint.spacing_mm,
+                                 same_word<Placement>(preset.footprint.placement));
   if (!footprint) return tl::unexpected<Error>(footprint.error());
   scene.footprint = std::move(*footprint);
   return {};

@@ -60,6 +60,11 @@ struct Scene {
   double radius_at(double progress) const {
     return radius_begin_mm + progress * (radius_end_mm - radius_begin_mm);
   }
+  /// Where a circular boundary has a radius; 1 where it stays as it is.
+  double progress_of_radius(double radius_mm) const {
+    if (radius_begin_mm == radius_end_mm) return 1;
+    return (radius_begin_mm - radius_mm) / (radius_begin_mm - radius_end_mm);
+  }
 };
 
 /// Builds the scene of a preset. Errors: Fault::bad_input with the reason when the preset's values

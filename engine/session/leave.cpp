@@ -32,9 +32,9 @@ Departure departure_for(Event::Kind kind, const Scene& scene, const NestedShell&
   return departure;
 }
 
-/// The branch that lost its stability, a little beyond, where it goes on: a push off it stays on
-/// its side. From a state that is no equilibrium the first corrections take the push back, and
-/// which side it ends on is left to chance.
+/// The unstable equilibrium on the same branch, a little past the loss of stability. A push off it
+/// stays on its side; off a state that is no equilibrium the first corrections take the push back,
+/// and the side would be left to chance.
 std::optional<State> unstable_branch(Linearisation& system, State state, double farthest_mm,
                                      const Watch& watch) {
   NewtonOptions options;

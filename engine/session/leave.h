@@ -16,10 +16,10 @@ namespace gridshell {
 /// same on every mesh.
 Departure departure_of(const Scene& scene, const RodMesh& mesh, const Model& model);
 
-/// The last state of a path moved on with its boundary to `there`: by its velocity, with no more
-/// shift of the stiffness than keeps every node within `farthest_mm`; with what is prescribed alone
-/// where no shift does. A boundary that moves alone would strain the legs, to thousands of times
-/// the energy that is at stake, and the way down would be a release of that.
+/// The last state of a path, moved on with its boundary to `there` by the path's velocity. The
+/// stiffness is shifted by as little as keeps every node within `farthest_mm`; where no shift does,
+/// only what is prescribed moves. A boundary that moves alone would strain the legs, to thousands
+/// of times the energy that is at stake, and the way down would be a release of that.
 State carried(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
               double there, double farthest_mm, const Watch& watch);
 

@@ -128,12 +128,8 @@ Report Session::begin_at(double t, const State& coarse, const Watch& watch) {
   holds_.clear();
   shell_->actuate(t, {}, load_scale_);
   const NestedReport nested = shell_->start(t, coarse, watch);
-  if (nested.end == Outcome::reached) progress_ = t * t;
+  if (nested.end == Outcome::reached) progress_ = progress_at(t);
   return report(nested.end, nested.t, before, begin);
-}
-
-Report Session::begin_from(const Session& other, const Watch& watch) {
-  return begin_at(std::sqrt(other.progress_), shell_->from(*other.shell_), watch);
 }
 
 // ---- keep ----

@@ -48,9 +48,8 @@ class Session {
   Result<Report> begin_on_net(const Watch& watch);
   /// The rest that a network drawn in space comes to.
   Result<Report> begin_as_drawn(const Watch& watch);
-  /// A state of the coarsest mesh, or of another session of the same footprint, at rest or nearly.
+  /// A state of the coarsest mesh, at rest or nearly.
   Report begin_at(double t, const State& coarse, const Watch& watch);
-  Report begin_from(const Session& other, const Watch& watch);
 
   // ---- move ----
 

@@ -61,9 +61,9 @@ Report Session::drive(const Drive& drive, std::vector<NodeAction> coming, const 
 }
 
 Report Session::move_to(double progress, const Watch& watch, Trail* trail) {
-  const double t = std::sqrt(std::max(progress, 0.0));
+  const double t = parameter_at(progress);
   if (!actuating_) {
-    const double now = std::sqrt(progress_);
+    const double now = parameter_at(progress_);
     shell_->actuate(now, holds_, load_scale_);
     actuating_ = true;
     const NestedReport started = shell_->start(now, shell_->state().levels[0], watch);

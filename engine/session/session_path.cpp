@@ -35,7 +35,7 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
     if (outcome != Outcome::reached && outcome != Outcome::locked) shell_->back_to(shell_->state());
     Report done = report(outcome, shell_->state().t, before, begin);
     done.events = std::move(events);
-    if (actuating_) progress_ = done.t * done.t;
+    if (actuating_) progress_ = progress_at(done.t);
     return done;
   };
   const auto station = [&] {
@@ -97,7 +97,7 @@ Report Session::go(double t, const Watch& watch, const Leaving& leaving, Trail* 
     if (!leave(t, events.back(), trail, watch))
       return end(watch.cancelled() ? Outcome::cancelled : nested.end);
     if (locked()) {
-      // the rest beyond is none of rods as long as these
+      // the rest beyond would need longer rods
       shell_->back_to(good);
       events.back() = {Event::Kind::locked, shell_->state().t, {}, {}};
       return end(Outcome::locked);

@@ -47,7 +47,7 @@ double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t
       before = k;
     }
   }
-  // where no rod is held twice, by how much what is held comes together
+  // where no rod is held at two points: by how much all held points come together
   return lengths > 0 ? 1 - chords / lengths : 1 - spread(mesh, x) / spread(mesh, motion.at(0));
 }
 

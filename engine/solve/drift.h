@@ -1,5 +1,5 @@
-// Down the energy slowly, along its steepest slope: where that leads does not hang on the mesh, as
-// the end of long steps does.
+// Down the energy slowly, along its steepest slope. Where that ends does not depend on the mesh;
+// where long steps end does.
 #pragma once
 
 #include "engine/core/watch.h"

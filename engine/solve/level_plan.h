@@ -18,8 +18,8 @@ struct LevelPlan {
 /// is what to try then. `leader`: edges a segment of the coarsest mesh.
 LevelPlan plan_levels(double tolerance, int leader = 4);
 
-/// The meshes that nest in one of `edges` a segment, down to four edges, itself the last: alone,
-/// its error is not known.
+/// The meshes that nest in one of `edges` a segment, from four edges up, itself the last. Where
+/// none nests in it there is one mesh, and no estimate of its error.
 LevelPlan plan_of_mesh(int edges);
 
 /// What a plan leaves of the largest joint error, over the length scale, as a rule: for plans
@@ -30,9 +30,9 @@ double expected_error(const LevelPlan& plan);
 /// edges.
 std::optional<LevelPlan> finer(const LevelPlan& plan);
 
-/// The plan whose leading mesh has twice the edges: what a coarse leader alone sees is not found on
-/// it. Where its finest mesh would pass 128 edges, the same plan without its leader; empty where
-/// too few meshes are left for an estimate.
+/// The plan whose leading mesh has twice the edges: events that only a coarse mesh has do not
+/// happen on it. Where its finest mesh would pass 128 edges, the same plan without its leader;
+/// empty where too few meshes are left for an estimate.
 std::optional<LevelPlan> with_finer_leader(const LevelPlan& plan);
 
 }  // namespace gridshell

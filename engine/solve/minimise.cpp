@@ -66,7 +66,8 @@ class Descent {
     return shifted(1e-6);
   }
 
-  /// What served last comes first, a little nearer to the form; after failures that waits a while.
+  /// Tries a little less shift or weakening than served last; after a failure it keeps to that for
+  /// some steps.
   Inertia from_what_served(double last_move_mm) {
     const double served = weakening_;
     if (shift_ > 0)
@@ -88,7 +89,7 @@ class Descent {
     return shifted(least_shift);
   }
 
-  /// With the least shift, fourfold from the last one on, that serves.
+  /// Multiplies the last shift by four until the matrix is positive definite.
   Inertia shifted(double least) {
     Inertia inertia;
     do {

@@ -1,6 +1,9 @@
 // How what is prescribed moves along a path: pinned nodes, held joints, loads.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/footprint/boundary_motion.h"
 #include "engine/footprint/mesh.h"
 #include "engine/solve/linearisation.h"
@@ -13,6 +16,10 @@ enum class Pace {
            ///< boundary came, so positions are smooth in t = sqrt(progress) down to the flat
   even     ///< t
 };
+
+/// The progress of an actuation at its path parameter, and the other way.
+inline double progress_at(double t) { return t * t; }
+inline double parameter_at(double progress) { return std::sqrt(std::max(progress, 0.0)); }
 
 /// A factor that grows with the motion.
 struct Growth {
@@ -46,7 +53,7 @@ struct PinnedMotion {
   Growth field{0, 0};
   std::vector<Turn> turns = {};  ///< these nodes do not move straight
 
-  double come(double t) const { return pace == Pace::square ? t * t : t; }
+  double come(double t) const { return pace == Pace::square ? progress_at(t) : t; }
   double speed(double t) const { return pace == Pace::square ? 2 * t : 1.0; }
   Eigen::Matrix3Xd at(double t) const;
   Eigen::Matrix3Xd rate(double t) const;  ///< by t

@@ -54,12 +54,6 @@ Assembly NestedShell::forces(int level) const {
   return at;
 }
 
-State NestedShell::from(const NestedShell& other) const {
-  const Level& theirs = *other.levels_.back();
-  return StateTransfer(theirs.mesh, theirs.model, levels_[0]->mesh, levels_[0]->model)
-      .carry(other.state_.levels.back());
-}
-
 State NestedShell::stay(const NestedShell& other, const std::vector<Hold>& holds) {
   const Level& theirs = *other.levels_.back();
   State first;

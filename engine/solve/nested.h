@@ -41,8 +41,8 @@ struct Added {
   }
 };
 
-/// A point of the path of the coarsest mesh, and what each finer one adds there beside a quarter of
-/// what the one before it adds.
+/// A point of the path of the coarsest mesh, and for each finer mesh by how much what it adds
+/// differs from a quarter of what the mesh before it adds.
 struct NestedPoint : PathPoint {
   std::vector<Added> beyond = {};  ///< coarse to fine; empty: not known
 };
@@ -123,8 +123,6 @@ class NestedShell {
   Assembly forces(int level) const;
   /// Largest prescribed move, mm, while the motion comes all the way.
   double reach_mm() const { return largest_column(levels_[0]->motion.change); }
-  /// A state of another shell of the same footprint on the coarsest mesh of this one.
-  State from(const NestedShell& other) const;
   Effort effort() const;
   /// Whether the path may go on through states with negative pivots (they stay in the report).
   void allow_unstable(bool allow) { options_.allow_unstable = allow; }

@@ -18,8 +18,8 @@ namespace {
 // asymptotic range
 constexpr double margin = 1.25, margin_extrapolated = 2.2;
 
-// of the weights by which what finer meshes added goes on: three states and a step as long as those
-// between them have 7 in all, two states and three such steps too
+// largest sum of the weights of an extrapolation, by size: three states one step apart, gone on by
+// one step, have 7, and so have two states gone on by three steps
 constexpr double most_weight = 8;
 
 /// What extrapolation at second order leaves where three meshes show another: with steps between
@@ -106,9 +106,9 @@ State NestedShell::guess(const Level& level, double t, const State& base, Added 
   return state;
 }
 
-/// A level's state beside that of the coarser one: from what is remembered, without it, and down
-/// the energy from there, as long as that stays nearby; on only where the one before found none, or
-/// none that is preferred.
+/// A level's state beside that of the coarser one. Up to three tries: Newton from the guess, Newton
+/// from the coarser state, and down the energy from there; the first counts that finds a state
+/// nearby, of the kind that is preferred if there is one.
 std::optional<NestedShell::Refined> NestedShell::refine(std::size_t k, double t,
                                                         const Refined& coarser, Prefer prefer,
                                                         const Watch& watch) {

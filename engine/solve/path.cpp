@@ -81,6 +81,9 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
 PathReport PathFollower::advance(double t, const Watch& watch) {
   PathReport report;
   report.t = now_.t;
+  const PathPoint from = now_;
+  // every point is brought to the tolerance, not the last one alone
+  bool exact = false;
   while (now_.t != t) {
     if (watch.cancelled()) {
       report.end = Outcome::cancelled;
@@ -91,7 +94,7 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     double h = std::min({step_, options_.largest_step, std::abs(left)});
     if (h < std::abs(left) && 2 * h > std::abs(left)) h = std::abs(left) / 2;
     const double target = h == std::abs(left) ? t : now_.t + std::copysign(h, left);
-    const Outcome outcome = step(target, target == t, report.last, watch);
+    const Outcome outcome = step(target, exact || target == t, report.last, watch);
     ++report.steps;
     if (outcome == Outcome::reached) {
       report.t = now_.t;
@@ -104,6 +107,13 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     ++report.halvings;
     step_ = h / 2;
     if (step_ >= options_.smallest_step) continue;
+    // with one correction a point next to the path's end may lie beyond it
+    if (!exact) {
+      exact = true;
+      resume(from);
+      step_ = first_step;
+      continue;
+    }
     report.end = outcome;
     return report;
   }

@@ -14,9 +14,9 @@ Arrival by_default(Subject& study, LevelPlan plan, double tolerance, int stops,
   for (;;) {
     NestedShell shell = study.shell(plan, tolerance > 0 ? tolerance : 1e-3);
     NestedReport report = study.begin(shell, watch);
-    const double from = report.t * report.t;
+    const double from = progress_at(report.t);
     for (int k = 1; k <= stops && report.end == Outcome::reached; ++k)
-      report = shell.advance(k == stops ? 1 : std::sqrt(from + (1 - from) * k / stops), watch);
+      report = shell.advance(k == stops ? 1 : parameter_at(from + (1 - from) * k / stops), watch);
     Arrival arrival;
     arrival.edges = plan.edges_per_segment.back();
     arrival.whole_mesh = !plan.extrapolate;

@@ -57,7 +57,7 @@ Arrival follow(Subject& study, const LevelPlan& plan, double tolerance, Stopwatc
 double load_parameter(const Problem& problem, int k, int steps) {
   const double from = problem.motion.come(problem.t);
   const double come = k == steps ? 1 : from + (1 - from) * k / steps;
-  return problem.motion.pace == Pace::square ? std::sqrt(come) : come;
+  return problem.motion.pace == Pace::square ? parameter_at(come) : come;
 }
 
 Method net_method() {

@@ -204,7 +204,7 @@ std::string failures_of(const std::vector<AccuracyRow>& rows) {
     // a net rung where there is no net is no failure
     if (row.edges_per_segment == 0 && row.outcome == RunOutcome::refused) continue;
     text += fmt::format("{}{} at {} ({})", text.empty() ? "" : "; ", row.method,
-                        row.edges_per_segment, record::name_of(row.outcome));
+                        row.edges_per_segment, word_of(row.outcome));
   }
   return text;
 }

@@ -29,7 +29,7 @@ void add_flank(Series& curve, double from_x, double from, double to_x, double to
 Plot barrier_plot(const record::StateTables& states) {
   Plot plot;
   plot.title = "Barriers between states";
-  plot.y = {.label = "elastic energy (mJ)"};
+  plot.y = {.label = "energy (mJ)"};
   plot.legend = LegendPlace::none;
   std::map<int, double> energy;  // of the states, on the mesh of the passes
   for (const record::Barrier& one : states.barriers)

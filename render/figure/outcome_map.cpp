@@ -23,11 +23,6 @@ constexpr double head_room = 12, foot_room = 24, map_room = 15, heading_gap = 30
                  legend_room = 34;
 constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
 
-constexpr RunOutcome outcomes[] = {RunOutcome::right,         RunOutcome::refused,
-                                   RunOutcome::not_converged, RunOutcome::blow_up,
-                                   RunOutcome::too_slow,      RunOutcome::planar_saddle,
-                                   RunOutcome::other_state,   RunOutcome::silent_wrong};
-
 /// 0.95, 30, 10^{−6}
 std::string number(double value) {
   if (value != 0 && (std::abs(value) < 1e-2 || std::abs(value) >= 1e4)) {
@@ -150,8 +145,9 @@ void draw_panel(Canvas& canvas, const Panel& panel, Point at) {
 void draw_legend(Canvas& canvas, Point at, double width) {
   // what a user would notice above, what not below
   Patches patches{.row_width = width, .row_height = 15, .font_size = size};
-  patches.draw = [&](std::size_t k, const Box& box) { draw_cell(canvas, box, outcomes[k]); };
-  for (const RunOutcome outcome : outcomes) patches.names.push_back(outcome_label(outcome));
+  patches.draw = [&](std::size_t k, const Box& box) { draw_cell(canvas, box, RunOutcome(k)); };
+  for (const auto& [outcome, word] : words(RunOutcome{}))
+    patches.names.push_back(outcome_label(outcome));
   draw_patches(canvas, {at.x, at.y, 18, 10}, patches);
 }
 
@@ -180,7 +176,7 @@ Colour outcome_colour(RunOutcome outcome) {
 }
 
 std::string outcome_label(RunOutcome outcome) {
-  const std::string name = spaced(record::name_of(outcome));
+  const std::string name = spaced(std::string(word_of(outcome)));
   return record::silently_wrong(outcome) && outcome != RunOutcome::silent_wrong ? "silent: " + name
                                                                                 : name;
 }

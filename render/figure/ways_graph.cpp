@@ -112,7 +112,7 @@ class WaysGraph {
     plot.font_size = font;
     plot.legend = LegendPlace::none;
     plot.x = {.label = "height (mm)"};
-    plot.y = {.label = "elastic energy (mJ)"};
+    plot.y = {.label = "energy (mJ)"};
     Series all;
     for (const Node& node : nodes_) {
       all.x.push_back(node.row->height_mm);

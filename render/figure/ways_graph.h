@@ -10,7 +10,7 @@
 
 namespace gridshell::render {
 
-/// States at their height and elastic energy, moved apart where they would hide one another, the
+/// States at their height and energy, moved apart where they would hide one another, the
 /// ones that were disturbed with their number and below the axes as small shells from above. Arrows
 /// lead to where they went, blue where the boundary was let out and drawn in again, orange where
 /// joints were poked, with how often. What came back to where it was stands beside its shell, and

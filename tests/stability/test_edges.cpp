@@ -31,7 +31,7 @@ std::vector<record::StabilityRow> outcomes_of(Cells cells, double seconds = 10) 
   for (Cell& cell : cells) rows.push_back(cell.row);
   for (const auto& row : rows)
     UNSCOPED_INFO(row.map << " " << row.method << " " << row.x_name << " " << row.x << " "
-                          << row.y_name << " " << row.y << " " << record::name_of(row.outcome));
+                          << row.y_name << " " << row.y << " " << word_of(row.outcome));
   return rows;
 }
 

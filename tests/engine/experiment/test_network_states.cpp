@@ -31,13 +31,14 @@ experiment::StateLibrary states_of(const preset::Preset& preset) {
 
 void check(const experiment::StateLibrary& library, int trials) {
   int met = 0;
-  double before = 0;
+  double before = -1e300;
   for (const auto& state : library.states) {
     CAPTURE(state.row.state, state.row.group);
     CHECK(state.frame.negative_pivots == 0);
     CHECK(state.frame.residual_N < 1e-6);
     CHECK(state.row.energy_mJ() >= before);
     before = state.row.energy_mJ();
+    CHECK(before == state.frame.energies.total());
     met += state.row.count;
   }
   // no trial is lost: each met a state, or says why it met none

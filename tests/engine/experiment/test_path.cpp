@@ -270,6 +270,31 @@ TEST_CASE("a saddle from flat loses its branch where two leading meshes say") {
   CHECK(bend(confirmed) == Approx(bend(run(saddle(preset::Start::net, 2)))).epsilon(5e-3));
 }
 
+TEST_CASE("the frame after a jump is the one that tells it, and it jumps where that is told",
+          "[full]") {
+  // of two jumps the second is a turn of the path, which a leader of twice the edges sees later
+  preset::Preset p = ellipse(60);
+  p.accuracy.tolerance = 0.02;
+  const auto outcome = run(p);
+  const auto& frames = outcome.trajectory.frames;
+  int jumps = 0, told = 0;
+  for (std::size_t k = 10; k < frames.size(); ++k) {
+    CAPTURE(k, frames[k].progress, frames[k].event);
+    const auto rise = [&](std::size_t n) { return frames[n].height_mm - frames[n - 1].height_mm; };
+    const bool jumped = rise(k) - rise(k - 1) > 0.3;
+    const bool tells = frames[k].event.starts_with("snap at progress ");
+    CHECK(jumped == tells);
+    jumps += jumped;
+    told += tells;
+    if (!tells) continue;
+    const double place = std::stod(frames[k].event.substr(17));
+    CHECK(frames[k].progress > place - 0.015);
+    CHECK(frames[k - 1].progress < place + 0.015);
+  }
+  CHECK(jumps == 2);
+  CHECK(told == 2);
+}
+
 TEST_CASE("estimates hold where the meshes show another order than the second", "[full]") {
   preset::Preset p = circle(17, 162.305, 113.993);
   p.accuracy.tolerance = 1e-3;

@@ -104,7 +104,7 @@ TEST_CASE("a summary reads back as it was") {
     REQUIRE(write_summary(path, other));
     CHECK(read_summary(path)->limit == limit);
   }
-  CHECK(std::string(name_of(Limit::branch_lost)) == "branch_lost");
+  CHECK(std::string(word_of(Limit::branch_lost)) == "branch_lost");
 }
 
 TEST_CASE("a summary that is none is refused by its key") {

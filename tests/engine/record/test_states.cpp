@@ -16,7 +16,7 @@ record::StateTables sample() {
   row.state = 1;
   row.kind = record::StateClass::iv;
   row.group = "C4v";
-  row.energy_bend_mJ = 39.91;
+  row.energies[Term::bend] = 39.91;
   row.inflections = "2 3 2 | 2 3 2";
   row.count = 6;
   row.lives_to = 0.0325;

@@ -1,20 +1,33 @@
 // One shell held in one hand through everything that a hand does.
 #include "engine/session/session.h"
 
+#include <pthread.h>
+
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <thread>
+
+#include "engine/core/clock.h"
 
 using namespace gridshell;
 
 namespace {
 
-std::shared_ptr<const Scene> scene(double tolerance = 1e-3) {
+preset::Preset six_rods(double tolerance, preset::Rung model = preset::Rung::bend) {
   preset::Preset p;
+  p.accuracy.model = model;
+  if (model == preset::Rung::twist) p.rod.shear_GPa = 31;
   p.footprint.rods = 6;
   p.footprint.radius_mm = 20 * (2.5 + 0.8);
   p.actuation.radius_mm = 0.8 * p.footprint.radius_mm;
   p.rod.density_kg_m3 = 6450;
   p.accuracy.tolerance = tolerance;
-  return std::make_shared<const Scene>(scene_of(p).value());
+  return p;
+}
+
+std::shared_ptr<const Scene> scene(double tolerance = 1e-3,
+                                   preset::Rung model = preset::Rung::bend) {
+  return std::make_shared<const Scene>(scene_of(six_rods(tolerance, model)).value());
 }
 
 Session open(const std::shared_ptr<const Scene>& scene) {
@@ -47,10 +60,16 @@ BoundaryMotion ellipse(const Scene& scene) {
   return motion;
 }
 
+double shell_progress(const Scene& scene, double ratio) {
+  return scene.progress_of_radius(ratio * scene.radius_begin_mm);
+}
+
 }  // namespace
 
 TEST_CASE("a session goes through all that a hand does, and back by its checkpoints to the bit") {
-  const auto shell = scene();
+  const auto model = GENERATE(preset::Rung::bend, preset::Rung::twist);
+  CAPTURE(word_of(model));
+  const auto shell = scene(1e-3, model);
   Session session = open(shell);
   const Watch watch;
   std::vector<Checkpoint> kept;
@@ -141,8 +160,110 @@ TEST_CASE("a shell in motion comes to rest where the static solver finds it") {
   Session session = actuated(shell);
   const Watch watch;
   const Eigen::Matrix3Xd before = session.nodes();
+  certified(session, session.set_field({{3, {0, 0, -0.15}}}, watch));
+  CHECK(largest_column(session.nodes() - before) > 0.3);
+  // the weight is gone, and the shell not yet back
+  session.shell().set_fields({}, {});
   int seen = 0;
-  certified(session, session.rest_in_time(watch, [&](const MovingState&) { ++seen; }));
-  CHECK(seen > 0);
-  CHECK(largest_column(session.nodes() - before) < 1e-5);
+  double moved = 0;
+  certified(session, session.rest_in_time(watch, [&](const MovingState& now) {
+    ++seen;
+    moved = std::max(moved, largest_column(now.velocity));
+  }));
+  CHECK(seen > 10);
+  CHECK(moved > 1);
+  CHECK(largest_column(session.nodes() - before) < 1e-4);
+}
+
+TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and takes more load") {
+  preset::Preset p = six_rods(1e-3);
+  p.loads.gravity_m_s2 = 9.81;
+  const auto light = std::make_shared<const Scene>(scene_of(p).value());
+  p.loads.gravity_m_s2 *= 40;
+  const auto heavy = std::make_shared<const Scene>(scene_of(p).value());
+  const Watch watch;
+  Session session = open(light);
+  const Report flat = session.begin_flat();
+  CHECK(flat.end == Outcome::reached);
+  CHECK(session.nodes().row(2).cwiseAbs().maxCoeff() == 0);
+  CHECK(session.energies()[Term::bend] == Approx(0).margin(1e-9));
+
+  session = actuated(light);
+  const Eigen::Matrix3Xd plain = session.nodes();
+  certified(session, session.load(40, watch));
+  CHECK(largest_column(session.nodes() - plain) > 1e-2);
+  CHECK(largest_column(session.nodes() - actuated(heavy).nodes()) < 1e-3);
+  certified(session, session.load(1, watch));
+  CHECK(largest_column(session.nodes() - plain) < 1e-3);
+
+  // on other meshes the same shell
+  const double estimate = session.certificate().error_estimate_mm;
+  const auto finer = session.remesh({{8, 16, 32}, true}, watch);
+  REQUIRE(finer);
+  certified(session, *finer);
+  CHECK(session.shell().plan().edges_per_segment == std::vector<int>{8, 16, 32});
+  const Eigen::Index joints = session.shell().finest().joints;
+  CHECK(largest_column(session.nodes().leftCols(joints) - plain.leftCols(joints)) < 2 * estimate);
+
+  // a joint that is held stays while the boundary moves, and lets the shell back when it is let go
+  const Eigen::Vector3d place = session.nodes().col(5);
+  certified(session, session.push(5, {0, 0, 0}, Across::held, watch));
+  CHECK(session.force(0).norm() < 1e-5);
+  certified(session, session.move_to(shell_progress(*light, 0.805), watch));
+  CHECK((session.nodes().col(5) - place).norm() < 1e-6);
+  CHECK(session.force(0).norm() > 1e-4);
+  certified(session, session.release(5, watch));
+  certified(session, session.move_to(1, watch));
+  CHECK(largest_column(session.nodes().leftCols(joints) - plain.leftCols(joints)) < 2 * estimate);
+}
+
+TEST_CASE("a session of 24 rods answers a wish to stop within 0.2 s on both rungs", "[full]") {
+  const auto model = GENERATE(preset::Rung::bend, preset::Rung::twist);
+  preset::Preset p = six_rods(1e-3, model);
+  p.footprint.rods = 24;
+  p.footprint.radius_mm = 20 * (11.5 + 0.8);
+  p.actuation.radius_mm = 0.8 * p.footprint.radius_mm;
+  const auto shell = std::make_shared<const Scene>(scene_of(p).value());
+  Session session = open(shell);
+  const Watch patient;
+  REQUIRE(session.begin_buckled(0.02, patient).value().end == Outcome::reached);
+  const Checkpoint begun = session.save();
+  REQUIRE(session.move_to(0.3, patient).end == Outcome::reached);
+  const Checkpoint formed = session.save();
+  clockid_t clock{};
+  REQUIRE(pthread_getcpuclockid(pthread_self(), &clock) == 0);
+  int stopped = 0;
+  // what the processor works between the wish and the answer
+  const auto answers = [&](const char* what, const Checkpoint& from, const auto& act) {
+    for (const int wait_ms : {20, 150}) {
+      CAPTURE(word_of(model), what, wait_ms);
+      session.restore(from);
+      Watch watch;
+      double wished = 0;
+      std::thread other([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
+        wished = cpu_seconds_now(clock);
+        watch.cancel();
+      });
+      const Outcome end = act(watch);
+      const double answered = cpu_seconds_now();
+      other.join();
+      if (end != Outcome::cancelled) continue;
+      ++stopped;
+      CHECK(answered - wished < 0.2);
+    }
+  };
+  answers("actuate", begun, [&](const Watch& watch) { return session.move_to(1, watch).end; });
+  answers("push", formed, [&](const Watch& watch) {
+    return session.push(7, {0, 0, -8}, Across::free, watch).end;
+  });
+  answers("field", formed, [&](const Watch& watch) {
+    return session.set_field({{7, {0, 0, -5e-2}}}, watch).end;
+  });
+  answers("refine", formed, [&](const Watch& watch) { return session.refine(1e-6, watch).end; });
+  answers("move in time", formed, [&](const Watch& watch) {
+    session.shell().set_fields({{7, {0, 0, -5e-2}}}, {});
+    return session.rest_in_time(watch, [](const MovingState&) {}).end;
+  });
+  CHECK(stopped >= 5);
 }

@@ -53,7 +53,7 @@ TEST_CASE("every method comes to the same state of its mesh, the error falls wit
   REQUIRE(study);
   std::set<std::string> methods;
   for (const auto& row : study->rows) {
-    CAPTURE(row.method, row.edges_per_segment, row.error, record::name_of(row.outcome));
+    CAPTURE(row.method, row.edges_per_segment, row.error, word_of(row.outcome));
     methods.insert(row.method);
     CHECK_FALSE(record::silently_wrong(row.outcome));
     if (row.outcome == RunOutcome::right) {

@@ -33,7 +33,7 @@ record::StateTables tables() {
   for (int k = 0; k < 3; ++k) {
     record::StateRow row;
     row.state = k + 1;
-    row.energy_bend_mJ = 40;  // all in one place
+    row.energies[Term::bend] = 40;  // all in one place
     row.height_mm = 50;
     all.rows.push_back(row);
   }
