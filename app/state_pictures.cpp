@@ -66,7 +66,6 @@ render::Plot energies_plot(const record::StateTables& states) {
   plot.title = completeness_text(states);
   plot.x = {.label = "energy (mJ)"};
   plot.y = {.label = "times met", .logarithmic = true, .low = 0.5};
-  plot.legend = render::LegendPlace::upper_right;
   std::vector<StateRow> met;
   std::ranges::copy_if(states.rows, std::back_inserter(met),
                        [](const StateRow& row) { return row.count > 0; });

@@ -40,7 +40,7 @@ Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene) {
     return fail(Fault::bad_input,
                 "the footprint was not designed on a net, so there is no surface to meet: "
                 "[footprint] kind must be \"net\"");
-  if (scene.mechanics() != Rung::bend)
+  if (scene.mechanics() != Mechanics::bend)
     return fail(Fault::bad_input,
                 "only shells of the bend rung can be designed; this one needs more: " +
                     preset::model_reason(preset));

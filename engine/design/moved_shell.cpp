@@ -33,7 +33,7 @@ Result<std::unique_ptr<MovedShell>> MovedShell::make(const Scene& scene, int edg
                                                      const State& state, const Watch& watch) {
   std::unique_ptr<MovedShell> made(
       new MovedShell(scene, mesh_rods(scene.footprint, edges_per_segment)));
-  auto built = build_model(made->mesh_, scene.rods, Rung::bend);
+  auto built = build_model(made->mesh_, scene.rods, Mechanics::bend);
   if (!built) return tl::unexpected<Error>(built.error());
   made->model_ = std::move(*built);
   made->ends_ = ends_of(scene);

@@ -183,7 +183,8 @@ Result<void> check_motion(const Scene& scene) {
   if (scene.from_net || scene.drawn_in_space || scene.rung == preset::Rung::net) return {};
   MeshedShell flat;
   const int edges = first_plan(scene).edges_per_segment.front();
-  if (auto built = flat.build(scene.footprint, scene.rods, Rung::bend, scene.motion, edges); !built)
+  if (auto built = flat.build(scene.footprint, scene.rods, Mechanics::bend, scene.motion, edges);
+      !built)
     return built;
   return parameter_of_shortening(flat.mesh, flat.motion, flat_shortening).map([](double) {});
 }

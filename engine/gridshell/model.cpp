@@ -10,7 +10,7 @@
 namespace gridshell {
 namespace {
 
-Result<void> check(int index, int nodes, const ModelRod& rod, Rung rung) {
+Result<void> check(int index, int nodes, const ModelRod& rod, Mechanics rung) {
   const auto wrong = [&](const std::string& what) {
     return fail(Fault::bad_input, fmt::format("rod {}: {}", index, what));
   };
@@ -28,7 +28,7 @@ Result<void> check(int index, int nodes, const ModelRod& rod, Rung rung) {
   if (!(m.EA > 0)) return wrong(fmt::format("EA = {} N, must be above 0", m.EA));
   if (!(m.EI1 > 0 && m.EI2 > 0))
     return wrong(fmt::format("EI = {}, {} N mm^2, must be above 0", m.EI1, m.EI2));
-  if (rung == Rung::twist && !(m.GJ > 0))
+  if (rung == Mechanics::twist && !(m.GJ > 0))
     return wrong(fmt::format(
         "GJ = {} N mm^2, must be above 0: the twist rung needs the torsional stiffness", m.GJ));
   if (!m.curvature.allFinite() || !std::isfinite(m.twist))
@@ -41,7 +41,7 @@ Result<void> check(int index, int nodes, const ModelRod& rod, Rung rung) {
 /// Rods into a model, one after the other.
 class Builder {
  public:
-  Builder(int nodes, Rung rung) : twist_(rung == Rung::twist) { model_.nodes = nodes; }
+  Builder(int nodes, Mechanics rung) : twist_(rung == Mechanics::twist) { model_.nodes = nodes; }
 
   void add(const ModelRod& rod) {
     Model::Rod entry;
@@ -248,7 +248,7 @@ int Model::dof() const {
   return count;
 }
 
-Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, Rung rung,
+Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, Mechanics rung,
                           const std::vector<char>& crossings) {
   Builder builder(nodes, rung);
   for (std::size_t r = 0; r < rods.size(); ++r) {

@@ -23,7 +23,7 @@ namespace gridshell {
 /// How much of a rod is modelled: stretch and bend of rods whose spin stores no energy (three
 /// unknowns a node), or torsion too, full discrete elastic rods (one angle an edge more, frames
 /// carried in time) [Bergou 2008, 2010].
-enum class Rung { bend, twist };
+enum class Mechanics { bend, twist };
 
 /// Edge k joins nodes `from` and `to`; edges of a rod follow one another. A ghost has no EA.
 struct ModelEdge {
@@ -142,7 +142,7 @@ struct Model {
 /// On the bend rung a section with axes bends as its softer one (a seed for the other rung).
 /// Errors (bad_input): stiffness that is not positive, a torsional stiffness that is missing on the
 /// twist rung, arc lengths that do not ascend, a node that does not exist.
-Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, Rung rung,
+Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, Mechanics rung,
                           const std::vector<char>& crossings = {});
 
 /// Adds the resistance to shear `stiffness` (N mm/rad) where rods `a` and `b` of the model cross

@@ -135,10 +135,10 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
   return loads;
 }
 
-Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, Rung rung) {
+Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, Mechanics rung) {
   // a member more does not compile here: whoever adds one puts it into the model
   const auto& [materials, joints, weight_N_per_mm, points] = shell;
-  const bool springs = rung == Rung::twist && joints.spring_N_per_mm > 0;
+  const bool springs = rung == Mechanics::twist && joints.spring_N_per_mm > 0;
   std::vector<ModelRod> rods;
   std::vector<char> taken(std::size_t(mesh.joints), 0);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
@@ -155,12 +155,12 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, Rung rung
   }
   auto model = build_model(nodes, rods, rung, crossings);
   if (!model) return model;
-  if (rung == Rung::twist) add_joints(mesh, joints, *model);
+  if (rung == Mechanics::twist) add_joints(mesh, joints, *model);
   for (const MeshSpring& spring : mesh.springs)
     model->springs.push_back({{spring.support, spring.node, spring.N_per_mm, Term::support}});
   const std::vector<int> pinned = pinned_beside_ends(mesh);
   for (const int node : pinned) model->pin(node);
-  if (rung == Rung::twist || !pinned.empty()) finish(*model);
+  if (rung == Mechanics::twist || !pinned.empty()) finish(*model);
   model->loads = dead_loads(mesh, shell);
   lay_flat(mesh, *model);
   return model;

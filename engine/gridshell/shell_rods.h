@@ -55,7 +55,8 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods);
 /// ghosts, supports of springs and the far ends of tails too. Node
 /// numbers are the mesh's; with spring joints the v rod's own node of a joint comes after them, in
 /// the order of the joints. First directors stand up from the flat (+z). Errors as build_model().
-Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods, Rung rung = Rung::bend);
+Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
+                          Mechanics rung = Mechanics::bend);
 
 /// Columns of a model's state from positions of the mesh's nodes: twins of joints where these are,
 /// angles zero.

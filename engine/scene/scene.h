@@ -56,7 +56,9 @@ struct Scene {
   SnapDynamics snap;
 
   /// The rung of the mechanics, where there is one.
-  Rung mechanics() const { return rung == preset::Rung::twist ? Rung::twist : Rung::bend; }
+  Mechanics mechanics() const {
+    return rung == preset::Rung::twist ? Mechanics::twist : Mechanics::bend;
+  }
   double radius_at(double progress) const {
     return radius_begin_mm + progress * (radius_end_mm - radius_begin_mm);
   }

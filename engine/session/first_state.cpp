@@ -50,10 +50,11 @@ using FindShape = decltype(drawn_rest);
 Result<State> chosen(FindShape& find, NestedShell& shell, const Scene& scene, const ShellRods& rods,
                      double t, const Watch& watch) {
   const RodMesh& mesh = shell.mesh(0);
-  if (scene.mechanics() == Rung::bend && shell.plan().edges_per_segment[0] == choosing_edges)
+  if (scene.mechanics() == Mechanics::bend && shell.plan().edges_per_segment[0] == choosing_edges)
     return find(shell.system(0), mesh, shell.motion(0), t, scene, watch);
   MeshedShell chooser;
-  if (auto built = chooser.build(scene.footprint, rods, Rung::bend, scene.motion, choosing_edges);
+  if (auto built =
+          chooser.build(scene.footprint, rods, Mechanics::bend, scene.motion, choosing_edges);
       !built)
     return tl::unexpected<Error>(built.error());
   const auto shape = find(*chooser.system, chooser.mesh, chooser.motion, t, scene, watch);

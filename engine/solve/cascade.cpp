@@ -38,7 +38,7 @@ std::vector<MeshSymmetry> members(const std::vector<MeshSymmetry>& all,
 
 }  // namespace
 
-Result<Cascade> Cascade::make(const Footprint& footprint, const ShellRods& rods, Rung rung,
+Result<Cascade> Cascade::make(const Footprint& footprint, const ShellRods& rods, Mechanics rung,
                               const BoundaryMotion& motion, const FlatFrame& flat, int edges) {
   Cascade cascade(flat, footprint.spacing);
   for (int k = 1; k <= edges; k *= 2) {

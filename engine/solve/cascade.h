@@ -21,7 +21,7 @@ class Cascade {
  public:
   /// Meshes of 1, 2, 4 ... edges a segment, the last `edges` (a power of two). Errors (bad_input):
   /// rods that the rung cannot take.
-  static Result<Cascade> make(const Footprint& footprint, const ShellRods& rods, Rung rung,
+  static Result<Cascade> make(const Footprint& footprint, const ShellRods& rods, Mechanics rung,
                               const BoundaryMotion& motion, const FlatFrame& flat, int edges);
 
   /// The nodes of the coarsest mesh as the flat footprint would stretch and turn with its ends at

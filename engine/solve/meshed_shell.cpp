@@ -2,7 +2,7 @@
 
 namespace gridshell {
 
-Result<void> MeshedShell::build(const Footprint& footprint, const ShellRods& rods, Rung rung,
+Result<void> MeshedShell::build(const Footprint& footprint, const ShellRods& rods, Mechanics rung,
                                 const BoundaryMotion& boundary, int edges_per_segment) {
   mesh = mesh_rods(footprint, edges_per_segment);
   auto built = build_model(mesh, rods, rung);

@@ -19,7 +19,7 @@ struct MeshedShell {
 
   /// Fills it, for a mesh of so many edges a segment. Errors (bad_input): rods that the rung cannot
   /// take.
-  Result<void> build(const Footprint& footprint, const ShellRods& rods, Rung rung,
+  Result<void> build(const Footprint& footprint, const ShellRods& rods, Mechanics rung,
                      const BoundaryMotion& boundary, int edges_per_segment);
 };
 

@@ -11,7 +11,7 @@
 namespace gridshell {
 
 /// How far a motion has come at path parameter t.
-enum class Pace {
+enum class PathLaw {
   square,  ///< t^2: a shell that buckles out of the flat rises as the square root of how far its
            ///< boundary came, so positions are smooth in t = sqrt(progress) down to the flat
   even     ///< t
@@ -48,13 +48,13 @@ Turn turn_between(int node, int about, const Eigen::Vector3d& from, const Eigen:
 struct PinnedMotion {
   Eigen::Matrix3Xd begin;   ///< 3 x nodes at t = 0 (what is free is ignored)
   Eigen::Matrix3Xd change;  ///< to t = 1
-  Pace pace = Pace::square;
+  PathLaw law = PathLaw::square;
   Growth load{0, 1};
   Growth field{0, 0};
   std::vector<Turn> turns = {};  ///< these nodes do not move straight
 
-  double come(double t) const { return pace == Pace::square ? progress_at(t) : t; }
-  double speed(double t) const { return pace == Pace::square ? 2 * t : 1.0; }
+  double come(double t) const { return law == PathLaw::square ? progress_at(t) : t; }
+  double speed(double t) const { return law == PathLaw::square ? 2 * t : 1.0; }
   Eigen::Matrix3Xd at(double t) const;
   Eigen::Matrix3Xd rate(double t) const;  ///< by t
   double grown(const Growth& growth, double t) const {

@@ -3,9 +3,9 @@
 #include <utility>
 
 namespace gridshell {
-Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRods& rods, Rung rung,
-                                      const BoundaryMotion& motion, const LevelPlan& plan,
-                                      const PathOptions& options) {
+Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRods& rods,
+                                      Mechanics rung, const BoundaryMotion& motion,
+                                      const LevelPlan& plan, const PathOptions& options) {
   NestedShell shell(plan, options);
   shell.boundary_ = motion;
   for (int edges : plan.edges_per_segment) {
@@ -62,7 +62,7 @@ State NestedShell::stay(const NestedShell& other, const std::vector<Hold>& holds
                       .carry(other.state_.levels.back());
     level->motion = {state.x,
                      Eigen::Matrix3Xd::Zero(3, state.x.cols()),
-                     Pace::even,
+                     PathLaw::even,
                      {theirs.system->outside.load, 0}};
     level->system->hold(holds);
     if (first.x.size() == 0) first = std::move(state);
@@ -171,7 +171,7 @@ void NestedShell::drive(const Drive& drive) {
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = *levels_[k];
     const Eigen::Matrix3Xd& x = state_.levels[k].x;
-    level.motion = {x, Eigen::Matrix3Xd::Zero(3, x.cols()), Pace::even, drive.load, drive.field};
+    level.motion = {x, Eigen::Matrix3Xd::Zero(3, x.cols()), PathLaw::even, drive.load, drive.field};
     if (drive.boundary) {
       const PinnedMotion wanted = pinned_motion(level.mesh, *drive.boundary);
       const Eigen::Matrix3Xd there = wanted.at(1);

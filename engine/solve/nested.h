@@ -68,7 +68,7 @@ struct Drive {
 class NestedShell {
  public:
   /// Errors (bad_input): rods that the rung cannot take.
-  static Result<NestedShell> make(const Footprint& footprint, const ShellRods& rods, Rung rung,
+  static Result<NestedShell> make(const Footprint& footprint, const ShellRods& rods, Mechanics rung,
                                   const BoundaryMotion& motion, const LevelPlan& plan,
                                   const PathOptions& options);
 

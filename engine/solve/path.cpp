@@ -62,7 +62,8 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   NewtonOptions newton_options;
   newton_options.tolerance_mm =
       converge ? options_.tolerance_mm : options_.target_move * options_.spacing_mm;
-  newton_options.most_iterations = 8;
+  // a prediction that takes more to come to rest may be beyond a fold, next to another branch
+  newton_options.most_iterations = 5;
   newton_options.farthest_mm = allowed;
   newton_options.trusted_mm = newton_options.tolerance_mm;
   newton_options.widest_turn = options_.widest_turn;

@@ -66,7 +66,7 @@ Arrival hold(const Problem& problem, double over_l_c, const Watch& watch) {
 Problem from_flat(const Subject& study, const Problem& problem, double height) {
   Problem flat = problem;
   const Eigen::Matrix3Xd end = problem.motion.at(problem.t);
-  flat.motion = {study.scene().flat.all(problem.mesh.flat), {}, Pace::even};
+  flat.motion = {study.scene().flat.all(problem.mesh.flat), {}, PathLaw::even};
   flat.motion.change = end - flat.motion.begin;
   flat.t = 0;
   flat.end = problem.start;

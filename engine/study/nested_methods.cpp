@@ -57,7 +57,7 @@ Arrival follow(Subject& study, const LevelPlan& plan, double tolerance, Stopwatc
 double load_parameter(const Problem& problem, int k, int steps) {
   const double from = problem.motion.come(problem.t);
   const double come = k == steps ? 1 : from + (1 - from) * k / steps;
-  return problem.motion.pace == Pace::square ? parameter_at(come) : come;
+  return problem.motion.law == PathLaw::square ? parameter_at(come) : come;
 }
 
 Method net_method() {
@@ -99,11 +99,11 @@ Method on_rung(const std::string& name, int edges, const OnRung& on) {
 
 }  // namespace
 
-Method twist_method(int edges) { return on_rung("twist", edges, {Rung::twist}); }
+Method twist_method(int edges) { return on_rung("twist", edges, {Mechanics::twist}); }
 
 Method spring_method(int edges, double stiffness_N_per_mm) {
   return on_rung(fmt::format("springs {:g} N/mm", stiffness_N_per_mm), edges,
-                 {Rung::twist, stiffness_N_per_mm});
+                 {Mechanics::twist, stiffness_N_per_mm});
 }
 
 Method nested_method(const std::vector<int>& edges) {

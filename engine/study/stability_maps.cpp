@@ -276,7 +276,7 @@ Cells joint_map(const Study& study, const std::vector<double>& stiffnesses,
                const auto problem = study->problem(edges, patient);
                if (!problem) return RunOutcome::refused;
                Stopwatch unused;
-               const Problem joined = study->on_rung(**problem, {Rung::twist, stiffness});
+               const Problem joined = study->on_rung(**problem, {Mechanics::twist, stiffness});
                std::call_once(truth->once, [&] {
                  truth->arrival = march(joined, {.load_steps = 60}, unused, patient);
                });

@@ -134,7 +134,7 @@ void Subject::push(NestedShell& shell) const {
 ShellRods Subject::rods_on(const OnRung& on) const {
   constexpr double shear_over_young = 31.0 / 83;  // of Nitinol; at rest these rods do not twist
   ShellRods rods = scene_->rods;
-  if (on.rung == Rung::bend) return rods;
+  if (on.rung == Mechanics::bend) return rods;
   for (RodMaterial& material : rods.materials) material.GJ = 2 * material.EI1 * shear_over_young;
   rods.joints = {.spring_N_per_mm = on.spring_N_per_mm};
   return rods;
@@ -225,7 +225,8 @@ Result<const Problem*> Subject::problem(int edges, const Watch& watch) {
   if (task_ == Task::push) {
     problem.model.pin(joint_);
     finish(problem.model);
-    problem.motion = {problem.start.x, Eigen::Matrix3Xd::Zero(3, problem.model.nodes), Pace::even};
+    problem.motion = {problem.start.x, Eigen::Matrix3Xd::Zero(3, problem.model.nodes),
+                      PathLaw::even};
     problem.motion.change.col(joint_) = displacement_;
     problem.t = 0;
   }

@@ -19,7 +19,7 @@ enum class Task { actuation, beside_net, push };
 
 /// On which rung a method solves, and with which joints.
 struct OnRung {
-  Rung rung = Rung::bend;
+  Mechanics rung = Mechanics::bend;
   double spring_N_per_mm = 0;  ///< of spring joints; 0: shared nodes
 };
 

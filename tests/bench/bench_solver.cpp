@@ -73,8 +73,8 @@ PathOptions options_for(double tolerance, double radius) {
 }
 
 NestedShell shell_of(const Case& c, const LevelPlan& plan, double tolerance) {
-  return NestedShell::make(c.footprint, circular_section(0.254, 83), Rung::bend, c.motion, plan,
-                           options_for(tolerance, c.radius))
+  return NestedShell::make(c.footprint, circular_section(0.254, 83), Mechanics::bend, c.motion,
+                           plan, options_for(tolerance, c.radius))
       .value();
 }
 
@@ -243,7 +243,7 @@ void rests(Figures& figures) {
   for (const auto& [n, throws] : {std::pair{8, 400}, {12, 200}, {20, 60}}) {
     const Case c = circle(n);
     Cascade cascade =
-        Cascade::make(c.footprint, {circular_section(0.254, 83)}, Rung::bend, c.motion, {}, 4)
+        Cascade::make(c.footprint, {circular_section(0.254, 83)}, Mechanics::bend, c.motion, {}, 4)
             .value();
     std::mt19937 random{1};
     int reached = 0;

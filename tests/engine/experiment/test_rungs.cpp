@@ -20,7 +20,7 @@ double distance_of_rungs(const preset::Preset& preset) {
   const RodMesh& mesh = bend.session.shell().mesh(0);
   const Eigen::Matrix3Xd& rest = bend.session.shell().state().levels.front().x;
 
-  const Model model = build_model(mesh, circular_material(0.254, 83, 31), Rung::twist).value();
+  const Model model = build_model(mesh, circular_material(0.254, 83, 31), Mechanics::twist).value();
   State state = start_state(model, columns_of(mesh, model, rest));
   std::mt19937 random(5);
   std::normal_distribution<double> normal;

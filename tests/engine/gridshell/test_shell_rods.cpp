@@ -73,7 +73,7 @@ TEST_CASE("dead loads come on with the path: its tangent and the states agree") 
   rods.weight_N_per_mm.assign(circle().rods.size(), 3.2e-6);
   rods.points.push_back({0, {0, 0, -2e-3}});
   PathOptions options;
-  NestedShell shell = NestedShell::make(circle(), rods, Rung::bend, shrinking(circle(), 0.9),
+  NestedShell shell = NestedShell::make(circle(), rods, Mechanics::bend, shrinking(circle(), 0.9),
                                         {{4, 8}, false}, options)
                           .value();
   const auto first =
@@ -94,9 +94,9 @@ TEST_CASE("dead loads come on with the path: its tangent and the states agree") 
   CHECK(largest_column(unloaded.x - there) > 0.1);
 
   // the velocity is the derivative of the states by t
-  NestedShell other =
-      NestedShell::make(circle(), rods, Rung::bend, shrinking(circle(), 0.9), {{4}, false}, options)
-          .value();
+  NestedShell other = NestedShell::make(circle(), rods, Mechanics::bend, shrinking(circle(), 0.9),
+                                        {{4}, false}, options)
+                          .value();
   REQUIRE(other.start(0.6, *first, Watch()).end == Outcome::reached);
   const Eigen::Matrix3Xd velocity = other.followed().velocity.x;
   const double h = 1e-4;
@@ -115,9 +115,9 @@ TEST_CASE("rods of two kinds: a circle's state turns with its families") {
     for (const FootprintRod& rod : circle().rods)
       rods.materials.push_back(
           round_material((rod.family == Family::u) == u_thick ? thick : thin, 0));
-    NestedShell shell =
-        NestedShell::make(circle(), rods, Rung::bend, shrinking(circle(), 0.9), {{4}, false}, {})
-            .value();
+    NestedShell shell = NestedShell::make(circle(), rods, Mechanics::bend, shrinking(circle(), 0.9),
+                                          {{4}, false}, {})
+                            .value();
     const auto first =
         first_buckled(shell.system(0), shell.mesh(0), shell.motion(0), 0.8, {}, {}, Watch());
     REQUIRE(first);
@@ -126,7 +126,7 @@ TEST_CASE("rods of two kinds: a circle's state turns with its families") {
   }
   CHECK(energies[0] == Approx(energies[1]).epsilon(1e-9));
   NestedShell thin_shell =
-      NestedShell::make(circle(), thin, Rung::bend, shrinking(circle(), 0.9), {{4}, false}, {})
+      NestedShell::make(circle(), thin, Mechanics::bend, shrinking(circle(), 0.9), {{4}, false}, {})
           .value();
   const auto first = first_buckled(thin_shell.system(0), thin_shell.mesh(0), thin_shell.motion(0),
                                    0.8, {}, {}, Watch());

@@ -38,7 +38,7 @@ struct Rested {
   Assembly at;
   double potential = 0;
 
-  Rested(Rung rung, double apart, double load_N) {
+  Rested(Mechanics rung, double apart, double load_N) {
     model = build_model(mesh, rods, rung).value();
     if (load_N > 0) model.loads.push_back({0, {0, 0, -load_N}});
     BoundaryMotion boundary;
@@ -67,7 +67,7 @@ struct Rested {
 
 TEST_CASE("a rod pulled by two springs: force 2 a/(2/k + L/EA), supports drawn apart by a each") {
   const double apart = 1, force = 2 * apart / (2 / k.x() + length / section.EA);
-  for (const Rung rung : {Rung::bend, Rung::twist}) {
+  for (const Mechanics rung : {Mechanics::bend, Mechanics::twist}) {
     const Rested rod(rung, apart, 0);
     CHECK(rod.at.force.minCoeff() == Approx(force).epsilon(1e-9));
     CHECK(rod.at.force.maxCoeff() == Approx(force).epsilon(1e-9));
@@ -88,7 +88,7 @@ TEST_CASE("a rod on two springs sinks by P/(2 k) and bends by P L^3/(48 EI)") {
   // so little that it does not stretch
   const double load = 1e-6;
   const double bent = load * std::pow(length, 3) / (48 * section.EI), sunk = load / (2 * k.z());
-  for (const Rung rung : {Rung::bend, Rung::twist}) {
+  for (const Mechanics rung : {Mechanics::bend, Mechanics::twist}) {
     const Rested rod(rung, 0, load);
     for (const int end : {0, 1}) {
       CHECK(rod.state.x(2, rod.mesh.joints + end) == Approx(-sunk).epsilon(1e-9));
@@ -109,7 +109,7 @@ TEST_CASE("springs of supports: gradient and Hessian are the energy's derivative
   net.held_joints = {3, 4};
   net.springs = {{0, -1, k}, {11, -1, {0, 7, 2}}, {-1, 3, {6, 5, 0}}};
   const RodMesh mesh = mesh_rods(net, 3);
-  for (const Rung rung : {Rung::bend, Rung::twist}) {
+  for (const Mechanics rung : {Mechanics::bend, Mechanics::twist}) {
     const Model model = build_model(mesh, rods, rung).value();
     // the supports and the joint that is held firmly, not what hangs on springs
     for (const MeshSpring& spring : mesh.springs) {

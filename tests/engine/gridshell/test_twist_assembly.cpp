@@ -16,7 +16,7 @@ Model sample_model() {
   const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 13, 18}, strip, RodEnd::clamped, RodEnd::pinned};
   const ModelRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, RodEnd::tangent, RodEnd::free};
   const ModelRod c{{9, 10, 11}, {0, 5, 10}, wire, RodEnd::free, RodEnd::pinned};
-  Model model = build_model(12, {a, b, c}, Rung::twist).value();
+  Model model = build_model(12, {a, b, c}, Mechanics::twist).value();
   model.springs.push_back({{3, 9, {40, 40, 40}}});
   model.springs.push_back({{10, 8, {3, 0, 5}, Term::support}});
   add_joint_shear(model, 0, 2, 1, 2, 7.5, 1.4);
@@ -117,7 +117,7 @@ TEST_CASE(
 TEST_CASE("twist assembly: no energy and no force under rigid motion") {
   const RodMaterial strip{900, 5, 12, 4, {0.02, -0.01}, 0.03};
   const ModelRod rod{{0, 1, 2, 3}, {0, 4, 9, 13}, strip, RodEnd::free, RodEnd::free};
-  const Model model = build_model(4, {rod}, Rung::twist).value();
+  const Model model = build_model(4, {rod}, Mechanics::twist).value();
   Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Random(3, 4);
   x.row(0) += Eigen::RowVector4d(0, 4, 9, 13);
   const State state = start_state(model, x);
@@ -138,13 +138,13 @@ TEST_CASE("twist assembly: no energy and no force under rigid motion") {
 TEST_CASE("twist model: bad rods are refused with their reason") {
   const RodMaterial wire{700, 6, 6, 3, {0, 0}, 0};
   const auto refused = [](ModelRod rod) {
-    const auto model = build_model(3, {std::move(rod)}, Rung::twist);
+    const auto model = build_model(3, {std::move(rod)}, Mechanics::twist);
     REQUIRE_FALSE(model);
     CHECK(model.error().fault == Fault::bad_input);
     return model.error().message;
   };
   ModelRod rod{{0, 1, 2}, {0, 5, 10}, wire};
-  CHECK(build_model(3, {rod}, Rung::twist));
+  CHECK(build_model(3, {rod}, Mechanics::twist));
   ModelRod bad = rod;
   bad.material.GJ = 0;
   CHECK(refused(bad).find("GJ") != std::string::npos);

@@ -13,9 +13,9 @@ TEST_CASE("a state is carried on with its boundary, near to the energy of its br
   asked.footprint.radius_mm = 66;
   asked.actuation.radius_mm = 53;
   const Scene scene = scene_of(asked).value();
-  NestedShell shell =
-      NestedShell::make(scene.footprint, scene.rods, Rung::bend, scene.motion, {{4}, false}, {})
-          .value();
+  NestedShell shell = NestedShell::make(scene.footprint, scene.rods, Mechanics::bend, scene.motion,
+                                        {{4}, false}, {})
+                          .value();
   const Watch watch;
   Linearisation& system = shell.system(0);
   const PinnedMotion& motion = shell.motion(0);

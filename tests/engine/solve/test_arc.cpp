@@ -38,7 +38,7 @@ TEST_CASE("by arc length an arch is followed over the limit of its load and back
   system.outside.load = 0;
   REQUIRE(minimise(system, arch, {}, Watch()).outcome == Outcome::reached);
   const double height = arch.x(2, 0);
-  const PinnedMotion motion{arch.x, Eigen::Matrix3Xd::Zero(3, model.nodes), Pace::even};
+  const PinnedMotion motion{arch.x, Eigen::Matrix3Xd::Zero(3, model.nodes), PathLaw::even};
   ArcFollower path(system, motion, {.step_mm = 0.1, .largest_mm = 0.2, .parameter_mm = 20});
   const PathPoint begin{0, arch, {}};
   const auto turn =

@@ -18,7 +18,7 @@ struct Arch {
   Arch(int edges, double length, double span)
       : rod(edges, length, {.EA = 4205.672, .EI1 = 16.95832, .EI2 = 16.95832}, RodEnd::pinned,
             RodEnd::pinned),
-        model(build_model(edges + 1, {rod.rod}, Rung::bend).value()),
+        model(build_model(edges + 1, {rod.rod}, Mechanics::bend).value()),
         shortening(span / length) {
     model.pin(0);
     model.pin(edges);
@@ -66,9 +66,9 @@ TEST_CASE("a truss of two bars snaps through the flat") {
   // E(z) = EA/l (sqrt(a^2 + z^2) - l)^2, so that the barrier is EA (l - a)^2/l
   const double EA = 100, l = 10, rise = 1, a = std::sqrt(l * l - rise * rise);
   Model model;
-  model =
-      build_model(3, {{{0, 1, 2}, {0, l, 2 * l}, {.EA = EA, .EI1 = 1e-9, .EI2 = 1e-9}}}, Rung::bend)
-          .value();
+  model = build_model(3, {{{0, 1, 2}, {0, l, 2 * l}, {.EA = EA, .EI1 = 1e-9, .EI2 = 1e-9}}},
+                      Mechanics::bend)
+              .value();
   model.pin(0);
   model.pin(2);
   model.ground.push_back({.node = 1, .stiffness = {0, 10, 0}});

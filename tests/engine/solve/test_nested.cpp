@@ -24,7 +24,7 @@ Scene eight_rods() {
 NestedShell shell_of(const Scene& scene, double tolerance) {
   PathOptions options;
   options.tolerance_mm = tolerance;
-  return NestedShell::make(scene.footprint, scene.rods, Rung::bend, scene.motion,
+  return NestedShell::make(scene.footprint, scene.rods, Mechanics::bend, scene.motion,
                            {{4, 8, 16}, false}, options)
       .value();
 }
