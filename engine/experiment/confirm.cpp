@@ -147,7 +147,8 @@ Result<Course> confirmed(const Scene& scene, Course course, const Follow& follow
     auto differs = disagreement(course, *fine);
     if (!differs) differs = only_on_leaders(course, *fine, watch);
     if (!differs) {
-      const bool later = !scene.leader_asked && turns_later(course.legs, fine->legs);
+      const bool later =
+          course.one_motion && !scene.leader_asked && turns_later(course.legs, fine->legs);
       extrapolate_events(course.legs, fine->legs);
       extrapolate_events(course.earlier, fine->earlier);
       if (later)

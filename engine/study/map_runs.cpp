@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/solve/buckle.h"
-#include "engine/solve/relaxation.h"
+#include "engine/study/relaxation.h"
 
 namespace gridshell::study {
 

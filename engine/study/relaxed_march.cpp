@@ -1,8 +1,8 @@
 // Methods that come to rest by moving: dynamic relaxation, explicit and implicit dynamics.
 #include <cmath>
 
-#include "engine/solve/relaxation.h"
 #include "engine/study/method.h"
+#include "engine/study/relaxation.h"
 
 namespace gridshell::study {
 namespace {

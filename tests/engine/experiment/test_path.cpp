@@ -274,6 +274,7 @@ TEST_CASE("the frame after a jump is the one that tells it, and it jumps where t
           "[full]") {
   // of two jumps the second is a turn of the path, which a leader of twice the edges sees later
   preset::Preset p = ellipse(60);
+  p.footprint.placement = preset::Placement::on_axis;
   p.accuracy.tolerance = 0.02;
   const auto outcome = run(p);
   const auto& frames = outcome.trajectory.frames;

@@ -1,4 +1,5 @@
 // The twist rung's assembly against differences of its energy, frames carried along.
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <random>
 

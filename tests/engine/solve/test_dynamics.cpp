@@ -4,10 +4,11 @@
 
 #include "engine/solve/damped_motion.h"
 #include "engine/solve/minimise.h"
-#include "engine/solve/relaxation.h"
+#include "engine/study/relaxation.h"
 #include "tests/engine/solve/single_rod.h"
 
 using namespace gridshell;
+using namespace gridshell::study;
 
 namespace {
 

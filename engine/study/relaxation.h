@@ -6,7 +6,7 @@
 #include "engine/core/watch.h"
 #include "engine/solve/dynamics.h"
 
-namespace gridshell {
+namespace gridshell::study {
 
 struct BaselineReport {
   Outcome end = Outcome::not_converged;  ///< reached, not_converged, not_finite (grown), cancelled
@@ -45,4 +45,4 @@ BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass
                                 MovingState& moving, const BaselineOptions& options,
                                 const Watch& watch);
 
-}  // namespace gridshell
+}  // namespace gridshell::study

@@ -1,11 +1,11 @@
-#include "engine/solve/relaxation.h"
+#include "engine/study/relaxation.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/solve/linearisation.h"
 
-namespace gridshell {
+namespace gridshell::study {
 namespace {
 
 /// one explicit step of the free nodes, the kick over `kick` and the drift over h; returns the
@@ -157,4 +157,4 @@ BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass
   return report;
 }
 
-}  // namespace gridshell
+}  // namespace gridshell::study
