@@ -92,6 +92,20 @@ TEST_CASE("states: a search that cannot be is an error with its reason") {
   CHECK(none.error().fault == Fault::no_equilibrium);
 }
 
+TEST_CASE("states tell all that their energy is made of") {
+  preset::Preset p = shell(6);
+  p.accuracy.model = preset::Rung::twist;
+  p.rod.shear_GPa = 31;
+  p.joints.shear_Nmm = 0.3;
+  p.jitter.trials = 2;
+  const StateLibrary found = states_of(p);
+  REQUIRE_FALSE(found.states.empty());
+  for (const auto& state : found.states) {
+    CHECK(state.row.energies[Term::shear] > 0.01);
+    CHECK(state.row.energy_mJ() == state.frame.energies.total());
+  }
+}
+
 TEST_CASE("states: the three of the paper at twelve rods, in their order", "[full]") {
   preset::Preset p = shell(12);
   p.accuracy = {};

@@ -85,6 +85,14 @@ TEST_CASE("state tables of earlier versions: a number that has no column is unkn
   CHECK(std::isnan(read->rows[1].barrier_mJ));
   CHECK(read->search.trials == 900);
   CHECK(read->search.ways_followed == 0);
+  // and before all terms of the energy were kept
+  REQUIRE(write_atomically(folder.path() / "states.csv",
+                           "state,class,group,energy_bend_mJ,energy_stretch_mJ,inflections,count,"
+                           "count_confined\n1,iv,C4v,39.9,0.1,2 | 2,6,0\n"));
+  const auto two_terms = record::read_state_tables(folder.path());
+  REQUIRE(two_terms);
+  CHECK(std::isnan(two_terms->rows.at(0).energies[Term::twist]));
+  CHECK(two_terms->rows.at(0).energy_mJ() == Approx(40));
   // what cannot be unknown, and what is of no version
   for (const char* heading : {"state,group\n", "state,state\n", "from,to\n"}) {
     REQUIRE(write_atomically(folder.path() / "states.csv", heading));
