@@ -60,12 +60,13 @@ Added NestedShell::quarter_on(std::size_t k, const Added& below) const {
   Added quarter{below.t, Eigen::Matrix3Xf::Zero(3, level.model.columns()),
                 Eigen::VectorXf::Zero(Eigen::Index(level.model.edges.size()))};
   if (below.x.size() == 0) return quarter;
+  const Level& coarser = *levels_[k - 1];
   const MeshTransfer& from = level.from_coarser->meshes();
   Eigen::Matrix3Xd nodes;
   Eigen::VectorXd force;
-  from.nodes(below.x.leftCols(levels_[k - 1]->mesh.nodes()).cast<double>(), nodes);
+  from.nodes(nodes_of(coarser.mesh, coarser.model, below.x.cast<double>()), nodes);
   from.edges(below.force.cast<double>(), force);
-  quarter.x.leftCols(nodes.cols()) = (nodes / 4).cast<float>();
+  quarter.x = (columns_of(level.mesh, level.model, nodes) / 4).cast<float>();
   quarter.force = (force / 4).cast<float>();
   return quarter;
 }

@@ -16,7 +16,8 @@ struct NewtonOptions {
   double near_mm = 0.2;  ///< corrections below this may use an old factorisation
   double trusted_mm =
       0;  ///< take a correction m of a new factorisation as the last where 8 m^2/l, l the mean rest
-          ///< length of an edge, is no more than this: the next is about that or less
+          ///< length of an edge, is no more than this: the next is about that or less, but
+          ///< for states beside a snap, where it may be a hundred times that
   std::optional<double> trusted_misfit =
       {};  ///< and where axial forces and strains agree within this share of the largest force
   double farthest_mm = 1e300;  ///< a correction that moves a node further is refused: lost

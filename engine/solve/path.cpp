@@ -112,6 +112,7 @@ PathReport PathFollower::advance(double t, const Watch& watch) {
     if (!exact) {
       exact = true;
       resume(from);
+      report.t = from.t;
       step_ = first_step;
       continue;
     }
