@@ -11,15 +11,15 @@ file(GLOB named_files CONFIGURE_DEPENDS presets/*.obj presets/*.csv presets/*.js
 set(embedded_presets ${PROJECT_BINARY_DIR}/generated/embedded_presets.cpp)
 add_custom_command(OUTPUT ${embedded_presets}
   COMMAND ${CMAKE_COMMAND} "-DPRESETS=${preset_files}" "-DFILES=${named_files}" -DOUTPUT=${embedded_presets}
-          -P ${PROJECT_SOURCE_DIR}/app/embed_presets.cmake
-  DEPENDS ${preset_files} ${named_files} ${PROJECT_SOURCE_DIR}/app/embed_presets.cmake VERBATIM)
+          -P ${PROJECT_SOURCE_DIR}/app/cli/embed_presets.cmake
+  DEPENDS ${preset_files} ${named_files} ${PROJECT_SOURCE_DIR}/app/cli/embed_presets.cmake VERBATIM)
 
 file(GLOB card_files CONFIGURE_DEPENDS presets/pictures/cards/*.png)
 set(embedded_cards ${PROJECT_BINARY_DIR}/generated/embedded_cards.cpp)
 add_custom_command(OUTPUT ${embedded_cards}
   COMMAND ${CMAKE_COMMAND} "-DCARDS=${card_files}" -DOUTPUT=${embedded_cards}
-          -P ${PROJECT_SOURCE_DIR}/app/embed_cards.cmake
-  DEPENDS ${card_files} ${PROJECT_SOURCE_DIR}/app/embed_cards.cmake VERBATIM)
+          -P ${PROJECT_SOURCE_DIR}/app/cli/embed_cards.cmake
+  DEPENDS ${card_files} ${PROJECT_SOURCE_DIR}/app/cli/embed_cards.cmake VERBATIM)
 
 file(GLOB_RECURSE APP_SOURCES CONFIGURE_DEPENDS app/*.cpp app/*.h)
 list(FILTER APP_SOURCES EXCLUDE REGEX "/app/(main\\.cpp$|examples/|python/)")
@@ -30,8 +30,7 @@ target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
 target_include_directories(gridshell_app SYSTEM PRIVATE ${GL_CORE_INCLUDE_DIR})
 gridshell_position_independent(gridshell_app)
 gridshell_read_once(gridshell_app)
-gridshell_compile_by_folder(gridshell_app)
 gridshell_compile_lightly(gridshell_app -O1)
 
-add_executable(gridshell app/main.cpp)
+add_executable(gridshell app/cli/main.cpp)
 target_link_libraries(gridshell PRIVATE gridshell_app CLI11::CLI11)

@@ -38,9 +38,8 @@ install_missing_packages() {
       apt-get install -q -y --no-install-recommends $missing >&2
 }
 
-# build TARGET: a Release in build/, with all cores, a folder of sources at a time; what the tools say
-# goes to stderr
+# build TARGET: a Release in build/, with all cores; what the tools say goes to stderr
 build() {
-  cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DGRIDSHELL_FOLDERS_AS_ONE=ON >&2 &&
+  cmake -S . -B build -DCMAKE_BUILD_TYPE=Release >&2 &&
     cmake --build build -j "$(nproc)" --target "$1" >&2
 }

@@ -10,15 +10,28 @@ find_library(HDF5_HL_LIBRARY NAMES hdf5_serial_hl hdf5_hl REQUIRED)
 
 # the page of exported runs, embedded
 set(embedded_page ${PROJECT_BINARY_DIR}/generated/embedded_page.cpp)
-set(page_parts ${PROJECT_SOURCE_DIR}/engine/export/page.html
-  ${PROJECT_SOURCE_DIR}/engine/export/embed_page.cmake)
+set(page_parts ${PROJECT_SOURCE_DIR}/engine/record/page.html
+  ${PROJECT_SOURCE_DIR}/engine/record/embed_page.cmake)
 add_custom_command(OUTPUT ${embedded_page}
-  COMMAND ${CMAKE_COMMAND} -DPAGE=${PROJECT_SOURCE_DIR}/engine/export/page.html
-          -DOUTPUT=${embedded_page} -P ${PROJECT_SOURCE_DIR}/engine/export/embed_page.cmake
+  COMMAND ${CMAKE_COMMAND} -DPAGE=${PROJECT_SOURCE_DIR}/engine/record/page.html
+          -DOUTPUT=${embedded_page} -P ${PROJECT_SOURCE_DIR}/engine/record/embed_page.cmake
   DEPENDS ${page_parts} VERBATIM)
 
+add_library(gridshell_version OBJECT engine/core/version.cpp)
+target_compile_features(gridshell_version PUBLIC cxx_std_20)
+target_include_directories(gridshell_version PRIVATE ${PROJECT_SOURCE_DIR})
+target_include_directories(gridshell_version SYSTEM PRIVATE ${EIGEN_INCLUDE_DIR})
+target_compile_definitions(gridshell_version PRIVATE EIGEN_DONT_PARALLELIZE)
+target_link_libraries(gridshell_version PRIVATE fmt::fmt)
+gridshell_position_independent(gridshell_version)
+target_precompile_headers(gridshell_version PRIVATE <Eigen/Core> <Eigen/Geometry> <fmt/format.h>
+  <tl/expected.hpp> <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <set>
+  <span> <string> <vector>)
+
 file(GLOB_RECURSE ENGINE_SOURCES CONFIGURE_DEPENDS engine/*.cpp engine/*.h)
-add_library(gridshell_engine STATIC ${ENGINE_SOURCES} ${embedded_page})
+list(FILTER ENGINE_SOURCES EXCLUDE REGEX "/core/version\\.cpp$")
+add_library(gridshell_engine STATIC ${ENGINE_SOURCES} ${embedded_page}
+  $<TARGET_OBJECTS:gridshell_version>)
 add_library(gridshell::gridshell ALIAS gridshell_engine)
 set_target_properties(gridshell_engine PROPERTIES EXPORT_NAME gridshell)
 target_compile_features(gridshell_engine PUBLIC cxx_std_20)
@@ -30,10 +43,12 @@ target_compile_definitions(gridshell_engine PUBLIC EIGEN_DONT_PARALLELIZE)
 target_link_libraries(gridshell_engine PUBLIC fmt::fmt
   PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY} ${MUPARSER_LIBRARY} ${HDF5_HL_LIBRARY} PkgConfig::HDF5)
 # the two hot loops may contract a*b+c; everything else rounds each operation
-set_source_files_properties(engine/solve/block_cholesky.cpp engine/gridshell/assembly.cpp
+set_source_files_properties(engine/solve/block_cholesky.cpp engine/elastic/assembly.cpp
   PROPERTIES COMPILE_OPTIONS -ffp-contract=fast SKIP_PRECOMPILE_HEADERS ON)
-# tests/faults stands between the linear solver and all that asks for it
-set_source_files_properties(engine/solve/linear_solver.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+# what computes for long lies in geometry, footprint, elastic, solve and design; the rest asks it
+file(GLOB light CONFIGURE_DEPENDS engine/formats/*.cpp engine/preset/*.cpp
+  engine/record/*.cpp engine/scene/*.cpp engine/simulate/*.cpp engine/study/*.cpp)
+set_property(SOURCE ${light} ${embedded_page} APPEND PROPERTY
+  COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
 gridshell_position_independent(gridshell_engine)
 gridshell_read_once(gridshell_engine)
-gridshell_compile_by_folder(gridshell_engine)

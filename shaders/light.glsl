@@ -1,4 +1,4 @@
-// Light on a surface, in linear light. See render/draw/lighting.h for the terms.
+// Light on a surface, in linear light. See render/gl/lighting.h for the terms.
 uniform vec3 light_direction;
 uniform float key, sky, bounce;
 uniform vec4 eye;  // w = 1: the camera's position; w = 0: the direction towards it

@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 
 /// Every file's bytes, by its path in the folder; of folders, links and pipes their kind.
 inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
@@ -15,7 +15,7 @@ inline std::map<std::string, std::string> contents(const std::filesystem::path& 
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const auto kind = entry.symlink_status().type();
     all[entry.path().lexically_relative(folder)] = kind == fs::file_type::regular
-                                                       ? gridshell::read_whole(entry.path()).value()
+                                                       ? gridshell::read_file(entry.path()).value()
                                                        : std::to_string(int(kind));
   }
   return all;

@@ -14,8 +14,8 @@ set -u
 cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}
 limit=${LIMIT:-10}
-without_git="engine/core/atomic_file.cpp engine/footprint/mesh.cpp engine/preset/assign.cpp
-  render/image/png.cpp app/staging.cpp"
+without_git="engine/core/file_io.cpp engine/footprint/mesh.cpp engine/preset/toml_values.cpp
+  render/gl/png.cpp app/cli/staged_folder.cpp"
 
 need() {
   command -v "$1" >/dev/null && return

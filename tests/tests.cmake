@@ -63,7 +63,7 @@ if(GRIDSHELL_PICTURES)
       GRIDSHELL_BUILT_WITH="${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_BUILD_TYPE}")
     # the program with the plain one of all clones, which no processor of today would choose
     if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-      add_executable(gridshell_baseline app/main.cpp tests/app/baseline_processor.cpp)
+      add_executable(gridshell_baseline app/cli/main.cpp tests/app/baseline_processor.cpp)
       target_link_libraries(gridshell_baseline PRIVATE gridshell_app CLI11::CLI11)
       add_dependencies(test_app gridshell_baseline)
       target_compile_definitions(test_app PRIVATE

@@ -1,11 +1,111 @@
-// The Python module `gridshell`.
-#include <pybind11/pybind11.h>
+#include "app/python/module.h"
 
-#include "app/preset_library.h"
-#include "app/python/errors.h"
-#include "app/python/session.h"
+#include <pybind11/pybind11.h>
+#include <utility>
+
+#include "app/cli/preset_library.h"
 #include "app/python/values.h"
-#include "engine/core/version.h"
+#include "engine/core/system_info.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::python {
+namespace {
+
+/// A class of the module, below others.
+void add(py::module_& module, const char* name, const py::tuple& bases, const char* doc) {
+  const std::string full = std::string("gridshell.").append(name);
+  PyObject* made = PyErr_NewExceptionWithDoc(full.c_str(), doc, bases.ptr(), nullptr);
+  if (!made) throw py::error_already_set();
+  module.attr(name) = py::reinterpret_steal<py::object>(made);
+}
+
+const char* name_of(Fault fault) {
+  switch (fault) {
+    case Fault::bad_input:
+      return "BadInput";
+    case Fault::no_equilibrium:
+      return "NoEquilibrium";
+    case Fault::io:
+      return "IOFailure";
+    case Fault::cancelled:
+      break;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void add_errors(py::module_& module) {
+  const auto of = [](PyObject* base) { return py::reinterpret_borrow<py::object>(base); };
+  add(module, "Error", py::make_tuple(of(PyExc_Exception)),
+      "What went wrong, in the words of the program. Every other error of gridshell is one.");
+  const py::object error = module.attr("Error");
+  add(module, "BadInput", py::make_tuple(error, of(PyExc_ValueError)),
+      "A preset, a key, a value, a folder or a joint that is not right: names it, and what would "
+      "be.");
+  add(module, "NoEquilibrium", py::make_tuple(error),
+      "No certified state was found, or the path ended before its end. The session stands in its "
+      "last certified state.");
+  add(module, "IOFailure", py::make_tuple(error, of(PyExc_OSError)),
+      "A file could not be written, or no OpenGL context be had.");
+}
+
+void raise(const Error& error) {
+  if (const char* name = name_of(error.fault)) {
+    const py::object type = py::module_::import("gridshell").attr(name);
+    PyErr_SetString(type.ptr(), error.message.c_str());
+  } else {
+    PyErr_SetString(PyExc_KeyboardInterrupt, error.message.c_str());
+  }
+  throw py::error_already_set();
+}
+
+std::string toml_of(const py::handle& value) {
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+  if (py::isinstance<py::int_>(value)) return py::str(value);
+  if (PyFloat_Check(value.ptr())) return py::str(py::float_(value.cast<double>()));
+  if (py::isinstance<py::str>(value))
+    return py::str(py::module_::import("json").attr("dumps")(value));
+  // of numpy, a number or a list of them
+  if (py::hasattr(value, "tolist")) return toml_of(value.attr("tolist")());
+  if (py::hasattr(value, "__fspath__")) return toml_of(value.attr("__fspath__")());
+  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::bytes>(value))
+    throw py::type_error("a preset takes numbers, strings, bools and lists of them, not " +
+                         std::string(py::str(py::type::handle_of(value).attr("__name__"))));
+  std::string text = "[";
+  for (const py::handle item : py::reinterpret_borrow<py::sequence>(value))
+    text.append(text.size() > 1 ? ", " : "").append(toml_of(item));
+  return text + "]";
+}
+
+std::vector<preset::Override> overrides_of(const py::dict& changes) {
+  std::vector<preset::Override> overrides;
+  for (const auto& [key, value] : changes) {
+    if (!py::isinstance<py::str>(key))
+      throw py::type_error("keys are strings such as \"footprint.rods\"");
+    overrides.push_back({"changes", key.cast<std::string>(), toml_of(value)});
+  }
+  return overrides;
+}
+
+preset::Step step_of(const preset::Preset& preset, const char* deed, const py::dict& keys) {
+  std::string text = std::string("step = [{do = \"").append(deed).append("\"");
+  for (const auto& [key, value] : keys)
+    if (!value.is_none())
+      text.append(", ").append(key.cast<std::string>()).append(" = ").append(toml_of(value));
+  // what the preset itself would do to the shell is not done here
+  preset::Preset alone = preset;
+  alone.step.clear();
+  alone.indentation = {};
+  alone.jitter = {};
+  text.append("}]\n").append(preset::to_toml(alone));
+  auto read = value_of(preset::read_preset_text(text, std::string(deed) + "()", preset.name));
+  return std::move(read.base.step.at(0));
+}
+
+}  // namespace gridshell::python
+
+// The Python module `gridshell`.
 
 PYBIND11_MODULE(gridshell, module) {
   using namespace gridshell;

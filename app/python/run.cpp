@@ -5,14 +5,10 @@
 
 #include <vector>
 
-#include "app/finished_run.h"
-#include "app/python/arrays.h"
-#include "app/python/interruptible.h"
-#include "app/python/numbers.h"
-#include "app/python/session.h"
+#include "app/cli/finished_run.h"
+#include "app/python/module.h"
 #include "app/python/values.h"
-#include "engine/preset/writer.h"
-#include "engine/record/summary_file.h"
+#include "engine/gridshell.h"
 
 namespace gridshell::python {
 namespace {
@@ -87,7 +83,7 @@ Run load(const std::filesystem::path& folder, const std::optional<std::string>& 
     if (!run.summary.finished && !unfinished)
       raise({Fault::bad_input,
              fmt::format("'{}' is a run that was cut short: {}; unfinished=True takes it",
-                         folder.string(), app::how_far(run))});
+                         folder.string(), app::progress_text(run))});
     return Run(std::move(run));
   }
   raise({Fault::bad_input, fmt::format("'{}': case must be one of: {}", folder.string(),
@@ -162,7 +158,8 @@ void add_run(py::module_& module) {
           [](const Run& run) { return std::const_pointer_cast<record::Layout>(run.layout()); },
           "The net.")
       .def("__repr__", [](const Run& run) {
-        return fmt::format("Run({}, {})", run.read().summary.preset, app::how_far(run.read()));
+        return fmt::format("Run({}, {})", run.read().summary.preset,
+                           app::progress_text(run.read()));
       });
   add_columns(type);
   module.def("load", &load, py::arg("folder"), py::kw_only(), py::arg("case") = py::none(),

@@ -1,16 +1,14 @@
 // gridshell.Session: a shell in a Python program's hand.
-#include "app/python/session.h"
+#include "app/python/module.h"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 
-#include "app/preset_library.h"
-#include "app/python/arguments.h"
-#include "app/python/interruptible.h"
+#include "app/cli/preset_library.h"
 #include "app/python/values.h"
-#include "engine/preset/writer.h"
+#include "engine/gridshell.h"
 
 namespace gridshell::python {
 
@@ -63,7 +61,8 @@ class Session {
   Done step(const char* deed, const py::dict& keys) {
     const auto step = in_hand([&](Shell& shell) { return step_of(shell.preset(), deed, keys); });
     return at_work([&](Shell& shell, const Watch& watch) {
-      return step.deed == preset::Deed::move ? shell.move(step, watch) : shell.take(step, watch);
+      return step.deed == preset::StepKind::move ? shell.move(step, watch)
+                                                 : shell.take(step, watch);
     });
   }
 

@@ -5,23 +5,20 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/core/clock.h"
-#include "engine/experiment/actuation.h"
-#include "engine/experiment/course.h"
-#include "engine/experiment/frames.h"
+#include "engine/core/system_info.h"
+#include "engine/core/try.h"
+#include "engine/gridshell.h"
 
 namespace gridshell::python {
 
 Result<Shell> Shell::open(const preset::Preset& preset) {
-  const auto made = shared_scene_of(preset);
-  if (!made) return tl::unexpected<Error>(made.error());
+  TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
-  if (scene->rung == preset::Rung::net)
+  if (scene->rung == RodModel::net)
     return fail(Fault::bad_input,
                 "[accuracy] model = \"net\": the net is geometry alone, there is nothing to hold");
   Shell shell(std::make_shared<const preset::Preset>(preset), scene);
-  auto session = Session::open(shell.scene_, experiment::first_plan(*shell.scene_));
-  if (!session) return tl::unexpected<Error>(session.error());
+  TRY(session, Session::open(shell.scene_, experiment::initial_levels(*shell.scene_)));
   shell.session_ = std::move(*session);
   if (!shell.scene_->drawn_in_space) {
     shell.session_->begin_flat();
@@ -46,7 +43,7 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
 Result<Done> Shell::form(double progress, const Watch& watch) {
   if (progress == 0 && (formed_ || !scene_->drawn_in_space))  // where it stands
     return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
-  auto course = experiment::course_of(
+  auto course = experiment::converged_path(
       *scene_,
       [&](const LevelPlan& plan, const Watch& w) {
         return experiment::follow_actuation(scene_, plan, false, progress, w);
@@ -56,11 +53,11 @@ Result<Done> Shell::form(double progress, const Watch& watch) {
   session_ = std::move(course->session);
   formed_ = true;
   boundary_.progress = session_->progress();
-  const experiment::Leg* last = course->legs.empty() ? nullptr : &course->legs.back();
+  const experiment::PathSegment* last = course->legs.empty() ? nullptr : &course->legs.back();
   if (last && !last->back && last->report.end != Outcome::reached)
     return fail(Fault::no_equilibrium, "actuate: " + course->limit_reason);
   Done done;
-  for (const experiment::Leg& leg : course->legs)
+  for (const experiment::PathSegment& leg : course->legs)
     done.report.events.insert(done.report.events.end(), leg.report.events.begin(),
                               leg.report.events.end());
   done.report.certificate = session_->certificate();
@@ -89,8 +86,7 @@ Result<Done> Shell::take(const preset::Step& step, const Watch& watch) {
   if (!formed_) return fail(Fault::bad_input, "the shell is still flat: actuate it first");
   as_drawn_ = false;
   grips_.note(*session_);
-  auto report = experiment::take_step(*session_, boundary_, step, watch);
-  if (!report) return tl::unexpected<Error>(report.error());
+  TRY(report, experiment::apply_step(*session_, boundary_, step, watch));
   return ended(experiment::text_of(step), std::move(*report));
 }
 
@@ -125,8 +121,7 @@ Result<void> Shell::restore(const Kept& kept) {
 Result<State> Shell::look() {
   const RodMesh& mesh = session_->shell().finest();
   if (layout_nodes_ != mesh.rod_nodes()) {
-    auto layout = experiment::layout_of(*scene_, mesh);
-    if (!layout) return tl::unexpected<Error>(layout.error());
+    TRY(layout, experiment::layout_of(*scene_, mesh));
     layout->extrapolated = session_->shell().plan().extrapolate;
     layout_ = std::make_shared<const record::Layout>(std::move(*layout));
     layout_nodes_ = mesh.rod_nodes();
@@ -138,9 +133,9 @@ Result<State> Shell::look() {
   record::Frame& frame = state.frame;
   frame.progress = frame.actuation = boundary_.progress;
   frame.boundary_radius_mm = scene_->radius_at(frame.actuation);
-  experiment::put_push(*session_, grips_.last(*session_), frame);
+  experiment::fill_push(*session_, grips_.last(*session_), frame);
   state.certificate = session_->certificate();
-  for (const Hold& hold : session_->holds()) {
+  for (const Constraint& hold : session_->holds()) {
     const FootprintJoint& joint = scene_->footprint.joints[std::size_t(hold.node)];
     state.held.push_back({joint.i, joint.j});
   }

@@ -10,11 +10,7 @@
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
-#include "engine/experiment/grip.h"
-#include "engine/experiment/steps.h"
-#include "engine/preset/preset.h"
-#include "engine/record/snapshot.h"
-#include "engine/session/session.h"
+#include "engine/gridshell.h"
 
 namespace gridshell::python {
 
@@ -37,8 +33,8 @@ struct Done {
 struct Kept {
   std::shared_ptr<const Scene> scene;
   Checkpoint checkpoint;
-  experiment::HandBoundary boundary;
-  experiment::Grips grips;
+  experiment::BoundaryPosition boundary;
+  experiment::GrippedJoints grips;
   bool formed = false;
 };
 
@@ -71,15 +67,15 @@ class Shell {
   Shell(std::shared_ptr<const preset::Preset> preset, std::shared_ptr<const Scene> scene)
       : preset_(std::move(preset)),
         scene_(std::move(scene)),
-        boundary_(experiment::HandBoundary::of(*scene_)) {}
+        boundary_(experiment::BoundaryPosition::of(*scene_)) {}
   Result<Done> form(double progress, const Watch& watch);
   Result<Done> ended(const std::string& what, Report report) const;
 
   std::shared_ptr<const preset::Preset> preset_;
   std::shared_ptr<const Scene> scene_;
   std::optional<Session> session_;
-  experiment::HandBoundary boundary_;
-  experiment::Grips grips_;
+  experiment::BoundaryPosition boundary_;
+  experiment::GrippedJoints grips_;
   std::shared_ptr<const record::Layout> layout_;
   int layout_nodes_ = 0;
   bool formed_ = false;

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <utility>
 
-#include "app/python/arrays.h"
-#include "app/python/interruptible.h"
-#include "app/python/numbers.h"
+#include "app/cli/pictures.h"
+#include "app/python/module.h"
+#include "render/gl/image.h"
+#include "render/movie/stage.h"
+
+#include "engine/core/try.h"
 
 namespace gridshell::python {
 namespace {
@@ -201,6 +205,28 @@ void add_values(py::module_& module) {
   add_report(module);
   add_layout(module);
   add_state(module);
+}
+
+namespace {
+
+Result<void> draw_on(const State& state, const render::MovieStyle& style,
+                     const std::filesystem::path& path, const std::string& context) {
+  // OpenGL stays on the thread that began it, which is that of this call
+  TRY(artist, app::PictureMaker::create(context, 0, state.preset->style.font));
+  const record::Trajectory run{*state.layout, {state.frame}};
+  if (auto showable = render::check_showable(run, style); !showable) return showable;
+  const render::Stage stage(run, style);
+  TRY(picture, stage.draw(artist->renderer(), {run.frames.front(), 0}));
+  return render::write_png(*picture, path);
+}
+
+}  // namespace
+
+void draw(const State& state, const std::filesystem::path& path,
+          const std::optional<std::pair<int, int>>& size, const std::string& context) {
+  render::MovieStyle style = app::style_of(*state.preset, app::Pictures::movie);
+  if (size) std::tie(style.width, style.height) = *size;
+  value_of(interruptible([&](const Watch&) { return draw_on(state, style, path, context); }));
 }
 
 }  // namespace gridshell::python

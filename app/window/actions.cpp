@@ -7,46 +7,46 @@ namespace gridshell::window {
 namespace {
 
 template <ColourBy by>
-void colour(Desk& desk) {
-  desk.show.colour_by = by;
-  desk.show.scale = scale_of(values_of(*desk.sight, by), by);
+void colour(ViewerState& viewer) {
+  viewer.show.colour_by = by;
+  viewer.show.scale = scale_of(values_of(*viewer.sight, by), by);
 }
 template <RangeOf of>
-void range(Desk& desk) {
-  desk.range_of = of;
+void range(ViewerState& viewer) {
+  viewer.range_of = of;
   const render::ColourScale now =
-      scale_of(values_of(*desk.sight, desk.show.colour_by), desk.show.colour_by);
-  desk.show.scale = next_scale(desk.show.scale, now, of);
+      scale_of(values_of(*viewer.sight, viewer.show.colour_by), viewer.show.colour_by);
+  viewer.show.scale = next_scale(viewer.show.scale, now, of);
 }
 template <RangeOf of>
-bool ranged(const Desk& desk) {
-  return desk.range_of == of;
+bool ranged(const ViewerState& viewer) {
+  return viewer.range_of == of;
 }
 template <ColourBy by>
-bool coloured(const Desk& desk) {
-  return desk.show.colour_by == by;
+bool coloured(const ViewerState& viewer) {
+  return viewer.show.colour_by == by;
 }
 
 template <bool Show::*flag>
-void switch_shown(Desk& desk) {
-  desk.show.*flag = !(desk.show.*flag);
+void switch_shown(ViewerState& viewer) {
+  viewer.show.*flag = !(viewer.show.*flag);
 }
 template <bool Show::*flag>
-bool is_shown(const Desk& desk) {
-  return desk.show.*flag;
+bool is_shown(const ViewerState& viewer) {
+  return viewer.show.*flag;
 }
-template <bool Desk::*flag>
-void switch_desk(Desk& desk) {
-  desk.*flag = !(desk.*flag);
+template <bool ViewerState::*flag>
+void switch_desk(ViewerState& viewer) {
+  viewer.*flag = !(viewer.*flag);
 }
-template <bool Desk::*flag>
-bool is_on(const Desk& desk) {
-  return desk.*flag;
+template <bool ViewerState::*flag>
+bool is_on(const ViewerState& viewer) {
+  return viewer.*flag;
 }
 
-void step(Desk& desk, double by) {
-  desk.play(false);
-  desk.go(std::clamp(desk.part() + by, 0.0, 1.0), false);
+void step(ViewerState& viewer, double by) {
+  viewer.play(false);
+  viewer.go(std::clamp(viewer.part() + by, 0.0, 1.0), false);
 }
 
 constexpr Shortcut none{};
@@ -56,95 +56,95 @@ constexpr Shortcut ctrl(Key key) { return {key, true, false}; }
 // clang-format off
 const std::array table{
     Action{"pick_preset", "File", "Pick a preset", ctrl(Key::o),
-           "shows all presets to choose from", switch_desk<&Desk::picking>, is_on<&Desk::picking>},
+           "shows all presets to choose from", switch_desk<&ViewerState::picking>, is_on<&ViewerState::picking>},
     Action{"save_picture", "File", "Save picture", ctrl(Key::p),
-           "keeps the view as a PNG, of the size and quality set under Keep", [](Desk& d) { d.save_picture(); }},
+           "keeps the view as a PNG, of the size and quality set under Keep", [](ViewerState& d) { d.save_picture(); }},
     Action{"save_movie", "File", "Save movie", ctrl(Key::m),
            "makes a movie of what was done, step by step, while the shell stays in hand",
-           [](Desk& d) { d.save_movie(); }},
+           [](ViewerState& d) { d.save_movie(); }},
     Action{"stop_movie", "File", "Stop the movie", none,
            "ends the making of the movie; the frames made so far stay",
-           [](Desk& d) { d.movie_work.stop(); }},
+           [](ViewerState& d) { d.movie_task.stop(); }},
     Action{"copy_camera", "File", "Copy camera", ctrl(Key::c),
            "puts the camera on the clipboard, as keys of a preset's [movie]",
-           [](Desk& d) { d.copy_camera(); }},
+           [](ViewerState& d) { d.copy_camera(); }},
     Action{"save_preset", "File", "Save preset", ctrl(Key::s),
            "keeps numbers, camera and what the hand did, step by step, as a preset that runs",
-           [](Desk& d) { d.save_preset(); }},
+           [](ViewerState& d) { d.save_preset(); }},
     Action{"quit", "File", "Quit", ctrl(Key::q), "closes the window",
-           [](Desk& d) { d.over = true; }},
+           [](ViewerState& d) { d.over = true; }},
 
     Action{"undo", "Edit", "Undo", ctrl(Key::z), "takes back the last step; a drag is one",
-           [](Desk& d) { d.wish(Undo{}); }},
+           [](ViewerState& d) { d.send_command(Undo{}); }},
     Action{"undo_all", "Edit", "Undo everything", none,
            "back to the first shell; Redo does it all again",
-           [](Desk& d) { d.wish(Undo{true}); }},
+           [](ViewerState& d) { d.send_command(Undo{true}); }},
     Action{"redo", "Edit", "Redo", ctrl(Key::y), "does it again",
-           [](Desk& d) { d.wish(Redo{}); }},
+           [](ViewerState& d) { d.send_command(Redo{}); }},
     Action{"stop", "Edit", "Stop", on(Key::escape),
            "stops what the engine is at; of a design the last certified step stays in hand",
-           [](Desk& d) { d.stop(); }},
+           [](ViewerState& d) { d.stop(); }},
 
     Action{"play", "Shell", "Play", on(Key::space), "plays the preset's path, or stops it",
-           [](Desk& d) { d.play(!d.playing); }, is_on<&Desk::playing>},
+           [](ViewerState& d) { d.play(!d.playing); }, is_on<&ViewerState::playing>},
     Action{"step_on", "Shell", "Step on", on(Key::right), "a fiftieth of the path on",
-           [](Desk& d) { step(d, 0.02); }},
+           [](ViewerState& d) { step(d, 0.02); }},
     Action{"step_back", "Shell", "Step back", on(Key::left), "a fiftieth of the path back",
-           [](Desk& d) { step(d, -0.02); }},
+           [](ViewerState& d) { step(d, -0.02); }},
     Action{"to_start", "Shell", "To the start", on(Key::home), "back to the begin of the path",
-           [](Desk& d) { d.play(false); d.go(0, false); }},
+           [](ViewerState& d) { d.play(false); d.go(0, false); }},
     Action{"to_end", "Shell", "To the end", on(Key::end), "on to the end of the path",
-           [](Desk& d) { d.play(false); d.go(1, false); }},
+           [](ViewerState& d) { d.play(false); d.go(1, false); }},
     Action{"release", "Shell", "Let go of all joints", on(Key::r),
-           "takes the forces off all held joints", [](Desk& d) { d.wish(Release{}); }},
+           "takes the forces off all held joints", [](ViewerState& d) { d.send_command(Release{}); }},
     Action{"gravity", "Shell", "Gravity", on(Key::g), "switches the rods' own weight on and off",
-           [](Desk& d) { d.toggle_gravity(); }, [](const Desk& d) { return d.gravity(); }},
+           [](ViewerState& d) { d.toggle_gravity(); }, [](const ViewerState& d) { return d.gravity(); }},
     Action{"jitter", "Shell", "Jitter", on(Key::j),
            "shakes the shell by random forces on its joints and lets it come to rest",
-           [](Desk& d) { d.wish(Jitter{d.sight->equilibria + 1}); }},
+           [](ViewerState& d) { d.send_command(Jitter{d.sight->equilibria + 1}); }},
     Action{"rest", "Shell", "Go to rest", on(Key::d), "down the energy to the lower side",
-           [](Desk& d) { d.wish(Rest{Leave::lower}); }},
+           [](ViewerState& d) { d.send_command(Rest{BranchSide::lower}); }},
     Action{"rest_along", "Shell", "Rest on one side", on(Key::comma),
            "off an unstable state along its soft mode",
-           [](Desk& d) { d.wish(Rest{Leave::along}); }},
+           [](ViewerState& d) { d.send_command(Rest{BranchSide::along}); }},
     Action{"rest_against", "Shell", "Rest on the other", on(Key::period),
            "off an unstable state against its soft mode",
-           [](Desk& d) { d.wish(Rest{Leave::against}); }},
+           [](ViewerState& d) { d.send_command(Rest{BranchSide::against}); }},
     Action{"soft_mode", "Shell", "Soft mode", on(Key::m),
            "moves an unstable shell to and fro as it would leave",
-           switch_desk<&Desk::animate_mode>, is_on<&Desk::animate_mode>},
+           switch_desk<&ViewerState::animate_mode>, is_on<&ViewerState::animate_mode>},
     Action{"push_freely", "Shell", "Push freely", on(Key::f),
            "a joint goes with the mouse in every direction instead of along its normal",
-           [](Desk& d) { d.push_way = d.push_way == PushWay::freely ? PushWay::normal
-                                                                     : PushWay::freely; },
-           [](const Desk& d) { return d.push_way == PushWay::freely; }},
+           [](ViewerState& d) { d.push_direction = d.push_direction == PushDirection::freely ? PushDirection::normal
+                                                                     : PushDirection::freely; },
+           [](const ViewerState& d) { return d.push_direction == PushDirection::freely; }},
 
     Action{"design_start", "Shell", "Start the design", ctrl(Key::d),
            "moves what is ticked until the shell meets its surface, step by step, each one shown",
-           [](Desk& d) { d.start_design(); }},
+           [](ViewerState& d) { d.start_design(); }},
     Action{"design_stop", "Shell", "Stop the design", none,
            "the last certified step stays on the screen, to be kept or put back",
-           [](Desk& d) { d.stop(); }},
+           [](ViewerState& d) { d.stop(); }},
     Action{"design_keep", "Shell", "Keep the design", none,
            "the designed shell is the one in hand, one step that can be undone; stops the design",
-           [](Desk& d) { d.end_design(KeepDesign{}); }},
+           [](ViewerState& d) { d.end_design(AcceptDesign{}); }},
     Action{"design_put_back", "Shell", "Put back the design", none,
            "the shell as it was before the design, to the bit; stops the design",
-           [](Desk& d) { d.end_design(PutBack{}); }},
+           [](ViewerState& d) { d.end_design(DiscardDesign{}); }},
 
     Action{"view_home", "View", "Home", on(Key::n0), "the whole shell as movies show it",
-           [](Desk& d) { d.look(view_home); }},
+           [](ViewerState& d) { d.look(view_home); }},
     Action{"view_top", "View", "Top", on(Key::n7), "from above",
-           [](Desk& d) { d.look(view_top); }},
+           [](ViewerState& d) { d.look(view_top); }},
     Action{"view_front", "View", "Front", on(Key::n1), "along y",
-           [](Desk& d) { d.look(view_front); }},
+           [](ViewerState& d) { d.look(view_front); }},
     Action{"view_side", "View", "Side", on(Key::n3), "against x",
-           [](Desk& d) { d.look(view_side); }},
+           [](ViewerState& d) { d.look(view_side); }},
     Action{"view_iso", "View", "Corner", on(Key::n9), "the three axes alike",
-           [](Desk& d) { d.look(view_iso); }},
+           [](ViewerState& d) { d.look(view_iso); }},
     Action{"orthographic", "View", "Orthographic", on(Key::n5), "without perspective",
-           [](Desk& d) { d.camera.field_of_view_deg = d.camera.field_of_view_deg > 0 ? 0 : 20; },
-           [](const Desk& d) { return d.camera.field_of_view_deg == 0; }},
+           [](ViewerState& d) { d.camera.field_of_view_deg = d.camera.field_of_view_deg > 0 ? 0 : 20; },
+           [](const ViewerState& d) { return d.camera.field_of_view_deg == 0; }},
     Action{"joints", "View", "Joints", none, "shows the joints", switch_shown<&Show::joints>,
            is_shown<&Show::joints>},
     Action{"rings", "View", "Boundaries", none, "shows the original and the actuated boundary",
@@ -158,12 +158,12 @@ const std::array table{
     Action{"dark", "View", "Dark", on(Key::l), "dark instead of light",
            switch_shown<&Show::dark>, is_shown<&Show::dark>},
     Action{"numbers", "View", "Numbers", on(Key::tab), "every number of the preset",
-           switch_desk<&Desk::numbers>, is_on<&Desk::numbers>},
+           switch_desk<&ViewerState::numbers>, is_on<&ViewerState::numbers>},
     Action{"design", "View", "Design", on(Key::i),
            "what may change so that the shell meets its surface, and how far it has come",
-           switch_desk<&Desk::design_panel>, is_on<&Desk::design_panel>},
+           switch_desk<&ViewerState::design_panel>, is_on<&ViewerState::design_panel>},
     Action{"plots", "View", "Plots", on(Key::p), "curves of what was done so far",
-           switch_desk<&Desk::plots>, is_on<&Desk::plots>},
+           switch_desk<&ViewerState::plots>, is_on<&ViewerState::plots>},
 
     Action{"colour_none", "Colour", "Nothing", none, "rods and joints alone",
            colour<ColourBy::none>, coloured<ColourBy::none>},
@@ -190,7 +190,7 @@ const std::array table{
            ranged<RangeOf::hand>},
 
     Action{"help", "Help", "Keys and mouse", on(Key::f1), "this sheet",
-           switch_desk<&Desk::help>, is_on<&Desk::help>},
+           switch_desk<&ViewerState::help>, is_on<&ViewerState::help>},
 };
 
 const std::array mouse{

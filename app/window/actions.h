@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "app/window/desk.h"
 #include "app/window/input_event.h"
+#include "app/window/viewer_state.h"
 
 namespace gridshell::window {
 
@@ -28,8 +28,8 @@ struct Action {
   const char* label;  ///< there
   Shortcut key;
   const char* help;  ///< one sentence
-  void (*act)(Desk&);
-  bool (*on)(const Desk&) = nullptr;  ///< of those that switch: whether it is on
+  void (*act)(ViewerState&);
+  bool (*on)(const ViewerState&) = nullptr;  ///< of those that switch: whether it is on
 };
 
 /// In the order of the menus.

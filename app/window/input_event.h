@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/enum_words.h"
 #include "engine/core/result.h"
-#include "engine/core/words.h"
 
 namespace gridshell::window {
 

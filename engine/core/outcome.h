@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "engine/core/words.h"
+#include "engine/core/enum_words.h"
 
 namespace gridshell {
 
@@ -21,22 +21,22 @@ enum class Outcome {
 };
 
 /// An outcome's word, and what happened as a sentence goes on: "... at progress 0.4".
-struct OutcomeWords {
+struct OutcomeText {
   Outcome outcome;
   const char* name;
   const char* what;
 };
 
 inline constexpr std::array outcomes{
-    OutcomeWords{Outcome::reached, "reached", "all that was asked for was reached"},
-    OutcomeWords{Outcome::unstable, "unstable", "the path lost its stability"},
-    OutcomeWords{Outcome::lost, "lost", "the state jumped between load steps however small"},
-    OutcomeWords{Outcome::folded, "folded", "two edges folded onto one another"},
-    OutcomeWords{Outcome::not_finite, "not_finite", "a pivot or a position was not finite"},
-    OutcomeWords{Outcome::not_converged, "not_converged", "the iterations did not come to rest"},
-    OutcomeWords{Outcome::meshes_disagree, "meshes_disagree", "a finer mesh went to another state"},
-    OutcomeWords{Outcome::locked, "locked", "the rods came to their length"},
-    OutcomeWords{Outcome::cancelled, "cancelled", "it was stopped"},
+    OutcomeText{Outcome::reached, "reached", "all that was asked for was reached"},
+    OutcomeText{Outcome::unstable, "unstable", "the path lost its stability"},
+    OutcomeText{Outcome::lost, "lost", "the state jumped between load steps however small"},
+    OutcomeText{Outcome::folded, "folded", "two edges folded onto one another"},
+    OutcomeText{Outcome::not_finite, "not_finite", "a pivot or a position was not finite"},
+    OutcomeText{Outcome::not_converged, "not_converged", "the iterations did not come to rest"},
+    OutcomeText{Outcome::meshes_disagree, "meshes_disagree", "a finer mesh went to another state"},
+    OutcomeText{Outcome::locked, "locked", "the rods came to their length"},
+    OutcomeText{Outcome::cancelled, "cancelled", "it was stopped"},
 };
 
 static_assert(
@@ -47,6 +47,6 @@ static_assert(
     }(),
     "every outcome has its line in outcomes, in their order");
 
-constexpr const OutcomeWords& words_of(Outcome outcome) { return outcomes[std::size_t(outcome)]; }
+constexpr const OutcomeText& words_of(Outcome outcome) { return outcomes[std::size_t(outcome)]; }
 
 }  // namespace gridshell

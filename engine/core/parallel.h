@@ -16,7 +16,7 @@
 namespace gridshell {
 
 /// As many threads as asked for; 0: as there are cores.
-inline int threads_or_cores(int asked) {
+inline int thread_count(int asked) {
   return asked > 0 ? asked : std::max(1, int(std::thread::hardware_concurrency()));
 }
 
@@ -26,8 +26,8 @@ inline int threads_or_cores(int asked) {
 /// of threads. What fails (`make`, or a task that returns a Result) or throws cancels the rest.
 /// Errors: the first of those; cancelled. What was thrown is thrown again here.
 template <class Make, class Task, class Done>
-Result<void> share_work(int count, int threads, Watch& watch, const Make& make, const Task& task,
-                        const Done& done) {
+Result<void> parallel_for(int count, int threads, Watch& watch, const Make& make, const Task& task,
+                          const Done& done) {
   std::atomic<int> next{0};
   int finished = 0;
   std::mutex guard;
@@ -73,8 +73,9 @@ Result<void> share_work(int count, int threads, Watch& watch, const Make& make, 
 
 /// The same where threads need nothing of their own: `task(k)`.
 template <class Task, class Done>
-Result<void> share_work(int count, int threads, Watch& watch, const Task& task, const Done& done) {
-  return share_work(
+Result<void> parallel_for(int count, int threads, Watch& watch, const Task& task,
+                          const Done& done) {
+  return parallel_for(
       count, threads, watch, [] { return Result<bool>(true); },
       [&](bool, int k) { return task(k); }, done);
 }

@@ -1,4 +1,4 @@
-#include "engine/core/version.h"
+#include "engine/core/system_info.h"
 
 namespace gridshell {
 

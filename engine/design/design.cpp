@@ -1,23 +1,94 @@
 #include "engine/design/design.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "engine/core/clock.h"
-#include "engine/design/design_work.h"
-#include "engine/experiment/actuation.h"
-#include "engine/scene/shell_ends.h"
+#include "engine/core/system_info.h"
+#include "engine/core/try.h"
+#include "engine/design/variables.h"
+#include "engine/preset/model_choice.h"
+#include "engine/scene/rod_ends.h"
+#include "engine/simulate/actuation.h"
 
 namespace gridshell {
+namespace {
+
+constexpr double same_place = 1e-4;  // of d: what counts as symmetric
+
+Eigen::Matrix2Xd uv_of_joints(const Scene& scene) {
+  Eigen::Matrix2Xd uv(2, Eigen::Index(scene.footprint.joints.size()));
+  for (Eigen::Index k = 0; k < uv.cols(); ++k) {
+    const FootprintJoint& joint = scene.footprint.joints[std::size_t(k)];
+    uv.col(k) << joint.u, joint.v;
+  }
+  return uv;
+}
+
+OptimiseOptions options_of(const preset::Inverse& inverse) {
+  OptimiseOptions options;
+  options.norm = inverse.norm;
+  options.weights.moves = inverse.mu;
+  options.move_limit_mm = inverse.move_limit_mm;
+  options.min_stability = inverse.min_stability;
+  options.max_leg_force_N = inverse.max_leg_force_N;
+  return options;
+}
+
+}  // namespace
+
+Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene) {
+  if (preset.inverse.vary.empty())
+    return fail(Fault::bad_input,
+                "nothing may change: [inverse] vary must name pins_radial, pins, pins_3d, legs, "
+                "directions or diameters");
+  if (!scene.net)
+    return fail(Fault::bad_input,
+                "the footprint was not designed on a net, so there is no surface to meet: "
+                "[footprint] kind must be \"net\"");
+  if (scene.solved_model() != RodModel::bend)
+    return fail(Fault::bad_input,
+                "only shells of the bend rung can be designed; this one needs more: " +
+                    preset::model_reason(preset));
+  return {};
+}
+
+Result<DesignTarget> design_target(const Scene& scene, preset::Target kind) {
+  return DesignTarget::make(scene.net, uv_of_joints(scene), kind);
+}
+
+ShellEnds rounded(ShellEnds ends, double to_mm) {
+  if (to_mm == 0) return ends;
+  const auto round = [to_mm](double value) { return std::round(value / to_mm) * to_mm; };
+  ends.at = ends.at.unaryExpr(round);
+  // no leg is rounded away
+  ends.leg = ends.leg.unaryExpr(round).cwiseMax(to_mm);
+  return ends;
+}
+
+Result<DesignProblem> begin_design(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
+                                   std::unique_ptr<DesignShell> coarse, const Watch& watch) {
+  TRY(target, design_target(*scene, preset.inverse.target));
+  // the same shell on the mesh that certifies
+  TRY(fine, DesignShell::make(*scene, certified_on, coarse->mesh(), coarse->model(),
+                              coarse->state(), watch));
+  const double spacing = scene->footprint.spacing;
+  const auto symmetries = symmetries_of(*scene, coarse->joints(), same_place * spacing);
+  DesignVariables variables(*scene, preset.inverse.vary, symmetries);
+  if (variables.count() == 0)
+    return fail(Fault::bad_input, "[inverse] vary names nothing that these ends have");
+  return DesignProblem{std::move(scene),           std::move(coarse),      std::move(*fine),
+                       std::move(*target),         int(symmetries.size()), std::move(variables),
+                       options_of(preset.inverse), 0.1 * spacing};
+}
+
 namespace {
 
 constexpr int fabricated_samples = 8;
 constexpr double sigmas_mm[] = {0.1, 0.5};
 
-DesignedState described(MovedShell& shell, DesignTarget& target) {
+DesignedState described(DesignShell& shell, DesignTarget& target) {
   const Eigen::VectorXd distance = target.distances(shell.joints()).size();
   const Eigen::VectorXd force = shell.leg_forces();
   DesignedState state;
@@ -33,10 +104,9 @@ DesignedState described(MovedShell& shell, DesignTarget& target) {
 }
 
 /// The shell of the scene as it is, on the mesh that is designed on.
-Result<std::unique_ptr<MovedShell>> begin(const std::shared_ptr<const Scene>& scene,
-                                          const Watch& watch) {
-  auto course = experiment::follow_actuation(scene, plan_of_mesh(designed_on), false, 1, watch);
-  if (!course) return tl::unexpected<Error>(course.error());
+Result<std::unique_ptr<DesignShell>> begin(const std::shared_ptr<const Scene>& scene,
+                                           const Watch& watch) {
+  TRY(course, experiment::follow_actuation(scene, plan_of_mesh(designed_on), false, 1, watch));
   const Session& session = course->session;
   if (session.progress() != 1)
     return fail(
@@ -44,18 +114,18 @@ Result<std::unique_ptr<MovedShell>> begin(const std::shared_ptr<const Scene>& sc
         "the shell does not come to its end before anything is changed: " + course->limit_reason);
   const NestedShell& shell = session.shell();
   const int last = shell.levels() - 1;
-  return MovedShell::make(*scene, designed_on, shell.mesh(last), shell.model(last),
-                          shell.state().levels.back());
+  return DesignShell::make(*scene, designed_on, shell.mesh(last), shell.model(last),
+                           shell.state().levels.back());
 }
 
 /// Shells whose pins and legs are off by chance, each brought to rest from the designed one.
-Fabricated fabricate(MovedShell& shell, DesignTarget& target, double sigma_mm, double farthest_mm,
-                     const Watch& watch) {
-  const MovedShell::Stand begin = shell.stand();
+FabricationErrors fabricate(DesignShell& shell, DesignTarget& target, double sigma_mm,
+                            double farthest_mm, const Watch& watch) {
+  const DesignShell::ShellPosition begin = shell.stand();
   std::mt19937_64 random(1);
   std::normal_distribution<double> error(0, sigma_mm);
   const auto off = [&](double value) { return value + error(random); };
-  Fabricated found{sigma_mm, fabricated_samples, 0, 0, 0, 0};
+  FabricationErrors found{sigma_mm, fabricated_samples, 0, 0, 0, 0};
   for (int k = 0; k < fabricated_samples && !watch.cancelled(); ++k) {
     ShellEnds ends = begin.ends;
     ends.at = ends.at.unaryExpr(off);
@@ -76,8 +146,9 @@ Fabricated fabricate(MovedShell& shell, DesignTarget& target, double sigma_mm, d
 }
 
 /// The last step that the mesh that certifies finds stable enough too; both shells end there.
-Result<std::size_t> certify(MovedShell& coarse, MovedShell& fine, const DesignVariables& variables,
-                            const std::vector<DesignStep>& steps, double allowed, double jump_mm) {
+Result<std::size_t> certify(DesignShell& coarse, DesignShell& fine,
+                            const DesignVariables& variables, const std::vector<DesignStep>& steps,
+                            double allowed, double jump_mm) {
   std::string why = "nothing was tried";
   for (std::size_t k = steps.size(); k-- > 0;) {
     if (k > 0 && !steps[k].taken) continue;
@@ -95,22 +166,20 @@ Result<std::size_t> certify(MovedShell& coarse, MovedShell& fine, const DesignVa
 
 }  // namespace
 
-Result<Designed> design(const preset::Preset& preset, Watch& watch,
-                        const std::function<void(const DesignStep&)>& seen) {
+Result<DesignResult> design(const preset::Preset& preset, Watch& watch,
+                            const std::function<void(const DesignStep&)>& seen) {
   const double started = cpu_seconds_now();
-  const auto made = shared_scene_of(preset);
-  if (!made) return tl::unexpected<Error>(made.error());
+  TRY(made, shared_scene_of(preset));
   const std::shared_ptr<const Scene>& scene = *made;
-  if (auto can = can_be_designed(preset, *scene); !can) return tl::unexpected<Error>(can.error());
+  TRY_DO(can_be_designed(preset, *scene));
   auto first = begin(scene, watch);
   if (watch.cancelled()) return stopped();
   if (!first) return tl::unexpected<Error>(first.error());
-  auto begun = begin_design(preset, scene, std::move(*first));
-  if (!begun) return tl::unexpected<Error>(begun.error());
-  DesignWork& work = *begun;
-  MovedShell &coarse = *work.coarse, &fine = *work.fine;
+  TRY(begun, begin_design(preset, scene, std::move(*first)));
+  DesignProblem& work = *begun;
+  DesignShell &coarse = *work.coarse, &fine = *work.fine;
 
-  Designed found;
+  DesignResult found;
   found.length_scale_mm = scene->length_scale_mm;
   found.before = {described(coarse, work.target), described(fine, work.target)};
   const DesignVariables& variables = work.variables;
@@ -127,8 +196,7 @@ Result<Designed> design(const preset::Preset& preset, Watch& watch,
   if (watch.cancelled()) return stopped();
   const double jump = work.jump_mm,
                allowed = preset.inverse.min_stability * found.before.back().eigenvalue;
-  const auto kept = certify(coarse, fine, variables, found.steps, allowed, jump);
-  if (!kept) return tl::unexpected<Error>(kept.error());
+  TRY(kept, certify(coarse, fine, variables, found.steps, allowed, jump));
   found.q = found.steps[*kept].q;
   found.kept = int(*kept);
   found.largest_move_mm = variables.largest_move_mm(found.q);
@@ -161,14 +229,57 @@ Result<Designed> design(const preset::Preset& preset, Watch& watch,
 
 Result<Eigen::Matrix3Xd> nearest_to(const preset::Preset& preset, const Eigen::Matrix3Xd& flat,
                                     const Eigen::Matrix3Xd& nodes) {
-  const auto scene = scene_of(preset);
-  if (!scene) return tl::unexpected<Error>(scene.error());
+  TRY(scene, scene_of(preset));
   const Eigen::Matrix2Xd uv = scene->flat.axes.transpose() * (flat.colwise() - scene->flat.origin);
   Eigen::Matrix3Xd places = nodes;
   for (Eigen::Index k = 0; k < nodes.cols(); ++k)
     if (auto target = DesignTarget::make(scene->net, uv.col(k), preset.inverse.target))
       places.col(k) = target->nearest(nodes.col(k));
   return places;
+}
+
+Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignStart& from,
+                                     int most_iterations, const Watch& watch,
+                                     const std::function<void(const CertifiedStep&)>& seen) {
+  TRY_DO(can_be_designed(preset, *from.scene));
+  TRY(shell, DesignShell::make(*from.scene, designed_on, from.mesh, from.model, from.state, watch));
+  TRY(begun, begin_design(preset, from.scene, std::move(*shell), watch));
+  DesignProblem& work = *begun;
+  work.options.most_iterations = most_iterations;
+  ShellEnds last = work.coarse->ends();
+  const auto hand_over = [&](const DesignStep& step, double eigenvalue) {
+    last = work.coarse->ends();
+    const Eigen::VectorXd now = work.target.distances(work.coarse->joints()).size();
+    seen({step, *work.coarse, now, eigenvalue, table_of(*from.scene, last),
+          rod_table_of(*from.scene, last)});
+  };
+
+  const double softest = work.fine->smallest_eigenvalue(watch),
+               allowed = preset.inverse.min_stability * softest;
+  DesignStep begin;
+  begin.eigenvalue = work.coarse->smallest_eigenvalue(watch);
+  if (watch.cancelled()) return stopped();
+  const Eigen::VectorXd distances = work.target.distances(work.coarse->joints()).size();
+  begin.max_mm = distances.maxCoeff();
+  begin.mean_mm = distances.mean();
+  begin.taken = true;
+  begin.q = Eigen::VectorXd::Zero(work.variables.count());
+  hand_over(begin, softest);
+  LiveDesignResult end;
+  optimise(*work.coarse, work.target, work.variables, work.options, from.scene->footprint.spacing,
+           watch, [&](const DesignStep& step) {
+             end.iterations = step.iteration;
+             if (!step.taken) return;
+             if (!work.fine->move_in_steps(work.coarse->ends(), work.jump_mm, watch)) return;
+             const double eigenvalue = work.fine->smallest_eigenvalue(watch);
+             if (eigenvalue >= allowed && !watch.cancelled()) hand_over(step, eigenvalue);
+           });
+  end.stopped = watch.cancelled();
+  // who stops it does not wait for more
+  if (!end.stopped &&
+      work.fine->move_in_steps(rounded(last, preset.inverse.round_mm), work.jump_mm))
+    end.rounded_max_mm = work.target.distances(work.fine->joints()).size().maxCoeff();
+  return end;
 }
 
 }  // namespace gridshell

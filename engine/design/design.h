@@ -1,7 +1,8 @@
-// Inverse design: from a preset whose shell misses its surface to one whose shell meets it.
+// What every design works on, whether it goes to its end or is watched and stopped.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,8 +11,41 @@
 #include "engine/core/watch.h"
 #include "engine/design/optimise.h"
 #include "engine/preset/preset.h"
+#include "engine/scene/scene.h"
 
 namespace gridshell {
+
+/// Edges a segment: optima on 4 are saddles of the shell.
+inline constexpr int designed_on = 16, certified_on = 32;
+
+struct DesignProblem {
+  std::shared_ptr<const Scene> scene;         ///< before anything is moved
+  std::unique_ptr<DesignShell> coarse, fine;  ///< on the two meshes
+  DesignTarget target;
+  int symmetries = 1;
+  DesignVariables variables;
+  OptimiseOptions options;
+  double jump_mm = 0;  ///< Newton's way from a prediction that is believed
+};
+
+/// Whether a shell has what a design needs. Errors: bad_input (nothing to vary, no net, a model
+/// beyond the bend rung).
+Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene);
+
+/// The work of a preset's [inverse] on a shell of its scene, at rest on the mesh that is designed
+/// on. Errors: bad_input (ends that have nothing of what is to vary), no_equilibrium (on the mesh
+/// that certifies), cancelled.
+Result<DesignProblem> begin_design(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
+                                   std::unique_ptr<DesignShell> coarse,
+                                   const Watch& watch = unwatched);
+
+/// What a design aims at, for the joints of a scene that has a net. Errors: those of the net.
+Result<DesignTarget> design_target(const Scene& scene, preset::Target kind);
+
+/// Pins and legs as a builder measures them; 0: exact.
+ShellEnds rounded(ShellEnds ends, double to_mm);
+
+// Inverse design: from a preset whose shell misses its surface to one whose shell meets it.
 
 /// A shell with given ends, at rest on one mesh.
 struct DesignedState {
@@ -24,7 +58,7 @@ struct DesignedState {
 };
 
 /// Shells as a builder would make them: every pin and leg off by a normal error.
-struct Fabricated {
+struct FabricationErrors {
   double sigma_mm = 0;
   int samples = 0, lost = 0;  ///< lost: came to no stable rest nearby
   double max_mm = 0;          ///< largest distance of a joint, over the samples the mean of it
@@ -32,11 +66,11 @@ struct Fabricated {
   double mean_mm = 0;         ///< mean over joints and samples
 };
 
-struct Designed {
+struct DesignResult {
   double length_scale_mm = 0;
   std::vector<DesignedState> before, after;  ///< at 16 and at 32 edges a segment
   std::optional<DesignedState> rounded;      ///< at 32 edges
-  std::vector<Fabricated> fabricated;
+  std::vector<FabricationErrors> fabricated;
   std::vector<DesignStep> steps;
   std::vector<DesignVariable> variables;
   Eigen::VectorXd q;  ///< of the variables
@@ -55,12 +89,48 @@ struct Designed {
 /// optima on 4 are saddles of the shell; certified on 32. Errors: bad_input (nothing to vary, no
 /// net, a model beyond the bend rung), no_equilibrium (of the shell as it is, of the rounded one),
 /// cancelled.
-Result<Designed> design(const preset::Preset& preset, Watch& watch,
-                        const std::function<void(const DesignStep&)>& seen = {});
+Result<DesignResult> design(const preset::Preset& preset, Watch& watch,
+                            const std::function<void(const DesignStep&)>& seen = {});
 
 /// The nearest points of the target to nodes of a shell (3 x nodes) whose places in the flat are
 /// `flat`; where the net is not known there, the nodes themselves. Errors: as of a scene.
 Result<Eigen::Matrix3Xd> nearest_to(const preset::Preset& preset, const Eigen::Matrix3Xd& flat,
                                     const Eigen::Matrix3Xd& nodes);
+
+// A design that somebody watches, step by step, and stops when it is good enough.
+
+/// A step that 16 and 32 edges a segment hold: at rest, stable, stable enough.
+struct CertifiedStep {
+  const DesignStep& step;
+  const DesignShell& shell;             ///< on 16 edges, standing in it
+  const Eigen::VectorXd& distances_mm;  ///< of the joints from the target
+  double eigenvalue = 0;                ///< smallest on 32 edges, N/mm^2
+  preset::Points ends, rods;            ///< `[ends] table`, `[rod] table`
+};
+
+/// Where the shell stands that is designed: a state of the scene's own model, at rest.
+struct DesignStart {
+  std::shared_ptr<const Scene> scene;
+  const RodMesh& mesh;
+  const Model& model;
+  const State& state;
+};
+
+/// How it ended.
+struct LiveDesignResult {
+  bool stopped = false;  ///< before the optimum
+  int iterations = 0;    ///< refused ones too
+  /// Largest distance at 32 edges with pins and legs rounded to `[inverse] round_mm`; none where
+  /// that shell is lost, and where it was stopped.
+  std::optional<double> rounded_max_mm;
+};
+
+/// Optimises as design() does, but hands over each step as it comes, certified, the begin first;
+/// what the finer mesh does not hold is passed over. Cancelled at any time, within a step too, the
+/// last that was handed over is what it came to. It does not build with errors. Errors: as
+/// design(); cancelled before the begin was handed over.
+Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignStart& from,
+                                     int most_iterations, const Watch& watch,
+                                     const std::function<void(const CertifiedStep&)>& seen);
 
 }  // namespace gridshell

@@ -1,12 +1,127 @@
 #include "engine/design/optimise.h"
 
 #include <fmt/format.h>
-
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/try.h"
+#include "engine/scene/net_design.h"
+
 namespace gridshell {
+
+Result<DesignTarget> DesignTarget::make(std::shared_ptr<const ChebyshevNet> net,
+                                        Eigen::Matrix2Xd uv, preset::Target kind) {
+  TRY(places, points_on(*net, uv));
+  DesignTarget target;
+  target.net_ = std::move(net);
+  target.kind_ = kind;
+  target.uv_ = std::move(uv);
+  target.places_ = std::move(*places);
+  return target;
+}
+
+Distances DesignTarget::distances(const Eigen::Matrix3Xd& joints) {
+  if (kind_ == preset::Target::net) return {joints - places_, {}};
+  constexpr int most_iterations = 30;
+  constexpr double near_mm = 1e-10;
+  Distances found{Eigen::Matrix3Xd(3, joints.cols()), Eigen::Matrix3Xd(3, joints.cols())};
+  for (Eigen::Index k = 0; k < joints.cols(); ++k) {
+    const Eigen::Vector3d joint = joints.col(k);
+    auto at = net_->at(uv_(0, k), uv_(1, k));
+    // where it was found last there is a net
+    for (int iteration = 0; at && iteration < most_iterations; ++iteration) {
+      const Eigen::Vector3d off = joint - at->position;
+      const double c = at->tangent_u.dot(at->tangent_v);
+      Eigen::Matrix2d metric;
+      metric << 1, c, c, 1;
+      const Eigen::Vector2d step =
+          metric.inverse() * Eigen::Vector2d(off.dot(at->tangent_u), off.dot(at->tangent_v));
+      const Eigen::Vector2d there = uv_.col(k) + step;
+      const auto next = net_->at(there.x(), there.y());
+      if (!next) break;
+      uv_.col(k) = there;
+      at = next;
+      if (step.norm() < near_mm) break;
+    }
+    const Eigen::Vector3d normal = at->normal();
+    found.normal.col(k) = normal;
+    found.vector.col(k) = normal.dot(joint - at->position) * normal;
+  }
+  return found;
+}
+
+namespace {
+
+double mean_power(const Eigen::VectorXd& size, double p) { return size.array().pow(p).mean(); }
+
+/// How the distances change with z: 3 joints x changes.
+Eigen::MatrixXd distance_rates(const Distances& distances, const Sensitivity& moved) {
+  const Eigen::Index joints = distances.vector.cols();
+  Eigen::MatrixXd rates(3 * joints, Eigen::Index(moved.x.size()));
+  for (std::size_t c = 0; c < moved.x.size(); ++c)
+    for (Eigen::Index k = 0; k < joints; ++k) {
+      Eigen::Vector3d rate = moved.x[c].col(k);
+      if (distances.normal.size() > 0)
+        rate = distances.normal.col(k) * distances.normal.col(k).dot(rate);
+      rates.block<3, 1>(3 * k, Eigen::Index(c)) = rate;
+    }
+  return rates;
+}
+
+/// With w_k = |r_k|^(p-2) M^(2/p-1)/n, M = mean |r|^p: gradient sum w J^T r, curvature
+/// sum w (J^T J + (p-2) (J^T e)(J^T e)^T) + (2-p) M^(-2/p) gradient gradient^T, e = r/|r|.
+void add_distances(const Distances& distances, const Sensitivity& moved, double p, Objective& sum) {
+  const Eigen::VectorXd size = distances.size();
+  const double M = mean_power(size, p), n = double(size.size());
+  if (!(M > 0)) return;
+  const Eigen::MatrixXd J = distance_rates(distances, moved);
+  const double scale = std::pow(M, 2 / p - 1) / n;
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(J.cols());
+  Eigen::MatrixXd curvature = Eigen::MatrixXd::Zero(J.cols(), J.cols());
+  for (Eigen::Index k = 0; k < size.size(); ++k) {
+    const double w = scale * std::pow(size[k], p - 2);
+    const auto rows = J.middleRows<3>(3 * k);
+    const Eigen::Vector3d r = distances.vector.col(k);
+    gradient += w * rows.transpose() * r;
+    curvature += w * rows.transpose() * rows;
+    if (size[k] == 0) continue;
+    const Eigen::VectorXd along = rows.transpose() * (r / size[k]);
+    curvature += w * (p - 2) * along * along.transpose();
+  }
+  sum.value += 0.5 * std::pow(M, 2 / p);
+  sum.gradient += gradient;
+  sum.curvature += curvature + (2 - p) * std::pow(M, -2 / p) * gradient * gradient.transpose();
+}
+
+}  // namespace
+
+double objective_value(const Distances& distances, const Eigen::VectorXd& q,
+                       const Eigen::VectorXd& leg_forces, double p,
+                       const ObjectiveWeights& weights) {
+  return 0.5 * std::pow(mean_power(distances.size(), p), 2 / p) +
+         0.5 * weights.moves * (q / weights.scale).array().square().mean() +
+         0.5 * weights.forces * (leg_forces / weights.force_N).array().square().mean();
+}
+
+Objective objective(const Distances& distances, const Eigen::VectorXd& q,
+                    const Eigen::VectorXd& leg_forces, const Eigen::MatrixXd& basis,
+                    const Sensitivity& moved, double p, const ObjectiveWeights& weights) {
+  const Eigen::Index m = basis.cols();
+  Objective sum{0, Eigen::VectorXd::Zero(m), Eigen::MatrixXd::Zero(m, m)};
+  add_distances(distances, moved, p, sum);
+  const double mu = weights.moves / (double(q.size()) * weights.scale * weights.scale);
+  sum.gradient += mu * basis.transpose() * q;
+  sum.curvature += mu * basis.transpose() * basis;
+  const double eta =
+      weights.forces / (double(leg_forces.size()) * weights.force_N * weights.force_N);
+  sum.gradient += eta * moved.leg_force.transpose() * leg_forces;
+  sum.curvature += eta * moved.leg_force.transpose() * moved.leg_force;
+  sum.value = objective_value(distances, q, leg_forces, p, weights);
+  return sum;
+}
+
 namespace {
 
 constexpr double jump = 0.1;  // of d: Newton's way from a prediction that is believed
@@ -19,7 +134,7 @@ constexpr double least_damping = 1e-4, most_damping = 1e4;
 
 class Optimiser {
  public:
-  Optimiser(MovedShell& shell, DesignTarget& target, const DesignVariables& variables,
+  Optimiser(DesignShell& shell, DesignTarget& target, const DesignVariables& variables,
             const OptimiseOptions& options, double spacing_mm, const Watch& watch)
       : shell_(shell),
         target_(target),
@@ -94,7 +209,7 @@ class Optimiser {
 
   /// Moves the shell to q, or says why not and leaves it where it was.
   std::string attempt(const Eigen::VectorXd& q, double value, double p) {
-    const MovedShell::Stand before = shell_.stand();
+    const DesignShell::ShellPosition before = shell_.stand();
     if (auto moved = shell_.move(variables_.ends_at(q), jump_mm_, watch_); !moved)
       return moved.error().message;
     const std::string wrong = wrong_with(q, value, p);
@@ -117,7 +232,7 @@ class Optimiser {
     return "";
   }
 
-  MovedShell& shell_;
+  DesignShell& shell_;
   DesignTarget& target_;
   const DesignVariables& variables_;
   OptimiseOptions options_;
@@ -134,7 +249,7 @@ class Optimiser {
 
 }  // namespace
 
-std::vector<DesignStep> optimise(MovedShell& shell, DesignTarget& target,
+std::vector<DesignStep> optimise(DesignShell& shell, DesignTarget& target,
                                  const DesignVariables& variables, const OptimiseOptions& options,
                                  double spacing_mm, const Watch& watch,
                                  const std::function<void(const DesignStep&)>& seen) {

@@ -1,16 +1,81 @@
-// Levenberg-Marquardt on the ends of a shell.
+// What a design aims at, and how far the joints are from it.
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "engine/core/watch.h"
-#include "engine/design/moved_shell.h"
-#include "engine/design/objective.h"
-#include "engine/design/target.h"
+#include "engine/design/design_shell.h"
 #include "engine/design/variables.h"
+#include "engine/preset/preset.h"
+#include "engine/scene/scene.h"
 
 namespace gridshell {
+
+/// The distance of each joint from the target as a vector in space, 3 x joints, mm, and the part of
+/// a joint's move that changes it: all of the move where the joint's own place on the net is the
+/// target, that along the surface's normal where the surface is.
+struct Distances {
+  Eigen::Matrix3Xd vector;
+  Eigen::Matrix3Xd normal;  ///< unit; empty: every move counts
+
+  Eigen::VectorXd size() const { return vector.colwise().norm(); }
+};
+
+class DesignTarget {
+ public:
+  /// For points that belong at (u, v) of a net. Errors: those of the net there.
+  static Result<DesignTarget> make(std::shared_ptr<const ChebyshevNet> net, Eigen::Matrix2Xd uv,
+                                   preset::Target kind);
+
+  /// From the surface the nearest point is found by Newton's method on the net, from where it was
+  /// found last; where the net ends before, its tangent plane takes the surface's place.
+  Distances distances(const Eigen::Matrix3Xd& joints);
+  /// The nearest points themselves, 3 x joints.
+  Eigen::Matrix3Xd nearest(const Eigen::Matrix3Xd& joints) {
+    return joints - distances(joints).vector;
+  }
+
+ private:
+  std::shared_ptr<const ChebyshevNet> net_;
+  preset::Target kind_ = preset::Target::surface;
+  Eigen::Matrix2Xd uv_;      // of the nearest points
+  Eigen::Matrix3Xd places_;  // of the joints on the net
+};
+
+// What a design makes small, with its slope and curvature.
+
+/// Weights of what stands beside the distances: without the forces legs are compressed until they
+/// buckle.
+struct ObjectiveWeights {
+  double moves = 0.03;   ///< mu
+  double forces = 0.01;  ///< eta
+  double scale = 1;      ///< of a variable: mm, rad
+  double force_N = 0.1;  ///< of a leg
+};
+
+/// 1/2 (mean |r|^p)^(2/p) + 1/2 mu mean((q/scale)^2) + 1/2 eta mean((N_leg/force)^2), r the
+/// distances of the joints in mm, q the variables from where they began, by z (q = basis z): value,
+/// gradient, and the curvature that is left when r and N are taken as linear in z.
+struct Objective {
+  double value = 0;
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd curvature;
+};
+
+/// The value alone.
+double objective_value(const Distances& distances, const Eigen::VectorXd& q,
+                       const Eigen::VectorXd& leg_forces, double p,
+                       const ObjectiveWeights& weights);
+
+/// `moved`: how joints and leg forces change with z.
+Objective objective(const Distances& distances, const Eigen::VectorXd& q,
+                    const Eigen::VectorXd& leg_forces, const Eigen::MatrixXd& basis,
+                    const Sensitivity& moved, double p, const ObjectiveWeights& weights);
+
+// Levenberg-Marquardt on the ends of a shell.
 
 struct OptimiseOptions {
   double norm = 8;             ///< p of the last stage; the first is 2
@@ -40,7 +105,7 @@ struct DesignStep {
 /// and the leg forces within their limits, and if the objective fell. `seen` after every step,
 /// while the shell stands in it where it was taken. The shell ends at the optimum; cancelled,
 /// between two steps or within one, in the last that was taken. All steps, the begin first.
-std::vector<DesignStep> optimise(MovedShell& shell, DesignTarget& target,
+std::vector<DesignStep> optimise(DesignShell& shell, DesignTarget& target,
                                  const DesignVariables& variables, const OptimiseOptions& options,
                                  double spacing_mm, const Watch& watch,
                                  const std::function<void(const DesignStep&)>& seen = {});

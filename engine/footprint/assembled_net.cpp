@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/footprint/placed_block.h"
+#include "engine/core/try.h"
+#include "engine/footprint/assemblage.h"
 
 namespace gridshell {
 namespace {
@@ -12,8 +13,9 @@ namespace {
 using Places = Assemblage::Places;
 
 /// The blocks that hold a point: one, or on a seam those that meet there.
-std::vector<const Assemblage::Placed*> holders(const Places& places, const Eigen::Vector2d& uv) {
-  std::vector<const Assemblage::Placed*> held, nearest;
+std::vector<const Assemblage::PlacedBlock*> holders(const Places& places,
+                                                    const Eigen::Vector2d& uv) {
+  std::vector<const Assemblage::PlacedBlock*> held, nearest;
   for (const auto& place : places)
     if (place.within_cuts(uv)) held.push_back(&place);
   if (held.size() < 2) return held;
@@ -144,7 +146,7 @@ Result<Eigen::Matrix3Xd> Assemblage::closed(const Eigen::Matrix2Xd& uv, double f
       const bool first = held.front() == &(*places_)[join.first.block];
       if (!first && held.front() != &(*places_)[join.second.block]) continue;
       const BlockSide own = first ? join.first : join.second;
-      const Placed& other = (*places_)[first ? join.second.block : join.first.block];
+      const PlacedBlock& other = (*places_)[first ? join.second.block : join.first.block];
       // straight across to the seam, where both nets are asked
       const double t = held.front()->depth(own.side, uv.col(k)) / fade;
       const bool sum = own.side == Side::east || own.side == Side::west;
@@ -164,7 +166,7 @@ int Assemblage::blocks() const { return static_cast<int>(places_->size()); }
 const Block& Assemblage::block(int index) const { return (*places_)[index].block; }
 
 Result<std::vector<BlockRod>> Assemblage::rods(int index, double step) const {
-  const Placed& place = (*places_)[index];
+  const PlacedBlock& place = (*places_)[index];
   const Block& block = place.block;
   std::vector<BlockRod> rods;
   const int last =
@@ -180,8 +182,7 @@ Result<std::vector<BlockRod>> Assemblage::rods(int index, double step) const {
           const double along = piece.begin + (piece.end - piece.begin) * n / steps;
           rod.flat.col(n) =
               family == Family::u ? Eigen::Vector2d(along, line) : Eigen::Vector2d(line, along);
-          const auto point = place.at(rod.flat.col(n));
-          if (!point) return tl::unexpected(point.error());
+          TRY(point, place.at(rod.flat.col(n)));
           rod.net.col(n) = point->position;
         }
         rods.push_back(std::move(rod));

@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace gridshell {
+
+Eigen::Vector3d FlatFrame::at(const Eigen::Vector2d& uv) const { return origin + axes * uv; }
+
+Eigen::Matrix3Xd FlatFrame::all(const Eigen::Matrix2Xd& uv) const {
+  return (axes * uv).colwise() + origin;
+}
+
 namespace {
 
 /// Where a rod is cut into segments, legs and tails: far end, edge point, joints, edge point, far

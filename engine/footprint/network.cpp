@@ -12,7 +12,8 @@
 #include <set>
 #include <utility>
 
-#include "engine/core/union_find.h"
+#include "engine/core/algorithms.h"
+#include "engine/core/try.h"
 
 namespace gridshell {
 namespace {
@@ -353,11 +354,9 @@ void put_springs(const RodNetwork& network, NetworkFootprint& made) {
 
 Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
   std::map<std::pair<int, int>, std::size_t> stretches;
-  for (std::size_t r = 0; r < network.rods.size(); ++r)
-    if (auto fine = check_rod(network, r, stretches); !fine)
-      return tl::unexpected<Error>(fine.error());
+  for (std::size_t r = 0; r < network.rods.size(); ++r) TRY_DO(check_rod(network, r, stretches));
   const Roles roles(network);
-  if (auto fine = check_points(network, roles); !fine) return tl::unexpected<Error>(fine.error());
+  TRY_DO(check_points(network, roles));
 
   NetworkFootprint made;
   Footprint& footprint = made.footprint;
@@ -373,14 +372,12 @@ Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
     footprint.joints.push_back({point, 0, at.x(), at.y(), at.z()});
   }
   for (std::size_t r = 0; r < network.rods.size(); ++r) {
-    auto rod = rod_of(network, r, roles, joint_at);
-    if (!rod) return tl::unexpected<Error>(rod.error());
+    TRY(rod, rod_of(network, r, roles, joint_at));
     footprint.rods.push_back(std::move(*rod));
     made.rods.push_back(int(r));
     made.ends.insert(made.ends.end(), {network.rods[r].front(), network.rods[r].back()});
   }
-  if (auto held = check_held(network, roles, footprint); !held)
-    return tl::unexpected<Error>(held.error());
+  TRY_DO(check_held(network, roles, footprint));
   footprint.spacing = spacing_of(footprint);
   for (const Placement placement : {Placement::half, Placement::on_axis})
     if (footprint.cells.empty() && !footprint.in_space()) name_as_grid(made, placement);

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "engine/core/result.h"
+#include "engine/geometry/spline.h"
 
 namespace gridshell {
 
@@ -32,5 +33,50 @@ class ChebyshevNet {
 
 /// C at every column of `uv`. Errors (bad_input): those of the net.
 Result<Eigen::Matrix3Xd> points_on(const ChebyshevNet& net, const Eigen::Matrix2Xd& uv);
+
+// Chebyshev's net on the sphere, from two orthogonal great circles through the pole.
+
+/// Centre at the origin, pole (u = v = 0) at +z, u-axis in the xz-plane; radius rho.
+///
+/// The shear angle is omega = f(uv/rho^2), f' + z f'' = -sin f, f(0) = pi/2. On the unit sphere a
+/// rod v = const has the Darboux frame C' = T, T' = -C + g N, N' = -g T with N = C x T and geodesic
+/// curvature g = -v f'(uv), from C = (0, sin v, cos v), T = (1, 0, 0). Both are integrated by
+/// Taylor series (one step covers the hemisphere), to machine accuracy.
+class SphereNet final : public ChebyshevNet {
+ public:
+  /// uv/rho^2 at which the net folds: the zero of f. -uv/rho^2 there is where f reaches pi.
+  static constexpr double fold = 1.8615916773;
+
+  explicit SphereNet(double radius_mm) : radius_(radius_mm) {}
+  double radius() const { return radius_; }
+  Result<NetPoint> at(double u, double v) const override;
+
+  /// f(z): shear angle at uv = z rho^2, also beyond the fold.
+  static double shear(double z);
+
+ private:
+  double radius_;
+};
+
+// Translation nets C(u, v) = X(u) + Y(v).
+
+/// The sum of two unit-speed curves is a Chebyshev net with C_uv = 0; u = v = 0 at their middles,
+/// whose sum lies where the curves put it.
+class TranslationNet final : public ChebyshevNet {
+ public:
+  /// `x` and `y`: points of the two curves, 3 x n, mm. Errors (bad_input): those of
+  /// SplineCurve::through with the curve's name; a fold anywhere on the net, where the curves
+  /// become parallel.
+  static Result<TranslationNet> make(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y);
+
+  double half_u() const { return x_.half_length(); }  ///< the net exists for |u| <= half_u
+  double half_v() const { return y_.half_length(); }  ///< and |v| <= half_v
+  Result<NetPoint> at(double u, double v) const override;
+
+ private:
+  TranslationNet(UnitSpeedCurve x, UnitSpeedCurve y) : x_(std::move(x)), y_(std::move(y)) {}
+  Result<void> check_open() const;
+  UnitSpeedCurve x_, y_;
+};
 
 }  // namespace gridshell

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/geometry/root.h"
-#include "engine/geometry/spline_curve.h"
+#include "engine/core/try.h"
+#include "engine/geometry/calculus.h"
+#include "engine/geometry/spline.h"
 
 namespace gridshell {
 namespace {
@@ -96,8 +97,7 @@ Result<ClosedCurve> ClosedCurve::superellipse(double a, double b, double exponen
 }
 
 Result<ClosedCurve> ClosedCurve::polygon(const Eigen::Matrix2Xd& given) {
-  const auto points = cleaned(given);
-  if (!points) return tl::unexpected(points.error());
+  TRY(points, cleaned(given));
   const Eigen::Index n = points->cols();
   const auto at = [points = *points, n](double t) {
     const Eigen::Index k = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(t), 0, n - 1);
@@ -110,16 +110,14 @@ Result<ClosedCurve> ClosedCurve::polygon(const Eigen::Matrix2Xd& given) {
 }
 
 Result<ClosedCurve> ClosedCurve::spline(const Eigen::Matrix2Xd& given) {
-  const auto points = cleaned(given);
-  if (!points) return tl::unexpected(points.error());
+  TRY(points, cleaned(given));
   // an end of a spline is forgotten by a factor 0.27 a knot: after 40 it is periodic to round-off
   constexpr Eigen::Index around = 40;
   const Eigen::Index n = points->cols();
   Eigen::Matrix2Xd wound(2, n + 2 * around + 1);
   for (Eigen::Index k = 0; k < wound.cols(); ++k)
     wound.col(k) = points->col((k - around % n + n) % n);
-  const auto spline = SplineCurve::through(wound);
-  if (!spline) return tl::unexpected(spline.error());
+  TRY(spline, SplineCurve::through(wound));
   const auto curve = std::make_shared<const SplineCurve>(*spline);
   const double start = curve->knots()[around];
   const auto at = [curve, start](double t) {
@@ -253,8 +251,8 @@ Result<void> check_star(const ClosedCurve& curve, const char* name, Corresponden
 
 Result<BoundaryMap> BoundaryMap::make(ClosedCurve original, ClosedCurve actuated,
                                       Correspondence how) {
-  if (auto good = check_star(original, "original", how); !good) return tl::unexpected(good.error());
-  if (auto good = check_star(actuated, "actuated", how); !good) return tl::unexpected(good.error());
+  TRY_DO(check_star(original, "original", how));
+  TRY_DO(check_star(actuated, "actuated", how));
   BoundaryMap map;
   map.start_original_ = original.arc_length(on_ray(original, 0).front());
   map.start_actuated_ = actuated.arc_length(on_ray(actuated, 0).front());

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "engine/core/enum_words.h"
 #include "engine/core/result.h"
-#include "engine/core/words.h"
-#include "engine/geometry/antiderivative.h"
+#include "engine/geometry/calculus.h"
 
 namespace gridshell {
 

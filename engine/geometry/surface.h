@@ -1,12 +1,14 @@
 // Surfaces F(x, y, z) = 0.
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <optional>
+#include <vector>
 
-#include <Eigen/Core>
-
+#include "engine/core/box_grid.h"
 #include "engine/core/result.h"
+#include "engine/geometry/triangle_mesh.h"
 
 namespace gridshell {
 
@@ -38,5 +40,49 @@ class Surface {
   Function F_;
   double h_;
 };
+
+// A smooth surface through the vertices of a mesh.
+
+/// F = 0, where F(p) = sum w_k F_k / sum w_k over centres spread on the mesh, w_k falling to zero
+/// at a radius about each; F_k is the height of p above a polynomial of degree 4 over the tangent
+/// plane of its centre, fitted to the vertices around by weighted least squares, so near the
+/// surface F is the distance from it (a partition of unity of local fits [Ohtake, Belyaev, Alexa,
+/// Turk, Seidel 2003]). Error of fifth order in the length of the edges; three times continuously
+/// differentiable. It goes on beyond the mesh's rim for some three quarters of `detail_mm`, further
+/// out it has no value.
+class MeshSurface {
+ public:
+  /// `detail_mm`: what is a quarter as large is not followed any more, mm (the spacing of the
+  /// rods). Errors (bad_input): vertices off the fitted surface by more than a hundredth of that,
+  /// with the place; parts of the mesh that come so near to one another, or turn so sharply, that
+  /// no polynomial tells them apart; too large a mesh for its details, or too uneven a one.
+  static Result<MeshSurface> fit(const TriangleMesh& mesh, double detail_mm);
+
+  double at(const Eigen::Vector3d& p) const;            ///< not a number far from the mesh
+  double farthest_vertex() const { return farthest_; }  ///< off the surface, mm
+
+ private:
+  static constexpr int degree = 4, terms = (degree + 1) * (degree + 2) / 2;
+  struct Patch {
+    Eigen::Vector3d centre;
+    Eigen::Matrix3d axes;                    ///< rows: two tangents, the normal
+    Eigen::Matrix<double, terms, 1> height;  ///< by u^a v^b over the fit's radius
+    double reach = 0;                        ///< where its weight comes to zero
+    double slope = 1;                        ///< |grad| of the height above it at its centre
+  };
+  MeshSurface(double reach, double rim_reach, double fit_radius)
+      : reach_(reach), rim_reach_(rim_reach), fit_radius_(fit_radius), near_(reach / 2) {}
+  static Eigen::Matrix<double, terms, 1> powers(double u, double v);
+  double above(const Patch& patch, const Eigen::Vector3d& p) const;
+  Result<void> add_patch(const TriangleMesh& mesh, int vertex, const std::vector<int>& around);
+
+  double reach_, rim_reach_, fit_radius_;
+  std::vector<Patch> patches_;
+  BoxGrid near_;
+  double farthest_ = 0;
+};
+
+/// The highest point of the mesh above or below (x, y); nothing: it has none.
+std::optional<double> highest_at(const TriangleMesh& mesh, double x, double y);
 
 }  // namespace gridshell

@@ -1,13 +1,78 @@
-// Chebyshev nets on any surface, found on grids of equal chords.
+// A net of equal chords on a surface: what a Chebyshev net becomes on a grid.
 #pragma once
 
+#include <vector>
+
 #include "engine/geometry/chebyshev_net.h"
-#include "engine/geometry/chord_grid.h"
+#include "engine/geometry/surface.h"
 
 namespace gridshell {
 
+/// Where on a surface a net lies: its axes leave `apex`, a point of the surface, along `along_u`
+/// and, at a right angle and to the left of it as `up` is seen from above, v.
+struct NetPlace {
+  Eigen::Vector3d apex, along_u, up;  ///< mm; unit and orthogonal
+  /// below zero where the net is wanted; not a number counts as outside
+  Surface::Function outside;
+};
+
+/// Points p(i, j) of a surface, neighbours a chord h apart. The axes i and j are geodesics, each
+/// point in the plane of the normal and the chord before; all others follow from their two
+/// neighbours towards the axes, |p - p(i-1, j)| = |p - p(i, j-1)| = h. Distance from the smooth
+/// net: of second order in h.
+class ChordGrid {
+ public:
+  enum class Node : char {
+    unasked,  ///< too far outside
+    known,
+    folded,  ///< rods close to parallel: the sine of their angle is below 0.12
+    lost     ///< no point of the surface lies there, or it lies beyond such nodes
+  };
+  static constexpr double least_sine = 0.12;
+
+  /// As far as the net is wanted and `margin` nodes further. Errors (bad_input): the axes do not
+  /// leave what is wanted within `most` nodes.
+  static Result<ChordGrid> make(const Surface& surface, const NetPlace& place, double chord_mm,
+                                int margin, int most);
+
+  double chord() const { return chord_; }
+  int first_u() const { return -before_u_; }
+  int last_u() const { return columns_ - before_u_ - 1; }
+  int first_v() const { return -before_v_; }
+  int last_v() const { return rows_ - before_v_ - 1; }
+  bool has(int i, int j) const {
+    return i >= first_u() && i <= last_u() && j >= first_v() && j <= last_v();
+  }
+  Node node(int i, int j) const { return has(i, j) ? nodes_[place(i, j)] : Node::unasked; }
+  const Eigen::Vector3d& at(int i, int j) const { return points_[place(i, j)]; }
+  /// From now on a node is not known.
+  void forget(int i, int j) { nodes_[place(i, j)] = Node::lost; }
+  /// Whether the net is wanted there and joined to the apex by neighbours where it is.
+  bool inside(int i, int j) const { return has(i, j) && inside_[place(i, j)] != 0; }
+
+ private:
+  ChordGrid() = default;
+  std::size_t place(int i, int j) const {
+    return std::size_t(j + before_v_) * std::size_t(columns_) + std::size_t(i + before_u_);
+  }
+  struct Axis;
+  void put_axis(const Axis& axis, int step_u, int step_v);
+  static Result<Axis> geodesic(const Surface& surface, const NetPlace& place, Eigen::Vector3d along,
+                               double chord, int margin, int most);
+  void fill(const Surface& surface, const NetPlace& place, int margin, int sign_u, int sign_v);
+  void join_inside(const NetPlace& place);
+
+  double chord_ = 0;
+  int before_u_ = 0, before_v_ = 0, columns_ = 0, rows_ = 0;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<Node> nodes_;
+  std::vector<char> inside_;
+};
+
+// Chebyshev nets on any surface, found on grids of equal chords.
+
 /// What there is of a net that is refused, mm.
-struct NetSoFar {
+struct PartialNet {
   std::vector<Eigen::Matrix3Xd> lines;  ///< every fourth of the coarser grid, where it is wanted
   Eigen::Matrix3Xd narrow{3, 0};  ///< its nodes where rods are less than 17 degrees from parallel
   Eigen::Vector3d end = Eigen::Vector3d::Zero();  ///< where it ends too early
@@ -22,7 +87,7 @@ class SurfaceNet final : public ChebyshevNet {
   /// h, the chord of the coarser grid. Errors (bad_input): those of ChordGrid; where the net ends
   /// though it is wanted, with the place and what may help; `so_far`, where given, is then filled.
   static Result<SurfaceNet> make(const Surface& surface, const NetPlace& place, double chord_mm,
-                                 NetSoFar* so_far = nullptr);
+                                 PartialNet* so_far = nullptr);
 
   Result<NetPoint> at(double u, double v) const override;
 
@@ -37,8 +102,8 @@ class SurfaceNet final : public ChebyshevNet {
  private:
   SurfaceNet(ChordGrid grid, std::vector<Eigen::Vector3d> points)
       : grid_(std::move(grid)), points_(std::move(points)) {}
-  Result<void> check_whole(NetSoFar* so_far) const;
-  void tell(NetSoFar& so_far) const;
+  Result<void> check_whole(PartialNet* so_far) const;
+  void tell(PartialNet& so_far) const;
   bool known_about(int i, int j) const;
   const Eigen::Vector3d& point(int i, int j) const {
     const int columns = grid_.last_u() - grid_.first_u() + 1;

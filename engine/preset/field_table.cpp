@@ -1,11 +1,6 @@
 #include "engine/preset/field_table.h"
 
-#include "engine/preset/field_makers.h"
-#include "engine/preset/jitter_fields.h"
-#include "engine/preset/physics_fields.h"
-#include "engine/preset/shape_fields.h"
-#include "engine/preset/step_fields.h"
-#include "engine/preset/style_fields.h"
+#include "engine/preset/field_groups.h"
 
 namespace gridshell::preset {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/words.h"
-#include "engine/preset/points.h"
+#include "engine/core/enum_words.h"
+#include "engine/formats/shape_data.h"
 
 namespace gridshell::preset {
 
@@ -74,9 +74,10 @@ constexpr auto words(ColourMap) {
                                 {ColourMap::sequential, "sequential"},
                                 {ColourMap::grey, "grey"}});
 }
-enum class Shown { automatic, on, off };  ///< automatic: as the theme has it
-constexpr auto words(Shown) {
-  return word_table<Shown>({{Shown::automatic, "auto"}, {Shown::on, "on"}, {Shown::off, "off"}});
+enum class Visibility { automatic, on, off };  ///< automatic: as the theme has it
+constexpr auto words(Visibility) {
+  return word_table<Visibility>(
+      {{Visibility::automatic, "auto"}, {Visibility::on, "on"}, {Visibility::off, "off"}});
 }
 /// How pictures look. An empty colour and a width of 0 are the theme's.
 struct Style {
@@ -85,8 +86,9 @@ struct Style {
   std::string rod_colour, joint_colour, ring_colour, background;
   ColourMap colour_map = ColourMap::automatic;
   std::vector<double> range;  ///< (low, high) of the colours; empty: of all cases together
-  Shown cells = Shown::automatic, joints = Shown::automatic, rings = Shown::automatic,
-        floor = Shown::automatic, shadow = Shown::automatic;
+  Visibility cells = Visibility::automatic, joints = Visibility::automatic,
+             rings = Visibility::automatic, floor = Visibility::automatic,
+             shadow = Visibility::automatic;
   double far_fade = 0.25;  ///< by how much the far side pales
   bool letters = true;     ///< of the panels of a figure
   std::string font;        ///< family of all text; empty: the usual one

@@ -1,19 +1,39 @@
-// A preset: everything an experiment and its pictures need, as plain values with defaults. The
-// names are those of the TOML keys: `[rod] diameter_mm` is `preset.rod.diameter_mm`. What each key
-// means, its unit, range and default stand once, in the field table (field_table.h); the words of
-// an enum stand beside it.
+// The words of [[step]]: what a hand can do to a shell.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/core/words.h"
+#include "engine/core/enum_words.h"
+#include "engine/core/rod_model.h"
+#include "engine/formats/shape_data.h"
 #include "engine/preset/pictures.h"
-#include "engine/preset/points.h"
-#include "engine/preset/step_words.h"
 
 namespace gridshell::preset {
+
+enum class StepKind { move, push, hold, release, load, rest, jitter };
+constexpr auto words(StepKind) {
+  return word_table<StepKind>({{StepKind::move, "move"},
+                               {StepKind::push, "push"},
+                               {StepKind::hold, "hold"},
+                               {StepKind::release, "release"},
+                               {StepKind::load, "load"},
+                               {StepKind::rest, "rest"},
+                               {StepKind::jitter, "jitter"}});
+}
+
+/// On which side of an unstable state a shell goes to rest.
+enum class RestSide { lower, along, against };
+constexpr auto words(RestSide) {
+  return word_table<RestSide>(
+      {{RestSide::lower, "lower"}, {RestSide::along, "along"}, {RestSide::against, "against"}});
+}
+
+// A preset: everything an experiment and its pictures need, as plain values with defaults. The
+// names are those of the TOML keys: `[rod] diameter_mm` is `preset.rod.diameter_mm`. What each key
+// means, its unit, range and default stand once, in the field table (field_table.h); the words of
+// an enum stand beside it.
 
 struct Rod {
   double diameter_mm = 0.254;
@@ -211,7 +231,7 @@ struct Indentation {
 /// One step of a hand, in a list that is done in order; numbers that its deed does not use count
 /// for nothing.
 struct Step {
-  Deed deed = Deed::move;
+  StepKind deed = StepKind::move;
   double progress = 1;        ///< of the boundary, beyond 1 further than its motion
   double radius_mm = 0;       ///< of a circle's boundary; 0: `progress` says it
   Points edge_points;         ///< (k, x, y, z): by how much edge points lie off the motion
@@ -283,15 +303,15 @@ struct Limits {
 };
 
 /// How a shell is shaken out of the state it would rest in.
-enum class JitterMode { gravity, random, poke };
-constexpr auto words(JitterMode) {
-  return word_table<JitterMode>({{JitterMode::gravity, "gravity"},
-                                 {JitterMode::random, "random"},
-                                 {JitterMode::poke, "poke"}});
+enum class SearchMode { gravity, random, poke };
+constexpr auto words(SearchMode) {
+  return word_table<SearchMode>({{SearchMode::gravity, "gravity"},
+                                 {SearchMode::random, "random"},
+                                 {SearchMode::poke, "poke"}});
 }
 /// The search for all states of a shell.
-struct Jitter {
-  JitterMode mode = JitterMode::random;
+struct SearchSettings {
+  SearchMode mode = SearchMode::random;
   int trials = 0;  ///< 0: no search
   int seed = 1;
   std::vector<double> levels;    ///< progress of the actuation; empty: as the mode has it
@@ -307,19 +327,11 @@ struct Jitter {
   bool wanted() const { return trials > 0 || confined > 0; }
 };
 
-/// Of the model ladder.
-enum class Rung { automatic, net, bend, twist };
-constexpr auto words(Rung) {
-  return word_table<Rung>({{Rung::automatic, "auto"},
-                           {Rung::net, "net"},
-                           {Rung::bend, "bend"},
-                           {Rung::twist, "twist"}});
-}
 struct Accuracy {
   double tolerance = 1e-3;
   int edges_per_segment = 0;  ///< 0: chosen from the tolerance
   int leading_edges = 0;      ///< of the mesh that leads; 0: 4, or more where finer ones disagree
-  Rung model = Rung::automatic;
+  RodModel model = RodModel::automatic;
   double memory_GB = 0;  ///< 0: half of the machine's
 };
 
@@ -362,7 +374,7 @@ struct Preset {
   Inverse inverse;
   Limits limits;
   Accuracy accuracy;
-  Jitter jitter;
+  SearchSettings jitter;
   Sweep sweep;
   Movie movie;
   Style style;

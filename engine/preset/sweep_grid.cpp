@@ -7,10 +7,9 @@
 #include <map>
 #include <optional>
 
-#include "engine/preset/assign.h"
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
-#include "engine/preset/use.h"
+#include "engine/preset/toml_reader.h"
 
 namespace gridshell::preset {
 namespace {
@@ -79,18 +78,18 @@ namespace {
 /// Checks the points of one run of the file.
 class SweepCheck {
  public:
-  SweepCheck(const Draft& draft, PlacedFaults& faults)
+  SweepCheck(const PresetBuilder& draft, LocatedFaults& faults)
       : draft_(draft), sweep_(draft.preset.sweep), faults_(faults) {}
 
   void keys_set_elsewhere() {
     for (const SweepAxis& axis : sweep_.over) {
       const auto set = draft_.set_at.find(name_of(field_of(axis.key)));
-      if (set == draft_.set_at.end() || set->second.layer == Layer::file) continue;
+      if (set == draft_.set_at.end() || set->second.layer == ValueLayer::file) continue;
       faults_.add(
           set->second,
-          fmt::format("{}: is swept by [sweep] over, must not be set {} too",
-                      name_of(field_of(axis.key)),
-                      set->second.layer == Layer::one_case ? "by a case" : "by the command line"));
+          fmt::format(
+              "{}: is swept by [sweep] over, must not be set {} too", name_of(field_of(axis.key)),
+              set->second.layer == ValueLayer::one_case ? "by a case" : "by the command line"));
     }
   }
 
@@ -102,7 +101,7 @@ class SweepCheck {
         const Field* field = find_field(conflict.table, conflict.key);
         faults_.add(place("over"),
                     fmt::format("[sweep] over: at {}: {} = {}: {}", setting(sweep_, point),
-                                bracketed(conflict.table, conflict.key, conflict.item),
+                                key_label(conflict.table, conflict.key, conflict.item),
                                 field ? value_text(*field, point.preset) : "", conflict.what));
         return;  // the first says enough
       }
@@ -111,37 +110,37 @@ class SweepCheck {
   }
 
  private:
-  Place place(const char* key) const {
+  SourceLocation place(const char* key) const {
     const auto at = draft_.set_at.find(fmt::format("[sweep] {}", key));
-    return at == draft_.set_at.end() ? Place{} : at->second;
+    return at == draft_.set_at.end() ? SourceLocation{} : at->second;
   }
 
   /// Of the keys that may count for nothing, those that count for something here.
   static void forget_used(const SweepPoint& point, std::map<std::string, std::string>& idle) {
     if (idle.empty()) return;
     std::map<std::string, std::string> still;
-    for (const IdleKey& key : idle_keys(point.preset))
-      if (const auto name = bracketed(key.table, key.key, key.item); idle.contains(name))
+    for (const UnusedKey& key : unused_keys(point.preset))
+      if (const auto name = key_label(key.table, key.key, key.item); idle.contains(name))
         still[name] = key.why;
     idle = std::move(still);
   }
 
-  const Draft& draft_;
+  const PresetBuilder& draft_;
   const Sweep& sweep_;
-  PlacedFaults& faults_;
+  LocatedFaults& faults_;
 };
 
 }  // namespace
 
-void check_sweep(const std::vector<Draft>& runs, PlacedFaults& faults) {
-  const Draft& first = runs.front();
+void check_sweep(const std::vector<PresetBuilder>& runs, LocatedFaults& faults) {
+  const PresetBuilder& first = runs.front();
   const Sweep& sweep = first.preset.sweep;
   if (!sweep.wanted() || first.faulty.contains("[sweep] over")) return;
   const auto place = [&](const char* key) {
     const auto at = first.set_at.find(fmt::format("[sweep] {}", key));
-    return at == first.set_at.end() ? Place{} : at->second;
+    return at == first.set_at.end() ? SourceLocation{} : at->second;
   };
-  const Place over = sweep.over.empty() ? place("seeds") : place("over");
+  const SourceLocation over = sweep.over.empty() ? place("seeds") : place("over");
   if (const double count = combinations(sweep) * double(runs.size()); count > most_runs)
     return faults.add(
         over, fmt::format("[sweep] over: comes to {:.0f} runs, must be at most {:.0f}", count,
@@ -153,7 +152,7 @@ void check_sweep(const std::vector<Draft>& runs, PlacedFaults& faults) {
     faults.add(over, fmt::format("[sweep] seeds = {}: {} is swept too, must be one of the two",
                                  sweep.seeds, drawn));
   if (sweep.seeds > 1) idle[drawn] = "";
-  for (const Draft& run : runs) {
+  for (const PresetBuilder& run : runs) {
     SweepCheck check(run, faults);
     check.keys_set_elsewhere();
     check.points(idle);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/preset/draft.h"
-#include "engine/preset/reader.h"
+#include "engine/preset/preset_builder.h"
+#include "engine/preset/preset_file.h"
 
 namespace gridshell::preset {
 
@@ -36,6 +36,6 @@ class SweepGrid {
 
 /// What a sweep's values come to that no run can have: values that do not agree with other keys,
 /// keys that count for nothing in any run, keys that a case or the command line sets too.
-void check_sweep(const std::vector<Draft>& runs, PlacedFaults& faults);
+void check_sweep(const std::vector<PresetBuilder>& runs, LocatedFaults& faults);
 
 }  // namespace gridshell::preset

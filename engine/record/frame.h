@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "engine/rod/energies.h"
+#include "engine/core/energies.h"
 
 namespace gridshell::record {
 

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "engine/record/snapshot.h"
+#include "engine/record/trajectory.h"
 
 namespace gridshell::record {
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
@@ -13,14 +12,187 @@
 #include <utility>
 #include <vector>
 
-#include "engine/record/checksum.h"
-#include "engine/record/consistency.h"
-#include "engine/record/journal_records.h"
-#include "engine/record/layout_file.h"
-#include "engine/record/packing.h"
-#include "engine/record/trial.h"
+#include "engine/core/checksum.h"
+#include "engine/core/file_io.h"
+#include "engine/core/try.h"
+#include "engine/formats/hdf5_file.h"
+#include "engine/formats/packing.h"
+#include "engine/record/frame_columns.h"
+#include "engine/record/trajectory.h"
+#include "engine/record/trajectory_hdf5.h"
 
 namespace gridshell::record {
+namespace {
+
+template <class Visit>
+void each_column(Visit visit) {
+  for (const FrameColumn& column : frame_columns) visit(column);
+  visit(actuation_column);
+}
+
+std::uint8_t kind_of(int) { return 0; }
+std::uint8_t kind_of(double) { return 1; }
+std::uint8_t kind_of(const std::string&) { return 2; }
+
+void skip(ByteReader& in, std::uint8_t kind) {
+  if (kind == kind_of(0)) in.number<std::int32_t>();
+  if (kind == kind_of(0.0)) in.number<double>();
+  if (kind == kind_of(std::string())) in.text();
+}
+
+}  // namespace
+
+std::string packed_head(const RunIdentity& name, const Layout& layout) {
+  ByteWriter out;
+  out.text(name.preset);
+  out.put(int(name.kind));
+  std::vector<std::string> names;
+  each_column([&](const FrameColumn& column) { names.push_back(column.name); });
+  out.number(std::uint64_t(names.size()));
+  for (const auto& name : names) out.text(name);
+  out.text(image_of(layout));
+  return out.bytes();
+}
+
+std::optional<JournalHead> unpacked_head(std::string_view bytes) {
+  ByteReader in(bytes);
+  JournalHead found;
+  found.name.preset = in.text();
+  const int kind = in.number<std::int32_t>();
+  if (kind >= 0 && kind < int(words(Kind{}).size())) found.name.kind = static_cast<Kind>(kind);
+  const auto count = in.number<std::uint64_t>();
+  for (std::uint64_t k = 0; k < count && in.good(); ++k) found.columns.push_back(in.text());
+  found.layout = in.text();
+  if (!in.at_end()) return std::nullopt;
+  return found;
+}
+
+std::string packed_frame(const Frame& frame) {
+  ByteWriter out;
+  out.put(frame.index);
+  each_column([&](const FrameColumn& column) {
+    // its kind goes with a value, for whoever does not know the column
+    visit_column(column, frame, [&](const auto& value) {
+      out.number(kind_of(value));
+      out.put(value);
+    });
+  });
+  out.matrix(frame.nodes);
+  out.matrix(frame.cell_K);
+  out.matrix(frame.K_bins);
+  out.matrix(frame.axial_force_N);
+  out.matrix(frame.curvature_per_mm);
+  out.matrix(frame.reactions_N);
+  out.matrix(frame.bending_mJ_per_m);
+  return out.bytes();
+}
+
+Result<Frame> unpacked_frame(std::string_view bytes, const std::vector<std::string>& columns) {
+  ByteReader in(bytes);
+  Frame frame;
+  in.get(frame.index);
+  for (const auto& name : columns) {
+    const auto kind = in.number<std::uint8_t>();
+    bool taken = false;
+    each_column([&](const FrameColumn& column) {
+      if (taken || name != column.name) return;
+      visit_column(column, frame, [&](auto& value) {
+        if (kind != kind_of(value)) return;
+        taken = true;
+        in.get(value);
+      });
+    });
+    if (!taken) skip(in, kind);
+  }
+  in.matrix(frame.nodes, 3);
+  in.matrix(frame.cell_K);
+  in.matrix(frame.K_bins);
+  // older versions ended here, or before the energies
+  if (!in.at_end()) {
+    in.matrix(frame.axial_force_N);
+    in.matrix(frame.curvature_per_mm);
+    in.matrix(frame.reactions_N, 3);
+  }
+  if (!in.at_end()) in.matrix(frame.bending_mJ_per_m);
+  if (!in.at_end()) return fail(Fault::bad_input, "a frame is damaged");
+  return frame;
+}
+
+// How a journal is written: every record at once, and what was cut short taken back.
+
+namespace fs = std::filesystem;
+namespace {
+
+// what a movie numbers its frames up to; snaps in time add some
+constexpr int largest_index = 10000000;
+
+}  // namespace
+
+Result<JournalWriter> JournalWriter::create(const fs::path& path, const RunIdentity& name,
+                                            const Layout& layout) {
+  // under its name once its head is whole: whoever kills the run before then leaves no journal
+  AtomicFile file(path);
+  const int descriptor =
+      ::open(file.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  JournalWriter journal(path, descriptor);
+  const auto refuse = [&](int code) {
+    return fail(Fault::io, fmt::format("cannot write '{}': {}", path.string(),
+                                       std::generic_category().message(code)));
+  };
+  if (descriptor < 0) return refuse(errno);
+  if (const int code = write_all(descriptor, journal_first_line)) return refuse(code);
+  journal.end_ = journal_first_line.size();
+  TRY_DO(journal.put(head_record, packed_head(name, layout)));
+  TRY_DO(file.commit());
+  return journal;
+}
+
+JournalWriter::JournalWriter(JournalWriter&& other) noexcept { *this = std::move(other); }
+
+JournalWriter& JournalWriter::operator=(JournalWriter&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(end_, other.end_);
+  std::swap(indices_, other.indices_);
+  std::swap(seen_, other.seen_);
+  return *this;
+}
+
+JournalWriter::~JournalWriter() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Result<void> JournalWriter::append(const Frame& frame) {
+  if (frame.index < 0 || frame.index > largest_index)
+    return fail(Fault::bad_input, fmt::format("frame {} has no place in a journal", frame.index));
+  if (auto written = put(frame_record, packed_frame(frame)); !written) return written;
+  const auto index = std::size_t(frame.index);
+  if (seen_.size() <= index) seen_.resize(index + 1);
+  if (!seen_[index]) ++indices_;
+  seen_[index] = true;
+  return {};
+}
+
+Result<void> JournalWriter::put(std::uint32_t kind, const std::string& payload) {
+  ByteWriter out;
+  out.number(kind);
+  out.number(std::uint64_t(payload.size()));
+  std::string bytes = out.bytes() + payload;
+  Checksum sum;
+  sum.add(bytes);
+  ByteWriter last;
+  last.number(sum.value());
+  bytes += last.bytes();
+  if (const int code = write_all(descriptor_, bytes)) {
+    // what others find is whole
+    if (::ftruncate(descriptor_, off_t(end_)) == 0) ::lseek(descriptor_, off_t(end_), SEEK_SET);
+    return fail(Fault::io, fmt::format("cannot write '{}': {}", path_.string(),
+                                       std::generic_category().message(code)));
+  }
+  end_ += bytes.size();
+  return {};
+}
+
 namespace fs = std::filesystem;
 namespace {
 
@@ -77,7 +249,7 @@ struct Record {
 std::optional<Record> record_at(const File& file, std::uint64_t at) {
   const auto start = file.read(at, before_payload);
   if (!start) return std::nullopt;
-  Unpacker in(*start);
+  ByteReader in(*start);
   Record found;
   found.kind = in.number<std::uint32_t>();
   const auto length = in.number<std::uint64_t>();
@@ -87,7 +259,7 @@ std::optional<Record> record_at(const File& file, std::uint64_t at) {
   Checksum sum;
   sum.add(*start);
   sum.add(std::string_view(*rest).substr(0, length));
-  if (Unpacker(std::string_view(*rest).substr(length)).number<std::uint64_t>() != sum.value())
+  if (ByteReader(std::string_view(*rest).substr(length)).number<std::uint64_t>() != sum.value())
     return std::nullopt;
   found.at = at + before_payload;
   found.next = found.at + length + after_payload;
@@ -118,7 +290,7 @@ std::map<int, std::pair<std::uint64_t, std::uint64_t>> frames_of(const File& fil
   std::map<int, std::pair<std::uint64_t, std::uint64_t>> found;
   while (const auto record = record_at(file, at)) {
     if (record->kind == frame_record && record->payload.size() >= sizeof(std::int32_t)) {
-      const int index = Unpacker(record->payload).number<std::int32_t>();
+      const int index = ByteReader(record->payload).number<std::int32_t>();
       found[index] = {record->at, record->payload.size()};
     }
     at = record->next;
@@ -158,7 +330,7 @@ Result<Journal> read_journal(const fs::path& path, bool trial) {
   auto head = head_of(*file);
   if (!head) return refuse(head.error().message);
   if (trial)
-    if (auto survived = try_out([&] { (void)layout_of_image(head->layout); }); !survived)
+    if (auto survived = read_in_subprocess([&] { (void)layout_of_image(head->layout); }); !survived)
       return refuse(survived.error().message);
   auto layout = layout_of_image(head->layout);
   if (!layout) return refuse(layout.error().message);

@@ -13,11 +13,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/record/snapshot.h"
+#include "engine/record/frame.h"
 #include "engine/record/summary.h"
+#include "engine/record/trajectory.h"
 
 namespace gridshell::record {
 
@@ -27,7 +29,7 @@ inline constexpr const char *journal_name = "frames.journal",
                             *coarser_journal_name = "frames.coarser.journal";
 
 /// Whose frames they are.
-struct RunName {
+struct RunIdentity {
   std::string preset;
   Kind kind = Kind::unknown;
   std::string title = {};  ///< goes to the run's files; a journal does not keep it
@@ -37,7 +39,7 @@ struct RunName {
 class JournalWriter {
  public:
   /// A new journal, in the place of one that stood there. Errors: io with path and reason.
-  static Result<JournalWriter> create(const std::filesystem::path& path, const RunName& name,
+  static Result<JournalWriter> create(const std::filesystem::path& path, const RunIdentity& name,
                                       const Layout& layout);
   JournalWriter(JournalWriter&& other) noexcept;
   JournalWriter& operator=(JournalWriter&& other) noexcept;
@@ -63,7 +65,7 @@ class JournalWriter {
 
 /// What a journal holds: frames in order of their index, read one at a time.
 struct Journal {
-  RunName name;
+  RunIdentity name;
   Trajectory trajectory;
 };
 
@@ -80,5 +82,28 @@ std::optional<std::string> preset_of_journal(const std::filesystem::path& folder
 
 /// How many frames a folder's journals hold; 0 without any. Nothing of them is trusted.
 std::size_t frames_in_journal(const std::filesystem::path& folder);
+
+// What the records of a journal hold: the head, then frames, packed.
+
+/// Of the whole file, before its records.
+inline constexpr std::string_view journal_first_line = "gridshell journal 1\n";
+
+enum RecordKind : std::uint32_t { head_record = 1, frame_record = 2 };
+
+/// Whose frames they are, the names of their columns, and the layout as layout_of_image() reads it.
+struct JournalHead {
+  RunIdentity name;
+  std::vector<std::string> columns;
+  std::string layout;
+};
+
+std::string packed_head(const RunIdentity& name, const Layout& layout);
+/// Nothing where it is damaged.
+std::optional<JournalHead> unpacked_head(std::string_view bytes);
+
+/// The index comes first.
+std::string packed_frame(const Frame& frame);
+/// A frame whose columns are named so; those without a name here are left out. Errors: bad_input.
+Result<Frame> unpacked_frame(std::string_view bytes, const std::vector<std::string>& columns);
 
 }  // namespace gridshell::record

@@ -1,14 +1,67 @@
-// A sweep of searches for states over the longest leg and the number of rods, as the phase diagram
-// of [Baek 2018, Fig. 2B], and what it says of the paper's sentences about it.
+// The legs of a circle of n rods a direction as the paper counts them, of d [Baek 2018, 'Elastic
+// Gridshells with Circular Boundaries'].
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/record/search_figures.h"
+#include "engine/record/states.h"
+#include "engine/record/sweep_results.h"
 
 namespace gridshell::record {
+
+/// L_d = R_o/d - (n - 1)/2: from the outermost rod to the boundary, on an axis.
+inline double longest_leg(double radius_over_d, int rods) {
+  return radius_over_d - 0.5 * (rods - 1);
+}
+
+/// l_d = sqrt((R_o/d)^2 - ((n - 1)/2)^2) - (n - 1)/2: from the corner of the grid along the
+/// outermost rod; below 0 where the corner lies outside of the boundary.
+inline double shortest_leg(double radius_over_d, int rods) {
+  const double outermost = 0.5 * (rods - 1);
+  return std::sqrt(std::max(0.0, radius_over_d * radius_over_d - outermost * outermost)) -
+         outermost;
+}
+
+/// The L_d at which the shortest leg is `leg`: what shortest_leg() inverts.
+inline double longest_leg_at(double leg, double rods) {
+  const double outermost = 0.5 * (rods - 1);
+  return std::hypot(leg + outermost, outermost) - outermost;
+}
+
+// What a search for states came to, as figures of a point of a sweep.
+
+// of a circle, whether states are looked for or not
+inline constexpr const char* longest_leg_name = "longest_leg";
+inline constexpr const char* shortest_leg_name = "shortest_leg";
+
+/// How often states of one kind were found.
+struct StateCount {
+  int states = 0;        ///< different ones
+  int met = 0;           ///< trials that ended in them
+  int met_confined = 0;  ///< of those begun in symmetric forms
+
+  bool operator==(const StateCount&) const = default;
+};
+
+/// Whether every rod of a state is buckled in its first mode.
+bool is_first_order(const StateRow& row);
+
+/// jitter_seed, trials, at_rest, confined_trials, confined_at_rest, states, seen (by trials that
+/// are not confined), chao1; then of each class, and of states of the first order, the three of
+/// StateCount: states_ii, met_ii, met_confined_ii ... states_first_order ...
+Figures search_figures(const StateSearch& search, const std::vector<StateRow>& rows);
+
+/// What search_figures() said of the kind "i" ... "other" or "first_order"; nothing where the
+/// figures are of no search.
+std::optional<StateCount> state_count(const PointResult& result, const std::string& kind);
+
+// A sweep of searches for states over the longest leg and the number of rods, as the phase diagram
+// of [Baek 2018, Fig. 2B], and what it says of the paper's sentences about it.
 
 /// A footprint that was searched.
 struct PhasePoint {

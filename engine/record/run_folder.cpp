@@ -1,19 +1,22 @@
 #include "engine/record/run_folder.h"
 
+#include <fmt/format.h>
 #include <cmath>
 #include <iterator>
 
-#include "engine/core/atomic_file.h"
-#include "engine/record/consistency.h"
-#include "engine/record/csv.h"
+#include "engine/core/file_io.h"
+#include "engine/core/system_info.h"
+#include "engine/core/try.h"
+#include "engine/formats/csv.h"
 #include "engine/record/frame_columns.h"
-#include "engine/record/summary_file.h"
+#include "engine/record/summary.h"
+#include "engine/record/trajectory.h"
 #include "engine/record/trajectory_file.h"
 
 namespace gridshell::record {
 
 std::string joints_csv(const Trajectory& trajectory) {
-  Csv csv;
+  CsvWriter csv;
   csv.line("i", "j", "u_mm", "v_mm", "x_mm", "y_mm", "z_mm", "deviation_mm");
   if (trajectory.frames.empty()) return std::move(csv).text();
   const Frame& last = trajectory.frames.back();
@@ -27,7 +30,7 @@ std::string joints_csv(const Trajectory& trajectory) {
 }
 
 std::string cells_csv(const Trajectory& trajectory) {
-  Csv csv;
+  CsvWriter csv;
   csv.line("i", "j", "u_mm", "v_mm", "cx_mm", "cy_mm", "cz_mm", "K");
   if (trajectory.frames.empty()) return std::move(csv).text();
   const Layout& layout = trajectory.layout;
@@ -43,7 +46,7 @@ std::string cells_csv(const Trajectory& trajectory) {
 }
 
 std::string seams_csv(const Layout& layout) {
-  Csv csv;
+  CsvWriter csv;
   csv.line("seam", "family", "line_mm", "gap_mm", "kink_deg");
   for (const SeamRod& rod : layout.seam_rods)
     csv.line(rod.seam, std::string(1, rod.family), rod.line_mm, rod.gap_mm, rod.kink_deg);
@@ -51,14 +54,14 @@ std::string seams_csv(const Layout& layout) {
 }
 
 /// a number that is not known is empty; counts are never below zero
-void put(Csv& csv, int value) { value < 0 ? csv.cell("") : csv.cell(value); }
+void put(CsvWriter& csv, int value) { value < 0 ? csv.cell("") : csv.cell(value); }
 template <class T>
-void put(Csv& csv, const T& value) {
+void put(CsvWriter& csv, const T& value) {
   csv.cell(value);
 }
 
 std::string bins_csv(const Trajectory& trajectory) {
-  Csv csv;
+  CsvWriter csv;
   csv.line("frame", "x_low", "x_high", "K_mean", "K_deviation", "cells");
   for (const Frame& frame : trajectory.frames) {
     const Eigen::Index bins = frame.K_bins.rows();
@@ -71,7 +74,7 @@ std::string bins_csv(const Trajectory& trajectory) {
 }
 
 std::string frames_csv(const Trajectory& trajectory) {
-  Csv csv;
+  CsvWriter csv;
   for (const FrameColumn& column : frame_columns) csv.cell(column.name);
   csv.end_line();
   for (const Frame& frame : trajectory.frames) {
@@ -86,16 +89,62 @@ Result<void> write_run(const std::filesystem::path& folder, const Trajectory& tr
                        const Summary& summary) {
   return check_consistency(trajectory)
       .and_then([&] { return make_folder(folder); })
-      .and_then([&] { return write_atomically(folder / "joints.csv", joints_csv(trajectory)); })
-      .and_then([&] { return write_atomically(folder / "cells.csv", cells_csv(trajectory)); })
-      .and_then([&] { return write_atomically(folder / "frames.csv", frames_csv(trajectory)); })
+      .and_then([&] { return write_file(folder / "joints.csv", joints_csv(trajectory)); })
+      .and_then([&] { return write_file(folder / "cells.csv", cells_csv(trajectory)); })
+      .and_then([&] { return write_file(folder / "frames.csv", frames_csv(trajectory)); })
       .and_then([&]() -> Result<void> {
         if (trajectory.layout.seam_rods.empty()) return {};
-        return write_atomically(folder / "seams.csv", seams_csv(trajectory.layout));
+        return write_file(folder / "seams.csv", seams_csv(trajectory.layout));
       })
-      .and_then([&] { return write_atomically(folder / "bins.csv", bins_csv(trajectory)); })
+      .and_then([&] { return write_file(folder / "bins.csv", bins_csv(trajectory)); })
       .and_then([&] { return write_trajectory(folder / "trajectory.h5", trajectory); })
       .and_then([&] { return write_summary(folder / "summary.json", summary); });
+}
+
+namespace fs = std::filesystem;
+
+Result<void> FolderSink::begin(Layout layout) {
+  if (auto made = make_folder(folder_); !made) return made;
+  if (auto kept = keep_coarser(); !kept) return kept;
+  TRY(journal, JournalWriter::create(folder_ / journal_name, name_, layout));
+  journal_.emplace(std::move(*journal));
+  return {};
+}
+
+Result<void> FolderSink::keep_coarser() {
+  if (!journal_ || journal_->frames() <= coarser_frames_) return {};
+  coarser_frames_ = journal_->frames();
+  journal_.reset();
+  std::error_code error;
+  fs::rename(folder_ / journal_name, folder_ / coarser_journal_name, error);
+  if (!error) return {};
+  return fail(Fault::io, fmt::format("cannot rename '{}': {}", (folder_ / journal_name).string(),
+                                     error.message()));
+}
+
+Result<void> FolderSink::take(Frame frame) {
+  if (!journal_) return fail(Fault::bad_input, "a frame came before its layout");
+  auto appended = journal_->append(frame);
+  if (!appended || coarser_frames_ == 0 || journal_->frames() < coarser_frames_) return appended;
+  std::error_code ignored;
+  fs::remove(folder_ / coarser_journal_name, ignored);
+  coarser_frames_ = 0;
+  return {};
+}
+
+Result<Trajectory> FolderSink::finish(const Summary& summary) {
+  journal_.reset();
+  // what this program has just written needs no trial
+  TRY(journal, read_journal(folder_ / journal_name, false));
+  journal->trajectory.origin = {name_.title, name_.preset, std::string("gridshell ") + version()};
+  TRY_DO(write_run(folder_, journal->trajectory, summary));
+  remove_journals(folder_);
+  return std::move(journal->trajectory);
+}
+
+void remove_journals(const fs::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {journal_name, coarser_journal_name}) fs::remove(folder / name, ignored);
 }
 
 }  // namespace gridshell::record

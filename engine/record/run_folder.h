@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "engine/core/result.h"
-#include "engine/record/snapshot.h"
+#include "engine/record/journal.h"
 #include "engine/record/summary.h"
+#include "engine/record/trajectory.h"
 
 namespace gridshell::record {
 
@@ -33,5 +35,33 @@ std::string seams_csv(const Layout& layout);
 /// not fit each other.
 Result<void> write_run(const std::filesystem::path& folder, const Trajectory& trajectory,
                        const Summary& summary);
+
+// A run's folder as it fills: every frame is on the disk as soon as it is found.
+
+/// Writes frames to the journal of `folder`, of which none stays in memory. When a finer mesh
+/// begins, the coarser journal is kept beside the new one until that holds as many frames.
+class FolderSink final : public Sink {
+ public:
+  FolderSink(std::filesystem::path folder, RunIdentity name)
+      : folder_(std::move(folder)), name_(std::move(name)) {}
+
+  Result<void> begin(Layout layout) override;
+  Result<void> take(Frame frame) override;
+
+  /// Makes the journal a run's files (run_folder.h) and removes it. The trajectory reads its frames
+  /// from the disk as they are asked for. Errors: io, bad_input.
+  Result<Trajectory> finish(const Summary& summary);
+
+ private:
+  Result<void> keep_coarser();
+
+  std::filesystem::path folder_;
+  RunIdentity name_;
+  std::optional<JournalWriter> journal_;
+  std::size_t coarser_frames_ = 0;
+};
+
+/// Removes the journals of a folder whose run is written.
+void remove_journals(const std::filesystem::path& folder);
 
 }  // namespace gridshell::record

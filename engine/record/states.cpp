@@ -1,16 +1,52 @@
 #include "engine/record/states.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <type_traits>
 
-#include "engine/core/atomic_file.h"
-#include "engine/core/number.h"
-#include "engine/record/csv.h"
-#include "engine/record/json.h"
+#include "engine/core/file_io.h"
+#include "engine/core/json.h"
+#include "engine/core/text.h"
+#include "engine/core/try.h"
+#include "engine/formats/csv.h"
+
+namespace gridshell {
+namespace {
+
+/// Variance of the estimate [Chao 1987, eq. 8; without f2 the bias-corrected form].
+double variance(double f1, double f2, double estimate) {
+  if (f2 > 0) {
+    const double r = f1 / f2;
+    return f2 * (r * r / 2 + r * r * r + r * r * r * r / 4);
+  }
+  return f1 * (f1 - 1) / 2 + f1 * (2 * f1 - 1) * (2 * f1 - 1) / 4 -
+         f1 * f1 * f1 * f1 / (4 * estimate);
+}
+
+}  // namespace
+
+RichnessEstimate chao1(const std::vector<int>& counts) {
+  RichnessEstimate found;
+  for (const int count : counts) {
+    found.seen += count > 0;
+    found.once += count == 1;
+    found.twice += count == 2;
+  }
+  const double f1 = found.once, f2 = found.twice;
+  const double unseen = f2 > 0 ? f1 * f1 / (2 * f2) : f1 * (f1 - 1) / 2;
+  found.estimate = found.seen + unseen;
+  found.low = found.high = found.seen;
+  if (unseen <= 0) return found;
+  const double spread =
+      std::exp(1.96 * std::sqrt(std::log1p(variance(f1, f2, found.estimate) / (unseen * unseen))));
+  found.low += unseen / spread;
+  found.high += unseen * spread;
+  return found;
+}
+
+}  // namespace gridshell
 
 namespace gridshell::record {
 namespace {
@@ -94,7 +130,7 @@ auto cell_of(const Value& value) {
 
 template <class Row, class Each>
 std::string csv_of(const std::vector<Row>& rows, const Each& each) {
-  Csv csv;
+  CsvWriter csv;
   const Row names;
   each(names, [&](const char* name, const auto&) { csv.cell(name); });
   csv.end_line();
@@ -107,7 +143,7 @@ std::string csv_of(const std::vector<Row>& rows, const Each& each) {
 
 template <class Number>
 bool parse(const std::string& text, Number& value) {
-  const auto number = number_from<Number>(text);
+  const auto number = parse_number<Number>(text);
   value = number.value_or(value);
   return number.has_value();
 }
@@ -165,8 +201,7 @@ Result<std::vector<int>> places_of(const std::string& heading, const Each& each)
 
 template <class Row, class Each>
 Result<std::vector<Row>> read_csv(const std::filesystem::path& file, const Each& each) {
-  const auto text = read_whole(file, largest_text);
-  if (!text) return tl::unexpected(text.error());
+  TRY(text, read_file(file, largest_text));
   std::vector<std::string> lines = split(*text, '\n');
   if (lines.back().empty()) lines.pop_back();
   const auto places = places_of<Row>(lines.empty() ? "" : lines.front(), each);
@@ -234,7 +269,7 @@ std::string to_json(const StateSearch& search) {
 namespace {
 
 /// Whether searches of earlier versions, which looked for no barriers, do not say it.
-bool is_later(const std::string& key) {
+bool is_newer_key(const std::string& key) {
   return key == "ways_followed_for_barriers" || key == "passes_found";
 }
 
@@ -256,14 +291,13 @@ bool take(const Json& json, std::map<std::string, int>& counts) {
 }
 
 Result<StateSearch> read_search(const std::filesystem::path& file) {
-  const auto text = read_whole(file, largest_text);
-  if (!text) return tl::unexpected(text.error());
+  TRY(text, read_file(file, largest_text));
   const Json json = parsed(*text);
   StateSearch search;
   std::string misfit;
   try {
     each_search_key(search, [&](const char* key, auto& value) {
-      if ((json.contains(key) || !is_later(key)) && !take(json.at(key), value)) misfit = key;
+      if ((json.contains(key) || !is_newer_key(key)) && !take(json.at(key), value)) misfit = key;
     });
   } catch (const Json::exception& error) {
     return fail(Fault::bad_input,
@@ -278,25 +312,23 @@ Result<StateSearch> read_search(const std::filesystem::path& file) {
 }  // namespace
 
 Result<void> write_state_tables(const std::filesystem::path& folder, const StateTables& tables) {
-  return write_atomically(folder / states_name, states_csv(tables.rows))
-      .and_then([&] { return write_atomically(folder / search_name, to_json(tables.search)); })
+  return write_file(folder / states_name, states_csv(tables.rows))
+      .and_then([&] { return write_file(folder / search_name, to_json(tables.search)); })
       .and_then([&]() -> Result<void> {
         if (tables.transitions.empty()) return {};
-        return write_atomically(folder / transitions_name, transitions_csv(tables.transitions));
+        return write_file(folder / transitions_name, transitions_csv(tables.transitions));
       })
       .and_then([&]() -> Result<void> {
         if (tables.barriers.empty()) return {};
-        return write_atomically(folder / barriers_name, barriers_csv(tables.barriers));
+        return write_file(folder / barriers_name, barriers_csv(tables.barriers));
       });
 }
 
 Result<StateTables> read_state_tables(const std::filesystem::path& folder) {
   StateTables tables;
-  auto rows = read_csv<StateRow>(folder / states_name, each_state);
-  if (!rows) return tl::unexpected(rows.error());
+  TRY(rows, read_csv<StateRow>(folder / states_name, each_state));
   tables.rows = std::move(*rows);
-  auto search = read_search(folder / search_name);
-  if (!search) return tl::unexpected(search.error());
+  TRY(search, read_search(folder / search_name));
   tables.search = std::move(*search);
   // a search need not have looked for these
   const auto read_if_there = [&](const char* name, auto each, auto& all) -> Result<void> {
@@ -307,10 +339,8 @@ Result<StateTables> read_state_tables(const std::filesystem::path& folder) {
       all = std::move(read);
     });
   };
-  if (auto read = read_if_there(transitions_name, each_transition, tables.transitions); !read)
-    return tl::unexpected(read.error());
-  if (auto read = read_if_there(barriers_name, each_barrier, tables.barriers); !read)
-    return tl::unexpected(read.error());
+  TRY_DO(read_if_there(transitions_name, each_transition, tables.transitions));
+  TRY_DO(read_if_there(barriers_name, each_barrier, tables.barriers));
   return tables;
 }
 

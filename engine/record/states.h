@@ -1,5 +1,4 @@
-// The states that a shell was found in: a line of states.csv each, and states.json for the search
-// as a whole. Their shapes are the frames of the run's trajectory, in the same order.
+// How many kinds there are, from how often those that were met were met.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +6,28 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/enum_words.h"
 #include "engine/core/result.h"
-#include "engine/core/words.h"
 #include "engine/record/frame.h"
+
+namespace gridshell {
+
+/// An estimate with its interval of 95 %.
+struct RichnessEstimate {
+  int seen = 0;  ///< kinds met at all
+  int once = 0, twice = 0;
+  double estimate = 0;  ///< of all there are that this way of looking can meet: a lower bound
+  double low = 0, high = 0;
+};
+
+/// S + f1^2/(2 f2), f1 and f2 the kinds met once and twice; f1 (f1 - 1)/2 more where none was met
+/// twice. The interval is that of a log-normal number of kinds unseen [Chao 1987].
+RichnessEstimate chao1(const std::vector<int>& counts);
+
+}  // namespace gridshell
+
+// The states that a shell was found in: a line of states.csv each, and states.json for the search
+// as a whole. Their shapes are the frames of the run's trajectory, in the same order.
 
 namespace gridshell::record {
 

@@ -1,24 +1,88 @@
+// The 512 bytes before the HDF5 part of trajectory.h5: its size and checksum, which HDF5 programs
+// skip.
+
 #include "engine/record/trajectory_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
-
 #include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <new>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
-#include "engine/core/atomic_file.h"
-#include "engine/record/consistency.h"
-#include "engine/record/frames_file.h"
-#include "engine/record/hdf5_reader.h"
-#include "engine/record/hdf5_writer.h"
-#include "engine/record/layout_file.h"
-#include "engine/record/seal.h"
-#include "engine/record/trial.h"
+#include "engine/core/checksum.h"
+#include "engine/core/file_io.h"
+#include "engine/core/try.h"
+#include "engine/formats/hdf5_file.h"
+#include "engine/record/trajectory.h"
+#include "engine/record/trajectory_hdf5.h"
 
 namespace gridshell::record {
+
+/// What a trajectory says that it is, in its seal and as an attribute.
+inline constexpr const char* trajectory_format = "gridshell trajectory 1";
+
+/// HDF5 looks for its own beginning at 0, 512, 1024 ...: what lies before is the program's to use.
+inline constexpr std::size_t trajectory_header_size = 512;
+
+/// The seal that a file should bear, from the bytes after its first 512; empty when it cannot be
+/// read.
+std::string expected_header(const std::filesystem::path& path);
+
+/// Why a file is not to be trusted, or empty. A file without a seal was written by another program:
+/// it is trusted where `unsealed` is wanted.
+std::string header_fault(const std::filesystem::path& path, bool unsealed);
+
+namespace {
+
+/// Name and checksum of the HDF5 bytes that follow.
+std::string header_text(std::uintmax_t bytes, const Checksum& sum) {
+  std::string seal =
+      fmt::format("{}\n{} bytes, FNV-1a {:016x}\n", trajectory_format, bytes, sum.value());
+  seal.resize(trajectory_header_size, '\0');
+  return seal;
+}
+
+}  // namespace
+
+std::string expected_header(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(trajectory_header_size);
+  Checksum sum;
+  std::uintmax_t bytes = 0;
+  std::vector<char> block(1 << 18);
+  while (file) {
+    file.read(block.data(), std::streamsize(block.size()));
+    const auto got = std::size_t(file.gcount());
+    sum.add({block.data(), got});
+    bytes += got;
+  }
+  return file.eof() ? header_text(bytes, sum) : std::string();
+}
+
+std::string header_fault(const std::filesystem::path& path, bool unsealed) {
+  std::string start(trajectory_header_size, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), trajectory_header_size);
+  const auto got = std::size_t(file.gcount());
+  start.resize(got);
+  if (start.starts_with("\x89HDF\r\n\x1a\n"))
+    return unsealed ? ""
+                    : "it bears no seal, so another program wrote it ('render --unsealed' reads it "
+                      "all the same)";
+  if (!start.starts_with(trajectory_format)) return "it is not an HDF5 file";
+  if (got < trajectory_header_size) return "it is cut short";
+  if (start == expected_header(path) || unsealed) return "";
+  return "it is cut short, damaged or was changed: its checksum does not match";
+}
+
 namespace {
 
 constexpr std::size_t longest_word = 60000;  // what an attribute takes
@@ -37,7 +101,7 @@ Origin read_origin(hdf5::Reader& file) {
 
 /// The HDF5 part onto a descriptor, then the seal before it; errno of what failed, or 0.
 Result<void> write_sealed(int descriptor, const AtomicFile& target, const Trajectory& trajectory) {
-  hdf5::Stream stream{descriptor, seal_size, 0};
+  hdf5::Stream stream{descriptor, trajectory_header_size, 0};
   hdf5::Writer file(stream);
   file.attribute("/", "format", trajectory_format);
   write_origin(file, trajectory.origin);
@@ -50,7 +114,7 @@ Result<void> write_sealed(int descriptor, const AtomicFile& target, const Trajec
   if (stream.failure) return failed(stream.failure);
   if (!file.good()) return fail(Fault::io, file.reason());
   if (trajectory.frames.fault()) return tl::unexpected(*trajectory.frames.fault());
-  const std::string seal = seal_due(target.temporary());
+  const std::string seal = expected_header(target.temporary());
   if (seal.empty()) return fail(Fault::io, "it cannot be read back");
   const ssize_t put = ::pwrite(descriptor, seal.data(), seal.size(), 0);
   if (put != ssize_t(seal.size())) return failed(put < 0 ? errno : ENOSPC);
@@ -112,16 +176,16 @@ Result<void> write_trajectory(const std::filesystem::path& path, const Trajector
 }
 
 Result<Trajectory> read_trajectory(const std::filesystem::path& path,
-                                   const TrajectoryReading& how) {
+                                   const TrajectoryReadOptions& how) {
   const auto refuse = [&](const std::string& reason) {
     return fail(Fault::bad_input,
                 fmt::format("'{}' is no trajectory of a run: {}", path.string(), reason));
   };
-  if (auto opens = readable(path); !opens) return tl::unexpected(opens.error());
-  if (const auto reason = distrust(path, how.unsealed); !reason.empty()) return refuse(reason);
+  TRY_DO(readable(path));
+  if (const auto reason = header_fault(path, how.unsealed); !reason.empty()) return refuse(reason);
   try {
     if (how.trial)
-      if (auto survived = try_out([&] { (void)read_checked(path); }); !survived)
+      if (auto survived = read_in_subprocess([&] { (void)read_checked(path); }); !survived)
         return refuse(survived.error().message);
     auto trajectory = read_checked(path);
     if (!trajectory) return refuse(trajectory.error().message);

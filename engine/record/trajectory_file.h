@@ -27,7 +27,7 @@
 #include <filesystem>
 
 #include "engine/core/result.h"
-#include "engine/record/snapshot.h"
+#include "engine/record/trajectory.h"
 
 namespace gridshell::record {
 
@@ -35,7 +35,7 @@ namespace gridshell::record {
 /// Fault::bad_input when the trajectory's parts do not fit each other.
 Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory);
 
-struct TrajectoryReading {
+struct TrajectoryReadOptions {
   bool unsealed = false;  ///< take a file without size and checksum, which another program wrote
   bool trial = true;      ///< read it in a process of its own first
 };
@@ -45,6 +45,6 @@ struct TrajectoryReading {
 /// Fault::bad_input, in a sentence naming the path, when it is no HDF5 file, is cut short or
 /// damaged, is not a trajectory, or when its parts do not fit each other.
 Result<Trajectory> read_trajectory(const std::filesystem::path& path,
-                                   const TrajectoryReading& how = {});
+                                   const TrajectoryReadOptions& how = {});
 
 }  // namespace gridshell::record

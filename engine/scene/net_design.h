@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "engine/core/result.h"
-#include "engine/footprint/blocks.h"
-#include "engine/footprint/domain.h"
-#include "engine/footprint/flat_frame.h"
+#include "engine/footprint/assemblage.h"
+#include "engine/footprint/footprint.h"
+#include "engine/footprint/mesh.h"
 #include "engine/geometry/chebyshev_net.h"
+#include "engine/geometry/surface_net.h"
 #include "engine/preset/preset.h"
 
 namespace gridshell {
@@ -25,5 +27,27 @@ struct NetDesign {
 /// `spacing_mm`: d, finer than which nets on any surface are found. Errors (bad_input): what the
 /// net or its boundary cannot be, with where it folds or ends.
 Result<NetDesign> net_design(const preset::Net& net, double spacing_mm);
+
+// Building blocks of a preset, joined.
+
+/// The assemblage of a preset's blocks; its scale is half the diagonal of the box around its
+/// footprint. Errors (bad_input): those of the blocks' nets and of Assemblage::make.
+Result<NetDesign> block_design(const preset::Preset& preset);
+
+// The net that a preset asks for on a surface given by an expression or a file.
+
+/// F(x, y, z) = 0, z = h(x, y), heights over a grid or a mesh, from an apex where the surface faces
+/// up, as far as the boundary; the net's grid is an eighth of the rods' spacing. Errors
+/// (bad_input): an expression that does not parse, a mesh that is no smooth sheet, an apex off the
+/// surface or outside the boundary, and those of the net and its part. `so_far`, where given, is
+/// filled where the net ends too early.
+Result<NetDesign> surface_design(const preset::Net& wanted, double spacing_mm,
+                                 PartialNet* so_far = nullptr);
+
+// What there is of the net of a preset that is refused.
+
+/// Where the net of a preset, on any surface, ends before its boundary. Nothing: it does not, or
+/// something else is wrong.
+std::optional<PartialNet> refused_net(const preset::Preset& preset);
 
 }  // namespace gridshell

@@ -1,18 +1,142 @@
+// From a preset's rods, joints and loads to those of the models.
+
 #include "engine/scene/scene.h"
 
+#include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "engine/preset/rung.h"
-#include "engine/scene/block_design.h"
-#include "engine/scene/curve_design.h"
+#include "engine/core/result.h"
+#include "engine/core/try.h"
+#include "engine/elastic/shell_rods.h"
+#include "engine/footprint/footprint.h"
+#include "engine/preset/model_choice.h"
+#include "engine/preset/preset.h"
+#include "engine/scene/drawn_footprint.h"
 #include "engine/scene/net_design.h"
-#include "engine/scene/network_design.h"
-#include "engine/scene/scene_rods.h"
-#include "engine/scene/second_ring.h"
-#include "engine/scene/shell_ends.h"
+#include "engine/scene/rod_ends.h"
 
 namespace gridshell {
+
+/// The rods of a footprint as a preset wants them.
+struct SceneRods {
+  ShellRods shell;
+  std::vector<double> mass_t_per_mm;       ///< one a rod; 0 where no density is given
+  std::vector<double> diameters_mm;        ///< one a rod, of round ones
+  double drawn_diameter_mm = 0;            ///< of a round section of the area of [rod]'s
+  std::vector<double> drawn_diameters_mm;  ///< of every rod's
+};
+
+/// Errors (bad_input): a load on a joint that the footprint does not have; a diameter of a rod that
+/// it does not have, of none or a rectangular one, or as wide as the rods' spacing.
+Result<SceneRods> scene_rods(const preset::Preset& preset, const Footprint& footprint);
+
+/// The joint (i, j), or -1.
+int joint_at(const Footprint& footprint, int i, int j);
+
+namespace {
+
+double area_of(const preset::Rod& rod) {
+  return rod.rectangular() ? rod.width_mm * rod.thickness_mm
+                           : M_PI * rod.diameter_mm * rod.diameter_mm / 4;
+}
+
+RodMaterial material_of(const preset::Rod& rod) {
+  // the first director stands up: the thickness lies along it
+  RodMaterial material =
+      rod.rectangular()
+          ? rectangular_material(rod.thickness_mm, rod.width_mm, rod.young_GPa, rod.shear_GPa)
+          : circular_material(rod.diameter_mm, rod.young_GPa, rod.shear_GPa);
+  // about the second, a tangent that turns downwards turns backwards
+  material.curvature = {rod.curvature_sideways_per_mm, -rod.curvature_per_mm};
+  material.twist = rod.twist_rad_per_mm;
+  return material;
+}
+
+const preset::Rod& rod_of(const preset::Preset& preset, Family family) {
+  if (family == Family::v && preset.rod_v.differs) return preset.rod_v;
+  return preset.rod;
+}
+
+Result<std::vector<PointLoad>> points_of(const preset::Loads& loads, const Footprint& footprint) {
+  std::vector<PointLoad> points;
+  for (const auto& row : loads.points) {
+    const int i = int(std::lround(row[0])), j = int(std::lround(row[1]));
+    const int joint = row[0] == i && row[1] == j ? joint_at(footprint, i, j) : -1;
+    if (joint < 0)
+      return fail(
+          Fault::bad_input,
+          fmt::format("[loads] points: the footprint has no joint [{:g}, {:g}]", row[0], row[1]));
+    points.push_back({joint, {row[2], row[3], row[4]}});
+  }
+  return points;
+}
+
+/// The diameters of `[rod] table`, of all rods.
+Result<std::vector<double>> diameters_of(const preset::Preset& preset, const Footprint& footprint) {
+  std::vector<double> diameters;
+  for (const FootprintRod& one : footprint.rods)
+    diameters.push_back(one.diameter_mm > 0 ? one.diameter_mm
+                                            : rod_of(preset, one.family).diameter_mm);
+  std::vector<bool> named(diameters.size(), false);
+  for (const auto& row : preset.rod_table) {
+    const Family family = row[0] == 0 ? Family::u : Family::v;
+    const auto wrong = [&](const std::string& what) {
+      return fail(Fault::bad_input, fmt::format("[rod] table: {}-rod {:g}: {}",
+                                                row[0] == 0 ? "u" : "v", row[1], what));
+    };
+    if (rod_of(preset, family).rectangular()) return wrong("is rectangular, it has no diameter");
+    if (!(row[2] > 0 && row[2] < preset.footprint.spacing_mm))
+      return wrong(
+          fmt::format("a diameter of {:g} mm, must be above 0 and less than "
+                      "[footprint] spacing_mm = {:g}",
+                      row[2], preset.footprint.spacing_mm));
+    // of several rods on one line the first row is the first rod's
+    std::size_t at = 0;
+    while (at < footprint.rods.size() &&
+           (named[at] || footprint.rods[at].family != family || footprint.rods[at].index != row[1]))
+      ++at;
+    if (at == footprint.rods.size())
+      return wrong("the footprint has no such rod, or it is named more often than it is there");
+    named[at] = true;
+    diameters[at] = row[2];
+  }
+  return diameters;
+}
+
+}  // namespace
+
+int joint_at(const Footprint& footprint, int i, int j) {
+  for (std::size_t k = 0; k < footprint.joints.size(); ++k)
+    if (footprint.joints[k].i == i && footprint.joints[k].j == j) return int(k);
+  return -1;
+}
+
+Result<SceneRods> scene_rods(const preset::Preset& preset, const Footprint& footprint) {
+  SceneRods rods;
+  const preset::Loads& loads = preset.loads;
+  TRY(diameters, diameters_of(preset, footprint));
+  rods.diameters_mm = std::move(*diameters);
+  for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
+    preset::Rod rod = rod_of(preset, footprint.rods[r].family);
+    rod.diameter_mm = rods.diameters_mm[r];
+    rods.drawn_diameters_mm.push_back(2 * std::sqrt(area_of(rod) / M_PI));
+    const double mass = 1e-12 * rod.density_kg_m3 * area_of(rod);  // 1 kg/m^3 = 1e-12 t/mm^3
+    rods.shell.materials.push_back(material_of(rod));
+    rods.mass_t_per_mm.push_back(mass);
+    if (loads.gravity_m_s2 != 0 || loads.field_N_per_mm != 0)
+      rods.shell.weight_N_per_mm.push_back(1e3 * loads.gravity_m_s2 * mass + loads.field_N_per_mm);
+  }
+  TRY(points, points_of(loads, footprint));
+  rods.shell.points = std::move(*points);
+  const bool springs = preset.joints.kind == preset::JointKind::spring;
+  rods.shell.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,
+                       preset.joints.twist_Nmm};
+  rods.drawn_diameter_mm = 2 * std::sqrt(area_of(preset.rod) / M_PI);
+  return rods;
+}
+
 namespace {
 
 constexpr int boundary_points = 256;
@@ -29,10 +153,9 @@ Eigen::Matrix2Xd edge_points(const Footprint& footprint) {
 }
 
 Result<void> build_circle(const preset::Preset& preset, Scene& scene) {
-  auto footprint = circular_footprint(preset.original_radius_mm(), preset.footprint.rods,
-                                      preset.footprint.spacing_mm,
-                                      same_word<Placement>(preset.footprint.placement));
-  if (!footprint) return tl::unexpected<Error>(footprint.error());
+  TRY(footprint, circular_footprint(preset.original_radius_mm(), preset.footprint.rods,
+                                    preset.footprint.spacing_mm,
+                                    same_word<Placement>(preset.footprint.placement)));
   scene.footprint = std::move(*footprint);
   scene.radius_begin_mm = scene.length_scale_mm = preset.original_radius_mm();
   scene.radius_end_mm = preset.actuated_radius_mm();
@@ -44,18 +167,16 @@ Result<void> build_circle(const preset::Preset& preset, Scene& scene) {
   return {};
 }
 
-Result<void> cut_from(const Domain& domain, const preset::Preset& preset, Scene& scene) {
-  auto footprint = cut_footprint(domain, preset.footprint.spacing_mm,
-                                 same_word<Placement>(preset.footprint.placement));
-  if (!footprint) return tl::unexpected<Error>(footprint.error());
+Result<void> clip_to_circle(const Domain& domain, const preset::Preset& preset, Scene& scene) {
+  TRY(footprint, cut_footprint(domain, preset.footprint.spacing_mm,
+                               same_word<Placement>(preset.footprint.placement)));
   scene.footprint = std::move(*footprint);
   return {};
 }
 
 Result<void> build_curve(const preset::Preset& preset, Scene& scene) {
-  auto design = curve_design(preset);
-  if (!design) return tl::unexpected<Error>(design.error());
-  if (auto cut = cut_from(*design->domain, preset, scene); !cut) return cut;
+  TRY(design, curve_design(preset));
+  if (auto cut = clip_to_circle(*design->domain, preset, scene); !cut) return cut;
   scene.length_scale_mm = design->scale_mm;
   const Eigen::Matrix2Xd ring = design->domain->boundary(boundary_points);
   const Eigen::Matrix2Xd ends = edge_points(scene.footprint);
@@ -96,19 +217,17 @@ Result<void> hold_directions(const Eigen::Matrix2Xd& ends, RodEnd hold, Scene& s
         scene.flat.axes * rod.tangent(k % 2 == 0 ? rod.span.begin : rod.span.end);
     scene.motion.end_tangent.col(k) = scene.motion.begin_tangent.col(k);
     if (!scene.net) continue;
-    const auto point = scene.net->at(ends(0, k), ends(1, k));
-    if (!point) return tl::unexpected<Error>(point.error());
+    TRY(point, scene.net->at(ends(0, k), ends(1, k)));
     scene.motion.end_tangent.col(k) = rod.family == Family::u ? point->tangent_u : point->tangent_v;
   }
   return {};
 }
 
 Result<void> build_net(const preset::Preset& preset, Scene& scene) {
-  auto design = preset.footprint.kind == preset::FootprintKind::blocks
-                    ? block_design(preset)
-                    : net_design(preset.net, preset.footprint.spacing_mm);
-  if (!design) return tl::unexpected<Error>(design.error());
-  if (auto cut = cut_from(*design->domain, preset, scene); !cut) return cut;
+  TRY(design, preset.footprint.kind == preset::FootprintKind::blocks
+                  ? block_design(preset)
+                  : net_design(preset.net, preset.footprint.spacing_mm));
+  if (auto cut = clip_to_circle(*design->domain, preset, scene); !cut) return cut;
   scene.net = design->net;
   scene.blocks = design->blocks;
   scene.flat = design->flat;
@@ -148,7 +267,7 @@ Result<void> build(const preset::Preset& preset, Scene& scene) {
 Result<void> check_in_space(const preset::Preset& preset, const Scene& scene) {
   if (!scene.drawn_in_space) return {};
   const std::string reason = "of a network that is drawn in space, ";
-  if (scene.rung == preset::Rung::twist)
+  if (scene.rung == RodModel::twist)
     return fail(Fault::bad_input, reason +
                                       "how rods spin and meet at rest is not known: the bend "
                                       "rung alone takes it; " +
@@ -163,27 +282,22 @@ Result<void> check_in_space(const preset::Preset& preset, const Scene& scene) {
 
 Result<Scene> scene_of(const preset::Preset& preset) {
   Scene scene;
-  if (const auto built = build(preset, scene); !built) return tl::unexpected<Error>(built.error());
+  TRY_DO(build(preset, scene));
   if (preset.ends.kind != preset::EndKind::pinned) {
     const bool clamped = preset.ends.kind == preset::EndKind::clamped;
-    const auto held = hold_directions(edge_points(scene.footprint),
-                                      clamped ? RodEnd::clamped : RodEnd::tangent, scene);
-    if (!held) return tl::unexpected<Error>(held.error());
+    TRY(held, hold_directions(edge_points(scene.footprint),
+                              clamped ? RodEnd::clamped : RodEnd::tangent, scene));
   }
-  if (preset.ends.second_ring_mm > 0)
-    if (const auto added = add_second_ring(preset.ends.second_ring_mm, scene); !added)
-      return tl::unexpected<Error>(added.error());
-  if (const auto put = put_table(preset.ends.table, scene); !put)
-    return tl::unexpected<Error>(put.error());
-  auto rods = scene_rods(preset, scene.footprint);
-  if (!rods) return tl::unexpected<Error>(rods.error());
+  if (preset.ends.second_ring_mm > 0) TRY_DO(add_second_ring(preset.ends.second_ring_mm, scene));
+  TRY_DO(apply_ends_table(preset.ends.table, scene));
+  TRY(rods, scene_rods(preset, scene.footprint));
   scene.rods = std::move(rods->shell);
   scene.mass_t_per_mm = std::move(rods->mass_t_per_mm);
   scene.rod_diameter_mm = rods->drawn_diameter_mm;
   scene.drawn_diameters_mm = rods->drawn_diameters_mm;
   scene.diameters_mm = std::move(rods->diameters_mm);
-  scene.rung = preset::rung_of(preset);
-  if (auto fits = check_in_space(preset, scene); !fits) return tl::unexpected<Error>(fits.error());
+  scene.rung = preset::rod_model_of(preset);
+  TRY_DO(check_in_space(preset, scene));
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;
   scene.seed.diagonal = preset.actuation.seed_diagonal == preset::SeedDiagonal::y_eq_x ? 1 : -1;
   scene.imperfection = {preset.imperfection.size * scene.footprint.spacing,

@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/footprint/blocks.h"
-#include "engine/footprint/boundary_motion.h"
-#include "engine/footprint/branch_choice.h"
-#include "engine/footprint/flat_frame.h"
+#include "engine/elastic/shell_rods.h"
+#include "engine/footprint/actuation.h"
+#include "engine/footprint/assemblage.h"
 #include "engine/footprint/footprint.h"
+#include "engine/footprint/mesh.h"
 #include "engine/geometry/chebyshev_net.h"
-#include "engine/gridshell/shell_rods.h"
 #include "engine/preset/preset.h"
 
 namespace gridshell {
@@ -28,7 +27,7 @@ struct SnapDynamics {
 struct Scene {
   Footprint footprint;
   ShellRods rods;
-  preset::Rung rung = preset::Rung::bend;  ///< chosen: net, bend or twist
+  RodModel rung = RodModel::bend;          ///< chosen: net, bend or twist
   std::vector<double> mass_t_per_mm;       ///< one a rod; 0: not known
   double rod_diameter_mm = 0;              ///< as it is drawn
   std::vector<double> drawn_diameters_mm;  ///< one a rod, of round sections of their areas
@@ -56,8 +55,8 @@ struct Scene {
   SnapDynamics snap;
 
   /// The rung of the mechanics, where there is one.
-  Mechanics mechanics() const {
-    return rung == preset::Rung::twist ? Mechanics::twist : Mechanics::bend;
+  RodModel solved_model() const {
+    return rung == RodModel::twist ? RodModel::twist : RodModel::bend;
   }
   double radius_at(double progress) const {
     return radius_begin_mm + progress * (radius_end_mm - radius_begin_mm);

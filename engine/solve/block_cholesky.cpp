@@ -6,9 +6,7 @@
 #include <utility>
 
 #include "engine/core/block3.h"
-#include "engine/core/clones.h"
 #include "engine/solve/linear_solver.h"
-#include "engine/solve/ordering.h"
 
 namespace gridshell {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/solve/linear_solver.h"
-#include "engine/solve/ordering.h"
 
 namespace gridshell {
 namespace {

@@ -1,7 +1,7 @@
 #include "engine/solve/dynamics.h"
 
 #include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
 
 namespace gridshell {
@@ -36,6 +36,126 @@ Result<Eigen::Matrix3Xd> lumped_mass(const Model& model, const std::vector<doubl
 
 double kinetic_energy(const Eigen::Matrix3Xd& mass, const MovingState& moving) {
   return 0.5 * (mass.array() * moving.velocity.array().square()).sum();
+}
+
+namespace {
+
+constexpr double gamma = 2 - M_SQRT2;  // share of the trapezoidal part
+constexpr double held_mass = 1e6;      // of what is prescribed, over the shell's
+
+}  // namespace
+
+DampedMotion::DampedMotion(const Model& model, Eigen::Matrix3Xd mass,
+                           const DynamicsOptions& options, const ExternalLoads& outside,
+                           std::vector<Constraint> holds)
+    : model_(model),
+      mass_(std::move(mass)),
+      whole_mass_(mass_.row(0).leftCols(model.nodes).sum()),
+      options_(options),
+      outside_(outside),
+      holds_(std::move(holds)),
+      solver_(make_linear_solver(model)) {}
+
+void DampedMotion::clear_prescribed(Eigen::Matrix3Xd& v) const {
+  clear_held(model_, v);
+  for (const Constraint& hold : holds_) v.col(hold.node) -= hold.part(v.col(hold.node));
+}
+
+/// force of the shell and its loads on what is free, none along what is prescribed
+Eigen::Matrix3Xd DampedMotion::forces(const State& state) {
+  assemble_gradient(model_, state, outside_, assembly_);
+  Eigen::Matrix3Xd force = -assembly_.gradient;
+  clear_prescribed(force);
+  return force;
+}
+
+double DampedMotion::residual(const State& state) { return max_column_norm(forces(state)); }
+
+/// Newton's method for dE/dx + stiffness m (x - aim) = force, from the state.
+bool DampedMotion::implicit(const Eigen::Matrix3Xd& aim, const Eigen::Matrix3Xd& force,
+                            double stiffness, State& state, const Watch& watch) {
+  Eigen::Matrix3Xd dx;
+  for (int iteration = 0; iteration < options_.most_iterations; ++iteration) {
+    if (watch.cancelled()) return false;
+    assemble_hessian(model_, state, outside_, {}, assembly_);
+    if (!std::isfinite(assembly_.energies.total()) || assembly_.smallest_cosine < -0.9)
+      return false;
+    dx = force - assembly_.gradient - stiffness * mass_.cwiseProduct(state.x - aim);
+    for (int column : model_.free_columns)
+      assembly_.hessian.diagonal[std::size_t(column)].matrix().diagonal() +=
+          stiffness * mass_.col(column);
+    for (const Constraint& hold : holds_)
+      assembly_.hessian.diagonal[std::size_t(hold.node)].matrix() +=
+          stiffness * held_mass * whole_mass_ * hold.directions * hold.directions.transpose();
+    clear_prescribed(dx);
+    if (!solver_->factor(assembly_.hessian, 0).usable) return false;
+    solver_->solve(dx);
+    clear_prescribed(dx);
+    const double move = max_column_norm(dx);
+    if (!std::isfinite(move)) return false;
+    move_to(model_, state.x + dx, state);
+    if (move <= options_.tolerance_mm) return true;
+  }
+  return false;
+}
+
+bool DampedMotion::step(MovingState& moving, const Watch& watch) {
+  const double h = options_.step_s, c = options_.damping_per_s;
+  const double w = (1 - M_SQRT1_2) * h, stiffness = 1 / (w * w) + c / w;
+  const Eigen::Matrix3Xd &x0 = moving.state.x, &v0 = moving.velocity;
+  const auto predicted = [&](const State& from, const Eigen::Matrix3Xd& by) {
+    Eigen::Matrix3Xd free = by;
+    clear_held(model_, free);
+    State state = from;
+    move_to(model_, from.x + free, state);
+    return state;
+  };
+
+  // m ((x1 - x0)/w^2 - 2 v0/w) + c m (x1 - x0)/w = F(x0) + F(x1)
+  State first = predicted(moving.state, gamma * h * v0);
+  if (!implicit(x0, forces(moving.state) + mass_.cwiseProduct(2 / w * v0), stiffness, first, watch))
+    return false;
+  const Eigen::Matrix3Xd& x1 = first.x;
+  const Eigen::Matrix3Xd v1 = (x1 - x0) / w - v0;
+
+  // x2 = X + w v2, v2 = V + w a2
+  const double a = 1 / (gamma * (2 - gamma)), b = (1 - gamma) * (1 - gamma) * a;
+  const Eigen::Matrix3Xd X = a * x1 - b * x0, V = a * v1 - b * v0;
+  State second = predicted(first, (1 - gamma) * h * v1);
+  if (!implicit(X, mass_.cwiseProduct(V / w), stiffness, second, watch)) return false;
+  moving.velocity = (second.x - X) / w;
+  clear_held(model_, moving.velocity);
+  moving.state = std::move(second);
+  moving.time += h;
+  return true;
+}
+
+Result<void> DampedMotion::settle(MovingState& moving, const RestOptions& rest,
+                                  const std::function<void(const MovingState&)>& seen,
+                                  const Watch& watch) {
+  const double wanted = options_.step_s, end = moving.time + rest.longest_s;
+  struct Back {  // the step asked for stays that of the next moving
+    double& step;
+    double wanted;
+    ~Back() { step = wanted; }
+  } back{options_.step_s, wanted};
+  while (moving.time < end) {
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while a snap came to rest");
+    if (!step(moving, watch)) {
+      options_.step_s /= 2;
+      if (options_.step_s < 1e-6 * wanted)
+        return fail(Fault::no_equilibrium,
+                    fmt::format("no time step however small succeeds at {:.4g} s", moving.time));
+      continue;
+    }
+    options_.step_s = std::min(wanted, 2 * options_.step_s);
+    if (seen) seen(moving);
+    if (kinetic_energy(mass_, moving) < rest.still_mJ && residual(moving.state) < rest.still_N)
+      return {};
+  }
+  return fail(Fault::no_equilibrium,
+              fmt::format("not at rest after {:.4g} s, kinetic energy {:.2g} mJ", rest.longest_s,
+                          kinetic_energy(mass_, moving)));
 }
 
 }  // namespace gridshell

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <memory>
 
 #include "engine/core/result.h"
-#include "engine/gridshell/state.h"
+#include "engine/core/watch.h"
+#include "engine/elastic/state.h"
+#include "engine/solve/newton.h"
 
 namespace gridshell {
 
@@ -37,5 +41,52 @@ struct DynamicsOptions {
 
 /// 1/2 sum m v^2, mJ.
 double kinetic_energy(const Eigen::Matrix3Xd& mass, const MovingState& moving);
+
+// Motion in time that is meant to come to rest: a snap.
+
+/// When a motion has come to rest, and how long it may take.
+struct RestOptions {
+  double still_N = 1e-5;    ///< largest force of the shell, inertia not counted
+  double still_mJ = 1e-10;  ///< kinetic energy
+  double longest_s = 60;
+};
+
+/// TR-BDF2 with mass-proportional damping [Bank et al. 1985]: the trapezoidal rule over gamma h,
+/// the two-step backward formula over the rest, gamma = 2 - sqrt 2 (both parts then have the same
+/// matrix dE''/dx^2 + m (1/w^2 + c/w), w = (1 - 1/sqrt 2) h). Second order and L-stable: what
+/// vibrates faster than the step sees dies out at once, which the midpoint rule would keep.
+class DampedMotion {
+ public:
+  /// `holds` as in Linearisation: their components are held, by a mass a million times the shell's.
+  DampedMotion(const Model& model, Eigen::Matrix3Xd mass, const DynamicsOptions& options,
+               const ExternalLoads& outside = {}, std::vector<Constraint> holds = {});
+
+  /// One step; on failure (false), also of one that is stopped, the motion is unchanged.
+  bool step(MovingState& moving, const Watch& watch = unwatched);
+
+  /// Steps to rest; one that fails is halved, good ones grow again. `seen` is called after each.
+  /// Errors: no_equilibrium (not at rest in time, or a step too small), cancelled.
+  Result<void> settle(MovingState& moving, const RestOptions& rest,
+                      const std::function<void(const MovingState&)>& seen, const Watch& watch);
+
+  double step_s() const { return options_.step_s; }
+  /// Largest force of the shell at a state, inertia not counted, N.
+  double residual(const State& state);
+
+ private:
+  bool implicit(const Eigen::Matrix3Xd& aim, const Eigen::Matrix3Xd& force, double stiffness,
+                State& state, const Watch& watch);
+  Eigen::Matrix3Xd forces(const State& state);
+  void clear_prescribed(Eigen::Matrix3Xd& v) const;
+
+  const Model& model_;
+  Eigen::Matrix3Xd mass_;
+  double whole_mass_ = 0;
+  DynamicsOptions options_;
+  ExternalLoads outside_;
+  std::vector<Constraint> holds_;
+  std::unique_ptr<LinearSolver> solver_;
+  Assembly assembly_;
+};
 
 }  // namespace gridshell

@@ -4,8 +4,9 @@
 #include <Eigen/Core>
 #include <limits>
 #include <memory>
+#include <vector>
 
-#include "engine/gridshell/model.h"
+#include "engine/elastic/model.h"
 
 namespace gridshell {
 
@@ -68,5 +69,16 @@ std::unique_ptr<LinearSolver> make_cholmod(const Model& model, const CholmodOpti
 /// Rows and columns of `block`, whose row is column `row` of the model and whose column is
 /// `column`, that are held: zero, and one on the diagonal.
 Eigen::Matrix3d without_held(const Model& model, int row, int column, const Eigen::Matrix3d& block);
+
+// Fill-reducing elimination order of the free columns.
+
+/// Neighbours of each free column (by free index) in the Hessian's graph.
+std::vector<std::vector<int>> hessian_graph(const Model& model);
+
+/// Nested dissection by the columns' flat positions [George 1973]: what lies inside a segment goes
+/// first, then the plane is cut again and again along u or v where fewest columns touch both sides;
+/// those come last. Small pieces are ordered by minimum degree. Returns order[k] = free index of
+/// the k-th column to eliminate. Deterministic.
+std::vector<int> nested_dissection(const Model& model, const std::vector<std::vector<int>>& graph);
 
 }  // namespace gridshell

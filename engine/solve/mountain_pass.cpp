@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/solve/equilibrium.h"
 #include "engine/solve/newton.h"
-#include "engine/solve/rest.h"
 
 namespace gridshell {
 namespace {
@@ -26,7 +26,7 @@ class ElasticString {
     least_shift_ = over_softest * softest_stiffness(a);
     spacing_ = (b.x - a.x).norm() / (options_.images - 1);
     std::vector<Image> left{{a, system_.energy_at(a), 0}}, right{{b, system_.energy_at(b), 0}};
-    const Eigen::Matrix3Xd noise = options_.noise_mm * any_direction(a.x.cols());
+    const Eigen::Matrix3Xd noise = options_.noise_mm * generic_direction(a.x.cols());
     for (int k = 0; k < 4 * options_.images && !watch_.cancelled(); ++k) {
       auto& from = k % 2 == 0 ? left : right;
       const State& tip = from.back().state;
@@ -117,7 +117,7 @@ class ElasticString {
   /// Of a stable state, N/mm.
   double softest_stiffness(const State& state) {
     system_.at(state, false);
-    Eigen::Matrix3Xd mode = any_direction(state.x.cols());
+    Eigen::Matrix3Xd mode = generic_direction(state.x.cols());
     double softness = 1;
     for (int k = 0; k < 8; ++k) {
       mode /= mode.norm();
@@ -152,7 +152,7 @@ class ElasticString {
     system_.correction(down);
     system_.solve(normal);
     down -= product(along, down) / product(along, normal) * normal;
-    const double move = largest_column(down);
+    const double move = max_column_norm(down);
     if (!std::isfinite(move)) return false;
     system_.apply(std::min(1.0, options_.step_mm / move) * down, image.state);
     image.energy_mJ = system_.energy_at(image.state);
@@ -173,19 +173,19 @@ class ElasticString {
 MountainPass mountain_pass(Linearisation& system, const State& a, const State& b,
                            const PassOptions& options, const Watch& watch) {
   MountainPass none;
-  if (largest_column(b.x - a.x) < options.noise_mm) return none;  // no way at all
+  if (max_column_norm(b.x - a.x) < options.noise_mm) return none;  // no way at all
   ElasticString string(system, options, watch);
   if (string.grow(a, b)) {
     for (int round = 0; round < options.most_rounds; ++round) {
       if (!string.go_down_all()) break;
       if (round >= first_climb && (round - first_climb) % climb_every == 0)
         if (auto pass = string.climb()) {
-          pass->way_mJ = string.energies();
+          pass->string_mJ = string.energies();
           return *std::move(pass);
         }
       string.even_out();
     }
-    none.way_mJ = string.energies();
+    none.string_mJ = string.energies();
   }
   if (watch.cancelled()) none.outcome = Outcome::cancelled;
   return none;

@@ -6,7 +6,7 @@
 
 #include "engine/core/outcome.h"
 #include "engine/core/watch.h"
-#include "engine/solve/linearisation.h"
+#include "engine/solve/newton.h"
 
 namespace gridshell {
 
@@ -23,8 +23,8 @@ struct MountainPass {
   State saddle;
   double energy_mJ = 0;
   double residual_N = 0;
-  Eigen::Matrix3Xd towards_b;  ///< its soft mode, a unit vector, pointing on along the way
-  std::vector<double> way_mJ;  ///< energies of the string, from a to b
+  Eigen::Matrix3Xd towards_b;     ///< its soft mode, a unit vector, pointing on along the way
+  std::vector<double> string_mJ;  ///< energies of the string, from a to b
 };
 
 /// A string of states that grows from both ends and goes down at right angles to itself, evened out

@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "engine/solve/minimise.h"
-#include "engine/solve/nested.h"
+#include "engine/solve/equilibrium.h"
+#include "engine/solve/nested_shell.h"
 
 namespace gridshell {
 namespace {
@@ -31,34 +31,36 @@ double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& befor
   if (size == 0) return 0;
   const double ratio = before.norm() / size;
   if (std::abs(ratio - 4) < 4 * near) return 0;
-  if (ratio <= 1) return largest_column(step);
-  return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * largest_column(step);
+  if (ratio <= 1) return max_column_norm(step);
+  return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * max_column_norm(step);
 }
 
 /// Of the polynomial through what is known at several t: its weights at this t.
-Eigen::VectorXd weights_of(std::span<const Added> known, double t) {
+Eigen::VectorXd weights_of(std::span<const LevelCorrection> known, double t) {
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(Eigen::Index(known.size()));
   for (std::size_t k = 0; k < known.size(); ++k)
-    for (const Added& other : known)
+    for (const LevelCorrection& other : known)
       if (&other != &known[k]) weights[Eigen::Index(k)] *= (t - other.t) / (known[k].t - other.t);
   return weights;
 }
 
 }  // namespace
 
-Added NestedShell::added_by(const Level& level, double t, const State& base,
-                            const State& state) const {
+LevelCorrection NestedShell::correction_of(const Level& level, double t, const State& base,
+                                           const State& state) const {
   // angles are counted from frames that each carry makes anew: only nodes are remembered
-  Added added{t, (state.x - base.x).cast<float>(), (state.force - base.force).cast<float>()};
+  LevelCorrection added{t, (state.x - base.x).cast<float>(),
+                        (state.force - base.force).cast<float>()};
   added.x.rightCols(level.model.columns() - level.model.nodes).setZero();
   return added;
 }
 
 /// What an error of second order has level k add: a quarter of what the level below added.
-Added NestedShell::quarter_on(std::size_t k, const Added& below) const {
+LevelCorrection NestedShell::expected_correction(std::size_t k,
+                                                 const LevelCorrection& below) const {
   const Level& level = *levels_[k];
-  Added quarter{below.t, Eigen::Matrix3Xf::Zero(3, level.model.columns()),
-                Eigen::VectorXf::Zero(Eigen::Index(level.model.edges.size()))};
+  LevelCorrection quarter{below.t, Eigen::Matrix3Xf::Zero(3, level.model.columns()),
+                          Eigen::VectorXf::Zero(Eigen::Index(level.model.edges.size()))};
   if (below.x.size() == 0) return quarter;
   const Level& coarser = *levels_[k - 1];
   const MeshTransfer& from = level.from_coarser->meshes();
@@ -83,15 +85,16 @@ bool NestedShell::correct(Level& level, const State& base, State& state, NewtonR
   if (report.outcome != Outcome::reached) return false;
   // a finer mesh moves no node by a cell, or it went to another state
   const int nodes = level.model.nodes;
-  return largest_column(state.x.leftCols(nodes) - base.x.leftCols(nodes)) <
+  return max_column_norm(state.x.leftCols(nodes) - base.x.leftCols(nodes)) <
          0.5 * options_.spacing_mm;
 }
 
 /// What the mesh added beside the quarter that is expected carries on along the path, by the
 /// polynomial through the last states; fewer of them where it would make too much of their
 /// differences.
-State NestedShell::guess(const Level& level, double t, const State& base, Added expected) const {
-  std::span<const Added> known = level.beyond;
+State NestedShell::guess(const Level& level, double t, const State& base,
+                         LevelCorrection expected) const {
+  std::span<const LevelCorrection> known = level.beyond;
   Eigen::VectorXd weights = weights_of(known, t);
   while (known.size() > 1 && !(weights.cwiseAbs().sum() < most_weight)) {
     known = known.subspan(1);
@@ -116,7 +119,7 @@ std::optional<NestedShell::Refined> NestedShell::refine(std::size_t k, double t,
   enum class From { remembered, coarser, down };
   Level& level = *levels_[k];
   const State base = level.from_coarser->carry(coarser.state);
-  const Added expected = quarter_on(k, coarser.added);
+  const LevelCorrection expected = expected_correction(k, coarser.added);
   std::optional<Refined> found;
   for (const From from : {From::remembered, From::coarser, From::down}) {
     State trial = from == From::remembered ? guess(level, t, base, expected) : base;
@@ -132,7 +135,7 @@ std::optional<NestedShell::Refined> NestedShell::refine(std::size_t k, double t,
     if (stable || prefer == Prefer::first) break;
   }
   if (!found) return {};
-  found->added = added_by(level, t, base, found->state);
+  found->added = correction_of(level, t, base, found->state);
   level.beyond.push_back(found->added - expected);
   if (level.beyond.size() > 3) level.beyond.erase(level.beyond.begin());
   return found;
@@ -224,13 +227,13 @@ void NestedShell::estimate() {
   const int joints = finest.mesh.joints;
   const Eigen::Matrix3Xd step = state_.x.leftCols(joints) - coarser.leftCols(joints);
   if (!plan_.extrapolate || last < 2) {
-    state_.error_estimate_mm = margin * largest_column(step) / 3 + options_.tolerance_mm;
+    state_.error_estimate_mm = margin * max_column_norm(step) / 3 + options_.tolerance_mm;
     return;
   }
   // (4 fine - coarse)/3 of these two meshes less that of the two before
   const Eigen::Matrix3Xd before = coarser.leftCols(joints) - nodes(last - 2).leftCols(joints);
   state_.error_estimate_mm =
-      std::max(margin_extrapolated * largest_column((4 * step - before) / 3) / 15,
+      std::max(margin_extrapolated * max_column_norm((4 * step - before) / 3) / 15,
                margin * left_by_order(step, before)) +
       options_.tolerance_mm;  // corrections stop there
   // the correction is known at the coarser nodes; between them it is interpolated
@@ -245,7 +248,7 @@ void NestedShell::take_reactions() {
   Linearisation& finest = *levels_[last]->system;
   state_.held_stiffness = finest.held_stiffness();
   state_.reactions.clear();
-  for (const Hold& hold : finest.holds()) state_.reactions.push_back(finest.reaction(hold));
+  for (const Constraint& hold : finest.holds()) state_.reactions.push_back(finest.reaction(hold));
   if (!plan_.extrapolate || last == 0) return;
   Linearisation& coarser = *levels_[last - 1]->system;
   coarser.outside.load = finest.outside.load;

@@ -1,18 +1,224 @@
 #include "engine/solve/newton.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "engine/elastic/edge_energies.h"
 
 namespace gridshell {
+namespace {
+
+// of the order of a shell's own stiffness, so that neither swamps the other
+constexpr double border_stiffness = 1;  // g, N/mm
+
+/// EA over the rest length times how much longer an edge is.
+double force_of_strain(const ModelEdge& edge, const Eigen::Matrix3Xd& x) {
+  return stretch(edge.EA, edge.rest_length, (x.col(edge.to) - x.col(edge.from)).norm()).force;
+}
+
+}  // namespace
+
+Eigen::Vector3d Constraint::part(const Eigen::Vector3d& v) const {
+  return directions * (directions.transpose() * v);
+}
+
+Linearisation::Linearisation(const Model& model, std::unique_ptr<LinearSolver> solver)
+    : model_(model), solver_(solver ? std::move(solver) : make_linear_solver(model)) {}
+
+Inertia Linearisation::at(const State& state, bool mixed, double shift, double EA_scale) {
+  EA_scale_ = EA_scale;
+  assemble_hessian(model_, state, outside, {mixed, EA_scale}, assembly_);
+  tangents_ = assembly_.tangents;
+  for (const Constraint& hold : holds_)
+    assembly_.hessian.diagonal[std::size_t(hold.node)].matrix() +=
+        border_stiffness * hold.directions * hold.directions.transpose();
+  return shifted(shift);
+}
+
+Inertia Linearisation::shifted(double shift) {
+  ++effort_.factorizations;
+  Inertia inertia = solver_->factor(assembly_.hessian, shift);
+  if (!holds_.empty() && inertia.usable) border(inertia);
+  return inertia;
+}
+
+Eigen::VectorXd Linearisation::held_part(const Eigen::Matrix3Xd& x) const {
+  Eigen::VectorXd part(compliance_.rows());
+  Eigen::Index at = 0;
+  for (const Constraint& hold : holds_) {
+    part.segment(at, hold.directions.cols()) = hold.directions.transpose() * x.col(hold.node);
+    at += hold.directions.cols();
+  }
+  return part;
+}
+
+/// Inertia of the bordered matrix [K B; B^T 0]: that of K and of the Schur complement -C; the
+/// border itself brings m positive and m negative ones [Haynsworth 1968].
+void Linearisation::border(Inertia& inertia) {
+  border_.clear();
+  for (const Constraint& hold : holds_)
+    for (Eigen::Index k = 0; k < hold.directions.cols(); ++k) {
+      border_.push_back(Eigen::Matrix3Xd::Zero(3, model_.columns()));
+      border_.back().col(hold.node) = hold.directions.col(k);
+      solver_->solve(border_.back());
+    }
+  const Eigen::Index m = Eigen::Index(border_.size());
+  compliance_.resize(m, m);
+  for (Eigen::Index k = 0; k < m; ++k) compliance_.col(k) = held_part(border_[std::size_t(k)]);
+  compliance_ = (0.5 * (compliance_ + compliance_.transpose())).eval();
+  const Eigen::VectorXd own =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(compliance_, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  inertia.usable = own.allFinite() && (own.array() != 0).all();
+  inertia.negative_pivots += int((own.array() > 0).count()) - int(m);
+}
+
+void Linearisation::solve(Eigen::Matrix3Xd& right_hand_side) const {
+  solver_->solve(right_hand_side);
+  if (holds_.empty()) return;
+  const Eigen::VectorXd force = compliance_.partialPivLu().solve(held_part(right_hand_side));
+  for (std::size_t k = 0; k < border_.size(); ++k)
+    right_hand_side -= force[Eigen::Index(k)] * border_[k];
+}
+
+Eigen::MatrixXd Linearisation::held_stiffness() const {
+  Eigen::MatrixXd stiffness = compliance_.inverse();
+  stiffness.diagonal().array() -= border_stiffness;
+  return stiffness;
+}
+
+double Linearisation::residual() const {
+  if (holds_.empty()) return residual_of(model_, assembly_.gradient);
+  Eigen::Matrix3Xd unheld = assembly_.gradient;
+  for (const Constraint& hold : holds_) unheld.col(hold.node) -= hold.part(reaction(hold));
+  return residual_of(model_, unheld);
+}
+
+void Linearisation::residual_at(const State& state) {
+  assemble_mixed_residual(model_, state, outside, tangents_, assembly_);
+}
+
+void Linearisation::gradient_at(const State& state) {
+  assemble_gradient(model_, state, outside, assembly_);
+}
+
+void Linearisation::correction(Eigen::Matrix3Xd& dx) const {
+  dx = -assembly_.gradient;
+  solve(dx);
+}
+
+void Linearisation::tangent(const Eigen::Matrix3Xd& prescribed,
+                            const ExternalLoads& outside_velocity, const State& state,
+                            Eigen::Matrix3Xd& velocity) const {
+  Eigen::Matrix3Xd moved = Eigen::Matrix3Xd::Zero(3, model_.columns());
+  for (int column = 0; column < model_.nodes; ++column)
+    if (model_.pinned(column)) moved.col(column) = prescribed.col(column);
+  for (const Constraint& hold : holds_) moved.col(hold.node) = hold.part(prescribed.col(hold.node));
+  multiply(model_, assembly_.hessian, moved, velocity);
+  velocity *= -1;
+  const auto grow = [&](const std::vector<NodeAction>& actions, double factor) {
+    for (const NodeAction& action : actions)
+      velocity.col(action.node) -= factor * action.gradient(state.x.col(action.node));
+  };
+  if (outside_velocity.load != 0) grow(model_.loads, outside_velocity.load);
+  if (outside_velocity.field && outside_velocity.field_factor != 0)
+    grow(*outside_velocity.field, outside_velocity.field_factor);
+  solve(velocity);
+  velocity += moved;
+}
+
+Eigen::VectorXd Linearisation::force_change(const Eigen::Matrix3Xd& dx) const {
+  Eigen::VectorXd change(Eigen::Index(model_.edges.size()));
+  for (std::size_t k = 0; k < model_.edges.size(); ++k) {
+    const ModelEdge& edge = model_.edges[k];
+    change[Eigen::Index(k)] =
+        EA_scale_ * edge.EA / edge.rest_length *
+        tangents_.col(Eigen::Index(k)).dot(dx.col(edge.to) - dx.col(edge.from));
+  }
+  return change;
+}
+
+double Linearisation::force_misfit(const State& state) const {
+  double largest = 0;
+  for (std::size_t k = 0; k < model_.edges.size(); ++k)
+    largest = std::max(largest, std::abs(EA_scale_ * force_of_strain(model_.edges[k], state.x) -
+                                         state.force[Eigen::Index(k)]));
+  return largest;
+}
+
+void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state) const {
+  state.force = assembly_.force + force_change(dx);
+  if (model_.has_spins())
+    move_to(model_, state.x + dx, state);
+  else
+    state.x += dx;
+}
+
+void Linearisation::restore_lengths(const Eigen::VectorXd& force, State& state) const {
+  Eigen::Matrix3Xd pull = Eigen::Matrix3Xd::Zero(3, model_.columns());
+  for (std::size_t k = 0; k < model_.edges.size(); ++k) {
+    const ModelEdge& edge = model_.edges[k];
+    const double excess = EA_scale_ * force_of_strain(edge, state.x) - force[Eigen::Index(k)];
+    pull.col(edge.from) += excess * tangents_.col(Eigen::Index(k));
+    pull.col(edge.to) -= excess * tangents_.col(Eigen::Index(k));
+  }
+  solve(pull);
+  move_to(model_, state.x + pull, state);
+}
+
+double max_column_norm(const Eigen::Matrix3Xd& dx) {
+  double largest = 0;
+  for (Eigen::Index k = 0; k < dx.cols(); ++k) {
+    const double size = dx.col(k).squaredNorm();
+    if (!(size <= largest)) largest = size;  // a nan is kept, not hidden
+  }
+  return std::sqrt(largest);
+}
+
+namespace {
+
+/// L v over all columns.
+Eigen::Matrix3Xd weighted(const Eigen::Matrix3Xd& v, const Eigen::VectorXd& length) {
+  Eigen::Matrix3Xd product = Eigen::Matrix3Xd::Zero(3, v.cols());
+  product.leftCols(length.size()) = v.leftCols(length.size()) * length.asDiagonal();
+  return product;
+}
+
+}  // namespace
+
+double lowest_eigenvalue(Linearisation& system, const State& state, const Eigen::VectorXd& length,
+                         const Watch& watch, double converged) {
+  constexpr int most_iterations = 200;
+  if (!system.at(state, false).positive_definite()) return std::numeric_limits<double>::quiet_NaN();
+  // a start with a part along any mode
+  Eigen::Matrix3Xd v(3, system.model().columns());
+  for (Eigen::Index k = 0; k < v.size(); ++k) v.data()[k] = std::sin(1 + 1.7 * double(k));
+  double lambda = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < most_iterations && !watch.cancelled(); ++k) {
+    Eigen::Matrix3Xd next = weighted(v, length);
+    const Eigen::Matrix3Xd force = next;
+    system.solve(next);
+    // Rayleigh's quotient of the new vector: H next = force
+    const double before =
+        std::exchange(lambda, product(next, force) / product(next, weighted(next, length)));
+    v = next / next.norm();
+    if (std::abs(before - lambda) <= converged * lambda) break;
+  }
+  return lambda;
+}
+
 namespace {
 
 /// About what the correction after one of a new factorisation is, by its square. Over thirteen
 /// presets of all kinds half were below m^2/l, nine in ten below 5 m^2/l but for three presets, and
 /// beside a snap it was a hundred times that: what is left out then is still below a tenth of the
 /// accuracy that tolerances are chosen for.
-class NextMove {
+class NextCorrection {
  public:
-  explicit NextMove(const Model& model) {
+  explicit NextCorrection(const Model& model) {
     double sum = 0;
     for (const ModelEdge& edge : model.edges) sum += edge.rest_length;
     by_square_ = 8 * double(model.edges.size()) / sum;
@@ -33,7 +239,7 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     report.outcome = outcome;
     return report;
   };
-  const NextMove next_move(system.model());
+  const NextCorrection next_move(system.model());
   bool factor = true;
   double before = 0;
   for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
@@ -47,7 +253,7 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     if (system.assembly().smallest_cosine < options.widest_turn) return end(Outcome::folded);
     if (!report.inertia.usable) return end(Outcome::not_finite);
     system.correction(dx);
-    const double move = largest_column(dx);
+    const double move = max_column_norm(dx);
     if (!std::isfinite(move)) return end(Outcome::not_finite);
     if (report.iterations == 1) report.first_move_mm = move;
     // twice as far as the step before, and not at the start: it runs away

@@ -1,14 +1,154 @@
-// Newton's method on the mixed form: positions and the axial force of every edge are unknowns; the
-// forces are eliminated edge by edge, so the system solved has the size and pattern of the Hessian.
+// A model's equilibrium equations at a state, assembled and factorised: what every solver works
+// with, on every rung.
 #pragma once
 
+#include <Eigen/Core>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "engine/core/outcome.h"
 #include "engine/core/watch.h"
-#include "engine/solve/linearisation.h"
+#include "engine/elastic/assembly.h"
+#include "engine/solve/linear_solver.h"
 
 namespace gridshell {
+
+/// A free node of which some components are prescribed: a joint that is held or pushed. With one
+/// direction it is held along that direction only and finds its own way across; with three it is
+/// held.
+struct Constraint {
+  int node = 0;
+  Eigen::Matrix3Xd directions = Eigen::Matrix3d::Identity();  ///< orthonormal columns, 1 to 3
+
+  /// The prescribed part of a vector at the node.
+  Eigen::Vector3d part(const Eigen::Vector3d& v) const;
+};
+
+/// Counts of the costly operations, for reports.
+struct Effort {
+  int newton_iterations = 0;
+  int factorizations = 0;
+  Effort& operator+=(const Effort& other) {
+    newton_iterations += other.newton_iterations;
+    factorizations += other.factorizations;
+    return *this;
+  }
+  friend Effort operator+(Effort a, const Effort& b) { return a += b; }
+  friend Effort operator-(Effort a, const Effort& b) {
+    return {a.newton_iterations - b.newton_iterations, a.factorizations - b.factorizations};
+  }
+};
+
+/// One linearisation at a time of a model's equilibrium equations, and solves with it. With axial
+/// force N, unit tangent t and edge difference B dx = t . (dx_to - dx_from)/l,
+///   (K_0 + EA/l t t^T + N/|e| (I - t t^T)) dx = -dE/dx,   N <- EA (strain + B dx),
+/// K_0 the stiffness of everything else; at an equilibrium both forms agree. Owns the factorisation
+/// and the working memory of one model.
+/// With holds B (3 x m over their nodes) every solve is that of the bordered system
+///   K dx - B c = r,   B^T dx = 0,
+/// by block elimination with K + g B B^T in the place of K: the same solution, but positive
+/// definite wherever the constrained system is, also where K is singular (a limit point in force).
+class Linearisation {
+ public:
+  explicit Linearisation(const Model& model, std::unique_ptr<LinearSolver> solver = nullptr);
+
+  /// Assembles and factorises at `state`; with mixed = false the Hessian of the energy itself,
+  /// whose inertia certifies stability.
+  Inertia at(const State& state, bool mixed = true, double shift = 0, double EA_scale = 1);
+  /// Factorises the assembled Hessian again with another shift.
+  Inertia shifted(double shift);
+
+  /// From the next at() on these are held: corrections leave them as they are, the inertia is that
+  /// of the constrained system.
+  void hold(std::vector<Constraint> holds) { holds_ = std::move(holds); }
+  const std::vector<Constraint>& holds() const { return holds_; }
+  /// The force that keeps a held node where it is, all components, N; of the last assembly.
+  Eigen::Vector3d reaction(const Constraint& hold) const {
+    return assembly_.gradient.col(hold.node);
+  }
+  /// How the forces on the held components grow with them, m x m in the order of holds and their
+  /// directions, N/mm; of the last factorisation.
+  Eigen::MatrixXd held_stiffness() const;
+
+  /// From here on factorisations may end at the first negative pivot: whoever wants positive
+  /// definite matrices alone need not know how far from it they are.
+  void stop_at_negative(bool stop) {
+    solver_->most_negative = stop ? 0 : std::numeric_limits<int>::max();
+  }
+
+  /// What acts from outside from the next assembly on.
+  ExternalLoads outside;
+
+  /// The energy's gradient at a state, without a factorisation.
+  void gradient_at(const State& state);
+  /// The mixed residual at another state, with the factorisation and directions of the last at().
+  void residual_at(const State& state);
+  /// The potential at a state, mJ.
+  double energy_at(const State& state) const { return energies_of(model_, state, outside).total(); }
+
+  /// Newton's correction: solves K dx = -dE/dx with what is held held.
+  void correction(Eigen::Matrix3Xd& dx) const;
+  /// Tangent of the path: how all columns move when pinned ones move with `prescribed` (of free
+  /// columns only what is held counts) and the factors of the loads and the field grow by
+  /// `outside_velocity`.
+  void tangent(const Eigen::Matrix3Xd& prescribed, const ExternalLoads& outside_velocity,
+               const State& state, Eigen::Matrix3Xd& velocity) const;
+  /// Solves K y = right_hand_side at what is free, in place; held components of y are zero.
+  void solve(Eigen::Matrix3Xd& right_hand_side) const;
+  /// Change of the axial forces with positions, EA B dx, at the linearisation point.
+  Eigen::VectorXd force_change(const Eigen::Matrix3Xd& dx) const;
+  /// Moves a state that a long step came to so that its axial forces become `force` to first order:
+  /// a straight step across a bent rod stretches it at second order.
+  void restore_lengths(const Eigen::VectorXd& force, State& state) const;
+  /// Moves the state by dx and updates its forces as the mixed form does.
+  void apply(const Eigen::Matrix3Xd& dx, State& state) const;
+
+  /// By how much the axial force of an edge and that of its strain differ at most, N: what Newton's
+  /// step leaves at second order, and a residual of about that.
+  double force_misfit(const State& state) const;
+
+  const Model& model() const { return model_; }
+  const Assembly& assembly() const { return assembly_; }  ///< of the last assembly
+  double residual() const;  ///< largest force on a free column that nothing holds, N
+  const Effort& effort() const { return effort_; }
+  Effort& effort() { return effort_; }
+
+ private:
+  void border(Inertia& inertia);
+  Eigen::VectorXd held_part(const Eigen::Matrix3Xd& x) const;
+
+  const Model& model_;
+  std::unique_ptr<LinearSolver> solver_;
+  Assembly assembly_;
+  std::vector<Constraint> holds_;
+  std::vector<Eigen::Matrix3Xd> border_;  // (K + g B B^T)^-1 B, a matrix a column of B
+  Eigen::MatrixXd compliance_;            // B^T (K + g B B^T)^-1 B
+  Eigen::Matrix3Xd tangents_;             // unit tangent of each edge at the linearisation point
+  double EA_scale_ = 1;
+  Effort effort_;
+};
+
+/// Largest move of a column.
+double max_column_norm(const Eigen::Matrix3Xd& dx);
+/// Sum of the products of their entries.
+inline double product(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
+  return a.cwiseProduct(b).sum();
+}
+
+// How far a stable state is from losing its stability.
+
+/// Smallest lambda, N/mm^2, of H v = lambda L v at a stable state: H the energy's Hessian with what
+/// is held held, L the length of rod, mm, that each node stands for (`length`, one a node: half of
+/// each edge that meets there). So it is the stiffness of the softest mode against a force on every
+/// millimetre of rod, and does not hang on the mesh. By inverse iteration; NaN where the Hessian is
+/// not positive definite. Angles (twist rung) have no length of their own: they follow.
+/// `converged`: relative change at which the iteration ends.
+double lowest_eigenvalue(Linearisation& system, const State& state, const Eigen::VectorXd& length,
+                         const Watch& watch, double converged = 1e-7);
+
+// Newton's method on the mixed form: positions and the axial force of every edge are unknowns; the
+// forces are eliminated edge by edge, so the system solved has the size and pattern of the Hessian.
 
 struct NewtonOptions {
   double tolerance_mm = 1e-5;  ///< converged when a correction moves no node further

@@ -1,4 +1,4 @@
-#include "engine/solve/ordering.h"
+#include "engine/solve/linear_solver.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "engine/core/parallel.h"
-#include "engine/study/judge.h"
+#include "engine/core/try.h"
+#include "engine/study/benchmark_methods.h"
 
 namespace gridshell::study {
 namespace {
@@ -19,14 +20,14 @@ struct Ladder {
 };
 
 struct Measured {
-  Arrival arrival;
+  MethodResult arrival;
   std::vector<double> seconds;  // ascending
   RunOutcome outcome = RunOutcome::right;
   double median() const { return seconds[seconds.size() / 2]; }
 };
 
 /// Several runs of a fast method, one of a slow one.
-Measured measure(Subject& study, const Method& method, double allowed,
+Measured measure(BenchmarkProblem& study, const Method& method, double allowed,
                  const AccuracyOptions& options, const Watch& watch) {
   Measured measured;
   for (int run = 0; run < std::max(1, options.runs); ++run) {
@@ -39,11 +40,11 @@ Measured measure(Subject& study, const Method& method, double allowed,
     if (measured.arrival.claim != RunOutcome::right) break;
   }
   std::sort(measured.seconds.begin(), measured.seconds.end());
-  measured.outcome = judge(study, measured.arrival, claimed_error, allowed, watch);
+  measured.outcome = verdict_of(study, measured.arrival, claimed_error, allowed, watch);
   return measured;
 }
 
-AccuracyRow row_of(const Subject& study, const Method& method, const Measured& measured) {
+AccuracyRow row_of(const BenchmarkProblem& study, const Method& method, const Measured& measured) {
   AccuracyRow row;
   row.method = method.name;
   row.edges_per_segment = measured.arrival.edges;
@@ -93,7 +94,7 @@ std::vector<Ladder> other_ladders(const AccuracyOptions& options) {
 }
 
 /// Runs ladders on several threads; rows come back in the order of the ladders.
-Result<std::vector<AccuracyRow>> climb(Subject& study, const std::vector<Ladder>& ladders,
+Result<std::vector<AccuracyRow>> climb(BenchmarkProblem& study, const std::vector<Ladder>& ladders,
                                        int threads, const AccuracyOptions& options, Watch& watch,
                                        double from, double to) {
   std::vector<std::vector<AccuracyRow>> rows(ladders.size());
@@ -111,8 +112,8 @@ Result<std::vector<AccuracyRow>> climb(Subject& study, const std::vector<Ladder>
     for (const auto& some : rows) all.insert(all.end(), some.begin(), some.end());
     return all;
   };
-  return share_work(int(ladders.size()), threads, watch, climb_one,
-                    [&](double share) { watch.report(from + (to - from) * share); })
+  return parallel_for(int(ladders.size()), threads, watch, climb_one,
+                      [&](double share) { watch.report(from + (to - from) * share); })
       .map(gathered);
 }
 
@@ -171,7 +172,7 @@ std::vector<record::ScalingRow> scaling_of(const preset::Preset& preset,
   int step = 0;
   for (double factor : {2.0, 1.5, 1.0, 0.75, 0.5}) {
     watch.report(0.75 + 0.05 * step++);
-    auto made = Subject::create(respaced(preset, factor), 16, watch);
+    auto made = BenchmarkProblem::create(respaced(preset, factor), 16, watch);
     if (!made) continue;  // a footprint that cannot be cut so, or whose path is lost
     for (std::size_t k = 0; k < methods.size() && !watch.cancelled(); ++k) {
       if (slow[k]) continue;
@@ -197,19 +198,16 @@ std::vector<record::ScalingRow> scaling_of(const preset::Preset& preset,
 Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const AccuracyOptions& options,
                                      Watch& watch) {
   keep_blas_on_one_thread();
-  auto made = Subject::create(preset, options.finest, watch);
-  if (!made) return tl::unexpected<Error>(made.error());
-  Subject& study = **made;
+  TRY(made, BenchmarkProblem::create(preset, options.finest, watch));
+  BenchmarkProblem& study = **made;
   for (int k = 1; k <= options.most_edges; k *= 2)
     (void)study.problem(k, watch);  // a mesh without one is refused where it is used
   AccuracyStudy result;
   result.reference_error = study.reference_error();
-  auto own = climb(study, own_ladders(options), 1, options, watch, 0.02, 0.05);
-  if (!own) return tl::unexpected<Error>(own.error());
+  TRY(own, climb(study, own_ladders(options), 1, options, watch, 0.02, 0.05));
   result.rows = std::move(*own);
-  const auto others = climb(study, other_ladders(options), std::max(1, options.threads), options,
-                            watch, 0.05, options.scaling ? 0.75 : 1);
-  if (!others) return tl::unexpected<Error>(others.error());
+  TRY(others, climb(study, other_ladders(options), std::max(1, options.threads), options, watch,
+                    0.05, options.scaling ? 0.75 : 1));
   result.rows.insert(result.rows.end(), others->begin(), others->end());
   result.standings = standings_of(result.rows);
   if (options.scaling) result.scaling = scaling_of(preset, options, watch);

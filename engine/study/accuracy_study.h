@@ -6,7 +6,7 @@
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/preset/preset.h"
-#include "engine/record/charts.h"
+#include "engine/record/study_tables.h"
 
 namespace gridshell::study {
 
@@ -36,7 +36,7 @@ struct AccuracyStudy {
 /// Tolerances at which `auto` is marked; its rows are called "auto 1e-02" and so on.
 inline constexpr double auto_tolerances[] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
 
-/// Errors: those of Subject::create.
+/// Errors: those of BenchmarkProblem::create.
 Result<AccuracyStudy> accuracy_study(const preset::Preset& preset, const AccuracyOptions& options,
                                      Watch& watch);
 

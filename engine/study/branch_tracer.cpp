@@ -1,4 +1,4 @@
-#include "engine/study/branch_tracer.h"
+#include "engine/study/bifurcation_diagram.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -19,7 +19,7 @@ TracedPoint traced(const ArcPoint& at, BranchEvent event = BranchEvent::none) {
 class Tracer {
  public:
   Tracer(Linearisation& system, const PinnedMotion& motion, ArcFollower path,
-         const TraceOptions& options, const Met& met, const Watch& watch)
+         const TraceOptions& options, const MeetsBranch& met, const Watch& watch)
       : system_(system),
         motion_(motion),
         path_(std::move(path)),
@@ -143,7 +143,7 @@ class Tracer {
   const PinnedMotion& motion_;
   ArcFollower path_;
   const TraceOptions& options_;
-  const Met& met_;
+  const MeetsBranch& met_;
   const Watch& watch_;
   std::vector<TracedPoint> points_;
 };
@@ -151,7 +151,8 @@ class Tracer {
 }  // namespace
 
 std::vector<TracedPoint> trace(Linearisation& system, const PinnedMotion& motion, ArcFollower path,
-                               const TraceOptions& options, const Met& met, const Watch& watch) {
+                               const TraceOptions& options, const MeetsBranch& met,
+                               const Watch& watch) {
   return Tracer(system, motion, std::move(path), options, met, watch).run();
 }
 

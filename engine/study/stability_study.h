@@ -9,8 +9,8 @@
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/preset/preset.h"
-#include "engine/record/charts.h"
-#include "engine/study/subject.h"
+#include "engine/record/study_tables.h"
+#include "engine/study/benchmark_problem.h"
 
 namespace gridshell::study {
 
@@ -37,19 +37,20 @@ using Cells = std::vector<Cell>;
 
 /// Explicit time step over l_min/c (c the speed of sound in the rods) x edges a segment: whether
 /// the equilibrium, off by a hundredth of a millimetre, is held for 20 000 steps.
-Cells explicit_map(const std::shared_ptr<Subject>& study, const std::vector<double>& steps,
+Cells explicit_map(const std::shared_ptr<BenchmarkProblem>& study, const std::vector<double>& steps,
                    const std::vector<int>& edges);
 /// Step of kinetic dynamic relaxation over its limit x edges, over the whole path.
-Cells relaxation_map(const std::shared_ptr<Subject>& study, const std::vector<double>& steps,
-                     const std::vector<int>& edges);
+Cells relaxation_map(const std::shared_ptr<BenchmarkProblem>& study,
+                     const std::vector<double>& steps, const std::vector<int>& edges);
 /// Load steps x edges for Newton's method with full steps, with a line search, shifted, and by
 /// default (then the states asked for: it takes load steps of its own between them).
-Cells newton_map(const std::shared_ptr<Subject>& study, const std::vector<double>& load_steps,
-                 const std::vector<int>& edges);
+Cells newton_map(const std::shared_ptr<BenchmarkProblem>& study,
+                 const std::vector<double>& load_steps, const std::vector<int>& edges);
 /// Tolerance of Newton's corrections (mm) x load steps; by default that of the joints, which is
 /// judged against the converged reference.
-Cells tolerance_map(const std::shared_ptr<Subject>& study, const std::vector<double>& tolerances,
-                    const std::vector<double>& load_steps, int edges);
+Cells tolerance_map(const std::shared_ptr<BenchmarkProblem>& study,
+                    const std::vector<double>& tolerances, const std::vector<double>& load_steps,
+                    int edges);
 /// EA over that of the rods x load steps; every EA has a reference of its own.
 Cells stiffness_map(const preset::Preset& preset, const std::vector<double>& scales,
                     const std::vector<double>& load_steps, int edges);
@@ -57,17 +58,19 @@ Cells stiffness_map(const preset::Preset& preset, const std::vector<double>& sca
 Cells leg_map(const preset::Preset& preset, const std::vector<double>& legs,
               const std::vector<double>& load_steps, int edges);
 /// Height of the seed (mm) on the flat footprint x edges, to 0.98 R_o at once.
-Cells seed_map(const std::shared_ptr<Subject>& study, const std::vector<double>& heights,
+Cells seed_map(const std::shared_ptr<BenchmarkProblem>& study, const std::vector<double>& heights,
                const std::vector<int>& edges);
 /// Stiffness of spring joints (N/mm) x load steps, on the twist rung, shifted or with full steps;
 /// judged by the same joints in 60 load steps.
-Cells joint_map(const std::shared_ptr<Subject>& study, const std::vector<double>& stiffnesses,
-                const std::vector<double>& load_steps, int edges);
+Cells joint_map(const std::shared_ptr<BenchmarkProblem>& study,
+                const std::vector<double>& stiffnesses, const std::vector<double>& load_steps,
+                int edges);
 
 /// Runs cells on several threads; outcomes are filled in, in place.
 Result<void> run_cells(Cells& cells, const StabilityOptions& options, Watch& watch);
 
-/// All maps of a preset. Errors: those of Subject::create; bad_input where nothing is actuated.
+/// All maps of a preset. Errors: those of BenchmarkProblem::create; bad_input where nothing is
+/// actuated.
 Result<std::vector<record::StabilityRow>> stability_study(const preset::Preset& preset,
                                                           const StabilityOptions& options,
                                                           Watch& watch);

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "engine/core/clock.h"
+#include "engine/core/system_info.h"
 #include "engine/core/watch.h"
 
 namespace gridshell::study {

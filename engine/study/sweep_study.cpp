@@ -1,12 +1,116 @@
 #include "engine/study/sweep_study.h"
 
+#include <algorithm>
 #include <mutex>
+#include <utility>
 
+#include "engine/core/checksum.h"
 #include "engine/core/parallel.h"
-#include "engine/experiment/point.h"
-#include "engine/preset/writer.h"
-#include "engine/record/checksum.h"
+#include "engine/core/try.h"
+#include "engine/preset/preset_file.h"
+#include "engine/record/phase_diagram.h"
+#include "engine/record/summary.h"
+#include "engine/simulate/experiment.h"
+#include "engine/study/state_library.h"
 #include "engine/study/stopwatch.h"
+
+namespace gridshell::experiment {
+namespace {
+
+constexpr int samples = 41;  // of a path from the flat
+
+/// Keeps the last frame alone.
+class LastFrameSink final : public record::Sink {
+ public:
+  Result<void> begin(record::Layout) override {
+    last_ = {};
+    return {};
+  }
+  Result<void> take(record::Frame frame) override {
+    if (frame.index >= last_.index) last_ = record::without_nodes(frame);
+    return {};
+  }
+  const record::Frame& last() const { return last_; }
+
+ private:
+  record::Frame last_;
+};
+
+record::Figure known(double value) {
+  if (std::isfinite(value)) return value;
+  return {};
+}
+
+/// The figures of a run beyond its summary.
+record::Figures more_of(const Scene* scene, const record::Frame& last) {
+  record::Figure ratio;
+  if (scene) {
+    const RodMaterial& rod = scene->rods.materials.front();
+    const double d = scene->footprint.spacing;
+    ratio = rod.EA * d * d / std::min(rod.EI1, rod.EI2);
+  }
+  return {{"progress", known(last.progress)},
+          {"depth_mm", known(last.depth_mm)},
+          {"force_N", known(last.force_N)},
+          {"stiffness_ratio", ratio}};
+}
+
+/// The legs of a circle; names alone where there is no preset.
+record::Figures legs_of(const preset::Preset* preset) {
+  record::Figures legs{{record::longest_leg_name, {}}, {record::shortest_leg_name, {}}};
+  if (!preset || preset->footprint.kind != preset::FootprintKind::circle) return legs;
+  const double radius = preset->original_radius_mm() / preset->footprint.spacing_mm;
+  legs[0].second = record::longest_leg(radius, preset->footprint.rods);
+  legs[1].second = record::shortest_leg(radius, preset->footprint.rods);
+  return legs;
+}
+
+void append(record::Figures& figures, record::Figures more) {
+  for (auto& one : more) figures.push_back(std::move(one));
+}
+
+/// A point that looks for states. Of each is asked what tells it apart, not how far back it lives.
+Result<record::Figures> figures_of_search(const preset::Preset& preset,
+                                          const std::shared_ptr<const Scene>& scene, Watch& watch) {
+  TRY(library, find_states(scene, preset.jitter, {.threads = 1, .lives = false}, watch));
+  std::vector<record::StateRow> rows;
+  for (const ShellState& state : library->states) rows.push_back(state.row);
+  auto figures = record::figures_of(summary_of(preset, *scene, *library));
+  append(figures, legs_of(&preset));
+  append(figures, record::search_figures(library->search, rows));
+  return figures;
+}
+
+}  // namespace
+
+Result<record::Figures> figures_of(const preset::Preset& asked, Watch& watch) {
+  preset::Preset preset = asked;
+  TRY(made, shared_scene_of(preset));
+  const std::shared_ptr<const Scene>& scene = *made;
+  if (preset.jitter.wanted()) return figures_of_search(preset, scene, watch);
+  // the last state is what counts: the end, or where a path ends early the last sample before that
+  preset.figure.radii_mm.clear();
+  preset.movie.frames = samples;
+  const bool end_alone = preset.actuation.start == preset::Start::net;
+  LastFrameSink sink;
+  TRY(summary, run(preset, scene, end_alone, sink, watch));
+  auto figures = record::figures_of(*summary);
+  append(figures, more_of(scene.get(), sink.last()));
+  append(figures, legs_of(&preset));
+  return figures;
+}
+
+std::vector<std::string> figure_names(bool search) {
+  auto figures = record::figures_of(record::Summary{});
+  if (!search) append(figures, more_of(nullptr, {}));
+  append(figures, legs_of(nullptr));
+  if (search) append(figures, record::search_figures({}, {}));
+  std::vector<std::string> names;
+  for (auto& [name, figure] : figures) names.push_back(std::move(name));
+  return names;
+}
+
+}  // namespace gridshell::experiment
 
 namespace gridshell::study {
 namespace {
@@ -77,8 +181,7 @@ Result<void> run_points(const preset::SweepGrid& grid, const std::vector<std::si
   const auto compute = [&](int k) -> Result<void> {
     // each point tells its own progress, and all hear the same wish to stop
     TimeLimit none(no_limit_s, watch);
-    auto result = result_of(grid, points[std::size_t(k)], none.watch());
-    if (!result) return tl::unexpected<Error>(result.error());
+    TRY(result, result_of(grid, points[std::size_t(k)], none.watch()));
     const std::lock_guard lock(one_at_a_time);
     // nothing more is handed over once that failed
     if (refused) return stopped();
@@ -86,8 +189,8 @@ Result<void> run_points(const preset::SweepGrid& grid, const std::vector<std::si
     refused = !kept;
     return kept;
   };
-  return share_work(int(points.size()), jobs, watch, compute,
-                    [&](double share) { watch.report(share); });
+  return parallel_for(int(points.size()), jobs, watch, compute,
+                      [&](double share) { watch.report(share); });
 }
 
 }  // namespace gridshell::study

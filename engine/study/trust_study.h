@@ -1,16 +1,67 @@
-// Whether a user may trust what a run says: random scenes of every kind, solved as by default and
-// beside it on meshes of another family (5, 10, 20 edges a segment in the place of 4, 8, 16), with
-// load steps of half the size, an eighth of the tolerance and other numbers of frames.
+// Values drawn at random, the same ones from the same generator on every machine: not by the
+// library's distributions, which differ from one to another.
 #pragma once
 
+#include <algorithm>
+#include <random>
 #include <vector>
 
+#include "engine/core/enum_words.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/preset/preset.h"
-#include "engine/record/trust.h"
+#include "engine/record/study_tables.h"
 
 namespace gridshell::study {
+
+class RandomDraw {
+ public:
+  explicit RandomDraw(std::mt19937& random) : random_(random) {}
+  double between(double low, double high) {
+    return low + (high - low) * double(random_() >> 5) / double(1 << 27);
+  }
+  /// From `low` to `high`, both among them.
+  int integer(int low, int high) { return std::min(int(between(low, high + 1)), high); }
+  bool once_in(int n) { return integer(1, n) == 1; }
+
+ private:
+  std::mt19937& random_;
+};
+
+// Random scenes of every kind that presets can express.
+
+enum class SceneKind {
+  circle,
+  curve,
+  cap,
+  revolution,
+  profile,
+  translation,
+  blocks,
+  push,
+  load,
+  rods
+};
+constexpr auto words(SceneKind) {
+  return word_table<SceneKind>({{SceneKind::circle, "circle"},
+                                {SceneKind::curve, "curve"},
+                                {SceneKind::cap, "cap"},
+                                {SceneKind::revolution, "cylinder and saddle"},
+                                {SceneKind::profile, "profile"},
+                                {SceneKind::translation, "translation"},
+                                {SceneKind::blocks, "blocks"},
+                                {SceneKind::push, "push"},
+                                {SceneKind::load, "load"},
+                                {SceneKind::rods, "rods and ends"}});
+}
+
+/// A preset of that kind, of 4 to 14 rods a direction, with a tolerance of 1e-2 to 1e-4; the same
+/// for the same numbers drawn, on every machine.
+preset::Preset random_preset(SceneKind kind, std::mt19937& random);
+
+// Whether a user may trust what a run says: random scenes of every kind, solved as by default and
+// beside it on meshes of another family (5, 10, 20 edges a segment in the place of 4, 8, 16), with
+// load steps of half the size, an eighth of the tolerance and other numbers of frames.
 
 struct TrustOptions {
   int scenes = 600;  ///< of all kinds in turn

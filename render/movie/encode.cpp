@@ -7,15 +7,16 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "engine/core/atomic_file.h"
-#include "render/movie/child.h"
+#include "engine/core/file_io.h"
+#include "engine/core/try.h"
+#include "render/movie/subprocess.h"
 
 namespace gridshell::render {
 
 namespace {
 
 /// When every frame is shown, and how long the last one stays.
-std::string timing_filters(const Timing& timing) {
+std::string timing_filters(const MovieTiming& timing) {
   std::string filters;
   const bool eased = timing.pace == Pace::eased && timing.frames > 1;
   const double seconds =
@@ -49,7 +50,8 @@ std::vector<std::string> output_options(const std::string& kind) {
 
 /// ffmpeg with its first input, which is the frames.
 std::vector<std::string> arguments_of(const std::vector<std::string>& input,
-                                      const std::filesystem::path& frames, const Timing& timing,
+                                      const std::filesystem::path& frames,
+                                      const MovieTiming& timing,
                                       const std::filesystem::path& movie) {
   const std::string kind = movie.extension().string(), rate = std::to_string(timing.fps);
   std::vector<std::string> words{"ffmpeg", "-nostdin", "-y", "-loglevel", "error"};
@@ -84,7 +86,8 @@ Error told(Error error, const std::filesystem::path& frames, const std::filesyst
 
 }  // namespace
 
-std::vector<std::string> encode_arguments(const std::filesystem::path& frames, const Timing& timing,
+std::vector<std::string> encode_arguments(const std::filesystem::path& frames,
+                                          const MovieTiming& timing,
                                           const std::filesystem::path& movie) {
   // in the pattern a percent sign of the folder's own name is doubled
   std::string pattern;
@@ -121,7 +124,7 @@ std::filesystem::path find_program(const std::string& name) {
   return {};
 }
 
-Result<Encoding> encode_movie(const std::filesystem::path& frames, const Timing& timing,
+Result<Encoding> encode_movie(const std::filesystem::path& frames, const MovieTiming& timing,
                               const std::filesystem::path& movie, const Watch& watch) {
   Encoding encoding{false, shell_line(encode_arguments(frames, timing, movie))};
   const std::filesystem::path program = find_program("ffmpeg");
@@ -129,16 +132,17 @@ Result<Encoding> encode_movie(const std::filesystem::path& frames, const Timing&
   AtomicFile file(movie);
   std::vector<std::string> arguments = encode_arguments(frames, timing, file.temporary());
   arguments[0] = program.string();
-  if (auto run = run_child(arguments, watch); !run)
+  if (auto run = run_subprocess(arguments, watch); !run)
     return tl::unexpected(told(run.error(), frames, movie));
-  if (auto placed = file.commit(); !placed) return tl::unexpected(placed.error());
+  TRY_DO(file.commit());
   encoding.made = true;
   return encoding;
 }
 
-Result<std::optional<MovieInTheMaking>> MovieInTheMaking::begin(
-    const std::filesystem::path& frames, const Timing& timing, int width, int height,
-    const std::filesystem::path& movie) {
+Result<std::optional<MovieEncoder>> MovieEncoder::begin(const std::filesystem::path& frames,
+                                                        const MovieTiming& timing, int width,
+                                                        int height,
+                                                        const std::filesystem::path& movie) {
   const std::filesystem::path program = find_program("ffmpeg");
   if (program.empty()) return std::nullopt;
   auto file = std::make_unique<AtomicFile>(movie);
@@ -148,16 +152,16 @@ Result<std::optional<MovieInTheMaking>> MovieInTheMaking::begin(
                     "-i", "pipe:0"},
                    frames, timing, file->temporary());
   arguments[0] = program.string();
-  auto ffmpeg = Child::start(arguments, Input::fed);
+  auto ffmpeg = Subprocess::start(arguments, Input::fed);
   if (!ffmpeg) return tl::unexpected(told(ffmpeg.error(), frames, movie));
-  return MovieInTheMaking(frames, movie, std::move(file), std::move(*ffmpeg));
+  return MovieEncoder(frames, movie, std::move(file), std::move(*ffmpeg));
 }
 
-void MovieInTheMaking::put(const Image& picture, const Watch& watch) {
+void MovieEncoder::put(const Image& picture, const Watch& watch) {
   takes_more_ = takes_more_ && ffmpeg_.feed(picture.rgba, watch);
 }
 
-Result<void> MovieInTheMaking::finish(const Watch& watch) {
+Result<void> MovieEncoder::finish(const Watch& watch) {
   if (auto ended = ffmpeg_.end(watch); !ended)
     return tl::unexpected(told(ended.error(), frames_, movie_));
   if (!takes_more_)

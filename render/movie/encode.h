@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
-#include "render/image/image.h"
-#include "render/movie/child.h"
-#include "render/movie/style.h"
+#include "render/gl/image.h"
+#include "render/movie/movie_style.h"
+#include "render/movie/subprocess.h"
 
 namespace gridshell::render {
 
@@ -23,7 +23,7 @@ struct Encoding {
 };
 
 /// How fast a movie plays.
-struct Timing {
+struct MovieTiming {
   int fps = 30;
   int frames = 0;      ///< how many there are; only seconds and pace need it
   double seconds = 0;  ///< of all frames; 0: frames / fps
@@ -35,7 +35,8 @@ struct Timing {
 /// The arguments that turn `frames`/frame_%05d.png into `movie`, to be run in any folder. By its
 /// extension: .mp4, H.264 with 4:2:0 colours, which every player knows, and tags that say which
 /// colours these are; .webm, VP9; .gif with a palette of its own. An odd size is padded by a pixel.
-std::vector<std::string> encode_arguments(const std::filesystem::path& frames, const Timing& timing,
+std::vector<std::string> encode_arguments(const std::filesystem::path& frames,
+                                          const MovieTiming& timing,
                                           const std::filesystem::path& movie);
 
 /// Words as one line that a POSIX shell reads back as the same words.
@@ -47,18 +48,18 @@ std::filesystem::path find_program(const std::string& name);
 /// Runs ffmpeg on `frames` and puts `movie` in place once it is whole. Without ffmpeg that is no
 /// error: `made` is false and `command` says how. Errors: Fault::io with ffmpeg's last words when
 /// it failed, Fault::cancelled.
-Result<Encoding> encode_movie(const std::filesystem::path& frames, const Timing& timing,
+Result<Encoding> encode_movie(const std::filesystem::path& frames, const MovieTiming& timing,
                               const std::filesystem::path& movie, const Watch& watch);
 
 /// A movie that is made while its frames are drawn: the same file, to the bit, as encode_movie()
 /// makes of them afterwards.
-class MovieInTheMaking {
+class MovieEncoder {
  public:
   /// Starts ffmpeg for pictures of width x height pixels; a title card stands in `frames` already.
   /// Nothing without ffmpeg. Errors: Fault::io when it cannot start.
-  static Result<std::optional<MovieInTheMaking>> begin(const std::filesystem::path& frames,
-                                                       const Timing& timing, int width, int height,
-                                                       const std::filesystem::path& movie);
+  static Result<std::optional<MovieEncoder>> begin(const std::filesystem::path& frames,
+                                                   const MovieTiming& timing, int width, int height,
+                                                   const std::filesystem::path& movie);
 
   /// The next frame. What goes wrong finish() says: the pictures themselves are to be kept.
   void put(const Image& picture, const Watch& watch);
@@ -67,8 +68,8 @@ class MovieInTheMaking {
   Result<void> finish(const Watch& watch);
 
  private:
-  MovieInTheMaking(std::filesystem::path frames, std::filesystem::path movie,
-                   std::unique_ptr<AtomicFile> file, Child ffmpeg)
+  MovieEncoder(std::filesystem::path frames, std::filesystem::path movie,
+               std::unique_ptr<AtomicFile> file, Subprocess ffmpeg)
       : frames_(std::move(frames)),
         movie_(std::move(movie)),
         file_(std::move(file)),
@@ -76,7 +77,7 @@ class MovieInTheMaking {
 
   std::filesystem::path frames_, movie_;
   std::unique_ptr<AtomicFile> file_;
-  Child ffmpeg_;
+  Subprocess ffmpeg_;
   bool takes_more_ = true;
 };
 

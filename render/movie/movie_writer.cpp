@@ -1,9 +1,15 @@
 #include "render/movie/movie_writer.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
+#include "engine/core/try.h"
+#include "render/movie/colour_by.h"
+#include "render/movie/frame_overlay.h"
+#include "render/movie/frame_writer.h"
 #include "render/movie/stage.h"
 
 namespace gridshell::render {
@@ -20,36 +26,31 @@ Clock::time_point lap(Clock::time_point since, double& total) {
 
 }  // namespace
 
-Result<MovieReport> write_movie(const FrameSource& source, Survey survey, const MovieStyle& style,
-                                const std::optional<ColourBar>& bar, Renderer& renderer,
-                                const std::filesystem::path& folder, Watch& watch,
-                                const OnFrame& on_frame) {
-  if (auto sized = check_size(style); !sized) return tl::unexpected(sized.error());
+Result<MovieReport> write_movie(const FrameSource& source, RunSummary survey,
+                                const MovieStyle& style, const std::optional<ColourBar>& bar,
+                                Renderer& renderer, const std::filesystem::path& folder,
+                                Watch& watch, const FrameCallback& on_frame) {
+  TRY_DO(check_size(style));
   if (source.count < 1) return fail(Fault::bad_input, "the run has no frame to show");
-  if (auto coloured = check_coloured(survey, style); !coloured)
-    return tl::unexpected(coloured.error());
-  if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
+  TRY_DO(check_coloured(survey, style));
+  TRY_DO(make_folder(folder));
   const Stage stage(*source.layout, std::move(survey), style, bar);
   FrameWriter writer(folder, source.count, watch, on_frame);
   MovieReport report;
   for (int k = 0; k < source.count; ++k) {
-    if (auto wanted = writer.check(); !wanted) return tl::unexpected(wanted.error());
+    TRY_DO(writer.check());
     auto time = Clock::now();
-    auto read = source.at(k);
-    if (!read) return tl::unexpected(read.error());
+    TRY(read, source.at(k));
     const auto frame = std::make_shared<const record::Frame>(std::move(*read));
-    if (auto good = check_frame(*source.layout, *frame, k, style); !good)
-      return tl::unexpected(good.error());
-    auto picture = stage.draw_views(renderer, {*frame, k});
-    if (!picture) return tl::unexpected(picture.error());
+    TRY_DO(check_frame(*source.layout, *frame, k, style));
+    TRY(picture, stage.draw_views(renderer, {*frame, k}));
     time = lap(time, report.seconds_draw);
     const auto overlay = [&stage, frame, k](Image& image) { stage.finish(image, {*frame, k}); };
-    if (auto put = writer.put(std::move(*picture), overlay); !put)
-      return tl::unexpected(put.error());
+    TRY_DO(writer.put(std::move(*picture), overlay));
     lap(time, report.seconds_write);
   }
   auto time = Clock::now();
-  if (auto done = writer.finish(); !done) return tl::unexpected(done.error());
+  TRY_DO(writer.finish());
   lap(time, report.seconds_write);
   report.frames = writer.written();
   return report;
@@ -57,10 +58,159 @@ Result<MovieReport> write_movie(const FrameSource& source, Survey survey, const 
 
 Result<MovieReport> write_movie(const record::Trajectory& run, const MovieStyle& style,
                                 Renderer& renderer, const std::filesystem::path& folder,
-                                Watch& watch, const OnFrame& on_frame) {
-  if (auto showable = check_showable(run, style); !showable)
-    return tl::unexpected(showable.error());
-  return write_movie(source_of(run), survey_of(run), style, {}, renderer, folder, watch, on_frame);
+                                Watch& watch, const FrameCallback& on_frame) {
+  TRY_DO(check_showable(run, style));
+  return write_movie(source_of(run), summarise_run(run), style, {}, renderer, folder, watch,
+                     on_frame);
+}
+
+namespace {
+
+constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, event_ink{0.70f, 0.10f, 0.08f, 1};
+
+// a run's part of the frame has no text of its own
+MovieStyle without_captions(MovieStyle style) {
+  style.captions = style.inset = style.bins = style.legends = false;
+  style.scale_bar_mm = 0;
+  // a shadow would end at the edge of its part
+  style.look.floor = false;
+  return style;
+}
+
+class SideBySideMovie {
+ public:
+  SideBySideMovie(const std::vector<ComparedRun>& runs, const MovieStyle& style)
+      : runs_(runs), style_(style) {
+    em_ = style.font_scale *
+          std::max(7.5, 0.024 * std::min<double>(style.height, 0.72 * style.width));
+    MovieStyle part = without_captions(style);
+    std::vector<RunSummary> surveys;
+    std::vector<const RunSummary*> all;
+    for (const ComparedRun& one : runs) surveys.push_back(summarise_run(*one.run));
+    for (const RunSummary& survey : surveys) all.push_back(&survey);
+    bar_ = colour_bar_of(all, style);
+    legend_ = bar_ ? legend_width() : 0;
+    const int count = int(runs.size());
+    part.width = std::max(16, int((style.width - legend_ - 2 * em_) / count));
+    part.height = std::max(16, int(style.height - top() - foot()));
+    for (std::size_t k = 0; k < runs.size(); ++k)
+      stages_.push_back(
+          std::make_unique<Stage>(runs[k].run->layout, std::move(surveys[k]), part, bar_));
+  }
+
+  int frames() const {
+    int most = 0;
+    for (const auto& stage : stages_) most = std::max(most, stage->frames());
+    return most;
+  }
+
+  Result<Image> draw(int index, Renderer& renderer) const {
+    std::vector<Image> parts;
+    for (std::size_t run = 0; run < stages_.size(); ++run) {
+      const int k = at(*stages_[run], index);
+      auto part = stages_[run]->draw_views(renderer, {frame(run, k), k});
+      if (!part) return part;
+      parts.push_back(std::move(*part));
+    }
+    return draw_picture(style_.width, style_.height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+      for (std::size_t k = 0; k < parts.size(); ++k) draw_part(canvas, k, parts[k], index);
+      draw_text(canvas, index);
+    });
+  }
+
+ private:
+  double top() const { return style_.captions ? 6.2 * em_ : 0; }
+  double foot() const { return style_.captions ? 4.6 * em_ : 0; }
+  const record::Frame& frame(std::size_t run, int k) const {
+    return runs_[run].run->frames[std::size_t(k)];
+  }
+  static int at(const Stage& stage, int index) { return std::min(index, stage.frames() - 1); }
+
+  double legend_width() const {
+    double width = 0;
+    draw_picture(1, 1, 1, {},
+                 [&](Canvas& canvas) { width = colour_bar_width(canvas, *bar_, 0.95 * em_); });
+    return width + em_;
+  }
+
+  void draw_part(Canvas& canvas, std::size_t k, const Image& part, int index) const {
+    const Box box{em_ + double(k) * part.width, top(), double(part.width), double(part.height)};
+    canvas.picture(part, box);
+    if (!style_.captions) return;
+    const int now = at(*stages_[k], index);
+    const record::Frame& shown = frame(k, now);
+    TextStyle text{.size = em_, .colour = ink, .bold = true, .align_x = AlignX::centre};
+    text.align_y = AlignY::middle;
+    const double x = box.middle().x, width = box.width - em_;
+    canvas.text(plain(canvas.shortened(runs_[k].name, width, text)), {x, 3.3 * em_}, text);
+    text.bold = false;
+    std::string state;
+    for (const std::string& caption : state_captions(shown)) {
+      // the height is that of the whole shell: of a push the two before say more
+      const std::string longer = state.empty() ? caption : state + "    " + caption;
+      if (canvas.measure(longer, text).width <= width) state = longer;
+    }
+    canvas.text(state, {x, 4.8 * em_}, text);
+    text.colour = event_ink;
+    canvas.text(plain(canvas.shortened(event_caption(shown), width, text)),
+                {x, box.bottom() + 0.8 * em_}, text);
+    const double length = std::min(width, 18 * em_);
+    draw_timeline(canvas, {x - length / 2, box.bottom() + 1.7 * em_, length, 0.9 * em_},
+                  stages_[k]->survey().marks, now, stages_[k]->frames(), em_);
+  }
+
+  void draw_text(Canvas& canvas, int index) const {
+    if (bar_) {
+      const double width = legend_ - em_, height = std::min(20 * em_, 0.6 * style_.height);
+      draw_colour_bar(canvas, {style_.width - em_ - width, top(), width, height}, *bar_,
+                      0.95 * em_);
+    }
+    if (!style_.captions) return;
+    constexpr double least = 0.7;
+    const double room = style_.width - 2 * em_;
+    const TextStyle title = canvas.fitted(
+        plain(style_.title), room,
+        {.size = 1.15 * em_, .colour = ink, .bold = true, .align_y = AlignY::middle}, least);
+    canvas.text(plain(canvas.shortened(style_.title, room, title)), {em_, 1.5 * em_}, title);
+    canvas.text(frame_caption(index, frames()), {em_, style_.height - 1.2 * em_},
+                {.size = em_, .colour = ink, .align_y = AlignY::middle});
+  }
+
+  const std::vector<ComparedRun>& runs_;
+  MovieStyle style_;
+  double em_ = 0, legend_ = 0;  // of the font; of the colour bar's column
+  std::optional<ColourBar> bar_;
+  std::vector<std::unique_ptr<Stage>> stages_;
+};
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Result<MovieReport> write_side_by_side(const std::vector<ComparedRun>& runs,
+                                       const MovieStyle& style, Renderer& renderer,
+                                       const std::filesystem::path& folder, Watch& watch,
+                                       const FrameCallback& on_frame) {
+  if (runs.empty()) return fail(Fault::bad_input, "there is no run to show");
+  for (const ComparedRun& one : runs) TRY_DO(check_showable(*one.run, style));
+  TRY_DO(make_folder(folder));
+  const SideBySideMovie beside(runs, style);
+  FrameWriter writer(folder, beside.frames(), watch, on_frame);
+  MovieReport report;
+  for (int k = 0; k < beside.frames(); ++k) {
+    TRY_DO(writer.check());
+    const double begin = seconds();
+    TRY(picture, beside.draw(k, renderer));
+    const double drawn = seconds();
+    TRY_DO(writer.put(std::move(*picture)));
+    report.seconds_draw += drawn - begin;
+    report.seconds_write += seconds() - drawn;
+  }
+  TRY_DO(writer.finish());
+  report.frames = writer.written();
+  return report;
 }
 
 }  // namespace gridshell::render

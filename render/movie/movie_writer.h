@@ -3,15 +3,17 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
-#include "engine/record/snapshot.h"
-#include "render/draw/renderer.h"
+#include "engine/record/trajectory.h"
+#include "render/canvas/legend.h"
+#include "render/gl/renderer.h"
 #include "render/movie/frame_writer.h"
-#include "render/movie/style.h"
-#include "render/movie/survey.h"
-#include "render/plot/legend.h"
+#include "render/movie/movie_style.h"
+#include "render/movie/run_summary.h"
 
 namespace gridshell::render {
 
@@ -27,14 +29,31 @@ struct MovieReport {
 /// memory at a time, with the one before and its picture, every file is whole at any time. Progress
 /// of `watch` grows from 0 to 1. Errors: Fault::bad_input for a run without frames or an impossible
 /// size, Fault::cancelled between frames, Fault::io, those of the source.
-Result<MovieReport> write_movie(const FrameSource& source, Survey survey, const MovieStyle& style,
-                                const std::optional<ColourBar>& bar, Renderer& renderer,
-                                const std::filesystem::path& folder, Watch& watch,
-                                const OnFrame& on_frame = {});
+Result<MovieReport> write_movie(const FrameSource& source, RunSummary survey,
+                                const MovieStyle& style, const std::optional<ColourBar>& bar,
+                                Renderer& renderer, const std::filesystem::path& folder,
+                                Watch& watch, const FrameCallback& on_frame = {});
 
 /// Of a run in memory.
 Result<MovieReport> write_movie(const record::Trajectory& run, const MovieStyle& style,
                                 Renderer& renderer, const std::filesystem::path& folder,
-                                Watch& watch, const OnFrame& on_frame = {});
+                                Watch& watch, const FrameCallback& on_frame = {});
+
+// Several runs of one preset beside one another in a frame, each from its own camera, under one
+// colour bar: the cases of a movie.
+
+/// A run of the movie and what stands above it (plain text).
+struct ComparedRun {
+  const record::Trajectory* run = nullptr;
+  std::string name;
+};
+
+/// Frames `folder`/frame_00000.png ...: frame k of every run, the last one where a run ended
+/// earlier. Size, quality, camera and colours are the style's; colours share one scale. Errors:
+/// as write_movie.
+Result<MovieReport> write_side_by_side(const std::vector<ComparedRun>& runs,
+                                       const MovieStyle& style, Renderer& renderer,
+                                       const std::filesystem::path& folder, Watch& watch,
+                                       const FrameCallback& on_frame = {});
 
 }  // namespace gridshell::render

@@ -1,19 +1,94 @@
 #include "render/movie/stage.h"
 
 #include <fmt/format.h>
-
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "render/movie/bins_plot.h"
-#include "render/movie/boundary.h"
-#include "render/movie/captions.h"
-#include "render/movie/colour_range.h"
-#include "render/movie/coloured.h"
-#include "render/movie/load_marks.h"
-#include "render/movie/timeline.h"
+#include "render/gl/renderer.h"
+#include "render/movie/colour_by.h"
+#include "render/movie/frame_overlay.h"
+#include "render/movie/run_plots.h"
+#include "render/movie/run_summary.h"
 
 namespace gridshell::render {
+
+Framing::Framing(const Eigen::Matrix3Xd& points, const MovieStyle& style, const Box& panel)
+    : azimuth_deg_(style.azimuth_deg),
+      elevation_deg_(style.elevation_deg),
+      turn_deg_(style.turn_deg),
+      field_of_view_deg_(style.orthographic ? 0 : Camera{}.field_of_view_deg),
+      width_(style.width),
+      height_(style.height) {
+  if (points.cols() == 0 || panel.empty()) return;
+  fit(points, panel);
+  look_at(style, panel);
+  seen_ = union_of_views(points);
+}
+
+void Framing::fit(const Eigen::Matrix3Xd& points, const Box& panel) {
+  const Eigen::Vector3d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
+  middle_ = (low + high) / 2;
+  half_extent_mm_ = std::max(1e-6, (high - low).norm());
+  // size and shift act on each other through perspective, weakly: a few rounds settle both
+  for (int round = 0; round < 12; ++round) {
+    const Box seen = union_of_views(points);
+    const double fit = std::max(seen.width / panel.width, seen.height / panel.height);
+    const double mm = 1 / pixels_per_mm();
+    right_mm_ += (seen.middle().x - width_ / 2.0) * mm;
+    up_mm_ -= (seen.middle().y - height_ / 2.0) * mm;
+    // what is in the picture's middle now belongs in the panel's
+    half_extent_mm_ *= fit;
+    right_mm_ -= (panel.middle().x - width_ / 2.0) / pixels_per_mm();
+    up_mm_ += (panel.middle().y - height_ / 2.0) / pixels_per_mm();
+  }
+}
+
+// what stands in the panel's middle, the target if there is one, stays there
+void Framing::look_at(const MovieStyle& style, const Box& panel) {
+  const double x = panel.middle().x - width_ / 2.0, y = panel.middle().y - height_ / 2.0;
+  right_mm_ += x / pixels_per_mm();
+  up_mm_ -= y / pixels_per_mm();
+  if (style.target_mm) {
+    middle_ = *style.target_mm;
+    right_mm_ = up_mm_ = 0;
+  }
+  half_extent_mm_ /= style.zoom;
+  right_mm_ -= x / pixels_per_mm();
+  up_mm_ += y / pixels_per_mm();
+}
+
+Camera Framing::camera(double moment) const {
+  Camera camera;
+  camera.azimuth_deg = azimuth_deg_ + turn_deg_ * moment;
+  camera.elevation_deg = elevation_deg_;
+  camera.half_extent_mm = half_extent_mm_;
+  camera.field_of_view_deg = field_of_view_deg_;
+  const CameraAxes axes = camera_axes(camera);
+  camera.target = middle_ + right_mm_ * axes.right + up_mm_ * axes.up;
+  return camera;
+}
+
+Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
+  const double infinity = std::numeric_limits<double>::infinity();
+  Eigen::Array2d low(infinity, infinity), high = -low;
+  const int moments = 1 + std::min(24, int(std::ceil(std::abs(turn_deg_) / 6)));
+  for (int m = 0; m < moments; ++m) {
+    const Camera now = camera(moments > 1 ? double(m) / (moments - 1) : 0);
+    const Eigen::Matrix4Xd clip =
+        view_projection(now, double(width_) / height_, now.target, now.half_extent_mm) *
+        points.colwise().homogeneous();
+    const Eigen::Array2Xd ndc = clip.topRows<2>().array().rowwise() / clip.row(3).array();
+    low = low.min(ndc.rowwise().minCoeff());
+    high = high.max(ndc.rowwise().maxCoeff());
+  }
+  // normalised device coordinates have y up, pixels have it down
+  return {(0.5 + 0.5 * low.x()) * width_, (0.5 - 0.5 * high.y()) * height_,
+          std::max(1e-9, 0.5 * (high.x() - low.x()) * width_),
+          std::max(1e-9, 0.5 * (high.y() - low.y()) * height_)};
+}
+
 namespace {
 
 constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, pale_ink{0.38f, 0.39f, 0.42f, 1},
@@ -70,7 +145,7 @@ std::vector<Framing> framings_of(const std::vector<Box>& panels, const Box& view
 }
 
 // everything beside the box in one colour
-void clear_beside(Image& image, const Box& box, Colour colour) {
+void clear_outside(Image& image, const Box& box, Colour colour) {
   const auto byte = [](float c) { return std::uint8_t(std::lround(255 * c)); };
   const std::uint8_t rgba[] = {byte(colour.r), byte(colour.g), byte(colour.b), byte(colour.a)};
   for (int y = 0; y < image.height; ++y)
@@ -92,7 +167,7 @@ Result<void> check_size(const MovieStyle& style) {
 
 Result<void> check_frame(const record::Layout& layout, const record::Frame& frame, int at,
                          const MovieStyle& style) {
-  const long nodes = nodes_named(layout), cells = long(layout.cells.size());
+  const long nodes = node_count_of(layout), cells = long(layout.cells.size());
   if (frame.nodes.cols() < nodes || !frame.nodes.allFinite())
     return fail(Fault::bad_input,
                 fmt::format("frame {} of the run has {} nodes where {} with finite positions are "
@@ -104,9 +179,9 @@ Result<void> check_frame(const record::Layout& layout, const record::Frame& fram
   return {};
 }
 
-Result<void> check_coloured(const Survey& survey, const MovieStyle& style) {
-  if (!may_lack(style.colour_by) || survey.spread(style.colour_by).all.any()) return {};
-  return nothing_coloured(style.colour_by);
+Result<void> check_coloured(const RunSummary& survey, const MovieStyle& style) {
+  if (!may_be_missing(style.colour_by) || survey.spread(style.colour_by).all.any()) return {};
+  return missing_values_error(style.colour_by);
 }
 
 Result<void> check_showable(const record::Trajectory& run, const MovieStyle& style) {
@@ -117,13 +192,13 @@ Result<void> check_showable(const record::Trajectory& run, const MovieStyle& sty
   for (std::size_t k = 0; k < run.frames.size(); ++k)
     if (auto good = check_frame(run.layout, run.frames[k], int(k), style); !good) return good;
   const ColourBy by = style.colour_by;
-  if (!may_lack(by)) return {};
+  if (!may_be_missing(by)) return {};
   for (const record::Frame& frame : run.frames)
     if (coloured_values(by, run.layout, frame, {frame}).size() > 0) return {};
-  return nothing_coloured(by);
+  return missing_values_error(by);
 }
 
-Stage::Stage(const record::Layout& layout, Survey survey, const MovieStyle& style,
+Stage::Stage(const record::Layout& layout, RunSummary survey, const MovieStyle& style,
              const std::optional<ColourBar>& shared)
     : run_(layout),
       survey_(std::move(survey)),
@@ -136,7 +211,7 @@ Stage::Stage(const record::Layout& layout, Survey survey, const MovieStyle& styl
       ground_z_mm_(survey_.lowest_z_mm - 0.75 * std::max(style.look.joint_mm, 3.0)) {}
 
 Stage::Stage(const record::Trajectory& run, const MovieStyle& style)
-    : Stage(run.layout, survey_of(run), style) {}
+    : Stage(run.layout, summarise_run(run), style) {}
 
 Camera Stage::camera(int at) const { return framings_.front().camera(moment(at)); }
 
@@ -167,7 +242,7 @@ std::vector<Colour> Stage::node_colours(const record::Frame& frame) const {
 }
 
 Drawing Stage::drawing(const record::Frame& frame) const {
-  const Look& look = style_.look;
+  const Appearance& look = style_.look;
   const double thin = least_pixels(style_) / pixels_per_mm();
   Drawing drawing;
   drawing.layout = &run_;
@@ -180,13 +255,13 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   drawing.cell_colours = cell_colours(frame, 0.93f);
   drawing.node_colours = node_colours(frame);
   // a red joint would look like tension
-  if (style_.colour_by == ColourBy::axial_force && look.joint == Look{}.joint)
+  if (style_.colour_by == ColourBy::axial_force && look.joint == Appearance{}.joint)
     drawing.joint_colour = look.rod;
   // colours need some width to be seen
   if (!drawing.node_colours.empty()) drawing.rod_diameter_mm *= 1.8;
   // where both boundaries coincide the stronger one hides the fainter
   if (look.rings) {
-    if (shows_original(frame) && frame.actuation > 0)
+    if (original_boundary_shown(frame) && frame.actuation > 0)
       drawing.rings.push_back({run_.original_boundary, std::max(0.6, thin), original_ink, false});
     drawing.rings.push_back(
         {boundary_at(run_, frame.actuation), std::max(look.ring_mm, 1.6 * thin), look.ring});
@@ -203,14 +278,14 @@ Drawing Stage::drawing(const record::Frame& frame) const {
   return drawing;
 }
 
-Result<Image> Stage::draw_views(Renderer& renderer, const Shown& shown) const {
+Result<Image> Stage::draw_views(Renderer& renderer, const ShownFrame& shown) const {
   const Drawing drawn = drawing(shown.frame);
   const DrawQuality quality = draw_quality(style_);
   if (panels_.size() == 1) {
     auto picture = renderer.draw(drawn, camera(shown.at), quality, style_.width, style_.height);
     // what is larger than its panel ends at the panel's edge
     if (picture && !layout_.view.inset(-1).contains(shell_box()))
-      clear_beside(*picture, layout_.view, style_.look.background);
+      clear_outside(*picture, layout_.view, style_.look.background);
     return picture;
   }
   std::vector<Image> parts;
@@ -225,13 +300,13 @@ Result<Image> Stage::draw_views(Renderer& renderer, const Shown& shown) const {
   });
 }
 
-Result<Image> Stage::draw(Renderer& renderer, const Shown& shown) const {
+Result<Image> Stage::draw(Renderer& renderer, const ShownFrame& shown) const {
   auto picture = draw_views(renderer, shown);
   if (picture) finish(*picture, shown);
   return picture;
 }
 
-void Stage::draw_captions(Canvas& canvas, const Shown& shown) const {
+void Stage::draw_captions(Canvas& canvas, const ShownFrame& shown) const {
   const double em = layout_.font_size;
   TextStyle title = title_style(style_, em);
   title.align_y = AlignY::middle;
@@ -270,7 +345,7 @@ void Stage::draw_captions(Canvas& canvas, const Shown& shown) const {
     canvas.text(rest, {rest_x, layout_.progress.middle().y}, small);
 }
 
-void Stage::draw_overlay(Canvas& canvas, const Shown& shown) const {
+void Stage::draw_overlay(Canvas& canvas, const ShownFrame& shown) const {
   if (!layout_.title.empty()) draw_captions(canvas, shown);
   if (bar_ && !layout_.colour_bar.empty())
     draw_colour_bar(canvas, layout_.colour_bar, *bar_, 0.95 * layout_.font_size);
@@ -291,7 +366,7 @@ void Stage::draw_overlay(Canvas& canvas, const Shown& shown) const {
                    0.95 * layout_.font_size);
 }
 
-void Stage::finish(Image& picture, const Shown& shown) const {
+void Stage::finish(Image& picture, const ShownFrame& shown) const {
   draw_over(picture, [&](Canvas& canvas) { draw_overlay(canvas, shown); });
 }
 

@@ -1,36 +1,64 @@
-// One run set up for showing: cameras, ground, colours and captions, fixed over all its frames. A
-// movie, a still and a window take a frame from here as geometry, and finish the picture drawn of
-// it with captions and legends. It holds no frame but the first: any other is handed to it.
+// A camera that keeps a whole run in its panel: one target, one size, fixed over the movie, while
+// it slowly turns.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/record/snapshot.h"
-#include "render/draw/drawing.h"
-#include "render/draw/renderer.h"
-#include "render/movie/frame_layout.h"
-#include "render/movie/framing.h"
-#include "render/movie/style.h"
-#include "render/movie/survey.h"
-#include "render/movie/top_view.h"
+#include "engine/record/trajectory.h"
+#include "render/canvas/canvas.h"
+#include "render/gl/renderer.h"
+#include "render/movie/frame_overlay.h"
+#include "render/movie/movie_style.h"
+#include "render/movie/run_summary.h"
 
 namespace gridshell::render {
+
+/// The camera over a movie.
+class Framing {
+ public:
+  /// At zoom 1 all points (3 x n, mm) lie within `panel` (pixels of a width x height picture) at
+  /// every moment of the turn, as large as possible. Zoom and target are about the panel's middle.
+  Framing(const Eigen::Matrix3Xd& points, const MovieStyle& style, const Box& panel);
+
+  /// `moment` from 0, the first frame, to 1, the last
+  Camera camera(double moment) const;
+  /// in the plane through the target that faces the camera
+  double pixels_per_mm() const { return height_ / (2 * half_extent_mm_); }
+  /// what all points cover over the whole turn, in pixels
+  const Box& seen() const { return seen_; }
+
+ private:
+  Box union_of_views(const Eigen::Matrix3Xd& points) const;
+  void fit(const Eigen::Matrix3Xd& points, const Box& panel);
+  void look_at(const MovieStyle& style, const Box& panel);
+
+  double azimuth_deg_, elevation_deg_, turn_deg_, field_of_view_deg_;
+  int width_, height_;
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
+  double half_extent_mm_ = 1;
+  double right_mm_ = 0, up_mm_ = 0;  ///< from the middle to the target, as the camera sees it
+  Box seen_;
+};
+
+// One run set up for showing: cameras, ground, colours and captions, fixed over all its frames. A
+// movie, a still and a window take a frame from here as geometry, and finish the picture drawn of
+// it with captions and legends. It holds no frame but the first: any other is handed to it.
 
 /// Whether a run can be shown: it has frames, each with a position for every node and, where K is
 /// shown, one for every cell; some frame knows what is to be coloured; the picture has a size.
 /// Errors: Fault::bad_input naming the frame or what is lacking.
 Result<void> check_showable(const record::Trajectory& run, const MovieStyle& style);
 /// Of that, whether any frame knows what is to be coloured.
-Result<void> check_coloured(const Survey& survey, const MovieStyle& style);
+Result<void> check_coloured(const RunSummary& survey, const MovieStyle& style);
 Result<void> check_size(const MovieStyle& style);
 /// `at`: the frame's position in the run.
 Result<void> check_frame(const record::Layout& layout, const record::Frame& frame, int at,
                          const MovieStyle& style);
 
 /// A frame and its position in the run, from 0.
-struct Shown {
+struct ShownFrame {
   const record::Frame& frame;
   int at = 0;
 };
@@ -39,7 +67,7 @@ class Stage {
  public:
   /// The layout outlives the stage, whose run is showable. The colour bar is the survey's own
   /// unless one is given that several runs share.
-  Stage(const record::Layout& layout, Survey survey, const MovieStyle& style,
+  Stage(const record::Layout& layout, RunSummary survey, const MovieStyle& style,
         const std::optional<ColourBar>& shared = std::nullopt);
   /// Of a run in memory.
   Stage(const record::Trajectory& run, const MovieStyle& style);
@@ -47,7 +75,7 @@ class Stage {
   int frames() const { return survey_.frames; }
   const MovieStyle& style() const { return style_; }
   const FrameLayout& layout() const { return layout_; }
-  const Survey& survey() const { return survey_; }
+  const RunSummary& survey() const { return survey_; }
   /// over all frames; none when nothing is coloured
   const std::optional<ColourBar>& colour_bar() const { return bar_; }
   double pixels_per_mm() const { return framings_.front().pixels_per_mm(); }
@@ -59,24 +87,24 @@ class Stage {
   Camera camera(int at) const;
 
   /// The whole picture of a frame, all views of it, captions and legends. Errors: the renderer's.
-  Result<Image> draw(Renderer& renderer, const Shown& shown) const;
+  Result<Image> draw(Renderer& renderer, const ShownFrame& shown) const;
   /// The same without captions and legends.
-  Result<Image> draw_views(Renderer& renderer, const Shown& shown) const;
+  Result<Image> draw_views(Renderer& renderer, const ShownFrame& shown) const;
 
   /// Draws captions, colour bar, top view and scale bar of a frame over its picture.
-  void finish(Image& picture, const Shown& shown) const;
+  void finish(Image& picture, const ShownFrame& shown) const;
   /// The same onto any canvas of the picture's size.
-  void draw_overlay(Canvas& canvas, const Shown& shown) const;
+  void draw_overlay(Canvas& canvas, const ShownFrame& shown) const;
 
  private:
   std::vector<Colour> colours_of(const record::Frame& frame, float alpha) const;
   std::vector<Colour> cell_colours(const record::Frame& frame, float alpha) const;
   std::vector<Colour> node_colours(const record::Frame& frame) const;
-  void draw_captions(Canvas& canvas, const Shown& shown) const;
+  void draw_captions(Canvas& canvas, const ShownFrame& shown) const;
   double moment(int at) const { return frames() > 1 ? double(at) / (frames() - 1) : 0; }
 
   const record::Layout& run_;
-  Survey survey_;
+  RunSummary survey_;
   MovieStyle style_;
   std::optional<ColourBar> bar_;
   FrameLayout layout_;

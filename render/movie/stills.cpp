@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/atomic_file.h"
-#include "render/image/png.h"
-#include "render/movie/captions.h"
+#include "engine/core/file_io.h"
+#include "engine/core/try.h"
+#include "render/canvas/panels.h"
+#include "render/gl/image.h"
+#include "render/movie/frame_overlay.h"
 #include "render/movie/stage.h"
-#include "render/plot/panels.h"
 
 namespace gridshell::render {
 namespace {
@@ -44,8 +45,8 @@ MovieStyle still_style(MovieStyle style) {
   return style;
 }
 
-void draw_still_words(Canvas& canvas, const Stage& stage, const Shown& shown,
-                      const std::string& caption) {
+void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& shown,
+                       const std::string& caption) {
   stage.draw_overlay(canvas, shown);
   const FrameLayout& layout = stage.layout();
   const Box& room = layout.heading;
@@ -58,12 +59,14 @@ void draw_still_words(Canvas& canvas, const Stage& stage, const Shown& shown,
   canvas.text(caption, {room.x, room.bottom() - line}, canvas.fitted(caption, room.width, text));
 }
 
-std::string still_caption(const record::Frame& frame) { return state_captions(frame).front(); }
+std::string frame_state_caption(const record::Frame& frame) {
+  return state_captions(frame).front();
+}
 
 std::string unpushed_caption(const record::Frame& frame) {
   record::Frame head = record::without_nodes(frame);
   head.depth_mm = head.force_N = record::unknown;
-  return still_caption(head);
+  return frame_state_caption(head);
 }
 
 Result<std::vector<std::filesystem::path>> write_stills(
@@ -71,11 +74,9 @@ Result<std::vector<std::filesystem::path>> write_stills(
     const std::optional<ColourBar>& bar, Renderer& renderer, const std::filesystem::path& stem,
     Watch& watch, const std::vector<std::string>& captions) {
   const MovieStyle style = still_style(movie_style);
-  if (auto showable = check_showable(run, style); !showable)
-    return tl::unexpected(showable.error());
-  if (stem.has_parent_path())
-    if (auto made = make_folder(stem.parent_path()); !made) return tl::unexpected(made.error());
-  const Stage stage(run.layout, survey_of(run), style, bar);
+  TRY_DO(check_showable(run, style));
+  if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));
+  const Stage stage(run.layout, summarise_run(run), style, bar);
   PanelFigure figure{.title = style.title,
                      .panels = {},
                      .columns = std::min(stage.frames(), largest_columns),
@@ -90,26 +91,23 @@ Result<std::vector<std::filesystem::path>> write_stills(
       return fail(Fault::cancelled,
                   fmt::format("stopped after {} of {} stills", k, stage.frames()));
     const record::Frame& frame = run.frames[std::size_t(k)];
-    const std::string caption = captions.empty() ? still_caption(frame) : captions[std::size_t(k)];
-    Result<Image> picture = stage.draw_views(renderer, {frame, k});
-    if (!picture) return tl::unexpected(picture.error());
+    const std::string caption =
+        captions.empty() ? frame_state_caption(frame) : captions[std::size_t(k)];
+    TRY(picture, stage.draw_views(renderer, {frame, k}));
     figure.panels.push_back(
         {around(*picture, stage.shell_box()),
          stage.frames() > 1 && style.look.letters ? std::string(1, char('a' + k % 26)) : "",
          caption});
     draw_over(*picture, [&](Canvas& canvas) {
-      draw_still_words(canvas, stage, {frame, k}, caption);
+      draw_still_labels(canvas, stage, {frame, k}, caption);
     });
     files.push_back(with_suffix(stem, fmt::format("_{}.png", k + 1)));
-    if (auto written = write_png(*picture, files.back(), dpi); !written)
-      return tl::unexpected(written.error());
+    TRY_DO(write_png(*picture, files.back(), dpi));
     watch.report(double(k + 1) / (stage.frames() + 1));
   }
-  Result<Image> whole = draw_panels(figure);
-  if (!whole) return tl::unexpected(whole.error());
+  TRY(whole, draw_panels(figure));
   files.push_back(with_suffix(stem, ".png"));
-  if (auto written = write_png(*whole, files.back(), dpi); !written)
-    return tl::unexpected(written.error());
+  TRY_DO(write_png(*whole, files.back(), dpi));
   watch.report(1);
   return files;
 }

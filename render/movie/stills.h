@@ -8,11 +8,11 @@
 
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
-#include "engine/record/snapshot.h"
-#include "render/draw/renderer.h"
+#include "engine/record/trajectory.h"
+#include "render/canvas/legend.h"
+#include "render/gl/renderer.h"
+#include "render/movie/movie_style.h"
 #include "render/movie/stage.h"
-#include "render/movie/style.h"
-#include "render/plot/legend.h"
 
 namespace gridshell::render {
 
@@ -21,11 +21,11 @@ MovieStyle still_style(MovieStyle style);
 
 /// Heading, caption and legends of a still whose stage has such a style: its title in one or two
 /// lines where a movie has its own, the caption (marked text) below.
-void draw_still_words(Canvas& canvas, const Stage& stage, const Shown& shown,
-                      const std::string& caption);
+void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& shown,
+                       const std::string& caption);
 
 /// What one still shows under it, as marked text: "*R*_{a} = 115.9 mm".
-std::string still_caption(const record::Frame& frame);
+std::string frame_state_caption(const record::Frame& frame);
 /// The same with nothing said of a push, though one may hold the shell.
 std::string unpushed_caption(const record::Frame& frame);
 
@@ -34,7 +34,7 @@ std::string unpushed_caption(const record::Frame& frame);
 /// side by side, lettered, with one scale bar and one colour bar, as `<stem>.png`. Returns the
 /// files written. Progress and errors as write_movie.
 /// `bar` is a colour bar that several cases share; `captions` (marked text, one a frame) stand in
-/// the place of still_caption().
+/// the place of frame_state_caption().
 Result<std::vector<std::filesystem::path>> write_stills(
     const record::Trajectory& run, const MovieStyle& style, const std::optional<ColourBar>& bar,
     Renderer& renderer, const std::filesystem::path& stem, Watch& watch,

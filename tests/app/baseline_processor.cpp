@@ -1,5 +1,5 @@
 // Linked into gridshell_baseline: a processor that has nothing but plain x86-64, so that of every
-// function with clones (engine/core/clones.h) the plain one runs. The compiler's own look at the
+// function with clones (engine/core/block3.h) the plain one runs. The compiler's own look at the
 // processor (libgcc's cpuinfo) has these names.
 extern "C" {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
@@ -15,7 +15,7 @@ struct Bench {
 
   /// A folder with this preset as small.toml in it.
   explicit Bench(const std::string& preset) {
-    REQUIRE(gridshell::write_atomically(at / "small.toml", preset));
+    REQUIRE(gridshell::write_file(at / "small.toml", preset));
   }
   Ended run(const std::vector<std::string>& arguments) const {
     return gridshell_program(arguments, at);

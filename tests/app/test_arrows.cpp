@@ -4,7 +4,7 @@
 #include <regex>
 #include <set>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "tests/app/program.h"
 
 namespace fs = std::filesystem;
@@ -72,7 +72,7 @@ const std::map<std::string, Folders> may_see{
       "render", "app"}},
 };
 
-// "engine/preset" for engine/preset/reader.h, "render" and "app" for all below them
+// "engine/preset" for engine/preset/preset_file.h, "render" and "app" for all below them
 std::string folder_of(const std::string& path) {
   for (const char* own : {"app/window", "app/python", "app/examples"})
     if (path.starts_with(std::string(own) + "/")) return own;
@@ -112,9 +112,11 @@ TEST_CASE("the table of arrows has no way round") {
 }
 
 TEST_CASE("a forbidden arrow is found") {
-  CHECK(forbidden_arrows("engine/core/a.h", "#include \"engine/solve/path.h\"\n").size() == 1);
-  CHECK(forbidden_arrows("render/draw/a.cpp", "#include \"engine/solve/path.h\"\n").size() == 1);
-  CHECK(forbidden_arrows("render/draw/a.cpp", "#include \"engine/record/snapshot.h\"\n").empty());
+  CHECK(forbidden_arrows("engine/core/a.h", "#include \"engine/solve/equilibrium_path.h\"\n")
+            .size() == 1);
+  CHECK(forbidden_arrows("render/draw/a.cpp", "#include \"engine/solve/equilibrium_path.h\"\n")
+            .size() == 1);
+  CHECK(forbidden_arrows("render/draw/a.cpp", "#include \"engine/record/trajectory.h\"\n").empty());
   CHECK(forbidden_arrows("engine/new/a.h", "#include \"engine/core/result.h\"\n").size() == 1);
 }
 
@@ -126,7 +128,7 @@ TEST_CASE("every include follows the arrows") {
     for (const char* ending : {".h", ".cpp"})
       for (const auto& path : files_under(root / top, ending)) {
         const auto more = forbidden_arrows(fs::relative(path, root).generic_string(),
-                                           gridshell::read_whole(path).value());
+                                           gridshell::read_file(path).value());
         found.insert(found.end(), more.begin(), more.end());
         ++files;
       }
@@ -142,7 +144,7 @@ TEST_CASE("what the window knows has no OpenGL and no interface library in it") 
   for (const char* ending : {".h", ".cpp"})
     for (const auto& path : files_under(root / "app/window", ending)) {
       INFO(path);
-      CHECK_FALSE(std::regex_search(gridshell::read_whole(path).value(), forbidden));
+      CHECK_FALSE(std::regex_search(gridshell::read_file(path).value(), forbidden));
       ++files;
     }
   CHECK(files > 10);
@@ -157,6 +159,6 @@ TEST_CASE("the engine knows no OpenGL, no window and does not print") {
   for (const char* ending : {".h", ".cpp"})
     for (const auto& path : files_under(root / "engine", ending)) {
       INFO(path);
-      CHECK_FALSE(std::regex_search(gridshell::read_whole(path).value(), forbidden));
+      CHECK_FALSE(std::regex_search(gridshell::read_file(path).value(), forbidden));
     }
 }

@@ -1,11 +1,11 @@
 // What a user gets wrong: the exact sentence, exit code 2, and nothing left behind.
 #include <catch2/catch.hpp>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
-using gridshell::write_atomically;
+using gridshell::write_file;
 
 namespace {
 
@@ -82,7 +82,7 @@ TEST_CASE("a bad preset is refused in a sentence, and leaves nothing behind") {
        "'none' is no run: cannot read 'none/summary.json': No such file or directory\n"},
   }));
   const TemporaryFolder folder;
-  REQUIRE(write_atomically(folder.path() / "bad.toml", bad.preset));
+  REQUIRE(write_file(folder.path() / "bad.toml", bad.preset));
   const auto ended = gridshell_program(bad.arguments, folder.path());
   CHECK(ended.err == bad.sentence);
   CHECK(ended.out.empty());
@@ -93,14 +93,14 @@ TEST_CASE("a bad preset is refused in a sentence, and leaves nothing behind") {
 TEST_CASE("a folder that is no run is not replaced") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "thesis");
-  REQUIRE(write_atomically(folder.path() / "thesis/chapter.tex", "years of work"));
+  REQUIRE(write_file(folder.path() / "thesis/chapter.tex", "years of work"));
   const auto ended = gridshell_program({"run", "s1_actuation", "-o", "thesis"}, folder.path());
   CHECK(ended.code == 2);
   CHECK(ended.err ==
         "cannot write the folder 'thesis': it exists and is no run (it has no summary.json); "
         "choose another folder with -o\n");
   CHECK(folder.entries() == std::vector<std::string>{"thesis"});
-  CHECK(gridshell::read_whole(folder.path() / "thesis/chapter.tex").value() == "years of work");
+  CHECK(gridshell::read_file(folder.path() / "thesis/chapter.tex").value() == "years of work");
 }
 
 TEST_CASE("a folder that may not be written is refused") {
@@ -139,7 +139,7 @@ TEST_CASE("a net that ends before its boundary is refused with its place, and dr
 
 TEST_CASE("a mesh that is none is refused with its file and line") {
   const TemporaryFolder folder;
-  REQUIRE(write_atomically(folder.path() / "bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n"));
+  REQUIRE(write_file(folder.path() / "bad.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n"));
   const auto ended =
       gridshell_program({"check", "surface_mesh", "--set", "net.file=bad.obj"}, folder.path());
   CHECK(ended.code == 2);

@@ -2,17 +2,17 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "engine/record/trajectory_file.h"
-#include "render/image/png.h"
+#include "render/gl/image.h"
 #include "tests/app/bench.h"
 #include "tests/app/program.h"
 #include "tests/small_preset.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
-using gridshell::read_whole;
-using gridshell::write_atomically;
+using gridshell::read_file;
+using gridshell::write_file;
 
 namespace {
 
@@ -38,7 +38,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-std::string text_of(const fs::path& file) { return read_whole(file).value(); }
+std::string text_of(const fs::path& file) { return read_file(file).value(); }
 
 nlohmann::json json_of(const fs::path& file) { return nlohmann::json::parse(text_of(file)); }
 
@@ -94,7 +94,7 @@ TEST_CASE("a printed config (--print-config) comes to the same, and nothing runs
                                  "320x200", "--frames", "9", "--print-config"});
   CHECK_THAT(first.out, Catch::Contains("seed = \"down\"") &&
                             Catch::Contains("size = [320, 200]") && Catch::Contains("frames = 9"));
-  REQUIRE(write_atomically(bench.at / "again.toml", first.out));
+  REQUIRE(write_file(bench.at / "again.toml", first.out));
   CHECK(bench.good({"movie", "again.toml", "--print-config"}).out == first.out);
   CHECK_FALSE(fs::exists(bench.at / "out"));
 }
@@ -152,7 +152,7 @@ TEST_CASE("figure draws a still a radius and all in one") {
 
 TEST_CASE("figures of building blocks, drawn again from the run") {
   const Bench bench(small);
-  REQUIRE(write_atomically(bench.at / "dome.toml", R"(
+  REQUIRE(write_file(bench.at / "dome.toml", R"(
 [footprint]
 kind = "blocks"
 [[block]]
@@ -193,7 +193,7 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
   const Bench bench(small);
   const std::string cases =
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
-  REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
+  REQUIRE(write_file(bench.at / "small.toml", small + cases));
   bench.good({"movie", "small.toml", "-o", "run", "--set", "movie.beside=false"});
   CHECK(names_in(bench.at / "run") == listed({"far", "near", "preset.toml", "summary.json"}));
   auto movie_files = data_files;
@@ -217,14 +217,14 @@ TEST_CASE("cases are shown beside one another in one movie, drawn again by rende
   const Bench bench(small);
   const std::string cases =
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
-  REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
+  REQUIRE(write_file(bench.at / "small.toml", small + cases));
   bench.good({"movie", "small.toml", "-o", "run", "--set", "title=Two shells"});
   CHECK(names_in(bench.at / "run") ==
         listed({"far", "frames", "near", "preset.toml", "summary.json"}));
   // the title over all of them too
   bench.good({"render", "run", "-o", "again"});
-  CHECK(read_whole(bench.at / "run/frames/frame_00002.png").value() ==
-        read_whole(bench.at / "again/frames/frame_00002.png").value());
+  CHECK(read_file(bench.at / "run/frames/frame_00002.png").value() ==
+        read_file(bench.at / "again/frames/frame_00002.png").value());
   CHECK(names_in(bench.at / "run/near") == data_files);
   CHECK(files_under(bench.at / "run/frames", ".png").size() == 3);
   bench.good({"render", "run", "--size", "120x90"});

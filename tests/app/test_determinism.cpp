@@ -5,13 +5,13 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "engine/record/trajectory_file.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
-using gridshell::read_whole;
+using gridshell::read_file;
 
 namespace {
 
@@ -48,7 +48,7 @@ fs::path run(const Scene& scene, const fs::path& at, const std::string& name,
 
 // of all numbers of all frames, as its trajectory bears it
 std::string hash_of(const fs::path& run) {
-  const auto text = read_whole(run / "trajectory.h5").value();
+  const auto text = read_file(run / "trajectory.h5").value();
   const std::string before = "FNV-1a ";
   const auto at = text.find(before);
   REQUIRE(at < 200);
@@ -117,7 +117,7 @@ TEST_CASE("pictures have the same bits in every context", "[full]") {
   for (const auto& picture : pictures) {
     INFO(picture);
     const auto other = folder.path() / "egl/frames" / picture.filename();
-    CHECK(read_whole(picture).value() == read_whole(other).value());
+    CHECK(read_file(picture).value() == read_file(other).value());
   }
   CHECK(hash_of(folder.path() / "osmesa") == hash_of(folder.path() / "egl"));
 }
@@ -152,10 +152,10 @@ TEST_CASE("golden hashes of all kinds of runs", "[full]") {
   if (std::getenv("GRIDSHELL_GOLDEN")) {
     REQUIRE(has_clones);
     REQUIRE(runs_fast_clones());
-    REQUIRE(gridshell::write_atomically(table, made_with() + now));
+    REQUIRE(gridshell::write_file(table, made_with() + now));
     return;
   }
-  const auto kept = read_whole(table).value();
+  const auto kept = read_file(table).value();
   if (!has_clones || !kept.starts_with(made_with())) {
     WARN("not compared: the table was made with " << kept.substr(0, kept.find('\n')));
     return;

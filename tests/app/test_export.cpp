@@ -2,14 +2,14 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "app/exporting.h"
-#include "engine/core/atomic_file.h"
+#include "app/cli/produce.h"
+#include "engine/core/file_io.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using Catch::Contains;
-using gridshell::read_whole;
+using gridshell::read_file;
 
 namespace {
 
@@ -39,8 +39,8 @@ TEST_CASE("export writes a run in every format, and what is for the workshop") {
     CHECK(fs::file_size(at / file) > 200);
   }
   CHECK(files_under(at / "a_frames", ".vtp").size() == 3);
-  CHECK_THAT(read_whole(at / "a.pvd").value(), Contains("file=\"a_frames/frame_00002.vtp\""));
-  CHECK_THAT(read_whole(at / "a.xdmf").value(), Contains("run/trajectory.h5:/nodes"));
+  CHECK_THAT(read_file(at / "a.pvd").value(), Contains("file=\"a_frames/frame_00002.vtp\""));
+  CHECK_THAT(read_file(at / "a.xdmf").value(), Contains("run/trajectory.h5:/nodes"));
   // the run is as it was
   CHECK(files_under(at / "run", "") == before);
   CHECK(gridshell_program({"render", "run", "--size", "64x48", "--quality", "draft", "--quiet"}, at)
@@ -52,7 +52,7 @@ TEST_CASE("export of a preset needs no run, of cases one is chosen") {
   const fs::path& at = folder.path();
   CHECK(gridshell_program({"export", "ring_hemisphere", "--what", "plate", "--to", "pins.csv"}, at)
             .code == 0);
-  CHECK_THAT(read_whole(at / "pins.csv").value(), Contains("far") && Contains(",second,"));
+  CHECK_THAT(read_file(at / "pins.csv").value(), Contains("far") && Contains(",second,"));
   const auto which =
       gridshell_program({"export", "fig3_caps", "--what", "cutlist", "--to", "a.csv"}, at);
   CHECK(which.code == 2);

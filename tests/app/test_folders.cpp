@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/atomic_file.h"
-#include "render/image/png.h"
+#include "engine/core/file_io.h"
+#include "render/gl/image.h"
 #include "tests/app/bench.h"
 #include "tests/app/program.h"
 #include "tests/app/unfinished_run.h"
@@ -13,8 +13,8 @@
 
 namespace fs = std::filesystem;
 using Catch::Contains;
-using gridshell::read_whole;
-using gridshell::write_atomically;
+using gridshell::read_file;
+using gridshell::write_file;
 
 namespace {
 
@@ -33,14 +33,14 @@ int shell(const Bench& bench, const std::string& line) {
 TEST_CASE("a folder with somebody's summary.json is not replaced") {
   const Bench bench(small);
   fs::create_directory(bench.at / "proj");
-  REQUIRE(write_atomically(bench.at / "proj/summary.json", "{\"webpack\":1}"));
-  REQUIRE(write_atomically(bench.at / "proj/thesis.tex", "thesis"));
+  REQUIRE(write_file(bench.at / "proj/summary.json", "{\"webpack\":1}"));
+  REQUIRE(write_file(bench.at / "proj/thesis.tex", "thesis"));
   const auto ended = bench.run({"run", "small.toml", "-o", "proj"});
   CHECK(ended.code == 2);
   CHECK(ended.err ==
         "cannot write the folder 'proj': it exists and is no run (its summary.json is not one of a "
         "run); choose another folder with -o\n");
-  CHECK(read_whole(bench.at / "proj/thesis.tex").value() == "thesis");
+  CHECK(read_file(bench.at / "proj/thesis.tex").value() == "thesis");
   // and `check` says the same beforehand
   CHECK(bench.run({"check", "small.toml", "-o", "proj"}).code == 2);
 }
@@ -48,7 +48,7 @@ TEST_CASE("a folder with somebody's summary.json is not replaced") {
 TEST_CASE("a file put into a run keeps it from being replaced or drawn over") {
   const Bench bench(small);
   bench.good({"run", "small.toml", "-o", "r"});
-  REQUIRE(write_atomically(bench.at / "r/notes.txt", "mine"));
+  REQUIRE(write_file(bench.at / "r/notes.txt", "mine"));
   for (const auto& arguments :
        {std::vector<std::string>{"run", "small.toml", "-o", "r"}, {"render", "r"}}) {
     const auto ended = bench.run(arguments);
@@ -57,7 +57,7 @@ TEST_CASE("a file put into a run keeps it from being replaced or drawn over") {
           "cannot write the folder 'r': it holds what no run wrote there: 'notes.txt'; choose "
           "another folder with -o\n");
   }
-  CHECK(read_whole(bench.at / "r/notes.txt").value() == "mine");
+  CHECK(read_file(bench.at / "r/notes.txt").value() == "mine");
 }
 
 TEST_CASE("a run is written through a link, which stays") {
@@ -80,15 +80,15 @@ TEST_CASE("closed streams do not become files of results") {
     INFO(closed);
     CHECK(shell(bench, "gridshell run small.toml -o closed " + closed) == 0);
     for (const char* name : {"preset.toml", "frames.csv", "joints.csv", "trajectory.h5"})
-      CHECK(read_whole(bench.at / "open" / name).value() ==
-            read_whole(bench.at / "closed" / name).value());
+      CHECK(read_file(bench.at / "open" / name).value() ==
+            read_file(bench.at / "closed" / name).value());
   }
 }
 
 TEST_CASE("what stdout does not take is noticed") {
   const Bench bench(small);
   CHECK(shell(bench, "gridshell list > /dev/full 2> err") == 1);
-  CHECK(read_whole(bench.at / "err").value() ==
+  CHECK(read_file(bench.at / "err").value() ==
         "cannot write to standard output: No space left on device\n");
   CHECK(shell(bench, "gridshell check small.toml > /dev/full 2> err") == 1);
   CHECK(shell(bench, "gridshell list --keys markdown > /dev/full 2> err") == 1);
@@ -98,10 +98,10 @@ TEST_CASE("inputs that are no regular files, or too large, are refused at once")
   const Bench bench(small);
   REQUIRE(mkfifo((bench.at / "fifo").c_str(), 0600) == 0);
   const std::string curve = "[footprint]\nkind = \"curve\"\nboundary = \"polygon\"\npoints_mm = ";
-  REQUIRE(write_atomically(bench.at / "pipe.toml", curve + "\"fifo\"\n"));
-  REQUIRE(write_atomically(bench.at / "zero.toml", curve + "\"/dev/zero\"\n"));
-  REQUIRE(write_atomically(bench.at / "large.toml", curve + "\"large.csv\"\n"));
-  REQUIRE(write_atomically(bench.at / "large.csv", std::string(17 << 20, '1')));
+  REQUIRE(write_file(bench.at / "pipe.toml", curve + "\"fifo\"\n"));
+  REQUIRE(write_file(bench.at / "zero.toml", curve + "\"/dev/zero\"\n"));
+  REQUIRE(write_file(bench.at / "large.toml", curve + "\"large.csv\"\n"));
+  REQUIRE(write_file(bench.at / "large.csv", std::string(17 << 20, '1')));
   const char* pipe = "it is a pipe or a device, must be a regular file";
   for (const auto& [arguments, sentence] :
        std::vector<std::pair<std::vector<std::string>, const char*>>{
@@ -128,13 +128,13 @@ TEST_CASE("frames of a run that was cut short are drawn, and it says that it is 
   const auto pictures = files_under(bench.at / "r.partial-7/frames", ".png");
   REQUIRE(pictures.size() == 3);
   const auto summary =
-      nlohmann::json::parse(read_whole(bench.at / "r.partial-7/summary.json").value());
+      nlohmann::json::parse(read_file(bench.at / "r.partial-7/summary.json").value());
   CHECK(summary["finished"] == false);
   CHECK(summary["kind"] == "movie");
   CHECK(summary["preset"] == "small");
   CHECK(summary["energy_bend_mJ"] > 0);
   // all of a run's files are there now, of the frames found
-  const auto frames = read_whole(bench.at / "r.partial-7/frames.csv").value();
+  const auto frames = read_file(bench.at / "r.partial-7/frames.csv").value();
   CHECK(std::count(frames.begin(), frames.end(), '\n') == 4);
   CHECK_FALSE(fs::exists(bench.at / "r.partial-7/frames.journal"));
   const auto again = bench.good({"render", "r.partial-7", "-o", "elsewhere"});
@@ -148,7 +148,7 @@ TEST_CASE("cases of a run that was cut short are drawn as far as they came") {
   const Bench bench(small);
   const std::string cases =
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
-  REQUIRE(write_atomically(bench.at / "cases.toml", small + cases));
+  REQUIRE(write_file(bench.at / "cases.toml", small + cases));
   bench.good({"run", "cases.toml", "-o", "whole"});
   const auto partial = bench.at / "r.partial-7";
   fs::create_directories(partial);
@@ -177,12 +177,12 @@ TEST_CASE("an interrupted run says how to draw what it found, and the next run n
 TEST_CASE("a run folder of somebody else cannot write outside of -o") {
   const Bench bench(small);
   const std::string cases = "[[case]]\nname = \"near\"\n[[case]]\nname = \"far\"\n";
-  REQUIRE(write_atomically(bench.at / "small.toml", small + cases));
+  REQUIRE(write_file(bench.at / "small.toml", small + cases));
   bench.good({"run", "small.toml", "-o", "r"});
   for (const std::string name : {"../victim/r", "/tmp/victim", "..", ".", "frames", ""}) {
-    auto json = nlohmann::json::parse(read_whole(bench.at / "r/summary.json").value());
+    auto json = nlohmann::json::parse(read_file(bench.at / "r/summary.json").value());
     json["cases"][1]["name"] = name;
-    REQUIRE(write_atomically(bench.at / "r/summary.json", json.dump()));
+    REQUIRE(write_file(bench.at / "r/summary.json", json.dump()));
     const auto ended = bench.run({"render", "r", "-o", "drawn"});
     INFO(name);
     CHECK(ended.code == 2);
@@ -201,7 +201,7 @@ TEST_CASE("names of cases that would meet a run's files are refused") {
            {"a.json", "must not end in .json"},
            {std::string(300, 'x'), "is 300 letters long, must be at most 100"},
        }) {
-    REQUIRE(write_atomically(bench.at / "bad.toml", small + "[[case]]\nname = \"" + name + "\"\n"));
+    REQUIRE(write_file(bench.at / "bad.toml", small + "[[case]]\nname = \"" + name + "\"\n"));
     const auto ended = bench.run({"check", "bad.toml"});
     CHECK(ended.code == 2);
     CHECK_THAT(ended.err, Contains(sentence));
@@ -250,7 +250,7 @@ TEST_CASE("a picture larger than any of ours is not read") {
   for (int shift = 24; shift >= 0; shift -= 8) bytes += char(sum >> shift);
   // and the beginning of its pixels, at which a header ends
   bytes += std::string("\0\0\0\4IDAT", 8);
-  REQUIRE(write_atomically(bench.at / "bomb.png", bytes));
+  REQUIRE(write_file(bench.at / "bomb.png", bytes));
   const auto ended = bench.run({"compare", "bomb.png", "bomb.png"});
   CHECK(ended.code == 2);
   CHECK_THAT(ended.err, Contains("it has 1000000 x 1000000 pixels, more than the 268 million"));
@@ -280,7 +280,7 @@ TEST_CASE("a run folder of version 0.1 is drawn, and replaced as a run") {
   const auto drawn = bench.good({"render", "old", "-o", "drawn"});
   CHECK_THAT(drawn.err, !Contains("not finished"));
   CHECK(files_under(bench.at / "drawn/frames", ".png").size() == 2);
-  const auto summary = nlohmann::json::parse(read_whole(bench.at / "drawn/summary.json").value());
+  const auto summary = nlohmann::json::parse(read_file(bench.at / "drawn/summary.json").value());
   CHECK(summary["energy_bend_mJ"] > 1.8);
   // what it did not say is unknown
   CHECK(summary["energy_load_mJ"].is_null());

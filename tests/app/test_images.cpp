@@ -6,9 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "engine/core/atomic_file.h"
-#include "render/image/compare.h"
-#include "render/image/png.h"
+#include "engine/core/file_io.h"
+#include "render/gl/image.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
@@ -154,7 +153,7 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
   CHECK(compare({"--update", "--why", "a lighter grey"}).code == 0);
   CHECK(compare({}).code == 0);
   CHECK_FALSE(fs::exists(kept / "gone.png"));
-  const auto why = read_whole(kept / "WHY.md");
+  const auto why = read_file(kept / "WHY.md");
   REQUIRE(why);
   CHECK(why->find("a lighter grey (gone.png, in/other.png, new.png)") != std::string::npos);
   CHECK(gridshell_program({"compare", "kept", "now/same.png"}, folder.path()).code == 2);

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "engine/record/journal.h"
-#include "render/image/png.h"
+#include "render/gl/image.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
@@ -140,7 +140,7 @@ TEST_CASE("of a run that is killed near its end nearly all frames are drawn", "[
   CHECK(drawn.code == 0);
   CHECK_THAT(drawn.err, Catch::Contains("is not finished: " + std::to_string(frames) + " frames"));
   CHECK(files_under(folder.path() / "drawn/frames", ".png").size() == frames);
-  CHECK_THAT(gridshell::read_whole(folder.path() / "drawn/summary.json").value(),
+  CHECK_THAT(gridshell::read_file(folder.path() / "drawn/summary.json").value(),
              Catch::Contains("\"finished\": false"));
 }
 

@@ -4,10 +4,10 @@
 #include <regex>
 #include <set>
 
-#include "app/pictures.h"
-#include "engine/core/atomic_file.h"
+#include "app/cli/pictures.h"
+#include "engine/core/file_io.h"
 #include "engine/preset/field_table.h"
-#include "engine/preset/rung.h"
+#include "engine/preset/model_choice.h"
 #include "tests/app/program.h"
 
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ std::set<std::string> members_read() {
   std::set<std::string> found;
   for (const char* folder : {"engine", "app"})
     for (const auto& file : files_under(fs::path(GRIDSHELL_SOURCE_DIR) / folder, ".cpp")) {
-      const auto text = read_whole(file).value();
+      const auto text = read_file(file).value();
       if (file.string().find("/engine/preset/") != std::string::npos ||
           text.find("preset::") == std::string::npos)
         continue;
@@ -93,12 +93,12 @@ TEST_CASE("every key of [movie] and [style] changes how a movie looks, those of 
 TEST_CASE("every member of a preset has a key") {
   const fs::path folder = fs::path(GRIDSHELL_SOURCE_DIR) / "engine/preset";
   const std::string header =
-      read_whole(folder / "preset.h").value() + read_whole(folder / "pictures.h").value();
+      read_file(folder / "preset.h").value() + read_file(folder / "pictures.h").value();
   std::string tables;
-  for (const auto& file : files_under(folder, ".cpp")) tables += read_whole(file).value();
+  for (const auto& file : files_under(folder, ".cpp")) tables += read_file(file).value();
   for (const auto& file : files_under(folder, ".h"))
     if (file.filename() != "preset.h" && file.filename() != "pictures.h")
-      tables += read_whole(file).value();
+      tables += read_file(file).value();
   // "double half_x_mm = 126.0, half_y_mm = 100.0;"
   const std::regex line(
       "\\n  (?!return|static|const)[A-Za-z_][\\w:<>]*(?: [A-Za-z]+>)? (\\w+[^;(){}]*);");
@@ -122,12 +122,12 @@ TEST_CASE("every key of joints, ends and loads takes a cap off the net, which kn
   Preset cap;
   cap.footprint.kind = FootprintKind::net;
   cap.accuracy.tolerance = 0.05;
-  REQUIRE(rung_of(cap) == Rung::net);
+  REQUIRE(rod_model_of(cap) == RodModel::net);
   for (const auto& field : field_table()) {
     if (field.table != "joints" && field.table != "ends" && field.table != "loads") continue;
     Preset preset = cap;
     change(field, preset);
     INFO(name_of(field));
-    CHECK((rung_of(preset) == Rung::net) == harmless.contains(field.key));
+    CHECK((rod_model_of(preset) == RodModel::net) == harmless.contains(field.key));
   }
 }

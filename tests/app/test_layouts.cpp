@@ -5,13 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "app/console.h"
-#include "app/loading.h"
-#include "app/pictures.h"
-#include "app/preset_library.h"
-#include "app/production.h"
-#include "render/figure/push_figure.h"
-#include "render/movie/bins_plot.h"
+#include "app/cli/console.h"
+#include "app/cli/pictures.h"
+#include "app/cli/preset_library.h"
+#include "app/cli/produce.h"
+#include "render/movie/run_figures.h"
+#include "render/movie/run_plots.h"
 #include "render/movie/stage.h"
 #include "render/movie/stills.h"
 #include "tests/render/synthetic.h"
@@ -109,8 +108,8 @@ TEST_CASE("a narrow still has its whole title, in two lines where one is too sho
     const record::Trajectory run = eventful(true);
     const Stage stage(run, style);
     const auto words = words_of(style.width, style.height, [&](Canvas& canvas) {
-      draw_still_words(canvas, stage, {run.frames[2], 2},
-                       "push [-2, -2], a joint far from its middle: *δ* = 10.00 mm");
+      draw_still_labels(canvas, stage, {run.frames[2], 2},
+                        "push [-2, -2], a joint far from its middle: *δ* = 10.00 mm");
     });
     INFO(embedded.name);
     check_apart(words, {0, 0, double(style.width), double(style.height)});
@@ -146,7 +145,7 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
       std::mutex mutex;
       std::vector<std::pair<Words, Box>> canvases;
       {
-        const CanvasWatch watch([&](const Canvas& canvas) {
+        const CanvasObserver watch([&](const Canvas& canvas) {
           const std::lock_guard lock(mutex);
           canvases.push_back({{canvas.texts(), canvas.text_boxes(), canvas.marker_boxes()},
                               {0, 0, canvas.width(), canvas.height()}});
@@ -165,7 +164,7 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
 
 TEST_CASE("plots of bins and forces keep their words apart, however narrow") {
   const record::Trajectory run = eventful(true);
-  const Survey survey = survey_of(run);
+  const RunSummary survey = summarise_run(run);
   for (const double width : {150.0, 186.0, 260.0, 500.0}) {
     Plot bins = bins_plot(survey, long(run.layout.cells.size()), run.frames.back(), {}, 7.5);
     bins.title = "Inward at 45° latitude and longitude, a long name\nΣ*K*_{□} = 5.898 rad";

@@ -6,14 +6,12 @@
 #include <set>
 #include <sstream>
 
-#include "app/command_table.h"
-#include "app/completion.h"
-#include "app/listing.h"
-#include "app/man_page.h"
-#include "app/preset_library.h"
-#include "engine/core/atomic_file.h"
-#include "engine/preset/writer.h"
-#include "engine/record/json.h"
+#include "app/cli/commands.h"
+#include "app/cli/preset_library.h"
+#include "app/cli/reference.h"
+#include "engine/core/file_io.h"
+#include "engine/core/json.h"
+#include "engine/preset/preset_file.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
@@ -102,5 +100,5 @@ TEST_CASE("the manual page names all commands, options, presets and keys, and ro
   REQUIRE(std::system(("cd '" + folder.path().string() +
                        "' && groff -man -Kutf8 -Tutf8 -ww gridshell.1 > out 2> faults")
                           .c_str()) == 0);
-  CHECK(read_whole(folder.path() / "faults").value().empty());
+  CHECK(read_file(folder.path() / "faults").value().empty());
 }

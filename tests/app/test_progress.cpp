@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "app/progress.h"
+#include "app/cli/delivery.h"
 
 using namespace gridshell::app;
 

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "engine/core/atomic_file.h"
-#include "engine/preset/writer.h"
+#include "engine/core/file_io.h"
+#include "engine/preset/preset_file.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
@@ -14,7 +14,7 @@ namespace {
 
 const fs::path root = GRIDSHELL_SOURCE_DIR;
 
-std::string text_of(const fs::path& file) { return gridshell::read_whole(root / file).value(); }
+std::string text_of(const fs::path& file) { return gridshell::read_file(root / file).value(); }
 
 // those at the top and one a folder that has one
 std::vector<fs::path> documents() {
@@ -78,7 +78,7 @@ TEST_CASE("the presets shown in the READMEs run") {
     std::string preset;
     for (std::string line; std::getline(lines, line) && (line.empty() || line[0] == ' ');)
       preset += line.empty() ? "\n" : line.substr(4) + "\n";
-    REQUIRE(gridshell::write_atomically(folder.path() / "shown.toml", preset));
+    REQUIRE(gridshell::write_file(folder.path() / "shown.toml", preset));
     const auto ended = gridshell_program({"run", "shown.toml", "--quiet"}, folder.path());
     INFO(document << ":\n" << preset << ended.err);
     CHECK(ended.code == 0);

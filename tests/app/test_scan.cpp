@@ -2,11 +2,11 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "engine/core/atomic_file.h"
-#include "engine/record/json.h"
+#include "engine/core/file_io.h"
+#include "engine/core/json.h"
 #include "engine/record/trajectory_file.h"
 #include "tests/app/program.h"
-#include "tests/engine/scan/synthetic_scan.h"
+#include "tests/engine/study/synthetic_scan.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -43,7 +43,7 @@ TEST_CASE("a scan of a run shows that run, with its joints, its picture and what
   form("52", "wide", at);
   const auto run = record::read_trajectory(at / "run" / "trajectory.h5");
   REQUIRE(run);
-  const ScannedForm shell = form_of(run->layout, run->frames.back());
+  const ScanTarget shell = form_of(run->layout, run->frames.back());
   ScanMaking how;
   how.missing = 0.1;
   how.spurious = 3;
@@ -54,14 +54,14 @@ TEST_CASE("a scan of a run shows that run, with its joints, its picture and what
   REQUIRE(scan.code == 0);
   CHECK_THAT(scan.out, Contains("out/cloud_scan: shows run\n"));
   const fs::path out = at / "out" / "cloud_scan";
-  const auto json = record::parsed(read_whole(out / "scan.json").value());
+  const auto json = record::parsed(read_file(out / "scan.json").value());
   CHECK(json["state"] == "run");
   CHECK(json["states"].size() == 2);
   CHECK(json["joints_found"].get<int>() + json["joints_missing"].get<int>() ==
         int(shell.joints.cols()));
   CHECK(json["joints_missing"].get<int>() == int(0.1 * double(shell.joints.cols())));
   CHECK(json["rms_mm"].get<double>() < 0.15);
-  const std::string csv = read_whole(out / "scan.csv").value();
+  const std::string csv = read_file(out / "scan.csv").value();
   CHECK(csv.starts_with("i,j,x_mm,y_mm,z_mm,distance_mm,distance_radii\n"));
   CHECK(std::ranges::count(csv, '\n') == 1 + shell.joints.cols());
   for (const char* name : {"scan.png", "measured.csv", "manifest.txt"})

@@ -2,9 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "app/manifest.h"
-#include "app/staging.h"
-#include "engine/core/atomic_file.h"
+#include "app/cli/staged_folder.h"
+#include "engine/core/file_io.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -18,7 +17,7 @@ TEST_CASE("a staged folder takes its final name only on commit") {
   REQUIRE(staged);
   CHECK(fs::is_directory(staged->path()));
   CHECK(staged->path().parent_path() == final_folder.parent_path());
-  REQUIRE(write_atomically(staged->path() / "summary.json", "{}"));
+  REQUIRE(write_file(staged->path() / "summary.json", "{}"));
   CHECK_FALSE(fs::exists(final_folder));
   REQUIRE(staged->commit());
   CHECK(fs::exists(final_folder / "summary.json"));
@@ -30,8 +29,8 @@ namespace {
 // what a finished run leaves: its files, and the list of them
 void make_run(const fs::path& run) {
   REQUIRE(make_folder(run / "frames"));
-  REQUIRE(write_atomically(run / "summary.json", "old"));
-  REQUIRE(write_atomically(run / "frames/old.png", "old"));
+  REQUIRE(write_file(run / "summary.json", "old"));
+  REQUIRE(write_file(run / "frames/old.png", "old"));
   REQUIRE(app::write_manifest(run));
 }
 
@@ -51,11 +50,11 @@ TEST_CASE("a run folder is replaced as a whole") {
   {
     auto staged = StagedFolder::create(run);
     REQUIRE(staged);
-    REQUIRE(write_atomically(staged->path() / "summary.json", "new"));
-    CHECK(read_whole(run / "summary.json").value() == "old");
+    REQUIRE(write_file(staged->path() / "summary.json", "new"));
+    CHECK(read_file(run / "summary.json").value() == "old");
     REQUIRE(staged->commit());
   }
-  CHECK(read_whole(run / "summary.json").value() == "new");
+  CHECK(read_file(run / "summary.json").value() == "new");
   CHECK_FALSE(fs::exists(run / "frames/old.png"));
   CHECK(folder.entries() == std::vector<std::string>{"run"});
 }
@@ -78,8 +77,8 @@ TEST_CASE("what is kept stays under its partial name, without half-written files
     REQUIRE(staged);
     partial = staged->path();
     REQUIRE(make_folder(partial / "frames"));
-    REQUIRE(write_atomically(partial / "frames/frame_00000.png", "whole"));
-    REQUIRE(write_atomically(partial / "frames/.partial-frame_00001.png", "ha"));
+    REQUIRE(write_file(partial / "frames/frame_00000.png", "whole"));
+    REQUIRE(write_file(partial / "frames/.partial-frame_00001.png", "ha"));
     staged->keep();
   }
   CHECK(fs::exists(partial / "frames/frame_00000.png"));
@@ -96,7 +95,7 @@ TEST_CASE("only a run or an empty folder may be replaced") {
   }
   SECTION("a folder with something else may not") {
     REQUIRE(make_folder(target));
-    REQUIRE(write_atomically(target / "notes.txt", "mine"));
+    REQUIRE(write_file(target / "notes.txt", "mine"));
     const auto staged = StagedFolder::create(target);
     REQUIRE_FALSE(staged);
     CHECK(staged.error().fault == Fault::bad_input);
@@ -105,7 +104,7 @@ TEST_CASE("only a run or an empty folder may be replaced") {
               "': it exists and is no run (it has no summary.json); choose another folder with -o");
   }
   SECTION("a file may not") {
-    REQUIRE(write_atomically(target, "mine"));
+    REQUIRE(write_file(target, "mine"));
     CHECK_FALSE(StagedFolder::create(target));
   }
 }
@@ -120,7 +119,7 @@ TEST_CASE("a run with a foreign file in it is not replaced, and the file is name
     REQUIRE(make_folder(run / foreign));
   } else {
     REQUIRE(make_folder((run / foreign).parent_path()));
-    REQUIRE(write_atomically(run / foreign, "mine"));
+    REQUIRE(write_file(run / foreign, "mine"));
   }
   const auto staged = StagedFolder::create(run);
   REQUIRE_FALSE(staged);
@@ -135,17 +134,15 @@ TEST_CASE("something called summary.json makes no run") {
   const TemporaryFolder folder;
   const auto run = folder.path() / "run";
   REQUIRE(make_folder(run));
-  SECTION("of another program") {
-    REQUIRE(write_atomically(run / "summary.json", R"({"webpack": 1})"));
-  }
+  SECTION("of another program") { REQUIRE(write_file(run / "summary.json", R"({"webpack": 1})")); }
   SECTION("a folder") { REQUIRE(make_folder(run / "summary.json")); }
   SECTION("of a run, beside a thesis") {
-    REQUIRE(write_atomically(run / "summary.json", R"({"preset": "x", "negative_pivots": 0})"));
-    REQUIRE(write_atomically(run / "thesis.tex", "years of work"));
+    REQUIRE(write_file(run / "summary.json", R"({"preset": "x", "negative_pivots": 0})"));
+    REQUIRE(write_file(run / "thesis.tex", "years of work"));
   }
   SECTION("of a run, beside pictures of something else") {
-    REQUIRE(write_atomically(run / "summary.json", R"({"preset": "x", "negative_pivots": 0})"));
-    REQUIRE(write_atomically(run / "holiday.png", "sun"));
+    REQUIRE(write_file(run / "summary.json", R"({"preset": "x", "negative_pivots": 0})"));
+    REQUIRE(write_file(run / "holiday.png", "sun"));
   }
   CHECK_FALSE(StagedFolder::create(run));
 }
@@ -171,10 +168,9 @@ TEST_CASE("whether a folder is a run is seen from its top, whatever lies below")
   SECTION("one that says it is its own case") {
     const auto name = GENERATE(".", "..", "");
     REQUIRE(make_folder(top));
-    REQUIRE(
-        write_atomically(top / "summary.json",
-                         std::string(R"({"preset": "x", "cases": [{"name": ")") + name + "\"}]}"));
-    REQUIRE(write_atomically(top / "thesis.tex", "years of work"));
+    REQUIRE(write_file(top / "summary.json",
+                       std::string(R"({"preset": "x", "cases": [{"name": ")") + name + "\"}]}"));
+    REQUIRE(write_file(top / "thesis.tex", "years of work"));
     CHECK_THAT(app::refusal_to_write(top), Catch::Contains("'thesis.tex'"));
   }
 }
@@ -183,10 +179,10 @@ TEST_CASE("a run of version 0.1, which has no list of its files, may be replaced
   const TemporaryFolder folder;
   const auto run = folder.path() / "run";
   REQUIRE(make_folder(run / "frames"));
-  REQUIRE(write_atomically(run / "summary.json", R"({"preset": "a/x", "negative_pivots": 0})"));
+  REQUIRE(write_file(run / "summary.json", R"({"preset": "a/x", "negative_pivots": 0})"));
   for (const char* name : {"frames.csv", "trajectory.h5", "movie.mp4", "x_1.png", "x_K.svg",
                            "frames/frame_00000.png", ".partial-77-frames.csv"})
-    REQUIRE(write_atomically(run / name, "old"));
+    REQUIRE(write_file(run / name, "old"));
   CHECK(StagedFolder::create(run));
 }
 
@@ -195,38 +191,38 @@ TEST_CASE("what appears under the final name meanwhile is not destroyed") {
   const auto run = folder.path() / "run";
   auto staged = StagedFolder::create(run);
   REQUIRE(staged);
-  REQUIRE(write_atomically(staged->path() / "summary.json", "new"));
+  REQUIRE(write_file(staged->path() / "summary.json", "new"));
   SECTION("a folder of somebody's") {
     REQUIRE(make_folder(run));
-    REQUIRE(write_atomically(run / "thesis.tex", "years of work"));
+    REQUIRE(write_file(run / "thesis.tex", "years of work"));
     const auto committed = staged->commit();
     REQUIRE_FALSE(committed);
     CHECK(committed.error().fault == Fault::io);
     CHECK_THAT(committed.error().message, Catch::Contains("it exists and is no run"));
-    CHECK(read_whole(run / "thesis.tex").value() == "years of work");
-    CHECK(read_whole(staged->path() / "summary.json").value() == "new");
+    CHECK(read_file(run / "thesis.tex").value() == "years of work");
+    CHECK(read_file(staged->path() / "summary.json").value() == "new");
   }
   SECTION("a file") {
-    REQUIRE(write_atomically(run, "mine"));
+    REQUIRE(write_file(run, "mine"));
     REQUIRE_FALSE(staged->commit());
-    CHECK(read_whole(run).value() == "mine");
+    CHECK(read_file(run).value() == "mine");
   }
   SECTION("a foreign file in the run that stood there") {
     make_run(run);
-    REQUIRE(write_atomically(run / "notes.txt", "mine"));
+    REQUIRE(write_file(run / "notes.txt", "mine"));
     REQUIRE_FALSE(staged->commit());
-    CHECK(read_whole(run / "notes.txt").value() == "mine");
+    CHECK(read_file(run / "notes.txt").value() == "mine");
   }
   SECTION("another run, which is replaced") {
     make_run(run);
     REQUIRE(staged->commit());
-    CHECK(read_whole(run / "summary.json").value() == "new");
+    CHECK(read_file(run / "summary.json").value() == "new");
     CHECK(beside(folder).empty());
   }
   SECTION("an empty folder, which is replaced") {
     REQUIRE(make_folder(run));
     REQUIRE(staged->commit());
-    CHECK(read_whole(run / "summary.json").value() == "new");
+    CHECK(read_file(run / "summary.json").value() == "new");
     CHECK(beside(folder).empty());
   }
 }
@@ -238,7 +234,7 @@ TEST_CASE("a folder that was left behind is neither taken over nor lost") {
   auto before = run;
   before += ".partial-" + std::to_string(getpid());
   REQUIRE(make_folder(before / "frames"));
-  REQUIRE(write_atomically(before / "frames/frame_00099.png", "stale"));
+  REQUIRE(write_file(before / "frames/frame_00099.png", "stale"));
   auto staged = StagedFolder::create(run);
   REQUIRE(staged);
   CHECK(staged->path() != before);
@@ -259,11 +255,11 @@ TEST_CASE("a link to a folder is written through") {
     auto staged = StagedFolder::create(run);
     REQUIRE(staged);
     CHECK(staged->path().parent_path() == fs::canonical(disk));
-    REQUIRE(write_atomically(staged->path() / "summary.json", "new"));
+    REQUIRE(write_file(staged->path() / "summary.json", "new"));
     REQUIRE(staged->commit());
   }
   CHECK(fs::is_symlink(run));
-  CHECK(read_whole(disk / "real/summary.json").value() == "new");
+  CHECK(read_file(disk / "real/summary.json").value() == "new");
   SECTION("one that leads nowhere is refused") {
     fs::remove_all(disk);
     const auto staged = StagedFolder::create(run);
@@ -290,14 +286,14 @@ TEST_CASE("an old run that cannot be removed is named, and the new one stands") 
   {
     auto staged = StagedFolder::create(run);
     REQUIRE(staged);
-    REQUIRE(write_atomically(staged->path() / "summary.json", "new"));
+    REQUIRE(write_file(staged->path() / "summary.json", "new"));
     const auto committed = staged->commit();
     REQUIRE(committed);
     note = *committed;
   }
   const auto left = app::left_behind(run);
   if (root) REQUIRE(seteuid(0) == 0);
-  CHECK(read_whole(run / "summary.json").value() == "new");
+  CHECK(read_file(run / "summary.json").value() == "new");
   REQUIRE(left.size() == 1);
   CHECK_THAT(note, Catch::Contains("could not be removed (Permission denied)") &&
                        Catch::Contains("is in '" + left[0].string() + "'"));

@@ -1,15 +1,15 @@
 // A search for states from end to end, on a shell small enough for seconds.
 #include <catch2/catch.hpp>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "engine/record/states.h"
 #include "tests/app/program.h"
 #include "tests/small_preset.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
-using gridshell::read_whole;
-using gridshell::write_atomically;
+using gridshell::read_file;
+using gridshell::write_file;
 
 namespace {
 
@@ -17,14 +17,14 @@ const std::string search =
     small_preset({.rods = 4, .radius_mm = 46, .actuated_mm = 34, .edges = 4}) +
     "[jitter]\ntrials = 8\nconfined = 4\ntransitions = 2\nbarriers = true\ndepth = 0.5\n";
 
-std::string text_of(const fs::path& file) { return read_whole(file).value(); }
+std::string text_of(const fs::path& file) { return read_file(file).value(); }
 
 }  // namespace
 
 TEST_CASE("a search for states: tables, pictures, and the same pictures again from the run") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
-  REQUIRE(write_atomically(at / "shell.toml", search));
+  REQUIRE(write_file(at / "shell.toml", search));
   const Ended one = gridshell_program({"figure", "shell.toml", "--threads", "1"}, at);
   CAPTURE(one.err);
   REQUIRE(one.code == 0);
@@ -58,12 +58,12 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[ful
     std::string text = shell;
     return text.replace(text.find("{}"), 2, more);
   };
-  REQUIRE(write_atomically(at / "page.toml", with("rods = 4\nlongest_leg = 0.8\n") +
-                                                 "[page]\nkind = \"fig2\"\n[movie]\nsize = "
-                                                 "[320, 240]\n[figure]\nquality = \"draft\"\n"));
-  REQUIRE(write_atomically(at / "sweep.toml", with("") + "[sweep]\nplot = [\"classes\"]\n"
-                                                         "[sweep.over]\nfootprint.rods = [4]\n"
-                                                         "footprint.longest_leg = [0.8, 2.0]\n"));
+  REQUIRE(write_file(at / "page.toml", with("rods = 4\nlongest_leg = 0.8\n") +
+                                           "[page]\nkind = \"fig2\"\n[movie]\nsize = "
+                                           "[320, 240]\n[figure]\nquality = \"draft\"\n"));
+  REQUIRE(write_file(at / "sweep.toml", with("") + "[sweep]\nplot = [\"classes\"]\n"
+                                                   "[sweep.over]\nfootprint.rods = [4]\n"
+                                                   "footprint.longest_leg = [0.8, 2.0]\n"));
   // without a sweep its place is an empty frame that says so
   const Ended bare = gridshell_program({"figure", "page.toml", "--quiet"}, at);
   CAPTURE(bare.err);
@@ -94,14 +94,14 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[ful
   CHECK(refused("nowhere").find("'nowhere' is no finished sweep") != std::string::npos);
   std::string log = text_of(at / "out/sweep/sweep.jsonl");
   log.erase(log.rfind('\n', log.size() - 2) + 1);
-  REQUIRE(write_atomically(at / "out/sweep/sweep.jsonl", log));
+  REQUIRE(write_file(at / "out/sweep/sweep.jsonl", log));
   CHECK(refused("out/sweep").find("1 of 2 points are there") != std::string::npos);
 }
 
 TEST_CASE("joints measured lie over a state of a page of states", "[full]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
-  REQUIRE(write_atomically(
+  REQUIRE(write_file(
       at / "page.toml",
       "[footprint]\nkind = \"circle\"\nrods = 6\nlongest_leg = 0.4\n[actuation]\nratio = 0.75\n"
       "[accuracy]\nedges_per_segment = 4\n[jitter]\ntrials = 2\nconfined = 7\n"
@@ -119,12 +119,12 @@ TEST_CASE("joints measured lie over a state of a page of states", "[full]") {
 TEST_CASE("a search for states has no movie, and damaged tables are refused") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
-  REQUIRE(write_atomically(at / "shell.toml", search));
+  REQUIRE(write_file(at / "shell.toml", search));
   const Ended movie = gridshell_program({"movie", "shell.toml"}, at);
   CHECK(movie.code == 2);
   CHECK(movie.err.find("gridshell figure") != std::string::npos);
   REQUIRE(gridshell_program({"run", "shell.toml"}, at).code == 0);
-  REQUIRE(write_atomically(at / "out/shell/states.csv", "state\n"));
+  REQUIRE(write_file(at / "out/shell/states.csv", "state\n"));
   const Ended damaged = gridshell_program({"render", "out/shell", "-o", "again"}, at);
   CHECK(damaged.code == 2);
   CHECK(damaged.err.find("states.csv") != std::string::npos);
@@ -132,7 +132,7 @@ TEST_CASE("a search for states has no movie, and damaged tables are refused") {
 
 TEST_CASE("keys of a search that its mode does not use are refused with the reason") {
   const TemporaryFolder folder;
-  REQUIRE(write_atomically(folder.path() / "shell.toml", search + "field_N_per_mm = 0.5\n"));
+  REQUIRE(write_file(folder.path() / "shell.toml", search + "field_N_per_mm = 0.5\n"));
   const Ended idle = gridshell_program({"check", "shell.toml"}, folder.path());
   CHECK(idle.code == 2);
   CHECK(idle.err.find("gravity") != std::string::npos);

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "tests/app/program.h"
 #include "tests/small_preset.h"
 #include "tests/temporary_folder.h"
@@ -21,10 +21,10 @@ void write_sweep(const fs::path& folder, int count, const std::string& more = ""
                         "[sweep.over]\nactuation.radius_mm = {{ from = 44, to = 40, count = "
                         "{} }}\n",
                         count);
-  REQUIRE(write_atomically(folder / "small.toml", text));
+  REQUIRE(write_file(folder / "small.toml", text));
 }
 
-std::string text_of(const fs::path& file) { return read_whole(file).value_or(""); }
+std::string text_of(const fs::path& file) { return read_file(file).value_or(""); }
 
 std::size_t lines_in(const fs::path& file) {
   const auto text = text_of(file);
@@ -108,7 +108,7 @@ TEST_CASE("shards merge to the same bytes as the whole") {
 TEST_CASE("a sweep of searches is the same killed, stopped, in shards and on two jobs", "[full]") {
   const TemporaryFolder folder;
   const fs::path at = folder.path();
-  REQUIRE(write_atomically(at / "small.toml", R"([footprint]
+  REQUIRE(write_file(at / "small.toml", R"([footprint]
 kind = "circle"
 [actuation]
 ratio = 0.75
@@ -216,7 +216,7 @@ TEST_CASE("what a sweep is asked for in vain is told") {
   refused({"-o", "."}, "it is no sweep, and holds '");
   refused({"-o", "small.toml"}, "it is a file");
   CHECK(fs::exists(folder.path() / "small.toml"));
-  REQUIRE(write_atomically(folder.path() / "bad.toml", "[sweep.over]\nrod.diameter_mm = []\n"));
+  REQUIRE(write_file(folder.path() / "bad.toml", "[sweep.over]\nrod.diameter_mm = []\n"));
   const auto bad = gridshell_program({"sweep", "bad.toml"}, folder.path());
   CHECK(bad.code == 2);
   CHECK_THAT(bad.err, Contains("bad.toml:2:") && Contains("rod.diameter_mm"));

@@ -7,14 +7,14 @@
 #include <random>
 #include <utility>
 
-#include "engine/core/atomic_file.h"
-#include "render/image/png.h"
+#include "engine/core/file_io.h"
+#include "render/gl/image.h"
 #include "tests/app/program.h"
 #include "tests/small_preset.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
-using gridshell::write_atomically;
+using gridshell::write_file;
 using nlohmann::json;
 
 namespace {
@@ -25,8 +25,8 @@ const std::string shell =
 /// What the program says at the end of a recording played on a small shell.
 json played(const TemporaryFolder& folder, const std::string& input,
             const std::vector<std::string>& more = {}, const std::string& preset = shell) {
-  REQUIRE(write_atomically(folder.path() / "small.toml", preset));
-  REQUIRE(write_atomically(folder.path() / "visit.txt", input));
+  REQUIRE(write_file(folder.path() / "small.toml", preset));
+  REQUIRE(write_file(folder.path() / "visit.txt", input));
   std::vector<std::string> arguments{"view", "small.toml", "--play", "visit.txt"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const Ended ended = gridshell_program(arguments, folder.path());
@@ -40,7 +40,7 @@ json run_of_kept(const TemporaryFolder& folder, const json& told) {
   const Ended ran = gridshell_program({"run", "kept/small_1.toml", "-o", "ran"}, folder.path());
   INFO(ran.err);
   REQUIRE(ran.code == 0);
-  json summary = json::parse(gridshell::read_whole(folder.path() / "ran/summary.json").value());
+  json summary = json::parse(gridshell::read_file(folder.path() / "ran/summary.json").value());
   CHECK(summary["energy_bend_mJ"].get<double>() ==
         Approx(told["energy_bend_mJ"].get<double>()).epsilon(1e-9));
   return summary;
@@ -149,7 +149,7 @@ TEST_CASE("what cannot be done is said in the window, and by the recording's lin
   CHECK(played(folder, "open nothing_of_the_kind\n")["message"].get<std::string>().find(
             "nothing_of_the_kind") != std::string::npos);
   const auto refused = [&](const std::string& input) {
-    REQUIRE(write_atomically(folder.path() / "visit.txt", input));
+    REQUIRE(write_file(folder.path() / "visit.txt", input));
     return gridshell_program({"view", "small.toml", "--play", "visit.txt"}, folder.path());
   };
   CHECK(refused("mouse @nothing 0 0\n").code == 2);
@@ -161,7 +161,7 @@ TEST_CASE("camera, colours and panels come back on the next visit, where they ar
   const TemporaryFolder folder;
   played(folder, "do view_top\ndo dark\ndo colour_energy\n", {"--workspace", "kept/desk.json"});
   const auto kept = [&] {
-    return json::parse(gridshell::read_whole(folder.path() / "kept/desk.json").value());
+    return json::parse(gridshell::read_file(folder.path() / "kept/desk.json").value());
   };
   const json first = kept();
   CHECK(first["camera"]["elevation_deg"] == 90);
@@ -209,7 +209,7 @@ TEST_CASE(
   INFO(ran.err);
   REQUIRE(ran.code == 0);
   const json summary =
-      json::parse(gridshell::read_whole(folder.path() / "ran/summary.json").value());
+      json::parse(gridshell::read_file(folder.path() / "ran/summary.json").value());
   CHECK(summary["energy_bend_mJ"].get<double>() ==
         Approx(kept["energy_bend_mJ"].get<double>()).epsilon(1e-7));
   CHECK(summary["height_mm"].get<double>() ==
@@ -278,7 +278,7 @@ TEST_CASE("a movie of what was done is made beside the window, and a picture of 
   CHECK((picture->width == 320 && picture->height == 180));
   CHECK(fs::exists(folder.path() / "kept/small_1/frames/frame_00001.png"));
   const json made =
-      json::parse(gridshell::read_whole(folder.path() / "kept/small_1/summary.json").value());
+      json::parse(gridshell::read_file(folder.path() / "kept/small_1/summary.json").value());
   CHECK(made["energy_bend_mJ"].get<double>() ==
         Approx(told["energy_bend_mJ"].get<double>()).epsilon(1e-9));
   // the preset that it is of runs by itself
@@ -287,7 +287,7 @@ TEST_CASE("a movie of what was done is made beside the window, and a picture of 
 
 TEST_CASE("the shell alone is drawn off-screen, with its legend or bare") {
   const TemporaryFolder folder;
-  REQUIRE(write_atomically(folder.path() / "small.toml", shell));
+  REQUIRE(write_file(folder.path() / "small.toml", shell));
   const auto drawn = [&](std::vector<std::string> more) {
     std::vector<std::string> arguments{"view", "small.toml", "--picture", "shell.png"};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -328,7 +328,7 @@ TEST_CASE("without a display the window says what to do instead") {
 
 TEST_CASE("a bench drags by itself and prints its four figures") {
   const TemporaryFolder folder;
-  REQUIRE(write_atomically(folder.path() / "small.toml", shell));
+  REQUIRE(write_file(folder.path() / "small.toml", shell));
   const Ended ended = gridshell_program({"view", "small.toml", "--bench", "0.5"}, folder.path());
   REQUIRE(ended.code == 0);
   const json line = json::parse(ended.out);

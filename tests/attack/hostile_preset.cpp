@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "engine/preset/field_table.h"
 
 namespace fs = std::filesystem;
@@ -24,7 +24,7 @@ const std::vector<std::string>& shipped() {
     for (const auto& entry : fs::directory_iterator(fs::path(GRIDSHELL_SOURCE_DIR) / "presets"))
       if (entry.path().extension() == ".toml") names.push_back(entry.path());
     std::sort(names.begin(), names.end());
-    for (const auto& name : names) all.push_back(gridshell::read_whole(name).value());
+    for (const auto& name : names) all.push_back(gridshell::read_file(name).value());
     return all;
   }();
   return texts;

@@ -8,8 +8,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/atomic_file.h"
-#include "engine/record/checksum.h"
+#include "engine/core/checksum.h"
+#include "engine/core/file_io.h"
 #include "tests/app/program.h"
 #include "tests/app/unfinished_run.h"
 #include "tests/attack/trials.h"
@@ -18,8 +18,8 @@
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
-using gridshell::read_whole;
-using gridshell::write_atomically;
+using gridshell::read_file;
+using gridshell::write_file;
 using Json = nlohmann::json;
 
 namespace {
@@ -56,7 +56,7 @@ fs::path some_file(const fs::path& run, Draw& draw) {
 }
 
 void change_bytes(const fs::path& file, Draw& draw) {
-  auto bytes = read_whole(file).value();
+  auto bytes = read_file(file).value();
   // an earlier damage may have left less than a seal
   const bool seal_again =
       file.filename() == "trajectory.h5" && bytes.size() >= 512 && !draw.one_in(4);
@@ -66,12 +66,12 @@ void change_bytes(const fs::path& file, Draw& draw) {
     at = draw.one_in(3) ? char(at ^ (1 << draw.below(8))) : draw.one_in(2) ? '\xff' : draw.byte();
   }
   if (draw.one_in(8)) bytes.resize(draw.below(bytes.size() + 1));
-  REQUIRE(write_atomically(file, seal_again ? sealed(bytes) : bytes));
+  REQUIRE(write_file(file, seal_again ? sealed(bytes) : bytes));
 }
 
 void replace_file(const fs::path& file, const fs::path& run, Draw& draw) {
   const auto other = some_file(run, draw);
-  const auto bytes = read_whole(other).value();
+  const auto bytes = read_file(other).value();
   fs::remove(file);
   switch (draw.below(8)) {
     case 0:
@@ -92,10 +92,10 @@ void replace_file(const fs::path& file, const fs::path& run, Draw& draw) {
       fs::create_symlink(file.filename(), file);
       break;
     case 6:
-      REQUIRE(write_atomically(file, ""));
+      REQUIRE(write_file(file, ""));
       break;
     case 7:
-      REQUIRE(write_atomically(file, bytes));
+      REQUIRE(write_file(file, bytes));
       break;
   }
 }
@@ -129,7 +129,7 @@ Json hostile_json(Draw& draw) {
 void change_summary(const fs::path& run, Draw& draw) {
   const auto file = run / "summary.json";
   if (!is_plain(file)) return;
-  auto json = Json::parse(read_whole(file).value(), nullptr, false);
+  auto json = Json::parse(read_file(file).value(), nullptr, false);
   if (!json.is_object()) return;
   const bool cases = json.contains("cases") && json["cases"].is_array() && !json["cases"].empty();
   if (cases && !draw.one_in(4)) {
@@ -142,7 +142,7 @@ void change_summary(const fs::path& run, Draw& draw) {
   }
   if (draw.one_in(10)) json["cases"] = hostile_json(draw);
   const auto text = json.dump(1, ' ', false, Json::error_handler_t::replace);
-  REQUIRE(write_atomically(file, text));
+  REQUIRE(write_file(file, text));
 }
 
 void damage(const fs::path& run, Draw& draw) {
@@ -162,9 +162,9 @@ void damage(const fs::path& run, Draw& draw) {
 class Bench {
  public:
   Bench() {
-    REQUIRE(write_atomically(at / "small.toml", small));
-    REQUIRE(write_atomically(at / "cases.toml",
-                             small + "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n"));
+    REQUIRE(write_file(at / "small.toml", small));
+    REQUIRE(
+        write_file(at / "cases.toml", small + "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\n"));
     for (const char* name : {"small", "cases"})
       REQUIRE(run({"movie", std::string(name) + ".toml", "-o", name}).code == 0);
     cut_short(at / "small", at / "cut", 2);

@@ -6,13 +6,13 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "tests/app/program.h"
 #include "tests/attack/hostile_preset.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
-using gridshell::write_atomically;
+using gridshell::write_file;
 
 namespace {
 
@@ -57,10 +57,10 @@ TEST_CASE("hostile presets are answered", "[full][presets]") {
     Draw draw(trial);
     const auto preset = hostile_preset(draw);
     INFO("trial " << trial);
-    REQUIRE(write_atomically(at / "hostile.toml", preset));
+    REQUIRE(write_file(at / "hostile.toml", preset));
     // to look at one that fails
     if (const char* keep = std::getenv("GRIDSHELL_KEEP"))
-      REQUIRE(write_atomically(fs::path(keep) / (std::to_string(trial) + ".toml"), preset));
+      REQUIRE(write_file(fs::path(keep) / (std::to_string(trial) + ".toml"), preset));
     const auto seen = run_and_stop({"check", "hostile.toml"}, at, 20);
     INFO("check: " << seen.code << " " << seen.err.substr(0, 500));
     ++checked[seen.code];

@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "app/manifest.h"
-#include "engine/core/atomic_file.h"
+#include "app/cli/staged_folder.h"
+#include "engine/core/file_io.h"
 #include "engine/record/journal.h"
-#include "render/image/png.h"
+#include "render/gl/image.h"
 #include "tests/app/program.h"
 #include "tests/attack/trials.h"
 #include "tests/folder_contents.h"
@@ -14,7 +14,7 @@
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
-using gridshell::write_atomically;
+using gridshell::write_file;
 
 namespace {
 
@@ -38,7 +38,7 @@ void check_left(const fs::path& folder, bool killed) {
 TEST_CASE("signals at any moment are answered, and nothing is lost", "[full][signals]") {
   const TemporaryFolder folder;
   const auto& at = folder.path();
-  REQUIRE(write_atomically(at / "small.toml", small));
+  REQUIRE(write_file(at / "small.toml", small));
   REQUIRE(gridshell_program({"run", "small.toml", "-o", "old", "--quiet"}, at).code == 0);
   const std::vector<std::vector<std::string>> commands{
       {"run", "small.toml", "-o", "old"},        {"movie", "small.toml", "-o", "old"},
@@ -71,7 +71,7 @@ TEST_CASE("signals at any moment are answered, and nothing is lost", "[full][sig
     const bool killed = number == SIGKILL;
     CHECK((ended.code == 0 || ended.code == (killed ? 128 + SIGKILL : 130)));
     // done, or as it was
-    CHECK(gridshell::app::no_run_because(at / "old").empty());
+    CHECK(gridshell::app::why_not_a_run(at / "old").empty());
     if (ended.code != 0 && !killed) CHECK(contents(at / "old") == before);
     check_left(at, killed);
     for (const auto& name : folder.entries()) {

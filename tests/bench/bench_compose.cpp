@@ -6,7 +6,7 @@
 #include <ctime>
 #include <vector>
 
-#include "render/image/png.h"
+#include "render/gl/image.h"
 #include "render/movie/stage.h"
 #include "tests/bench/figures.h"
 #include "tests/render/synthetic.h"

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/engine/experiment/random_scenes.h"
+#include "tests/engine/simulate/random_scenes.h"
 
 using namespace gridshell;
 

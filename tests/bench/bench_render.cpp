@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "render/context/context.h"
-#include "render/draw/renderer.h"
-#include "render/gl/target.h"
+#include "render/gl/context.h"
+#include "render/gl/opengl.h"
+#include "render/gl/renderer.h"
 #include "tests/bench/figures.h"
-#include "tests/render/draw/square_shell.h"
+#include "tests/render/gl/square_shell.h"
 
 using namespace gridshell;
 using namespace gridshell::render;

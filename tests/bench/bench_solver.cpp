@@ -9,10 +9,10 @@
 #include <cmath>
 #include <functional>
 
-#include "engine/core/even.h"
-#include "engine/solve/buckle.h"
-#include "engine/solve/cascade.h"
-#include "engine/solve/nested.h"
+#include "engine/core/algorithms.h"
+#include "engine/solve/buckling.h"
+#include "engine/solve/multilevel_relaxation.h"
+#include "engine/solve/nested_shell.h"
 #include "tests/bench/figures.h"
 
 using namespace gridshell;
@@ -73,14 +73,14 @@ PathOptions options_for(double tolerance, double radius) {
 }
 
 NestedShell shell_of(const Case& c, const LevelPlan& plan, double tolerance) {
-  return NestedShell::make(c.footprint, circular_section(0.254, 83), Mechanics::bend, c.motion,
-                           plan, options_for(tolerance, c.radius))
+  return NestedShell::make(c.footprint, circular_section(0.254, 83), RodModel::bend, c.motion, plan,
+                           options_for(tolerance, c.radius))
       .value();
 }
 
 double largest_joint_error(const NestedShell& shell, const NestedShell& reference) {
   const int joints = shell.mesh(0).joints;
-  return largest_column(shell.state().x.leftCols(joints) - reference.state().x.leftCols(joints));
+  return max_column_norm(shell.state().x.leftCols(joints) - reference.state().x.leftCols(joints));
 }
 
 void paper_shell(int runs, Figures& figures) {
@@ -242,15 +242,16 @@ void rests(Figures& figures) {
              "s per 1000", "at rest");
   for (const auto& [n, throws] : {std::pair{8, 400}, {12, 200}, {20, 60}}) {
     const Case c = circle(n);
-    Cascade cascade =
-        Cascade::make(c.footprint, {circular_section(0.254, 83)}, Mechanics::bend, c.motion, {}, 4)
+    MultilevelRelaxation cascade =
+        MultilevelRelaxation::make(c.footprint, {circular_section(0.254, 83)}, RodModel::bend,
+                                   c.motion, {}, 4)
             .value();
     std::mt19937 random{1};
     int reached = 0;
     const double begin = cpu_now();
     for (int k = 0; k < throws; ++k) {
       Eigen::Matrix3Xd nodes = cascade.stretched_flat(1);
-      for (double& x : nodes.reshaped()) x += c.footprint.spacing * even(random);
+      for (double& x : nodes.reshaped()) x += c.footprint.spacing * symmetric_uniform(random);
       reached += cascade.rest(1, nodes, watch).has_value();
     }
     const double seconds = 1000 * (cpu_now() - begin) / throws, share = double(reached) / throws;

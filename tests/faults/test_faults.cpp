@@ -10,14 +10,14 @@
 #include <random>
 #include <sstream>
 
-#include "app/console.h"
-#include "app/manifest.h"
-#include "app/production.h"
-#include "engine/core/atomic_file.h"
+#include "app/cli/console.h"
+#include "app/cli/produce.h"
+#include "app/cli/staged_folder.h"
+#include "engine/core/file_io.h"
 #include "engine/record/journal.h"
-#include "engine/record/summary_file.h"
+#include "engine/record/summary.h"
 #include "engine/record/trajectory_file.h"
-#include "render/image/png.h"
+#include "render/gl/image.h"
 #include "tests/faults/faults.h"
 #include "tests/folder_contents.h"
 #include "tests/small_preset.h"
@@ -53,7 +53,7 @@ Outcome produce_failing(const fs::path& folder, app::Pictures pictures, Call kin
     options.threads = 1;
     int code = 99;
     // as the program does first of all
-    app::answer_the_unexpected();
+    app::install_terminate_handler();
     fail_call(kind, k);
     try {
       code = app::produce(options, pictures);
@@ -84,14 +84,14 @@ void check_whole(const fs::path& folder) {
     if (path.extension() == ".png") CHECK(render::read_png(path));
     if (path.extension() == ".h5") CHECK(record::read_trajectory(path, {.trial = false}));
     if (path.filename() == "summary.json") CHECK(record::read_summary(path));
-    if (path.extension() == ".csv") CHECK(read_whole(path).value().ends_with('\n'));
+    if (path.extension() == ".csv") CHECK(read_file(path).value().ends_with('\n'));
   }
 }
 
 class Bench {
  public:
   explicit Bench(app::Pictures pictures, const std::string& preset = small) : pictures_(pictures) {
-    REQUIRE(write_atomically(at_ / "small.toml", preset));
+    REQUIRE(write_file(at_ / "small.toml", preset));
     const auto first = produce_failing(at_, pictures, Call::mkdir, 0);
     REQUIRE(first.code == 0);
     before_ = contents(at_ / "run");
@@ -109,13 +109,13 @@ class Bench {
   void try_out(Call kind, long k) const {
     INFO("kind " << int(kind) << ", call " << k);
     // the old run is one of another title, so that the two can be told apart
-    REQUIRE(write_atomically(at_ / "run/preset.toml", "old"));
+    REQUIRE(write_file(at_ / "run/preset.toml", "old"));
     const auto old = contents(at_ / "run");
     const auto outcome = produce_failing(at_, pictures_, kind, k);
     CHECK(outcome.code >= 0);
     CHECK(outcome.code <= 2);
     const auto now = contents(at_ / "run");
-    CHECK(app::no_run_because(at_ / "run").empty());
+    CHECK(app::why_not_a_run(at_ / "run").empty());
     if (outcome.code == 0)
       CHECK(now.at("preset.toml") == before_.at("preset.toml"));
     else

@@ -1,4 +1,4 @@
-#include "render/image/png.h"
+#include "render/gl/image.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 

@@ -2,13 +2,11 @@
 #include <cstdlib>
 
 #include "engine/footprint/network.h"
-#include "engine/geometry/mesh_surface.h"
-#include "engine/preset/cloud_file.h"
-#include "engine/preset/network_file.h"
-#include "engine/preset/point_file.h"
-#include "engine/preset/reader.h"
-#include "engine/preset/surface_file.h"
-#include "engine/preset/writer.h"
+#include "engine/formats/network_file.h"
+#include "engine/formats/point_file.h"
+#include "engine/formats/surface_file.h"
+#include "engine/geometry/surface.h"
+#include "engine/preset/preset_file.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/record/journal.h"
-#include "engine/record/summary_file.h"
+#include "engine/record/summary.h"
 #include "engine/record/trajectory_file.h"
 #include "tests/engine/record/sample_run.h"
 #include "tests/fuzz/input_file.h"

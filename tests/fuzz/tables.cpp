@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "engine/core/atomic_file.h"
-#include "engine/record/checksum.h"
+#include "engine/core/checksum.h"
+#include "engine/core/file_io.h"
 #include "engine/record/states.h"
-#include "engine/record/sweep_log.h"
+#include "engine/record/sweep_results.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 #include "tests/temporary_folder.h"
@@ -31,7 +31,7 @@ void states(std::string_view bytes) {
   for (const char* name : std::array{states_name, search_name, transitions_name, barriers_name}) {
     const auto part = taken(bytes, "=====\n");
     std::filesystem::remove(folder.path() / name);
-    if (!part.empty()) (void)write_atomically(folder.path() / name, std::string(part));
+    if (!part.empty()) (void)write_file(folder.path() / name, std::string(part));
   }
   if (const auto tables = read_state_tables(folder.path())) {
     (void)states_to_draw(tables->rows, 5);

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "tests/fuzz/targets.h"
 
 namespace fs = std::filesystem;
@@ -14,7 +14,7 @@ TEST_CASE("the kept inputs of all fuzzers are read without harm", "[full]") {
     int inputs = 0;
     for (const auto& entry : fs::directory_iterator(folder)) {
       INFO(entry.path());
-      const auto bytes = gridshell::read_whole(entry.path());
+      const auto bytes = gridshell::read_file(entry.path());
       REQUIRE(bytes);
       const auto start = std::chrono::steady_clock::now();
       target.read(*bytes);

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/record/snapshot.h"
+#include "engine/record/trajectory.h"
 
 namespace gridshell::synthetic {
 

@@ -2,7 +2,7 @@
 // enough for every build.
 #include <catch2/catch.hpp>
 
-#include "engine/study/judge.h"
+#include "engine/study/benchmark_methods.h"
 #include "engine/study/stability_study.h"
 #include "tests/engine/study/small_scene.h"
 
@@ -12,10 +12,11 @@ using record::RunOutcome;
 
 namespace {
 
-std::shared_ptr<Subject> small_case() {
-  static const std::shared_ptr<Subject> made = [] {
+std::shared_ptr<BenchmarkProblem> small_case() {
+  static const std::shared_ptr<BenchmarkProblem> made = [] {
     Watch watch;
-    return std::shared_ptr<Subject>(Subject::create(small_scene(), 64, watch).value());
+    return std::shared_ptr<BenchmarkProblem>(
+        BenchmarkProblem::create(small_scene(), 64, watch).value());
   }();
   return made;
 }
@@ -131,22 +132,22 @@ TEST_CASE("stability: the judge tells states apart, whatever a method says") {
   const auto study = small_case();
   const Problem& problem = *study->problem(4, Watch()).value();
   const double near = 1e-4;
-  CHECK(judge_end(*study, problem, problem.end.x, near) == RunOutcome::right);
+  CHECK(verdict_at_end(*study, problem, problem.end.x, near) == RunOutcome::right);
   // the mirror image is stable too
   Eigen::Matrix3Xd mirrored = problem.end.x;
   mirrored.row(2) *= -1;
-  CHECK(judge_end(*study, problem, mirrored, near) == RunOutcome::other_state);
+  CHECK(verdict_at_end(*study, problem, mirrored, near) == RunOutcome::other_state);
   Eigen::Matrix3Xd planar = problem.end.x;
   planar.row(2).setZero();
-  CHECK(judge_end(*study, problem, planar, near) == RunOutcome::planar_saddle);
+  CHECK(verdict_at_end(*study, problem, planar, near) == RunOutcome::planar_saddle);
   // the start is an equilibrium of another boundary
-  CHECK(judge_end(*study, problem, problem.start.x, near) == RunOutcome::silent_wrong);
+  CHECK(verdict_at_end(*study, problem, problem.start.x, near) == RunOutcome::silent_wrong);
   Eigen::Matrix3Xd broken = problem.end.x;
   broken(0, 0) = NAN;
-  CHECK(judge_end(*study, problem, broken, near) == RunOutcome::silent_wrong);
+  CHECK(verdict_at_end(*study, problem, broken, near) == RunOutcome::silent_wrong);
   // what a method admits is believed
-  Arrival admitted;
+  MethodResult admitted;
   admitted.claim = RunOutcome::blow_up;
   admitted.x = problem.end.x;
-  CHECK(judge(*study, admitted, near, near, Watch()) == RunOutcome::blow_up);
+  CHECK(verdict_of(*study, admitted, near, near, Watch()) == RunOutcome::blow_up);
 }

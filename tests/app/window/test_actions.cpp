@@ -31,12 +31,12 @@ TEST_CASE("the colours' range is of a state, of all states, or stays as the hand
   CHECK((all.low == -2 && all.high == 3));
   const render::ColourScale kept = next_scale(before, now, RangeOf::hand);
   CHECK((kept.low == -2 && kept.high == 1));
-  Desk desk({});
-  desk.set_range(2, 1);
-  CHECK(desk.range_of == RangeOf::state);
-  desk.set_range(-0.5, 0.25);
-  CHECK(desk.range_of == RangeOf::hand);
-  CHECK(desk.show.scale.high == 0.25);
+  ViewerState viewer({});
+  viewer.set_range(2, 1);
+  CHECK(viewer.range_of == RangeOf::state);
+  viewer.set_range(-0.5, 0.25);
+  CHECK(viewer.range_of == RangeOf::hand);
+  CHECK(viewer.show.scale.high == 0.25);
 }
 
 TEST_CASE("every press of the mouse means something") {
@@ -49,17 +49,17 @@ TEST_CASE("every press of the mouse means something") {
 }
 
 TEST_CASE("switches switch, and back") {
-  Desk desk({});
+  ViewerState viewer({});
   for (const Action& action : actions()) {
     const std::string name = action.name;
     // those need a shell
     if (!action.on || name == "play" || name == "gravity" || name.starts_with("colour_") ||
         name.starts_with("range_"))
       continue;
-    const bool before = action.on(desk);
-    action.act(desk);
-    CHECK(action.on(desk) != before);
-    action.act(desk);
-    CHECK(action.on(desk) == before);
+    const bool before = action.on(viewer);
+    action.act(viewer);
+    CHECK(action.on(viewer) != before);
+    action.act(viewer);
+    CHECK(action.on(viewer) == before);
   }
 }

@@ -1,4 +1,4 @@
-#include "app/window/aside_work.h"
+#include "app/window/worker_threads.h"
 
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -7,10 +7,10 @@ using namespace gridshell;
 using namespace gridshell::window;
 
 TEST_CASE("work beside the window tells how far it is, and how it ended, once") {
-  AsideWork work;
+  BackgroundTask work;
   CHECK(work.idle());
   work.begin(
-      [](const Heard& heard, const Watch&) -> Result<void> {
+      [](const ProgressListener& heard, const Watch&) -> Result<void> {
         heard("50 %  drawing");
         return {};
       },
@@ -28,12 +28,12 @@ TEST_CASE("work beside the window tells how far it is, and how it ended, once") 
 }
 
 TEST_CASE("work beside the window stops when it is asked to, and when the window goes") {
-  const auto endless = [](const Heard& heard, const Watch& watch) -> Result<void> {
+  const auto endless = [](const ProgressListener& heard, const Watch& watch) -> Result<void> {
     while (!watch.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     heard("the frames so far are kept");
     return stopped();
   };
-  AsideWork work;
+  BackgroundTask work;
   work.begin(endless, "out/shell");
   CHECK(work.under_way());
   work.stop();

@@ -1,8 +1,8 @@
-#include "app/window/camera_hand.h"
+#include "app/window/orbit_camera.h"
 
 #include <catch2/catch.hpp>
 
-#include "render/draw/camera.h"
+#include "render/gl/renderer.h"
 
 using namespace gridshell;
 using namespace gridshell::window;

@@ -3,7 +3,7 @@
 #include <chrono>
 #include <thread>
 
-#include "app/window/engine_thread.h"
+#include "app/window/worker_threads.h"
 #include "tests/small_shell.h"
 
 using namespace gridshell;
@@ -29,8 +29,8 @@ Design wish_of(std::vector<preset::Vary> vary, int most_iterations) {
   return wish;
 }
 
-void opened(ShellInHand& hand, const preset::Preset& preset) {
-  hand.fulfil({Open{preset}}, unwatched);
+void opened(EditSession& hand, const preset::Preset& preset) {
+  hand.execute({Open{preset}}, unwatched);
   REQUIRE(hand.sight().trouble == "");
   hand.refine(unwatched);
 }
@@ -38,20 +38,20 @@ void opened(ShellInHand& hand, const preset::Preset& preset) {
 }  // namespace
 
 TEST_CASE("a shell in hand is designed step by step, kept, put back and done again to the bit") {
-  ShellInHand hand;
+  EditSession hand;
   opened(hand, small_cap());
-  const Sight before = hand.sight();
-  std::vector<Sight> seen;
-  hand.tell([&](const Sight& sight) { seen.push_back(sight); });
-  hand.fulfil({wish_of({preset::Vary::pins}, 6)}, unwatched);
+  const ShellView before = hand.sight();
+  std::vector<ShellView> seen;
+  hand.tell([&](const ShellView& sight) { seen.push_back(sight); });
+  hand.execute({wish_of({preset::Vary::pins}, 6)}, unwatched);
   REQUIRE(hand.sight().trouble == "");
   hand.refine(unwatched);
-  const Sight after = hand.sight();
+  const ShellView after = hand.sight();
   REQUIRE(after.design);
   CHECK_FALSE(after.designing());
   CHECK(after.design->points.size() == seen.size());
   REQUIRE(seen.size() >= 3);
-  for (const Sight& one : seen) {
+  for (const ShellView& one : seen) {
     CHECK(one.designing());
     CHECK(one.stable());
     CHECK(one.deviation.size() == Eigen::Index(one.layout->cells.size()));
@@ -68,37 +68,37 @@ TEST_CASE("a shell in hand is designed step by step, kept, put back and done aga
   CHECK(after.stable());
   CHECK(after.preset.ends.table.size() > 0);
   CHECK(after.undo_steps == 1);
-  hand.fulfil({KeepDesign{}}, unwatched);
+  hand.execute({AcceptDesign{}}, unwatched);
   CHECK(hand.sight().design->kept);
   CHECK(hand.sight().frame.nodes == after.frame.nodes);
   CHECK(hand.sight().undo_steps == 1);
-  hand.fulfil({PutBack{}}, unwatched);
+  hand.execute({DiscardDesign{}}, unwatched);
   CHECK(hand.sight().trouble == "");
   CHECK(hand.sight().frame.nodes == before.frame.nodes);
   CHECK(hand.sight().certificate.residual_N == before.certificate.residual_N);
   CHECK(hand.sight().preset.ends.table.empty());
   CHECK_FALSE(hand.sight().design);
   CHECK(hand.sight().deviation == before.deviation);
-  hand.fulfil({PutBack{}}, unwatched);
+  hand.execute({DiscardDesign{}}, unwatched);
   CHECK(hand.sight().trouble != "");
-  hand.fulfil({Redo{}}, unwatched);
+  hand.execute({Redo{}}, unwatched);
   CHECK(hand.sight().frame.nodes == after.frame.nodes);
   REQUIRE(hand.sight().design);
-  hand.fulfil({PutBack{}}, unwatched);
+  hand.execute({DiscardDesign{}}, unwatched);
   CHECK(hand.sight().frame.nodes == before.frame.nodes);
 }
 
 TEST_CASE("a design that is stopped leaves the step in hand that was seen last") {
-  ShellInHand hand;
+  EditSession hand;
   opened(hand, small_cap());
   Watch watch;
-  Sight last;
+  ShellView last;
   int seen = 0;
-  hand.tell([&](const Sight& sight) {
+  hand.tell([&](const ShellView& sight) {
     last = sight;
     if (++seen == 2) watch.cancel();
   });
-  hand.fulfil({wish_of({preset::Vary::pins}, 25)}, watch);
+  hand.execute({wish_of({preset::Vary::pins}, 25)}, watch);
   REQUIRE(hand.sight().trouble == "");
   CHECK(seen == 2);
   REQUIRE(hand.sight().design);
@@ -107,21 +107,21 @@ TEST_CASE("a design that is stopped leaves the step in hand that was seen last")
   CHECK((hand.sight().frame.nodes - last.frame.nodes).cwiseAbs().maxCoeff() < 1e-6);
   // a hand that goes on has kept it
   const Eigen::Vector3d up(0, 0, 1);
-  hand.fulfil({Push{0, hand.sight().frame.nodes.col(0) - up}}, unwatched);
+  hand.execute({Push{0, hand.sight().frame.nodes.col(0) - up}}, unwatched);
   CHECK(hand.sight().design->kept);
   CHECK(why_not_designed(hand.sight()) != "");
-  hand.fulfil({PutBack{}}, unwatched);
+  hand.execute({DiscardDesign{}}, unwatched);
   CHECK(hand.sight().trouble.find("undone first") != std::string::npos);
-  hand.fulfil({Undo{}}, unwatched);
-  hand.fulfil({PutBack{}}, unwatched);
+  hand.execute({Undo{}}, unwatched);
+  hand.execute({DiscardDesign{}}, unwatched);
   CHECK(hand.sight().trouble == "");
 }
 
 TEST_CASE("rods that were varied have diameters of their own in sight") {
-  ShellInHand hand;
+  EditSession hand;
   opened(hand, small_cap());
   CHECK(hand.sight().layout->diameters_mm.empty());
-  hand.fulfil({wish_of({preset::Vary::diameters}, 4)}, unwatched);
+  hand.execute({wish_of({preset::Vary::diameters}, 4)}, unwatched);
   REQUIRE(hand.sight().trouble == "");
   const record::Layout& layout = *hand.sight().layout;
   REQUIRE(layout.diameters_mm.size() == layout.rods.size());
@@ -131,17 +131,17 @@ TEST_CASE("rods that were varied have diameters of their own in sight") {
 }
 
 TEST_CASE("a shell that cannot be designed says why, and stays as it is") {
-  ShellInHand hand;
+  EditSession hand;
   opened(hand, small_shell());
-  const Sight before = hand.sight();
+  const ShellView before = hand.sight();
   CHECK(why_not_designed(before).find("net") != std::string::npos);
-  hand.fulfil({wish_of({preset::Vary::pins}, 4)}, unwatched);
+  hand.execute({wish_of({preset::Vary::pins}, 4)}, unwatched);
   CHECK(hand.sight().trouble != "");
   CHECK(hand.sight().frame.nodes == before.frame.nodes);
   CHECK(hand.sight().undo_steps == 0);
   opened(hand, small_cap());
   // pinned ends hold no direction
-  hand.fulfil({wish_of({preset::Vary::directions}, 4)}, unwatched);
+  hand.execute({wish_of({preset::Vary::directions}, 4)}, unwatched);
   CHECK(hand.sight().trouble.find("directions") != std::string::npos);
   CHECK_FALSE(hand.sight().design);
   CHECK(hand.sight().layout != nullptr);

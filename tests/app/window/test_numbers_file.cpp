@@ -1,4 +1,4 @@
-#include "app/window/numbers_file.h"
+#include "app/window/edit_session.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -6,13 +6,13 @@
 using namespace gridshell::window;
 
 TEST_CASE("numbers put aside come back to the bit, in any order") {
-  NumbersFile file;
+  ScratchFile file;
   Eigen::Matrix3Xd places = Eigen::Matrix3Xd::Random(3, 5);
   places(1, 2) = std::nextafter(1.0, 2.0);
   Eigen::VectorXd none, forces = Eigen::VectorXd::Random(7);
   const Eigen::Matrix3Xd places_before = places;
   const Eigen::VectorXd forces_before = forces;
-  PutAside a, b, c;
+  SavedArray a, b, c;
   REQUIRE((file.put(places, a) && file.put(none, b) && file.put(forces, c)));
   CHECK(places.size() + forces.size() == 0);
   CHECK(file.bytes() == 8 * (15 + 7));

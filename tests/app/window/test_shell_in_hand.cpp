@@ -1,13 +1,13 @@
 // What a hand does to a shell, without a window and without a thread.
-#include "app/window/shell_in_hand.h"
+#include "app/window/edit_session.h"
 
 #include <catch2/catch.hpp>
 #include <thread>
 
-#include "app/window/desk.h"
-#include "app/window/engine_thread.h"
-#include "app/window/preset_change.h"
-#include "engine/experiment/experiment.h"
+#include "app/window/command.h"
+#include "app/window/viewer_state.h"
+#include "app/window/worker_threads.h"
+#include "engine/simulate/experiment.h"
 #include "tests/small_shell.h"
 
 using namespace gridshell;
@@ -16,28 +16,28 @@ using namespace gridshell::window;
 namespace {
 
 /// A shell formed and refined.
-ShellInHand formed(const preset::Preset& preset = small_shell()) {
-  ShellInHand hand;
-  hand.fulfil({Open{preset}}, unwatched);
+EditSession formed(const preset::Preset& preset = small_shell()) {
+  EditSession hand;
+  hand.execute({Open{preset}}, unwatched);
   REQUIRE(hand.sight().trouble == "");
   hand.refine(unwatched);
   return hand;
 }
 
-int joint_of(const Sight& sight, int i, int j) {
+int joint_of(const ShellView& sight, int i, int j) {
   for (const record::Joint& joint : sight.layout->joints)
     if (joint.i == i && joint.j == j) return joint.node;
   return -1;
 }
 
-double difference(const Sight& a, const Sight& b) {
+double difference(const ShellView& a, const ShellView& b) {
   return (a.frame.nodes - b.frame.nodes).cwiseAbs().maxCoeff();
 }
 
 }  // namespace
 
 TEST_CASE("the shell in hand is the one that a run ends in") {
-  const ShellInHand hand = formed();
+  const EditSession hand = formed();
   Watch watch;
   const auto run = experiment::run(small_shell(), true, watch);
   REQUIRE(run);
@@ -50,79 +50,79 @@ TEST_CASE("the shell in hand is the one that a run ends in") {
 }
 
 TEST_CASE("the symmetry of a state is told once it is refined") {
-  ShellInHand hand = formed();
+  EditSession hand = formed();
   CHECK(hand.sight().symmetry == "two diagonal mirrors");
-  hand.fulfil({Move{0.9}, 7, true}, unwatched);
+  hand.execute({Move{0.9}, 7, true}, unwatched);
   CHECK(hand.sight().symmetry == "");
-  hand.fulfil({Settle{}, 7, false}, unwatched);
+  hand.execute({RefineAfterDrag{}, 7, false}, unwatched);
   hand.refine(unwatched);
   CHECK(hand.sight().symmetry == "two diagonal mirrors");
   const int beside = joint_of(hand.sight(), -2, 0);
   const Eigen::Vector3d from = hand.sight().frame.nodes.col(beside);
-  hand.fulfil({Push{beside, from - Eigen::Vector3d(0, 0, 5)}}, unwatched);
+  hand.execute({Push{beside, from - Eigen::Vector3d(0, 0, 5)}}, unwatched);
   hand.refine(unwatched);
   CHECK(hand.sight().symmetry == "no symmetry");
 }
 
 TEST_CASE("a drag of the boundary is coarse, then refined, and one step to undo") {
-  ShellInHand hand = formed();
-  const Sight before = hand.sight();
-  for (double progress : {0.95, 0.9, 0.85}) hand.fulfil({Move{progress}, 7, true}, unwatched);
+  EditSession hand = formed();
+  const ShellView before = hand.sight();
+  for (double progress : {0.95, 0.9, 0.85}) hand.execute({Move{progress}, 7, true}, unwatched);
   CHECK(hand.sight().meshes.size() == 1);
   CHECK_FALSE(hand.sight().refined);
-  hand.fulfil({Settle{}, 7, false}, unwatched);
+  hand.execute({RefineAfterDrag{}, 7, false}, unwatched);
   hand.refine(unwatched);
   CHECK(hand.sight().refined);
   CHECK(hand.sight().progress == Approx(0.85));
   CHECK(hand.sight().frame.boundary_radius_mm == Approx(66 - 0.85 * 12));
   CHECK(hand.sight().undo_steps == 1);
-  const Sight after = hand.sight();
-  hand.fulfil({Undo{}}, unwatched);
+  const ShellView after = hand.sight();
+  hand.execute({Undo{}}, unwatched);
   CHECK(difference(hand.sight(), before) == 0);
   CHECK(hand.sight().progress == before.progress);
-  hand.fulfil({Redo{}}, unwatched);
+  hand.execute({Redo{}}, unwatched);
   CHECK(difference(hand.sight(), after) == 0);
 }
 
 TEST_CASE("a joint pushed along its normal resists, and lets go to where it was") {
-  ShellInHand hand = formed();
-  const Sight before = hand.sight();
+  EditSession hand = formed();
+  const ShellView before = hand.sight();
   const int joint = joint_of(before, 0, 0);
   const Eigen::Vector3d normal = before.normals.col(joint), from = before.frame.nodes.col(joint);
-  hand.fulfil({Push{joint, from - 4 * normal, normal}}, unwatched);
+  hand.execute({Push{joint, from - 4 * normal, normal}}, unwatched);
   REQUIRE(hand.sight().trouble == "");
   REQUIRE(hand.sight().held.size() == 1);
   const HeldJoint held = hand.sight().held[0];
   CHECK(held.moved_mm.dot(normal) == Approx(-4));
   CHECK(held.force_N.dot(normal) < 0);
-  hand.fulfil({Release{}}, unwatched);
+  hand.execute({Release{}}, unwatched);
   hand.refine(unwatched);
   CHECK(hand.sight().held.empty());
   CHECK(difference(hand.sight(), before) < 1e-4);
 }
 
 TEST_CASE("an edge point goes where it is dragged, and the radius still moves") {
-  ShellInHand hand = formed();
+  EditSession hand = formed();
   const int node = hand.sight().layout->edge_points[3];
   const Eigen::Vector3d to = hand.sight().frame.nodes.col(node) + Eigen::Vector3d(1.5, -1, 0);
-  hand.fulfil({DragEdge{3, to}}, unwatched);
+  hand.execute({DragEdge{3, to}}, unwatched);
   REQUIRE(hand.sight().trouble == "");
   CHECK((hand.sight().frame.nodes.col(node) - to).norm() < 1e-9);
-  hand.fulfil({Move{0.9}}, unwatched);
+  hand.execute({Move{0.9}}, unwatched);
   CHECK(hand.sight().progress == Approx(0.9));
-  hand.fulfil({Undo{}}, unwatched);
-  hand.fulfil({Undo{}}, unwatched);
+  hand.execute({Undo{}}, unwatched);
+  hand.execute({Undo{}}, unwatched);
   CHECK(hand.sight().progress == Approx(1));
 }
 
 TEST_CASE("steps that are put aside into a file are undone and done again to the bit") {
   // no memory for more than the latest
-  ShellInHand hand(0);
-  hand.fulfil({Open{small_shell()}}, unwatched);
+  EditSession hand(0);
+  hand.execute({Open{small_shell()}}, unwatched);
   hand.refine(unwatched);
-  std::vector<Sight> seen{hand.sight()};
-  const auto act = [&](const Deed& deed) {
-    hand.fulfil({deed}, unwatched);
+  std::vector<ShellView> seen{hand.sight()};
+  const auto act = [&](const Edit& deed) {
+    hand.execute({deed}, unwatched);
     hand.refine(unwatched);
     REQUIRE(hand.sight().trouble == "");
     seen.push_back(hand.sight());
@@ -132,7 +132,7 @@ TEST_CASE("steps that are put aside into a file are undone and done again to the
   act(Push{joint, hand.sight().frame.nodes.col(joint) - Eigen::Vector3d(0, 0, 2)});
   act(Release{joint});
   act(Move{0.8});
-  const auto stands = [&](const Sight& then) {
+  const auto stands = [&](const ShellView& then) {
     CHECK(hand.sight().frame.nodes == then.frame.nodes);
     CHECK(hand.sight().held.size() == then.held.size());
     CHECK(hand.sight().steps.size() == then.steps.size());
@@ -140,24 +140,24 @@ TEST_CASE("steps that are put aside into a file are undone and done again to the
   };
   for (int round = 0; round < 2; ++round) {
     for (std::size_t k = seen.size() - 1; k-- > 0;) {
-      hand.fulfil({Undo{}}, unwatched);
+      hand.execute({Undo{}}, unwatched);
       stands(seen[k]);
     }
     CHECK(hand.sight().undo_steps == 0);
     for (std::size_t k = 1; k < seen.size(); ++k) {
-      hand.fulfil({Redo{}}, unwatched);
+      hand.execute({Redo{}}, unwatched);
       stands(seen[k]);
     }
   }
 }
 
 TEST_CASE("the boundary moves in a drag while a joint is held, which stays in its place") {
-  ShellInHand hand = formed();
+  EditSession hand = formed();
   const int joint = joint_of(hand.sight(), 0, 0);
   const Eigen::Vector3d to = hand.sight().frame.nodes.col(joint) - Eigen::Vector3d(0, 0, 3);
-  hand.fulfil({Push{joint, to}}, unwatched);
-  hand.fulfil({Move{0.9}, 5, true}, unwatched);
-  hand.fulfil({Settle{}, 5, false}, unwatched);
+  hand.execute({Push{joint, to}}, unwatched);
+  hand.execute({Move{0.9}, 5, true}, unwatched);
+  hand.execute({RefineAfterDrag{}, 5, false}, unwatched);
   hand.refine(unwatched);
   REQUIRE(hand.sight().trouble == "");
   CHECK(hand.sight().refined);
@@ -166,7 +166,7 @@ TEST_CASE("the boundary moves in a drag while a joint is held, which stays in it
 }
 
 /// What a window would save.
-preset::Preset saved(const Sight& sight) {
+preset::Preset saved(const ShellView& sight) {
   preset::Preset preset = sight.preset;
   preset.step = sight.steps.all();
   preset.actuation.radius_mm = sight.radius_end_mm;
@@ -178,16 +178,16 @@ TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run come
   shell.footprint.rods = 8;
   shell.footprint.radius_mm = 88;
   shell.actuation.radius_mm = 66;
-  ShellInHand hand = formed(shell);
+  EditSession hand = formed(shell);
   const double unshaken = hand.sight().frame.energies[Term::bend];
   int elsewhere = 0;
   for (int seed = 1; seed <= 3; ++seed) {
-    hand.fulfil({Jitter{seed}}, unwatched);
+    hand.execute({Jitter{seed}}, unwatched);
     hand.refine(unwatched);
     REQUIRE(hand.sight().trouble == "");
-    Desk desk({});
-    desk.sight = std::make_shared<const Sight>(hand.sight());
-    const preset::Preset kept = desk.preset_to_save();
+    ViewerState viewer({});
+    viewer.sight = std::make_shared<const ShellView>(hand.sight());
+    const preset::Preset kept = viewer.preset_to_save();
     CHECK(kept.accuracy.leading_edges == 4);
     REQUIRE(check_preset(kept));
     Watch watch;
@@ -203,14 +203,14 @@ TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run come
                              .norm()
                              .maxCoeff();
     CHECK(apart < ran.error_estimate_mm + hand.sight().certificate.error_estimate_mm);
-    hand.fulfil({Undo{}}, unwatched);
+    hand.execute({Undo{}}, unwatched);
   }
   CHECK(elsewhere > 0);
 }
 
 TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same state", "[full]") {
-  ShellInHand hand = formed();
-  const Sight begun = hand.sight();
+  EditSession hand = formed();
+  const ShellView begun = hand.sight();
   const auto place = [&](int joint) -> Eigen::Vector3d {
     return hand.sight().frame.nodes.col(joint);
   };
@@ -218,18 +218,18 @@ TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same 
   const Eigen::Vector3d normal = begun.normals.col(middle), from = place(middle);
   // a drag is one step where it goes straight, each of its places where it does not
   for (const double depth : {1., 2.5, 4.})
-    hand.fulfil({Push{middle, from - depth * normal, normal}, 3, true}, unwatched);
-  hand.fulfil({Settle{}, 3, false}, unwatched);
+    hand.execute({Push{middle, from - depth * normal, normal}, 3, true}, unwatched);
+  hand.execute({RefineAfterDrag{}, 3, false}, unwatched);
   hand.refine(unwatched);
   CHECK(hand.sight().steps.size() == 1);
   for (const double x : {0.5, 1.})
-    hand.fulfil({Push{aside, place(aside) + Eigen::Vector3d(x, -x, 0.3 * x)}, 4, true}, unwatched);
+    hand.execute({Push{aside, place(aside) + Eigen::Vector3d(x, -x, 0.3 * x)}, 4, true}, unwatched);
   CHECK(hand.sight().steps.size() == 3);
-  hand.fulfil({Move{0.9}}, unwatched);
+  hand.execute({Move{0.9}}, unwatched);
   const int edge = begun.layout->edge_points[3];
-  hand.fulfil({DragEdge{3, place(edge) + Eigen::Vector3d(1.5, -1, 0)}}, unwatched);
-  hand.fulfil({Release{middle}}, unwatched);
-  hand.fulfil({Jitter{2}}, unwatched);
+  hand.execute({DragEdge{3, place(edge) + Eigen::Vector3d(1.5, -1, 0)}}, unwatched);
+  hand.execute({Release{middle}}, unwatched);
+  hand.execute({Jitter{2}}, unwatched);
   hand.refine(unwatched);
   REQUIRE(hand.sight().trouble == "");
   CHECK(hand.sight().steps.size() == 7);
@@ -248,94 +248,94 @@ TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same 
   CHECK(b.energies[Term::bend] == Approx(a.energies[Term::bend]).epsilon(1e-9));
 
   // and opened again it stands there
-  const ShellInHand again = formed(preset);
+  const EditSession again = formed(preset);
   CHECK((again.sight().frame.nodes - a.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
   CHECK(again.sight().steps.size() == 7);
   REQUIRE(again.sight().held.size() == 1);
   // it was taken hold of on the coarsest mesh, 0.2 mm off at most
   CHECK((again.sight().held[0].moved_mm - hand.sight().held[0].moved_mm).norm() < 0.2);
-  hand.fulfil({Undo{}}, unwatched);
+  hand.execute({Undo{}}, unwatched);
   CHECK(hand.sight().steps.size() == 6);
 }
 
 TEST_CASE("edge points dragged off the boundary are told, and put back the shell is as before") {
-  ShellInHand hand = formed();
-  const Sight before = hand.sight();
+  EditSession hand = formed();
+  const ShellView before = hand.sight();
   CHECK(before.edges_dragged.empty());
   for (const int k : {3, 5}) {
     const int node = before.layout->edge_points[std::size_t(k)];
-    hand.fulfil({DragEdge{k, before.frame.nodes.col(node) + Eigen::Vector3d(1.5, -1, 0)}},
-                unwatched);
+    hand.execute({DragEdge{k, before.frame.nodes.col(node) + Eigen::Vector3d(1.5, -1, 0)}},
+                 unwatched);
   }
   REQUIRE(hand.sight().edges_dragged.size() == 2);
   CHECK(hand.sight().edges_dragged[1].edge_point == 5);
   CHECK(hand.sight().edges_dragged[1].off_mm == Approx(std::hypot(1.5, 1)));
   CHECK(difference(hand.sight(), before) > 0.1);
-  hand.fulfil({PutEdgeBack{3}}, unwatched);
+  hand.execute({ResetEdgePoint{3}}, unwatched);
   CHECK(hand.sight().edges_dragged.size() == 1);
-  hand.fulfil({PutEdgeBack{}}, unwatched);
+  hand.execute({ResetEdgePoint{}}, unwatched);
   REQUIRE(hand.sight().trouble == "");
   CHECK(hand.sight().edges_dragged.empty());
   CHECK(difference(hand.sight(), before) < 1e-6);
-  hand.fulfil({PutEdgeBack{}}, unwatched);
+  hand.execute({ResetEdgePoint{}}, unwatched);
   CHECK(hand.sight().trouble == "no such edge point was dragged");
 }
 
 TEST_CASE("a number of the rods changes the shell in hand, one of its shape forms another") {
-  ShellInHand hand = formed();
+  EditSession hand = formed();
   const double energy = hand.sight().frame.energies[Term::bend];
   preset::Preset stiffer = hand.sight().preset;
   stiffer.rod.young_GPa *= 2;
   CHECK(kind_of_change(hand.sight().preset, stiffer) == ChangeKind::rods);
-  hand.fulfil({Change{stiffer}}, unwatched);
+  hand.execute({Change{stiffer}}, unwatched);
   REQUIRE(hand.sight().trouble == "");
   CHECK(hand.sight().frame.energies[Term::bend] == Approx(2 * energy).epsilon(1e-3));
   preset::Preset larger = hand.sight().preset;
   larger.footprint.rods = 4;
   larger.footprint.radius_mm = 46;
   larger.actuation.radius_mm = 40;
-  hand.fulfil({Change{larger}}, unwatched);
+  hand.execute({Change{larger}}, unwatched);
   REQUIRE(hand.sight().trouble == "");
   CHECK(hand.sight().layout->rods.size() == 8);
   // undone, the first shell stands again, on the rods that it had
-  hand.fulfil({Undo{}}, unwatched);
-  hand.fulfil({Undo{}}, unwatched);
+  hand.execute({Undo{}}, unwatched);
+  hand.execute({Undo{}}, unwatched);
   CHECK(hand.sight().layout->rods.size() == 12);
   CHECK(hand.sight().frame.energies[Term::bend] == Approx(energy));
 }
 
 TEST_CASE("gravity is a number of the preset, and pulls") {
-  ShellInHand hand = formed();
+  EditSession hand = formed();
   // of all nodes, which lie evenly along the rods
   const double height = hand.sight().frame.nodes.row(2).mean();
   preset::Preset heavy = hand.sight().preset;
   heavy.rod.density_kg_m3 = 6450;
   heavy.loads.gravity_m_s2 = 9.81;
-  hand.fulfil({Change{heavy}}, unwatched);
+  hand.execute({Change{heavy}}, unwatched);
   REQUIRE(hand.sight().trouble == "");
   CHECK(hand.sight().frame.nodes.row(2).mean() < height);
 }
 
 TEST_CASE("a wish that cannot be met leaves the last good shell and says why") {
-  ShellInHand hand = formed();
-  const Sight before = hand.sight();
+  EditSession hand = formed();
+  const ShellView before = hand.sight();
   preset::Preset wrong = before.preset;
   wrong.footprint.radius_mm = 1;
-  hand.fulfil({Change{wrong}}, unwatched);
+  hand.execute({Change{wrong}}, unwatched);
   CHECK(hand.sight().trouble != "");
   CHECK(difference(hand.sight(), before) == 0);
-  hand.fulfil({Push{-3, {}, {}}}, unwatched);
+  hand.execute({Push{-3, {}, {}}}, unwatched);
   CHECK(hand.sight().trouble != "");
-  hand.fulfil({Redo{}}, unwatched);
+  hand.execute({Redo{}}, unwatched);
   CHECK(hand.sight().trouble == "there is nothing to do again");
   CHECK(difference(hand.sight(), before) == 0);
 }
 
 TEST_CASE("without a shell there is nothing to do") {
-  ShellInHand hand;
-  for (const Deed& deed : {Deed{Move{0.5}}, Deed{Push{}}, Deed{Release{}}, Deed{DragEdge{}},
-                           Deed{Rest{}}, Deed{Jitter{}}, Deed{Undo{}}, Deed{Redo{}}}) {
-    hand.fulfil({deed}, unwatched);
+  EditSession hand;
+  for (const Edit& deed : {Edit{Move{0.5}}, Edit{Push{}}, Edit{Release{}}, Edit{DragEdge{}},
+                           Edit{Rest{}}, Edit{Jitter{}}, Edit{Undo{}}, Edit{Redo{}}}) {
+    hand.execute({deed}, unwatched);
     CHECK(hand.sight().trouble != "");
     CHECK_FALSE(hand.sight().any());
   }
@@ -348,7 +348,7 @@ TEST_CASE("the thread meets every wish, and the latest of a drag") {
   REQUIRE(engine.sight()->any());
   CHECK(engine.sight()->refined);
   for (int k = 1; k <= 50; ++k) engine.post({Move{1 - 0.004 * k}, 3, true});
-  engine.post({Settle{}, 3, false});
+  engine.post({RefineAfterDrag{}, 3, false});
   engine.wait();
   CHECK(engine.sight()->progress == Approx(0.8));
   CHECK(engine.sight()->refined);

@@ -1,4 +1,4 @@
-#include "app/window/step_chain.h"
+#include "app/window/command.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,7 +9,7 @@ namespace {
 
 preset::Step numbered(int seed) {
   preset::Step step;
-  step.deed = preset::Deed::jitter;
+  step.deed = preset::StepKind::jitter;
   step.seed = seed;
   return step;
 }
@@ -17,13 +17,13 @@ preset::Step numbered(int seed) {
 }  // namespace
 
 TEST_CASE("a chain of steps and its copies go on apart, sharing what came before") {
-  StepChain chain;
+  StepHistory chain;
   CHECK(chain.empty());
   for (int k : {1, 2, 3}) chain.add(numbered(k));
-  StepChain copy = chain;
+  StepHistory copy = chain;
   copy.replace_last(numbered(30));
   copy.add(numbered(40));
-  const auto seeds = [](const StepChain& of) {
+  const auto seeds = [](const StepHistory& of) {
     std::vector<int> all;
     for (const preset::Step& step : of.all()) all.push_back(step.seed);
     return all;
@@ -37,8 +37,8 @@ TEST_CASE("a chain of steps and its copies go on apart, sharing what came before
 }
 
 TEST_CASE("a very long chain of steps is freed") {
-  StepChain chain;
+  StepHistory chain;
   for (int k = 0; k < 200000; ++k) chain.add(numbered(k));
-  const StepChain copy = chain;
+  const StepHistory copy = chain;
   CHECK(copy.size() == 200000);
 }

@@ -1,4 +1,4 @@
-#include "app/window/workspace.h"
+#include "app/window/viewer_state.h"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -7,38 +7,38 @@ using namespace gridshell;
 using namespace gridshell::window;
 
 TEST_CASE("a workspace kept and taken again is the same") {
-  Desk desk({});
-  desk.show.dark = desk.numbers = true;
-  desk.plots = false;
-  desk.show.colour_by = ColourBy::energy;
-  desk.set_range(0, 3.5);
-  desk.camera.azimuth_deg = 12.25;
-  desk.camera.target = {1, 2, 3};
-  const std::string text = workspace_text(desk);
-  Desk again({});
+  ViewerState viewer({});
+  viewer.show.dark = viewer.numbers = true;
+  viewer.plots = false;
+  viewer.show.colour_by = ColourBy::energy;
+  viewer.set_range(0, 3.5);
+  viewer.camera.azimuth_deg = 12.25;
+  viewer.camera.target = {1, 2, 3};
+  const std::string text = workspace_text(viewer);
+  ViewerState again({});
   REQUIRE(take_workspace(again, text));
-  CHECK(again.show == desk.show);
+  CHECK(again.show == viewer.show);
   CHECK(again.range_of == RangeOf::hand);
   CHECK((again.numbers && !again.plots));
-  REQUIRE(again.kept_view);
-  CHECK(again.kept_view->camera == desk.camera);
-  CHECK(again.kept_view->colour_by == ColourBy::energy);
+  REQUIRE(again.saved_camera);
+  CHECK(again.saved_camera->camera == viewer.camera);
+  CHECK(again.saved_camera->colour_by == ColourBy::energy);
 }
 
 TEST_CASE("what a workspace says wrongly stays as it is") {
-  Desk desk({});
-  const window::Show before = desk.show;
-  CHECK_FALSE(take_workspace(desk, "not JSON"));
-  CHECK_FALSE(take_workspace(desk, "[1]"));
+  ViewerState viewer({});
+  const window::Show before = viewer.show;
+  CHECK_FALSE(take_workspace(viewer, "not JSON"));
+  CHECK_FALSE(take_workspace(viewer, "[1]"));
   for (const char* text :
        {"{}", R"({"shown": 3, "colour": [], "camera": null})",
         R"({"shown": {"dark": "yes"}, "colour": {"by": "taste", "range": 7}})",
         R"({"preset": "a", "camera": {"azimuth_deg": 1e300, "elevation_deg": 2}})",
         R"({"colour": {"range": "hand", "low": 2, "high": 1}})"}) {
     INFO(text);
-    CHECK(take_workspace(desk, text));
-    CHECK(desk.show == before);
-    CHECK_FALSE(desk.kept_view);
+    CHECK(take_workspace(viewer, text));
+    CHECK(viewer.show == before);
+    CHECK_FALSE(viewer.saved_camera);
   }
 }
 

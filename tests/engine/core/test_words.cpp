@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "engine/core/words.h"
+#include "engine/core/enum_words.h"
 
 using namespace gridshell;
 

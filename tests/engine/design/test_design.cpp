@@ -4,7 +4,7 @@
 
 #include "engine/design/design.h"
 #include "engine/scene/net_design.h"
-#include "engine/session/session.h"
+#include "engine/simulate/session.h"
 
 using namespace gridshell;
 using preset::Vary;
@@ -24,7 +24,7 @@ preset::Preset cap(double cut_height) {
 /// A shell on a mesh, at rest beside its net, that a test moves.
 struct Moved {
   std::shared_ptr<const Scene> scene;
-  std::unique_ptr<MovedShell> shell;
+  std::unique_ptr<DesignShell> shell;
 };
 
 Moved moved_shell(const preset::Preset& preset, int edges) {
@@ -36,8 +36,8 @@ Moved moved_shell(const preset::Preset& preset, int edges) {
   REQUIRE(session->begin_on_net(unwatched).has_value());
   const NestedShell& shell = session->shell();
   const int last = shell.levels() - 1;
-  auto made = MovedShell::make(*moved.scene, edges, shell.mesh(last), shell.model(last),
-                               shell.state().levels.back());
+  auto made = DesignShell::make(*moved.scene, edges, shell.mesh(last), shell.model(last),
+                                shell.state().levels.back());
   REQUIRE(made.has_value());
   moved.shell = std::move(*made);
   return moved;
@@ -65,13 +65,13 @@ Eigen::VectorXd some_change(Eigen::Index count) {
 
 void check_sensitivity(const preset::Preset& preset, const std::vector<Vary>& vary, int edges) {
   Moved moved = moved_shell(preset, edges);
-  MovedShell& shell = *moved.shell;
+  DesignShell& shell = *moved.shell;
   const DesignVariables variables(*moved.scene, vary, only_identity(*moved.scene));
   const Eigen::VectorXd q = Eigen::VectorXd::Zero(variables.count()),
                         way = some_change(variables.count());
   const Sensitivity found =
       shell.sensitivity(variables.all(), variables.rates_at(q), Eigen::MatrixXd(way));
-  const MovedShell::Stand stand = shell.stand();
+  const DesignShell::ShellPosition stand = shell.stand();
   const double h = 1e-3;
   Eigen::Matrix3Xd x[2];
   Eigen::VectorXd force[2];
@@ -87,7 +87,7 @@ void check_sensitivity(const preset::Preset& preset, const std::vector<Vary>& va
   CHECK((found.leg_force.col(0) - by_force).norm() < 1e-4 * by_force.norm());
 }
 
-Designed designed(preset::Preset p, std::vector<Vary> vary, double norm = 8) {
+DesignResult designed(preset::Preset p, std::vector<Vary> vary, double norm = 8) {
   p.inverse.norm = norm;
   p.inverse.vary = std::move(vary);
   Watch watch;
@@ -100,7 +100,7 @@ Designed designed(preset::Preset p, std::vector<Vary> vary, double norm = 8) {
 }
 
 /// largest and mean distance at 32 edges, per cent of rho
-void check_met(const Designed& found, double largest, double mean) {
+void check_met(const DesignResult& found, double largest, double mean) {
   CHECK(100 * found.after.back().max_mm / found.length_scale_mm <= largest);
   CHECK(100 * found.after.back().mean_mm / found.length_scale_mm <= mean);
 }
@@ -129,7 +129,7 @@ TEST_CASE("the same on the meshes that are designed on and certified", "[full]")
 
 TEST_CASE("the objective's gradient agrees with differences of states solved anew") {
   Moved moved = moved_shell(cap(0.7), 8);
-  MovedShell& shell = *moved.shell;
+  DesignShell& shell = *moved.shell;
   const DesignVariables variables(*moved.scene, {Vary::pins, Vary::legs, Vary::diameters},
                                   only_identity(*moved.scene));
   const ObjectiveWeights weights;
@@ -143,7 +143,7 @@ TEST_CASE("the objective's gradient agrees with differences of states solved ane
       const Objective at = objective(target.distances(shell.joints()), begin, shell.leg_forces(),
                                      variables.basis(), sensitivity, p, weights);
       const Eigen::VectorXd way = some_change(variables.basis().cols());
-      const MovedShell::Stand stand = shell.stand();
+      const DesignShell::ShellPosition stand = shell.stand();
       const double h = 1e-4;
       double value[2];
       for (const int side : {0, 1}) {
@@ -294,7 +294,7 @@ TEST_CASE("a hemisphere meets its sphere by the directions of its ends", "[full]
 
 TEST_CASE("a hemisphere meets its sphere better when its rods' diameters may change too",
           "[full]") {
-  const Designed found = designed(cap(0), {Vary::pins, Vary::diameters});
+  const DesignResult found = designed(cap(0), {Vary::pins, Vary::diameters});
   check_met(found, 0.16, 0.08);
   CHECK(found.largest_thickening <= 1 + 1e-9);
   CHECK(found.rod_table.size() == found.rods_before.size());

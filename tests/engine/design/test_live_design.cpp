@@ -1,11 +1,10 @@
 // A design that is watched: its steps as they come, and where it stands when it is stopped.
-#include "engine/design/live_design.h"
+#include "engine/design/design.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/design/design.h"
-#include "engine/session/session.h"
+#include "engine/simulate/session.h"
 
 using namespace gridshell;
 
@@ -29,8 +28,8 @@ struct Handed {
 };
 
 /// All that is handed over; `after` each.
-Result<LiveDesign> live(const preset::Preset& preset, const Watch& watch, Handed& handed,
-                        const std::function<void()>& after = {}) {
+Result<LiveDesignResult> live(const preset::Preset& preset, const Watch& watch, Handed& handed,
+                              const std::function<void()>& after = {}) {
   auto made = scene_of(preset);
   REQUIRE(made.has_value());
   const auto scene = std::make_shared<const Scene>(std::move(*made));
@@ -98,7 +97,7 @@ TEST_CASE("a move that is stopped leaves the shell where it was") {
   REQUIRE(session->begin_on_net(unwatched).has_value());
   const NestedShell& nested = session->shell();
   auto shell =
-      MovedShell::make(*scene, 8, nested.mesh(0), nested.model(0), nested.state().levels[0]);
+      DesignShell::make(*scene, 8, nested.mesh(0), nested.model(0), nested.state().levels[0]);
   REQUIRE(shell.has_value());
   const Eigen::Matrix3Xd before = (*shell)->state().x;
   ShellEnds ends = (*shell)->ends();

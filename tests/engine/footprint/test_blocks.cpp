@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/footprint/blocks.h"
-#include "engine/footprint/net_domain.h"
+#include "engine/footprint/assemblage.h"
+#include "engine/footprint/domains.h"
 
 using namespace gridshell;
 

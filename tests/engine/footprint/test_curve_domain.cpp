@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/footprint/curve_domain.h"
+#include "engine/footprint/domains.h"
 
 using namespace gridshell;
 

@@ -1,10 +1,10 @@
 // The maps of the square that a footprint has.
-#include "engine/footprint/mesh_symmetry.h"
+#include "engine/footprint/symmetry.h"
 
 #include <catch2/catch.hpp>
 
 #include "engine/scene/scene.h"
-#include "engine/solve/motion.h"
+#include "engine/solve/equilibrium_path.h"
 
 using namespace gridshell;
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "engine/geometry/antiderivative.h"
+#include "engine/geometry/calculus.h"
 #include "engine/geometry/chebyshev_net.h"
 
 namespace gridshell {

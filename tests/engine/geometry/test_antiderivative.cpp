@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/geometry/antiderivative.h"
+#include "engine/geometry/calculus.h"
 
 using namespace gridshell;
 

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/geometry/height_grid.h"
-#include "engine/geometry/mesh_surface.h"
+#include "engine/geometry/spline.h"
+#include "engine/geometry/surface.h"
 #include "tests/engine/geometry/dome_mesh.h"
 
 using namespace gridshell;

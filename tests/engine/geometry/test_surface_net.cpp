@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "engine/geometry/chebyshev_net.h"
 #include "engine/geometry/expression.h"
-#include "engine/geometry/sphere_net.h"
 #include "engine/geometry/surface_net.h"
 #include "tests/engine/geometry/net_checks.h"
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/geometry/translation_net.h"
+#include "engine/geometry/chebyshev_net.h"
 #include "tests/engine/geometry/net_checks.h"
 
 using namespace gridshell;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "engine/core/atomic_file.h"
-#include "engine/preset/reader.h"
+#include "engine/core/file_io.h"
+#include "engine/preset/preset_file.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -287,8 +287,8 @@ TEST_CASE("points stand in the preset or in a file beside it") {
   const TemporaryFolder folder;
   const auto file = folder.path() / "shell.toml";
   const auto with = [&](const std::string& points, const std::string& csv) {
-    REQUIRE(write_atomically(folder.path() / "edge.csv", csv));
-    REQUIRE(write_atomically(
+    REQUIRE(write_file(folder.path() / "edge.csv", csv));
+    REQUIRE(write_file(
         file, "[footprint]\nkind = \"curve\"\nboundary = \"polygon\"\npoints_mm = " + points));
     return read_preset_file(file);
   };
@@ -316,7 +316,7 @@ TEST_CASE("points stand in the preset or in a file beside it") {
 TEST_CASE("a file is read under its own name") {
   const TemporaryFolder folder;
   const auto file = folder.path() / "small.toml";
-  REQUIRE(write_atomically(file, "[footprint]\nrods = 6\n"));
+  REQUIRE(write_file(file, "[footprint]\nrods = 6\n"));
   const auto presets = read_preset_file(file);
   REQUIRE(presets);
   CHECK(presets->base.name == "small");

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/preset/writer.h"
+#include "engine/preset/preset_file.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;

@@ -2,10 +2,10 @@
 #include <map>
 #include <set>
 
+#include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
-#include "engine/preset/lists.h"
-#include "engine/preset/use.h"
-#include "engine/preset/writer.h"
+#include "engine/preset/preset_access.h"
+#include "engine/preset/preset_file.h"
 
 using namespace gridshell;
 using namespace gridshell::preset;
@@ -24,7 +24,7 @@ Preset with_items(Preset preset = {}) {
 std::map<std::string, std::string> values_of(const Preset& given) {
   const auto preset = with_items(given);
   std::set<std::string> idle;
-  for (const auto& key : idle_keys(preset)) idle.insert(name_of(*find_field(key.table, key.key)));
+  for (const auto& key : unused_keys(preset)) idle.insert(name_of(*find_field(key.table, key.key)));
   std::map<std::string, std::string> values;
   for (const auto& field : field_table())
     if (!idle.contains(name_of(field))) values[name_of(field)] = value_text(field, preset);
@@ -142,27 +142,27 @@ Preset pushed(bool joint) {
 // a hand's steps, each alone: no deed uses all keys
 std::vector<Preset> stepped() {
   std::vector<Step> steps;
-  const auto add = [&](Deed deed) -> Step& {
+  const auto add = [&](StepKind deed) -> Step& {
     steps.emplace_back().deed = deed;
-    if (deed != Deed::move) steps.back().joint = {3, -2};
+    if (deed != StepKind::move) steps.back().joint = {3, -2};
     return steps.back();
   };
-  add(Deed::move).progress = 0.71;
+  add(StepKind::move).progress = 0.71;
   steps.back().edge_points = {{3, 1.5, -1e-11, 1e2 / 3}};
-  add(Deed::move).radius_mm = 87.1;
-  add(Deed::push).to_mm = {1.5, 0, 1e2 / 3};
+  add(StepKind::move).radius_mm = 87.1;
+  add(StepKind::push).to_mm = {1.5, 0, 1e2 / 3};
   steps.back().along = {0, 0.6, 0.8};
-  add(Deed::push).depth_mm = -3.3;
+  add(StepKind::push).depth_mm = -3.3;
   steps.back().lateral = Lateral::held;
-  add(Deed::hold);
-  add(Deed::release);
-  add(Deed::load).factor = 0.3;
-  add(Deed::rest).side = RestSide::against;
-  add(Deed::jitter).seed = 7;
+  add(StepKind::hold);
+  add(StepKind::release);
+  add(StepKind::load).factor = 0.3;
+  add(StepKind::rest).side = RestSide::against;
+  add(StepKind::jitter).seed = 7;
   steps.back().force_N = 0.11;
   std::vector<Preset> all;
   for (Step& step : steps) {
-    if (step.deed > Deed::release) step.joint.clear();
+    if (step.deed > StepKind::release) step.joint.clear();
     all.emplace_back().step = {step};
   }
   return all;

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "engine/record/trajectory_file.h"
 #include "tests/engine/record/sample_run.h"
 #include "tests/temporary_folder.h"
@@ -18,7 +18,7 @@ namespace gridshell::record {
 inline std::string refusal(const std::string& bytes, bool unsealed = false) {
   TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "trajectory.h5";
-  REQUIRE(write_atomically(path, bytes));
+  REQUIRE(write_file(path, bytes));
   const auto read = read_trajectory(path, {.unsealed = unsealed});
   REQUIRE_FALSE(read);
   CHECK(read.error().fault == Fault::bad_input);
@@ -33,11 +33,11 @@ std::string changed(Change change, const Trajectory& run = sample_trajectory()) 
   TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "a.h5";
   REQUIRE(write_trajectory(path, run));
-  REQUIRE(write_atomically(path, read_whole(path)->substr(512)));
+  REQUIRE(write_file(path, read_file(path)->substr(512)));
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   change(file);
   H5Fclose(file);
-  return read_whole(path).value();
+  return read_file(path).value();
 }
 
 }  // namespace gridshell::record

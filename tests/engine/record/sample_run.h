@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "engine/record/snapshot.h"
 #include "engine/record/summary.h"
+#include "engine/record/trajectory.h"
 
 namespace gridshell::record {
 

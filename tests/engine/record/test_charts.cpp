@@ -1,5 +1,5 @@
 // Tables of charts, fronts and exponents.
-#include "engine/record/charts.h"
+#include "engine/record/study_tables.h"
 
 #include <catch2/catch.hpp>
 

@@ -8,12 +8,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "engine/core/atomic_file.h"
-#include "engine/core/version.h"
-#include "engine/record/folder_sink.h"
-#include "engine/record/journal_records.h"
+#include "engine/core/file_io.h"
+#include "engine/core/system_info.h"
+#include "engine/record/journal.h"
 #include "engine/record/run_folder.h"
-#include "engine/record/summary_file.h"
+#include "engine/record/summary.h"
 #include "engine/record/trajectory_file.h"
 #include "tests/engine/record/sample_run.h"
 #include "tests/temporary_folder.h"
@@ -38,12 +37,12 @@ std::string journal_of(int count) {
                                        sample_trajectory().layout);
   REQUIRE(journal);
   for (int k = 0; k < count; ++k) REQUIRE(journal->append(frame_of(k)));
-  return read_whole(folder.path() / "j").value();
+  return read_file(folder.path() / "j").value();
 }
 
 Result<Journal> read_bytes(const std::string& bytes) {
   const TemporaryFolder folder;
-  REQUIRE(write_atomically(folder.path() / "j", bytes));
+  REQUIRE(write_file(folder.path() / "j", bytes));
   return read_journal(folder.path() / "j", false);
 }
 
@@ -178,8 +177,8 @@ TEST_CASE("a sink becomes the files of a run, whatever the order of the frames")
   for (const char* name : {"frames.csv", "joints.csv", "cells.csv", "bins.csv", "seams.csv",
                            "trajectory.h5", "summary.json"}) {
     INFO(name);
-    CHECK(read_whole(folder.path() / "at once" / name).value() ==
-          read_whole(folder.path() / "found" / name).value());
+    CHECK(read_file(folder.path() / "at once" / name).value() ==
+          read_file(folder.path() / "found" / name).value());
   }
   CHECK_FALSE(fs::exists(folder.path() / "found" / journal_name));
 }

@@ -2,8 +2,6 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/record/legs.h"
-
 using namespace gridshell::record;
 
 namespace {

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "engine/record/run_folder.h"
-#include "engine/record/summary_file.h"
+#include "engine/record/summary.h"
 #include "engine/record/trajectory_file.h"
 #include "tests/engine/record/sample_run.h"
 #include "tests/temporary_folder.h"
@@ -25,7 +25,7 @@ std::string refusal(const std::string& from, const std::string& to) {
   std::string text = to_json(sample_summary());
   REQUIRE(text.find(from) != std::string::npos);
   text.replace(text.find(from), from.size(), to);
-  REQUIRE(write_atomically(path, text));
+  REQUIRE(write_file(path, text));
   const auto read = read_summary(path);
   REQUIRE_FALSE(read);
   CHECK(read.error().fault == Fault::bad_input);
@@ -124,7 +124,7 @@ TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {
   for (const char* key : {"energy_joint_mJ", "energy_shear_mJ", "energy_load_mJ",
                           "energy_support_mJ", "kind", "finished"})
     json.erase(key);
-  REQUIRE(write_atomically(folder.path() / "summary.json", json.dump()));
+  REQUIRE(write_file(folder.path() / "summary.json", json.dump()));
   const auto old = read_summary(folder.path() / "summary.json");
   REQUIRE(old);
   CHECK(old->energies[Term::bend] == 39.979);
@@ -208,7 +208,7 @@ TEST_CASE("a run's folder holds its files and nothing else, seams.csv only where
 TEST_CASE("a run that cannot be written says where and why") {
   TemporaryFolder folder;
   const fs::path file = folder.path() / "file";
-  REQUIRE(write_atomically(file, "x"));
+  REQUIRE(write_file(file, "x"));
   const auto in_file = write_run(file / "run", sample_trajectory(), sample_summary());
   REQUIRE_FALSE(in_file);
   CHECK(in_file.error().fault == Fault::io);

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -75,8 +75,8 @@ TEST_CASE("state tables of earlier versions: a number that has no column is unkn
   }
   std::string search = record::to_json(written.search);
   const auto cut = search.find(",", search.find("cpu_s"));
-  REQUIRE(write_atomically(folder.path() / "states.csv", older));
-  REQUIRE(write_atomically(folder.path() / "states.json", search.substr(0, cut) + "}"));
+  REQUIRE(write_file(folder.path() / "states.csv", older));
+  REQUIRE(write_file(folder.path() / "states.json", search.substr(0, cut) + "}"));
   const auto read = record::read_state_tables(folder.path());
   REQUIRE(read);
   CHECK(read->rows.size() == 2);
@@ -86,16 +86,16 @@ TEST_CASE("state tables of earlier versions: a number that has no column is unkn
   CHECK(read->search.trials == 900);
   CHECK(read->search.ways_followed == 0);
   // and before all terms of the energy were kept
-  REQUIRE(write_atomically(folder.path() / "states.csv",
-                           "state,class,group,energy_bend_mJ,energy_stretch_mJ,inflections,count,"
-                           "count_confined\n1,iv,C4v,39.9,0.1,2 | 2,6,0\n"));
+  REQUIRE(write_file(folder.path() / "states.csv",
+                     "state,class,group,energy_bend_mJ,energy_stretch_mJ,inflections,count,"
+                     "count_confined\n1,iv,C4v,39.9,0.1,2 | 2,6,0\n"));
   const auto two_terms = record::read_state_tables(folder.path());
   REQUIRE(two_terms);
   CHECK(std::isnan(two_terms->rows.at(0).energies[Term::twist]));
   CHECK(two_terms->rows.at(0).energy_mJ() == Approx(40));
   // what cannot be unknown, and what is of no version
   for (const char* heading : {"state,group\n", "state,state\n", "from,to\n"}) {
-    REQUIRE(write_atomically(folder.path() / "states.csv", heading));
+    REQUIRE(write_file(folder.path() / "states.csv", heading));
     const auto refused = record::read_state_tables(folder.path());
     REQUIRE(!refused);
     CHECK(refused.error().message.find("first line") != std::string::npos);
@@ -107,7 +107,7 @@ TEST_CASE("state tables: damaged ones are refused with file and line") {
   const record::StateTables written = sample();
   REQUIRE(record::write_state_tables(folder.path(), written));
   const auto refused = [&](const char* name, const std::string& text, const std::string& says) {
-    REQUIRE(write_atomically(folder.path() / name, text));
+    REQUIRE(write_file(folder.path() / name, text));
     const auto read = record::read_state_tables(folder.path());
     REQUIRE(!read);
     CHECK(read.error().fault == Fault::bad_input);

@@ -1,9 +1,9 @@
-#include "engine/record/sweep_log.h"
+#include "engine/record/sweep_results.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -12,9 +12,9 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const SweepName name{"a preset", 0x1234, 10};
+const SweepIdentity name{"a preset", 0x1234, 10};
 
-Result<SweepLog> open(const std::filesystem::path& file, const SweepName& of = name) {
+Result<SweepLog> open(const std::filesystem::path& file, const SweepIdentity& of = name) {
   return SweepLog::open(file, of, {"rod.diameter_mm", "actuation.seed"}, [](std::size_t point) {
     return PointKeys{"", {std::to_string(point) + ".5", "\"up\""}, 0};
   });
@@ -30,7 +30,7 @@ PointResult result(std::size_t point) {
   return made;
 }
 
-std::string text_of(const std::filesystem::path& file) { return read_whole(file).value(); }
+std::string text_of(const std::filesystem::path& file) { return read_file(file).value(); }
 
 void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
@@ -111,7 +111,7 @@ TEST_CASE("a log is of one sweep and in one hand") {
     REQUIRE_FALSE(second);
     CHECK_THAT(second.error().message, Contains("another sweep is writing it"));
   }
-  SweepName other = name;
+  SweepIdentity other = name;
   other.config = 1;
   const auto refused = open(file, other);
   REQUIRE_FALSE(refused);

@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "engine/core/atomic_file.h"
+#include "engine/core/file_io.h"
 #include "engine/record/trajectory_file.h"
 #include "tests/engine/record/changed_file.h"
 #include "tests/engine/record/same_run.h"
@@ -21,7 +21,7 @@ namespace {
 std::string bytes_of(const Trajectory& run) {
   TemporaryFolder folder;
   REQUIRE(write_trajectory(folder.path() / "a.h5", run));
-  return read_whole(folder.path() / "a.h5").value();
+  return read_file(folder.path() / "a.h5").value();
 }
 
 }  // namespace
@@ -169,7 +169,7 @@ TEST_CASE("a column that an older version did not write is unknown") {
   };
   TemporaryFolder folder;
   const fs::path path = folder.path() / "a.h5";
-  REQUIRE(write_atomically(path, changed(without)));
+  REQUIRE(write_file(path, changed(without)));
   const auto back = read_trajectory(path, {.unsealed = true});
   REQUIRE(back);
   const Frame& frame = std::as_const(back->frames)[1];
@@ -187,7 +187,7 @@ TEST_CASE("a trajectory that another program rewrote is read only where that is 
   CHECK(
       refusal(bytes) ==
       "it bears no seal, so another program wrote it ('render --unsealed' reads it all the same)");
-  REQUIRE(write_atomically(path, bytes));
+  REQUIRE(write_file(path, bytes));
   const auto back = read_trajectory(path, {.unsealed = true});
   REQUIRE(back);
   CHECK(same_bits(back->frames[2].nodes, run.frames[2].nodes));
@@ -204,7 +204,7 @@ TEST_CASE("a trajectory that cannot be written says why and leaves the old one")
 
   const fs::path path = folder.path() / "trajectory.h5";
   REQUIRE(write_trajectory(path, sample_trajectory()));
-  const std::string before = read_whole(path).value();
+  const std::string before = read_file(path).value();
   Trajectory large = sample_trajectory();
   for (Frame& frame : large.frames) frame.nodes = Eigen::Matrix3Xd::Zero(3, 10000);
   for (const rlim_t limit : {100, 3000, 100000, 700000}) {
@@ -214,7 +214,7 @@ TEST_CASE("a trajectory that cannot be written says why and leaves the old one")
     REQUIRE_FALSE(written);
     CHECK(written.error().message == "cannot write '" + path.string() + "': File too large");
   }
-  CHECK(read_whole(path).value() == before);
+  CHECK(read_file(path).value() == before);
   CHECK(folder.entries() == std::vector<std::string>{"trajectory.h5"});
   // and the library is fit for the next run
   CHECK(write_trajectory(path, large));

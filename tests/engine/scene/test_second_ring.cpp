@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/preset/reader.h"
-#include "engine/scene/second_ring.h"
-#include "engine/session/session.h"
+#include "engine/preset/preset_file.h"
+#include "engine/scene/rod_ends.h"
+#include "engine/simulate/session.h"
 
 using namespace gridshell;
 
@@ -92,7 +92,7 @@ TEST_CASE("on the way from the flat far ends turn about their edge points at the
     const double h = 1e-5;
     const Eigen::Matrix3Xd difference = (motion.at(t + h) - motion.at(t - h)) / (2 * h);
     CHECK((rate - difference).colwise().norm().maxCoeff() < 1e-6);
-    for (const Turn& turn : motion.turns)
+    for (const EndRotation& turn : motion.turns)
       CHECK((x.col(turn.node) - x.col(turn.about)).norm() == Approx(10).epsilon(2e-4));
   }
   for (int end = 0; end < mesh.edge_points; ++end) {
@@ -119,7 +119,7 @@ TEST_CASE("a cap with a second ring comes to one state from the flat and from th
 TEST_CASE("a second ring of rods that may twist gives the same shell", "[full]") {
   auto twisted = cap(0.6, 8);
   twisted.rod.shear_GPa = 31;
-  twisted.accuracy.model = preset::Rung::twist;
+  twisted.accuracy.model = RodModel::twist;
   auto session = Session::open(scene_with(twisted), plan_of_mesh(4));
   REQUIRE(session.has_value());
   const auto begun = session->begin_on_net(unwatched);

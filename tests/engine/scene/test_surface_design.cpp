@@ -1,8 +1,8 @@
 // Footprints of surfaces that a preset gives by an expression.
 #include <catch2/catch.hpp>
 
-#include "engine/design/refused_net.h"
-#include "engine/preset/reader.h"
+#include "engine/preset/preset_file.h"
+#include "engine/scene/net_design.h"
 #include "engine/scene/scene.h"
 #include "tests/engine/geometry/dome_mesh.h"
 

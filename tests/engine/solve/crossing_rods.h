@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/gridshell/shell_rods.h"
+#include "engine/elastic/shell_rods.h"
 #include "engine/solve/newton.h"
 
 namespace gridshell {

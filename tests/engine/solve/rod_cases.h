@@ -5,8 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "engine/solve/minimise.h"
-#include "engine/solve/rest.h"
+#include "engine/solve/equilibrium.h"
 
 namespace gridshell {
 
@@ -23,7 +22,7 @@ struct SingleRod {
       rod.position.push_back(L * k / n);
     }
   }
-  Model model() const { return build_model(edges + 1, {rod}, Mechanics::twist).value(); }
+  Model model() const { return build_model(edges + 1, {rod}, RodModel::twist).value(); }
   /// nodes on the straight line, `stretch` times the rest length, with a bump of this height in z
   Eigen::Matrix3Xd line(double stretch = 1, double bump = 0) const {
     Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, edges + 1);

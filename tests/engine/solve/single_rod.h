@@ -1,7 +1,7 @@
 // One rod without joints, pinned at its ends.
 #pragma once
 
-#include "engine/gridshell/shell_rods.h"
+#include "engine/elastic/shell_rods.h"
 
 namespace gridshell {
 

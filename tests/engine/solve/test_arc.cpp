@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/solve/arc.h"
-#include "engine/solve/minimise.h"
+#include "engine/solve/equilibrium.h"
+#include "engine/solve/equilibrium_path.h"
 #include "tests/engine/solve/crossing_rods.h"
 
 using namespace gridshell;
@@ -13,7 +13,7 @@ namespace {
 /// The force that a displacement takes which lowers the joint from `state` to `height`.
 double force_at(const Model& unloaded, State state, double height) {
   Linearisation system(unloaded);
-  const Hold held{0, Eigen::Vector3d::UnitZ()};
+  const Constraint held{0, Eigen::Vector3d::UnitZ()};
   system.hold({held});
   const double begin = state.x(2, 0);
   constexpr int steps = 60;
@@ -74,7 +74,7 @@ TEST_CASE("by arc length an arch is followed over the limit of its load and back
   const Eigen::Matrix3Xd there = rest.x;
   system.outside.load = 0;
   REQUIRE(newton(system, rest, {}).outcome == Outcome::reached);
-  CHECK(largest_column(rest.x - there) < 0.3);
+  CHECK(max_column_norm(rest.x - there) < 0.3);
   CHECK(rest.x(2, 0) < 0);
   CHECK_FALSE(system.at(rest, false).positive_definite());
 }

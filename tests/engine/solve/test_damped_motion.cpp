@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/solve/damped_motion.h"
-#include "engine/solve/minimise.h"
+#include "engine/solve/dynamics.h"
+#include "engine/solve/equilibrium.h"
 #include "tests/engine/solve/crossing_rods.h"
 #include "tests/engine/solve/single_rod.h"
 
@@ -41,8 +41,8 @@ TEST_CASE(
   };
   // off the turning point, where an error of phase shows
   const Eigen::Matrix3Xd exact = after(0.7, 640, 0);
-  const double coarse = largest_column(after(0.7, 40, 0) - exact),
-               fine = largest_column(after(0.7, 80, 0) - exact);
+  const double coarse = max_column_norm(after(0.7, 40, 0) - exact),
+               fine = max_column_norm(after(0.7, 80, 0) - exact);
   CAPTURE(coarse, fine);
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.2));
   // a period on it stands where it began, smaller by exp(-c T/2)
@@ -64,7 +64,7 @@ TEST_CASE("a shallow arch of two crossing rods snaps in time and ends at a certi
   // down by displacement of the joint until the equilibrium is not stable any more
   for (const bool lateral_free : {true, false}) {
     CAPTURE(lateral_free);
-    Hold held{0};
+    Constraint held{0};
     if (lateral_free) held.directions = Eigen::Vector3d::UnitZ();
     system.hold({held});
     State pushed = state;
@@ -100,7 +100,7 @@ TEST_CASE("a shallow arch of two crossing rods snaps in time and ends at a certi
     CHECK(steps > 10);
     CHECK(held.part(motion.state.x.col(0) - pushed.x.col(0)).norm() < 1e-9);
     CHECK(energies_of(model, motion.state).total() < 0.999 * before);
-    CHECK(largest_column(motion.state.x - pushed.x) > 0.5);
+    CHECK(max_column_norm(motion.state.x - pushed.x) > 0.5);
 
     // the static solver has next to nothing to correct there, and certifies it
     State rest = motion.state;

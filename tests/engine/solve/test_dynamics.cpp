@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/solve/damped_motion.h"
-#include "engine/solve/minimise.h"
+#include "engine/solve/dynamics.h"
+#include "engine/solve/equilibrium.h"
 #include "engine/study/relaxation.h"
 #include "tests/engine/solve/single_rod.h"
 

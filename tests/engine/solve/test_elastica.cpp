@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/solve/minimise.h"
+#include "engine/solve/equilibrium.h"
 #include "tests/engine/solve/single_rod.h"
 
 using namespace gridshell;

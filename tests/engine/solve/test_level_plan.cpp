@@ -1,7 +1,7 @@
 // Which meshes are tried next.
 #include <catch2/catch.hpp>
 
-#include "engine/solve/level_plan.h"
+#include "engine/solve/mesh_levels.h"
 
 using gridshell::LevelPlan;
 using gridshell::with_finer_leader;

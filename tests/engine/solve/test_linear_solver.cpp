@@ -2,10 +2,9 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "engine/gridshell/assembly.h"
-#include "engine/gridshell/shell_rods.h"
+#include "engine/elastic/assembly.h"
+#include "engine/elastic/shell_rods.h"
 #include "engine/solve/linear_solver.h"
-#include "engine/solve/ordering.h"
 
 using namespace gridshell;
 

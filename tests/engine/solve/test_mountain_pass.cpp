@@ -2,8 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/solve/minimise.h"
-#include "engine/solve/rest.h"
+#include "engine/solve/equilibrium.h"
 #include "tests/engine/solve/rod_cases.h"
 
 using namespace gridshell;
@@ -18,7 +17,7 @@ struct Arch {
   Arch(int edges, double length, double span)
       : rod(edges, length, {.EA = 4205.672, .EI1 = 16.95832, .EI2 = 16.95832}, RodEnd::pinned,
             RodEnd::pinned),
-        model(build_model(edges + 1, {rod.rod}, Mechanics::bend).value()),
+        model(build_model(edges + 1, {rod.rod}, RodModel::bend).value()),
         shortening(span / length) {
     model.pin(0);
     model.pin(edges);
@@ -53,12 +52,13 @@ TEST_CASE("an arch snaps over the pass of two half waves, each half an arch of i
   CHECK(pass.energy_mJ > 3.5 * system.energy_at(up));
   CHECK(pass.residual_N < 1e-8);
   // its two sides lead to the two wells
-  for (const auto& [side, well] : {std::pair(Leave::against, &up), {Leave::along, &down}}) {
-    Departure departure;
+  for (const auto& [side, well] :
+       {std::pair(BranchSide::against, &up), {BranchSide::along, &down}}) {
+    BranchSwitch departure;
     departure.side = side;
-    const auto rest = settle(system, pass.saddle, pass.towards_b, departure, unwatched);
+    const auto rest = leave_saddle(system, pass.saddle, pass.towards_b, departure, unwatched);
     REQUIRE(rest);
-    CHECK(largest_column(rest->x - well->x) < 1e-4);
+    CHECK(max_column_norm(rest->x - well->x) < 1e-4);
   }
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("a truss of two bars snaps through the flat") {
   const double EA = 100, l = 10, rise = 1, a = std::sqrt(l * l - rise * rise);
   Model model;
   model = build_model(3, {{{0, 1, 2}, {0, l, 2 * l}, {.EA = EA, .EI1 = 1e-9, .EI2 = 1e-9}}},
-                      Mechanics::bend)
+                      RodModel::bend)
               .value();
   model.pin(0);
   model.pin(2);

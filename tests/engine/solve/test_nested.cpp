@@ -1,10 +1,10 @@
 // Finer meshes beside a path, and how little they cost there.
-#include "engine/solve/nested.h"
+#include "engine/solve/nested_shell.h"
 
 #include <catch2/catch.hpp>
 
 #include "engine/scene/scene.h"
-#include "engine/solve/buckle.h"
+#include "engine/solve/buckling.h"
 
 using namespace gridshell;
 
@@ -24,7 +24,7 @@ Scene eight_rods() {
 NestedShell shell_of(const Scene& scene, double tolerance) {
   PathOptions options;
   options.tolerance_mm = tolerance;
-  return NestedShell::make(scene.footprint, scene.rods, Mechanics::bend, scene.motion,
+  return NestedShell::make(scene.footprint, scene.rods, RodModel::bend, scene.motion,
                            {{4, 8, 16}, false}, options)
       .value();
 }
@@ -51,7 +51,7 @@ TEST_CASE("along a path finer meshes take one correction a state, and it is the 
     REQUIRE(shell.advance(t, watch).end == Outcome::reached);
     REQUIRE(exact.advance(t, watch).end == Outcome::reached);
     for (std::size_t level = 1; level <= 2; ++level)
-      CHECK(largest_column(shell.state().levels[level].x - exact.state().levels[level].x) <
+      CHECK(max_column_norm(shell.state().levels[level].x - exact.state().levels[level].x) <
             tolerance_mm);
     // nor in the forces: 1e-5 of the largest is left in an edge, and four edges meet at a joint
     const double largest = exact.state().levels[2].force.cwiseAbs().maxCoeff();

@@ -3,8 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "engine/gridshell/shell_rods.h"
-#include "engine/solve/minimise.h"
+#include "engine/elastic/shell_rods.h"
+#include "engine/solve/equilibrium.h"
 
 using namespace gridshell;
 
@@ -46,7 +46,7 @@ Eigen::MatrixXd dense_hessian(const Model& model, const State& state) {
 }
 
 /// The bordered matrix [K -B; B^T 0].
-Eigen::MatrixXd bordered(const Model& model, const Eigen::MatrixXd& K, const Hold& held) {
+Eigen::MatrixXd bordered(const Model& model, const Eigen::MatrixXd& K, const Constraint& held) {
   const Eigen::Index n = K.rows(), m = held.directions.cols();
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n + m, n + m);
   all.topLeftCorner(n, n) = K;
@@ -55,8 +55,8 @@ Eigen::MatrixXd bordered(const Model& model, const Eigen::MatrixXd& K, const Hol
   return all;
 }
 
-Hold pushed(int directions) {
-  Hold held{7, Eigen::Matrix3Xd::Identity(3, directions)};
+Constraint pushed(int directions) {
+  Constraint held{7, Eigen::Matrix3Xd::Identity(3, directions)};
   if (directions == 1) held.directions << 0.48, -0.6, 0.64;
   return held;
 }
@@ -69,7 +69,7 @@ TEST_CASE(
   const Model& model = shell.model;
   const Eigen::MatrixXd K = dense_hessian(model, shell.state);
   for (const int directions : {1, 3}) {
-    const Hold held = pushed(directions);
+    const Constraint held = pushed(directions);
     const Eigen::Index n = K.rows(), m = directions;
     const Eigen::MatrixXd whole = bordered(model, K, held);
     Linearisation system(model);
@@ -121,7 +121,7 @@ TEST_CASE("a joint held along a direction that K does not resist is found stable
   REQUIRE(free.at(rest, false, beyond).negative_pivots == 1);
   int strongest = 0;
   own.eigenvectors().col(0).cwiseAbs().maxCoeff(&strongest);
-  Hold held{shell.model.free_columns[strongest / 3], Eigen::Matrix3Xd::Zero(3, 1)};
+  Constraint held{shell.model.free_columns[strongest / 3], Eigen::Matrix3Xd::Zero(3, 1)};
   held.directions(strongest % 3, 0) = 1;
   Linearisation system(shell.model);
   system.hold({held});

@@ -1,8 +1,7 @@
 // Leaving a state that is not stable: which ways down are gone.
 #include <catch2/catch.hpp>
 
-#include "engine/solve/minimise.h"
-#include "engine/solve/rest.h"
+#include "engine/solve/equilibrium.h"
 #include "tests/engine/solve/crossing_rods.h"
 
 using namespace gridshell;
@@ -18,9 +17,9 @@ struct Rest {
 };
 
 Rest settled(Linearisation& system, const State& from, const Eigen::Matrix3Xd& mode,
-             const Departure& departure) {
+             const BranchSwitch& departure) {
   const int before = system.effort().factorizations;
-  auto rest = settle(system, from, mode, departure, unwatched);
+  auto rest = leave_saddle(system, from, mode, departure, unwatched);
   REQUIRE(rest);
   const int taken = system.effort().factorizations - before;
   CHECK(system.at(*rest, false).positive_definite());
@@ -40,14 +39,14 @@ TEST_CASE("of two ways down that are mirror images one is gone, and it is the sa
   REQUIRE(system.at(flat, false).negative_pivots == 1);
   const Eigen::Matrix3Xd mode = softest_mode(system, {}, unwatched);
 
-  Departure departure;
+  BranchSwitch departure;
   departure.amplitude_mm = 0.01;
   departure.step_mm = 0.02;
   const Rest both = settled(system, flat, mode, departure);
   departure.symmetries = symmetries_of(mesh, x);
   REQUIRE(departure.symmetries.size() == 16);
   const Rest one = settled(system, flat, mode, departure);
-  CHECK(largest_column(one.state.x - both.state.x) < 1e-9);
+  CHECK(max_column_norm(one.state.x - both.state.x) < 1e-9);
   CHECK(std::abs(one.state.x(2, 0)) > 0.1);
   CHECK(2 * one.factorizations == both.factorizations);
 
@@ -78,14 +77,14 @@ TEST_CASE("beyond a fold one way down is gone, and every side asked for ends the
   system.outside.load = 1;
   Eigen::Matrix3Xd down = Eigen::Matrix3Xd::Zero(3, model.nodes);
   down.row(2) = arch.x.row(2);
-  Departure departure;
+  BranchSwitch departure;
   departure.amplitude_mm = 1e-3;
   const Rest any = settled(system, arch, down, departure);
   CHECK(any.state.x(2, 0) < -5);
-  for (const Leave side : {Leave::along, Leave::against}) {
+  for (const BranchSide side : {BranchSide::along, BranchSide::against}) {
     departure.side = side;
     const Rest asked = settled(system, arch, down, departure);
-    CHECK(largest_column(asked.state.x - any.state.x) < 1e-6);
+    CHECK(max_column_norm(asked.state.x - any.state.x) < 1e-6);
     CHECK(any.factorizations < asked.factorizations + 10);
   }
 }

@@ -51,7 +51,7 @@ double michell(int edges, double ratio) {
     const double a = 2 * M_PI * k / edges, r = around / edges / (2 * std::sin(M_PI / edges));
     x.col(k) << r * std::cos(a), r * std::sin(a), 0;
   }
-  Model model = build_model(edges, {rod}, Mechanics::twist).value();
+  Model model = build_model(edges, {rod}, RodModel::twist).value();
   // six unknowns that hold the ring in space and do no more
   const int third = edges / 3;
   model.pin(0);

@@ -33,7 +33,7 @@ struct Crossing {
       x(2, k) = x(2, node) = 8 * std::cos(M_PI * s / (2 * half));
       if (k == middle) other = node;
     }
-    model = build_model(nodes, {a, b}, Mechanics::twist).value();
+    model = build_model(nodes, {a, b}, RodModel::twist).value();
     model.loads.push_back({middle, {0, 0, 0.02}});
   }
   State rest() const {
@@ -72,7 +72,7 @@ TEST_CASE("joint shear: two rigid crossing rods turn by moment over stiffness") 
   const RodMaterial stiff{1e6, 1e7, 1e7, 1e7, {0, 0}, 0};
   ModelRod a{{0, 1, 2}, {0, 10, 20}, stiff};
   ModelRod b{{3, 1, 4}, {0, 10, 20}, stiff, RodEnd::free, RodEnd::free};
-  Model model = build_model(5, {a, b}, Mechanics::twist).value();
+  Model model = build_model(5, {a, b}, RodModel::twist).value();
   const double stiffness = 40, couple = 2;  // N mm/rad, N mm
   add_joint_shear(model, 0, 1, 1, 1, stiffness, M_PI / 2);
   model.loads.push_back({3, {couple / 20, 0, 0}});

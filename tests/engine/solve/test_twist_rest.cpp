@@ -1,5 +1,5 @@
 // Rods at rest with known shapes: the elastica, a cantilever, a helix, the localised helix.
-#include "engine/rod/frame.h"
+#include "engine/elastic/rod_frame.h"
 #include "tests/engine/solve/rod_cases.h"
 
 using namespace gridshell;

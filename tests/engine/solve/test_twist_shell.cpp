@@ -3,8 +3,8 @@
 #include <chrono>
 #include <random>
 
-#include "engine/gridshell/shell_rods.h"
-#include "engine/solve/buckle.h"
+#include "engine/elastic/shell_rods.h"
+#include "engine/solve/buckling.h"
 #include "tests/engine/solve/rod_cases.h"
 
 using namespace gridshell;
@@ -39,7 +39,7 @@ struct Shell {
 double distance_of_rungs(int edges, double& twist_before, double& seconds) {
   const Shell shell(edges);
   const Model model =
-      build_model(shell.mesh, circular_material(0.254, 83, 31), Mechanics::twist).value();
+      build_model(shell.mesh, circular_material(0.254, 83, 31), RodModel::twist).value();
   State state = start_state(model, columns_of(shell.mesh, model, shell.state.x));
   std::mt19937 random(11);
   std::normal_distribution<double> normal;

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "engine/study/judge.h"
+#include "engine/study/benchmark_methods.h"
 #include "tests/engine/study/small_scene.h"
 
 using namespace gridshell;
@@ -23,9 +23,9 @@ const record::AccuracyRow* find(const AccuracyStudy& study, const std::string& m
 
 TEST_CASE("a case starts and ends every mesh on the branch of its reference") {
   Watch watch;
-  auto made = Subject::create(small_scene(), 64, watch);
+  auto made = BenchmarkProblem::create(small_scene(), 64, watch);
   REQUIRE(made);
-  Subject& study = **made;
+  BenchmarkProblem& study = **made;
   CHECK(study.reference_error() < 1e-6);
   double before = 0;
   for (int edges : {2, 4, 8, 16}) {
@@ -75,13 +75,13 @@ TEST_CASE("every method comes to the same state of its mesh, the error falls wit
 
 TEST_CASE("a run beyond its time is stopped and said to be too slow") {
   Watch watch;
-  auto made = Subject::create(small_scene(), 16, watch);
+  auto made = BenchmarkProblem::create(small_scene(), 16, watch);
   REQUIRE(made);
   const TimeLimit limit(0.05, watch);
   Stopwatch stopwatch;
-  RelaxMarch forever{.kind = Relaxation::explicit_damped, .tolerance_N = 0};
+  RelaxationOptions forever{.kind = Relaxation::explicit_damped, .tolerance_N = 0};
   const auto arrival =
-      march_relaxed(*(*made)->problem(4, watch).value(), forever, stopwatch, limit.watch());
+      relax(*(*made)->problem(4, watch).value(), forever, stopwatch, limit.watch());
   CHECK(arrival.claim == RunOutcome::too_slow);
   CHECK(limit.ran_out());
   CHECK(stopwatch.seconds() < 2);
@@ -91,7 +91,7 @@ TEST_CASE("a study of what has no path to compare with is refused with the reaso
   Watch watch;
   auto preset = small_scene();
   preset.actuation.radius_mm = 0.99 * preset.footprint.radius_mm;
-  const auto made = Subject::create(preset, 16, watch);
+  const auto made = BenchmarkProblem::create(preset, 16, watch);
   REQUIRE_FALSE(made);
   CHECK(made.error().fault == Fault::bad_input);
 }

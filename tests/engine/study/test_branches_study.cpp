@@ -1,9 +1,9 @@
-#include "engine/study/branches_study.h"
+#include "engine/study/bifurcation_diagram.h"
 
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "engine/preset/reader.h"
+#include "engine/preset/preset_file.h"
 #include "tests/small_preset.h"
 
 using namespace gridshell;

@@ -4,7 +4,6 @@
 #include <map>
 #include <set>
 
-#include "engine/experiment/point.h"
 #include "tests/small_preset.h"
 
 using namespace gridshell;

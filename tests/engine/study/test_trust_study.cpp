@@ -4,9 +4,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "engine/preset/reader.h"
-#include "engine/preset/writer.h"
-#include "engine/study/random_preset.h"
+#include "engine/preset/preset_file.h"
 
 using namespace gridshell;
 

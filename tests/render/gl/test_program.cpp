@@ -1,9 +1,8 @@
-#include "render/gl/program.h"
+#include "render/gl/shader_program.h"
 
 #include <catch2/catch.hpp>
 
-#include "render/context/context.h"
-#include "render/gl/shader_text.h"
+#include "render/gl/context.h"
 
 using namespace gridshell;
 using namespace gridshell::render;

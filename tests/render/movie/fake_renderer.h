@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "render/draw/camera.h"
-#include "render/draw/renderer.h"
+#include "render/gl/renderer.h"
 
 namespace gridshell::test {
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "render/image/png.h"
-#include "render/movie/beside.h"
+#include "render/gl/image.h"
+#include "render/movie/movie_writer.h"
 #include "tests/render/movie/fake_renderer.h"
 #include "tests/render/synthetic.h"
 #include "tests/temporary_folder.h"
@@ -26,8 +26,8 @@ TEST_CASE("cases stand beside one another in frames of the size asked, the longe
   const record::Trajectory longer = synthetic::dome(3, 2), shorter = synthetic::dome(2, 2);
   test::FakeRenderer renderer;
   Watch watch;
-  const auto report = write_beside({{&longer, "a"}, {&shorter, "b"}}, small(), renderer,
-                                   folder.path() / "frames", watch);
+  const auto report = write_side_by_side({{&longer, "a"}, {&shorter, "b"}}, small(), renderer,
+                                         folder.path() / "frames", watch);
   REQUIRE(report);
   CHECK(report->frames == 3);
   CHECK(watch.progress() == 1);
@@ -44,10 +44,10 @@ TEST_CASE("nothing to show beside one another is refused, a stopped movie keeps 
   const TemporaryFolder folder;
   test::FakeRenderer renderer;
   Watch watch;
-  CHECK(write_beside({}, small(), renderer, folder.path(), watch).error().fault ==
+  CHECK(write_side_by_side({}, small(), renderer, folder.path(), watch).error().fault ==
         Fault::bad_input);
   const record::Trajectory run = synthetic::dome(3, 2);
   watch.cancel();
-  CHECK(write_beside({{&run, "a"}}, small(), renderer, folder.path(), watch).error().fault ==
+  CHECK(write_side_by_side({{&run, "a"}}, small(), renderer, folder.path(), watch).error().fault ==
         Fault::cancelled);
 }

@@ -1,4 +1,4 @@
-#include "render/movie/colour_range.h"
+#include "render/movie/colour_by.h"
 
 #include <catch2/catch.hpp>
 
@@ -36,10 +36,10 @@ MovieStyle by(ColourBy what) {
 
 std::optional<ColourBar> bar(const std::vector<record::Trajectory>& runs,
                              const MovieStyle& style = {}) {
-  std::vector<Survey> surveys;
-  for (const auto& run : runs) surveys.push_back(survey_of(run));
-  std::vector<const Survey*> all;
-  for (const Survey& survey : surveys) all.push_back(&survey);
+  std::vector<RunSummary> surveys;
+  for (const auto& run : runs) surveys.push_back(summarise_run(run));
+  std::vector<const RunSummary*> all;
+  for (const RunSummary& survey : surveys) all.push_back(&survey);
   return colour_bar_of(all, style);
 }
 

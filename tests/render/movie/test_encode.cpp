@@ -5,11 +5,11 @@
 #include <sstream>
 #include <thread>
 
-#include "engine/core/atomic_file.h"
-#include "render/image/png.h"
+#include "engine/core/file_io.h"
+#include "render/gl/image.h"
 #include "render/movie/encode.h"
+#include "render/movie/movie_style.h"
 #include "render/movie/movie_writer.h"
-#include "render/movie/title_card.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -60,7 +60,7 @@ TEST_CASE("with ffmpeg the movie appears whole, under its name") {
   REQUIRE(encoding);
   CHECK(encoding->made);
   CHECK(folder.entries() == std::vector<std::string>{"movie.mp4"});
-  const auto arguments = read_whole(folder.path() / "movie.mp4");
+  const auto arguments = read_file(folder.path() / "movie.mp4");
   REQUIRE(arguments);
   CHECK(arguments->find("\nfile:frames of 100%%/frame_%05d.png\n") != std::string::npos);
   CHECK(arguments->find("\n-framerate\n25\n") != std::string::npos);
@@ -103,11 +103,11 @@ TEST_CASE("a shell reads the words back as they were") {
   REQUIRE(std::system(("printf '%s\\n' " + shell_line(words) + " > " + out).c_str()) == 0);
   std::string expected;
   for (const std::string& word : words) expected += word + "\n";
-  CHECK(read_whole(out).value() == expected);
+  CHECK(read_file(out).value() == expected);
 }
 
 TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
-  const auto line = [](const Timing& timing, const char* file) {
+  const auto line = [](const MovieTiming& timing, const char* file) {
     return shell_line(encode_arguments("frames", timing, file));
   };
   const auto has = [](const std::string& text, const std::string& part) {
@@ -141,7 +141,7 @@ TEST_CASE("a real ffmpeg makes movies of the length asked for") {
       image.rgba[n] = n % 4 == 3 ? 255 : std::uint8_t(40 * k);
     REQUIRE(write_png(image, frames / frame_name(k)));
   }
-  const Timing timing{
+  const MovieTiming timing{
       .fps = 20, .frames = 6, .seconds = 1, .hold_s = 0.5, .pace = Pace::eased, .title_s = 0.5};
   for (const char* name : {"movie.mp4", "movie.webm", "movie.gif"}) {
     INFO(name);
@@ -153,7 +153,7 @@ TEST_CASE("a real ffmpeg makes movies of the length asked for") {
         shell_line({(folder.path() / name).string()}) + " > " +
         shell_line({(folder.path() / "probe").string()});
     REQUIRE(std::system(probe.c_str()) == 0);
-    const auto said = read_whole(folder.path() / "probe");
+    const auto said = read_file(folder.path() / "probe");
     REQUIRE(said);
     const bool gif = std::string(name) == "movie.gif";
     if (!gif) CHECK(said->find("bt709") != std::string::npos);
@@ -190,8 +190,8 @@ TEST_CASE("a movie made while its frames are drawn is that of the frames, to the
   style.width = 64;
   style.height = 49;
   REQUIRE(write_png(title_card(style), frames / "title.png"));
-  const Timing timing{.fps = 20, .frames = 6, .hold_s = 0.5, .title_s = 0.5};
-  auto movie = MovieInTheMaking::begin(frames, timing, 64, 49, folder.path() / "a.mp4");
+  const MovieTiming timing{.fps = 20, .frames = 6, .hold_s = 0.5, .title_s = 0.5};
+  auto movie = MovieEncoder::begin(frames, timing, 64, 49, folder.path() / "a.mp4");
   REQUIRE(movie);
   REQUIRE(*movie);
   for (int k = 0; k < 6; ++k) {
@@ -201,7 +201,7 @@ TEST_CASE("a movie made while its frames are drawn is that of the frames, to the
   CHECK_FALSE(fs::exists(folder.path() / "a.mp4"));
   REQUIRE((*movie)->finish(unwatched));
   REQUIRE(encode_movie(frames, timing, folder.path() / "b.mp4", unwatched));
-  CHECK(read_whole(folder.path() / "a.mp4").value() == read_whole(folder.path() / "b.mp4").value());
+  CHECK(read_file(folder.path() / "a.mp4").value() == read_file(folder.path() / "b.mp4").value());
 }
 
 TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading is an error") {
@@ -209,12 +209,12 @@ TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading 
   const Image large(800, 600);  // more than a socket holds
   {
     const FakeFfmpeg none("");
-    const auto movie = MovieInTheMaking::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+    const auto movie = MovieEncoder::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
     REQUIRE(movie);
     CHECK_FALSE(*movie);
   }
   const FakeFfmpeg broken("echo 'No space left on device' >&2\nexit 3\n");
-  auto movie = MovieInTheMaking::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+  auto movie = MovieEncoder::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
   REQUIRE(movie);
   for (int k = 0; k < 3; ++k) (*movie)->put(large, unwatched);
   const auto ended = (*movie)->finish(unwatched);
@@ -229,10 +229,10 @@ TEST_CASE("a movie that is given up, or cancelled while ffmpeg takes nothing, le
   const FakeFfmpeg slow("exec /bin/sleep 30\n");
   const auto start = std::chrono::steady_clock::now();
   {
-    auto movie = MovieInTheMaking::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+    auto movie = MovieEncoder::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
     REQUIRE(movie);
   }
-  auto movie = MovieInTheMaking::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+  auto movie = MovieEncoder::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
   REQUIRE(movie);
   Watch watch;
   std::thread stopper([&] {

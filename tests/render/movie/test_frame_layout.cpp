@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "render/movie/frame_layout.h"
+#include "render/movie/frame_overlay.h"
 
 using namespace gridshell::render;
 

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "render/draw/camera.h"
-#include "render/movie/framing.h"
-#include "render/movie/survey.h"
+#include "render/gl/renderer.h"
+#include "render/movie/run_summary.h"
+#include "render/movie/stage.h"
 #include "tests/render/synthetic.h"
 
 using namespace gridshell;
@@ -11,7 +11,7 @@ using namespace gridshell::render;
 
 TEST_CASE("the whole run stays within the view over the whole turn, and fills it") {
   const record::Trajectory run = synthetic::dome(8, 4);
-  const Eigen::Matrix3Xd points = survey_of(run).bounds();
+  const Eigen::Matrix3Xd points = summarise_run(run).bounds();
   for (const auto& [width, height] : {std::pair{1280, 720}, {320, 240}, {600, 1200}})
     for (double elevation : {0.0, 22.0, 60.0, 90.0})
       for (double turn : {0.0, 40.0, -360.0}) {
@@ -47,7 +47,7 @@ TEST_CASE("the camera turns evenly about one target and keeps its distance") {
   MovieStyle style;
   style.azimuth_deg = 10;
   style.turn_deg = 80;
-  const Framing framing(survey_of(run).bounds(), style, {0, 0, 1280, 720});
+  const Framing framing(summarise_run(run).bounds(), style, {0, 0, 1280, 720});
   const Camera first = framing.camera(0), middle = framing.camera(0.5), last = framing.camera(1);
   CHECK(first.azimuth_deg == Approx(10));
   CHECK(middle.azimuth_deg == Approx(50));
@@ -59,9 +59,9 @@ TEST_CASE("the camera turns evenly about one target and keeps its distance") {
 TEST_CASE("zoom magnifies about the middle of the panel") {
   const record::Trajectory run = synthetic::dome(4, 2);
   MovieStyle style;
-  const Framing plain(survey_of(run).bounds(), style, {0, 0, 1280, 720});
+  const Framing plain(summarise_run(run).bounds(), style, {0, 0, 1280, 720});
   style.zoom = 2;
-  const Framing near(survey_of(run).bounds(), style, {0, 0, 1280, 720});
+  const Framing near(summarise_run(run).bounds(), style, {0, 0, 1280, 720});
   CHECK(near.pixels_per_mm() == Approx(2 * plain.pixels_per_mm()));
   CHECK((near.camera(0).target - plain.camera(0).target).norm() < 1e-9);
 }
@@ -69,7 +69,7 @@ TEST_CASE("zoom magnifies about the middle of the panel") {
 TEST_CASE("zoom and target are about the panel, wherever it stands") {
   const record::Trajectory run = synthetic::dome(4, 2);
   const Box panel{300, 50, 400, 600};
-  const auto points = survey_of(run).bounds();
+  const auto points = summarise_run(run).bounds();
   MovieStyle style;
   const Framing plain(points, style, panel);
   // the point that stands in the panel's middle
@@ -95,7 +95,7 @@ TEST_CASE("zoom and target are about the panel, wherever it stands") {
 
 TEST_CASE("a bar of pixels_per_mm is true in the plane through the target") {
   const record::Trajectory run = synthetic::dome(4, 2);
-  const Framing framing(survey_of(run).bounds(), MovieStyle{}, {100, 100, 800, 500});
+  const Framing framing(summarise_run(run).bounds(), MovieStyle{}, {100, 100, 800, 500});
   const Camera camera = framing.camera(0.3);
   const CameraAxes axes = camera_axes(camera);
   const Eigen::Vector2d a = to_pixel(camera, 1280, 720, camera.target);

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "render/image/png.h"
+#include "render/gl/image.h"
 #include "render/movie/movie_writer.h"
 #include "tests/render/movie/fake_renderer.h"
 #include "tests/render/synthetic.h"
@@ -113,7 +113,7 @@ TEST_CASE("a movie is drawn from one frame at a time, and is that of the run in 
                              asked.push_back(k);
                              return run.frames[std::size_t(k)];
                            }};
-  const auto survey = survey_of(source);
+  const auto survey = summarise_run(source);
   REQUIRE(survey);
   asked.clear();
   REQUIRE(write_movie(source, *survey, small(), {}, renderer, folder.path() / "one", watch));
@@ -128,5 +128,5 @@ TEST_CASE("a movie is drawn from one frame at a time, and is that of the run in 
   const FrameSource broken{&run.layout, 4, [](int) -> Result<record::Frame> {
                              return fail(Fault::io, "the file is gone");
                            }};
-  CHECK(survey_of(broken).error().message == "the file is gone");
+  CHECK(summarise_run(broken).error().message == "the file is gone");
 }

@@ -2,12 +2,12 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "render/draw/camera.h"
-#include "render/movie/boundary.h"
-#include "render/movie/captions.h"
+#include "render/gl/renderer.h"
+#include "render/movie/frame_overlay.h"
+#include "render/movie/run_summary.h"
 #include "render/movie/stage.h"
+#include "tests/render/canvas/ink.h"
 #include "tests/render/movie/fake_renderer.h"
-#include "tests/render/plot/ink.h"
 #include "tests/render/synthetic.h"
 
 using namespace gridshell;
@@ -305,7 +305,7 @@ TEST_CASE("what no frame knows cannot be what is coloured") {
     MovieStyle style;
     style.colour_by = by;
     const auto checked = check_showable(run, style);
-    CHECK(bool(check_coloured(survey_of(run), style)) == bool(checked));
+    CHECK(bool(check_coloured(summarise_run(run), style)) == bool(checked));
     return checked ? "" : checked.error().message;
   };
   CHECK(lacks(ColourBy::axial_force).find("[movie] colour_by = \"axial_force\": no frame") == 0);

@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 
-#include "render/image/png.h"
+#include "render/canvas/panels.h"
+#include "render/gl/image.h"
 #include "render/movie/stills.h"
-#include "render/plot/panels.h"
+#include "tests/render/canvas/ink.h"
 #include "tests/render/movie/fake_renderer.h"
-#include "tests/render/plot/ink.h"
 #include "tests/render/synthetic.h"
 #include "tests/temporary_folder.h"
 

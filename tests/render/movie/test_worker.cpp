@@ -1,4 +1,4 @@
-#include "render/movie/worker.h"
+#include "render/movie/frame_writer.h"
 
 #include <catch2/catch.hpp>
 #include <new>

@@ -1,0 +1,192 @@
+// Folders of pictures that were looked at and kept, and what stands in their place now.
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/cli/console.h"
+#include "engine/core/file_io.h"
+#include "engine/core/result.h"
+#include "engine/core/try.h"
+#include "render/gl/image.h"
+#include "render/movie/page.h"
+
+namespace gridshell::app {
+
+/// All PNG files of both folders and the folders in them, by their path in the folder, in order.
+/// Errors: io, bad_input for a file that is no PNG.
+Result<std::vector<render::PicturePair>> pictures_of(const std::filesystem::path& before,
+                                                     const std::filesystem::path& after);
+
+/// Puts every picture that is not the same in the place of the kept one, takes away what is gone,
+/// and writes the reason with the names into `before`/WHY.md. Errors: io.
+Result<void> update_baselines(const std::filesystem::path& before,
+                              const std::vector<render::PicturePair>& pairs, double threshold,
+                              const std::string& why);
+
+namespace fs = std::filesystem;
+namespace {
+
+Result<std::set<fs::path>> names_in(const fs::path& folder) {
+  std::set<fs::path> names;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error))
+    if (at->path().extension() == ".png") names.insert(at->path().lexically_relative(folder));
+  if (error)
+    return fail(Fault::bad_input,
+                fmt::format("'{}' cannot be read: {}", folder.string(), error.message()));
+  return names;
+}
+
+Result<std::optional<render::Image>> picture(const fs::path& folder, const fs::path& name,
+                                             const std::set<fs::path>& there) {
+  if (!there.contains(name)) return std::optional<render::Image>();
+  TRY(image, render::read_png(folder / name));
+  return std::optional(std::move(*image));
+}
+
+}  // namespace
+
+Result<std::vector<render::PicturePair>> pictures_of(const fs::path& before,
+                                                     const fs::path& after) {
+  const auto old_names = names_in(before), new_names = names_in(after);
+  for (const auto* names : {&old_names, &new_names})
+    if (!*names) return tl::unexpected(names->error());
+  std::set<fs::path> all = *old_names;
+  all.insert(new_names->begin(), new_names->end());
+  std::vector<render::PicturePair> pairs;
+  for (const fs::path& name : all) {
+    auto a = picture(before, name, *old_names), b = picture(after, name, *new_names);
+    for (const auto* image : {&a, &b})
+      if (!*image) return tl::unexpected(image->error());
+    pairs.push_back({name.generic_string(), std::move(*a), std::move(*b)});
+  }
+  return pairs;
+}
+
+Result<void> update_baselines(const fs::path& before, const std::vector<render::PicturePair>& pairs,
+                              double threshold, const std::string& why) {
+  std::string names;
+  for (const render::PicturePair& pair : pairs) {
+    if (render::compare_versions(pair, threshold).same) continue;
+    names += (names.empty() ? "" : ", ") + pair.name;
+    const fs::path file = before / pair.name;
+    if (!pair.after) {
+      std::error_code error;
+      if (!fs::remove(file, error))
+        return fail(Fault::io, fmt::format("cannot remove '{}'", file.string()));
+      continue;
+    }
+    auto written = make_folder(file.parent_path()).and_then([&] {
+      return render::write_png(*pair.after, file);
+    });
+    if (!written) return written;
+  }
+  if (names.empty()) return {};
+  std::error_code missing;
+  std::string text = "# Why the kept pictures changed\n\n";
+  if (fs::exists(before / "WHY.md", missing)) {
+    TRY(kept, read_file(before / "WHY.md"));
+    text = std::move(*kept);
+  }
+  const std::time_t now = std::time(nullptr);
+  text += fmt::format("- {:%Y-%m-%d}: {} ({})\n", fmt::gmtime(now), why, names);
+  return write_file(before / "WHY.md", text);
+}
+
+// `gridshell compare A B`: the image-regression metric, on pictures or folders of them.
+
+namespace {
+
+struct CompareOptions {
+  std::string a, b, difference, why;
+  bool update = false;
+  double threshold = render::default_difference_threshold;
+};
+
+Result<bool> compare_pictures(const CompareOptions& options) {
+  TRY(a, as_input(render::read_png(options.a)));
+  TRY(b, as_input(render::read_png(options.b)));
+  TRY(worst, render::compare(*a, *b));
+  const bool same = worst->same(options.threshold);
+  fmt::print("{}: worst {} x {} block at ({}, {}) differs by {:.2f} of 255, threshold {}\n",
+             same ? "same" : "different", worst->width, worst->height, worst->x, worst->y,
+             worst->difference, options.threshold);
+  if (!options.difference.empty()) {
+    TRY(written, render::write_png(render::difference_picture(*a, *b, *worst), options.difference));
+  }
+  return same;
+}
+
+Result<bool> compare_folders(const CompareOptions& options) {
+  TRY(pairs, as_input(pictures_of(options.a, options.b)));
+  std::vector<render::PicturePair> different;
+  for (const render::PicturePair& pair : *pairs) {
+    const auto verdict = render::compare_versions(pair, options.threshold);
+    if (verdict.same) continue;
+    fmt::print("{}: {}\n", pair.name, verdict.text);
+    different.push_back(pair);
+  }
+  fmt::print("{} of {} pictures differ, threshold {}\n", different.size(), pairs->size(),
+             options.threshold);
+  if (!options.difference.empty() && !different.empty()) {
+    TRY(written,
+        render::write_png(render::contact_sheet(different, options.threshold), options.difference));
+  }
+  if (!options.update) return different.empty();
+  return update_baselines(options.a, *pairs, options.threshold, options.why).map([] {
+    return true;
+  });
+}
+
+Result<bool> compare_any(const CompareOptions& options) {
+  const bool a = std::filesystem::is_directory(options.a),
+             b = std::filesystem::is_directory(options.b);
+  if (a != b)
+    return fail(
+        Fault::bad_input,
+        fmt::format("'{}' is a folder and '{}' is none: compare two pictures or two folders",
+                    a ? options.a : options.b, a ? options.b : options.a));
+  if (options.update && (!a || options.why.empty()))
+    return fail(Fault::bad_input, a ? "--update needs --why \"...\": the reason is kept beside the "
+                                      "pictures"
+                                    : "--update is of folders of kept pictures");
+  return a ? compare_folders(options) : compare_pictures(options);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<CompareOptions>();
+  auto* command = program.add_subcommand(
+      "compare", "whether two pictures, or folders of them, are the same to the eye");
+  command->add_option("A", options->a, "a PNG, or a folder of kept ones")->required();
+  command->add_option("B", options->b, "another of the same size, or a folder")->required();
+  command
+      ->add_option("--threshold", options->threshold,
+                   "largest mean difference of an 8 x 8 block, of 255")
+      ->check(CLI::Range(0.0, 255.0))
+      ->capture_default_str();
+  command->add_option("--difference", options->difference,
+                      "PNG to write, differences in red; of folders a sheet of all that differ");
+  command->add_flag("--update", options->update, "put B's pictures in the place of A's");
+  command->add_option("--why", options->why, "with --update: the reason, kept in A/WHY.md");
+  command->callback([&action, options] {
+    action = [options]() -> int {
+      const auto same = compare_any(*options);
+      if (!same) return report(same.error());
+      return *same ? ExitCode::done : ExitCode::different;
+    };
+  });
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,110 @@
+#include "app/cli/console.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+
+namespace gridshell::app {
+
+int exit_code(Fault fault) {
+  switch (fault) {
+    case Fault::bad_input:
+      return ExitCode::bad_input;
+    case Fault::cancelled:
+      return ExitCode::interrupted;
+    case Fault::no_equilibrium:
+    case Fault::io:
+      break;
+  }
+  return ExitCode::failed;
+}
+
+int report(const Error& error) {
+  std::fprintf(stderr, "%s\n", error.message.c_str());
+  return exit_code(error.fault);
+}
+
+Error error_of(const std::exception& thrown) {
+  if (!dynamic_cast<const std::bad_alloc*>(&thrown)) return {Fault::io, thrown.what()};
+  // few bytes: there may be none left
+  return {
+      Fault::io,
+      "memory ran out; 'gridshell check' says what a preset's meshes take, and fewer [accuracy] "
+      "edges_per_segment, a larger tolerance or a smaller [movie] size take less"};
+}
+
+void install_terminate_handler() {
+  std::set_terminate([] {
+    const char* words = "ended by an error that nothing expected\n";
+    try {
+      if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+      words = "memory ran out; what was finished stays under its partial name\n";
+    } catch (...) {
+    }
+    if (::write(STDERR_FILENO, words, std::strlen(words)) < 0) _exit(ExitCode::failed);
+    _exit(ExitCode::failed);
+  });
+}
+
+namespace {
+
+// a signal handler can reach nothing but what is static
+volatile std::sig_atomic_t came = 0, guarded = 0;
+
+void end_at_once() {
+  const char words[] = "stopped\n";
+  // nothing is left to do where even this cannot be said
+  if (::write(STDERR_FILENO, words, sizeof words - 1) < 0) _exit(ExitCode::interrupted);
+  _exit(ExitCode::interrupted);
+}
+
+void on_signal(int) {
+  if (came || !guarded) end_at_once();
+  came = 1;
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  // what nohup started is to survive its terminal
+  struct sigaction before {};
+  sigaction(SIGHUP, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+bool interrupted_by_signal() noexcept { return came != 0; }
+
+InterruptGuard::InterruptGuard() noexcept { guarded = 1; }
+
+InterruptGuard::~InterruptGuard() { guarded = 0; }
+
+void open_standard_streams() noexcept {
+  for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number)
+    if (::fcntl(number, F_GETFD) < 0 && errno == EBADF)
+      if (::open("/dev/null", O_RDWR) != number) return;
+}
+
+bool flush_stdout() {
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  if (flushed && !std::ferror(stdout)) return true;
+  std::fprintf(stderr, "cannot write to standard output: %s\n",
+               errno ? std::strerror(errno) : "what was printed did not arrive");
+  return false;
+}
+
+}  // namespace gridshell::app

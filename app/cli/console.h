@@ -1,0 +1,66 @@
+// What the program says and how it ends: errors in a sentence on stderr, exit codes of the README.
+#pragma once
+
+#include <exception>
+
+#include "engine/core/result.h"
+
+namespace gridshell::app {
+
+enum ExitCode : int {
+  done = 0,
+  failed = 1,     ///< no equilibrium, unstable, disk full
+  bad_input = 2,  ///< or bad usage
+  different = 3,  ///< compared and different
+  interrupted = 130
+};
+
+int exit_code(Fault fault);
+
+/// Prints the error's message on stderr; its exit code.
+int report(const Error& error);
+
+/// Why an exception ended some work, as an error of the program: memory that ran out, with what to
+/// do about it, or what the library that threw it says.
+Error error_of(const std::exception& thrown);
+inline int report_exception(const std::exception& thrown) { return report(error_of(thrown)); }
+
+/// From now on an exception that nothing catches (memory that runs out where the standard library
+/// promises not to throw) ends the program with a sentence and the exit code of a failure.
+void install_terminate_handler();
+
+/// A path of the user's that cannot be read is bad input, whatever the system's reason.
+template <class T>
+Result<T> as_input(Result<T> result) {
+  if (!result && result.error().fault == Fault::io) result.error().fault = Fault::bad_input;
+  return result;
+}
+
+// Ctrl-C, SIGTERM and SIGHUP, from the first line of main to the last.
+
+/// From now on these signals end the program with the exit code of an interrupted one: at once
+/// where nothing is at stake, and by way of interrupted_by_signal() while a InterruptGuard lives. A
+/// second signal always ends it at once. A file that grows too large and a pipe that nobody reads
+/// are errors of their writes, not signals.
+void install_signal_handlers();
+
+/// Whether one of them has come.
+bool interrupted_by_signal() noexcept;
+
+/// While one lives, a signal is noted and left to the work, which asks interrupted_by_signal().
+class InterruptGuard {
+ public:
+  InterruptGuard() noexcept;
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+};
+
+/// Opens /dev/null in the place of a closed stdin, stdout or stderr: else the next file that is
+/// opened would get its number, and be written to as if it were the terminal.
+void open_standard_streams() noexcept;
+
+/// Whether all that was printed on stdout arrived; else a line on stderr says why not.
+bool flush_stdout();
+
+}  // namespace gridshell::app

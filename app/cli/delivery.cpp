@@ -1,0 +1,248 @@
+#include "app/cli/delivery.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <limits>
+
+#include "app/cli/console.h"
+#include "app/cli/staged_folder.h"
+#include "engine/gridshell.h"
+#include "render/movie/encode.h"
+
+namespace gridshell::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string time_text(double seconds) {
+  const auto whole = static_cast<long>(std::ceil(seconds));
+  if (whole < 3600) return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::string left_text(const ProgressState& at) {
+  return std::isnan(at.seconds_left) || at.fraction >= 1
+             ? ""
+             : fmt::format(", {} left", time_text(at.seconds_left));
+}
+
+}  // namespace
+
+ProgressState standing(const std::vector<Phase>& phases, std::size_t current, double fraction,
+                       double elapsed) {
+  double all = 0, before = 0, after = 0;
+  for (std::size_t k = 0; k < phases.size(); ++k) {
+    all += phases[k].expected_seconds;
+    if (k < current) before += phases[k].expected_seconds;
+    if (k > current) after += phases[k].expected_seconds;
+  }
+  const double own = phases[current].expected_seconds;
+  ProgressState at{all > 0 ? (before + own * fraction) / all : 0,
+                   std::numeric_limits<double>::quiet_NaN()};
+  // too early to tell how fast this phase is
+  if (fraction < 0.02 || elapsed < 0.5) return at;
+  const double whole = elapsed / fraction;
+  at.seconds_left = whole - elapsed + (own > 0 ? after * whole / own : after);
+  return at;
+}
+
+std::string bar_text(const ProgressState& at, const std::string& label, int width) {
+  const int full = std::clamp(int(at.fraction * width), 0, width);
+  std::string bar(std::size_t(full), '=');
+  if (full < width) bar += '>';
+  bar.resize(std::size_t(width), ' ');
+  return fmt::format("[{}] {:3d} %  {}{}", bar, int(at.fraction * 100), label, left_text(at));
+}
+
+Progress::Show Progress::show_for(bool quiet) {
+  return quiet ? Show::nothing : isatty(STDERR_FILENO) ? Show::bar : Show::lines;
+}
+
+Progress::Progress(std::vector<Phase> phases, Show show, std::function<void()> on_forced_exit)
+    : phases_(std::move(phases)), show_(show), last_words_(std::move(on_forced_exit)) {
+  thread_ = std::thread([this] { loop(); });
+}
+
+Progress::~Progress() {
+  {
+    const std::lock_guard lock(mutex_);
+    finished_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+  // the line of the bar is free again
+  if (bar_open_) std::fputs("\r\033[K", stderr);
+}
+
+Watch& Progress::next_phase() {
+  const std::lock_guard lock(mutex_);
+  watches_.push_back(std::make_unique<Watch>());
+  phase_began_ = Clock::now();
+  if (interrupted_) watches_.back()->cancel();
+  return *watches_.back();
+}
+
+void Progress::loop() {
+  std::unique_lock lock(mutex_);
+  while (!finished_) {
+    stop_if_asked();
+    try {
+      if (!watches_.empty() && !interrupted_) show_now();
+    } catch (const std::exception&) {
+      // a line that does not fit into memory is not worth the work
+    }
+    wake_.wait_for(lock, std::chrono::milliseconds(50));
+  }
+}
+
+void Progress::stop_if_asked() {
+  if (!interrupted_ && interrupted_by_signal()) {
+    interrupted_ = true;
+    interrupted_at_ = Clock::now();
+    if (!watches_.empty()) watches_.back()->cancel();
+  }
+  // what is finished is whole, so the program may end
+  const bool draws = !watches_.empty() && phases_[watches_.size() - 1].draws;
+  if (interrupted_ && draws && seconds_since(interrupted_at_) > 0.5) {
+    if (bar_open_) std::fputs("\r\033[K", stderr);
+    try {
+      last_words_();
+    } catch (const std::exception&) {
+      // the folder says by itself what it holds
+    }
+    _exit(ExitCode::interrupted);
+  }
+}
+
+void Progress::show_now() {
+  const auto current = watches_.size() - 1;
+  const auto at =
+      standing(phases_, current, watches_.back()->progress(), seconds_since(phase_began_));
+  const auto& label = phases_[current].label;
+  if (show_ == Show::bar) {
+    std::fprintf(stderr, "\r%s\033[K", bar_text(at, label, 40).c_str());
+    bar_open_ = true;
+  }
+  const int tenth = int(at.fraction * 10);
+  if (show_ == Show::lines && tenth > tenth_shown_) {
+    std::fprintf(stderr, "%d %%  %s%s\n", tenth * 10, label.c_str(), left_text(at).c_str());
+    tenth_shown_ = tenth;
+  }
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+// what is whole in a folder that was not finished
+struct Left {
+  int pictures = 0, runs = 0;
+  std::size_t frames = 0;  // of runs cut short
+};
+
+Left left_in(const fs::path& folder) {
+  Left left;
+  std::error_code error;
+  left.frames = record::frames_in_journal(folder);
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error)) {
+    left.pictures += at->path().extension() == ".png";
+    left.runs += at->path().filename() == "summary.json";
+    if (at->is_directory(error)) left.frames += record::frames_in_journal(at->path());
+  }
+  return left;
+}
+
+std::string count(std::size_t n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+std::string near_name(const fs::path& folder) {
+  std::error_code error;
+  return fs::proximate(folder, error).string();
+}
+
+// what others left beside the folder to be written, and what may be done with it
+void report_left_behind(const fs::path& final_folder) {
+  for (const auto& folder : left_behind(final_folder)) {
+    const auto name = near_name(folder);
+    const auto left = left_in(folder);
+    const auto removes = render::shell_line({"rm", "-r", name});
+    const bool old = folder.filename().string().find(".old-") != std::string::npos;
+    std::string draws;
+    if (!old && left.runs + left.frames > 0)
+      draws = fmt::format("\n  {}    draws it", render::shell_line({"gridshell", "render", name}));
+    std::fprintf(
+        stderr, "'%s' is %s:%s\n  %s    removes it\n", name.c_str(),
+        old ? "what is left of a run that was replaced" : "left of a run that was not finished",
+        draws.c_str(), removes.c_str());
+  }
+}
+
+Result<void> attempt(const Work& work, const fs::path& partial, Progress& progress) {
+  try {
+    return work(partial, progress);
+  } catch (const std::exception& error) {
+    return tl::unexpected(error_of(error));
+  }
+}
+
+}  // namespace
+
+std::string keep_finished_files(const fs::path& partial) {
+  remove_unfinished(partial);
+  const auto left = left_in(partial);
+  const auto name = near_name(partial);
+  if (left.pictures + left.runs + left.frames == 0) {
+    std::error_code error;
+    fs::remove_all(partial, error);
+    return "nothing was finished, so nothing is left behind";
+  }
+  if (left.frames == 0)
+    return fmt::format("{} and {}, each whole, are in '{}'", count(left.runs, "run"),
+                       count(left.pictures, "picture"), name);
+  const auto others =
+      left.runs + left.pictures == 0
+          ? ""
+          : fmt::format(", {} and {}", count(left.runs, "run"), count(left.pictures, "picture"));
+  return fmt::format("{} of an unfinished run{}, each whole, are in '{}'; this draws them:\n  {}",
+                     count(left.frames, "frame"), others, name,
+                     render::shell_line({"gridshell", "render", name}));
+}
+
+int deliver(const fs::path& final_folder, const std::vector<Phase>& phases, bool quiet,
+            const Work& work) {
+  const InterruptGuard guarded;
+  auto staged = StagedFolder::create(final_folder);
+  if (!staged) return report(staged.error());
+  if (!quiet) report_left_behind(final_folder);
+  const auto on_forced_exit = [&] {
+    std::fprintf(stderr, "stopped\n%s\n", keep_finished_files(staged->path()).c_str());
+  };
+  Result<void> outcome;
+  {
+    Progress progress(phases, Progress::show_for(quiet), on_forced_exit);
+    outcome = attempt(work, staged->path(), progress);
+  }
+  std::string note;
+  if (outcome)
+    outcome = staged->commit().map([&](std::string stayed) { note = std::move(stayed); });
+  if (!note.empty()) std::fprintf(stderr, "%s\n", note.c_str());
+  if (outcome) return ExitCode::done;
+  const auto left = keep_finished_files(staged->path());
+  // an empty staged folder is gone already; its parents go with it
+  if (fs::exists(staged->path())) staged->keep();
+  auto error = outcome.error();
+  if (error.fault == Fault::cancelled) error.message = "stopped";
+  error.message += "\n" + left;
+  return report(error);
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,98 @@
+// Long work under watch: one bar that counts evenly over all phases, with the time left, and the
+// stop within a second of Ctrl-C.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/cli/options.h"
+#include "engine/core/watch.h"
+
+namespace gridshell::app {
+
+/// A part of the work: its share of the bar is its expected time.
+struct Phase {
+  std::string label;
+  double expected_seconds = 1;
+  /// pictures: one is drawn in a piece and does not listen, so the program may end in its middle
+  bool draws = false;
+};
+
+inline Phase drawing(std::string label, double expected_seconds) {
+  return {std::move(label), expected_seconds, true};
+}
+
+/// How far the work is, for a bar or a line.
+struct ProgressState {
+  double fraction = 0;      ///< of all phases
+  double seconds_left = 0;  ///< NaN while too little is done to say
+};
+
+/// Where work of `phases` stands: `current` is `fraction` done after `elapsed` seconds. Later
+/// phases are scaled by how much slower than expected the current one turns out.
+ProgressState standing(const std::vector<Phase>& phases, std::size_t current, double fraction,
+                       double elapsed);
+
+/// "[======>     ]  52 %  rendering, 0:31 left"
+std::string bar_text(const ProgressState& standing, const std::string& label, int width);
+
+/// Watches phases from a thread of its own: shows progress on stderr (a bar on a terminal, a line a
+/// tenth elsewhere), and passes an interrupt on to the current phase's Watch. Where a picture takes
+/// longer than that may wait, it ends the program.
+class Progress {
+ public:
+  enum class Show { nothing, lines, bar };
+  /// a bar on a terminal, lines elsewhere, nothing when quiet
+  static Show show_for(bool quiet);
+
+  /// `on_forced_exit` runs, on another thread, before the program is ended because it did not stop.
+  Progress(std::vector<Phase> phases, Show show, std::function<void()> on_forced_exit);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Ends the phase before and begins the next; valid until the one after it begins.
+  Watch& next_phase();
+
+ private:
+  void loop();
+  void show_now();
+  void stop_if_asked();
+
+  std::vector<Phase> phases_;
+  Show show_;
+  std::function<void()> last_words_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool finished_ = false;
+  std::vector<std::unique_ptr<Watch>> watches_;
+  std::chrono::steady_clock::time_point phase_began_, interrupted_at_;
+  bool interrupted_ = false;
+  int tenth_shown_ = 0;
+  bool bar_open_ = false;
+  std::thread thread_;
+};
+
+// Long work that delivers a folder: staged, under one progress bar, stopped by Ctrl-C, and whole
+// under its final name or not there at all.
+
+/// Writes into `partial`; begins every phase it was announced with.
+using Work = std::function<Result<void>(const std::filesystem::path& partial, Progress& progress)>;
+
+/// Runs `work` into a staged folder and gives it the name `final_folder`. On failure, what was
+/// finished stays under the partial name, and a line on stderr says so. The exit code.
+int deliver(const std::filesystem::path& final_folder, const std::vector<Phase>& phases, bool quiet,
+            const Work& work);
+
+/// Cleans a folder that will not be finished: half-written files go, whole pictures and runs stay;
+/// without any the folder goes too. A sentence that says what is left.
+std::string keep_finished_files(const std::filesystem::path& partial);
+
+}  // namespace gridshell::app

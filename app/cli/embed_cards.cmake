@@ -1,0 +1,17 @@
+# Writes a .cpp that holds every presets/pictures/cards/*.png, so that the window can show presets as
+# pictures. Arguments: CARDS (a list of files), OUTPUT.
+set(text "// Generated from presets/pictures/cards/*.png.\n#include \"app/cli/preset_library.h\"\n\n")
+string(APPEND text "namespace gridshell::app {\n\n")
+string(APPEND text "std::string_view embedded_card(const std::string& name) {\n")
+string(APPEND text "  using namespace std::string_view_literals;\n")
+string(APPEND text "  static const std::map<std::string, std::string_view> all = {\n")
+foreach(file IN LISTS CARDS)
+  get_filename_component(name ${file} NAME_WE)
+  file(READ ${file} content HEX)
+  string(REGEX REPLACE "(..)" "\\\\x\\1" content "${content}")
+  string(APPEND text "    {\"${name}\", \"${content}\"sv},\n")
+endforeach()
+string(APPEND text "  };\n  const auto found = all.find(name);\n")
+string(APPEND text "  return found == all.end() ? std::string_view() : found->second;\n}\n\n")
+string(APPEND text "}  // namespace gridshell::app\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,227 @@
+#include "app/cli/finished_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/cli/console.h"
+#include "app/cli/preset_library.h"
+#include "engine/core/file_io.h"
+#include "engine/core/json.h"
+#include "engine/core/system_info.h"
+#include "engine/core/try.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+tl::unexpected<Error> no_run(const fs::path& folder, const std::string& because) {
+  return fail(Fault::bad_input, fmt::format("'{}' is no run: {}", folder.string(), because));
+}
+
+bool holds_run(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder / "summary.json", error) || record::preset_of_journal(folder);
+}
+
+// of several cases that were cut short: those that were begun
+std::vector<std::string> cases_begun(const fs::path& folder) {
+  std::vector<std::string> names;
+  if (const auto presets = preset::read_preset_file(folder / "preset.toml"))
+    for (const auto& one : presets->cases)
+      if (holds_run(folder / one.name)) names.push_back(one.name);
+  return names;
+}
+
+// a word of somebody else's, safe to print
+std::string shown(const std::string& word) {
+  const auto text = record::line_of(record::Json(word), true);
+  return text.size() <= 80 ? text : text.substr(0, 77) + "...";
+}
+
+// the folders of the cases, or the run itself as one case without a name
+Result<std::vector<std::string>> case_names(const fs::path& folder) {
+  const auto file = folder / "summary.json";
+  const auto text = read_file(file, largest_text);
+  if (!text) {
+    if (record::preset_of_journal(folder)) return std::vector<std::string>{""};
+    if (auto begun = cases_begun(folder); !begun.empty()) return begun;
+    return no_run(folder, text.error().message);
+  }
+  const auto json = record::parsed(*text);
+  if (!json.is_object() || !json.contains("cases")) return std::vector<std::string>{""};
+  std::vector<std::string> names;
+  for (const auto& one : json["cases"]) {
+    if (!one.is_object() || !one.contains("name") || !one["name"].is_string()) continue;
+    const auto name = one["name"].get<std::string>();
+    // it becomes the name of a folder that is written
+    if (const auto wrong = preset::case_name_fault(name); !wrong.empty())
+      return fail(Fault::bad_input,
+                  fmt::format("'{}': case {}: {}", file.string(), shown(name), wrong));
+    if (std::find(names.begin(), names.end(), name) != names.end())
+      return fail(Fault::bad_input,
+                  fmt::format("'{}': case \"{}\" is listed twice", file.string(), name));
+    names.push_back(name);
+  }
+  if (names.empty()) return no_run(folder, "its summary.json lists no cases");
+  return names;
+}
+
+// the name becomes that of pictures
+Result<void> check_name(const fs::path& file, const std::string& name) {
+  const auto plain = [](unsigned char c) { return c >= 0x20 && c != 0x7f; };
+  const auto stem = fs::path(name).filename().string();
+  if (!stem.empty() && stem.size() <= 200 && stem.front() != '.' &&
+      std::ranges::all_of(name, plain))
+    return {};
+  return fail(
+      Fault::bad_input,
+      fmt::format("'{}': its preset's name cannot be the name of a picture", file.string()));
+}
+
+// version 0.1 did not say: a run sampled at the stills' radii, or of a net's end alone, came from
+// `figure`
+Pictures guessed_pictures(const FinishedRun& run, const fs::path& folder) {
+  const preset::Preset& preset = run.preset;
+  const record::FrameList& frames = run.trajectory.frames;
+  // a push is sampled alike for both
+  const auto still = fs::path(preset.name).filename().string() + ".png";
+  std::error_code error;
+  if (preset.indentation.wanted())
+    return fs::exists(folder / still, error) ? Pictures::stills : Pictures::movie;
+  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
+  if (!circle) return frames.size() == 1 ? Pictures::stills : Pictures::movie;
+  const auto& radii = preset.figure.radii_mm;
+  if (radii.size() != frames.size()) return Pictures::movie;
+  for (std::size_t k = 0; k < radii.size(); ++k)
+    if (!(std::abs(radii[k] - frames[k].boundary_radius_mm) < 1e-6 * radii[k]))
+      return Pictures::movie;
+  return Pictures::stills;
+}
+
+Pictures pictures_of(const FinishedRun& run, const fs::path& folder) {
+  switch (run.summary.kind) {
+    case record::Kind::figure:
+      return Pictures::stills;
+    case record::Kind::run:
+    case record::Kind::movie:
+      return Pictures::movie;
+    case record::Kind::unknown:
+      break;
+  }
+  return guessed_pictures(run, folder);
+}
+
+// what is known of a run whose end never came
+record::Summary summary_of(const record::Journal& journal, const preset::Preset& preset) {
+  const record::Trajectory& run = journal.trajectory;
+  record::Summary s;
+  s.preset = journal.name.preset;
+  s.kind = journal.name.kind;
+  s.finished = false;
+  const auto rung = preset::rod_model_of(preset);
+  s.model = word_of(rung);
+  s.model_reason = preset::model_reason(preset);
+  s.solved = rung != RodModel::net;
+  s.rods = int(run.layout.rods.size());
+  s.joints = int(run.layout.joints.size());
+  s.cells = int(run.layout.cells.size());
+  s.take_state(run.frames.back());
+  return s;
+}
+
+Result<void> read_journal(const fs::path& folder, FinishedRun& run) {
+  TRY(journal, as_input(record::read_journal_of(folder)));
+  const record::FrameList& frames = journal->trajectory.frames;
+  if (frames.empty()) return no_run(folder, "no frame was finished");
+  run.summary = summary_of(*journal, run.preset);
+  run.trajectory = std::move(journal->trajectory);
+  run.in_journal = true;
+  return {};
+}
+
+Result<void> read_files(const fs::path& folder, bool unsealed, FinishedRun& run) {
+  TRY(summary, as_input(record::read_summary(folder / "summary.json")));
+  TRY(trajectory,
+      as_input(record::read_trajectory(folder / "trajectory.h5", {.unsealed = unsealed})));
+  run.summary = std::move(*summary);
+  run.trajectory = std::move(*trajectory);
+  return {};
+}
+
+// triangles of the tubes, measured: the most that drawing asks for
+constexpr double bytes_to_draw_a_node = 2000;
+
+Result<void> check_memory(const fs::path& folder, const FinishedRun& run) {
+  const record::FrameList& frames = run.trajectory.frames;
+  if (frames.empty()) return no_run(folder, "its trajectory has no frame");
+  const double wanted = 1e-9 * bytes_to_draw_a_node * double(frames.front().nodes.cols());
+  const double given =
+      run.preset.accuracy.memory_GB > 0 ? run.preset.accuracy.memory_GB : default_memory_GB();
+  if (given == 0 || wanted <= given) return {};
+  return fail(
+      Fault::bad_input,
+      fmt::format("'{}': drawing its {} nodes takes about {:.2g} GB, more than the {:.2g} GB "
+                  "of [accuracy] memory_GB (by default half of the machine's)",
+                  folder.string(), frames.front().nodes.cols(), wanted, given));
+}
+
+Result<record::StateTables> read_states_of(const fs::path& folder, const FinishedRun& run) {
+  auto tables = as_input(record::read_state_tables(folder));
+  if (tables && tables->rows.size() != run.trajectory.frames.size())
+    return no_run(folder,
+                  fmt::format("{} lists {} states, its trajectory has {}", record::states_name,
+                              tables->rows.size(), run.trajectory.frames.size()));
+  return tables;
+}
+
+Result<FinishedRun> read_run(const fs::path& folder, const std::string& name,
+                             const std::vector<preset::Override>& overrides, bool unsealed) {
+  FinishedRun run;
+  run.name = name;
+  TRY(presets, preset::read_preset_file(folder / "preset.toml", overrides));
+  run.preset = std::move(presets->base);
+  std::error_code error;
+  const bool whole = fs::exists(folder / "summary.json", error);
+  TRY(read, whole ? read_files(folder, unsealed, run) : read_journal(folder, run));
+  TRY_DO(check_name(folder / (whole ? "summary.json" : record::journal_name), run.summary.preset));
+  TRY_DO(check_memory(folder, run));
+  run.preset.name = run.summary.preset;
+  run.pictures = pictures_of(run, folder);
+  if (run.preset.jitter.wanted()) {
+    TRY(tables, read_states_of(folder, run));
+    run.states = std::move(*tables);
+    run.pictures = Pictures::stills;
+  }
+  run.preset.movie.frames = int(run.trajectory.frames.size());
+  return run;
+}
+
+}  // namespace
+
+Result<std::vector<FinishedRun>> read_runs(const fs::path& folder,
+                                           const std::vector<preset::Override>& overrides,
+                                           bool unsealed) {
+  TRY(names, case_names(folder));
+  std::vector<FinishedRun> runs;
+  for (const auto& name : *names) {
+    // of cases cut short the last one begun may hold no frame yet
+    if (!name.empty() && !holds_run(folder / name)) continue;
+    TRY(run, read_run(folder_of(folder, name), name, overrides, unsealed));
+    runs.push_back(std::move(*run));
+  }
+  if (runs.empty()) return no_run(folder, "none of its cases is there");
+  return runs;
+}
+
+std::string progress_text(const FinishedRun& run) {
+  const record::FrameList& frames = run.trajectory.frames;
+  double furthest = 0;
+  for (const record::Frame& frame : frames) furthest = std::max(furthest, frame.progress);
+  return fmt::format("{} frame{}, up to progress {:.3g}", frames.size(),
+                     frames.size() == 1 ? "" : "s", furthest);
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,192 @@
+#include "app/cli/staged_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "engine/core/file_io.h"
+#include "engine/core/json.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+const std::string first_line = "gridshell run 1";
+
+// all files and empty folders under a folder, relative to it, sorted
+std::vector<std::string> contents(const fs::path& folder, std::error_code& error) {
+  std::vector<std::string> found;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error)) {
+    // a link is a file of its own, also one that leads in a circle
+    const bool inner =
+        !at->is_symlink(error) && at->is_directory(error) && !fs::is_empty(at->path(), error);
+    if (!inner) found.push_back(at->path().lexically_relative(folder).generic_string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// the files that a manifest lists, or nothing where there is none
+std::optional<std::set<std::string>> listed(const fs::path& folder) {
+  const auto text = read_file(folder / manifest_name, largest_text);
+  if (!text) return std::nullopt;
+  std::istringstream lines(*text);
+  std::string line;
+  if (!std::getline(lines, line) || line != first_line) return std::nullopt;
+  std::set<std::string> names{manifest_name};
+  while (std::getline(lines, line)) names.insert(line);
+  return names;
+}
+
+// a run or chart without a manifest: which names its files may have
+struct LegacyRunFiles {
+  std::set<std::string> stems;  // that names of pictures begin with
+  std::set<std::string> cases;  // folders, each a run
+};
+
+// what the summary or the journal of a folder says that it is
+std::optional<LegacyRunFiles> named(const fs::path& folder) {
+  LegacyRunFiles run;
+  const auto name_pictures = [&](const fs::path& preset) {
+    run.stems = {
+        preset.filename().string(), "accuracy", "unknowns", "scaling", "stability", "branches"};
+    if (run.stems.contains("")) run.stems.erase("");
+  };
+  const auto text = read_file(folder / "summary.json", largest_text);
+  const auto json = text ? record::parsed(*text) : record::Json();
+  const auto holds = [&](const char* key) { return json.is_object() && json.contains(key); };
+  if (holds("preset") && json["preset"].is_string() &&
+      (holds("negative_pivots") || holds("cases") || holds("chart"))) {
+    name_pictures(json["preset"].get<std::string>());
+    if (holds("cases") && json["cases"].is_array())
+      for (const auto& one : json["cases"])
+        for (const char* key : {"name", "preset"})
+          if (one.is_object() && one.contains(key) && one[key].is_string())
+            run.cases.insert(fs::path(one[key].get<std::string>()).filename().string());
+    // a folder is not its own case
+    for (const char* name : {"", ".", ".."}) run.cases.erase(name);
+    return run;
+  }
+  const auto preset = record::preset_of_journal(folder);
+  if (!preset) return std::nullopt;
+  name_pictures(*preset);
+  return run;
+}
+
+// the same, or of several cases none of which was finished the runs in the folder: no deeper, for
+// any folder of the machine may be asked for
+std::optional<LegacyRunFiles> unlisted(const fs::path& folder) {
+  if (auto run = named(folder)) return run;
+  LegacyRunFiles run;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (at->is_directory(error) && named(at->path()))
+      run.cases.insert(at->path().filename().string());
+  if (run.cases.empty()) return std::nullopt;
+  return run;
+}
+
+bool is_temporary(const std::string& name) { return name.starts_with(".partial-"); }
+
+bool may_be_of(const LegacyRunFiles& run, const std::string& name) {
+  static const std::set<std::string> data{"summary.json",
+                                          "preset.toml",
+                                          "joints.csv",
+                                          "cells.csv",
+                                          "frames.csv",
+                                          "bins.csv",
+                                          "seams.csv",
+                                          "trajectory.h5",
+                                          "movie.mp4",
+                                          "accuracy.csv",
+                                          "scaling.csv",
+                                          "stability.csv",
+                                          "design.json",
+                                          "design.csv",
+                                          "ends.csv",
+                                          "rods.csv",
+                                          "ends_rounded.csv",
+                                          "branches.csv",
+                                          "scan.json",
+                                          "scan.csv",
+                                          "measured.csv",
+                                          "scan.png",
+                                          record::states_name,
+                                          record::search_name,
+                                          record::transitions_name,
+                                          record::barriers_name,
+                                          record::journal_name,
+                                          record::coarser_journal_name};
+  static const std::regex frame("frames(/frame_[0-9]{5,}\\.png)?");
+  if (data.contains(name) || is_temporary(fs::path(name).filename().string()) ||
+      std::regex_match(name, frame))
+    return true;
+  const auto kind = fs::path(name).extension();
+  if (name.find('/') != std::string::npos || (kind != ".png" && kind != ".svg")) return false;
+  return std::ranges::any_of(run.stems, [&](const auto& stem) { return name.starts_with(stem); });
+}
+
+// the names in a folder without a manifest that no run gives
+void gather_foreign(const fs::path& folder, const LegacyRunFiles& run, const std::string& before,
+                    std::vector<std::string>& foreign) {
+  std::error_code error;
+  for (const auto& name : contents(folder, error)) {
+    const auto slash = name.find('/');
+    const auto inner = name.substr(0, slash);
+    if (run.cases.contains(inner) && fs::is_directory(folder / inner, error)) continue;
+    if (!may_be_of(run, name)) foreign.push_back(before + name);
+  }
+  for (const auto& name : run.cases) {
+    if (!fs::is_directory(folder / name, error)) continue;
+    if (const auto inner = named(folder / name))
+      gather_foreign(folder / name, *inner, before + name + "/", foreign);
+    else if (!fs::is_empty(folder / name, error))
+      foreign.push_back(before + name);
+  }
+}
+
+std::string foreign_text(const std::vector<std::string>& foreign) {
+  if (foreign.empty()) return "";
+  const auto more = foreign.size() - 1;
+  return fmt::format("it holds what no run wrote there: '{}'{}", foreign.front(),
+                     more ? fmt::format(" and {} more", more) : "");
+}
+
+}  // namespace
+
+Result<void> write_manifest(const fs::path& folder) {
+  std::error_code error;
+  std::string text = first_line + "\n";
+  for (const auto& name : contents(folder, error))
+    if (name != manifest_name) text += name + "\n";
+  if (error)
+    return fail(Fault::io, fmt::format("cannot list '{}': {}", folder.string(), error.message()));
+  return write_file(folder / manifest_name, text);
+}
+
+std::string why_not_a_run(const fs::path& folder) {
+  std::error_code error;
+  std::vector<std::string> foreign;
+  if (const auto names = listed(folder)) {
+    for (const auto& name : contents(folder, error))
+      if (!names->contains(name) && !is_temporary(fs::path(name).filename().string()))
+        foreign.push_back(name);
+  } else if (const auto run = unlisted(folder)) {
+    gather_foreign(folder, *run, "", foreign);
+  } else if (fs::exists(folder / "summary.json", error)) {
+    return "it exists and is no run (its summary.json is not one of a run)";
+  } else {
+    return "it exists and is no run (it has no summary.json)";
+  }
+  if (error) return "it cannot be read: " + error.message();
+  return foreign_text(foreign);
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,109 @@
+#include "app/cli/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <regex>
+
+#include "render/gl/context.h"
+
+#include "engine/core/try.h"
+
+namespace gridshell::app {
+
+void add_changes(CLI::App& command, Options& options) {
+  command
+      .add_option("--set", options.set, "a key of the preset, any number of times: table.key=value")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--size", options.size, "width and height of a picture: WxH");
+  command.add_option("--quality", options.quality, "draft, movie or figure");
+  command.add_option("--width", options.width, "width of a figure as printed: 85mm");
+  command.add_option("--dpi", options.dpi, "pixels of an inch, with --width");
+}
+
+void add_preset_options(CLI::App& command, Options& options) {
+  command.add_option("PRESET", options.input, "a preset file, or a name of 'gridshell list'")
+      ->required();
+  add_changes(command, options);
+  command.add_option("--frames", options.frames, "frames of the movie");
+  command.add_flag("--print-config", options.print_config,
+                   "print what default < preset < --set came to, as a preset, and stop");
+}
+
+void add_run_options(CLI::App& command, Options& options) {
+  command.add_option("RUN", options.input, "the folder of a finished run")->required();
+  add_changes(command, options);
+}
+
+void add_work_options(CLI::App& command, Options& options, const std::string& output) {
+  command.add_option("-o,--output", options.output, output);
+  command.add_option("--threads", options.threads, "threads to work with; results do not change")
+      ->check(CLI::Range(1, 1024));
+  command.add_flag("--quiet", options.quiet, "print nothing but errors");
+}
+
+void add_picture_options(CLI::App& command, Options& options) {
+  command.add_option("--context", options.context, "auto, osmesa, egl or window")
+      ->check(CLI::IsMember(all_words<render::ContextKind>()));
+}
+
+Result<std::vector<preset::Override>> overrides_of(const Options& options) {
+  std::vector<preset::Override> overrides;
+  for (const auto& argument : options.set) {
+    TRY(change, preset::parse_override(argument));
+    overrides.push_back(*change);
+  }
+  if (!options.frames.empty()) overrides.push_back({"--frames", "movie.frames", options.frames});
+  // one word for two keys is wrong once
+  if (!options.quality.empty() && !find_word<preset::Quality>(options.quality))
+    return fail(Fault::bad_input,
+                fmt::format("--quality {}: must be draft, movie or figure", options.quality));
+  if (!options.quality.empty())
+    for (const char* key : {"movie.quality", "figure.quality"})
+      overrides.push_back({"--quality", key, options.quality});
+  if (!options.width.empty()) {
+    std::smatch part;
+    if (!std::regex_match(options.width, part, std::regex("([0-9]{1,4}(\\.[0-9]+)?)mm")))
+      return fail(
+          Fault::bad_input,
+          fmt::format("--width {}: must be in millimetres, for example 85mm", options.width));
+    overrides.push_back({"--width", "figure.width_mm", part[1]});
+  }
+  if (!options.dpi.empty()) overrides.push_back({"--dpi", "figure.dpi", options.dpi});
+  if (!options.size.empty()) {
+    TRY(size, size_of(options.size));
+    overrides.push_back(
+        {"--size", "movie.size", fmt::format("[{}, {}]", size->first, size->second)});
+  }
+  return overrides;
+}
+
+Result<std::pair<int, int>> size_of(const std::string& text) {
+  std::smatch part;
+  if (!std::regex_match(text, part, std::regex("([0-9]{1,6})x([0-9]{1,6})")))
+    return fail(Fault::bad_input,
+                fmt::format("--size {}: must be WxH, for example 1280x720", text));
+  return std::pair(std::stoi(part[1]), std::stoi(part[2]));
+}
+
+Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
+                                                       const std::vector<std::string>& also) {
+  auto overrides = overrides_of(options);
+  if (!overrides) return overrides;
+  for (const auto& change : *overrides) {
+    if (std::ranges::find(also, change.key) != also.end()) continue;
+    const bool shows = change.key.starts_with("movie.") || change.key.starts_with("figure.") ||
+                       change.key.starts_with("style.") || change.key == "page.photo" ||
+                       change.key == "page.sweep";
+    if (!shows || change.key == "movie.frames" || change.key == "figure.radii_mm")
+      return fail(Fault::bad_input,
+                  fmt::format("{}: {} cannot change once a run is finished; what can are keys of "
+                              "[movie], [style], [figure] and [page] that only show it",
+                              change.source, change.key));
+  }
+  return overrides;
+}
+
+}  // namespace gridshell::app

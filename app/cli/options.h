@@ -1,0 +1,57 @@
+// The options that the commands share, declared once.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/gridshell.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gridshell::app {
+
+/// What was given on the command line; empty or zero where nothing was.
+struct Options {
+  std::string input;  ///< PRESET or RUN
+  std::filesystem::path output;
+  std::vector<std::string> set;
+  int threads = 0;
+  bool quiet = false;
+  std::string context = "auto";
+  std::string size, quality, frames, width, dpi;
+  bool print_config = false;
+};
+
+/// PRESET and everything that changes it: --set, --frames, --size, --quality, --print-config.
+void add_preset_options(CLI::App& command, Options& options);
+
+/// What changes a preset or the pictures of a run: --set, --size, --quality, --width, --dpi.
+void add_changes(CLI::App& command, Options& options);
+
+/// RUN and what changes its pictures: --set, --size, --quality.
+void add_run_options(CLI::App& command, Options& options);
+
+/// -o, --threads, --quiet: of commands that work for a while.
+void add_work_options(CLI::App& command, Options& options,
+                      const std::string& output = "folder to write, by default out/<preset>");
+
+/// --context: of commands that draw.
+void add_picture_options(CLI::App& command, Options& options);
+
+/// The options that change the preset, in the order in which they are laid over it. Errors:
+/// bad_input for a --set without key or value, a --size that is not WxH.
+Result<std::vector<preset::Override>> overrides_of(const Options& options);
+
+/// The same of a finished run, of which only how it is shown may change, and the keys `also`.
+/// Errors: bad_input for any other key.
+Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
+                                                       const std::vector<std::string>& also = {});
+
+/// The width and height that --size names. Errors (bad_input): not WxH.
+Result<std::pair<int, int>> size_of(const std::string& text);
+
+}  // namespace gridshell::app

@@ -1,0 +1,204 @@
+#include "app/cli/paper_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "app/cli/pictures.h"
+#include "render/canvas/legend.h"
+#include "render/gl/image.h"
+#include "render/movie/run_figures.h"
+#include "render/movie/run_plots.h"
+#include "render/movie/shell_lines.h"
+#include "render/movie/stage.h"
+#include "render/movie/stills.h"
+
+#include "engine/core/try.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+using render::Box;
+using render::Canvas;
+
+class PageMaker {
+ public:
+  PageMaker(const std::vector<CaseRun>& records, render::Renderer& renderer, Watch& watch)
+      : records_(records), renderer_(renderer), watch_(watch) {
+    style_ = style_of(records.front().preset, Pictures::stills);
+    style_.look.letters = false;
+    style_.scale_bar_mm = 0;
+    style_.title.clear();
+    // a floor would end at every panel's edge
+    if (records.front().preset.style.floor == preset::Visibility::automatic)
+      style_.look.floor = false;
+    for (const CaseRun& one : records) {
+      const bool push = one.preset.indentation.wanted();
+      (push ? pushes_ : shells_)
+          .push_back({&one.run, render::plain(one.preset.title), scan_of(one.preset)});
+      (push ? named_pushes_ : named_shells_).push_back({&one.run, render::plain(one.preset.title)});
+    }
+  }
+
+  Result<Page> make(preset::PageKind kind) {
+    switch (kind) {
+      case preset::PageKind::none:
+        return Page{};
+      case preset::PageKind::fig1:
+        return fig1();
+      case preset::PageKind::fig2:
+        return states_page(records_, style_, renderer_, watch_);
+      case preset::PageKind::fig3:
+        return fig3();
+      case preset::PageKind::fig4:
+        return fig4();
+      case preset::PageKind::fig5:
+        return fig5();
+    }
+    return Page{};
+  }
+
+ private:
+  /// The style of a figure of so many panels side by side, captions below and perhaps a colour bar,
+  /// that fills its place: its text is then as large as the page's.
+  render::MovieStyle filling(const Box& box_mm, int columns, bool colour_bar = false) const {
+    constexpr double letter = 3.5, bar = 14, around = 11, between = 1.5;  // mm
+    const double width =
+        (box_mm.width - letter - (colour_bar ? bar : 0)) / std::max(1, columns) - between;
+    render::MovieStyle style = sized(style_, width, box_mm.height - around);
+    style.print = {box_mm.width - letter, 0};
+    return style;
+  }
+
+  render::MovieStyle sized(render::MovieStyle style, double width_mm, double height_mm) const {
+    return at_size(std::move(style), width_mm, height_mm, records_.front().preset.figure.dpi);
+  }
+
+  Result<void> add_photo(Page& page, const std::string& letter, const Box& box_mm) {
+    const std::string& file = records_.front().preset.page.photo;
+    if (file.empty()) {
+      page.add(letter, "", box_mm, [](Canvas& canvas, const Box& box) {
+        render::draw_empty_frame(canvas, box, "photograph");
+      });
+      return {};
+    }
+    auto photo = render::read_png(file);
+    if (!photo) return tl::unexpected(Error{Fault::bad_input, photo.error().message});
+    page.add_image(letter, "", box_mm, std::move(*photo));
+    return {};
+  }
+
+  /// A photograph, and the shell on its way, all at one scale.
+  Result<Page> fig1() {
+    Page page{178, 120, {}};
+    TRY_DO(add_photo(page, "A", {2, 2, 92, 116}));
+    const record::Trajectory& run = records_.front().run;
+    constexpr double width = 62, caption = 12 * 25.4 / 72;
+    const int count = int(run.frames.size());
+    const double height = 116.0 / count;
+    render::MovieStyle style = sized(style_, width, height - caption);
+    style.captions = style.inset = style.legends = false;
+    style.turn_deg = 0;
+    const render::Stage stage(run, style);
+    // what pictures show of a millimetre is the same for all, points
+    const double units = (height - caption) * 72 / 25.4 * stage.pixels_per_mm() / style.height;
+    for (int k = 0; k < count; ++k) {
+      const record::Frame& frame = run.frames[std::size_t(k)];
+      TRY(picture, stage.draw_views(renderer_, {frame, k}));
+      render::Panel panel{std::move(*picture), "B" + std::to_string(k + 1), ""};
+      if (style.vector) panel.lines = render::shell_lines(stage.drawing(frame), stage.camera(k));
+      page.add_panel(render::frame_state_caption(frame), {97, 2 + k * height, width, height},
+                     std::move(panel));
+      watch_.report(double(k + 1) / count);
+    }
+    if (const auto& bar = stage.colour_bar()) page.add_colour_bar({157, 4, 19, 48}, *bar);
+    const double bar_mm = records_.front().preset.figure.scale_bar_mm;
+    page.add("", "", {160, 106, 16, 10}, [bar_mm, units](Canvas& canvas, const Box& box) {
+      render::draw_scale_bar(canvas, box, bar_mm, units, page_font);
+    });
+    return page;
+  }
+
+  /// Domain, shell over its net, distances from the centre with what was scanned, caps.
+  Result<Page> fig3() {
+    Page page{178, 130, {}};
+    TRY_DO(add_photo(page, "A", {2, 2, 52, 50}));
+    page.add("B", "", {56, 2, 120, 50}, [runs = named_shells_](Canvas& canvas, const Box& box) {
+      render::draw_footprints(canvas, box, runs);
+    });
+    const Box left{2, 54, 84, 40}, below{2, 96, 174, 33};
+    TRY(over, render::draw_over_nets({shells_.front()}, filling(left, 1), renderer_, watch_));
+    page.add_figure("C", left, std::move(*over));
+    page.add_plot("", {90, 54, 86, 40},
+                  render::latitude_plot(named_shells_.front(), shells_.front().scanned));
+    const int columns = std::min(6, int(shells_.size()));
+    TRY(caps, render::draw_deviations(shells_, filling(below, columns, true), renderer_, watch_,
+                                      columns));
+    page.add_figure("D", below, std::move(*caps));
+    return page;
+  }
+
+  /// Shells over their nets, K of their cells, and one of them under point loads.
+  Result<Page> fig4() {
+    Page page{178, 190, {}};
+    const Box above{2, 2, 174, 44}, middle{2, 94, 174, 50};
+    TRY(over, render::draw_over_nets(shells_, filling(above, std::min(3, int(shells_.size()))),
+                                     renderer_, watch_));
+    page.add_figure("A", above, std::move(*over));
+    page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
+    TRY(pushes,
+        render::draw_pushes(pushes_, filling(middle, std::min(3, int(pushes_.size())), true),
+                            renderer_, watch_));
+    page.add_figure("C", middle, std::move(*pushes));
+    for (std::size_t k = 0; k < named_pushes_.size(); ++k) {
+      const record::Trajectory& run = *named_pushes_[k].run;
+      render::Plot plot =
+          render::bins_plot(render::summarise_run(run), long(run.layout.cells.size()),
+                            run.frames.back(), std::array{-0.01, 0.07}, page_font);
+      // too low for more words; B has them
+      plot.y.label = "mean *K*_{□} (rad)";
+      const double width = 174.0 / double(named_pushes_.size());
+      page.add_plot(k == 0 ? "D" : "", {2 + width * double(k), 146, width - 1, 43}, plot);
+    }
+    return page;
+  }
+
+  /// Blocks, their footprints, and the assemblage over them.
+  Result<Page> fig5() {
+    Page page{178, 116, {}};
+    const record::Trajectory& run = records_.front().run;
+    const Box left{2, 2, 86, 54}, below{2, 58, 112, 57};
+    TRY(blocks, render::draw_blocks(run, filling(left, 1), renderer_, watch_));
+    page.add_figure("A", left, std::move(*blocks));
+    page.add("B", "", {92, 2, 84, 54}, [&run](Canvas& canvas, const Box& box) {
+      render::draw_block_footprints(canvas, box, run);
+    });
+    TRY(over, render::draw_over_nets(shells_, filling(below, 1), renderer_, watch_));
+    page.add_figure("C", below, std::move(*over));
+    page.add_plot("D", {116, 58, 60, 57}, render::curvature_plot(named_shells_));
+    return page;
+  }
+
+  const std::vector<CaseRun>& records_;
+  render::Renderer& renderer_;
+  Watch& watch_;
+  render::MovieStyle style_;
+  std::vector<render::NetRun> shells_, pushes_;
+  std::vector<render::NamedRun> named_shells_, named_pushes_;
+};
+
+}  // namespace
+
+Result<void> draw_page(const std::vector<CaseRun>& records, render::Renderer& renderer,
+                       const fs::path& stem, Watch& watch) {
+  const preset::Preset& preset = records.front().preset;
+  if (preset.page.kind == preset::PageKind::none) return {};
+  TRY(page, PageMaker(records, renderer, watch).make(preset.page.kind));
+  const render::Print print{preset.figure.width_mm, preset.figure.dpi};
+  return render::write_page(fs::path(stem) += "_page", preset.source, page->width_mm,
+                            page->height_mm, page->panels, print, preset.figure.vector);
+}
+
+}  // namespace gridshell::app

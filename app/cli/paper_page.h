@@ -1,0 +1,105 @@
+// What stands on a page of a journal: panels at their places, and all that they draw from.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/cli/pictures.h"
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "render/canvas/panels.h"
+#include "render/canvas/plot.h"
+#include "render/gl/renderer.h"
+#include "render/movie/movie_style.h"
+#include "render/movie/page.h"
+
+namespace gridshell::app {
+
+inline constexpr double page_font = 7;  // points, of plots and legends on a page
+
+/// A style whose pictures are so large on the page, pixel by pixel as it is printed.
+inline render::MovieStyle at_size(render::MovieStyle style, double width_mm, double height_mm,
+                                  double dpi) {
+  style.width = std::max(16, int(width_mm * dpi / 25.4));
+  style.height = std::max(16, int(style.width * height_mm / width_mm));
+  return style;
+}
+
+/// What panels draw from must outlive them: pictures are held here.
+struct Page {
+  double width_mm = 178, height_mm = 100;
+  std::vector<render::PagePanel> panels = {};
+
+  void add(const std::string& letter, const std::string& caption, const render::Box& box_mm,
+           std::function<void(render::Canvas&, const render::Box&)> draw) {
+    panels.push_back({letter, caption, box_mm, std::move(draw)});
+  }
+  void add_image(const std::string& letter, const std::string& caption, const render::Box& box_mm,
+                 render::Image image) {
+    add(letter, caption, box_mm,
+        [image = std::move(image)](render::Canvas& canvas, const render::Box& box) {
+          render::draw_fitted(canvas, box, image);
+        });
+  }
+  /// A picture that lines may stand in the place of.
+  void add_panel(const std::string& caption, const render::Box& box_mm, render::Panel panel) {
+    const double aspect = double(panel.picture.width) / panel.picture.height;
+    add_image(panel.letter, caption, box_mm, std::move(panel.picture));
+    if (panel.lines)
+      panels.back().draw_lines = [lines = std::move(panel.lines), aspect](render::Canvas& canvas,
+                                                                          const render::Box& box) {
+        lines(canvas, render::fitted(box, aspect));
+      };
+  }
+  void add_figure(const std::string& letter, const render::Box& box_mm,
+                  render::PanelFigure figure) {
+    const bool has_lines = !figure.panels.empty() && figure.panels.front().lines;
+    const auto shared = std::make_shared<const render::PanelFigure>(std::move(figure));
+    const auto with = [&](bool lines) {
+      return [shared, lines](render::Canvas& canvas, const render::Box& box) {
+        render::draw_panels_on(canvas, box, *shared, lines);
+      };
+    };
+    add(letter, "", box_mm, with(false));
+    if (has_lines) panels.back().draw_lines = with(true);
+  }
+  /// Of the pictures' colours: lines have none of them.
+  void add_colour_bar(const render::Box& box_mm, const render::ColourBar& bar) {
+    add("", "", box_mm, [bar](render::Canvas& canvas, const render::Box& box) {
+      render::draw_colour_bar(canvas, box, bar, page_font);
+    });
+    panels.back().draw_lines = [](render::Canvas&, const render::Box&) {};
+  }
+  void add_plot(const std::string& letter, const render::Box& box_mm, render::Plot plot) {
+    plot.font_size = page_font;
+    add(letter, "", box_mm,
+        [plot = std::move(plot)](render::Canvas& canvas, const render::Box& box) {
+          render::draw_plot(canvas, box, plot);
+        });
+  }
+};
+
+// Fig. 2 of [Baek 2018] on one page: states of one footprint, the phase diagram, and a state of
+// each class from above.
+
+/// A: the states ii, iii and iv of the first record. B: the sweep that the preset names, or an
+/// empty frame. C: of each class the state of lowest energy that any record has, or an empty frame.
+/// Errors: bad_input where no record is a search or the sweep cannot be read; the renderer's;
+/// cancelled.
+Result<Page> states_page(const std::vector<CaseRun>& records, const render::MovieStyle& style,
+                         render::Renderer& renderer, Watch& watch);
+
+// The figures of the paper, each on one page.
+
+/// `<stem>_page.png`, `.svg` and `.pdf` of the preset's [page] kind, from its finished cases; none
+/// where the kind is "none". Errors: io, cancelled, bad_input for a photograph that cannot be read
+/// or cases that the page does not have the place for.
+Result<void> draw_page(const std::vector<CaseRun>& records, render::Renderer& renderer,
+                       const std::filesystem::path& stem, Watch& watch);
+
+}  // namespace gridshell::app

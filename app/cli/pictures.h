@@ -1,0 +1,95 @@
+// A finished run of a preset or of one of its cases, kept for the pictures that show several.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/gridshell.h"
+#include "render/canvas/legend.h"
+#include "render/gl/context.h"
+#include "render/gl/renderer.h"
+#include "render/movie/encode.h"
+#include "render/movie/movie_style.h"
+#include "render/movie/movie_writer.h"
+
+namespace gridshell::app {
+
+struct CaseRun {
+  preset::Preset preset;
+  record::Trajectory run;
+  record::StateTables states = {};  ///< of a search for states
+  std::string name = {};            ///< what pictures call it; empty: after its net
+};
+
+// Pictures of a run as its preset wants them: what joins the renderer, which knows no preset, to
+// the commands.
+
+/// Which pictures a command makes.
+enum class Pictures { none, movie, stills };
+
+/// A colour bar of several runs; none where each has its own.
+using SharedColourBar = std::optional<render::ColourBar>;
+
+/// One a run: the bar that it shares with all others that are coloured by the same quantity.
+std::vector<SharedColourBar> shared_bars(const std::vector<CaseRun>& records, Pictures pictures);
+
+/// How the preset wants its run shown.
+render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
+
+/// The joints that were measured on a real shell, 3 x n, mm.
+Eigen::Matrix3Xd scan_of(const preset::Preset& preset);
+
+/// Draws runs; holds the OpenGL context, so it stays on the thread that made it.
+class PictureMaker {
+ public:
+  /// `context` as in --context; `threads` of the rasteriser, 0: as many as it likes; `font` of all
+  /// text, empty: the usual one. Errors: io when no context can be had, naming what was tried;
+  /// bad_input for a font that is not there.
+  static Result<PictureMaker> create(const std::string& context, int threads,
+                                     const std::string& font);
+
+  /// Movie: folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is on the PATH.
+  /// Stills: folder/<preset>_1.png ... and all in one, folder/<preset>.png. Each file is whole or
+  /// absent. Errors: io, cancelled, bad_input when a picture cannot be that size.
+  Result<void> draw(Pictures pictures, const preset::Preset& preset, const record::Trajectory& run,
+                    const SharedColourBar& bar, const std::filesystem::path& folder, Watch& watch);
+
+  render::Renderer& renderer() { return *renderer_; }
+
+ private:
+  PictureMaker(std::unique_ptr<render::Context> context, std::unique_ptr<render::Renderer> renderer)
+      : context_(std::move(context)), renderer_(std::move(renderer)) {}
+  Result<void> draw_pictures(Pictures pictures, const preset::Preset& preset,
+                             const record::Trajectory& run, const SharedColourBar& bar,
+                             const std::filesystem::path& folder, Watch& watch);
+
+  std::unique_ptr<render::Context> context_;  // outlives the renderer
+  std::unique_ptr<render::Renderer> renderer_;
+};
+
+/// How fast the movie of `frames` frames plays.
+render::MovieTiming timing_of(const render::MovieStyle& style, int frames);
+
+/// Writes the frames of a movie, and shows each to whoever wants to see it.
+using DrawFrames = std::function<Result<render::MovieReport>(const render::FrameCallback& seen)>;
+
+/// Draws so many frames into folder/frames and makes of them, where ffmpeg is on the PATH,
+/// movie.mp4 and what else the preset asks for; poster.png. Errors: those of `draw`, io, cancelled.
+Result<void> make_movie(const std::filesystem::path& folder, const preset::Preset& preset,
+                        const render::MovieStyle& style, int frames, Watch& watch,
+                        const DrawFrames& draw);
+
+/// What drawing will take about, for the progress bar and `check`.
+double expected_seconds(Pictures pictures, const preset::Preset& preset);
+
+/// Two lines that say how to make a movie of the frames in a run's folder, where there are frames
+/// and no movie because ffmpeg is not on the PATH; else empty.
+std::string how_to_make_movie(const std::filesystem::path& folder, const preset::Preset& preset);
+
+}  // namespace gridshell::app

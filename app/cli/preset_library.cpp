@@ -1,0 +1,61 @@
+#include "app/cli/preset_library.h"
+
+#include <fmt/format.h>
+#include <filesystem>
+
+#include "engine/core/file_io.h"
+#include "engine/core/suggest.h"
+
+namespace gridshell::app {
+
+Result<preset::Presets> load_preset(const std::string& argument,
+                                    const std::vector<preset::Override>& overrides) {
+  std::error_code error;
+  const std::filesystem::path path(argument);
+  if (std::filesystem::is_regular_file(path, error))
+    return preset::read_preset_file(path, overrides);
+  std::vector<std::string> names;
+  for (const auto& embedded : embedded_presets()) {
+    if (embedded.name == argument)
+      return preset::read_preset_text(embedded.text, "built-in " + argument, argument, overrides,
+                                      embedded_files());
+    names.push_back(embedded.name);
+  }
+  if (path.has_parent_path() || path.extension() == ".toml")
+    return preset::read_preset_file(path, overrides);
+  return fail(Fault::bad_input, fmt::format("no preset '{}': neither a file nor a listed name{} "
+                                            "('gridshell list' lists them)",
+                                            argument, preset::did_you_mean(argument, names)));
+}
+
+Result<preset::Presets> load_preset_or_run(const std::string& argument) {
+  std::error_code error;
+  std::filesystem::path folder(argument);
+  if (!std::filesystem::is_directory(folder, error)) return load_preset(argument, {});
+  if (!folder.has_filename()) folder = folder.parent_path();
+  const auto file = folder / "preset.toml";
+  auto text = read_file(file, largest_text);
+  if (!text)
+    return fail(Fault::bad_input,
+                fmt::format("'{}' is no run: {}", argument, text.error().message));
+  return preset::read_preset_text(*text, file.string(), folder.filename().string());
+}
+
+Result<preset::Presets> load(const Options& options) {
+  return overrides_of(options).and_then(
+      [&](const auto& overrides) { return load_preset(options.input, overrides); });
+}
+
+std::vector<preset::Case> runs_of(const preset::Presets& presets) {
+  if (!presets.cases.empty()) return presets.cases;
+  return {{"", presets.base}};
+}
+
+Result<experiment::Plan> plan_of(const preset::Preset& preset) {
+  return experiment::plan(preset).map_error([&](Error error) {
+    error.message = preset.name + ": " + error.message;
+    return error;
+  });
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,59 @@
+// Where a PRESET argument leads: a file, or one of the presets that come with the program.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/cli/options.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::app {
+
+/// One of presets/*.toml, as text, embedded at build time.
+struct EmbeddedPreset {
+  std::string name;  ///< of the file, without ".toml"
+  std::string text;
+};
+
+/// All of them, sorted by name.
+const std::vector<EmbeddedPreset>& embedded_presets();
+
+/// The files that they name, as text, by name.
+const std::map<std::string, std::string>& embedded_files();
+
+/// The picture of a preset's shell, presets/pictures/cards/NAME.png; empty where there is none.
+std::string_view embedded_card(const std::string& name);
+
+/// The preset at the path `argument`, else the embedded one of that name. Errors: bad_input, with
+/// every fault of the preset, or the nearest name when there is none.
+Result<preset::Presets> load_preset(const std::string& argument,
+                                    const std::vector<preset::Override>& overrides);
+
+/// The same; of a run's folder the preset that it came from, named as the folder.
+Result<preset::Presets> load_preset_or_run(const std::string& argument);
+
+// From the command line to the runs it asks for.
+
+/// The preset that the options name, with what they lay over it. Errors: bad_input.
+Result<preset::Presets> load(const Options& options);
+
+/// The cases of a preset, or the preset itself as one run without a name.
+std::vector<preset::Case> runs_of(const preset::Presets& presets);
+
+/// What would run; an error names the preset.
+Result<experiment::Plan> plan_of(const preset::Preset& preset);
+
+/// The folder of a run: that of the command, or the one of its case in it.
+inline std::filesystem::path folder_of(const std::filesystem::path& folder,
+                                       const std::string& name) {
+  return name.empty() ? folder : folder / name;
+}
+
+/// The folder that a command writes: the one asked for, or out/<preset>.
+inline std::filesystem::path output_of(const Options& options, const preset::Preset& base) {
+  return options.output.empty() ? std::filesystem::path("out") / base.name : options.output;
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,252 @@
+#include "app/cli/reference.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/cli/commands.h"
+#include "app/cli/preset_library.h"
+#include "engine/core/json.h"
+#include "engine/core/system_info.h"
+#include "engine/core/try.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::app {
+namespace {
+
+using record::Json;
+
+Json commands_json() {
+  Json all = Json::array();
+  for (const CommandEntry& command : command_table()) {
+    Json one = Json::object();
+    one["name"] = command.name;
+    one["meaning"] = command.meaning;
+    one["options"] = Json::array();
+    for (const CommandOption& option : command.options) {
+      Json json = Json::object();
+      json["name"] = option.name;
+      if (!option.short_name.empty()) json["short"] = option.short_name;
+      json["meaning"] = option.meaning;
+      if (!option.words.empty()) json["words"] = option.words;
+      json["argument"] = option.argument;
+      json["flag"] = option.flag;
+      json["required"] = option.required;
+      json["many"] = option.many;
+      one["options"].push_back(std::move(json));
+    }
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+Json keys_json() {
+  Json all = Json::array();
+  for (const preset::KeyText& key : preset::key_texts()) {
+    Json one = Json::object();
+    one["table"] = key.table;
+    one["key"] = key.key;
+    one["unit"] = key.unit;
+    one["default"] = key.value;
+    one["allowed"] = key.allowed;
+    one["meaning"] = key.meaning;
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+}  // namespace
+
+Result<std::string> listing_json() {
+  Json json = Json::object();
+  json["version"] = version();
+  json["commands"] = commands_json();
+  json["presets"] = Json::array();
+  for (const EmbeddedPreset& embedded : embedded_presets()) {
+    TRY(presets, load_preset(embedded.name, {}));
+    Json one = Json::object();
+    one["name"] = embedded.name;
+    one["title"] = presets->base.title;
+    one["description"] = presets->base.description;
+    one["source"] = presets->base.source;
+    json["presets"].push_back(std::move(one));
+  }
+  json["tables"] = Json::array();
+  for (const preset::Table& table : preset::tables()) {
+    Json one = Json::object();
+    one["name"] = table.name;
+    one["meaning"] = table.meaning;
+    one["list"] = table.list;
+    json["tables"].push_back(std::move(one));
+  }
+  json["keys"] = keys_json();
+  return record::text_of(json);
+}
+
+namespace {
+
+/// Text that roff prints as it stands.
+std::string plain(const std::string& text) {
+  std::string safe;
+  bool begins = true;
+  for (const char c : text) {
+    // a line that begins with one of these would be a request
+    if (begins && (c == '.' || c == '\'')) safe += "\\&";
+    begins = c == '\n';
+    if (c == '\\')
+      safe += "\\e";
+    else if (c == '-')
+      safe += "\\-";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+/// A tagged paragraph.
+std::string entry(const std::string& tag, const std::string& text) {
+  return fmt::format(".TP\n{}\n{}\n", tag, plain(text));
+}
+
+std::string bold(const std::string& text) { return "\\fB" + plain(text) + "\\fR"; }
+std::string italic(const std::string& text) { return "\\fI" + plain(text) + "\\fR"; }
+
+std::string tag_of(const CommandOption& option) {
+  if (option.argument) return italic(option.name);
+  std::string tag = bold(option.name);
+  if (!option.short_name.empty()) tag = bold(option.short_name) + ", " + tag;
+  if (option.flag) return tag;
+  if (option.words.empty()) return tag + " " + italic("VALUE");
+  return tag + " " + plain(fmt::format("{}", fmt::join(option.words, "|")));
+}
+
+std::string section_of(const CommandEntry& command) {
+  std::string head = "gridshell " + command.name;
+  for (const CommandOption& option : command.options)
+    if (option.argument) head += " " + option.name + (option.many ? "..." : "");
+  std::string text = fmt::format(".SS \"{}\"\n{}\n", plain(head), plain(command.meaning + "."));
+  for (const CommandOption& option : command.options) text += entry(tag_of(option), option.meaning);
+  if (!command.footer.empty()) text += ".PP\n.nf\n" + plain(command.footer) + "\n.fi\n";
+  return text;
+}
+
+Result<std::string> presets_section() {
+  std::string text = ".SH PRESETS\n";
+  for (const EmbeddedPreset& embedded : embedded_presets()) {
+    TRY(presets, load_preset(embedded.name, {}));
+    const std::string& source = presets->base.source;
+    text += entry(bold(embedded.name),
+                  presets->base.title + (source.empty() ? "" : " (" + source + ")"));
+  }
+  return text;
+}
+
+std::string keys_section() {
+  std::string text = ".SH KEYS OF A PRESET\n";
+  const auto keys = preset::key_texts();
+  for (const preset::Table& table : preset::tables()) {
+    const std::string name = table.name.empty() ? "at the top of the file"
+                             : table.list       ? "[[" + table.name + "]]"
+                                                : "[" + table.name + "]";
+    text += fmt::format(".SS \"{}\"\n{}\n", plain(name), plain(table.meaning));
+    for (const preset::KeyText& key : keys)
+      if (key.table == table.name)
+        text += entry(
+            bold(key.key) + plain(key.unit.empty() ? "" : " (" + key.unit + ")"),
+            fmt::format("{}. Default: {}. Allowed: {}.", key.meaning, key.value, key.allowed));
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<std::string> man_page() {
+  const auto presets = presets_section();
+  if (!presets) return presets;
+  std::string text = fmt::format(
+      ".TH GRIDSHELL 1 \"\" \"gridshell {}\" \"User Commands\"\n.SH NAME\ngridshell \\- elastic "
+      "gridshells: formed, measured and shown\n.SH SYNOPSIS\n{} {} [{}]\n.SH COMMANDS\n",
+      version(), bold("gridshell"), italic("COMMAND"), italic("OPTIONS"));
+  for (const CommandEntry& command : command_table()) text += section_of(command);
+  text += *presets + keys_section();
+  text += ".SH EXIT STATUS\n";
+  for (const auto& [code, meaning] : {std::pair("0", "done"),
+                                      {"1", "the run failed: no equilibrium, unstable, disk full"},
+                                      {"2", "bad input or usage"},
+                                      {"3", "compared and different; a scan that shows no state"},
+                                      {"130", "interrupted"}})
+    text += entry(bold(code), meaning);
+  return text;
+}
+
+namespace {
+
+/// "    movie) options='--set ...' ;;"
+std::string case_of(const CommandEntry& command) {
+  std::vector<std::string> options;
+  bool preset = false;
+  for (const CommandOption& option : command.options) {
+    if (option.argument)
+      preset |= option.name == "PRESET" || option.meaning.find("preset") != std::string::npos;
+    else
+      options.push_back(option.name);
+  }
+  return fmt::format("    {}) options='{}'{} ;;\n", command.name, fmt::join(options, " "),
+                     preset ? " names=$presets" : "");
+}
+
+/// "    'render --context') words='auto ...' ;;" of every option that is one of a few words.
+std::string words_of(const CommandEntry& command) {
+  std::string text;
+  for (const CommandOption& option : command.options)
+    if (!option.argument && !option.words.empty())
+      text += fmt::format("    '{} {}') words='{}' ;;\n", command.name, option.name,
+                          fmt::join(option.words, " "));
+  return text;
+}
+
+}  // namespace
+
+std::string bash_completion() {
+  std::vector<std::string> presets, keys;
+  for (const EmbeddedPreset& preset : embedded_presets()) presets.push_back(preset.name);
+  for (const preset::KeyText& key : preset::key_texts())
+    keys.push_back(key.table.empty() ? key.key + "=" : key.table + "." + key.key + "=");
+  std::string commands, options, words;
+  for (const CommandEntry& command : command_table()) {
+    commands += (commands.empty() ? "" : " ") + command.name;
+    options += case_of(command);
+    words += words_of(command);
+  }
+  return fmt::format(
+      R"(# Completion of gridshell for bash, made by 'gridshell list --completion bash'.
+_gridshell() {{
+  local current=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}
+  local command=${{COMP_WORDS[1]}} options= names= words=
+  local presets='{0}'
+  local keys='{1}'
+  COMPREPLY=()
+  if [ "$COMP_CWORD" -eq 1 ]; then
+    COMPREPLY=($(compgen -W '{2} --help --version' -- "$current"))
+    return
+  fi
+  case $command in
+{3}  esac
+  case "$command $before" in
+{4}  esac
+  if [ -n "$words" ]; then
+    COMPREPLY=($(compgen -W "$words" -- "$current"))
+  elif [ "$before" = --set ]; then
+    compopt -o nospace 2> /dev/null
+    COMPREPLY=($(compgen -W "$keys" -- "$current"))
+  elif [[ $current == -* ]]; then
+    COMPREPLY=($(compgen -W "$options" -- "$current"))
+  elif [[ $before != --* && $before != -o ]]; then
+    COMPREPLY=($(compgen -W "$names" -- "$current"))
+  fi
+}}
+complete -o default -F _gridshell gridshell
+)",
+      fmt::join(presets, " "), fmt::join(keys, " "), commands, options, words);
+}
+
+}  // namespace gridshell::app

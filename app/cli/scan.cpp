@@ -1,0 +1,337 @@
+// What is written of a scan.
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/cli/console.h"
+#include "app/cli/delivery.h"
+#include "app/cli/figures.h"
+#include "app/cli/finished_run.h"
+#include "app/cli/options.h"
+#include "app/cli/pictures.h"
+#include "app/cli/preset_library.h"
+#include "engine/core/file_io.h"
+#include "engine/core/json.h"
+#include "engine/core/try.h"
+#include "engine/gridshell.h"
+#include "render/gl/image.h"
+#include "render/movie/run_figures.h"
+
+namespace gridshell::app {
+
+/// One state that a scan is compared with, and how it lies on it.
+struct ComparedState {
+  std::string name;  ///< of the run, its case, its state: "out/fig2_states, state 3"
+  std::optional<RegisteredScan> scan;
+  bool shown = false;  ///< scan_matches()
+};
+
+/// A scan compared with all of them.
+struct ComparedScan {
+  std::string points;  ///< the file
+  Clusters clusters;
+  JointCylinder cylinder;
+  std::vector<ComparedState> states;
+  std::size_t best = 0;  ///< the one that it lies on best
+
+  const ComparedState& of_best() const { return states[best]; }
+};
+
+/// scan.json: joints_found, joints_missing, outliers, specks, rms_mm, mean_mm, max_mm,
+/// joints_within_two_radii; `state`, null where it is none; the pose from the scan's frame to the
+/// run's; every state that was compared.
+std::string scan_json(const ComparedScan& scan);
+/// scan.csv: `i,j,x_mm,y_mm,z_mm,distance_mm,distance_radii` of every joint in the run's frame,
+/// empty where it is missing.
+std::string scan_csv(const ComparedScan& scan, const record::Layout& layout);
+/// measured.csv: `x_mm,y_mm,z_mm` of the joints found, as [figure] scan takes them.
+std::string measured_csv(const RegisteredScan& scan);
+/// For the terminal.
+std::string scan_text(const ComparedScan& scan);
+
+namespace {
+
+using record::Json;
+
+Json json_of(const RegisteredScan& scan) {
+  Json json = Json::object();
+  json["joints_found"] = scan.found;
+  json["joints_missing"] = scan.missing();
+  json["outliers"] = scan.outliers.cols();
+  json["joints_within_two_radii"] = scan.within_bar;
+  json["rms_mm"] = scan.rms_mm;
+  json["mean_mm"] = scan.mean_mm;
+  json["max_mm"] = scan.max_mm;
+  json["mirrored"] = scan.mirrored;
+  return json;
+}
+
+Json json_of(const Pose& pose) {
+  Json json = Json::object();
+  json["turn"] = Json::array();
+  for (int row = 0; row < 3; ++row)
+    json["turn"].push_back({pose.turn(row, 0), pose.turn(row, 1), pose.turn(row, 2)});
+  json["shift_mm"] = {pose.shift.x(), pose.shift.y(), pose.shift.z()};
+  return json;
+}
+
+}  // namespace
+
+std::string scan_json(const ComparedScan& scan) {
+  const ComparedState& best = scan.of_best();
+  Json json = Json::object();
+  json["points"] = scan.points;
+  if (best.shown)
+    json["state"] = best.name;
+  else
+    json["state"] = nullptr;
+  json["nearest_state"] = best.name;
+  json.update(json_of(*best.scan));
+  json["specks"] = scan.clusters.specks;
+  json["clusters_too_wide"] = scan.clusters.others;
+  json["joint_diameter_mm"] = scan.cylinder.diameter_mm;
+  json["joint_height_mm"] = scan.cylinder.height_mm;
+  json["scan_to_run"] = json_of(best.scan->pose);
+  json["states"] = Json::array();
+  for (const ComparedState& state : scan.states) {
+    Json one = Json::object();
+    one["name"] = state.name;
+    one["shown"] = state.shown;
+    if (state.scan) one.update(json_of(*state.scan));
+    json["states"].push_back(std::move(one));
+  }
+  return record::text_of(json);
+}
+
+std::string scan_csv(const ComparedScan& scan, const record::Layout& layout) {
+  record::CsvWriter csv;
+  csv.line("i", "j", "x_mm", "y_mm", "z_mm", "distance_mm", "distance_radii");
+  const RegisteredScan& laid = *scan.of_best().scan;
+  for (Eigen::Index k = 0; k < laid.joints.cols(); ++k) {
+    const record::Joint& joint = layout.joints[std::size_t(k)];
+    csv.line(joint.i, joint.j, laid.joints(0, k), laid.joints(1, k), laid.joints(2, k),
+             laid.distance_mm[k], laid.distance_mm[k] / (scan.cylinder.diameter_mm / 2));
+  }
+  return std::move(csv).text();
+}
+
+std::string measured_csv(const RegisteredScan& scan) {
+  record::CsvWriter csv;
+  csv.line("x_mm", "y_mm", "z_mm");
+  const Eigen::Matrix3Xd measured = scan.measured();
+  for (const auto& joint : measured.colwise()) csv.line(joint.x(), joint.y(), joint.z());
+  return std::move(csv).text();
+}
+
+std::string scan_text(const ComparedScan& scan) {
+  const ComparedState& best = scan.of_best();
+  const RegisteredScan& laid = *best.scan;
+  std::string text = best.shown ? "shows " + best.name : "does not show " + best.name;
+  if (!best.shown && scan.states.size() > 1)
+    text = fmt::format("shows none of {} states; nearest: {}", scan.states.size(), best.name);
+  text += fmt::format(
+      "\n  {} of {} joints found, {} outliers, {} specks{}; off by {:.3f} mm rms, {:.3f} mm at "
+      "most; {} within two radii ({:g} mm)\n",
+      laid.found, laid.joints.cols(), laid.outliers.cols(), scan.clusters.specks,
+      laid.mirrored ? ", mirrored" : "", laid.rms_mm, laid.max_mm, laid.within_bar,
+      scan.cylinder.diameter_mm);
+  return text;
+}
+
+// `gridshell scan`: a cloud of points of a 3D scanner against the joints of runs.
+
+struct ScanOptions {
+  Options common;  ///< output, quiet, context, --set; `input` is the file of points
+  std::vector<std::string> runs;
+  bool unsealed = false;
+};
+
+/// Writes a folder: scan.json, scan.csv (a line a joint), measured.csv (the joints found, for
+/// [figure] scan) and scan.png (red joints over the black shell). The exit code; a scan that shows
+/// none of the states is `different`.
+int produce_scan(const ScanOptions& options);
+
+namespace fs = std::filesystem;
+namespace {
+
+constexpr long most_clusters_a_joint = 20;
+
+/// A state of a run: one of a search, or the last of a path.
+struct Candidate {
+  const FinishedRun* run = nullptr;
+  std::size_t frame = 0;
+  std::string name;
+};
+
+std::vector<Candidate> candidates_of(const std::vector<FinishedRun>& runs, const fs::path& folder) {
+  std::vector<Candidate> all;
+  for (const FinishedRun& run : runs) {
+    const std::string name = folder_of(folder, run.name).string();
+    const std::size_t frames = run.trajectory.frames.size();
+    if (frames == 0) continue;
+    if (run.states.rows.empty())
+      all.push_back({&run, frames - 1, name});
+    else
+      for (std::size_t k = 0; k < std::min(frames, run.states.rows.size()); ++k)
+        all.push_back({&run, k, fmt::format("{}, state {}", name, run.states.rows[k].state)});
+  }
+  return all;
+}
+
+/// Everything that is read before anything is written.
+struct Scanned {
+  Eigen::Matrix3Xd cloud;
+  std::vector<std::vector<FinishedRun>> runs;
+  std::vector<Candidate> candidates;
+  JointCylinder cylinder;
+};
+
+Result<Scanned> read_all(const ScanOptions& options) {
+  TRY(overrides, overrides_of_run(options.common, {"joints.diameter_mm", "joints.height_mm"}));
+  Scanned scanned;
+  TRY(bytes, as_input(read_file(options.common.input, preset::largest_cloud_file)));
+  TRY(cloud, preset::read_cloud(*bytes, options.common.input));
+  scanned.cloud = std::move(*cloud);
+  for (const std::string& folder : options.runs) {
+    TRY(runs, read_runs(folder, *overrides, options.unsealed));
+    scanned.runs.push_back(std::move(*runs));
+  }
+  for (std::size_t k = 0; k < options.runs.size(); ++k)
+    for (Candidate& one : candidates_of(scanned.runs[k], options.runs[k]))
+      scanned.candidates.push_back(std::move(one));
+  if (scanned.candidates.empty())
+    return fail(Fault::bad_input,
+                fmt::format("'{}' holds no state to compare with", options.runs.front()));
+  const preset::Joints& joints = scanned.candidates.front().run->preset.joints;
+  scanned.cylinder = {joints.diameter_mm, joints.height_mm};
+  return scanned;
+}
+
+/// Errors: bad_input when the cloud holds no joints or far too many, or cannot be laid on any
+/// state.
+Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, Watch& watch) {
+  auto clusters = cluster_joint_tops(scanned.cloud, scanned.cylinder.diameter_mm);
+  if (!clusters)
+    return fail(Fault::bad_input, fmt::format("{}: {}", file, clusters.error().message));
+  long most = 0;
+  for (const Candidate& one : scanned.candidates)
+    most = std::max(most, long(one.run->trajectory.layout.joints.size()));
+  if (clusters->tops.cols() > most_clusters_a_joint * most)
+    return fail(Fault::bad_input,
+                fmt::format("{}: {} clusters of points as wide as joints of {:g} mm ([joints] "
+                            "diameter_mm), the shell has {} joints",
+                            file, clusters->tops.cols(), scanned.cylinder.diameter_mm, most));
+  ComparedScan scan{file, std::move(*clusters), scanned.cylinder, {}, 0};
+  double least = std::numeric_limits<double>::infinity();
+  for (const Candidate& one : scanned.candidates) {
+    if (watch.cancelled()) return stopped();
+    const record::Trajectory& run = one.run->trajectory;
+    const record::Frame& frame = run.frames[one.frame];
+    if (const auto& fault = run.frames.fault()) return tl::unexpected(*fault);
+    ComparedState state{
+        one.name, register_points(scan.clusters, form_of(run.layout, frame), scan.cylinder), false};
+    // states of shells of other sizes count by their joints
+    if (state.scan) {
+      state.shown = scan_matches(*state.scan, scan.cylinder);
+      const double cost = state.scan->cost / double(run.layout.joints.size());
+      if (cost < least) least = cost, scan.best = scan.states.size();
+    }
+    scan.states.push_back(std::move(state));
+    watch.report(double(scan.states.size()) / double(scanned.candidates.size()));
+  }
+  if (std::isfinite(least)) return scan;
+  return fail(Fault::bad_input,
+              fmt::format("{}: {} clusters of points as wide as joints of {:g} mm ([joints] "
+                          "diameter_mm), {} specks and {} wider ones; they lie like the "
+                          "joints of no shell given",
+                          file, scan.clusters.tops.cols(), scan.cylinder.diameter_mm,
+                          scan.clusters.specks, scan.clusters.others));
+}
+
+/// Red joints over the black shell [Baek 2018, Figs. 2A, 3C, 5E].
+Result<void> draw(const ComparedScan& scan, const Candidate& one, PictureMaker& artist,
+                  const fs::path& folder, Watch& watch) {
+  const auto style = style_of(one.run->preset, Pictures::stills);
+  const RegisteredScan& laid = *scan.of_best().scan;
+  const record::Trajectory shown = states_alone(one.run->trajectory, {one.frame});
+  const std::string caption =
+      fmt::format("{}{} of {} joints, {:.2f} mm rms, {:.2f} mm at most",
+                  scan.of_best().shown ? "" : "not this state: ", laid.found, laid.joints.cols(),
+                  laid.rms_mm, laid.max_mm);
+  const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
+  return render::draw_over_nets({{&shown, caption, laid.measured()}}, style, artist.renderer(),
+                                watch)
+      .and_then(render::draw_panels)
+      .and_then([&](const render::Image& image) {
+        return render::write_png(image, folder / "scan.png", dpi);
+      });
+}
+
+Result<void> write(const ComparedScan& scan, const record::Layout& layout, const fs::path& folder) {
+  return make_folder(folder)
+      .and_then([&] { return write_file(folder / "scan.csv", scan_csv(scan, layout)); })
+      .and_then(
+          [&] { return write_file(folder / "measured.csv", measured_csv(*scan.of_best().scan)); })
+      .and_then([&] { return write_file(folder / "scan.json", scan_json(scan)); });
+}
+
+}  // namespace
+
+int produce_scan(const ScanOptions& options) {
+  const auto scanned = read_all(options);
+  if (!scanned) return report(scanned.error());
+  const fs::path points = options.common.input;
+  const auto folder = options.common.output.empty()
+                          ? fs::path("out") / (points.stem().string() + "_scan")
+                          : options.common.output;
+  const preset::Preset& first = scanned->candidates.front().run->preset;
+  const std::vector<Phase> phases{drawing("comparing", 0.1 * double(scanned->candidates.size())),
+                                  drawing("drawing", expected_seconds(Pictures::stills, first))};
+  std::optional<ComparedScan> scan;
+  const int code =
+      deliver(folder, phases, options.common.quiet,
+              [&](const fs::path& partial, Progress& progress) -> Result<void> {
+                TRY(found, compared(*scanned, points.string(), progress.next_phase()));
+                scan = std::move(*found);
+                const Candidate& best = scanned->candidates[scan->best];
+                return write(*scan, best.run->trajectory.layout, partial).and_then([&] {
+                  auto artist = PictureMaker::create(options.common.context, options.common.threads,
+                                                     best.run->preset.style.font);
+                  if (!artist) return Result<void>(tl::unexpected(artist.error()));
+                  return draw(*scan, best, *artist, partial, progress.next_phase());
+                });
+              });
+  if (code != ExitCode::done) return code;
+  if (!options.common.quiet) fmt::print("{}: {}", folder.string(), scan_text(*scan));
+  return scan->of_best().shown ? ExitCode::done : ExitCode::different;
+}
+
+// `gridshell scan POINTS RUN...`: a 3D scan against a run's joints.
+
+void add_scan(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<ScanOptions>();
+  auto* command =
+      program.add_subcommand("scan", "which state a 3D scan shows, and how far its joints are off");
+  command->add_option("POINTS", options->common.input, "cloud of points: .ply, .xyz or .csv, mm")
+      ->required();
+  command->add_option("RUN", options->runs, "folders of runs; of a search all of its states")
+      ->required();
+  add_changes(*command, options->common);
+  add_work_options(*command, options->common, "folder to write, by default out/<points>_scan");
+  add_picture_options(*command, options->common);
+  command->add_flag("--unsealed", options->unsealed,
+                    "take a trajectory.h5 that another program wrote or changed");
+  command->footer(
+      "The exit code is 3 where the scan shows none of the states. Joints are cylinders of\n"
+      "[joints] diameter_mm and height_mm, of which the scan sees the tops.");
+  command->callback([&action, options] { action = [options] { return produce_scan(*options); }; });
+}
+
+}  // namespace gridshell::app

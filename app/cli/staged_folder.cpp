@@ -1,0 +1,239 @@
+#include "app/cli/staged_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <stdio.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "engine/core/try.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+std::string reason(int code) { return std::generic_category().message(code); }
+
+// out/x and out/x/ are one folder, and a link stands for what it leads to
+fs::path target_of(const fs::path& folder) {
+  auto normal = fs::absolute(folder).lexically_normal();
+  if (!normal.has_filename()) normal = normal.parent_path();
+  std::error_code error;
+  if (!fs::is_symlink(normal, error)) return normal;
+  const auto led = fs::canonical(normal, error);
+  return error ? normal : led;
+}
+
+// why the folder must not be replaced, or empty
+std::string refusal(const fs::path& folder) {
+  std::error_code error;
+  const auto status = fs::status(folder, error);
+  if (!fs::exists(status))
+    return fs::is_symlink(folder, error) ? "it is a link that leads nowhere" : "";
+  if (!fs::is_directory(status)) return "it is a file";
+  if (fs::is_empty(folder, error) && !error) return "";
+  const auto because = why_not_a_run(folder);
+  return because.empty() ? "" : because + "; choose another folder with -o";
+}
+
+fs::path outermost_missing(fs::path folder) {
+  fs::path missing;
+  std::error_code error;
+  while (!folder.empty() && !fs::exists(folder, error)) {
+    missing = folder;
+    if (folder == folder.parent_path()) break;
+    folder = folder.parent_path();
+  }
+  return missing;
+}
+
+// removes folders that are empty, from `folder` up to `outermost`
+void remove_empty(fs::path folder, const fs::path& outermost) {
+  if (outermost.empty()) return;
+  for (;;) {
+    if (::rmdir(folder.c_str()) != 0 || folder == outermost) return;
+    folder = folder.parent_path();
+  }
+}
+
+// makes a folder of a name that nothing has: process ids come again
+Result<fs::path> make_new(const fs::path& target, const char* kind) {
+  for (int k = 1;; ++k) {
+    auto folder = target;
+    folder += fmt::format(".{}-{}", kind, getpid());
+    if (k > 1) folder += fmt::format("-{}", k);
+    if (::mkdir(folder.c_str(), 0777) == 0) return folder;
+    if (errno != EEXIST) return fail(Fault::io, reason(errno));
+  }
+}
+
+// a descriptor that holds the folder's lock; -1 when another program holds it
+int lock_of(const fs::path& folder) {
+  const int number = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (number < 0) return -1;
+  if (::flock(number, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return number;
+  ::close(number);
+  return -1;
+}
+
+int rename_how(const fs::path& from, const fs::path& to, unsigned flags) {
+  return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0 ? 0 : errno;
+}
+
+// 0, or why `from` cannot take a name that nothing but an empty folder has; a plain rename of a
+// folder replaces nothing else, so it serves where the file system knows no better
+int take_free_name(const fs::path& from, const fs::path& to) {
+  const int code = rename_how(from, to, RENAME_NOREPLACE);
+  if (code == 0 || code == EEXIST) return code;
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+// both folders change names at once; else by way of a third name, `aside`, an empty folder
+int exchange(const fs::path& a, const fs::path& b, const fs::path& aside) {
+  const int code = rename_how(a, b, RENAME_EXCHANGE);
+  if (code == 0 || (code != EINVAL && code != ENOSYS)) return code;
+  if (::rename(b.c_str(), aside.c_str()) != 0) return errno;
+  if (::rename(a.c_str(), b.c_str()) == 0)
+    return ::rename(aside.c_str(), a.c_str()) == 0 ? 0 : errno;
+  const int failed = errno;
+  return ::rename(aside.c_str(), b.c_str()) == 0 ? failed : errno;
+}
+
+}  // namespace
+
+std::string refusal_to_write(const fs::path& folder) { return refusal(target_of(folder)); }
+
+Result<StagedFolder> StagedFolder::create(const fs::path& final_folder) {
+  const auto refuse = [&](const std::string& because) {
+    return fail(Fault::bad_input,
+                fmt::format("cannot write the folder '{}': {}", final_folder.string(), because));
+  };
+  const auto target = target_of(final_folder);
+  if (const auto because = refusal(target); !because.empty()) return refuse(because);
+  const auto parent = target.parent_path(), first_made = outermost_missing(parent);
+  std::error_code error;
+  fs::create_directories(parent, error);
+  if (error) {
+    remove_empty(parent, first_made);
+    return refuse(error.message());
+  }
+  auto partial = make_new(target, "partial");
+  if (!partial) {
+    remove_empty(parent, first_made);
+    return refuse(partial.error().message);
+  }
+  const int lock = lock_of(*partial);
+  return StagedFolder(target, *partial, first_made, lock);
+}
+
+StagedFolder::StagedFolder(fs::path final_folder, fs::path partial, fs::path first_made, int lock)
+    : final_(std::move(final_folder)),
+      partial_(std::move(partial)),
+      first_made_(std::move(first_made)),
+      lock_(lock) {}
+
+StagedFolder::StagedFolder(StagedFolder&& other) noexcept
+    : final_(std::move(other.final_)),
+      partial_(std::move(other.partial_)),
+      first_made_(std::move(other.first_made_)),
+      lock_(std::exchange(other.lock_, -1)),
+      settled_(std::exchange(other.settled_, true)) {}
+
+StagedFolder::~StagedFolder() {
+  if (!settled_) remove();
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void StagedFolder::remove() noexcept {
+  try {
+    std::error_code error;
+    fs::remove_all(partial_, error);
+    remove_empty(partial_.parent_path(), first_made_);
+  } catch (const std::exception&) {
+    // what stays bears a partial name
+  }
+}
+
+Result<std::string> StagedFolder::commit() {
+  const auto refuse = [&](const std::string& because) {
+    return fail(Fault::io,
+                fmt::format("cannot write the folder '{}': {}", final_.string(), because));
+  };
+  TRY_DO(write_manifest(partial_));
+  const int code = take_free_name(partial_, final_);
+  if (code == 0) {
+    settled_ = true;
+    return std::string();
+  }
+  if (code != EEXIST && code != ENOTEMPTY && code != ENOTDIR) return refuse(reason(code));
+  // what stands there now need not be what stood there at the start
+  if (const auto because = refusal(final_); !because.empty()) return refuse(because);
+  auto old = make_new(final_, "old");
+  if (!old) return refuse(old.error().message);
+  const auto give_up = [&](const std::string& because) {
+    ::rmdir(old->c_str());
+    return refuse(because);
+  };
+  if (const int failed = exchange(partial_, final_, *old); failed) return give_up(reason(failed));
+  if (const auto because = refusal(partial_); !because.empty()) {
+    // it changed under our hands
+    exchange(partial_, final_, *old);
+    return give_up(because);
+  }
+  // a name that says what it is, should the removal be cut short
+  ::rmdir(old->c_str());
+  settled_ = true;
+  if (rename_how(partial_, *old, 0) != 0) old = partial_;
+  return remove_old(*old);
+}
+
+Result<std::string> StagedFolder::remove_old(const fs::path& old) {
+  std::error_code error;
+  fs::remove_all(old, error);
+  if (!error) return std::string();
+  return fmt::format(
+      "the run that stood in '{}' could not be removed ({}): what is left of it is "
+      "in '{}'",
+      final_.string(), error.message(), old.string());
+}
+
+void StagedFolder::keep() {
+  remove_unfinished(partial_);
+  settled_ = true;
+}
+
+std::vector<fs::path> left_behind(const fs::path& final_folder) {
+  const auto target = target_of(final_folder);
+  const auto name = target.filename().string();
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (fs::directory_iterator at(target.parent_path(), error), end; !error && at != end;
+       at.increment(error)) {
+    const auto other = at->path().filename().string();
+    if (!other.starts_with(name + ".partial-") && !other.starts_with(name + ".old-")) continue;
+    const int lock = lock_of(at->path());
+    if (lock < 0) continue;
+    ::close(lock);
+    found.push_back(at->path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void remove_unfinished(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> hidden;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
+       at.increment(error))
+    if (at->path().filename().string().starts_with('.')) hidden.push_back(at->path());
+  for (const auto& path : hidden) fs::remove_all(path, error);
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,379 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "app/cli/figures.h"
+#include "app/cli/paper_page.h"
+#include "app/cli/pictures.h"
+#include "app/cli/sweep_folder.h"
+#include "engine/core/try.h"
+#include "engine/gridshell.h"
+#include "render/canvas/legend.h"
+#include "render/canvas/plot.h"
+#include "render/movie/run_figures.h"
+#include "render/movie/shell_lines.h"
+#include "render/movie/stage.h"
+#include "render/movie/state_charts.h"
+#include "render/movie/stills.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+using record::StateClass;
+using record::StateRow;
+
+constexpr double plot_height = 62.0 / 88;  // of a plot, over its width
+
+std::string class_text(StateClass kind) {
+  return kind == StateClass::other ? "other" : "state *" + std::string(word_of(kind)) + "*";
+}
+
+std::string caption_of(const StateRow& row, const record::StateSearch& search) {
+  return fmt::format("{}, {}: {:.2f} mJ, met {} in {}", class_text(row.kind), group_text(row.group),
+                     row.energy_mJ(), row.count, search.at_rest);
+}
+
+/// "153 states in 900 trials; about 214 in all (186 to 262)"
+std::string completeness_text(const record::StateTables& states) {
+  const record::Completeness& all = states.search.completeness;
+  return fmt::format("{} states in {} trials; Chao1: {:.0f} in all (95 %: {:.0f} to {:.0f})",
+                     all.seen, states.search.at_rest, all.chao1, all.low, all.high);
+}
+
+/// One series a class, in the order of the paper.
+template <class Value>
+std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Value& value) {
+  constexpr render::Marker markers[] = {render::Marker::square, render::Marker::triangle,
+                                        render::Marker::diamond, render::Marker::square,
+                                        render::Marker::circle};
+  std::vector<render::Series> all;
+  for (const auto& [kind, word] : words(StateClass{})) {
+    render::Series series;
+    series.name = class_text(kind);
+    series.colour = render::series_colour(std::size_t(kind));
+    series.marker = markers[std::size_t(kind)];
+    series.line_width = 0;
+    series.hollow = kind == StateClass::other;
+    for (const StateRow& row : rows) {
+      if (row.kind != kind) continue;
+      series.x.push_back(row.energy_mJ());
+      series.y.push_back(value(row));
+    }
+    if (!series.x.empty()) all.push_back(std::move(series));
+  }
+  // the many others lie below the paper's few
+  std::ranges::reverse(all);
+  return all;
+}
+
+render::Plot energies_plot(const record::StateTables& states) {
+  render::Plot plot;
+  plot.title = completeness_text(states);
+  plot.x = {.label = "energy (mJ)"};
+  plot.y = {.label = "times met", .logarithmic = true, .low = 0.5};
+  std::vector<StateRow> met;
+  std::ranges::copy_if(states.rows, std::back_inserter(met),
+                       [](const StateRow& row) { return row.count > 0; });
+  plot.series = by_class(met, [](const StateRow& row) { return double(row.count); });
+  return plot;
+}
+
+render::Plot lives_plot(const record::StateTables& states) {
+  render::Plot plot;
+  plot.title = "How far back along the path the states live";
+  plot.x = {.label = "energy at the end (mJ)"};
+  const bool circle = std::ranges::none_of(
+      states.rows, [](const StateRow& row) { return std::isnan(row.lives_to_radius_mm); });
+  plot.y = {.label = circle ? "largest *R*_{a} (mm)" : "least progress"};
+  plot.legend = render::LegendPlace::above;
+  plot.series = by_class(states.rows, [&](const StateRow& row) {
+    return circle ? row.lives_to_radius_mm : row.lives_to;
+  });
+  return plot;
+}
+
+}  // namespace
+
+std::string group_text(const std::string& group) {
+  const std::string name = group.substr(0, group.find('_'));
+  if (name.size() < 2 || name == "flat") return name;
+  return fmt::format("*{}*_{{{}}}", name.substr(0, 1), name.substr(1));
+}
+
+record::Trajectory states_alone(const record::Trajectory& run,
+                                const std::vector<std::size_t>& which) {
+  record::Trajectory few;
+  few.layout = run.layout;
+  few.layout.original_boundary = run.layout.actuated_boundary;
+  for (const std::size_t k : which) few.frames.push_back(run.frames[k]);
+  return few;
+}
+
+std::string found_text(const record::StateTables& states) {
+  const record::StateSearch& search = states.search;
+  const record::Completeness& all = search.completeness;
+  std::string text = fmt::format(
+      "  {} of {} trials came to rest, in {} states ({} once, {} twice); Chao1: {:.0f} in all, 95 "
+      "%: "
+      "{:.0f} to {:.0f}\n",
+      search.at_rest, search.trials, all.seen, all.once, all.twice, all.chao1, all.low, all.high);
+  if (search.confined_trials > 0)
+    text += fmt::format("  {} of {} begun in symmetric forms; {} states in all\n",
+                        search.confined_at_rest, search.confined_trials, states.rows.size());
+  if (search.finer_lost + search.finer_merged > 0)
+    text += fmt::format("  of {} on {} edges a segment, finer meshes lose {} and merge {}\n",
+                        search.found, search.judged_edges, search.finer_lost, search.finer_merged);
+  for (const auto& [why, count] : search.ended_otherwise)
+    text += fmt::format("  {} trials: {}\n", count, why);
+  for (const std::size_t k : record::states_to_draw(states.rows, 4)) {
+    const StateRow& row = states.rows[k];
+    text += fmt::format(
+        "  state {}: {}, class {}, {:.3f} mJ of bending, height {:.2f} mm, met {}\n", row.state,
+        row.group, word_of(row.kind), row.energies[Term::bend], row.height_mm, row.count);
+  }
+  if (search.ways_followed > 0)
+    text += fmt::format("  barriers: {} passes found on {} ways\n", search.passes_found,
+                        search.ways_followed);
+  for (const record::Barrier& one : states.barriers)
+    if (one.to != 0)
+      text +=
+          fmt::format("  from state {} to {}: {:.4g} mJ, back {:.4g} mJ (on {} edges a segment)\n",
+                      one.from, one.to, one.barrier_mJ, one.back_mJ, search.judged_edges);
+  return text;
+}
+
+Result<void> draw_states(const CaseRun& one, render::Renderer& renderer, const fs::path& stem,
+                         Watch& watch) {
+  const auto style = style_of(one.preset, Pictures::stills);
+  const record::StateTables& states = one.states;
+  const auto which = record::states_to_draw(states.rows, one.preset.jitter.drawn);
+  std::vector<std::string> captions;
+  for (const std::size_t k : which) captions.push_back(caption_of(states.rows[k], states.search));
+  const auto plot_at = [&](const char* suffix, const render::Plot& plot) {
+    render::Plot titled = plot;
+    titled.title = render::plain(style.title) + (plot.title.empty() ? "" : "\n") + plot.title;
+    return render::write_plot(fs::path(stem) += suffix, titled, style.print, plot_height);
+  };
+  return render::write_stills(states_alone(one.run, which), style, {}, renderer, stem, watch,
+                              captions)
+      .map([](const auto&) {})
+      .and_then([&] { return plot_at("_energies", energies_plot(states)); })
+      .and_then([&] { return plot_at("_lives", lives_plot(states)); })
+      .and_then([&]() -> Result<void> {
+        if (states.transitions.empty()) return {};
+        return render::write_transition_graph(fs::path(stem) += "_ways", states, one.run,
+                                              style.title, style.print);
+      })
+      .and_then([&]() -> Result<void> {
+        const auto passes = render::barrier_plot(states);
+        return passes.series.empty() ? Result<void>{} : plot_at("_barriers", passes);
+      });
+}
+
+namespace {
+
+using record::StateClass;
+using render::Box;
+using render::Canvas;
+
+// places on the page, mm
+constexpr double page_width = 178, page_height = 152, margin = 2;
+constexpr Box above{margin, margin, 160, 46}, diagram{margin, 50, 97, 94}, maps{101, 50, 75, 94},
+    foot{margin, 145, 97, 5};
+constexpr double points_per_mm = 72 / 25.4, caption = 12;  // points
+
+/// A state of a record.
+struct Found {
+  const CaseRun* record = nullptr;
+  std::size_t at = 0;
+
+  const record::StateRow& row() const { return record->states.rows[at]; }
+  const record::Frame& frame() const { return record->run.frames[at]; }
+};
+
+/// The lowest of a class.
+std::optional<Found> lowest_of(StateClass kind, const CaseRun& record) {
+  std::optional<Found> lowest;
+  for (std::size_t k = 0; k < record.states.rows.size(); ++k) {
+    const Found one{&record, k};
+    if (one.row().kind == kind && (!lowest || one.row().energy_mJ() < lowest->row().energy_mJ()))
+      lowest = one;
+  }
+  return lowest;
+}
+
+std::optional<Found> lowest_of(StateClass kind, const std::vector<CaseRun>& records) {
+  std::optional<Found> lowest;
+  for (const CaseRun& record : records)
+    if (!lowest) lowest = lowest_of(kind, record);
+  return lowest;
+}
+
+/// "(*L̄*_{d}, *n*) = (0.8, 12)"; empty where the footprint is no circle.
+std::string place_of(const preset::Preset& preset) {
+  if (preset.footprint.kind != preset::FootprintKind::circle) return "";
+  const double radius = preset.original_radius_mm() / preset.footprint.spacing_mm;
+  return fmt::format("(*L̄*_{{d}}, *n*) = ({:.3g}, {})",
+                     record::longest_leg(radius, preset.footprint.rods), preset.footprint.rods);
+}
+
+/// Which of the states joints measured lie nearest to, by the mean distance to its own joints; -1:
+/// none were measured.
+int state_measured(const Eigen::Matrix3Xd& measured, const record::Trajectory& states) {
+  if (measured.cols() == 0) return -1;
+  std::vector<double> away;
+  for (const record::Frame& frame : states.frames) {
+    const auto joints = frame.nodes.leftCols(Eigen::Index(states.layout.joints.size()));
+    double sum = 0;
+    for (const auto& joint : measured.colwise())
+      sum += (joints.colwise() - joint).colwise().norm().minCoeff();
+    away.push_back(sum);
+  }
+  return int(std::ranges::min_element(away) - away.begin());
+}
+
+/// The first record's states ii, iii and iv in space, at one scale and with one colour bar; joints
+/// measured over the one that they lie nearest to.
+Result<void> add_states(Page& page, const CaseRun& one, render::MovieStyle style,
+                        render::Renderer& renderer, Watch& watch) {
+  std::vector<std::size_t> which;
+  for (const StateClass kind : {StateClass::ii, StateClass::iii, StateClass::iv})
+    if (const auto found = lowest_of(kind, one)) which.push_back(found->at);
+  if (which.empty()) {
+    page.add("A", "", above, [](Canvas& canvas, const Box& box) {
+      render::draw_empty_frame(canvas, box, "none of the states ii, iii and iv was found");
+    });
+    return {};
+  }
+  const double width = above.width / 3;
+  style = at_size(style, width, above.height - caption / points_per_mm, one.preset.figure.dpi);
+  style.captions = style.inset = style.legends = false;
+  style.turn_deg = 0;
+  const record::Trajectory run = states_alone(one.run, which);
+  const render::Stage stage(run, style);
+  const Eigen::Matrix3Xd measured = scan_of(one.preset);
+  const int over = state_measured(measured, run);
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a page");
+    const record::StateRow& row = one.states.rows[which[k]];
+    render::Drawing drawing = stage.drawing(run.frames[k]);
+    // joints are drawn red too: where some are measured no others are
+    if (over >= 0) drawing.joint_diameter_mm = 0;
+    if (over == int(k)) render::show_measured_joints(measured, drawing);
+    TRY(picture, renderer.draw(drawing, stage.camera(int(k)), render::draw_quality(style),
+                               style.width, style.height));
+    render::Panel panel{std::move(*picture), "A" + std::to_string(k + 1), ""};
+    if (style.vector) panel.lines = render::shell_lines(std::move(drawing), stage.camera(int(k)));
+    page.add_panel(fmt::format("state *{}*, {}: {:.2f} mJ, {:.1f} mm high", word_of(row.kind),
+                               group_text(row.group), row.energy_mJ(), row.height_mm),
+                   {above.x + double(k) * width, above.y, width, above.height}, std::move(panel));
+    watch.report(double(k + 1) / double(which.size()));
+  }
+  if (const auto& bar = stage.colour_bar()) page.add_colour_bar({162, 3, 14, 34}, *bar);
+  if (over >= 0)
+    page.add("", "", {128, 1, 32, 4}, [](Canvas& canvas, const Box& box) {
+      render::draw_colour_keys(canvas, box, {render::scan_key()}, page_font);
+    });
+  const double units =
+      (above.height * points_per_mm - caption) * stage.pixels_per_mm() / style.height;
+  page.add("", "", {158, 38, 18, 8},
+           [units, length = one.preset.figure.scale_bar_mm](Canvas& canvas, const Box& box) {
+             render::draw_scale_bar(canvas, box, length, units, page_font);
+           });
+  return {};
+}
+
+Result<void> add_diagram(Page& page, const std::string& folder) {
+  if (folder.empty()) {
+    page.add("B", "", diagram, [](Canvas& canvas, const Box& box) {
+      render::draw_empty_frame(canvas, box, "phase diagram: [page] sweep names no sweep");
+    });
+    return {};
+  }
+  TRY(table, read_finished_sweep(folder));
+  if (!record::makes_phase_diagram(table->axes))
+    return fail(
+        Fault::bad_input,
+        fmt::format("[page] sweep = \"{}\": goes over other keys than footprint.longest_leg "
+                    "and footprint.rods",
+                    folder));
+  const std::string& of_case = table->rows.front().keys.case_name;
+  page.add_plot("B", diagram, render::phase_plot(record::phase_diagram_of(*table, of_case), ""));
+  return {};
+}
+
+/// What all shells of the page have in common.
+void add_foot(Page& page, const preset::Preset& preset) {
+  const double d = preset.footprint.spacing_mm;
+  const std::string shell =
+      fmt::format("A at {}; all: circles, *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
+                  place_of(preset), d, preset.actuated_radius_mm() / preset.original_radius_mm());
+  if (preset.footprint.kind == preset::FootprintKind::circle)
+    page.add("", "", foot, [shell](Canvas& canvas, const Box& box) {
+      canvas.text(shell, {box.x, box.middle().y},
+                  {.size = page_font, .align_y = render::AlignY::middle});
+    });
+}
+
+/// A state of each class from above, each as large as its place.
+void add_maps(Page& page, const std::vector<CaseRun>& records) {
+  const double width = maps.width / 2, height = maps.height / 2;
+  int place = 0;
+  for (const StateClass kind : {StateClass::i, StateClass::ii, StateClass::iii, StateClass::iv}) {
+    const Box box{maps.x + width * (place % 2), maps.y + height * (place / 2), width, height};
+    const std::string letter = "C" + std::to_string(++place);
+    const std::string name(word_of(kind));
+    const auto found = lowest_of(kind, records);
+    if (!found) {
+      page.add(letter, "", box, [name](Canvas& canvas, const Box& inside) {
+        render::draw_empty_frame(canvas, inside, "no state " + name);
+      });
+      continue;
+    }
+    const auto words = fmt::format("*{}*, {}", name, group_text(found->row().group));
+    page.add(letter, words, box,
+             [found = *found, where = place_of(found->record->preset)](Canvas& canvas,
+                                                                       const Box& inside) {
+               const record::Layout& layout = found.record->run.layout;
+               const Box map{inside.x, inside.y, inside.width, inside.height - caption};
+               render::draw_state_map(canvas, map, render::state_map_scale(map, layout), layout,
+                                      found.frame(), found.row());
+               canvas.text(where, {inside.middle().x, inside.bottom() - caption / 2},
+                           {.size = page_font,
+                            .align_x = render::AlignX::centre,
+                            .align_y = render::AlignY::middle});
+             });
+  }
+  page.add("", "", {maps.x, maps.y + maps.height, maps.width, 5},
+           [](Canvas& canvas, const Box& box) {
+             render::draw_colour_keys(canvas, box,
+                                      {{render::first_order_ink, "rod of the first order"},
+                                       {render::higher_order_ink, "with inflections"},
+                                       {render::mirror_ink, "symmetry"}},
+                                      page_font);
+           });
+}
+
+}  // namespace
+
+Result<Page> states_page(const std::vector<CaseRun>& records, const render::MovieStyle& style,
+                         render::Renderer& renderer, Watch& watch) {
+  const CaseRun& first = records.front();
+  if (first.states.rows.empty())
+    return fail(Fault::bad_input,
+                fmt::format("{}: [page] kind = \"fig2\" shows states: must have [jitter] trials or "
+                            "confined above 0",
+                            first.preset.name));
+  Page page{page_width, page_height};
+  return add_states(page, first, style, renderer, watch)
+      .and_then([&] { return add_diagram(page, first.preset.page.sweep); })
+      .map([&] {
+        add_maps(page, records);
+        add_foot(page, first.preset);
+        return std::move(page);
+      });
+}
+
+}  // namespace gridshell::app

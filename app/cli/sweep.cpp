@@ -1,0 +1,323 @@
+// The work behind `sweep`: many runs of one preset, kept a line a point, gathered, drawn.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "app/cli/commands.h"
+#include "app/cli/console.h"
+#include "app/cli/delivery.h"
+#include "app/cli/options.h"
+#include "app/cli/preset_library.h"
+#include "app/cli/staged_folder.h"
+#include "app/cli/sweep_folder.h"
+#include "engine/core/file_io.h"
+#include "engine/core/parallel.h"
+#include "engine/core/suggest.h"
+#include "engine/core/try.h"
+#include "engine/gridshell.h"
+#include "render/movie/state_charts.h"
+#include "render/movie/sweep_chart.h"
+
+namespace gridshell::app {
+
+struct SweepOptions {
+  Options common;
+  int jobs = 0;       ///< points computed at a time; 0: as many as there are cores
+  std::string shard;  ///< "i/N": every N-th point from the i-th on, in DIR/shard_i_of_N; empty: all
+  bool merge = false;  ///< gather the shards in DIR instead of computing
+};
+
+/// Computes what is not in the folder's log yet and, once all is there, writes sweep.csv,
+/// preset.toml and the pictures. The exit code.
+int sweep(const SweepOptions& options);
+
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double chart_width_mm = 130, chart_height = 0.62;  // of a line chart
+constexpr const char* classes = "classes";  // the picture of which states were found
+
+/// A sweep in hand.
+struct SweepJob {
+  const SweepOptions& options;
+  const preset::Presets& presets;
+  const preset::SweepGrid& grid;
+  fs::path folder;
+  std::optional<Shard> shard;
+
+  bool quiet() const { return options.common.quiet; }
+  std::vector<std::size_t> points() const {
+    const Shard part = shard.value_or(Shard{});
+    return study::points_of_shard(grid.size(), part.index, part.count);
+  }
+};
+
+std::vector<std::string> plots_of(const preset::SweepGrid& grid) {
+  const auto& plots = grid.sweep().plot;
+  return plots.empty() ? std::vector<std::string>{"height_mm"} : plots;
+}
+
+/// What can be drawn: the figures that a point has in any case, and of searches for states over leg
+/// and rods which classes were found.
+std::vector<std::string> drawable(const preset::Presets& presets, const preset::SweepGrid& grid) {
+  std::set<std::string> names;
+  for (const auto& run : runs_of(presets)) {
+    const bool search = run.preset.jitter.wanted();
+    for (auto& name : experiment::figure_names(search)) names.insert(std::move(name));
+    if (search && record::makes_phase_diagram(axes_of(grid))) names.insert(classes);
+  }
+  return {names.begin(), names.end()};
+}
+
+/// What there is to sweep, and whether the figures asked for are some of a run.
+Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid& grid) {
+  if (grid.size() == 0)
+    return fail(
+        Fault::bad_input,
+        fmt::format("{}: sweeps nothing: must have [sweep] over or seeds, for example --set "
+                    "'sweep.over={{rod.diameter_mm=[0.2,0.3]}}'",
+                    presets.base.name));
+  const auto names = drawable(presets, grid);
+  auto asked = plots_of(grid);
+  if (!grid.sweep().x.empty()) asked.push_back(grid.sweep().x);
+  for (const auto& name : asked)
+    if (std::ranges::find(names, name) == names.end())
+      return fail(Fault::bad_input,
+                  fmt::format("{}: [sweep] plot or x = \"{}\": is no figure of a run{}",
+                              presets.base.name, name,
+                              name == classes ? ", only of searches for states over "
+                                                "footprint.longest_leg and footprint.rods alone"
+                                              : preset::did_you_mean(name, names)));
+  return {};
+}
+
+/// Pictures of figures that are not asked for any more would be of no sweep.
+void remove_other_pictures(const SweepJob& work, const std::vector<std::string>& drawn) {
+  std::error_code error;
+  for (const auto& name : drawable(work.presets, work.grid)) {
+    if (std::ranges::find(drawn, name) != drawn.end()) continue;
+    for (const char* kind : {".png", ".svg", ".pdf"})
+      fs::remove(work.folder / (name + kind), error);
+  }
+}
+
+/// A diagram a case, and beside it what it says of the paper's sentences.
+Result<void> draw_classes(const SweepJob& work, const record::SweepTable& table,
+                          const render::Print& print) {
+  for (const auto& run : runs_of(work.presets)) {
+    const auto stem = work.folder / (run.name.empty() ? classes : run.name + "_" + classes);
+    const auto diagram = record::phase_diagram_of(table, run.name);
+    auto drawn = render::write_phase_chart(stem, diagram, run.preset.title, print);
+    if (drawn)
+      drawn = write_file(fs::path(stem) += "_by_leg.csv",
+                         record::regions_csv(record::regions_of(diagram)));
+    if (!drawn) return drawn;
+  }
+  return {};
+}
+
+Result<void> draw(const SweepJob& work, const record::SweepTable& table) {
+  const preset::Preset& base = work.presets.base;
+  const auto plots = plots_of(work.grid);
+  remove_other_pictures(work, plots);
+  for (const auto& name : plots) {
+    const render::SweepView view{name, base.sweep.x, base.sweep.departure, base.title};
+    const auto stem = work.folder / name;
+    const double width = base.figure.width_mm > 0 ? base.figure.width_mm : chart_width_mm;
+    if (name == classes) {
+      if (auto drawn = draw_classes(work, table, {width, base.figure.dpi}); !drawn) return drawn;
+      continue;
+    }
+    auto drawn = table.axes.size() == 2
+                     ? render::write_sweep_map(stem, table, view)
+                     : render::write_plot(stem, render::sweep_plot(table, view),
+                                          {width, base.figure.dpi}, chart_height);
+    if (!drawn) return drawn;
+  }
+  return {};
+}
+
+/// "20 points: 18 done (2 ended early: locking; 1 not stable), 2 no_equilibrium"
+std::string told(const record::SweepTable& table) {
+  int done = 0, limited = 0, unstable = 0, none = 0, refused = 0;
+  std::set<std::string> limits;
+  for (const auto& row : table.rows) {
+    const auto& result = row.result;
+    done += result.outcome == record::PointOutcome::done;
+    none += result.outcome == record::PointOutcome::no_equilibrium;
+    refused += result.outcome == record::PointOutcome::refused;
+    const auto* stable = result.figure("stable");
+    unstable += stable && record::number_of(*stable) == 0;
+    const auto* limit = result.figure("limit");
+    if (const auto* word = limit ? std::get_if<std::string>(limit) : nullptr;
+        word && *word != "none") {
+      ++limited;
+      limits.insert(*word);
+    }
+  }
+  auto text = fmt::format("{} point{}: {} done", table.rows.size(),
+                          table.rows.size() == 1 ? "" : "s", done);
+  if (limited > 0)
+    text += fmt::format(", {} of them ended early ({})", limited, fmt::join(limits, ", "));
+  if (unstable > 0) text += fmt::format(", {} of them not stable", unstable);
+  if (none > 0) text += fmt::format("; {} without an equilibrium", none);
+  if (refused > 0) text += fmt::format("; {} refused", refused);
+  return text;
+}
+
+/// "  l_d > 1: 24 points; first order alone at 20, ..." a line a region of the diagram.
+std::string regions_text(const SweepJob& work, const record::SweepTable& table) {
+  using record::StateClass;
+  std::string text;
+  for (const auto& run : runs_of(work.presets))
+    for (const auto& region : record::regions_of(record::phase_diagram_of(table, run.name))) {
+      if (region.points == 0) continue;
+      const auto with = [&](StateClass kind) { return region.with[std::size_t(kind)]; };
+      text += fmt::format(
+          "\n  {}{}{}: {} points; domes of the first order alone at {}, and {} of {} trials end in "
+          "them; several states at {}, broken symmetry at {}; i at {}, ii at {}, iii at {}, iv at "
+          "{}; more states than the paper drew at {} ({})",
+          run.name, run.name.empty() ? "" : ", ", record::name_of(region), region.points,
+          region.dome_alone, region.met_first_order, region.at_rest, region.several, region.broken,
+          with(StateClass::i), with(StateClass::ii), with(StateClass::iii), with(StateClass::iv),
+          region.with_more, region.more_states);
+    }
+  return text;
+}
+
+Result<std::string> finish(const SweepJob& work, const record::SweepLog& log) {
+  const auto table = table_of(work.grid, work.points(), log.found());
+  auto written =
+      write_file(work.folder / "sweep.csv", record::sweep_csv(table))
+          .and_then([&] {
+            return write_file(work.folder / "preset.toml", preset::to_toml(work.presets));
+          })
+          // a part of the points makes no picture
+          .and_then([&] {
+            const bool drawable = !work.shard && table.axes.size() <= 2;
+            return drawable ? draw(work, table) : Result<void>{};
+          })
+          .and_then([&] { return write_manifest(work.folder); });
+  if (!written) return tl::unexpected(written.error());
+  const bool any = std::ranges::any_of(
+      table.rows, [](const auto& row) { return row.result.outcome == record::PointOutcome::done; });
+  if (!any && !work.shard)
+    return fail(Fault::no_equilibrium, fmt::format("no point came to a state; the first: {}",
+                                                   table.rows.front().result.reason));
+  const auto plots = plots_of(work.grid);
+  const bool diagram = !work.shard && std::ranges::find(plots, classes) != plots.end();
+  return told(table) + (diagram ? regions_text(work, table) : "");
+}
+
+void report_damage(const SweepJob& work, const record::SweepLog& log) {
+  const auto file = (work.folder / record::sweep_log_name).string();
+  if (log.cut_off())
+    std::fprintf(stderr, "the last line of '%s' was cut off and is dropped\n", file.c_str());
+  if (log.damaged() > 0)
+    std::fprintf(stderr, "%zu line%s of '%s' damaged: what they held is computed again\n",
+                 log.damaged(), log.damaged() == 1 ? " is" : "s are", file.c_str());
+}
+
+std::vector<std::size_t> missing(const SweepJob& work, const record::SweepLog& log) {
+  auto points = work.points();
+  std::erase_if(points, [&](std::size_t point) { return log.found().contains(point); });
+  return points;
+}
+
+std::string standing_of(const SweepJob& work, const record::SweepLog& log) {
+  const auto all = work.points().size();
+  return fmt::format("{} of {} points are in '{}'", all - missing(work, log).size(), all,
+                     work.folder.string());
+}
+
+/// Computes what is missing.
+Result<void> compute(const SweepJob& work, record::SweepLog& log) {
+  const auto todo = missing(work, log);
+  if (todo.empty()) return {};
+  if (!work.quiet() && todo.size() < work.points().size())
+    std::fprintf(stderr, "going on: %s\n", standing_of(work, log).c_str());
+  const int jobs = thread_count(work.options.jobs);
+  const auto stands = [&] {
+    return "stopped: " + standing_of(work, log) + "; the same command goes on";
+  };
+  Result<void> done;
+  {
+    // what is logged is whole whenever the program ends
+    Progress progress({{"sweeping", 100}}, Progress::show_for(work.quiet()), [] {
+      std::fputs("stopped: what was finished is in the log; the same command goes on\n", stderr);
+    });
+    done = study::run_points(
+        work.grid, todo, jobs, [&](record::PointResult result) { return log.append(result); },
+        progress.next_phase());
+  }
+  if (!done && done.error().fault == Fault::cancelled) done.error().message = stands();
+  return done;
+}
+
+Result<std::string> carry_out(const SweepJob& work) {
+  TRY(log, open_sweep(work.folder, work.presets, work.grid));
+  report_damage(work, *log);
+  if (work.options.merge) {
+    TRY_DO(gather_shards(work.folder, *log, work.presets, work.grid));
+    if (!missing(work, *log).empty())
+      return fail(Fault::no_equilibrium,
+                  fmt::format("{}; shards go on where they stopped, and without --merge the rest "
+                              "is computed here",
+                              standing_of(work, *log)));
+  } else if (auto computed = compute(work, *log); !computed) {
+    return tl::unexpected(computed.error());
+  }
+  return finish(work, *log);
+}
+
+}  // namespace
+
+int sweep(const SweepOptions& options) {
+  const auto presets = load(options.common);
+  if (!presets) return report(presets.error());
+  if (options.common.print_config) {
+    fmt::print("{}", preset::to_toml(*presets));
+    return ExitCode::done;
+  }
+  const preset::SweepGrid grid(*presets);
+  if (auto asked = check_asked(*presets, grid); !asked) return report(asked.error());
+  SweepJob work{options, *presets, grid, output_of(options.common, presets->base), std::nullopt};
+  if (!options.shard.empty()) {
+    const auto shard = parse_shard(options.shard);
+    if (!shard) return report(shard.error());
+    work.shard = *shard;
+    work.folder /= shard->folder();
+  }
+  const InterruptGuard guarded;
+  const auto done = carry_out(work);
+  if (!done) return report(done.error());
+  if (!options.common.quiet) fmt::print("{}: {}\n", work.folder.string(), *done);
+  return ExitCode::done;
+}
+
+// `gridshell sweep PRESET`: many runs of one preset, resumable, on several cores or machines.
+
+void add_sweep(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<SweepOptions>();
+  auto* command = program.add_subcommand("sweep", "many runs of one preset, resumable, parallel");
+  add_preset_options(*command, options->common);
+  add_work_options(*command, options->common);
+  command
+      ->add_option("--jobs", options->jobs,
+                   "points computed at a time, by default as many as there are cores; results do "
+                   "not change")
+      ->check(CLI::Range(1, 1024));
+  auto* shard =
+      command->add_option("--shard", options->shard, "i/N: every N-th point, in DIR/shard_i_of_N");
+  command->add_flag("--merge", options->merge, "gather the shards in DIR instead of computing")
+      ->excludes(shard);
+  command->callback([&action, options] { action = [options] { return sweep(*options); }; });
+}
+
+}  // namespace gridshell::app

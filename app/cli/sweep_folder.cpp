@@ -1,0 +1,147 @@
+#include "app/cli/sweep_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+#include <vector>
+
+#include "engine/core/file_io.h"
+#include "engine/core/try.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+const std::regex& shard_folder() {
+  static const std::regex name("shard_[0-9]+_of_[0-9]+");
+  return name;
+}
+
+record::SweepIdentity name_of(const preset::Presets& presets, const preset::SweepGrid& grid) {
+  return {presets.base.name, study::config_of(presets), grid.size()};
+}
+
+/// What a folder without a log holds that no sweep puts there; empty: nothing.
+std::string foreign_in(const fs::path& folder) {
+  std::error_code error;
+  std::vector<std::string> names;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const auto name = at->path().filename().string();
+    // shards of this sweep may be in the making beside it
+    if (!std::regex_match(name, shard_folder()) && !name.starts_with(".partial-"))
+      names.push_back(name);
+  }
+  std::ranges::sort(names);
+  return names.empty() ? "" : names.front();
+}
+
+}  // namespace
+
+std::string Shard::folder() const { return fmt::format("shard_{}_of_{}", index, count); }
+
+Result<Shard> parse_shard(const std::string& text) {
+  std::smatch part;
+  Shard shard;
+  if (std::regex_match(text, part, std::regex("([0-9]{1,6})/([0-9]{1,6})")))
+    shard = {std::stoi(part[1]), std::stoi(part[2])};
+  else
+    shard.index = 0;
+  if (shard.index < 1 || shard.index > shard.count)
+    return fail(Fault::bad_input,
+                fmt::format("--shard {}: must be i/N with i from 1 to N, for example 2/8", text));
+  return shard;
+}
+
+Result<record::SweepLog> open_sweep(const fs::path& folder, const preset::Presets& presets,
+                                    const preset::SweepGrid& grid) {
+  const auto refuse = [&](const std::string& why) {
+    return fail(Fault::bad_input,
+                fmt::format("cannot write the folder '{}': {}; choose another folder with -o",
+                            folder.string(), why));
+  };
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) return refuse("it is a file");
+  if (!fs::exists(folder / record::sweep_log_name, error))
+    if (const auto foreign = foreign_in(folder); !foreign.empty())
+      return refuse(fmt::format("it is no sweep, and holds '{}'", foreign));
+  if (auto made = make_folder(folder); !made)
+    return tl::unexpected(Error{Fault::bad_input, made.error().message});
+  return record::SweepLog::open(folder / record::sweep_log_name, name_of(presets, grid),
+                                axes_of(grid),
+                                [&grid](std::size_t point) { return keys_of(grid, point); });
+}
+
+record::PointKeys keys_of(const preset::SweepGrid& grid, std::size_t point) {
+  auto at = grid.at(point);
+  return {std::move(at.case_name), std::move(at.values), at.seed};
+}
+
+std::vector<std::string> axes_of(const preset::SweepGrid& grid) {
+  std::vector<std::string> keys;
+  for (const auto& axis : grid.sweep().over) keys.push_back(axis.key);
+  return keys;
+}
+
+record::SweepTable table_of(const preset::SweepGrid& grid, const std::vector<std::size_t>& points,
+                            const std::map<std::size_t, record::PointResult>& found) {
+  record::SweepTable table;
+  table.axes = axes_of(grid);
+  table.has_cases = grid.has_cases();
+  table.has_seeds = grid.sweep().seeds > 1;
+  for (const std::size_t point : points)
+    table.rows.push_back({keys_of(grid, point), found.at(point)});
+  return table;
+}
+
+Result<record::SweepTable> read_finished_sweep(const fs::path& folder) {
+  const auto refuse = [&](const std::string& why) {
+    return fail(Fault::bad_input,
+                fmt::format("'{}' is no finished sweep: {}", folder.string(), why));
+  };
+  // the preset is written once all points are there
+  const fs::path file = folder / "preset.toml";
+  std::error_code error;
+  if (!fs::exists(file, error)) return refuse("it has no preset.toml");
+  TRY(presets, preset::read_preset_file(file, {}));
+  const preset::SweepGrid grid(*presets);
+  const auto log = record::read_sweep_log(folder / record::sweep_log_name);
+  if (!log) return refuse(log.error().message);
+  std::vector<std::size_t> points;
+  for (std::size_t point = 0; point < grid.size(); ++point)
+    if (log->found.contains(point)) points.push_back(point);
+  if (points.size() < grid.size())
+    return refuse(fmt::format("{} of {} points are there", points.size(), grid.size()));
+  return table_of(grid, points, log->found);
+}
+
+Result<void> gather_shards(const fs::path& folder, record::SweepLog& log,
+                           const preset::Presets& presets, const preset::SweepGrid& grid) {
+  std::vector<fs::path> shards;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (std::regex_match(at->path().filename().string(), shard_folder())) shards.push_back(*at);
+  if (shards.empty())
+    return fail(Fault::bad_input,
+                fmt::format("'{}' holds no shard: they are written by 'gridshell sweep PRESET "
+                            "--shard i/N' with the same -o",
+                            folder.string()));
+  std::ranges::sort(shards);
+  std::map<std::size_t, record::PointResult> found;
+  for (const auto& shard : shards) {
+    auto contents = record::read_sweep_log(shard / record::sweep_log_name);
+    if (!contents) return tl::unexpected(Error{Fault::bad_input, contents.error().message});
+    if (!contents->name.same_sweep(name_of(presets, grid)))
+      return fail(Fault::bad_input,
+                  fmt::format("'{}' is a shard of another preset ('{}'), or of other values",
+                              shard.string(), contents->name.preset));
+    found.merge(contents->found);
+  }
+  for (const auto& [point, result] : found)
+    if (!log.found().contains(point))
+      if (auto added = log.append(result); !added) return added;
+  return {};
+}
+
+}  // namespace gridshell::app

@@ -1,0 +1,113 @@
+// Faults as exceptions, one class each.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <Eigen/Core>
+#include <chrono>
+#include <future>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::python {
+namespace py = pybind11;
+
+/// Adds the classes to the module: Error and, below it, BadInput, NoEquilibrium, IOFailure.
+void add_errors(py::module_& module);
+
+/// Raises the exception of an error, its message that of the program.
+[[noreturn]] void raise(const Error& error);
+
+/// The value, or the exception.
+template <class T>
+T value_of(Result<T> result) {
+  if (!result) raise(result.error());
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+// Long work that Ctrl-C stops.
+
+/// Calls work(watch) on a thread of its own, without the GIL, while this one waits and, every
+/// 20 ms, lets Python answer its signals. What a handler raises (KeyboardInterrupt) cancels the
+/// watch, and is raised here once the work has ended. Signals come to Python's main thread alone.
+template <class Work>
+auto interruptible(const Work& work) {
+  Watch watch;
+  std::optional<py::error_already_set> raised;
+  auto running = std::async(std::launch::async, [&] { return work(watch); });
+  for (bool ended = false; !ended;) {
+    {
+      const py::gil_scoped_release others;
+      ended = running.wait_for(std::chrono::milliseconds(20)) == std::future_status::ready;
+    }
+    if (PyErr_CheckSignals() == 0) continue;
+    if (!raised) raised.emplace();
+    PyErr_Clear();
+    watch.cancel();
+  }
+  auto result = running.get();
+  if (raised) throw py::error_already_set(*raised);
+  return result;
+}
+
+// What Python passes as a value of a preset, as TOML: the preset's reader then judges it.
+
+namespace py = pybind11;
+
+/// A number, string, path, bool, sequence of these or numpy array as TOML. Raises TypeError for
+/// anything else.
+std::string toml_of(const py::handle& value);
+
+/// {"footprint.rods": 14} as changes to a preset. Raises TypeError.
+std::vector<preset::Override> overrides_of(const py::dict& changes);
+
+/// A step of a hand with the keys of [[step]], those that are None left out, judged together with
+/// the preset. Raises BadInput, TypeError.
+preset::Step step_of(const preset::Preset& preset, const char* deed, const py::dict& keys);
+
+// Numbers as numpy arrays that look into them: nothing is copied, and nothing can be written.
+
+namespace py = pybind11;
+
+/// An array over memory that `owner` keeps for as long as the array lives.
+template <class Number>
+py::array_t<Number> view(const Number* data, const std::vector<py::ssize_t>& shape,
+                         const std::vector<py::ssize_t>& strides, const py::object& owner) {
+  py::array_t<Number> array(shape, strides, data, owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+inline py::array_t<double> view(const Eigen::VectorXd& numbers, const py::object& owner) {
+  return view(numbers.data(), {numbers.size()}, {sizeof(double)}, owner);
+}
+
+/// A row a point.
+inline py::array_t<double> view(const Eigen::Matrix3Xd& points, const py::object& owner) {
+  return view(points.data(), {points.cols(), 3}, {3 * sizeof(double), sizeof(double)}, owner);
+}
+
+inline py::array_t<int> view(const std::vector<int>& numbers, const py::object& owner) {
+  return view(numbers.data(), {py::ssize_t(numbers.size())}, {sizeof(int)}, owner);
+}
+
+// What the module is made of.
+
+namespace py = pybind11;
+
+/// Adds the classes Session and Checkpoint to the module.
+void add_session(py::module_& module);
+
+/// Adds the class Run and the function load to the module.
+void add_run(py::module_& module);
+
+/// The case of a name, or the preset itself where it has none. Raises BadInput, naming the cases.
+preset::Preset chosen(const preset::Presets& presets, const std::optional<std::string>& name);
+
+}  // namespace gridshell::python

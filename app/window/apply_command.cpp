@@ -1,0 +1,354 @@
+// The deeds of a hand as steps of a preset: done, and kept so that a preset can do them again.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/window/command.h"
+#include "app/window/edit_session.h"
+#include "engine/core/try.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::window {
+namespace {
+
+/// As a preset takes it: what round-off left of a zero is none.
+std::vector<double> xyz_of(const Eigen::Vector3d& vector) {
+  std::vector<double> xyz;
+  for (const double value : vector)
+    xyz.push_back(std::abs(value) < experiment::nearest_mm ? 0 : value);
+  return xyz;
+}
+
+/// The edge points that lie off the boundary's motion.
+preset::Points rows_of(const Eigen::Matrix3Xd& dragged) {
+  preset::Points rows;
+  for (Eigen::Index k = 0; k < dragged.cols(); ++k)
+    if (!dragged.col(k).isZero(0))
+      rows.push_back({double(k), dragged(0, k), dragged(1, k), dragged(2, k)});
+  return rows;
+}
+
+preset::Step step_of(preset::StepKind deed) {
+  preset::Step step;
+  step.deed = deed;
+  return step;
+}
+
+/// Whether a step goes on along the way of the one before, so that its end alone counts.
+bool goes_on(const preset::Step& before, const preset::Step& step) {
+  if (before.deed != step.deed) return false;
+  if (step.deed == preset::StepKind::move)
+    return before.edge_points.empty() && step.edge_points.empty();
+  return step.deed == preset::StepKind::push && before.joint == step.joint && !step.along.empty() &&
+         before.along == step.along;
+}
+
+}  // namespace
+
+/// One step, as a preset would have it done.
+Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
+  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
+  const bool holds = step.deed == preset::StepKind::push || step.deed == preset::StepKind::hold;
+  if (holds)
+    if (const auto joint = experiment::joint_of(step, scene_->footprint))
+      // as it was seen, which the coarse mesh of a drag does not change
+      grip_origins_.emplace(*joint, shell_view_.frame.nodes.cols() > *joint
+                                        ? Eigen::Vector3d(shell_view_.frame.nodes.col(*joint))
+                                        : Eigen::Vector3d(session_->nodes().col(*joint)));
+  // a leap is taken from a state at rest on all meshes, as a run takes it
+  const bool leaps = step.deed == preset::StepKind::jitter || step.deed == preset::StepKind::rest ||
+                     step.deed == preset::StepKind::release;
+  if (leaps && session_->shell().levels() == 1)
+    session_->remesh(experiment::initial_levels(*scene_), watch);
+  TRY(report, experiment::apply_step(*session_, boundary_, step, watch));
+  std::erase_if(grip_origins_, [&](const auto& taken) {
+    return std::ranges::none_of(session_->holds(),
+                                [&](const Constraint& hold) { return hold.node == taken.first; });
+  });
+  keep(std::move(step), *report);
+  return ended(*report);
+}
+
+/// Notes a step as far as it came.
+void EditSession::keep(preset::Step step, const Report& report) {
+  if (report.end != Outcome::reached) {
+    if (step.deed != preset::StepKind::move && step.deed != preset::StepKind::push) return;
+    step.progress = boundary_.progress;
+    if (step.deed == preset::StepKind::push)
+      if (const auto joint = experiment::joint_of(step, scene_->footprint))
+        step.to_mm = xyz_of(session_->nodes().col(*joint));
+  }
+  if (step.deed == preset::StepKind::move) step.edge_points = rows_of(boundary_.dragged);
+  const bool eventful = !report.events.empty();
+  const bool same = now_stroke_ != 0 && now_stroke_ == kept_stroke_ && !steps_.empty() &&
+                    !eventful && !kept_eventful_ && goes_on(steps_.last(), step);
+  if (same)
+    steps_.replace_last(std::move(step));
+  else
+    steps_.add(std::move(step));
+  kept_stroke_ = now_stroke_;
+  kept_eventful_ = eventful;
+}
+
+Result<void> EditSession::act(const Move& command, const Watch& watch) {
+  preset::Step step = step_of(preset::StepKind::move);
+  step.progress = std::max(command.progress, shell_view_.least_progress);
+  step.edge_points = rows_of(boundary_.dragged);
+  return do_step(step, watch);
+}
+
+Result<void> EditSession::act(const DragEdge& command, const Watch& watch) {
+  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
+  Eigen::Matrix3Xd dragged = boundary_.dragged;
+  if (command.edge_point < 0 || command.edge_point >= dragged.cols())
+    return fail(Fault::bad_input, "no such edge point");
+  const Eigen::Index k = command.edge_point;
+  const BoundaryMotion& motion = scene_->motion;
+  dragged.col(k) =
+      command.to - motion.begin.col(k) - boundary_.progress * (motion.end - motion.begin).col(k);
+  if ((dragged - boundary_.dragged).norm() < experiment::nearest_mm) return {};
+  preset::Step step = step_of(preset::StepKind::move);
+  step.progress = boundary_.progress;
+  step.edge_points = rows_of(dragged);
+  return do_step(step, watch);
+}
+
+Result<void> EditSession::act(const ResetEdgePoint& command, const Watch& watch) {
+  const bool all = command.edge_point < 0;
+  Eigen::Matrix3Xd dragged = boundary_.dragged;
+  if (all)
+    dragged.setZero();
+  else if (command.edge_point < dragged.cols())
+    dragged.col(command.edge_point).setZero();
+  if (!session_ || (dragged - boundary_.dragged).isZero(0))
+    return fail(Fault::bad_input, "no such edge point was dragged");
+  preset::Step step = step_of(preset::StepKind::move);
+  step.progress = boundary_.progress;
+  step.edge_points = rows_of(dragged);
+  return do_step(step, watch);
+}
+
+Result<void> EditSession::act(const Push& command, const Watch& watch) {
+  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
+  if (command.joint < 0 || command.joint >= int(scene_->footprint.joints.size()))
+    return fail(Fault::bad_input, "no such joint");
+  const FootprintJoint& joint = scene_->footprint.joints[std::size_t(command.joint)];
+  preset::Step step = step_of(preset::StepKind::push);
+  step.joint = {joint.i, joint.j};
+  step.to_mm = xyz_of(command.to);
+  const bool free = !command.along.isZero(0);
+  if (free) step.along = xyz_of(command.along);
+  step.lateral = free ? preset::Lateral::free : preset::Lateral::held;
+  // a hand that holds it already and does not move does nothing
+  const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
+  const bool still =
+      (free ? std::abs(way.dot(command.along)) : way.norm()) < experiment::nearest_mm;
+  if (still && grip_origins_.contains(command.joint)) return {};
+  return do_step(step, watch);
+}
+
+Result<void> EditSession::act(const Release& command, const Watch& watch) {
+  if (!session_ || session_->holds().empty()) return fail(Fault::bad_input, "no joint is held");
+  std::vector<int> joints{command.joint};
+  if (command.joint < 0) {
+    joints.clear();
+    for (const Constraint& hold : session_->holds()) joints.push_back(hold.node);
+  }
+  for (const int k : joints) {
+    const FootprintJoint& joint = scene_->footprint.joints[std::size_t(k)];
+    preset::Step step = step_of(preset::StepKind::release);
+    step.joint = {joint.i, joint.j};
+    if (auto done = do_step(step, watch); !done) return done;
+  }
+  return {};
+}
+
+Result<void> EditSession::act(const Rest& command, const Watch& watch) {
+  preset::Step step = step_of(preset::StepKind::rest);
+  step.side = same_word<preset::RestSide>(command.side);
+  return do_step(step, watch);
+}
+
+Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
+  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
+  preset::Step step = step_of(preset::StepKind::jitter);
+  step.seed = command.seed;
+  step.force_N = 20 * preset_.jitter.field_N_per_mm * scene_->footprint.spacing;
+  return do_step(step, watch);
+}
+
+// A shell in hand that is designed: its steps are seen as they come, the last certified one stays.
+
+namespace {
+
+std::string told_of_design(const DesignProgress& course) {
+  const double percent = 100 / course.length_scale_mm;
+  const DesignPoint &first = course.points.front(), &last = course.points.back();
+  std::string told =
+      fmt::format("{} after {} iteration{}: largest {:.3f} %, before {:.3f} %",
+                  course.stopped ? "stopped" : "designed", course.iterations,
+                  course.iterations == 1 ? "" : "s", percent * last.max_mm, percent * first.max_mm);
+  if (course.inverse.round_mm > 0 && !course.stopped)
+    told += course.rounded_max_mm
+                ? fmt::format(", rounded to {:g} mm {:.3f} %", course.inverse.round_mm,
+                              percent * *course.rounded_max_mm)
+                : fmt::format("; rounded to {:g} mm it is lost", course.inverse.round_mm);
+  return told;
+}
+
+bool varies_rods(const preset::Inverse& inverse) {
+  return std::ranges::find(inverse.vary, preset::Vary::diameters) != inverse.vary.end();
+}
+
+DesignPoint point_of(const CertifiedStep& now) {
+  DesignPoint point{now.step.iteration,
+                    now.step.max_mm,
+                    now.step.mean_mm,
+                    now.eigenvalue,
+                    now.step.largest_move_mm,
+                    0,
+                    0};
+  const Eigen::VectorXd& diameter = now.shell.ends().diameter;
+  if (diameter.size() > 0)
+    point.thinnest_mm = diameter.minCoeff(), point.thickest_mm = diameter.maxCoeff();
+  return point;
+}
+
+}  // namespace
+
+std::string why_not_designed(const ShellView& sight) {
+  if (!sight.any()) return "there is no shell yet";
+  if (sight.layout->net_nodes.cols() == 0)
+    return "this shell was not designed on a net, so there is no surface that it could meet";
+  if (!preset::twist_requirements(sight.preset).empty())
+    return "only rods that stretch and bend can be designed: " +
+           preset::twist_requirements(sight.preset).front().what;
+  if (!sight.held.empty()) return "a joint is held: let go of all joints first";
+  if (!sight.steps.empty() || sight.rods_changed_late)
+    return "a hand has moved this shell: take that back first (Undo)";
+  return "";
+}
+
+Result<void> EditSession::act(const Design& command, const Watch& watch) {
+  if (const std::string why = why_not_designed(shell_view_); !why.empty())
+    return fail(Fault::bad_input, why);
+  preset::Preset preset = preset_;
+  preset.inverse = command.inverse;
+  if (auto agrees = check_preset(preset); !agrees) return agrees;
+  TRY(made, shared_scene_of(preset));
+  const std::shared_ptr<const Scene>& scene = *made;
+  TRY(target, design_target(*scene, preset.inverse.target));
+
+  DesignProgress course;
+  course.inverse = preset.inverse;
+  course.length_scale_mm = scene->length_scale_mm;
+  preset::Preset designed = preset;
+  State state;
+  const NestedShell& shell = session_->shell();
+  const int last = shell.levels() - 1;
+  const DesignStart from{scene, shell.mesh(last), shell.model(last),
+                         shell.state().levels[std::size_t(last)]};
+  // the steps are seen on a mesh of their own
+  shell_view_.layout.reset();
+  const auto ended =
+      design_live(preset, from, command.most_iterations, watch, [&](const CertifiedStep& now) {
+        state = now.shell.state();
+        designed.ends.table = now.ends;
+        if (varies_rods(preset.inverse)) designed.rod_table = now.rods;
+        show_design_step(*scene, now, course);
+      });
+  shell_view_.layout.reset();
+  if (!ended) return tl::unexpected<Error>(ended.error());
+  course.under_way = false;
+  course.stopped = ended->stopped;
+  course.iterations = ended->iterations;
+  course.rounded_max_mm = ended->rounded_max_mm;
+  if (course.points.size() < 2) {
+    if (course.stopped) return stopped();
+    return fail(Fault::no_equilibrium, "no step brings the shell nearer to its surface");
+  }
+  if (auto stands = show_designed(designed, state); !stands) return stands;
+  shell_view_.told = told_of_design(course);
+  design_ = std::make_shared<const DesignProgress>(std::move(course));
+  target_ = std::make_shared<DesignTarget>(std::move(*target));
+  return {};
+}
+
+/// The designed shell in hand, as a preset of it has it, in the state that was designed.
+Result<void> EditSession::show_designed(const preset::Preset& designed, const State& state) {
+  TRY(made, shared_scene_of(designed));
+  const std::shared_ptr<const Scene>& scene = *made;
+  TRY(session, Session::open(scene, LevelPlan{{designed_on}, false}));
+  if (const Report report = session->begin_at(1, state, unwatched); report.end != Outcome::reached)
+    return fail(Fault::no_equilibrium,
+                std::string("the designed shell is lost: ") + words_of(report.end).what);
+  begin_again(designed, scene, std::move(*session));
+  return take_push();
+}
+
+/// Shows a step while the next one is looked for.
+void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
+                                   DesignProgress& course) {
+  ShellView& s = shell_view_;
+  const DesignShell& shell = now.shell;
+  course.iterations = now.step.iteration;
+  course.points.push_back(point_of(now));
+  if (!s.layout) {
+    auto layout = experiment::layout_of(scene, shell.mesh());
+    if (!layout) return;
+    layout->flat_nodes = drawn_nodes(shell.mesh(), scene.flat).leftCols(shell.mesh().rod_nodes());
+    s.layout = std::make_shared<const record::Layout>(std::move(*layout));
+  }
+  if (varies_rods(course.inverse)) {
+    auto layout = std::make_shared<record::Layout>(*s.layout);
+    const Eigen::VectorXd& diameters = shell.ends().diameter;
+    layout->diameters_mm.assign(diameters.begin(), diameters.end());
+    s.layout = std::move(layout);
+  }
+  const record::Frame before = std::exchange(
+      s.frame,
+      experiment::frame_of(scene, shell.mesh(), shell.model(), shell.state(), shell.forces()));
+  s.frame.progress = s.frame.actuation = before.progress;
+  s.frame.boundary_radius_mm = before.boundary_radius_mm;
+  s.certificate = {shell.residual(), 0, std::numeric_limits<double>::quiet_NaN(), 0};
+  s.frame.residual_N = s.certificate.residual_N;
+  s.meshes = {designed_on};
+  s.refined = false;
+  s.symmetry.clear();
+  s.soft_mode.resize(3, 0);
+  s.axial_N = record::axial_force_of_nodes_N(*s.layout, s.frame);
+  s.bending_mJ_m = record::bending_of_nodes_mJ_per_m(*s.layout, s.frame);
+  look_at_deviation(now.distances_mm);
+  s.design = std::make_shared<const DesignProgress>(course);
+  ++s.equilibria;
+  if (listener_) listener_(s);
+}
+
+/// A hand that goes on with a designed shell has kept it.
+void EditSession::accept_design(const Command& command) {
+  const bool leaves = std::holds_alternative<Undo>(command.edit) ||
+                      std::holds_alternative<Redo>(command.edit) ||
+                      std::holds_alternative<DiscardDesign>(command.edit) ||
+                      std::holds_alternative<RefineAfterDrag>(command.edit);
+  if (leaves || !design_ || design_->kept) return;
+  auto kept = std::make_shared<DesignProgress>(*design_);
+  kept->kept = true;
+  design_ = std::move(kept);
+}
+
+Result<void> EditSession::act(const AcceptDesign&, const Watch&) {
+  if (!design_) return fail(Fault::bad_input, "nothing was designed that could be kept");
+  shell_view_.told = "the designed shell is kept; Ctrl+S saves it with its tables";
+  return {};
+}
+
+Result<void> EditSession::act(const DiscardDesign&, const Watch&) {
+  if (undo_.empty() || !undo_.back().before_design)
+    return fail(Fault::bad_input, design_ ? "what was done since the design is to be undone first"
+                                          : "nothing was designed that could be put back");
+  return travel(undo_, redo_, "");
+}
+
+}  // namespace gridshell::window

@@ -1,0 +1,92 @@
+#include "app/window/command.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/gridshell.h"
+
+namespace gridshell::window {
+
+/// Frees what hangs on it one by one: a long chain would overflow the stack.
+StepHistory::Link::~Link() {
+  std::shared_ptr<const Link> next = std::move(before);
+  while (next && next.use_count() == 1) {
+    std::shared_ptr<const Link> after = std::move(next->before);
+    next = std::move(after);
+  }
+}
+
+void StepHistory::add(preset::Step step) {
+  const int count = size() + 1;
+  last_ = std::shared_ptr<const Link>(new Link{std::move(step), std::move(last_), count});
+}
+
+void StepHistory::replace_last(preset::Step step) {
+  last_ = std::shared_ptr<const Link>(new Link{std::move(step), last_->before, last_->count});
+}
+
+std::vector<preset::Step> StepHistory::all() const {
+  std::vector<preset::Step> steps;
+  for (const Link* link = last_.get(); link; link = link->before.get()) steps.push_back(link->step);
+  std::reverse(steps.begin(), steps.end());
+  return steps;
+}
+
+namespace {
+
+ChangeKind kind_of_key(const preset::Preset& preset, const preset::Field& field) {
+  const auto among = [&](std::initializer_list<const char*> tables) {
+    return std::any_of(tables.begin(), tables.end(),
+                       [&](const char* table) { return field.table == table; });
+  };
+  if (among({"", "movie", "style", "figure", "page", "sweep", "jitter", "inverse"}))
+    return ChangeKind::looks;
+  if (among({"rod", "rod_v", "joints", "loads"})) return ChangeKind::rods;
+  // the rung and the leading mesh decide where a shell goes, the rest how well that is known
+  if (field.table == "accuracy" && field.key != "model" && field.key != "leading_edges")
+    return ChangeKind::accuracy;
+  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
+  if (circle && field.table == "actuation" && (field.key == "radius_mm" || field.key == "ratio"))
+    return ChangeKind::boundary;
+  return ChangeKind::shape;
+}
+
+bool is_list(const preset::Field& field) {
+  const auto& all = preset::tables();
+  return std::any_of(all.begin(), all.end(), [&](const preset::Table& table) {
+    return table.list && table.name == field.table;
+  });
+}
+
+/// The tables that stand once an item: building blocks, their seams, steps.
+std::string lists_of(const preset::Preset& preset) {
+  bool any = false;
+  preset::each_list([&](const char*, auto member) { any |= !(preset.*member).empty(); });
+  if (!any) return "";
+  const std::string text = preset::to_toml(preset);
+  return text.substr(std::min(text.size(), text.find("[[")));
+}
+
+}  // namespace
+
+ChangeKind kind_of_change(const preset::Preset& before, const preset::Preset& after) {
+  ChangeKind kind = ChangeKind::none;
+  int kinds = 0;
+  if (lists_of(before) != lists_of(after)) return ChangeKind::shape;
+  for (const preset::Field& field : preset::field_table()) {
+    if (is_list(field) || value_text(field, before) == value_text(field, after)) continue;
+    const ChangeKind one = kind_of_key(after, field);
+    if (one == kind) continue;
+    kind = std::max(kind, one);
+    if (one > ChangeKind::looks) ++kinds;
+  }
+  // what touches two things at once is formed anew
+  return kinds > 1 ? ChangeKind::shape : kind;
+}
+
+Result<void> check_preset(const preset::Preset& preset) {
+  return preset::read_preset_text(preset::to_toml(preset), preset.name, preset.name)
+      .map([](const auto&) {});
+}
+
+}  // namespace gridshell::window

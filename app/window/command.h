@@ -1,0 +1,121 @@
+// What a hand did to a shell, step by step, in the order it did it.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::window {
+
+/// A copy costs nothing: it shares all steps, and what is done to it the other does not see. Copies
+/// may be read on other threads.
+class StepHistory {
+ public:
+  bool empty() const { return !last_; }
+  int size() const { return last_ ? last_->count : 0; }
+  /// Of a chain that is not empty.
+  const preset::Step& last() const { return last_->step; }
+  void add(preset::Step step);
+  /// Of a chain that is not empty.
+  void replace_last(preset::Step step);
+  void clear() { last_.reset(); }
+  /// The first one first.
+  std::vector<preset::Step> all() const;
+
+ private:
+  struct Link {
+    preset::Step step;
+    mutable std::shared_ptr<const Link> before;
+    int count = 1;
+    ~Link();
+  };
+
+  std::shared_ptr<const Link> last_;
+};
+
+// What a hand can command of the shell. The engine's thread fulfils one command after the other.
+
+/// Another shell, formed along its path.
+struct Open {
+  preset::Preset preset;
+};
+/// Some keys of the preset are something else now.
+struct Change {
+  preset::Preset preset;
+};
+/// The boundary to a progress of its motion.
+struct Move {
+  double progress = 1;
+};
+/// A joint to a place, held from now on: along a fixed direction, or (zero) in every one.
+struct Push {
+  int joint = 0;
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+};
+/// Lets go of a joint; of all (-1).
+struct Release {
+  int joint = -1;
+};
+/// One edge point to a place.
+struct DragEdge {
+  int edge_point = 0;
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();
+};
+/// One edge point back onto the boundary's motion; every one (-1).
+struct ResetEdgePoint {
+  int edge_point = -1;
+};
+/// Down the energy to rest, off a saddle to a side.
+struct Rest {
+  BranchSide side = BranchSide::lower;
+};
+/// A random field comes on and goes away again.
+struct Jitter {
+  int seed = 1;
+};
+/// The last step, or every one.
+struct Undo {
+  bool all = false;
+};
+struct Redo {};
+/// The ends or rods of the shell moved until it meets its surface; the steps on the way are seen,
+/// and stopped it stands in the last of them.
+struct Design {
+  preset::Inverse inverse;
+  int most_iterations = 25;
+};
+/// What was designed is the shell now.
+struct AcceptDesign {};
+/// The shell before the design, to the bit.
+struct DiscardDesign {};
+/// Nothing but the finer meshes that follow a stroke.
+struct RefineAfterDrag {};
+
+using Edit = std::variant<Open, Change, Move, Push, Release, DragEdge, ResetEdgePoint, Rest, Jitter,
+                          Undo, Redo, Design, AcceptDesign, DiscardDesign, RefineAfterDrag>;
+
+/// Wishes of one stroke (a drag) are one step to undo. While a stroke passes, the shell is followed
+/// on its coarsest mesh, and a newer command of the stroke takes the place of one not yet begun.
+struct Command {
+  Edit edit;
+  int stroke = 0;  ///< 0: a step of its own
+  bool passing = false;
+};
+
+// What a change of a preset's keys means for the shell in hand.
+
+/// How much of the shell a change touches: pictures alone, its meshes, where the boundary is, the
+/// rods and what they carry, or the whole shape, which is formed anew.
+enum class ChangeKind { none, looks, accuracy, boundary, rods, shape };
+
+ChangeKind kind_of_change(const preset::Preset& before, const preset::Preset& after);
+
+/// Whether the keys agree with one another. Errors: bad_input, as of a file that says the same.
+Result<void> check_preset(const preset::Preset& preset);
+
+}  // namespace gridshell::window

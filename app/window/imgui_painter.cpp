@@ -1,0 +1,155 @@
+#include "app/window/imgui_painter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "render/canvas/canvas.h"
+#include "render/canvas/legend.h"
+
+#include "engine/core/try.h"
+
+namespace gridshell::ui {
+
+void fill_texture(const render::Gl& gl, GLuint texture, int width, int height,
+                  const std::uint8_t* rgba) {
+  gl.ActiveTexture(GL_TEXTURE0);
+  gl.BindTexture(GL_TEXTURE_2D, texture);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+}
+
+InterfacePainter::InterfacePainter(const render::Gl& gl, render::Program program)
+    : gl_(&gl),
+      program_(std::move(program)),
+      layout_(gl),
+      vertices_(gl),
+      indices_(gl),
+      letters_(gl) {
+  gl.BindVertexArray(layout_.id());
+  gl.BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
+  gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
+  const auto attribute = [&gl](GLuint index, GLint size, GLenum type, bool unit, std::size_t at) {
+    render::describe_attribute(gl, index, size, type, unit, sizeof(ImDrawVert), at);
+  };
+  attribute(0, 2, GL_FLOAT, false, offsetof(ImDrawVert, pos));
+  attribute(1, 2, GL_FLOAT, false, offsetof(ImDrawVert, uv));
+  attribute(2, 4, GL_UNSIGNED_BYTE, true, offsetof(ImDrawVert, col));
+}
+
+Result<InterfacePainter> InterfacePainter::create(const render::Gl& gl) {
+  TRY(program, render::Program::create(gl, {"interface.vert"}, {"interface.frag"}));
+  return InterfacePainter(gl, std::move(*program));
+}
+
+void InterfacePainter::take_fonts(ImFontAtlas& atlas) {
+  unsigned char* rgba = nullptr;
+  int width = 0, height = 0;
+  atlas.GetTexDataAsRGBA32(&rgba, &width, &height);
+  fill_texture(*gl_, letters_.id(), width, height, rgba);
+  // letters stand on whole pixels, and areas have one colour: no pixel needs its neighbours
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  atlas.SetTexID(texture_id(letters_.id()));
+}
+
+void InterfacePainter::draw(const ImDrawData& data, bool upwards) {
+  const int width = int(data.DisplaySize.x), height = int(data.DisplaySize.y);
+  gl_->Disable(GL_FRAMEBUFFER_SRGB);
+  gl_->Disable(GL_DEPTH_TEST);
+  gl_->Disable(GL_CULL_FACE);
+  gl_->Enable(GL_BLEND);
+  gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  gl_->Enable(GL_SCISSOR_TEST);
+  gl_->Viewport(0, 0, width, height);
+  program_.use();
+  program_.set("size", Eigen::Vector2f(float(width), float(height)));
+  program_.set("upwards", upwards ? 1.f : -1.f);
+  program_.set("picture", 0);
+  gl_->ActiveTexture(GL_TEXTURE0);
+  gl_->BindVertexArray(layout_.id());
+  for (int n = 0; n < data.CmdListsCount; ++n) {
+    const ImDrawList& list = *data.CmdLists[n];
+    gl_->BindBuffer(GL_ARRAY_BUFFER, vertices_.id());
+    gl_->BufferData(GL_ARRAY_BUFFER, GLsizeiptr(list.VtxBuffer.size_in_bytes()),
+                    list.VtxBuffer.Data, GL_STREAM_DRAW);
+    gl_->BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(list.IdxBuffer.size_in_bytes()),
+                    list.IdxBuffer.Data, GL_STREAM_DRAW);
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+      const ImVec4& clip = command.ClipRect;
+      const int x = std::max(0, int(clip.x)), y = std::max(0, int(clip.y));
+      const int right = std::min(width, int(std::ceil(clip.z))),
+                bottom = std::min(height, int(std::ceil(clip.w)));
+      if (right <= x || bottom <= y || command.UserCallback) continue;
+      gl_->Scissor(x, upwards ? height - bottom : y, right - x, bottom - y);
+      const auto texture = GLuint(reinterpret_cast<intptr_t>(command.GetTexID()));
+      gl_->BindTexture(GL_TEXTURE_2D, texture);
+      // the view of the shell hides what is behind it
+      if (texture == letters_.id())
+        gl_->Enable(GL_BLEND);
+      else
+        gl_->Disable(GL_BLEND);
+      gl_->DrawElements(GL_TRIANGLES, GLsizei(command.ElemCount),
+                        sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
+                        reinterpret_cast<const void*>(command.IdxOffset * sizeof(ImDrawIdx)));
+    }
+  }
+  gl_->Disable(GL_SCISSOR_TEST);
+}
+
+namespace {
+
+using window::ColourBy;
+
+constexpr double least_px = 1.5;  // width of a rod
+
+Result<render::Image> draw_shell(render::Renderer& renderer, const window::PictureRequest& order,
+                                 const render::DrawQuality& quality, int width, int height,
+                                 double rod_px) {
+  const double thin = rod_px * window::mm_per_pixel(order.camera, {double(width), double(height)});
+  return renderer.draw(drawing_of(*order.sight, order.show, thin), order.camera, quality, width,
+                       height);
+}
+
+}  // namespace
+
+Result<void> ShellPicture::draw(const window::ViewerState& viewer, window::Resolution sharpness) {
+  const bool moving = sharpness == window::Resolution::moving;
+  const double scale = moving ? 0.5 : 1;
+  const int width = std::max(16, int(scale * viewer.view.width)),
+            height = std::max(16, int(scale * viewer.view.height));
+  const render::DrawQuality quality{.supersample = 1, .shadow = !moving, .jittered_passes = 1};
+  TRY(image, draw_shell(*renderer_, viewer.picture_order(), quality, width, height,
+                        moving ? 0.75 * least_px : least_px * std::max(1.0, height / 720.0)));
+  fill_texture(*gl_, texture_.id(), width, height, image->rgba.data());
+  return {};
+}
+
+Result<render::Image> picture_of(const window::PictureRequest& asked, render::Renderer& renderer) {
+  window::PictureRequest order = asked;
+  order.show.dark = false;
+  const bool sized = order.kept.width > 0;
+  const int width = sized ? order.kept.width : 2 * int(order.view.width),
+            height = sized ? order.kept.height : 2 * int(order.view.height);
+  // what the view shows from side to side is in the picture too
+  const double wide = order.view.width / order.view.height, now = double(width) / height;
+  order.camera.half_extent_mm *= std::max(1.0, wide / now);
+  auto image = draw_shell(renderer, order, render::draw_quality(order.kept.quality), width, height,
+                          least_px * std::max(1.0, height / 720.0));
+  const ColourBy by = order.show.colour_by;
+  if (!image || !order.kept.legend || by == ColourBy::none ||
+      !window::values_of(*order.sight, by).any())
+    return image;
+  const double font = std::max(9.0, height / 45.0);
+  const render::ColourBar bar{window::label_of(*order.sight, by), order.show.scale};
+  render::draw_over(*image, [&](render::Canvas& canvas) {
+    const double room = render::colour_bar_width(canvas, bar, font);
+    draw_colour_bar(canvas, {width - room - 1.5 * font, 1.5 * font, room, 0.4 * height}, bar, font);
+  });
+  return image;
+}
+
+}  // namespace gridshell::ui

@@ -1,0 +1,410 @@
+#include "app/window/interface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "app/window/panel.h"
+#include "render/gl/renderer.h"
+
+#include "engine/core/try.h"
+
+namespace gridshell::ui {
+namespace {
+
+using window::InputEvent;
+using window::InputKind;
+using window::Key;
+
+constexpr ImU32 mark_colour = IM_COL32(50, 140, 240, 255);
+constexpr double least_view = 400;  // px of a view beside plots
+// of stillness the view is drawn at full resolution: later while an equilibrium is on its way
+constexpr double sharp_after_s = 0.15, sharp_while_busy_s = 0.6;
+
+/// What the interface library does with keys of its own.
+void map_keys(ImGuiIO& io) {
+  const auto map = [&](ImGuiKey to, Key from) { io.KeyMap[to] = int(from); };
+  map(ImGuiKey_LeftArrow, Key::left), map(ImGuiKey_RightArrow, Key::right);
+  map(ImGuiKey_UpArrow, Key::up), map(ImGuiKey_DownArrow, Key::down);
+  map(ImGuiKey_PageUp, Key::page_up), map(ImGuiKey_PageDown, Key::page_down);
+  map(ImGuiKey_Home, Key::home), map(ImGuiKey_End, Key::end);
+  map(ImGuiKey_Delete, Key::del), map(ImGuiKey_Backspace, Key::backspace);
+  map(ImGuiKey_Enter, Key::enter), map(ImGuiKey_Escape, Key::escape);
+  map(ImGuiKey_Tab, Key::tab);
+  map(ImGuiKey_A, Key::a), map(ImGuiKey_C, Key::c), map(ImGuiKey_V, Key::v);
+  map(ImGuiKey_X, Key::x), map(ImGuiKey_Y, Key::y), map(ImGuiKey_Z, Key::z);
+}
+
+/// Heights of the panels on the right, pixels; 0: not there.
+struct Column {
+  double numbers = 0, design = 0, plots = 0;
+  bool any() const { return numbers + design + plots > 0; }
+};
+
+/// The design has a plot of its own; beside it the others are there where they have room. In a
+/// small window the shell has the room of the plots.
+Column column_of(const window::ViewerState& viewer, double height, bool small, double density) {
+  const double least = 300 * density;
+  Column column;
+  double rest = height;
+  if (viewer.design_panel) {
+    column.design = std::min(height, std::round(480 * density));
+    rest -= column.design;
+  }
+  const bool plots =
+      viewer.plots && !small && (!viewer.design_panel || rest >= (viewer.numbers ? 2 : 1) * least);
+  if (viewer.numbers) column.numbers = plots ? rest - std::round(0.5 * rest) : rest;
+  if (plots) column.plots = rest - column.numbers;
+  if (!viewer.numbers && !plots && viewer.design_panel) column.design = height;
+  return column;
+}
+
+bool is_modifier(Key key) { return key == Key::ctrl || key == Key::shift || key == Key::alt; }
+
+}  // namespace
+
+Interface::Interface(const render::Gl& gl, render::Renderer& renderer, window::ViewerState& viewer)
+    : gl_(gl),
+      imgui_(ImGui::CreateContext()),
+      desk_(viewer),
+      hand_(viewer),
+      picture_(gl_, renderer),
+      picker_(gl_),
+      target_(gl_, render::Target::Depth::none) {}
+
+Result<std::unique_ptr<Interface>> Interface::create(const render::Context& context,
+                                                     render::Renderer& renderer,
+                                                     window::ViewerState& viewer) {
+  TRY(gl, render::Gl::load(context));
+  std::unique_ptr<Interface> made(new Interface(*gl, renderer, viewer));
+  TRY(painter, InterfacePainter::create(made->gl_));
+  made->painter_.emplace(std::move(*painter));
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui::GetIO().LogFilename = nullptr;
+  map_keys(ImGui::GetIO());
+  TRY_DO(made->resize(1280, 720, 1));
+  return made;
+}
+
+Interface::~Interface() { ImGui::DestroyContext(imgui_); }
+
+Result<void> Interface::resize(int width, int height, double density) {
+  const bool denser = density != density_ || !ImGui::GetIO().Fonts->IsBuilt();
+  width_ = width;
+  height_ = height;
+  density_ = density;
+  shell_anew_ = true;
+  if (!denser) return {};
+  if (auto loaded = load_fonts(density); !loaded) return loaded;
+  painter_->take_fonts(*ImGui::GetIO().Fonts);
+  choose_colours(desk_.show.dark, density);
+  return {};
+}
+
+// ---- events ----
+
+/// Where a node is drawn, pixels of the window.
+Eigen::Vector2d Interface::in_view(int node) const {
+  return render::to_pixel(desk_.camera, int(view_.width), int(view_.height),
+                          window::place_of(*desk_.sight, desk_.show, node)) +
+         Eigen::Vector2d(view_.x, view_.y);
+}
+
+Result<Eigen::Vector2d> Interface::place_of(const InputEvent& event) const {
+  if (event.text.empty()) return Eigen::Vector2d(event.x, event.y);
+  const Eigen::Vector2d beside(event.x, event.y);
+  int i = 0, j = 0;
+  if (desk_.sight->any() && std::sscanf(event.text.c_str(), "joint:%d,%d", &i, &j) == 2)
+    for (const record::Joint& joint : desk_.sight->layout->joints)
+      if (joint.i == i && joint.j == j) return Eigen::Vector2d(in_view(joint.node) + beside);
+  if (desk_.sight->any() && std::sscanf(event.text.c_str(), "edge:%d", &i) == 1 && i >= 0 &&
+      i < int(desk_.sight->layout->edge_points.size()))
+    return Eigen::Vector2d(in_view(desk_.sight->layout->edge_points[std::size_t(i)]) + beside);
+  std::string name = event.text;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  for (const std::string& asked : {event.text, name})
+    if (const auto found = controls_.find(asked); found != controls_.end()) {
+      const render::Box& box = found->second;
+      return Eigen::Vector2d(box.x + event.x * box.width, box.y + event.y * box.height);
+    }
+  return fail(Fault::bad_input, fmt::format("'{}': nothing of that name is shown", event.text));
+}
+
+Result<void> Interface::take(const InputEvent& event) {
+  InputEvent taken = event;
+  if (event.kind == InputKind::size) return resize(int(event.x), int(event.y), event.density);
+  if (event.kind == InputKind::mouse) {
+    TRY(place, place_of(event));
+    taken.x = place->x();
+    taken.y = place->y();
+    taken.text.clear();
+  }
+  if (event.kind == InputKind::act && !window::find_action(event.text))
+    return fail(Fault::bad_input, fmt::format("'{}' is no action", event.text));
+  events_.push_back(std::move(taken));
+  return {};
+}
+
+/// All that waits up to the second press or release: a click within a frame would be none.
+void Interface::feed() {
+  int turns = 0;
+  const auto turns_one = [](const InputEvent& event) {
+    return event.kind == InputKind::press || event.kind == InputKind::release ||
+           event.kind == InputKind::down || event.kind == InputKind::up;
+  };
+  while (!events_.empty()) {
+    const InputEvent event = events_.front();
+    if (turns_one(event) && turns++ > 0) return;
+    // a place that was passed on the way to a press must be seen before it
+    if (turns > 0 && event.kind == InputKind::mouse) return;
+    events_.pop_front();
+    feed(event);
+  }
+}
+
+void Interface::feed(const InputEvent& event) {
+  ImGuiIO& io = ImGui::GetIO();
+  switch (event.kind) {
+    case InputKind::mouse:
+      io.MousePos = {float(event.x), float(event.y)};
+      break;
+    case InputKind::press:
+    case InputKind::release:
+      io.MouseDown[int(event.button)] = event.kind == InputKind::press;
+      break;
+    case InputKind::wheel:
+      io.MouseWheel += float(event.y);
+      break;
+    case InputKind::down:
+    case InputKind::up: {
+      const bool down = event.kind == InputKind::down;
+      io.KeysDown[int(event.key)] = down;
+      if (event.key == Key::ctrl) io.KeyCtrl = down;
+      if (event.key == Key::shift) io.KeyShift = down;
+      if (event.key == Key::alt) io.KeyAlt = down;
+      if (down) press_key(event.key);
+      break;
+    }
+    case InputKind::type:
+      io.AddInputCharactersUTF8(event.text.c_str());
+      break;
+    case InputKind::act:
+      window::find_action(event.text)->act(desk_);
+      break;
+    case InputKind::open:
+      desk_.open(event.text);
+      break;
+    case InputKind::size:
+    case InputKind::wait:
+      break;
+  }
+}
+
+void Interface::press_key(Key key) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (is_modifier(key) || io.WantTextInput) return;
+  if (key == Key::escape && desk_.picking && desk_.sight->any()) desk_.picking = false;
+  const window::Action* action = window::action_of({key, io.KeyCtrl, io.KeyShift});
+  if (!action) return;
+  // nothing happens to a shell that is not seen
+  const bool hidden = desk_.help || desk_.picking;
+  const std::string menu = action->menu;
+  if (hidden && (menu == "Shell" || menu == "Edit")) return;
+  action->act(desk_);
+}
+
+// ---- a frame ----
+
+void Interface::view_panel(const Panel& panel, const render::Box& box) {
+  view_ = box;
+  desk_.view = {box.width, box.height};
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  begin_fixed("view", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar();
+  const ImVec2 low{float(box.x), float(box.y)}, high{float(box.right()), float(box.bottom())};
+  if (desk_.sight->any())
+    ImGui::GetWindowDrawList()->AddImage(texture_id(picture_.texture()), low, high);
+  ImGui::SetCursorScreenPos(low);
+  ImGui::InvisibleButton("mouse", {float(box.width), float(box.height)},
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  panel.controls["view"] = box;
+  const ImGuiIO& io = ImGui::GetIO();
+  const double x = io.MousePos.x - low.x, y = io.MousePos.y - low.y;
+  if (hand_.holds()) {
+    hand_.drag(x, y);
+    if (!ImGui::IsItemActive()) hand_.release(x, y);
+  } else if (ImGui::IsItemHovered()) {
+    hand_.hover(x, y);
+    if (io.MouseWheel != 0) hand_.wheel(io.MouseWheel, x, y);
+    for (int button = 0; button < 3; ++button)
+      if (ImGui::IsMouseClicked(button)) hand_.press(window::Button(button), io.KeyShift, x, y);
+  } else {
+    hand_.leave();
+  }
+  mark_picked();
+  mark_under();
+  write_forces();
+  colour_legend(panel, box);
+  ImGui::End();
+}
+
+/// What the panel shows the figures of: a ring on a joint, a rod and the point on it, a cell's
+/// edge.
+void Interface::mark_picked() {
+  const window::ShellView& sight = *desk_.sight;
+  if (!sight.any()) return;
+  const record::Layout& layout = *sight.layout;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto wide = float(2.2 * density_);
+  const auto line = [&](const auto& nodes, bool closed) {
+    for (const int node : nodes) {
+      const Eigen::Vector2d at = in_view(node);
+      list.PathLineTo({float(at.x()), float(at.y())});
+    }
+    list.PathStroke(mark_colour, closed, wide);
+  };
+  const auto ring = [&](int node, double radius) {
+    const Eigen::Vector2d at = in_view(node);
+    list.AddCircle({float(at.x()), float(at.y())}, float(radius * density_), mark_colour, 0, wide);
+  };
+  if (desk_.picked_joint >= 0 && desk_.picked_joint < int(layout.joints.size()))
+    ring(desk_.picked_joint, 9);
+  if (const auto [rod, point] = desk_.picked_rod; rod >= 0 && rod < int(layout.rods.size())) {
+    const std::vector<int>& nodes = layout.rods[std::size_t(rod)];
+    line(nodes, false);
+    ring(nodes[std::min(std::size_t(point), nodes.size() - 1)], 5);
+  }
+  if (desk_.picked_cell >= 0 && desk_.picked_cell < int(layout.cells.size()))
+    line(layout.cells[std::size_t(desk_.picked_cell)].joints, true);
+}
+
+/// A ring around the joint or edge point that the mouse would take.
+void Interface::mark_under() {
+  const window::ShellView& sight = *desk_.sight;
+  if (!sight.any()) return;
+  const record::Layout& layout = *sight.layout;
+  const int joint = desk_.joint_under, edge = desk_.edge_under;
+  int node = -1;
+  if (joint >= 0 && joint < int(layout.joints.size())) node = joint;
+  if (edge >= 0 && edge < int(layout.edge_points.size()))
+    node = layout.edge_points[std::size_t(edge)];
+  if (node < 0) return;
+  const Eigen::Vector2d at = in_view(node);
+  ImGui::GetWindowDrawList()->AddCircle({float(at.x()), float(at.y())}, float(7 * density_),
+                                        mark_colour, 0, float(2.2 * density_));
+}
+
+/// Force and way beside each joint that is held.
+void Interface::write_forces() {
+  const window::ShellView& sight = *desk_.sight;
+  if (!sight.any()) return;
+  for (const window::HeldJoint& held : sight.held) {
+    const Eigen::Vector2d at = in_view(held.joint);
+    const std::string text =
+        fmt::format("{:.3g} N, {:.2f} mm", held.force_N.norm(), held.moved_mm.norm());
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    // to the left where the legend stands
+    const double beside = 12 * density_, legend = view_.right() - 110 * density_;
+    const bool left = at.x() + beside + size.x > legend;
+    const ImVec2 low{float(left ? at.x() - beside - size.x : at.x() + beside),
+                     float(at.y() - 1.4 * size.y)};
+    const auto room = float(3 * density_);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({low.x - room, low.y - room}, {low.x + size.x + room, low.y + size.y + room},
+                       ImGui::GetColorU32(ImGuiCol_PopupBg, 0.85f), room);
+    list.AddText(low, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+  }
+}
+
+void Interface::lay_out() {
+  const Panel panel{desk_, density_, controls_};
+  const double left = std::round(272 * density_), right = std::round(272 * density_),
+               status = std::round(30 * density_);
+  controls_.clear();
+  menu_bar(panel);
+  const double top = ImGui::GetFrameHeight(), height = height_ - top - status;
+  const bool small = width_ - left - right < least_view * density_;
+  const Column column = column_of(desk_, height, small, density_);
+  shell_panel(panel, {0, top, left, height});
+  view_panel(panel, {left, top, width_ - left - (column.any() ? right : 0), height});
+  double from = top;
+  const auto next = [&](double part) {
+    from += part;
+    return render::Box{width_ - right, from - part, right, part};
+  };
+  if (column.numbers > 0) numbers_.draw(panel, next(column.numbers));
+  if (column.design > 0) design_panel(panel, next(column.design));
+  if (column.plots > 0) plots_panel(panel, next(column.plots));
+  status_line(panel, {0, top + height, double(width_), status});
+  if (desk_.picking && !desk_.help) picker_.draw(panel, {left, top, width_ - left, height});
+  if (desk_.help)
+    help_sheet(panel, render::Box{0, top, double(width_), height}.inset(20 * density_));
+}
+
+/// Anew only where anything that it shows is new, and sharp only once it rests.
+Result<void> Interface::draw_shell() {
+  if (!desk_.sight->any() || desk_.view.width < 16) return {};
+  const ShownShell shown{desk_.camera, desk_.view, desk_.show};
+  const bool anew = shell_anew_ || shown != shown_;
+  if (anew) still_seconds_ = 0;
+  const double wait_s = desk_.engine.idle() ? sharp_after_s : sharp_while_busy_s;
+  const bool sharp = !anew && still_seconds_ >= wait_s;
+  if (!anew && (!sharp || sharp_)) return {};
+  shown_ = shown;
+  shell_anew_ = false;
+  sharp_ = sharp;
+  return picture_.draw(desk_, sharp ? window::Resolution::still : window::Resolution::moving);
+}
+
+Result<void> Interface::compose(double seconds) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {float(width_), float(height_)};
+  io.DeltaTime = float(std::clamp(seconds, 1e-4, 0.5));
+  still_seconds_ += seconds;
+  shell_anew_ |= desk_.tick(seconds);
+  if (dark_ != desk_.show.dark) choose_colours(dark_ = desk_.show.dark, density_);
+  feed();
+  ImGui::NewFrame();
+  lay_out();
+  ImGui::Render();
+  io.MouseWheel = 0;
+  if (!desk_.copied.empty()) ImGui::SetClipboardText(std::exchange(desk_.copied, "").c_str());
+  return draw_shell();
+}
+
+bool Interface::busy() const {
+  return !events_.empty() || (desk_.sight->any() && (shell_anew_ || !sharp_));
+}
+
+Result<void> Interface::frame(double seconds) {
+  if (auto made = compose(seconds); !made) return made;
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
+  gl_.ClearColor(0.5f, 0.5f, 0.5f, 1);
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
+  painter_->draw(*ImGui::GetDrawData(), true);
+  return {};
+}
+
+Result<void> Interface::frame_aside(double seconds) {
+  if (auto made = compose(seconds); !made) return made;
+  if (auto bound = target_.bind(width_, height_, GL_RGBA8); !bound) return bound;
+  gl_.ClearColor(0.5f, 0.5f, 0.5f, 1);
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
+  painter_->draw(*ImGui::GetDrawData(), false);
+  return {};
+}
+
+render::Image Interface::read() {
+  render::Image image(width_, height_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target_.frame());
+  gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  for (std::size_t k = 3; k < image.rgba.size(); k += 4) image.rgba[k] = 255;
+  return image;
+}
+
+}  // namespace gridshell::ui

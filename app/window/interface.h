@@ -1,0 +1,123 @@
+// The whole interface, frame by frame: takes events, lays out the panels, draws into whatever
+// framebuffer is bound.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/window/imgui_painter.h"
+#include "app/window/input_event.h"
+#include "app/window/panel.h"
+#include "app/window/picker.h"
+#include "app/window/viewer_state.h"
+#include "render/gl/context.h"
+#include "render/gl/opengl.h"
+
+struct ImGuiContext;
+
+namespace gridshell::ui {
+
+class Interface {
+ public:
+  /// Context and viewer outlive it. Errors: io, of OpenGL or without a font.
+  static Result<std::unique_ptr<Interface>> create(const render::Context& context,
+                                                   render::Renderer& renderer,
+                                                   window::ViewerState& viewer);
+  ~Interface();
+  Interface(const Interface&) = delete;
+  Interface& operator=(const Interface&) = delete;
+
+  /// Pixels, and pixels a point of text. Errors: as create().
+  Result<void> resize(int width, int height, double density);
+  /// Comes with one of the next frames: one press or release of a button a frame. Errors: bad_input
+  /// for the name of something that is not there.
+  Result<void> take(const window::InputEvent& event);
+
+  /// One frame after so many seconds, into framebuffer 0. Errors: the renderer's.
+  Result<void> frame(double seconds);
+  /// One frame into a picture of its own, which read() gives.
+  Result<void> frame_aside(double seconds);
+  render::Image read();
+
+  /// Whether events wait or the picture is still to become sharp.
+  bool busy() const;
+  bool events_wait() const { return !events_.empty(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  /// What a picture of the shell hangs on, beside the sight.
+  struct ShownShell {
+    render::Camera camera;
+    window::PictureSize view;
+    window::Show show;
+    bool operator==(const ShownShell&) const = default;
+  };
+
+  Interface(const render::Gl& gl, render::Renderer& renderer, window::ViewerState& viewer);
+  void feed();
+  void feed(const window::InputEvent& event);
+  Result<Eigen::Vector2d> place_of(const window::InputEvent& event) const;
+  Eigen::Vector2d in_view(int node) const;
+  void mark_picked();
+  void mark_under();
+  void write_forces();
+  void press_key(window::Key key);
+  void lay_out();
+  void view_panel(const Panel& panel, const render::Box& box);
+  Result<void> draw_shell();
+  Result<void> compose(double seconds);
+
+  render::Gl gl_;  // others point to it
+  ImGuiContext* imgui_;
+  std::optional<InterfacePainter> painter_;
+  window::ViewerState& desk_;
+  window::Picker hand_;
+  ShellPicture picture_;
+  NumbersPanel numbers_;
+  PresetPicker picker_;
+  render::Target target_;
+  std::deque<window::InputEvent> events_;
+  std::map<std::string, render::Box> controls_;
+  render::Box view_;
+  int width_ = 1280, height_ = 720;
+  double density_ = 1;
+  double still_seconds_ = 0;
+  bool shell_anew_ = true, sharp_ = false, dark_ = false;
+  std::optional<ShownShell> shown_;  // the last picture
+};
+
+// The interface in a window of the desktop.
+
+/// Opens the window and stays until it is closed or `stopped`. Every event goes to `seen` as well.
+/// Errors: io where there is no GLFW, no display or no OpenGL, saying what to use instead.
+Result<void> run_desktop(window::ViewerState& viewer,
+                         const std::function<void(const window::InputEvent&)>& seen,
+                         const std::function<bool()>& stopped);
+
+// The interface without a hand: a recording played off-screen, and the bench that drags by itself.
+
+/// Plays events one by one, each with the equilibrium that it asks for awaited: the same states on
+/// every machine. Ends with the view sharp. Errors: those of the events and the renderer, naming
+/// the event.
+Result<void> play(Interface& interface, window::ViewerState& viewer,
+                  const std::vector<window::InputEvent>& events);
+
+/// What a bench measured.
+struct BenchFigures {
+  double interface_fps = 0, equilibria_per_s = 0, worst_frame_ms = 0, cancel_ms = 0;
+  /// of the processor's own time, on a machine that does something else as well
+  double frame_cpu_ms = 0;
+};
+
+/// Drags the radius to and fro for so many seconds with the engine on its own thread; frames of the
+/// first second are no worst ones. Errors: no_equilibrium where the preset has no shell; the
+/// renderer's.
+Result<BenchFigures> bench(Interface& interface, window::ViewerState& viewer, double seconds);
+
+}  // namespace gridshell::ui

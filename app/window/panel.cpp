@@ -1,0 +1,332 @@
+#include "app/window/panel.h"
+
+#include <fmt/format.h>
+#include <fontconfig/fontconfig.h>
+#include <imgui_internal.h>
+#include <cmath>
+#include <memory>
+#include <string>
+
+namespace gridshell::ui {
+namespace {
+
+constexpr float tip_after_s = 0.6f;
+
+std::string help_of(const window::Action& action) {
+  const std::string key = name_of(action.key);
+  return action.help + (key.empty() ? "" : " (" + key + ")");
+}
+
+}  // namespace
+
+void Panel::named(const std::string& name, const std::string& tip) const {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  controls[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
+  if (tip.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  // not over what a hand is about to use
+  const ImGuiContext& imgui = *ImGui::GetCurrentContext();
+  const bool rests = imgui.HoveredId == 0 || imgui.HoveredIdTimer > tip_after_s;
+  if (!rests || ImGui::IsAnyMouseDown()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(px(320));
+  ImGui::TextUnformatted(tip.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void Panel::button(const char* name) const {
+  const window::Action& action = *window::find_action(name);
+  if (ImGui::Button(action.label)) action.act(viewer);
+  named(name, help_of(action));
+}
+
+void Panel::button(const char* name, const char* text, bool able) const {
+  const window::Action& action = *window::find_action(name);
+  ImGui::BeginDisabled(!able);
+  if (ImGui::Button(text)) action.act(viewer);
+  ImGui::EndDisabled();
+  named(name, help_of(action));
+}
+
+void Panel::tick(const char* name) const {
+  const window::Action& action = *window::find_action(name);
+  bool on = action.on(viewer);
+  if (ImGui::Checkbox(action.label, &on)) action.act(viewer);
+  named(name, help_of(action));
+}
+
+void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more, Layer layer) {
+  ImGui::SetNextWindowPos({float(box.x), float(box.y)});
+  ImGui::SetNextWindowSize({float(box.width), float(box.height)});
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                   (layer == Layer::fixed ? ImGuiWindowFlags_NoBringToFrontOnFocus : 0) | more);
+}
+
+bool is_typed_into() { return ImGui::IsItemActive() && ImGui::GetIO().WantTextInput; }
+
+void heading(const Panel& panel, const char* text) {
+  ImGui::Dummy({0, panel.px(2)});
+  ImGui::TextDisabled("%s", text);
+  ImGui::Separator();
+}
+
+namespace {
+
+constexpr float text_px = 14.f;
+// Latin, Greek, arrows, mathematical signs, □ ● ▶
+constexpr ImWchar letters[] = {0x20,   0xff,   0x391,  0x3c9,  0x2010, 0x2044, 0x2070, 0x209f,
+                               0x2190, 0x21ff, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0};
+
+std::string file_of_font(const char* family) {
+  const auto free_pattern = [](FcPattern* pattern) { FcPatternDestroy(pattern); };
+  using Pattern = std::unique_ptr<FcPattern, decltype(free_pattern)>;
+  Pattern send_command(FcNameParse(reinterpret_cast<const FcChar8*>(family)), free_pattern);
+  FcConfigSubstitute(nullptr, command.get(), FcMatchPattern);
+  FcDefaultSubstitute(command.get());
+  FcResult result = FcResultMatch;
+  Pattern found(FcFontMatch(nullptr, command.get(), &result), free_pattern);
+  FcChar8* file = nullptr;
+  if (!found || FcPatternGetString(found.get(), FC_FILE, 0, &file) != FcResultMatch) return "";
+  return reinterpret_cast<const char*>(file);
+}
+
+ImVec4 rgb(int hex, float alpha = 1) {
+  return {float(hex >> 16 & 255) / 255, float(hex >> 8 & 255) / 255, float(hex & 255) / 255, alpha};
+}
+
+}  // namespace
+
+Result<void> load_fonts(double density) {
+  static const std::string file = file_of_font("DejaVu Sans");
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  atlas.Clear();
+  ImFontConfig config;
+  config.OversampleH = 1;
+  config.PixelSnapH = true;
+  const float size = float(std::round(text_px * density));
+  if (file.empty() || !atlas.AddFontFromFileTTF(file.c_str(), size, &config, letters))
+    return fail(Fault::io, "no font for the window: install fonts-dejavu-core");
+  atlas.Build();
+  return {};
+}
+
+void choose_colours(bool dark, double density) {
+  ImGuiStyle style;
+  if (dark)
+    ImGui::StyleColorsDark(&style);
+  else
+    ImGui::StyleColorsLight(&style);
+  style.WindowRounding = 0;
+  // such lines are drawn by a smooth texture, and the letters' is none
+  style.AntiAliasedLinesUseTex = false;
+  style.FrameRounding = 3;
+  style.GrabRounding = 3;
+  style.PopupRounding = 3;
+  style.WindowBorderSize = style.FrameBorderSize = 1;
+  style.WindowPadding = {10, 8};
+  style.FramePadding = {6, 3};
+  style.ItemSpacing = {7, 5};
+  style.ScrollbarSize = 11;
+  style.ScaleAllSizes(float(density));
+  auto& colours = style.Colors;
+  colours[ImGuiCol_WindowBg] = dark ? rgb(0x24262b) : rgb(0xf4f5f7);
+  colours[ImGuiCol_PopupBg] = dark ? rgb(0x2b2e34) : rgb(0xffffff);
+  colours[ImGuiCol_MenuBarBg] = dark ? rgb(0x2b2e34) : rgb(0xe9ebef);
+  colours[ImGuiCol_Border] = dark ? rgb(0x3a3e46) : rgb(0xd5d8de);
+  colours[ImGuiCol_Text] = dark ? rgb(0xe6e8ec) : rgb(0x1b1d22);
+  colours[ImGuiCol_TextDisabled] = dark ? rgb(0x8b919c) : rgb(0x6b7280);
+  colours[ImGuiCol_FrameBg] = dark ? rgb(0x33373f) : rgb(0xffffff);
+  colours[ImGuiCol_FrameBgHovered] = dark ? rgb(0x3d424c) : rgb(0xe6eefb);
+  colours[ImGuiCol_FrameBgActive] = dark ? rgb(0x464c58) : rgb(0xd6e4fa);
+  colours[ImGuiCol_Button] = dark ? rgb(0x3a404b) : rgb(0xdfe4ec);
+  colours[ImGuiCol_ButtonHovered] = dark ? rgb(0x4a5362) : rgb(0xcbd8ee);
+  colours[ImGuiCol_ButtonActive] = dark ? rgb(0x57627a) : rgb(0xb3c8ec);
+  colours[ImGuiCol_Header] = dark ? rgb(0x3a404b) : rgb(0xdfe4ec);
+  colours[ImGuiCol_HeaderHovered] = dark ? rgb(0x4a5362) : rgb(0xcbd8ee);
+  colours[ImGuiCol_HeaderActive] = dark ? rgb(0x57627a) : rgb(0xb3c8ec);
+  colours[ImGuiCol_CheckMark] = colours[ImGuiCol_PlotLines] = dark ? rgb(0x6ea2f5) : rgb(0x2f6bd0);
+  // a slider's number stands over its grab
+  colours[ImGuiCol_SliderGrab] = dark ? rgb(0x4a6ba6) : rgb(0xa9c6f5);
+  colours[ImGuiCol_SliderGrabActive] = dark ? rgb(0x5b80c4) : rgb(0x86aef0);
+  ImGui::GetStyle() = style;
+}
+
+ImU32 error_colour(bool dark) {
+  return dark ? IM_COL32(255, 120, 110, 255) : IM_COL32(186, 28, 20, 255);
+}
+ImU32 ok_colour(bool dark) {
+  return dark ? IM_COL32(110, 210, 130, 255) : IM_COL32(24, 122, 52, 255);
+}
+ImU32 warning_colour(bool dark) {
+  return dark ? IM_COL32(240, 185, 80, 255) : IM_COL32(168, 98, 0, 255);
+}
+ImU32 muted_colour(bool dark) {
+  return dark ? IM_COL32(139, 145, 156, 255) : IM_COL32(107, 114, 128, 255);
+}
+
+// The menus, filled from the table of actions.
+
+void menu_bar(const Panel& panel) {
+  if (!ImGui::BeginMainMenuBar()) return;
+  const char* open_menu = nullptr;
+  bool open = false;
+  for (const window::Action& action : window::actions()) {
+    if (!open_menu || std::string(open_menu) != action.menu) {
+      if (open) ImGui::EndMenu();
+      open_menu = action.menu;
+      open = ImGui::BeginMenu(action.menu);
+      if (!open) panel.named(std::string("menu ") + action.menu, "");
+    }
+    if (!open) continue;
+    const bool ticked = action.on && action.on(panel.viewer);
+    if (ImGui::MenuItem(action.label, name_of(action.key).c_str(), ticked))
+      action.act(panel.viewer);
+    panel.named(std::string("menu ") + action.menu + " " + action.name, action.help);
+  }
+  if (open) ImGui::EndMenu();
+  ImGui::EndMainMenuBar();
+}
+
+// The certificate of the state in sight, what the engine is at, what was said last.
+
+namespace {
+
+std::string meshes_of(const std::vector<int>& meshes) {
+  std::string text;
+  for (int edges : meshes) text += (text.empty() ? "" : "·") + std::to_string(edges);
+  return text;
+}
+
+std::string certificate_of(const window::ShellView& sight, bool timed) {
+  const Certificate& c = sight.certificate;
+  const std::string error = std::isfinite(c.error_estimate_mm)
+                                ? fmt::format("error {:.1e} mm", c.error_estimate_mm)
+                                : "error not known";
+  const std::string took = timed ? fmt::format("   {:.0f} ms", 1000 * sight.seconds) : "";
+  return fmt::format("residual {:.1e} N   pivots {}   {}   {} edges{}", c.residual_N,
+                     c.negative_pivots, error, meshes_of(sight.meshes), took);
+}
+
+std::string standing_of(const window::DesignProgress& course) {
+  const double percent = 100 / course.length_scale_mm;
+  const window::DesignPoint& now = course.points.back();
+  return fmt::format("designing: iteration {}, largest {:.3f} %, mean {:.3f} % (Esc stops)",
+                     course.iterations, percent * now.max_mm, percent * now.mean_mm);
+}
+
+/// How far the movie is that is made beside the window.
+void movie_standing(const Panel& panel) {
+  const std::string said = panel.viewer.movie_task.standing();
+  const std::string line = "movie " + (said.empty() ? "0 %" : said);
+  const char* stop = window::find_action("stop_movie")->label;
+  const float width = ImGui::CalcTextSize(line.c_str()).x + ImGui::CalcTextSize(stop).x +
+                      3 * ImGui::GetStyle().FramePadding.x + panel.px(18);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
+  ImGui::TextUnformatted(line.c_str());
+  ImGui::SameLine(0, panel.px(10));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {panel.px(6), 0});
+  panel.button("stop_movie");
+  ImGui::PopStyleVar();
+}
+
+}  // namespace
+
+void status_line(const Panel& panel, const render::Box& box) {
+  const window::ViewerState& viewer = panel.viewer;
+  const window::ShellView& sight = *viewer.sight;
+  const bool dark = viewer.show.dark;
+  begin_fixed("status", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  if (sight.any()) {
+    const ImU32 ink = !sight.stable()                  ? error_colour(dark)
+                      : sight.accuracy_warning.empty() ? ok_colour(dark)
+                                                       : warning_colour(dark);
+    const std::string lacks = sight.accuracy_warning.empty() ? "" : ", " + sight.accuracy_warning;
+    ImGui::PushStyleColor(ImGuiCol_Text, ink);
+    ImGui::TextUnformatted(((sight.stable() ? "● stable" : "● not stable") + lacks).c_str());
+    ImGui::PopStyleColor();
+    panel.named("stability", "whether the Hessian is positive definite with what is held held");
+    if (!sight.symmetry.empty()) {
+      ImGui::SameLine(0, panel.px(14));
+      ImGui::TextUnformatted(sight.symmetry.c_str());
+      panel.named("symmetry", "symmetries of the square that leave this shape as it is");
+    }
+    ImGui::SameLine(0, panel.px(14));
+    ImGui::TextUnformatted(certificate_of(sight, viewer.timed).c_str());
+    panel.named("certificate",
+                "largest force that nothing holds; negative pivots of the Hessian; estimated error "
+                "of the joints; meshes, edges a segment; time of the last equilibrium");
+    ImGui::SameLine(0, panel.px(18));
+  }
+  const double busy = viewer.engine.busy_seconds();
+  std::string said =
+      busy > 0.3 ? fmt::format("solving for {:.1f} s (Esc stops)", busy) : viewer.message;
+  if (sight.designing()) said = standing_of(*sight.design);
+  const bool bad = busy <= 0.3 && viewer.message_bad && !sight.designing();
+  ImGui::PushStyleColor(ImGuiCol_Text,
+                        bad ? error_colour(dark) : ImGui::GetColorU32(ImGuiCol_TextDisabled));
+  // one line, however much was said: the tooltip has all of it
+  const std::string line = said.substr(0, said.find('\n'));
+  ImGui::TextUnformatted(line.c_str());
+  ImGui::PopStyleColor();
+  panel.named("message", said);
+  if (viewer.movie_task.under_way()) movie_standing(panel);
+  ImGui::End();
+}
+
+// Every key and mouse action, from the tables that bind them.
+
+namespace {
+
+void row(const std::string& left, const std::string& right) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(left.c_str());
+  ImGui::TableNextColumn();
+  ImGui::PushTextWrapPos();
+  ImGui::TextUnformatted(right.c_str());
+  ImGui::PopTextWrapPos();
+}
+
+bool begin_table(const Panel& panel, const char* name, double left) {
+  if (!ImGui::BeginTable(name, 2)) return false;
+  ImGui::TableSetupColumn("how", ImGuiTableColumnFlags_WidthFixed, panel.px(left));
+  ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
+  return true;
+}
+
+/// The keys of some menus.
+void keys(const Panel& panel, const std::string& menus) {
+  if (!begin_table(panel, menus.c_str(), 62)) return;
+  for (const window::Action& action : window::actions())
+    if (action.key.key && menus.find(action.menu) != std::string::npos)
+      row(name_of(action.key), std::string(action.label) + ": " + action.help);
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void help_sheet(const Panel& panel, const render::Box& box) {
+  begin_fixed("help", box, 0, Layer::over);
+  ImGui::TextUnformatted("Keys and mouse");
+  ImGui::SameLine();
+  ImGui::TextDisabled("(F1 or Esc closes)");
+  ImGui::Separator();
+  if (ImGui::BeginTable("sheet", 2)) {
+    ImGui::TableNextColumn();
+    keys(panel, "File Edit Shell");
+    ImGui::TableNextColumn();
+    if (begin_table(panel, "mouse", 240)) {
+      for (const window::MouseAction& action : window::mouse_actions())
+        row(action.how, action.help);
+      row("Ctrl + click on a number", "types it");
+      ImGui::EndTable();
+    }
+    keys(panel, "View Colour Help");
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+}  // namespace gridshell::ui

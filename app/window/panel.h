@@ -1,0 +1,125 @@
+// What panels share: where they stand, what controls are called, and their tooltips.
+#pragma once
+
+#include <imgui.h>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/window/actions.h"
+#include "engine/core/result.h"
+#include "engine/gridshell.h"
+#include "render/canvas/canvas.h"
+#include "render/gl/opengl.h"
+
+namespace gridshell::ui {
+
+/// One frame of the interface: what panels draw into.
+struct Panel {
+  window::ViewerState& viewer;
+  double density = 1;                            ///< pixels a point of text
+  std::map<std::string, render::Box>& controls;  ///< where each control stands, by its name
+
+  float px(double points) const { return float(points * density); }
+  /// Notes where the last control is, and gives it a tooltip.
+  void named(const std::string& name, const std::string& tip) const;
+  /// A button or a tick of an action, with its help and key.
+  void button(const char* action) const;
+  /// With a text of its own where the panel says the rest; pale where it can do nothing now.
+  void button(const char* action, const char* text, bool able) const;
+  void tick(const char* action) const;
+};
+
+/// Opens a window of fixed place without a title; ImGui::End() closes it.
+/// Fixed ones lie behind those that come up over them.
+enum class Layer { fixed, over };
+void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more = 0,
+                 Layer layer = Layer::fixed);
+
+/// Whether the last control is being typed into: what stands there is not meant yet.
+bool is_typed_into();
+
+/// A small heading within a panel.
+void heading(const Panel& panel, const char* text);
+
+// ---- the panels, a file each ----
+
+void menu_bar(const Panel& panel);
+void shell_panel(const Panel& panel, const render::Box& box);
+void plots_panel(const Panel& panel, const render::Box& box);
+void design_panel(const Panel& panel, const render::Box& box);
+void status_line(const Panel& panel, const render::Box& box);
+void help_sheet(const Panel& panel, const render::Box& box);
+void colour_legend(const Panel& panel, const render::Box& view);
+
+/// Every number of the preset, from the field table; remembers what is being changed.
+class NumbersPanel {
+ public:
+  void draw(const Panel& panel, const render::Box& box);
+
+ private:
+  bool edit(const Panel& panel, const preset::Field& field);
+  void look(const window::ViewerState& viewer);
+  void find_idle();
+
+  std::shared_ptr<const window::ShellView> seen_;  // that the numbers are of
+  preset::Preset edited_;
+  std::set<std::string> idle_;  // keys that count for nothing in it
+  std::string active_;          // the key under the hand
+  bool typed_ = false;          // digits that are not meant yet
+};
+
+// Fonts, colours and distances of the interface.
+
+/// Loads the text font (DejaVu Sans: it has □, ρ, δ and Δ) at so many pixels a point of text.
+/// Errors: io when the system has none.
+Result<void> load_fonts(double density);
+
+/// Light or dark.
+void choose_colours(bool dark, double density);
+
+/// Red of what is wrong or not stable, green of what holds, amber of what lacks something, grey of
+/// what is said beside.
+ImU32 error_colour(bool dark);
+ImU32 ok_colour(bool dark);
+ImU32 warning_colour(bool dark);
+ImU32 muted_colour(bool dark);
+
+// A small plot within a panel.
+
+/// One curve, or two over the same x.
+struct Curve {
+  const char* y_label;
+  const char* x_label;
+  const char* without;  ///< said where there is nothing to plot
+  std::vector<float> x, y;
+  bool bars = false;
+  std::vector<std::size_t> jumps = {};  ///< points that no line leads to
+  std::vector<float> second = {};       ///< another one, paler
+  bool logarithmic = false;             ///< y, which is above 0
+};
+
+/// Draws it between two corners, pixels.
+void draw_curve(const Panel& panel, ImVec2 low, ImVec2 high, const Curve& curve);
+
+// All presets to choose from, as pictures.
+
+class PresetPicker {
+ public:
+  /// `gl` outlives it.
+  explicit PresetPicker(const render::Gl& gl) : gl_(&gl) {}
+
+  void draw(const Panel& panel, const render::Box& box);
+
+ private:
+  void load(const std::vector<window::PresetCard>& cards);
+  void card(const Panel& panel, const window::PresetCard& card, std::size_t number);
+
+  const render::Gl* gl_;
+  std::vector<std::optional<render::Texture>> pictures_;  // one a card, from the first sight on
+};
+
+}  // namespace gridshell::ui

@@ -1,0 +1,383 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "app/window/imgui_painter.h"
+#include "app/window/panel.h"
+#include "engine/gridshell.h"
+#include "render/gl/image.h"
+
+namespace gridshell::ui {
+namespace {
+
+constexpr double card_points = 216;             // the least width of a card
+constexpr float height_of_width = 160 / 256.f;  // of the pictures in presets/pictures/cards
+
+/// A title that is too long for its card ends in dots.
+std::string shortened(const std::string& title, float width) {
+  if (ImGui::CalcTextSize(title.c_str()).x <= width) return title;
+  std::string begin = title;
+  const auto too_long = [&] { return ImGui::CalcTextSize((begin + "…").c_str()).x > width; };
+  while (!begin.empty() && too_long()) begin.pop_back();
+  return begin + "…";
+}
+
+}  // namespace
+
+void PresetPicker::load(const std::vector<window::PresetCard>& cards) {
+  for (std::size_t k = pictures_.size(); k < cards.size(); ++k) {
+    auto& picture = pictures_.emplace_back();
+    const auto image = render::decode_png(cards[k].picture, cards[k].name);
+    if (!image) continue;  // a preset without one is a card of words
+    picture.emplace(*gl_);
+    fill_texture(*gl_, picture->id(), image->width, image->height, image->rgba.data());
+  }
+}
+
+void PresetPicker::card(const Panel& panel, const window::PresetCard& card, std::size_t number) {
+  const float gap = panel.px(4), line = ImGui::GetTextLineHeight();
+  const ImVec2 at = ImGui::GetCursorPos();
+  const float width = ImGui::GetContentRegionAvail().x, inside = width - 2 * gap,
+              high = height_of_width * inside;
+  const float height = high + 2.4f * line + 2 * gap;
+  ImGui::PushID(card.name.c_str());
+  if (ImGui::Selectable("##card", false, 0, {0, height})) panel.viewer.open(card.name);
+  panel.named("preset " + card.name, card.title);
+  ImGui::SetCursorPos({at.x + gap, at.y + gap});
+  if (const auto& picture = pictures_[number])
+    ImGui::Image(texture_id(picture->id()), {inside, high});
+  ImGui::SetCursorPos({at.x + gap, at.y + high + 1.5f * gap});
+  ImGui::TextUnformatted(shortened(card.name, inside).c_str());
+  ImGui::SetCursorPos({at.x + gap, at.y + high + 1.5f * gap + 1.15f * line});
+  ImGui::TextDisabled("%s", shortened(card.title, inside).c_str());
+  ImGui::SetCursorPos({at.x, at.y + height + panel.px(6)});
+  ImGui::PopID();
+}
+
+void PresetPicker::draw(const Panel& panel, const render::Box& box) {
+  const std::vector<window::PresetCard>& cards = panel.viewer.library.cards;
+  load(cards);
+  begin_fixed("presets", box, 0, Layer::over);
+  ImGui::TextUnformatted("Pick a preset");
+  ImGui::SameLine();
+  ImGui::TextDisabled("(Ctrl+O comes back here; F1 lists keys and mouse)");
+  ImGui::Separator();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const int columns = std::max(1, int(width / panel.px(card_points)));
+  if (ImGui::BeginTable("cards", columns)) {
+    for (std::size_t k = 0; k < cards.size(); ++k) {
+      ImGui::TableNextColumn();
+      card(panel, cards[k], k);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+// Every number of the preset, as the field table has it: name, unit, range, meaning.
+
+namespace {
+
+using preset::Field;
+
+/// Those that the shell hangs on; how it is pictured has controls of its own.
+constexpr const char* shown_tables[] = {"rod",          "rod_v",  "joints",    "ends",
+                                        "footprint",    "net",    "actuation", "loads",
+                                        "imperfection", "limits", "accuracy",  "dynamics"};
+
+float bound(double value) { return float(std::clamp(value, -1e9, 1e9)); }
+
+/// A control for one kind of value; whether it was changed.
+struct Control {
+  preset::Preset& preset;
+  const char* id;
+
+  bool operator()(const preset::Real& kind) const {
+    double& value = kind.in(preset);
+    float shown = float(value);
+    const float step = std::max(1e-6f, 0.005f * std::abs(shown));
+    if (!ImGui::DragFloat(id, &shown, step, bound(kind.range.low), bound(kind.range.high), "%.6g",
+                          ImGuiSliderFlags_AlwaysClamp) ||
+        !kind.range.holds(double(shown)))
+      return false;
+    value = double(shown);
+    return true;
+  }
+  bool operator()(const preset::Integer& kind) const {
+    int& value = kind.in(preset);
+    const auto limit = [](double v) { return int(std::clamp(v, -1e9, 1e9)); };
+    return ImGui::DragInt(id, &value, 0.1f, limit(kind.range.low), limit(kind.range.high), "%d",
+                          ImGuiSliderFlags_AlwaysClamp);
+  }
+  bool operator()(const preset::Flag& kind) const { return ImGui::Checkbox(id, &kind.in(preset)); }
+  bool operator()(const preset::Word& kind) const {
+    const int now = kind.get(preset);
+    bool changed = false;
+    if (!ImGui::BeginCombo(id, kind.words[std::size_t(now)].c_str())) return false;
+    for (int k = 0; k < int(kind.words.size()); ++k)
+      if (ImGui::Selectable(kind.words[std::size_t(k)].c_str(), k == now) && k != now)
+        kind.set(preset, k), changed = true;
+    ImGui::EndCombo();
+    return changed;
+  }
+  template <class Other>
+  bool operator()(const Other&) const {
+    return false;
+  }
+};
+
+/// Whether a control can change it.
+bool has_control(const Field& field) {
+  return std::holds_alternative<preset::Real>(field.kind) ||
+         std::holds_alternative<preset::Integer>(field.kind) ||
+         std::holds_alternative<preset::Flag>(field.kind) ||
+         std::holds_alternative<preset::Word>(field.kind);
+}
+
+}  // namespace
+
+bool NumbersPanel::edit(const Panel& panel, const Field& field) {
+  const std::string name = name_of(field), id = "##" + name;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(field.key.c_str());
+  const float label = ImGui::CalcTextSize(field.key.c_str()).x;
+  ImGui::SameLine(std::max(panel.px(150), label + panel.px(16)));
+  ImGui::SetNextItemWidth(-1);
+  const bool changed = std::visit(Control{edited_, id.c_str()}, field.kind);
+  panel.named(field.table + "." + field.key,
+              fmt::format("{}{}; {}", field.meaning, field.unit.empty() ? "" : ", in " + field.unit,
+                          allowed(field)));
+  if (ImGui::IsItemActive()) active_ = name;
+  // a number is meant when its last digit stands
+  const bool meant = is_typed_into() ? false : changed || (typed_ && ImGui::IsItemDeactivated());
+  if (changed && is_typed_into()) typed_ = true;
+  if (meant) {
+    typed_ = false;
+    panel.viewer.change(edited_, ImGui::IsItemActive());
+    find_idle();
+  }
+  if (ImGui::IsItemDeactivated()) {
+    if (active_ == name) panel.viewer.let_go();
+    active_.clear();
+  }
+  return meant;
+}
+
+void NumbersPanel::find_idle() {
+  idle_.clear();
+  for (const auto& key : preset::unused_keys(edited_))
+    if (key.item < 0) idle_.insert(key.table + "." + key.key);
+  // the second family has numbers of its own once it differs
+  if (edited_.rod_v.differs) return;
+  for (const Field& field : preset::field_table())
+    if (field.table == "rod_v" && field.key != "differs")
+      idle_.insert(field.table + "." + field.key);
+}
+
+/// While a hand is at a number, the engine's answer may be older than its command.
+void NumbersPanel::look(const window::ViewerState& viewer) {
+  if (!active_.empty() || seen_ == viewer.sight) return;
+  seen_ = viewer.sight;
+  edited_ = seen_->preset;
+  find_idle();
+}
+
+void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
+  begin_fixed("numbers", box);
+  heading(panel, "Numbers of the preset");
+  if (panel.viewer.sight->any()) {
+    look(panel.viewer);
+    // an edit may take a number away or bring one
+    const auto shown = [this](const Field& field, const char* table) {
+      return field.table == table && has_control(field) &&
+             !idle_.contains(field.table + "." + field.key);
+    };
+    for (const char* table : shown_tables) {
+      bool any = false;
+      for (const Field& field : preset::field_table()) any |= shown(field, table);
+      if (!any || !ImGui::CollapsingHeader(table, ImGuiTreeNodeFlags_DefaultOpen)) continue;
+      for (const Field& field : preset::field_table())
+        if (shown(field, table)) edit(panel, field);
+    }
+  }
+  ImGui::End();
+}
+
+// Inverse design: what may change so that the shell meets its surface, and how far it has come.
+
+namespace {
+
+using window::DesignPoint;
+using window::DesignProgress;
+using window::ViewerState;
+
+/// What a key of [inverse] means, with unit and range.
+std::string tip_of(const char* key) {
+  for (const preset::Field& field : preset::field_table())
+    if (field.table == "inverse" && field.key == key)
+      return fmt::format("{}{}; {}", field.meaning, field.unit.empty() ? "" : ", in " + field.unit,
+                         allowed(field));
+  return "";
+}
+
+/// What one of the words of `vary` moves; why it cannot here, if so.
+struct Variable {
+  preset::Vary kind;
+  const char* label;
+  const char* moves;
+};
+constexpr Variable variables[] = {
+    {preset::Vary::pins_radial, "pins, radially", "where ends are held, along the radius"},
+    {preset::Vary::pins, "pins, in plane", "where ends are held, in the boundary's plane"},
+    {preset::Vary::pins_3d, "pins, in space", "where ends are held, in every direction"},
+    {preset::Vary::legs, "legs", "their lengths"},
+    {preset::Vary::directions, "directions", "along which tangent ends are held"},
+    {preset::Vary::diameters, "diameters", "of every rod, by a factor of two at most"},
+};
+
+const char* why_not(const preset::Preset& preset, preset::Vary kind) {
+  if (kind == preset::Vary::directions && preset.ends.kind != preset::EndKind::tangent)
+    return "the ends hold no direction by itself: [ends] kind must be \"tangent\"";
+  if (kind == preset::Vary::diameters && (preset.rod.rectangular() || preset.rod_v.rectangular()))
+    return "rectangular rods have no diameter";
+  return nullptr;
+}
+
+void what_varies(const Panel& panel) {
+  ViewerState& viewer = panel.viewer;
+  std::vector<preset::Vary>& vary = viewer.design.inverse.vary;
+  ImGui::TextUnformatted("What may change");
+  int column = 0;
+  for (const Variable& one : variables) {
+    const char* not_here = why_not(viewer.sight->preset, one.kind);
+    const auto at = std::ranges::find(vary, one.kind);
+    bool on = at != vary.end();
+    if (column++ % 2 == 1) ImGui::SameLine(panel.px(138));
+    ImGui::BeginDisabled(not_here && !on);
+    const std::string word{word_of(one.kind)};
+    if (ImGui::Checkbox(one.label, &on)) {
+      if (on)
+        vary.push_back(one.kind);
+      else
+        vary.erase(at);
+    }
+    ImGui::EndDisabled();
+    panel.named("vary_" + word, not_here ? not_here : word + ": " + one.moves);
+  }
+}
+
+/// A label, and room for what follows beside it.
+void label(const Panel& panel, const char* text) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine(panel.px(138));
+  ImGui::SetNextItemWidth(-1);
+}
+
+void number(const Panel& panel, const char* text, const char* key, double& value, float step,
+            float low, float high, const char* format) {
+  label(panel, text);
+  float shown = float(value);
+  if (ImGui::DragFloat((std::string("##") + key).c_str(), &shown, step, low, high, format,
+                       ImGuiSliderFlags_AlwaysClamp))
+    value = std::round(1e4 * double(shown)) / 1e4;
+  panel.named(std::string("design_") + key, tip_of(key));
+}
+
+void choices(const Panel& panel) {
+  preset::Inverse& inverse = panel.viewer.design.inverse;
+  label(panel, "target");
+  if (ImGui::BeginCombo("##target", std::string(word_of(inverse.target)).c_str())) {
+    for (const auto& entry : words(preset::Target{}))
+      if (ImGui::Selectable(std::string(entry.word).c_str(), entry.value == inverse.target))
+        inverse.target = entry.value;
+    ImGui::EndCombo();
+  }
+  panel.named("design_target", tip_of("target"));
+  number(panel, "norm", "norm", inverse.norm, 0.1f, 2, 32, "p = %.3g");
+  number(panel, "furthest move", "move_limit_mm", inverse.move_limit_mm, 0.05f, 0.01f, 100,
+         "%.3g mm");
+  number(panel, "rounding", "round_mm", inverse.round_mm, 0.01f, 0, 10, "%.3g mm");
+  label(panel, "iterations");
+  ImGui::DragInt("##most", &panel.viewer.design.most_iterations, 0.1f, 1, 100, "at most %d",
+                 ImGuiSliderFlags_AlwaysClamp);
+  panel.named("design_iterations",
+              "after so many it ends; started again it goes on from the shell in hand, and moves "
+              "count from there");
+}
+
+void buttons(const Panel& panel) {
+  const window::ShellView& sight = *panel.viewer.sight;
+  const bool under_way = sight.designing(), pending = sight.design && !sight.design->kept;
+  panel.button("design_start", "Start", !under_way && window::why_not_designed(sight).empty());
+  ImGui::SameLine();
+  panel.button("design_stop", "Stop", under_way);
+  ImGui::SameLine();
+  panel.button("design_keep", "Keep this", pending);
+  ImGui::SameLine();
+  panel.button("design_put_back", "Put back", sight.design != nullptr);
+}
+
+void standing(const Panel& panel, const DesignProgress& course) {
+  const double percent = 100 / course.length_scale_mm;
+  const DesignPoint &first = course.points.front(), &now = course.points.back();
+  const char* how = course.under_way ? "under way"
+                    : course.kept    ? "kept"
+                    : course.stopped ? "stopped: keep or put back"
+                                     : "done: keep or put back";
+  ImGui::Text("iteration %d, %s", course.iterations, how);
+  ImGui::Text("largest %.3f %% of ρ, %.3g mm", percent * now.max_mm, now.max_mm);
+  ImGui::Text("mean %.3f %% of ρ, %.3g mm", percent * now.mean_mm, now.mean_mm);
+  ImGui::Text("moved %.2f mm, eigenvalue x %.3g", now.largest_move_mm,
+              now.eigenvalue / first.eigenvalue);
+  panel.named("design_eigenvalue",
+              "the furthest move of a pin or a leg; the Hessian's smallest eigenvalue on 32 edges "
+              "a segment over that before, below [inverse] min_stability a step is passed over");
+  if (now.thickest_mm > now.thinnest_mm)
+    ImGui::Text("rods %.3f to %.3f mm", now.thinnest_mm, now.thickest_mm);
+}
+
+void plot(const Panel& panel, const DesignProgress& course) {
+  Curve curve{"largest and (grey) mean, % of ρ", "iteration", "", {}, {}};
+  curve.logarithmic = true;
+  const double percent = 100 / course.length_scale_mm;
+  for (const DesignPoint& point : course.points) {
+    curve.x.push_back(float(point.iteration));
+    curve.y.push_back(float(percent * point.max_mm));
+    curve.second.push_back(float(percent * point.mean_mm));
+  }
+  const ImVec2 low = ImGui::GetCursorScreenPos(), space = ImGui::GetContentRegionAvail();
+  const float height = std::max(space.y, panel.px(90));
+  draw_curve(panel, low, {low.x + space.x, low.y + height - panel.px(4)}, curve);
+  ImGui::Dummy({space.x, height - panel.px(8)});
+  panel.named("design_plot", "distances of the joints from the target, of every certified step");
+}
+
+}  // namespace
+
+void design_panel(const Panel& panel, const render::Box& box) {
+  const window::ShellView& sight = *panel.viewer.sight;
+  begin_fixed("design", box);
+  heading(panel, "Design: the shell meets its surface");
+  const std::string why = window::why_not_designed(sight);
+  if (sight.any() && sight.layout->net_nodes.cols() > 0) {
+    ImGui::BeginDisabled(sight.designing());
+    what_varies(panel);
+    choices(panel);
+    ImGui::EndDisabled();
+  }
+  if (!why.empty()) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextDisabled("%s", (why + ".").c_str());
+    ImGui::PopTextWrapPos();
+  }
+  if (why.empty() || sight.design) buttons(panel);
+  if (sight.design) {
+    standing(panel, *sight.design);
+    plot(panel, *sight.design);
+  }
+  ImGui::End();
+}
+
+}  // namespace gridshell::ui

@@ -1,0 +1,175 @@
+// What the window keeps of a shell: presets, pictures, movies.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/window/viewer_state.h"
+#include "engine/core/file_io.h"
+
+namespace gridshell::window {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int least_px = 16, most_px = 16384;
+constexpr double shift_seen_px = 2;  // of the view, that a hand gave it
+
+double rounded(double value, double step) { return step * std::round(value / step); }
+
+/// What of a shell its preset may not bring back; empty: nothing.
+std::string left_out(const ShellView& sight) {
+  std::string text;
+  if (sight.rods_changed_late)
+    text += "; numbers that were changed on the way count from its begin";
+  if (!sight.accuracy_warning.empty())
+    text += "; its state is " + sight.accuracy_warning + ": 'run' may come to another";
+  return text;
+}
+
+/// Whether meshes decided which state it came to.
+bool jumped(const ShellView& sight) {
+  const std::vector<preset::Step> steps = sight.steps.all();
+  return sight.snapped || std::ranges::any_of(steps, [](const preset::Step& step) {
+           return step.deed == preset::StepKind::jitter;
+         });
+}
+
+}  // namespace
+
+Result<void> check_picture(int width, int height) {
+  if (std::min(width, height) >= least_px && std::max(width, height) <= most_px) return {};
+  return fail(Fault::bad_input,
+              fmt::format("a picture of {} x {}: must be {} to {} pixels each way", width, height,
+                          least_px, most_px));
+}
+
+/// The first path in the folder, numbered, of which no file has one of the endings.
+fs::path ViewerState::path_to_save(const std::vector<std::string>& endings) const {
+  const std::string name = fs::path(sight->preset.name).filename().string();
+  for (int k = 1;; ++k) {
+    const fs::path path = library.save_to / fmt::format("{}_{}", name, k);
+    const bool taken = std::ranges::any_of(endings, [&](const std::string& ending) {
+      std::error_code error;
+      return fs::exists(path.string() + ending, error);
+    });
+    if (!taken) return path;
+  }
+}
+
+/// The camera and the colours, as movies take them.
+void ViewerState::put_view(preset::Preset& preset) const {
+  preset::Movie& movie = preset.movie;
+  movie.azimuth_deg = rounded(camera.azimuth_deg, 0.1);
+  movie.elevation_deg = rounded(camera.elevation_deg, 0.1);
+  movie.view = preset::View::free;
+  movie.turn_deg = 0;
+  movie.orthographic = camera.field_of_view_deg == 0;
+  const render::Camera fitted = fitted_view();
+  movie.zoom = rounded(fitted.half_extent_mm / camera.half_extent_mm, 0.01);
+  movie.target_mm.clear();
+  // one that shows all is for the movie to find, which holds all of its frames
+  const double shift_mm = shift_seen_px * mm_per_pixel(camera, view);
+  if ((camera.target - fitted.target).norm() > shift_mm)
+    for (const double value : camera.target) movie.target_mm.push_back(rounded(value, 0.1));
+  const auto by = find_word<preset::ColourBy>(word_of(show.colour_by));
+  if (by && (show.colour_by == ColourBy::none || values_of(*sight, show.colour_by).any()))
+    movie.colour_by = *by;
+  if (range_of == RangeOf::hand) preset.style.range = {show.scale.low, show.scale.high};
+}
+
+preset::Preset ViewerState::preset_to_save() const {
+  preset::Preset preset = sight->preset;
+  put_view(preset);
+  preset.indentation = {};
+  // a boundary that was moved and nothing else is a preset of that radius
+  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
+  const std::vector<preset::Step> steps = sight->steps.all();
+  const bool moves = std::ranges::all_of(steps, [](const preset::Step& step) {
+    return step.deed == preset::StepKind::move && step.edge_points.empty();
+  });
+  if (jumped(*sight) && preset.accuracy.edges_per_segment == 0)
+    preset.accuracy.leading_edges = sight->leader;
+  if (circle && moves && !sight->snapped) return preset;
+  preset.step = steps;
+  if (circle) preset.actuation.radius_mm = sight->radius_end_mm;
+  return preset;
+}
+
+Result<void> ViewerState::write_preset(const preset::Preset& preset, const fs::path& file) const {
+  return make_folder(library.save_to).and_then([&] { return library.write_preset(preset, file); });
+}
+
+void ViewerState::save_preset() {
+  if (!sight->any()) return say("there is no shell to save", true);
+  const fs::path file = path_to_save({".toml", "_ends.csv", "_rods.csv"}).string() + ".toml";
+  if (auto written = write_preset(preset_to_save(), file); !written)
+    return say(written.error().message, true);
+  say("saved " + file.string() + left_out(*sight), !left_out(*sight).empty());
+}
+
+void ViewerState::save_picture() {
+  if (!sight->any()) return say("there is no shell to draw", true);
+  if (picture_task.under_way()) return say("one picture is being drawn already", true);
+  if (auto made = make_folder(library.save_to); !made) return say(made.error().message, true);
+  const fs::path file = path_to_save({".png"}).string() + ".png";
+  picture_task.begin([draw = library.draw_picture, order = picture_order(), file](
+                         const ProgressListener&, const Watch&) { return draw(order, file); },
+                     file);
+  say("drawing " + file.string());
+}
+
+void ViewerState::size_picture(int width, int height) {
+  if (width != 0 || height != 0)
+    if (auto fits = check_picture(width, height); !fits) return say(fits.error().message, true);
+  picture.width = width, picture.height = height;
+}
+
+void ViewerState::save_movie() {
+  if (!sight->any()) return say("there is no shell to make a movie of", true);
+  if (movie_task.under_way()) return say("one movie is being made; 'Stop the movie' ends it", true);
+  const fs::path folder = path_to_save({".toml", "_ends.csv", "_rods.csv", ""}),
+                 file = folder.string() + ".toml";
+  preset::Preset preset = preset_to_save();
+  if (sight->steps.empty()) {
+    preset = sight->preset;
+    put_view(preset);
+  }
+  if (auto written = write_preset(preset, file); !written)
+    return say(written.error().message, true);
+  movie_task.begin(
+      [make = library.make_movie, file, folder](const ProgressListener& heard, const Watch& watch) {
+        return make(file, folder, heard, watch);
+      },
+      folder);
+  say("making a movie in " + folder.string() + left_out(*sight), !left_out(*sight).empty());
+}
+
+void ViewerState::report_finished_tasks() {
+  for (BackgroundTask* work : {&picture_task, &movie_task}) {
+    const auto end = work->take_end();
+    if (!end) continue;
+    if (end->made)
+      say("saved " + end->target.string());
+    else if (end->made.error().fault == Fault::cancelled)
+      say("stopped: " + end->last_words);
+    else
+      say(end->made.error().message, true);
+  }
+}
+
+void ViewerState::copy_camera() {
+  if (!sight->any()) return say("there is no shell to look at", true);
+  preset::Preset looked = sight->preset;
+  put_view(looked);
+  const preset::Movie& movie = looked.movie;
+  copied = fmt::format("azimuth_deg = {:g}\nelevation_deg = {:g}\nturn_deg = 0\nzoom = {:g}\n",
+                       movie.azimuth_deg, movie.elevation_deg, movie.zoom);
+  if (movie.orthographic) copied += "orthographic = true\n";
+  if (movie.target_mm.size() == 3)
+    copied += fmt::format("target_mm = [{:g}, {:g}, {:g}]\n", movie.target_mm[0],
+                          movie.target_mm[1], movie.target_mm[2]);
+  say("copied the camera as keys of [movie]");
+}
+
+}  // namespace gridshell::window

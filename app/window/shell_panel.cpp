@@ -1,0 +1,353 @@
+// What is done to the shell: path, boundary, hand, rest, accuracy, colours; what was picked.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/window/panel.h"
+#include "app/window/shell_drawing.h"
+#include "engine/gridshell.h"
+
+namespace gridshell::ui {
+namespace {
+
+using window::ShellView;
+using window::ViewerState;
+
+/// A slider over the panel's width; true while the hand changes its value, and once what was typed
+/// is done.
+bool slider(const Panel& panel, const char* name, float& value, float low, float high,
+            const char* format, const std::string& tip) {
+  const std::string label = std::string("##") + name;
+  ImGui::SetNextItemWidth(-1);
+  const bool changed =
+      ImGui::SliderFloat(label.c_str(), &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
+  panel.named(name, tip);
+  ImGuiStorage& kept = *ImGui::GetStateStorage();
+  const ImGuiID number = ImGui::GetID((label + " typed").c_str()),
+                any = ImGui::GetID((label + " any typed").c_str());
+  if (is_typed_into()) {
+    if (changed) kept.SetFloat(number, value), kept.SetBool(any, true);
+    return false;
+  }
+  if (!ImGui::IsItemDeactivated() || !kept.GetBool(any)) return changed;
+  kept.SetBool(any, false);
+  value = kept.GetFloat(number);
+  return true;
+}
+
+/// Without the digits that a float adds.
+double four_digits(float value) { return std::round(1e4 * double(value)) / 1e4; }
+
+void speed(const Panel& panel, float gap) {
+  double& now = panel.viewer.play_speed;
+  const auto text = [](double speed) { return fmt::format("{:g} s", 1 / speed); };
+  ImGui::SameLine(0, gap);
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##speed", text(now).c_str())) {
+    for (const double seconds : {2, 4, 8, 16, 32})
+      if (ImGui::Selectable(text(1 / seconds).c_str(), now == 1 / seconds)) now = 1 / seconds;
+    ImGui::EndCombo();
+  }
+  panel.named("speed", "how long the whole path plays");
+}
+
+void path(const Panel& panel) {
+  ViewerState& viewer = panel.viewer;
+  heading(panel, "Path");
+  const bool push = viewer.sight->push.joint >= 0;
+  const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
+  panel.button("play", viewer.playing ? "Stop##play" : "Play##play", true);
+  for (const char* action : {"step_back", "step_on"}) {
+    ImGui::SameLine(0, gap);
+    panel.button(action);
+  }
+  speed(panel, gap);
+  float part = float(viewer.part());
+  if (slider(panel, "path", part, 0, std::max(1.f, part), push ? "push %.3f" : "progress %.3f",
+             push ? "share of the preset's depth" : "share of the boundary's way"))
+    viewer.playing = false, viewer.go(part, true);
+  if (ImGui::IsItemDeactivated()) viewer.let_go();
+}
+
+void boundary(const Panel& panel) {
+  ViewerState& viewer = panel.viewer;
+  const ShellView& sight = *viewer.sight;
+  if (sight.preset.footprint.kind != preset::FootprintKind::circle) return;
+  const double from = sight.preset.original_radius_mm();
+  const double now = sight.frame.boundary_radius_mm;
+  const double way = sight.progress > 0 ? (now - from) / sight.progress : -1;
+  ImGui::TextUnformatted("Boundary's radius");
+  float radius = float(now);
+  if (slider(panel, "R_a", radius, float(0.6 * from), float(from + sight.least_progress * way),
+             "R_a = %.2f mm", "radius of the actuated boundary, mm; Ctrl+click to type"))
+    viewer.playing = false, viewer.move((four_digits(radius) - from) / way, true);
+  if (ImGui::IsItemDeactivated()) viewer.let_go();
+}
+
+/// At the right end of a line, the small button that takes back what the line tells.
+bool small_button(const Panel& panel, const char* label, const std::string& name, const char* help,
+                  double width) {
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - panel.px(width));
+  const bool pressed = ImGui::SmallButton(fmt::format("{}##{}", label, name).c_str());
+  panel.named(name, help);
+  return pressed;
+}
+
+/// The first of the edge points off the boundary, and how many more.
+void dragged_edges(const Panel& panel) {
+  constexpr std::size_t most = 3;
+  const auto& dragged = panel.viewer.sight->edges_dragged;
+  for (std::size_t k = 0; k < std::min(most, dragged.size()); ++k) {
+    const auto [edge_point, off_mm] = dragged[k];
+    ImGui::Text("edge point %d  %.2f mm off", edge_point, off_mm);
+    if (small_button(panel, "put back", fmt::format("put back {}", edge_point),
+                     "takes this edge point back onto the boundary", 64))
+      panel.viewer.send_command(window::ResetEdgePoint{edge_point});
+  }
+  if (dragged.size() < 2) return;
+  ImGui::Text("%d edge points off in all", int(dragged.size()));
+  if (small_button(panel, "put back", "put back all",
+                   "takes every edge point back onto the boundary", 64))
+    panel.viewer.send_command(window::ResetEdgePoint{});
+}
+
+void held(const Panel& panel) {
+  ViewerState& viewer = panel.viewer;
+  const ShellView& sight = *viewer.sight;
+  heading(panel, "Hand");
+  panel.tick("push_freely");
+  for (const window::HeldJoint& one : sight.held) {
+    const record::Joint& joint = sight.layout->joints[std::size_t(one.joint)];
+    ImGui::Text("(%d, %d)  %.4f N  %.2f mm", joint.i, joint.j, one.force_N.norm(),
+                one.moved_mm.norm());
+    if (small_button(panel, "let go", fmt::format("let go {},{}", joint.i, joint.j),
+                     "takes the force off this joint", 52))
+      viewer.send_command(window::Release{one.joint});
+  }
+  dragged_edges(panel);
+  if (sight.held.empty() && sight.edges_dragged.empty())
+    ImGui::TextDisabled("drag a joint or an edge point");
+  panel.tick("gravity");
+  ImGui::SameLine();
+  panel.button("jitter");
+}
+
+void stability(const Panel& panel) {
+  ViewerState& viewer = panel.viewer;
+  if (viewer.sight->stable()) return;
+  heading(panel, "Not stable");
+  ImGui::PushStyleColor(ImGuiCol_Text, error_colour(viewer.show.dark));
+  ImGui::PushTextWrapPos();
+  ImGui::Text("%d negative pivot%s: the shell would leave this state.",
+              viewer.sight->certificate.negative_pivots,
+              viewer.sight->certificate.negative_pivots == 1 ? "" : "s");
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  panel.button("rest_along");
+  ImGui::SameLine();
+  panel.button("rest_against");
+  panel.tick("soft_mode");
+}
+
+void accuracy(const Panel& panel) {
+  ViewerState& viewer = panel.viewer;
+  heading(panel, "Accuracy");
+  preset::Preset changed = viewer.sight->preset;
+  constexpr double steps[] = {1e-2, 1e-3, 1e-4, 1e-5};
+  const auto text = [](double tolerance) { return fmt::format("tolerance {:g}", tolerance); };
+  ImGui::SetNextItemWidth(panel.px(150));
+  if (ImGui::BeginCombo("##tolerance", text(changed.accuracy.tolerance).c_str())) {
+    for (double step : steps)
+      if (ImGui::Selectable(text(step).c_str(), step == changed.accuracy.tolerance)) {
+        changed.accuracy.tolerance = step;
+        changed.accuracy.edges_per_segment = 0;
+        viewer.change(changed, false);
+      }
+    ImGui::EndCombo();
+  }
+  panel.named("tolerance", "largest error of a joint, over R_o or ρ, when the hand rests");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  const std::string rung{word_of(changed.accuracy.model)};
+  if (ImGui::BeginCombo("##model", rung.c_str())) {
+    for (auto model : {RodModel::automatic, RodModel::bend, RodModel::twist})
+      if (ImGui::Selectable(std::string(word_of(model)).c_str(), model == changed.accuracy.model)) {
+        changed.accuracy.model = model;
+        viewer.change(changed, false);
+      }
+    ImGui::EndCombo();
+  }
+  panel.named("model", "the model: auto takes the lowest rung that is exact for the scene");
+}
+
+void colour_range(const Panel& panel) {
+  ViewerState& viewer = panel.viewer;
+  if (viewer.show.colour_by == window::ColourBy::none) return;
+  const auto action_of = [](window::RangeOf of) {
+    return window::find_action("range_" + std::string(word_of(of)));
+  };
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##range", action_of(viewer.range_of)->label)) {
+    for (const auto& entry : words(window::RangeOf{}))
+      if (ImGui::Selectable(action_of(entry.value)->label, entry.value == viewer.range_of))
+        action_of(entry.value)->act(viewer);
+    ImGui::EndCombo();
+  }
+  panel.named("range", action_of(viewer.range_of)->help);
+  if (viewer.range_of != window::RangeOf::hand) return;
+  auto low = float(viewer.show.scale.low), high = float(viewer.show.scale.high);
+  const float step = 0.005f * std::max(1e-6f, high - low);
+  const float width = 0.5f * (ImGui::GetContentRegionAvail().x - panel.px(6));
+  ImGui::SetNextItemWidth(width);
+  bool changed = ImGui::DragFloat("##low", &low, step, 0, 0, "%.4g");
+  panel.named("range_low", "the low end of the colours, in the unit of the legend");
+  ImGui::SameLine(0, panel.px(6));
+  ImGui::SetNextItemWidth(width);
+  changed |= ImGui::DragFloat("##high", &high, step, 0, 0, "%.4g");
+  panel.named("range_high", "the high end of the colours, in the unit of the legend");
+  if (changed) viewer.set_range(double(low), double(high));
+}
+
+void colours(const Panel& panel) {
+  ViewerState& viewer = panel.viewer;
+  heading(panel, "Colour");
+  const auto action_of = [](window::ColourBy by) {
+    return window::find_action("colour_" + std::string(word_of(by)));
+  };
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##colour", action_of(viewer.show.colour_by)->label)) {
+    for (const auto& entry : words(window::ColourBy{}))
+      if (ImGui::Selectable(action_of(entry.value)->label, entry.value == viewer.show.colour_by))
+        action_of(entry.value)->act(viewer);
+    ImGui::EndCombo();
+  }
+  panel.named("colour", window::meaning_of(viewer.show.colour_by));
+  colour_range(panel);
+}
+
+/// Sizes to choose from; 0: twice the view.
+struct SizeChoice {
+  int width, height;
+};
+constexpr SizeChoice sizes[] = {{0, 0}, {1280, 720}, {1920, 1080}, {3840, 2160}};
+
+std::string text_of(const SizeChoice& size) {
+  return size.width == 0 ? "twice the view" : fmt::format("{} x {}", size.width, size.height);
+}
+
+void keep(const Panel& panel) {
+  ViewerState& viewer = panel.viewer;
+  window::PictureFormat& picture = viewer.picture;
+  heading(panel, "Keep");
+  panel.button("save_picture");
+  ImGui::SameLine();
+  panel.button("save_movie");
+  ImGui::SetNextItemWidth(panel.px(120));
+  if (ImGui::BeginCombo("##size", text_of({picture.width, picture.height}).c_str())) {
+    for (const SizeChoice& size : sizes)
+      if (ImGui::Selectable(text_of(size).c_str(), size.width == picture.width))
+        picture.width = size.width, picture.height = size.height;
+    int asked[2] = {picture.width, picture.height};
+    if (ImGui::InputInt2("##asked", asked, ImGuiInputTextFlags_EnterReturnsTrue))
+      viewer.size_picture(asked[0], asked[1]);
+    panel.named("picture_pixels", "width and height, pixels; Enter takes them");
+    ImGui::EndCombo();
+  }
+  panel.named("picture_size", "size of a kept picture, pixels");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##quality", std::string(word_of(picture.quality)).c_str())) {
+    for (const auto& entry : words(render::Quality{}))
+      if (ImGui::Selectable(std::string(entry.word).c_str(), entry.value == picture.quality))
+        picture.quality = entry.value;
+    ImGui::EndCombo();
+  }
+  panel.named("picture_quality",
+              "of a kept picture: draft has no shadow, figure has soft light and takes seconds");
+}
+
+/// "u-rod 3", by the index that its joints have in common; of other networks "Rod 12".
+std::string rod_name(const record::Layout& layout, int rod) {
+  const std::string family =
+      layout.families.empty() ? std::string() : layout.families[std::size_t(rod)];
+  for (const int node : layout.rods[std::size_t(rod)]) {
+    if (node >= int(layout.joints.size())) continue;
+    const record::Joint& joint = layout.joints[std::size_t(node)];
+    if (family == "u") return fmt::format("u-rod {}", joint.j);
+    if (family == "v") return fmt::format("v-rod {}", joint.i);
+  }
+  return fmt::format("Rod {}", rod);
+}
+
+void picked_rod(const Panel& panel, const window::PointOnRod& at) {
+  const ShellView& sight = *panel.viewer.sight;
+  const record::Layout& layout = *sight.layout;
+  const std::vector<int>& nodes = layout.rods[std::size_t(at.rod)];
+  const std::size_t k = std::min(std::size_t(at.point), nodes.size() - 1);
+  double along = 0, length = 0;
+  for (std::size_t n = 1; n < nodes.size(); ++n) {
+    length += (sight.frame.nodes.col(nodes[n]) - sight.frame.nodes.col(nodes[n - 1])).norm();
+    if (n == k) along = length;
+  }
+  heading(panel, rod_name(layout, at.rod).c_str());
+  ImGui::Text("%.1f of %.1f mm along it", along, length);
+  const auto force = record::axial_force_N(layout, sight.frame, std::size_t(at.rod));
+  ImGui::Text("axial force %.3g N", force[k]);
+  const double curvature = record::curvature_per_mm(layout, sight.frame, std::size_t(at.rod))[k];
+  ImGui::Text("curvature %.4f 1/mm", curvature);
+  ImGui::Text("bending %.3g mJ/m", sight.bending_mJ_m[nodes[k]]);
+}
+
+void picked(const Panel& panel) {
+  const ViewerState& viewer = panel.viewer;
+  const ShellView& sight = *viewer.sight;
+  const record::Layout& layout = *sight.layout;
+  if (viewer.picked_joint >= 0 && viewer.picked_joint < int(layout.joints.size())) {
+    const record::Joint& joint = layout.joints[std::size_t(viewer.picked_joint)];
+    const Eigen::Vector3d at = sight.frame.nodes.col(viewer.picked_joint);
+    heading(panel, fmt::format("Joint ({}, {})", joint.i, joint.j).c_str());
+    ImGui::Text("x %.2f  y %.2f  z %.2f mm", at.x(), at.y(), at.z());
+    ImGui::Text("axial force %.3g N", sight.axial_N[viewer.picked_joint]);
+    ImGui::Text("bending %.3g mJ/m", sight.bending_mJ_m[viewer.picked_joint]);
+  }
+  if (viewer.picked_rod.rod >= 0 && viewer.picked_rod.rod < int(layout.rods.size()))
+    picked_rod(panel, viewer.picked_rod);
+  if (viewer.picked_cell >= 0 && viewer.picked_cell < int(layout.cells.size())) {
+    const record::Cell& cell = layout.cells[std::size_t(viewer.picked_cell)];
+    heading(panel, fmt::format("Cell ({}, {})", cell.i, cell.j).c_str());
+    ImGui::Text("K□ = %.4f rad", sight.frame.cell_K[viewer.picked_cell]);
+    if (sight.deviation.size() > 0) ImGui::Text("Δ/ρ = %.4f", sight.deviation[viewer.picked_cell]);
+  }
+}
+
+}  // namespace
+
+void shell_panel(const Panel& panel, const render::Box& box) {
+  ViewerState& viewer = panel.viewer;
+  begin_fixed("shell", box);
+  ImGui::PushTextWrapPos();
+  ImGui::TextUnformatted(viewer.sight->any() ? viewer.sight->preset.title.c_str()
+                                             : "No shell yet: pick a preset.");
+  ImGui::PopTextWrapPos();
+  // all four in one row
+  const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
+  panel.button("pick_preset");
+  for (const char* action : {"undo", "redo", "numbers"}) {
+    ImGui::SameLine(0, gap);
+    panel.button(action);
+  }
+  if (viewer.sight->any()) {
+    path(panel);
+    boundary(panel);
+    held(panel);
+    stability(panel);
+    accuracy(panel);
+    colours(panel);
+    keep(panel);
+    picked(panel);
+  }
+  ImGui::End();
+}
+
+}  // namespace gridshell::ui

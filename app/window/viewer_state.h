@@ -1,0 +1,210 @@
+// Everything that the window knows: the shell in sight, how it is shown, what the hand holds, what
+// plays. It has no OpenGL and no interface library; panels show it, actions and the view change it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/window/orbit_camera.h"
+#include "app/window/shell_drawing.h"
+#include "app/window/worker_threads.h"
+#include "render/movie/movie_style.h"
+
+namespace gridshell::window {
+
+/// A preset that can be picked.
+struct PresetCard {
+  std::string name, title;
+  std::string_view picture;  ///< a PNG of its shell; empty: none
+};
+
+/// How pictures are kept.
+struct PictureFormat {
+  int width = 0, height = 0;  ///< pixels; 0: twice the view's
+  render::Quality quality = render::Quality::movie;
+  bool legend = true;  ///< of the colours
+};
+
+/// Errors (bad_input): pixels that no picture can have.
+Result<void> check_picture(int width, int height);
+
+/// All that a picture hangs on.
+struct PictureRequest {
+  std::shared_ptr<const ShellView> sight;
+  render::Camera camera;
+  PictureSize view;  ///< that the camera looks into
+  Show show;
+  PictureFormat kept;
+};
+
+/// Where presets come from, what makes pictures and movies, and where all that is kept goes.
+struct Library {
+  std::vector<PresetCard> cards;
+  std::function<Result<preset::Preset>(const std::string& name)> load;
+  std::function<Result<void>(const PictureRequest& order, const std::filesystem::path& file)>
+      draw_picture;
+  /// A preset as a file, its tables in files beside it, whose names begin as its own.
+  std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file)>
+      write_preset;
+  /// The movie of a preset's file in a folder.
+  std::function<Result<void>(const std::filesystem::path& preset,
+                             const std::filesystem::path& folder, const ProgressListener&,
+                             const Watch&)>
+      make_movie;
+  std::filesystem::path save_to = "out";
+};
+
+/// A rod, and which of its nodes.
+struct PointOnRod {
+  int rod = -1;  ///< none
+  int point = 0;
+};
+
+/// What the plots show of an equilibrium.
+struct PlotPoint {
+  double radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0, force_N = 0,
+         total_K = 0;
+  int joint = -1;  ///< that is held and was taken last; none
+  int steps = 0;   ///< that the hand had done
+  bool stable = true, refined = true;
+};
+
+/// How a shell was looked at last.
+struct SavedCamera {
+  std::string preset;  ///< its name
+  render::Camera camera;
+  ColourBy colour_by = ColourBy::K;
+};
+
+enum class PushDirection { normal, freely };
+
+/// What the next design may change, and how far it goes.
+struct DesignOptions {
+  preset::Inverse inverse;
+  int most_iterations = 25;
+};
+
+/// Drawn as the camera moves: at half the resolution; still: at all of it.
+enum class Resolution { moving, still };
+
+class ViewerState {
+ public:
+  explicit ViewerState(Library library) : library(std::move(library)) {}
+
+  // ---- what is shown ----
+
+  Library library;
+  EngineThread engine;
+  std::shared_ptr<const ShellView> sight = std::make_shared<ShellView>();
+  render::Camera camera;
+  PictureSize view;  ///< of the shell's picture, pixels
+  Show show;
+  std::optional<SavedCamera> saved_camera;  ///< for when that preset's shell comes
+  RangeOf range_of = RangeOf::state;        ///< of the colours
+  bool numbers = false, plots = true, help = false, picking = true, design_panel = false;
+  DesignOptions design;
+  std::vector<PlotPoint> plot_points;
+  std::string message;  ///< what was done last
+  bool message_bad = false;
+  int picked_joint = -1, picked_cell = -1;  ///< whose figures are shown
+  PointOnRod picked_rod;
+  int joint_under = -1, edge_under = -1;  ///< marked: what the cursor is at
+  PushDirection push_direction = PushDirection::normal;
+  bool animate_mode = false;
+  double mode_phase = 0;
+  bool playing = false;
+  double play_head = 1, play_speed = 0.25;  ///< of the path a second
+  PictureFormat picture;
+  BackgroundTask picture_task, movie_task;
+  std::string copied;  ///< text for the clipboard
+  bool timed = true;   ///< whether what took how long is shown
+  bool over = false;   ///< the window is to close
+
+  // ---- what is done ----
+
+  /// A preset by its name or file.
+  void open(const std::string& name);
+  void change(const preset::Preset& preset, bool passing);
+  /// The boundary to a progress; of a preset with a push, the push to a share of its depth.
+  void go(double part, bool passing);
+  void move(double progress, bool passing);
+  void push(int joint, const Eigen::Vector3d& to, const Eigen::Vector3d& along, bool passing);
+  void drag_edge(int edge_point, const Eigen::Vector3d& to, bool passing);
+  void send_command(Edit edit);
+  /// The hand comes to rest: the stroke is over.
+  void let_go();
+  void play(bool on);
+  /// Stops what the engine is at; of a design the last step stays in hand.
+  void stop();
+  /// Designs the shell by what was chosen, coloured by its deviation.
+  void start_design();
+  /// The same as it stands is the shell now; or the one before the design is again.
+  void end_design(Edit keep_or_put_back);
+  /// Where on its path the shell is, 0 to 1.
+  double part() const;
+  /// The colours' ends by hand; ends that are none change nothing.
+  void set_range(double low, double high);
+  void toggle_gravity();
+  bool gravity() const { return sight->preset.loads.gravity_m_s2 != 0; }
+  void fit_view();
+  void look(const ViewFrom& from);
+  void say(const std::string& text, bool bad = false);
+
+  // ---- what is kept ----
+
+  /// The preset as the shell stands now: radius, or what the hand did step by step; camera,
+  /// colours.
+  preset::Preset preset_to_save() const;
+  void save_preset();
+  void save_picture();
+  PictureRequest picture_order() const { return {sight, camera, view, show, picture}; }
+  /// The size of kept pictures, pixels; of no pixels twice the view's. One that cannot be says so.
+  void size_picture(int width, int height);
+  /// Of what was done, or where nothing was, of the preset; beside the window.
+  void save_movie();
+  /// The camera as keys of [movie].
+  void copy_camera();
+
+  /// Once a frame: takes the latest sight, plays, looks at the preset's file. Whether anything is
+  /// to be drawn anew.
+  bool tick(double seconds);
+
+ private:
+  void post(Edit edit, bool passing);
+  void take(std::shared_ptr<const ShellView> next);
+  void reset_view();
+  void add_plot_point();
+  void watch_file(double seconds);
+  render::Camera fitted_view() const;
+  void put_view(preset::Preset& preset) const;
+  std::filesystem::path path_to_save(const std::vector<std::string>& endings) const;
+  Result<void> write_preset(const preset::Preset& preset, const std::filesystem::path& file) const;
+  void report_finished_tasks();
+
+  int stroke_ = 1;
+  bool fresh_ = true;  // the next sight is of another shell: the camera goes round it
+  std::filesystem::path file_;
+  std::filesystem::file_time_type written_{};
+  double since_look_ = 0;
+};
+
+// How somebody likes the window: camera, colours, what is shown and which panels, from one visit to
+// the next.
+
+/// As JSON.
+std::string workspace_text(const ViewerState& viewer);
+
+/// Lays what such a text says over the viewer; what it does not say, or says wrongly, stays as it
+/// is. The camera is taken once the shell of the same preset comes. Errors: bad_input for what is
+/// no JSON object.
+Result<void> take_workspace(ViewerState& viewer, const std::string& text);
+
+/// Where the window keeps it: $XDG_STATE_HOME/gridshell/workspace.json, or below ~/.local/state;
+/// empty where neither is known.
+std::filesystem::path workspace_file();
+
+}  // namespace gridshell::window

@@ -1,0 +1,158 @@
+#include "app/window/worker_threads.h"
+
+#include <utility>
+
+#include "engine/core/system_info.h"
+
+namespace gridshell::window {
+
+BackgroundTask::~BackgroundTask() {
+  stop();
+  wait();
+}
+
+void BackgroundTask::begin(Work work, const std::filesystem::path& target) {
+  wait();
+  watch_.emplace();
+  target_ = target;
+  said_.clear();
+  made_.reset();
+  under_way_ = true;
+  thread_ = std::thread([this, work = std::move(work)] {
+    const auto heard = [this](const std::string& line) {
+      const std::lock_guard lock(mutex_);
+      said_ = line;
+    };
+    auto made = work(heard, *watch_);
+    const std::lock_guard lock(mutex_);
+    made_ = std::move(made);
+    under_way_ = false;
+  });
+}
+
+void BackgroundTask::stop() {
+  if (watch_) watch_->cancel();
+}
+
+bool BackgroundTask::under_way() const {
+  const std::lock_guard lock(mutex_);
+  return under_way_;
+}
+
+bool BackgroundTask::idle() const {
+  const std::lock_guard lock(mutex_);
+  return !under_way_ && !made_;
+}
+
+std::string BackgroundTask::standing() const {
+  const std::lock_guard lock(mutex_);
+  return said_;
+}
+
+std::optional<BackgroundTask::End> BackgroundTask::take_end() {
+  const std::lock_guard lock(mutex_);
+  if (!made_) return std::nullopt;
+  return End{target_, *std::exchange(made_, std::nullopt), said_};
+}
+
+void BackgroundTask::wait() {
+  if (thread_.joinable()) thread_.join();
+}
+
+EngineThread::EngineThread() : shell_view_(std::make_shared<ShellView>()) {
+  hand_.tell([this](const ShellView& sight) {
+    auto seen = std::make_shared<const ShellView>(sight);
+    const std::lock_guard lock(mutex_);
+    shell_view_ = std::move(seen);
+  });
+  thread_ = std::thread([this] { work(); });
+}
+
+EngineThread::~EngineThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+    commands_.clear();
+    if (watch_) watch_->cancel();
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void EngineThread::post(Command command) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (commands_.empty() && !working_) busy_since_ = seconds_now();
+    const bool newer = !commands_.empty() && command.stroke != 0 && commands_.back().passing &&
+                       commands_.back().stroke == command.stroke &&
+                       commands_.back().deed.index() == command.edit.index();
+    if (newer)
+      commands_.back() = std::move(command);
+    else
+      commands_.push_back(std::move(command));
+    if (refining_) watch_->cancel();
+  }
+  wake_.notify_all();
+}
+
+void EngineThread::cancel() {
+  const std::lock_guard lock(mutex_);
+  commands_.clear();
+  unrefined_ = false;
+  if (watch_) watch_->cancel();
+  if (!working_) rested_.notify_all();
+}
+
+std::shared_ptr<const ShellView> EngineThread::sight() const {
+  const std::lock_guard lock(mutex_);
+  return shell_view_;
+}
+
+bool EngineThread::idle() const {
+  const std::lock_guard lock(mutex_);
+  return commands_.empty() && !working_ && !unrefined_;
+}
+
+double EngineThread::busy_seconds() const {
+  const std::lock_guard lock(mutex_);
+  return commands_.empty() && !working_ ? 0 : seconds_now() - busy_since_;
+}
+
+void EngineThread::wait() {
+  std::unique_lock lock(mutex_);
+  rested_.wait(lock, [this] { return commands_.empty() && !working_ && !unrefined_; });
+}
+
+/// One command, or the refinement after the last of a stroke, at a time.
+void EngineThread::work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    wake_.wait(lock, [this] { return over_ || !commands_.empty() || unrefined_; });
+    if (over_) return;
+    working_ = true;
+    watch_ = std::make_shared<Watch>();
+    const std::shared_ptr<Watch> watch = watch_;
+    if (!commands_.empty()) {
+      const Command command = std::move(commands_.front());
+      commands_.pop_front();
+      unrefined_ = !command.passing;
+      lock.unlock();
+      hand_.execute(command, *watch);
+      lock.lock();
+      // of a design that is stopped the last step stands, and is to be certified as any other
+      if (watch->cancelled()) unrefined_ = std::holds_alternative<Design>(command.edit);
+    } else {
+      refining_ = true;
+      lock.unlock();
+      hand_.refine(*watch);
+      lock.lock();
+      refining_ = unrefined_ = false;
+    }
+    shell_view_ = std::make_shared<ShellView>(hand_.sight());
+    working_ = false;
+    watch_.reset();
+    if (commands_.empty() && !unrefined_) rested_.notify_all();
+  }
+}
+
+}  // namespace gridshell::window

@@ -1,0 +1,86 @@
+// The potential energy of a shell by term: the one list that solver, frames, columns and summary
+// are filled from.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "engine/core/enum_words.h"
+
+namespace gridshell {
+
+/// What stores energy in a shell. A term more: a line here, one in `energy_terms`, its energy.
+enum class Term { bend, stretch, twist, joint, shear, load, support };
+
+/// A term's word, as in `energy_bend_mJ`, and what it is.
+struct TermName {
+  Term term;
+  const char* name;
+  const char* meaning;
+};
+
+inline constexpr std::array energy_terms{
+    TermName{Term::bend, "bend", "bending of the rods"},
+    TermName{Term::stretch, "stretch", "stretching of the rods"},
+    TermName{Term::twist, "twist", "torsion of the rods"},
+    TermName{Term::joint, "joint", "springs of the joints, and the twist that they pass"},
+    TermName{Term::shear, "shear", "resistance of the joints to shear"},
+    TermName{Term::load, "load", "minus the work of loads, and what the shell stands on"},
+    TermName{Term::support, "support", "springs of the supports"},
+};
+
+static_assert(
+    [] {
+      for (std::size_t k = 0; k < energy_terms.size(); ++k)
+        if (energy_terms[k].term != Term(k)) return false;
+      return !is_enumerator<Term(energy_terms.size())>();
+    }(),
+    "every term has its line in energy_terms, in their order");
+
+/// Millijoules by term. Sums, differences and multiples go term by term, so that an extrapolation
+/// over two meshes is (4 * fine - coarse) / 3.
+class Energies {
+ public:
+  static constexpr std::size_t size = energy_terms.size();
+
+  double& operator[](Term term) { return mJ_[std::size_t(term)]; }
+  double operator[](Term term) const { return mJ_[std::size_t(term)]; }
+
+  /// The potential that an equilibrium minimises.
+  double total() const {
+    double sum = 0;
+    for (double value : mJ_) sum += value;
+    return sum;
+  }
+
+  Energies& operator+=(const Energies& other) {
+    for (std::size_t k = 0; k < size; ++k) mJ_[k] += other.mJ_[k];
+    return *this;
+  }
+  Energies& operator*=(double factor) {
+    for (double& value : mJ_) value *= factor;
+    return *this;
+  }
+  friend Energies operator+(Energies a, const Energies& b) { return a += b; }
+  friend Energies operator-(Energies a, const Energies& b) { return a += -1 * b; }
+  friend Energies operator*(double factor, Energies a) { return a *= factor; }
+  friend Energies operator/(Energies a, double divisor) {
+    for (double& value : a.mJ_) value /= divisor;
+    return a;
+  }
+  friend bool operator==(const Energies&, const Energies&) = default;
+
+  /// Energies that nobody worked out: all NaN.
+  static Energies not_known() {
+    Energies energies;
+    energies.mJ_.fill(std::numeric_limits<double>::quiet_NaN());
+    return energies;
+  }
+
+ private:
+  std::array<double, size> mJ_{};
+};
+
+}  // namespace gridshell

@@ -1,0 +1,21 @@
+#include "engine/core/system_info.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace gridshell {
+
+std::uint64_t machine_memory_bytes() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGE_SIZE);
+  const std::uint64_t machine =
+      pages > 0 && size > 0 ? std::uint64_t(pages) * std::uint64_t(size) : 0;
+  // a container's limit; the word "max" where it has none
+  std::uint64_t share = 0;
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> share && share > 0)
+    return machine ? std::min(machine, share) : share;
+  return machine;
+}
+
+}  // namespace gridshell

@@ -1,0 +1,16 @@
+// Errors handed on in one line. Macros, so only .cpp files include this header.
+#pragma once
+
+#include "engine/core/result.h"
+
+/// TRY(x, f(y)); is `auto x = f(y);`, or returns its error: x is a Result that holds a value.
+#define TRY(name, ...)     \
+  auto name = __VA_ARGS__; \
+  if (!name) return tl::unexpected<::gridshell::Error>(std::move(name).error())
+
+/// TRY_DO(f(y)); goes on where f succeeds, or returns its error.
+#define TRY_DO(...)                                                       \
+  do {                                                                    \
+    if (auto done = __VA_ARGS__; !done)                                   \
+      return tl::unexpected<::gridshell::Error>(std::move(done).error()); \
+  } while (false)

@@ -1,0 +1,358 @@
+#include "engine/design/design_shell.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/try.h"
+#include "engine/elastic/edge_energies.h"
+#include "engine/elastic/state.h"
+
+namespace gridshell {
+namespace {
+
+// of the inverse iteration: vectors at once, and how often, the first time and later
+constexpr int modes = 4, first_iterations = 24, iterations = 6;
+
+EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge) {
+  const Eigen::Vector3d along = x.col(edge.to) - x.col(edge.from);
+  return {along.normalized(), along.norm()};
+}
+
+/// Rest lengths around a bend, of which half counts: a ghost's does not.
+double lengths_at(const Model& model, const ModelBend& bend) {
+  const ModelEdge &e = model.edges[std::size_t(bend.e)], &f = model.edges[std::size_t(bend.f)];
+  return (e.EA > 0 ? e.rest_length : 0) + (f.EA > 0 ? f.rest_length : 0);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<DesignShell>> DesignShell::make(const Scene& scene, int edges_per_segment,
+                                                       const RodMesh& mesh, const Model& model,
+                                                       const State& state, const Watch& watch) {
+  std::unique_ptr<DesignShell> made(
+      new DesignShell(scene, mesh_rods(scene.footprint, edges_per_segment)));
+  TRY(built, build_model(made->mesh_, scene.rods, RodModel::bend));
+  made->model_ = std::move(*built);
+  made->ends_ = ends_of(scene);
+  made->diameter_ = made->ends_.diameter;
+  made->state_ = mesh.edges_per_segment == edges_per_segment
+                     ? state
+                     : StateTransfer(mesh, model, made->mesh_, made->model_).carry(state);
+  made->system_ = std::make_unique<Linearisation>(made->model_);
+  made->find_legs();
+  TRY_DO(made->settle(made->ends_, 0.5 * scene.footprint.spacing, watch));
+  return made;
+}
+
+void DesignShell::find_legs() {
+  legs_.resize(std::size_t(mesh_.edge_points));
+  for (std::size_t r = 0; r < model_.rods.size(); ++r) {
+    const Model::Rod& rod = model_.rods[r];
+    const auto& joints = scene_.footprint.rods[r].joints;
+    for (const int side : {0, 1}) {
+      Leg& leg = legs_[2 * r + std::size_t(side)];
+      const int edge_point = mesh_.joints + int(2 * r) + side;
+      const int first = side == 0 ? edge_point : joints.back(),
+                last = side == 0 ? joints.front() : edge_point;
+      bool inside = false;
+      for (const int k : rod.edges) {
+        const ModelEdge& edge = model_.edges[std::size_t(k)];
+        if (edge.from == first) inside = true;
+        if (inside) leg.edges.push_back(k);
+        if (edge.to == last) inside = false;
+      }
+      leg.at_end = side == 0 ? leg.edges.front() : leg.edges.back();
+      const auto& nodes = mesh_.rods[r];
+      const int beyond = side == 0 ? nodes.front() : nodes.back();
+      if (mesh_.is_ghost(beyond)) leg.ghost = beyond;
+      if (!mesh_.far_ends.empty()) leg.far = mesh_.far_ends[2 * r + std::size_t(side)];
+    }
+  }
+  for (Leg& leg : legs_)
+    for (std::size_t k = 0; k < model_.bends.size(); ++k) {
+      const auto within = [&](int edge) {
+        return std::find(leg.edges.begin(), leg.edges.end(), edge) != leg.edges.end();
+      };
+      if (within(model_.bends[k].e) || within(model_.bends[k].f)) leg.bends.push_back(int(k));
+    }
+  std::vector<std::size_t> rod_of(model_.edges.size(), 0);
+  for (std::size_t r = 0; r < model_.rods.size(); ++r)
+    for (const int edge : model_.rods[r].edges) rod_of[std::size_t(edge)] = r;
+  bends_.resize(model_.rods.size());
+  for (std::size_t k = 0; k < model_.bends.size(); ++k)
+    bends_[rod_of[std::size_t(model_.bends[k].e)]].push_back(int(k));
+}
+
+/// EA goes with the square of a diameter, EI with its fourth power.
+void DesignShell::set_diameters(const ShellEnds& ends) {
+  for (std::size_t r = 0; r < model_.rods.size(); ++r) {
+    double& now = diameter_[Eigen::Index(r)];
+    const double wanted = ends.diameter[Eigen::Index(r)];
+    if (wanted == now) continue;
+    const double square = wanted * wanted / (now * now);
+    for (const int edge : model_.rods[r].edges) model_.edges[std::size_t(edge)].EA *= square;
+    for (const int bend : bends_[r]) model_.bends[std::size_t(bend)].stiffness *= square * square;
+    now = wanted;
+  }
+}
+
+/// Every edge of a leg has its share of the leg's length.
+void DesignShell::set_legs(const ShellEnds& ends) {
+  for (std::size_t k = 0; k < legs_.size(); ++k) {
+    const Leg& leg = legs_[k];
+    const double share = ends.leg[Eigen::Index(k)] / double(leg.edges.size());
+    if (model_.edges[std::size_t(leg.edges.front())].rest_length == share) continue;
+    std::vector<double> before;
+    for (const int bend : leg.bends)
+      before.push_back(lengths_at(model_, model_.bends[std::size_t(bend)]));
+    for (const int edge : leg.edges) model_.edges[std::size_t(edge)].rest_length = share;
+    for (std::size_t b = 0; b < leg.bends.size(); ++b) {
+      ModelBend& bend = model_.bends[std::size_t(leg.bends[b])];
+      bend.stiffness *= before[b] / lengths_at(model_, bend);
+    }
+  }
+}
+
+void DesignShell::impose(const ShellEnds& ends, Eigen::Matrix3Xd& x) const {
+  for (Eigen::Index k = 0; k < ends.at.cols(); ++k) {
+    const Leg& leg = legs_[std::size_t(k)];
+    if (model_.pinned(mesh_.joints + int(k))) x.col(mesh_.joints + k) = ends.at.col(k);
+    const double side = k % 2 == 0 ? -1 : 1;
+    if (leg.ghost >= 0)
+      x.col(leg.ghost) = ends.at.col(k) + side * mesh_.ghost_length * ends.direction.col(k);
+    if (leg.far >= 0)
+      x.col(leg.far) = scene_.motion.end_far.col(k) + ends.at.col(k) - scene_.motion.end.col(k);
+  }
+}
+
+void DesignShell::back_to(const ShellPosition& stand) {
+  set_legs(stand.ends);
+  set_diameters(stand.ends);
+  state_ = stand.state;
+  ends_ = stand.ends;
+  system_->at(state_, false);
+}
+
+/// From where its columns are.
+Result<void> DesignShell::settle(const ShellEnds& ends, double farthest_mm, const Watch& watch) {
+  const auto failed = [](const std::string& why) { return fail(Fault::no_equilibrium, why); };
+  set_legs(ends);
+  set_diameters(ends);
+  impose(ends, state_.x);
+  const Eigen::Matrix3Xd from = state_.x;
+  NewtonOptions options;
+  options.tolerance_mm = 1e-8;
+  const NewtonReport report = newton(*system_, state_, options, watch);
+  if (report.outcome == Outcome::cancelled) return stopped();
+  if (report.outcome != Outcome::reached) return failed(words_of(report.outcome).what);
+  if (max_column_norm(state_.x - from) > farthest_mm) return failed("the state jumped");
+  if (!system_->at(state_, false).positive_definite()) return failed("the state is not stable");
+  ends_ = ends;
+  return {};
+}
+
+Result<void> DesignShell::move(const ShellEnds& ends, double farthest_mm, const Watch& watch) {
+  const ShellPosition before = stand();
+  Eigen::Matrix3Xd there = state_.x;
+  impose(ends, there);
+  const Eigen::Matrix3Xd dx =
+      follow({there - state_.x, ends.leg - ends_.leg,
+              (ends.diameter.array() / ends_.diameter.array()).log().matrix()});
+  state_.force += system_->force_change(dx);
+  state_.x += dx;
+  auto settled = settle(ends, farthest_mm, watch);
+  if (!settled) back_to(before);
+  return settled;
+}
+
+Result<void> DesignShell::move_in_steps(const ShellEnds& ends, double farthest_mm,
+                                        const Watch& watch) {
+  constexpr double shortest = 1.0 / 64;
+  const ShellPosition before = stand();
+  double at = 0, step = 1;
+  while (at < 1) {
+    const double next = std::min(1.0, at + step);
+    ShellEnds there = ends;
+    if (next < 1) {
+      there.at = before.ends.at + next * (ends.at - before.ends.at);
+      there.leg = before.ends.leg + next * (ends.leg - before.ends.leg);
+      there.direction = before.ends.direction + next * (ends.direction - before.ends.direction);
+      for (auto direction : there.direction.colwise()) direction.normalize();
+      there.diameter = before.ends.diameter + next * (ends.diameter - before.ends.diameter);
+    }
+    const auto moved = move(there, farthest_mm, watch);
+    if (moved) {
+      at = next;
+      step *= 2;
+      continue;
+    }
+    step /= 2;
+    if (step >= shortest && !watch.cancelled()) continue;
+    back_to(before);
+    return moved;
+  }
+  return {};
+}
+
+/// How all columns follow, to first order: dx = -H^-1 dg + what is prescribed.
+Eigen::Matrix3Xd DesignShell::follow(const Change& change) const {
+  Eigen::Matrix3Xd x;
+  multiply(model_, system_->assembly().hessian, change.prescribed, x);
+  x *= -1;
+  for (int end = 0; end < mesh_.edge_points; ++end)
+    if (change.longer[end] != 0) add_leg_gradient(end, change.longer[end], x);
+  for (std::size_t r = 0; r < model_.rods.size(); ++r)
+    if (const double thicker = change.thicker[Eigen::Index(r)]; thicker != 0)
+      add_diameter_gradient(r, thicker, x);
+  system_->solve(x);
+  return x + change.prescribed;
+}
+
+/// -dg/d(ln diameter) = -(4 g_bend + 2 g_stretch) of a rod, times the change.
+void DesignShell::add_diameter_gradient(std::size_t rod, double change,
+                                        Eigen::Matrix3Xd& minus_dg) const {
+  for (const int k : model_.rods[rod].edges) {
+    const ModelEdge& edge = model_.edges[std::size_t(k)];
+    if (edge.EA == 0) continue;  // of a ghost
+    const EdgeGeometry g = geometry_of(state_.x, edge);
+    const Eigen::Vector3d pull =
+        2 * change * edge.EA * (g.length / edge.rest_length - 1) * g.tangent;
+    minus_dg.col(edge.to) -= pull;
+    minus_dg.col(edge.from) += pull;
+  }
+  for (const int k : bends_[rod])
+    add_bend_gradient(model_.bends[std::size_t(k)], -4 * change, minus_dg);
+}
+
+/// A share of a bend's gradient, taken away from dg.
+void DesignShell::add_bend_gradient(const ModelBend& bend, double share,
+                                    Eigen::Matrix3Xd& minus_dg) const {
+  const ModelEdge &e = model_.edges[std::size_t(bend.e)], &f = model_.edges[std::size_t(bend.f)];
+  BendEnergy energy;
+  bend_gradient(bend.stiffness, geometry_of(state_.x, e), geometry_of(state_.x, f), energy);
+  minus_dg.col(e.from) -= share * energy.gradient_e;
+  minus_dg.col(e.to) += share * (energy.gradient_e - energy.gradient_f);
+  minus_dg.col(f.to) += share * energy.gradient_f;
+}
+
+/// -dg/dl of each edge of a leg, times its share of the leg's change: stretch pulls its two nodes
+/// by EA |e|/l^2 less, and every bend beside it is softer by 1/(2 l_v), l_v the mean rest length
+/// there.
+void DesignShell::add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minus_dg) const {
+  const Leg& leg = legs_[std::size_t(end)];
+  const double share = change / double(leg.edges.size());
+  for (const int k : leg.edges) {
+    const ModelEdge& edge = model_.edges[std::size_t(k)];
+    const EdgeGeometry g = geometry_of(state_.x, edge);
+    const Eigen::Vector3d pull =
+        share * edge.EA * g.length / (edge.rest_length * edge.rest_length) * g.tangent;
+    minus_dg.col(edge.to) += pull;
+    minus_dg.col(edge.from) -= pull;
+  }
+  for (const int k : leg.bends) {
+    const ModelBend& bend = model_.bends[std::size_t(k)];
+    const auto within = [&](int edge) {
+      return std::find(leg.edges.begin(), leg.edges.end(), edge) != leg.edges.end();
+    };
+    const double longer = share * (int(within(bend.e)) + int(within(bend.f)));
+    add_bend_gradient(bend, longer / lengths_at(model_, bend), minus_dg);
+  }
+}
+
+Sensitivity DesignShell::sensitivity(const std::vector<DesignVariable>& variables,
+                                     const std::vector<DesignVariables::Rate>& rates,
+                                     const Eigen::MatrixXd& changes, const Watch& watch) {
+  Sensitivity found;
+  found.leg_force = Eigen::MatrixXd::Zero(mesh_.edge_points, changes.cols());
+  for (Eigen::Index c = 0; c < changes.cols() && !watch.cancelled(); ++c) {
+    Eigen::Matrix3Xd prescribed = Eigen::Matrix3Xd::Zero(3, model_.columns());
+    Eigen::VectorXd longer = Eigen::VectorXd::Zero(mesh_.edge_points),
+                    thicker = Eigen::VectorXd::Zero(mesh_.edge_points / 2);
+    for (std::size_t k = 0; k < variables.size(); ++k) {
+      const double change = changes(Eigen::Index(k), c);
+      if (change == 0) continue;
+      const int end = variables[k].end;
+      const Leg& leg = legs_[std::size_t(end)];
+      prescribed.col(mesh_.joints + end) += change * rates[k].at;
+      if (leg.far >= 0) prescribed.col(leg.far) += change * rates[k].at;
+      const double side = end % 2 == 0 ? -1 : 1;
+      if (leg.ghost >= 0)
+        prescribed.col(leg.ghost) +=
+            change * (rates[k].at + side * mesh_.ghost_length * rates[k].direction);
+      longer[end] += change * rates[k].leg;
+      thicker[end / 2] += change * rates[k].ln_diameter;
+    }
+    Eigen::Matrix3Xd x = follow({prescribed, longer, thicker});
+    for (int end = 0; end < mesh_.edge_points; ++end) {
+      const Leg& leg = legs_[std::size_t(end)];
+      const ModelEdge& edge = model_.edges[std::size_t(leg.at_end)];
+      const EdgeGeometry g = geometry_of(state_.x, edge);
+      const double l = edge.rest_length, longer_edge = longer[end] / double(leg.edges.size());
+      found.leg_force(end, c) =
+          edge.EA * (g.tangent.dot(x.col(edge.to) - x.col(edge.from)) / l -
+                     g.length / (l * l) * longer_edge + 2 * thicker[end / 2] * (g.length / l - 1));
+    }
+    found.x.push_back(std::move(x));
+  }
+  return found;
+}
+
+Eigen::VectorXd DesignShell::leg_forces() const {
+  Eigen::VectorXd forces(mesh_.edge_points);
+  for (int end = 0; end < mesh_.edge_points; ++end) {
+    const ModelEdge& edge = model_.edges[std::size_t(legs_[std::size_t(end)].at_end)];
+    forces[end] = edge.EA * (geometry_of(state_.x, edge).length / edge.rest_length - 1);
+  }
+  return forces;
+}
+
+double DesignShell::smallest_eigenvalue(const Watch& watch) {
+  const Eigen::VectorXd mass = lumped(mesh_, std::vector<double>(mesh_.rods.size(), 1.0));
+  const int times = modes_.empty() ? first_iterations : iterations;
+  if (modes_.empty())
+    for (int m = 0; m < modes; ++m) {
+      modes_.push_back(Eigen::Matrix3Xd(3, model_.columns()));
+      // no symmetry of a shell leaves these unchanged
+      for (Eigen::Index k = 0; k < model_.columns(); ++k)
+        modes_.back().col(k) << std::sin(0.7 + (1.3 + m) * double(k)),
+            std::sin(1.9 + (2.1 + m) * double(k)), std::sin(2.3 + (0.9 + m) * double(k));
+    }
+  const auto weighted = [&](const Eigen::Matrix3Xd& x) -> Eigen::Matrix3Xd {
+    return x * mass.asDiagonal();
+  };
+  const auto dot = [](const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
+    return (a.array() * b.array()).sum();
+  };
+  double smallest = 0;
+  for (int iteration = 0; iteration < times && !watch.cancelled(); ++iteration) {
+    // Rayleigh-Ritz on y = H^-1 M x: y^T H y = y^T M x
+    std::vector<Eigen::Matrix3Xd> loads, found;
+    for (const auto& mode : modes_) {
+      loads.push_back(weighted(mode));
+      clear_held(model_, loads.back());
+      found.push_back(loads.back());
+      system_->solve(found.back());
+    }
+    Eigen::MatrixXd stiffness(modes, modes), inertia(modes, modes);
+    for (int a = 0; a < modes; ++a)
+      for (int b = 0; b < modes; ++b) {
+        stiffness(a, b) = dot(found[std::size_t(a)], loads[std::size_t(b)]);
+        inertia(a, b) = dot(found[std::size_t(a)], weighted(found[std::size_t(b)]));
+      }
+    stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
+    inertia = (0.5 * (inertia + inertia.transpose())).eval();
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> own(stiffness, inertia);
+    smallest = own.eigenvalues()[0];
+    for (int a = 0; a < modes; ++a) {
+      modes_[std::size_t(a)].setZero();
+      for (int b = 0; b < modes; ++b)
+        modes_[std::size_t(a)] += own.eigenvectors()(b, a) * found[std::size_t(b)];
+    }
+  }
+  return smallest;
+}
+
+}  // namespace gridshell

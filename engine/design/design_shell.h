@@ -1,0 +1,106 @@
+// A shell on one mesh whose ends are moved, with its sensitivities to them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/design/variables.h"
+#include "engine/scene/scene.h"
+#include "engine/solve/newton.h"
+
+namespace gridshell {
+
+/// How a change of the ends moves the shell, per unit of each change, to first order.
+struct Sensitivity {
+  std::vector<Eigen::Matrix3Xd> x;  ///< of all columns, mm
+  Eigen::MatrixXd leg_force;        ///< ends x changes, N
+};
+
+/// An equilibrium g(x, q) = dE/dx = 0 on the bend rung and what it becomes when pins, legs, held
+/// directions and diameters q change: dx/dq = -H^-1 dg/dq with the factor at hand.
+class DesignShell {
+ public:
+  /// From a state of the scene's model on a mesh, at rest with the scene's ends. Errors:
+  /// bad_input, no_equilibrium, cancelled.
+  static Result<std::unique_ptr<DesignShell>> make(const Scene& scene, int edges_per_segment,
+                                                   const RodMesh& mesh, const Model& model,
+                                                   const State& state,
+                                                   const Watch& watch = unwatched);
+
+  /// Gives it other ends: predicted by its sensitivity to them, then brought to rest by Newton's
+  /// method, which may lead no further than `farthest_mm` from there. Errors (no_equilibrium): no
+  /// convergence, a jump, a state that is not stable; cancelled; the shell then stays as it was.
+  Result<void> move(const ShellEnds& ends, double farthest_mm, const Watch& watch = unwatched);
+
+  /// The same from where it is, in as many steps as it takes, evenly, of at least 1/64 of the way.
+  Result<void> move_in_steps(const ShellEnds& ends, double farthest_mm,
+                             const Watch& watch = unwatched);
+
+  /// Where it stands, to go back to.
+  struct ShellPosition {
+    State state;
+    ShellEnds ends;
+  };
+  ShellPosition stand() const { return {state_, ends_}; }
+  void back_to(const ShellPosition& stand);
+
+  /// dg/dq of changes (one a column of `changes`, over variables with `rates`) times -H^-1; of a
+  /// watch that is cancelled it says nothing.
+  Sensitivity sensitivity(const std::vector<DesignVariable>& variables,
+                          const std::vector<DesignVariables::Rate>& rates,
+                          const Eigen::MatrixXd& changes, const Watch& watch = unwatched);
+  /// Smallest eigenvalue of the Hessian against the rods' length lumped on the nodes, N/mm^2, by
+  /// inverse iteration of a few vectors at once, which the next call begins from. Of a watch that
+  /// is cancelled it says nothing.
+  double smallest_eigenvalue(const Watch& watch = unwatched);
+
+  const RodMesh& mesh() const { return mesh_; }
+  const Model& model() const { return model_; }
+  const State& state() const { return state_; }
+  const ShellEnds& ends() const { return ends_; }
+  Eigen::Matrix3Xd joints() const { return state_.x.leftCols(mesh_.joints); }
+  /// Axial force of every leg at its edge point, N.
+  Eigen::VectorXd leg_forces() const;
+  const Energies& energies() const { return system_->assembly().energies; }
+  double residual() const { return system_->residual(); }
+  /// Of the state, under what acts.
+  const Assembly& forces() const { return system_->assembly(); }
+
+ private:
+  DesignShell(const Scene& scene, RodMesh mesh) : scene_(scene), mesh_(std::move(mesh)) {}
+  void find_legs();
+  void set_legs(const ShellEnds& ends);
+  void set_diameters(const ShellEnds& ends);
+  void impose(const ShellEnds& ends, Eigen::Matrix3Xd& x) const;
+  /// What changes at once: columns, legs (one an end), logarithms of diameters (one a rod).
+  struct Change {
+    Eigen::Matrix3Xd prescribed;
+    Eigen::VectorXd longer, thicker;
+  };
+  Eigen::Matrix3Xd follow(const Change& change) const;
+  Result<void> settle(const ShellEnds& ends, double farthest_mm, const Watch& watch);
+  void add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minus_dg) const;
+  void add_diameter_gradient(std::size_t rod, double change, Eigen::Matrix3Xd& minus_dg) const;
+  void add_bend_gradient(const ModelBend& bend, double share, Eigen::Matrix3Xd& minus_dg) const;
+
+  const Scene& scene_;
+  RodMesh mesh_;
+  Model model_;
+  State state_;
+  ShellEnds ends_;
+  std::unique_ptr<Linearisation> system_;
+  struct Leg {
+    std::vector<int> edges;
+    int at_end = -1;           ///< the edge at the edge point
+    std::vector<int> bends;    ///< that one of its edges takes part in
+    int ghost = -1, far = -1;  ///< nodes beyond its edge point
+  };
+  std::vector<Leg> legs_;                ///< one an end
+  std::vector<std::vector<int>> bends_;  ///< of each rod
+  Eigen::VectorXd diameter_;             ///< that the model has, one a rod
+  std::vector<Eigen::Matrix3Xd> modes_;  ///< the softest ones last found
+};
+
+}  // namespace gridshell

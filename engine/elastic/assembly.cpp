@@ -1,0 +1,388 @@
+// Edges and bends run rod by rod, the hot loop beside the factorisation; what else stores energy is
+// added after them, list by list.
+#include "engine/elastic/assembly.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/block3.h"
+#include "engine/elastic/edge_energies.h"
+
+namespace gridshell {
+namespace {
+
+inline EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge) {
+  EdgeGeometry g;
+  g.tangent = x.col(edge.to) - x.col(edge.from);
+  g.length = g.tangent.norm();
+  g.tangent *= 1 / g.length;
+  return g;
+}
+
+/// a nan must survive: comparisons with it are false, so the test is the other way round
+inline void keep_smallest(double& smallest, double value) {
+  if (!(value >= smallest)) smallest = value;
+}
+
+inline void reset(const Model& model, Assembly& out) {
+  out.energies = {};
+  out.gradient.setZero(3, model.columns());
+  out.force.resize(Eigen::Index(model.edges.size()));
+  out.tangents.resize(3, Eigen::Index(model.edges.size()));
+  out.smallest_cosine = 1;
+  out.largest_strain = 0;
+}
+
+/// Stretch of one edge: energy and axial force.
+inline void add_stretch(const ModelEdge& edge, int k, double EA, const EdgeGeometry& g,
+                        Assembly& out) {
+  const StretchEnergy s = stretch(EA, edge.rest_length, g.length);
+  out.energies[Term::stretch] += s.value;
+  out.force[k] = s.force;
+  out.tangents.col(k) = g.tangent;
+  // the edge to a ghost only shows a direction
+  const double strain = g.length / edge.rest_length - 1;
+  if (edge.EA > 0 && !(std::abs(strain) <= std::abs(out.largest_strain)))
+    out.largest_strain = strain;
+}
+
+inline void add_pull(const ModelEdge& edge, const Eigen::Vector3d& pull, Assembly& out) {
+  out.gradient.col(edge.from) -= pull;
+  out.gradient.col(edge.to) += pull;
+}
+
+inline void add_bend_gradient(const ModelEdge& e, const ModelEdge& f, const BendEnergy& bend,
+                              Assembly& out) {
+  out.energies[Term::bend] += bend.value;
+  out.gradient.col(e.from) -= bend.gradient_e;
+  out.gradient.col(e.to) += bend.gradient_e - bend.gradient_f;
+  out.gradient.col(f.to) += bend.gradient_f;
+}
+
+/// H of the edge vectors becomes H of the nodes: e = b - a, f = c - b.
+inline void add_bend_hessian(const ModelEdge& e, const ModelEdge& f, BlockSlot second,
+                             const BendEnergy& bend, BlockHessian& h) {
+  const Block3 &ee = bend.hessian_ee, &ef = bend.hessian_ef, &ff = bend.hessian_ff;
+  Block3 fe, ab = ef, bc = ef, ac = {};
+  transpose(ef, fe);
+  ab -= ee;
+  bc -= ff;
+  ac -= ef;
+  h.diagonal[std::size_t(e.from)] += ee;
+  h.diagonal[std::size_t(f.to)] += ff;
+  Block3& middle = h.diagonal[std::size_t(e.to)];
+  for (int j = 0; j < 3; ++j) middle.column[j] -= ab.column[j] + (fe.column[j] - ff.column[j]);
+  h.add(e.slot, ab);
+  h.add(f.slot, bc);
+  h.add(second, ac);
+}
+
+/// Edges one after another, and every bend with its two edges: on_edge(k, edge, geometry),
+/// on_bend(bend, geometry of e, geometry of f).
+template <class OnEdge, class OnBend>
+inline __attribute__((always_inline)) void along_rods(const Model& model, const Eigen::Matrix3Xd& x,
+                                                      OnEdge on_edge, OnBend on_bend) {
+  EdgeGeometry before, here;
+  std::size_t next = 0;
+  const std::size_t bends = model.bends.size();
+  for (int k = 0; k < int(model.edges.size()); ++k) {
+    const ModelEdge& edge = model.edges[std::size_t(k)];
+    here = geometry_of(x, edge);
+    on_edge(k, edge, here);
+    if (next < bends && model.bends[next].f == k) on_bend(model.bends[next++], before, here);
+    before = here;
+  }
+  // where rings close
+  for (; next < bends; ++next) {
+    const ModelBend& bend = model.bends[next];
+    on_bend(bend, geometry_of(x, model.edges[std::size_t(bend.e)]),
+            geometry_of(x, model.edges[std::size_t(bend.f)]));
+  }
+}
+
+template <class Law>
+PairGeometry pair_geometry(const Model& model, const State& state, const Pair<Law>& pair) {
+  PairGeometry at;
+  at.e = geometry_of(state.x, model.edges[std::size_t(pair.e)]);
+  at.f = geometry_of(state.x, model.edges[std::size_t(pair.f)]);
+  if (!model.has_spins()) return at;
+  at.angle_e = model.angle(state.x, pair.e);
+  at.angle_f = model.angle(state.x, pair.f);
+  at.director_e = state.director.col(pair.e);
+  at.director_f = state.director.col(pair.f);
+  if (pair.bend >= 0) at.reference_twist = state.reference_twist[pair.bend];
+  return at;
+}
+
+template <class Visit>
+void each_pair_list(const Model& model, Visit visit) {
+  std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
+}
+
+Eigen::Vector3d gap_of(const State& state, const NodeSpring& spring) {
+  return state.x.col(spring.b) - state.x.col(spring.a);
+}
+
+/// visit(action, factor) for all that acts from outside
+template <class Visit>
+void each_action(const Model& model, const ExternalLoads& outside, Visit visit) {
+  for (const NodeAction& action : model.loads) visit(action, outside.load);
+  for (const NodeAction& action : model.ground) visit(action, 1.0);
+  if (outside.steady)
+    for (const NodeAction& action : *outside.steady) visit(action, 1.0);
+  if (outside.field && outside.field_factor != 0)
+    for (const NodeAction& action : *outside.field) visit(action, outside.field_factor);
+}
+
+template <class Law>
+void add_pair_gradient(const Model& model, const Pair<Law>& pair, const PairEnergy& energy,
+                       Assembly& out) {
+  add_pull(model.edges[std::size_t(pair.e)], energy.gradient.head<3>(), out);
+  add_pull(model.edges[std::size_t(pair.f)], energy.gradient.segment<3>(3), out);
+  if (!model.has_spins()) return;
+  out.gradient.data()[model.spin[std::size_t(pair.e)]] += energy.gradient[6] / model.spin_length;
+  out.gradient.data()[model.spin[std::size_t(pair.f)]] += energy.gradient[7] / model.spin_length;
+}
+
+/// m stands at (a, b) and transposed at (b, a)
+void add_block(int a, int b, BlockSlot slot, const Eigen::Matrix3d& m, BlockHessian& h) {
+  if (a == b)
+    h.diagonal[std::size_t(a)].matrix() += m + m.transpose();
+  else
+    h.add(slot, m);
+}
+
+/// An edge vector's own stiffness at its two nodes.
+void add_edge_block(const ModelEdge& edge, const Eigen::Matrix3d& m, BlockHessian& h) {
+  h.diagonal[std::size_t(edge.from)].matrix() += m;
+  h.diagonal[std::size_t(edge.to)].matrix() += m;
+  h.add(edge.slot, -m);
+}
+
+template <class Law>
+void add_spin_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
+                      BlockHessian& h) {
+  const int place[2] = {model.spin[std::size_t(pair.e)], model.spin[std::size_t(pair.f)]};
+  const double scale = 1 / model.spin_length;
+  for (int k = 0; k < 2; ++k)
+    for (int end = 0; end < 4; ++end) {
+      const double side = end % 2 == 0 ? -scale : scale;
+      Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+      block.col(place[k] % 3) = side * H.block<3, 1>(end < 2 ? 0 : 3, 6 + k);
+      h.add(pair.slots.spin[end][k], block);
+    }
+  for (int k = 0; k < 2; ++k)
+    h.diagonal[std::size_t(place[k] / 3)].matrix()(place[k] % 3, place[k] % 3) +=
+        scale * scale * H(6 + k, 6 + k);
+  const double across = scale * scale * H(6, 7);
+  if (place[0] / 3 == place[1] / 3) {
+    auto own = h.diagonal[std::size_t(place[0] / 3)].matrix();
+    own(place[0] % 3, place[1] % 3) += across;
+    own(place[1] % 3, place[0] % 3) += across;
+  } else {
+    h.add_entry(pair.slots.spins, place[0] % 3, place[1] % 3, across);
+  }
+}
+
+template <class Law>
+void add_pair_hessian(const Model& model, const Pair<Law>& pair, const PairMatrix& H,
+                      BlockHessian& h) {
+  const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
+  add_edge_block(e, H.block<3, 3>(0, 0), h);
+  add_edge_block(f, H.block<3, 3>(3, 3), h);
+  const Eigen::Matrix3d ef = H.block<3, 3>(0, 3);
+  const int of_e[2] = {e.from, e.to}, of_f[2] = {f.from, f.to};
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b < 2; ++b)
+      add_block(of_e[a], of_f[b], pair.slots.across[a][b], a == b ? ef : Eigen::Matrix3d(-ef), h);
+  if (model.has_spins()) add_spin_hessian(model, pair, H, h);
+}
+
+/// What stores energy beside edges and bends.
+void add_others(const Model& model, const State& state, const ExternalLoads& outside,
+                bool with_hessian, Assembly& out) {
+  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
+    for (const Pair<Law>& pair : list) {
+      PairEnergy energy;
+      out.energies[Law::term] += pair.law.add(pair_geometry(model, state, pair), energy);
+      add_pair_gradient(model, pair, energy, out);
+      if (with_hessian) add_pair_hessian(model, pair, energy.hessian, out.hessian);
+    }
+  });
+  for (const ModelSpring& spring : model.springs) {
+    const Eigen::Vector3d gap = gap_of(state, spring.law), pull = spring.law.gradient(gap);
+    out.energies[spring.law.term] += spring.law.value(gap);
+    out.gradient.col(spring.law.a) -= pull;
+    out.gradient.col(spring.law.b) += pull;
+    if (!with_hessian) continue;
+    const Eigen::Matrix3d m = spring.law.stiffness.asDiagonal();
+    out.hessian.diagonal[std::size_t(spring.law.a)].matrix() += m;
+    out.hessian.diagonal[std::size_t(spring.law.b)].matrix() += m;
+    out.hessian.add(spring.slot, -m);
+  }
+  each_action(model, outside, [&](const NodeAction& action, double factor) {
+    const Eigen::Vector3d x = state.x.col(action.node);
+    out.energies[action.term] += factor * action.value(x);
+    out.gradient.col(action.node) += factor * action.gradient(x);
+    if (with_hessian)
+      out.hessian.diagonal[std::size_t(action.node)].matrix().diagonal() +=
+          factor * action.stiffness;
+  });
+}
+
+/// Energies, forces and gradient, the pull of edge k being pull_of(k, its geometry).
+template <class Pull>
+inline __attribute__((always_inline)) void assemble_forces(const Model& model,
+                                                           const Eigen::Matrix3Xd& x, Assembly& out,
+                                                           Pull pull_of) {
+  reset(model, out);
+  BendEnergy energy;
+  along_rods(
+      model, x,
+      [&](int k, const ModelEdge& edge, const EdgeGeometry& g) {
+        add_stretch(edge, k, edge.EA, g, out);
+        add_pull(edge, pull_of(k, g), out);
+      },
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        keep_smallest(out.smallest_cosine, e.tangent.dot(f.tangent));
+        bend_gradient(bend.stiffness, e, f, energy);
+        add_bend_gradient(model.edges[std::size_t(bend.e)], model.edges[std::size_t(bend.f)],
+                          energy, out);
+      });
+}
+
+GRIDSHELL_CLONES
+void rod_gradient(const Model& model, const Eigen::Matrix3Xd& x, Assembly& out) {
+  assemble_forces(model, x, out, [&](int k, const EdgeGeometry& g) -> Eigen::Vector3d {
+    return out.force[k] * g.tangent;
+  });
+}
+
+GRIDSHELL_CLONES
+void rod_mixed_residual(const Model& model, const State& state, const Eigen::Matrix3Xd& tangents,
+                        Assembly& out) {
+  assemble_forces(model, state.x, out, [&](int k, const EdgeGeometry& g) -> Eigen::Vector3d {
+    return state.force[k] * g.tangent + (out.force[k] - state.force[k]) * tangents.col(k);
+  });
+}
+
+GRIDSHELL_CLONES
+void rod_hessian(const Model& model, const State& state, const Stiffness& how, Assembly& out) {
+  reset(model, out);
+  BlockHessian& h = out.hessian;
+  h.reset(std::size_t(model.columns()), model.pattern.pairs().size());
+  BendEnergy energy;
+  along_rods(
+      model, state.x,
+      [&](int k, const ModelEdge& edge, const EdgeGeometry& g) {
+        const double EA = how.EA_scale * edge.EA;
+        add_stretch(edge, k, EA, g, out);
+        add_pull(edge, out.force[k] * g.tangent, out);
+        const double geometric = (how.mixed ? state.force[k] : out.force[k]) / g.length;
+        Column along;
+        load(g.tangent, along);
+        Block3 stiffness, across = {};
+        add_product(along, (EA / edge.rest_length - geometric) * g.tangent, stiffness);
+        add_diagonal(geometric, stiffness);
+        h.diagonal[std::size_t(edge.from)] += stiffness;
+        h.diagonal[std::size_t(edge.to)] += stiffness;
+        across -= stiffness;
+        h.add(edge.slot, across);
+      },
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        const ModelEdge &edge_e = model.edges[std::size_t(bend.e)],
+                        &edge_f = model.edges[std::size_t(bend.f)];
+        keep_smallest(out.smallest_cosine, e.tangent.dot(f.tangent));
+        bend_hessian(bend.stiffness, e, f, energy);
+        add_bend_gradient(edge_e, edge_f, energy, out);
+        add_bend_hessian(edge_e, edge_f, bend.slot, energy, h);
+      });
+}
+
+}  // namespace
+
+Eigen::VectorXd bending_of(const Model& model, const State& state) {
+  Eigen::VectorXd energy(Eigen::Index(model.bends.size()));
+  Eigen::Index next = 0;
+  along_rods(
+      model, state.x, [](int, const ModelEdge&, const EdgeGeometry&) {},
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        energy[next++] = bend_value(bend.stiffness, e, f);
+      });
+  for (const Pair<SectionBending>& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs))
+    energy[pair.bend] += pair.law.value(pair_geometry(model, state, pair));
+  return energy;
+}
+
+Energies energies_of(const Model& model, const State& state, const ExternalLoads& outside) {
+  Energies sum;
+  along_rods(
+      model, state.x,
+      [&](int, const ModelEdge& edge, const EdgeGeometry& g) {
+        sum[Term::stretch] += stretch(edge.EA, edge.rest_length, g.length).value;
+      },
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        sum[Term::bend] += bend_value(bend.stiffness, e, f);
+      });
+  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
+    for (const Pair<Law>& pair : list)
+      sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
+  });
+  for (const ModelSpring& spring : model.springs)
+    sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
+  each_action(model, outside, [&](const NodeAction& action, double factor) {
+    sum[action.term] += factor * action.value(state.x.col(action.node));
+  });
+  return sum;
+}
+
+void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
+                       Assembly& out) {
+  rod_gradient(model, state.x, out);
+  add_others(model, state, outside, false, out);
+}
+
+void assemble_mixed_residual(const Model& model, const State& state, const ExternalLoads& outside,
+                             const Eigen::Matrix3Xd& tangents, Assembly& out) {
+  rod_mixed_residual(model, state, tangents, out);
+  add_others(model, state, outside, false, out);
+}
+
+void assemble_hessian(const Model& model, const State& state, const ExternalLoads& outside,
+                      const Stiffness& stiffness, Assembly& out) {
+  rod_hessian(model, state, stiffness, out);
+  add_others(model, state, outside, true, out);
+}
+
+void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matrix3Xd& x,
+              Eigen::Matrix3Xd& y) {
+  y.resize(3, model.columns());
+  for (int column = 0; column < model.columns(); ++column)
+    y.col(column).noalias() = hessian.diagonal[std::size_t(column)].matrix() * x.col(column);
+  const auto& pairs = model.pattern.pairs();
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [row, column] = pairs[k];
+    y.col(row).noalias() += hessian.pair[k].matrix() * x.col(column);
+    y.col(column).noalias() += hessian.pair[k].matrix().transpose() * x.col(row);
+  }
+}
+
+void clear_held(const Model& model, Eigen::Matrix3Xd& x) {
+  for (int column = 0; column < model.columns(); ++column)
+    for (int row = 0; row < 3; ++row)
+      if (model.held[std::size_t(column)] >> row & 1) x(row, column) = 0;
+}
+
+double residual_of(const Model& model, const Eigen::Matrix3Xd& gradient) {
+  double largest = 0;
+  for (int column : model.free_columns) {
+    Eigen::Vector3d force = gradient.col(column);
+    const unsigned char held = model.held[std::size_t(column)];
+    for (int row = 0; row < 3 && held; ++row)
+      if (held >> row & 1) force[row] = 0;
+    if (!(force.norm() <= largest)) largest = force.norm();  // a nan is kept, not hidden
+  }
+  return largest;
+}
+
+}  // namespace gridshell

@@ -1,0 +1,69 @@
+// Energies, forces and stiffness of a model in a state, assembled.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "engine/elastic/state.h"
+
+namespace gridshell {
+
+/// Working memory and results of one assembly; reused from call to call.
+struct Assembly {
+  Energies energies;          ///< by term, mJ
+  Eigen::Matrix3Xd gradient;  ///< dE/dx in every column, held ones too (their reaction), N
+  Eigen::Matrix3Xd tangents;  ///< unit tangent of every edge
+  Eigen::VectorXd force;      ///< axial force EA (|e|/l - 1) of every edge, N
+  BlockHessian hessian;
+  double smallest_cosine = 1;  ///< of the turns between edges: below 0 they turn over 90 degrees
+  double largest_strain = 0;   ///< of the edges, by size, with its sign
+};
+
+/// What acts on a model from outside beside its ground: its dead loads times a factor, a field that
+/// is there, and one that comes or goes.
+struct ExternalLoads {
+  double load = 1;
+  const std::vector<NodeAction>* steady = nullptr;
+  const std::vector<NodeAction>* field = nullptr;
+  double field_factor = 0;
+};
+
+/// How the Hessian's stretch is taken.
+struct Stiffness {
+  /// The state's axial forces take the place of EA (|e|/l - 1) in the geometric stiffness
+  /// N/|e| (I - t t^T): the mixed form, whose axial forces are unknowns of their own, eliminated on
+  /// the edge.
+  bool mixed = false;
+  double EA_scale = 1;  ///< multiplies EA (continuation in stiffness)
+};
+
+/// Energies by term at a state.
+Energies energies_of(const Model& model, const State& state, const ExternalLoads& outside = {});
+
+/// Bending energy of every bend, one with axes or curved at rest too, mJ.
+Eigen::VectorXd bending_of(const Model& model, const State& state);
+
+/// Energies, gradient and axial forces at a state.
+void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
+                       Assembly& out);
+
+/// The residual of the mixed form at a state with axial forces N, its condition N = EA strain
+/// eliminated with the edges' directions t0 of an earlier linearisation: the gradient with N t +
+/// (EA strain - N) t0 in the place of EA strain t. Where N = EA strain it is the gradient.
+void assemble_mixed_residual(const Model& model, const State& state, const ExternalLoads& outside,
+                             const Eigen::Matrix3Xd& tangents, Assembly& out);
+
+/// Energies, gradient and Hessian.
+void assemble_hessian(const Model& model, const State& state, const ExternalLoads& outside,
+                      const Stiffness& stiffness, Assembly& out);
+
+/// y = H x over all columns.
+void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matrix3Xd& x,
+              Eigen::Matrix3Xd& y);
+
+/// Sets to zero what is held.
+void clear_held(const Model& model, Eigen::Matrix3Xd& x);
+
+/// Largest force on a free column, N.
+double residual_of(const Model& model, const Eigen::Matrix3Xd& gradient);
+
+}  // namespace gridshell

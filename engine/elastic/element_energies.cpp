@@ -1,0 +1,254 @@
+#include "engine/elastic/element_energies.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace gridshell {
+
+double NodeAction::value(const Eigen::Vector3d& x) const {
+  return -force.dot(x) + 0.5 * (stiffness.array() * (x - anchor).array().square()).sum();
+}
+
+Eigen::Vector3d NodeAction::gradient(const Eigen::Vector3d& x) const {
+  return -force + stiffness.cwiseProduct(x - anchor);
+}
+
+PairEnergy& PairEnergy::operator+=(const PairEnergy& other) {
+  gradient += other.gradient;
+  hessian += other.hessian;
+  return *this;
+}
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+Eigen::Matrix3d symmetric_product(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Matrix3d m = 0.5 * a * b.transpose();
+  return m + m.transpose();
+}
+
+CurvatureBinormal curvature_binormal(const Eigen::Vector3d& t, const Eigen::Vector3d& s) {
+  const double chi = 1 + t.dot(s);
+  return {t, s, 2 / chi * t.cross(s), chi};
+}
+
+BinormalSlopes binormal_with_slopes(const Eigen::Vector3d& t, const Eigen::Vector3d& s) {
+  BinormalSlopes b{curvature_binormal(t, s), {}, {}, {}, {}};
+  b.P = Eigen::Matrix3d::Identity() - t * t.transpose();
+  b.Q = Eigen::Matrix3d::Identity() - s * s.transpose();
+  b.by_p.noalias() = -(2 * cross_matrix(s) + b.kb * s.transpose()) / b.chi * b.P;
+  b.by_q.noalias() = (2 * cross_matrix(t) - b.kb * t.transpose()) / b.chi * b.Q;
+  return b;
+}
+
+void scale_to_edges(double length_e, double length_f, PairEnergy& out) {
+  PairVector scale;
+  scale << Eigen::Vector3d::Constant(1 / length_e), Eigen::Vector3d::Constant(1 / length_f), 1, 1;
+  out.gradient.array() *= scale.array();
+  out.hessian = (scale.asDiagonal() * out.hessian * scale.asDiagonal()).eval();
+}
+
+void add_cosine(double by_c, double by_cc, const EdgeGeometry& e, const EdgeGeometry& f,
+                PairEnergy& out) {
+  const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
+  const double c = t.dot(s), i = 1 / e.length, j = 1 / f.length;
+  const Eigen::Vector3d p = i * (s - c * t), q = j * (t - c * s);
+  const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - t * t.transpose(),
+                        Q = Eigen::Matrix3d::Identity() - s * s.transpose();
+  out.gradient.head<3>() += by_c * p;
+  out.gradient.segment<3>(3) += by_c * q;
+  out.hessian.block<3, 3>(0, 0) +=
+      by_cc * p * p.transpose() - 2 * by_c * i * symmetric_product(p, t) - by_c * c * i * i * P;
+  out.hessian.block<3, 3>(3, 3) +=
+      by_cc * q * q.transpose() - 2 * by_c * j * symmetric_product(q, s) - by_c * c * j * j * Q;
+  const Eigen::Matrix3d ef = by_cc * p * q.transpose() + by_c * i * j * P * Q;
+  out.hessian.block<3, 3>(0, 3) += ef;
+  out.hessian.block<3, 3>(3, 0) += ef.transpose();
+}
+
+void add_twist_curvature(double weight, const CurvatureBinormal& b, PairMatrix& out) {
+  const Eigen::Vector3d mean = (b.t + b.s) / b.chi;
+  const auto add_own = [&](int at, const Eigen::Vector3d& a) {
+    out.block<3, 3>(at, at) -= symmetric_product(0.5 * weight * a, b.kb);
+  };
+  add_own(0, b.t + mean);
+  add_own(3, b.s + mean);
+  const Eigen::Matrix3d across =
+      cross_matrix(0.5 * weight * mean) - symmetric_product(0.5 * weight * mean, b.kb);
+  out.block<3, 3>(0, 3) += across;
+  out.block<3, 3>(3, 0) += across.transpose();
+}
+
+void add_twist(double stiffness, double excess, const CurvatureBinormal& b, PairEnergy& out) {
+  PairVector slope;
+  slope << 0.5 * b.kb, 0.5 * b.kb, -1, 1;
+  out.gradient += stiffness * excess * slope;
+  out.hessian.noalias() += (stiffness * slope) * slope.transpose();
+  add_twist_curvature(stiffness * excess, b, out.hessian);
+}
+
+double Torsion::add(const PairGeometry& at, PairEnergy& out) const {
+  PairEnergy here;
+  add_twist(stiffness, excess(at), curvature_binormal(at.e.tangent, at.f.tangent), here);
+  scale_to_edges(at.e.length, at.f.length, here);
+  out += here;
+  return value(at);
+}
+
+namespace {
+
+HalfwayFrame frame_of(const PairGeometry& at) {
+  return halfway_frame(at.e.tangent, at.director_e, at.angle_e + at.twist() / 2);
+}
+
+}  // namespace
+
+HalfwayFrame halfway_frame(const Eigen::Vector3d& tangent, const Eigen::Vector3d& director,
+                           double angle) {
+  const Eigen::Vector3d across = tangent.cross(director);
+  const double c = std::cos(angle), s = std::sin(angle);
+  HalfwayFrame frame;
+  frame << c * director + s * across, c * across - s * director;
+  return frame;
+}
+
+double material_bend_value(const MaterialBend& bend, const Eigen::Vector2d& w) {
+  return 0.5 * (bend.stiffness.array() * (w - bend.rest).array().square()).sum();
+}
+
+void add_binormal_curvature(const Eigen::Vector3d& Y, const BinormalSlopes& b, PairMatrix& out) {
+  const double k = Y.dot(b.kb), i = 1 / b.chi;
+  const Eigen::Vector3d yp = b.by_p.transpose() * Y, yq = b.by_q.transpose() * Y;
+  const Eigen::Vector3d hp = b.P * b.s, hq = b.Q * b.t;  // slopes of chi
+  const Eigen::Vector3d wp = b.P * (2 * k * b.s - 4 * b.s.cross(Y)) * i;
+  const Eigen::Vector3d wq = b.Q * (2 * k * b.t - 4 * Y.cross(b.t)) * i;
+  out.block<3, 3>(0, 0) +=
+      -k * i * b.P + symmetric_product(b.t, wp) - 2 * i * symmetric_product(yp, hp);
+  out.block<3, 3>(3, 3) +=
+      -k * i * b.Q + symmetric_product(b.s, wq) - 2 * i * symmetric_product(yq, hq);
+  const Eigen::Matrix3d pq =
+      -i * (b.P * (2 * cross_matrix(Y) + k * Eigen::Matrix3d::Identity()) * b.Q +
+            yp * hq.transpose() + hp * yq.transpose());
+  out.block<3, 3>(0, 3) += pq;
+  out.block<3, 3>(3, 0) += pq.transpose();
+}
+
+double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const BinormalSlopes& b,
+                         PairEnergy& out) {
+  const Eigen::Vector2d w = mu.transpose() * b.kb;
+  const Eigen::Vector2d g = bend.stiffness.array() * (w - bend.rest).array();
+  PairVector phi;
+  phi << 0.25 * b.kb, 0.25 * b.kb, 0.5, 0.5;
+  Eigen::Matrix<double, 8, 2> along = Eigen::Matrix<double, 8, 2>::Zero();  // mu.kb'
+  along.topRows<3>() = b.by_p.transpose() * mu;
+  along.middleRows<3>(3) = b.by_q.transpose() * mu;
+  Eigen::Matrix<double, 8, 2> slope = along;
+  slope.col(0) += w[1] * phi;
+  slope.col(1) -= w[0] * phi;
+  out.gradient += slope * g;
+  out.hessian.noalias() += slope * bend.stiffness.asDiagonal() * slope.transpose();
+
+  // the second derivatives of w, weighted by g
+  const Eigen::Vector3d Y = mu * g;
+  add_binormal_curvature(Y, b, out.hessian);
+  out.hessian.block<3, 3>(0, 0) += symmetric_product(Y, b.kb);
+  const PairVector across = g[0] * along.col(1) - g[1] * along.col(0);
+  out.hessian += phi * across.transpose() + across * phi.transpose();
+  out.hessian -= g.dot(w) * phi * phi.transpose();
+  add_twist_curvature(0.5 * (g[0] * w[1] - g[1] * w[0]), b, out.hessian);
+  return material_bend_value(bend, w);
+}
+
+double SectionBending::value(const PairGeometry& at) const {
+  return material_bend_value(
+      bend, frame_of(at).transpose() * curvature_binormal(at.e.tangent, at.f.tangent).kb);
+}
+
+double SectionBending::add(const PairGeometry& at, PairEnergy& out) const {
+  PairEnergy here;
+  const double value =
+      add_material_bend(bend, frame_of(at), binormal_with_slopes(at.e.tangent, at.f.tangent), here);
+  scale_to_edges(at.e.length, at.f.length, here);
+  out += here;
+  return value;
+}
+
+namespace {
+
+double angle(const PairGeometry& at) {
+  return std::acos(std::clamp(at.e.tangent.dot(at.f.tangent), -1.0, 1.0));
+}
+
+}  // namespace
+
+double JointShear::value(const PairGeometry& at) const {
+  const double beyond = angle(at) - rest;
+  return 0.5 * stiffness * beyond * beyond;
+}
+
+double JointShear::add(const PairGeometry& at, PairEnergy& out) const {
+  const double beyond = angle(at) - rest, c = at.e.tangent.dot(at.f.tangent),
+               slope = 1 / std::sqrt(1 - c * c);
+  add_cosine(-stiffness * beyond * slope, stiffness * slope * slope * (1 - beyond * c * slope),
+             at.e, at.f, out);
+  return 0.5 * stiffness * beyond * beyond;
+}
+
+double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,
+                  const EdgeGeometry& f) {
+  const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
+  const double alpha = std::atan2(s.dot(t.cross(director)), s.dot(director));
+  return std::remainder(theta - alpha - side * M_PI / 2, 2 * M_PI);
+}
+
+double add_joint_spin(double stiffness, int side, double theta, const EdgeGeometry& e,
+                      const Eigen::Vector3d& director, const EdgeGeometry& f, PairEnergy& out) {
+  using Complex = Eigen::Vector3cd;
+  const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
+  const double phi = joint_spin(side, theta, e, director, f), c = t.dot(s);
+  const Complex d = director.cast<std::complex<double>>() +
+                    std::complex<double>(0, 1) * t.cross(director).cast<std::complex<double>>();
+  const std::complex<double> sd(s.dot(director), s.dot(t.cross(director)));
+  const Complex z = d / sd;
+  const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - t * t.transpose(),
+                        Q = Eigen::Matrix3d::Identity() - s * s.transpose();
+  const Complex gp = -c * z, gq = Q * z;
+  const Eigen::Vector3d zi = z.imag(), qzi = gq.imag(), ps = P * s, qt = Q * t;
+
+  PairVector slope = PairVector::Zero();  // of phi
+  slope.head<3>() = -gp.imag();
+  slope.segment<3>(3) = -gq.imag();
+  slope[6] = 1;
+  Eigen::Matrix<double, 8, 8> curvature = PairMatrix::Zero();  // of alpha
+  const auto squares = [](const Complex& a, const Complex& b) -> Eigen::Matrix3d {
+    return (a * b.transpose()).imag();
+  };
+  curvature.block<3, 3>(0, 0) = c * (t * zi.transpose() + zi * t.transpose()) -
+                                0.5 * (zi * ps.transpose() + ps * zi.transpose()) - squares(gp, gp);
+  curvature.block<3, 3>(3, 3) = -(s * qzi.transpose() + qzi * s.transpose()) - squares(gq, gq);
+  curvature.block<3, 3>(0, 3) = -zi * qt.transpose() - squares(gp, gq);
+  curvature.block<3, 3>(3, 0) = curvature.block<3, 3>(0, 3).transpose();
+
+  PairEnergy here;
+  here.gradient = stiffness * phi * slope;
+  here.hessian = stiffness * (slope * slope.transpose() - phi * curvature);
+  scale_to_edges(e.length, f.length, here);
+  out += here;
+  return 0.5 * stiffness * phi * phi;
+}
+
+double JointSpin::value(const PairGeometry& at) const {
+  const double phi = joint_spin(side, at.angle_e, at.e, at.director_e, at.f);
+  return 0.5 * stiffness * phi * phi;
+}
+
+double JointSpin::add(const PairGeometry& at, PairEnergy& out) const {
+  return add_joint_spin(stiffness, side, at.angle_e, at.e, at.director_e, at.f, out);
+}
+
+}  // namespace gridshell

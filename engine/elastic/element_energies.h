@@ -1,0 +1,202 @@
+// What acts on a node from outside: a load, the ground.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "engine/core/energies.h"
+#include "engine/elastic/rod_frame.h"
+
+namespace gridshell {
+
+/// E = -f . x + 1/2 sum over x, y, z of k (x - a)^2: a dead or transient force, springs to the
+/// ground, or both.
+struct NodeAction {
+  int node = 0;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();      ///< f, N
+  Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();  ///< k, N/mm
+  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();     ///< a, mm
+  Term term = Term::load;
+
+  double value(const Eigen::Vector3d& x) const;
+  Eigen::Vector3d gradient(const Eigen::Vector3d& x) const;
+};
+
+// Two nodes held together by a spring: crossing rods, each with a node of its own at the joint, or
+// a support and the rod's end or joint that hangs on it.
+
+/// E = 1/2 sum over x, y, z of k (x_b - x_a)^2 of nodes a and b: without length at rest.
+struct NodeSpring {
+  int a = 0, b = 0;
+  Eigen::Vector3d stiffness{0, 0, 0};  ///< k along x, y, z, N/mm
+  Term term = Term::joint;
+
+  double value(const Eigen::Vector3d& gap) const { return 0.5 * stiffness.dot(gap.cwiseAbs2()); }
+  Eigen::Vector3d gradient(const Eigen::Vector3d& gap) const { return stiffness.cwiseProduct(gap); }
+};
+
+// What energies of two edges share: their eight local unknowns and the curvature binormal with its
+// derivatives.
+
+/// What an energy of two edges e, f may read of a state.
+struct PairGeometry {
+  EdgeGeometry e, f;
+  double angle_e = 0, angle_f = 0;         ///< theta of each edge, rad
+  Eigen::Vector3d director_e, director_f;  ///< of their reference frames
+  double reference_twist = 0;              ///< m_ref from e to f, of edges that follow one another
+
+  /// tau = theta_f - theta_e + m_ref
+  double twist() const { return angle_f - angle_e + reference_twist; }
+};
+
+using PairVector = Eigen::Matrix<double, 8, 1>;
+using PairMatrix = Eigen::Matrix<double, 8, 8>;
+
+/// Energy of two edges e, f by (e, f, theta_e, theta_f): edge vectors and angles. The derivatives
+/// hold the reference frames as carried along straight lines from the present edges (parallel in
+/// time), so the Hessian is symmetric and is that of the energy itself.
+struct PairEnergy {
+  PairVector gradient = PairVector::Zero();
+  PairMatrix hessian = PairMatrix::Zero();
+
+  PairEnergy& operator+=(const PairEnergy& other);
+};
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
+
+/// (a b^T + b a^T)/2
+Eigen::Matrix3d symmetric_product(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+/// kb = 2 t x s/chi, chi = 1 + t.s of unit tangents t (of e) and s (of f).
+struct CurvatureBinormal {
+  Eigen::Vector3d t, s, kb;
+  double chi = 2;
+};
+
+/// Its derivative by the increments p = de/|e|, q = df/|f|:
+/// by_p = -(2 [s]x + kb s^T) (I - t t^T)/chi, by_q = (2 [t]x - kb t^T) (I - s s^T)/chi.
+struct BinormalSlopes : CurvatureBinormal {
+  Eigen::Matrix3d P, Q;  ///< I - t t^T, I - s s^T
+  Eigen::Matrix3d by_p, by_q;
+};
+
+CurvatureBinormal curvature_binormal(const Eigen::Vector3d& t, const Eigen::Vector3d& s);
+
+BinormalSlopes binormal_with_slopes(const Eigen::Vector3d& t, const Eigen::Vector3d& s);
+
+/// From increments p, q to edge vectors: e counts 1/|e|, f counts 1/|f|.
+void scale_to_edges(double length_e, double length_f, PairEnergy& out);
+
+/// E(c), c = t.s, given E' and E'' (edge vectors, after scale_to_edges): bending of a round rod,
+/// shear of a joint.
+void add_cosine(double by_c, double by_cc, const EdgeGeometry& e, const EdgeGeometry& f,
+                PairEnergy& out);
+
+// Twisting of a rod at a node between two edges [Bergou 2008, 2010].
+
+/// Twist tau = theta_f - theta_e + m_ref. With the frames carried along straight lines, by
+/// increments p = de/|e|, q = df/|f|:
+///   tau'  = kb.(p + q)/2 + theta_f' - theta_e'.
+/// The printed second derivatives of m_ref are the derivative of kb/(2|e|); that is not symmetric,
+/// as carrying a frame round a loop turns it. The symmetric part is the Hessian: with m = (t +
+/// s)/chi and sym(a, b) = (a b^T + b a^T)/2,
+///   H_pp = -sym(t + m, kb)/2, H_qq = -sym(s + m, kb)/2, H_pq = ([m]x - sym(m, kb))/2.
+/// out += weight * tau'' (increments).
+void add_twist_curvature(double weight, const CurvatureBinormal& b, PairMatrix& out);
+
+/// E = stiffness/2 (tau - tau_0)^2, `stiffness` = GJ/l (mJ), `excess` = tau - tau_0; in increments.
+void add_twist(double stiffness, double excess, const CurvatureBinormal& b, PairEnergy& out);
+
+/// Torsion between two edges that follow one another on a rod.
+struct Torsion {
+  static constexpr Term term = Term::twist;
+  double stiffness = 0;  ///< GJ/l, mJ
+  double rest = 0;       ///< tau_0, rad
+
+  double excess(const PairGeometry& at) const { return at.twist() - rest; }
+  double value(const PairGeometry& at) const { return 0.5 * stiffness * excess(at) * excess(at); }
+  double add(const PairGeometry& at, PairEnergy& out) const;
+};
+
+// Bending of a rod with principal axes and a curvature at rest, at a node between two edges.
+
+/// E = 1/2 (w - w_0)^T diag(EI1, EI2)/l (w - w_0), w the curvature binormal's components in the
+/// material frame half way between those of e and f: e's frame turned by half the twist,
+///   w_1 + i w_2 = kb.(m1 + i m2)_e exp(-i tau/2).
+/// [Bergou 2008] averages the energies of both frames, [Bergou 2010] the frames; the frame half way
+/// keeps a round rod's energy free of its twist, whatever that is, and lets a rod with curvature
+/// and twist at rest be a helix without energy.
+struct MaterialBend {
+  Eigen::Vector2d stiffness;  ///< EI1/l, EI2/l (mJ)
+  Eigen::Vector2d rest;       ///< w_0 = l * curvature at rest
+};
+
+/// mu: columns m1, m2 of e turned by half the twist, in 3D.
+using HalfwayFrame = Eigen::Matrix<double, 3, 2>;
+
+/// The frame half way: e's reference director turned by angle + tau/2 about e's tangent.
+HalfwayFrame halfway_frame(const Eigen::Vector3d& tangent, const Eigen::Vector3d& director,
+                           double angle);
+
+double material_bend_value(const MaterialBend& bend, const Eigen::Vector2d& w);
+
+/// Y.kb'' for a fixed Y normal to t, as a symmetric matrix (increments), added to `out`.
+void add_binormal_curvature(const Eigen::Vector3d& Y, const BinormalSlopes& b, PairMatrix& out);
+
+/// Adds gradient and Hessian in increments; returns the value. With phi' = theta_e' + tau'/2,
+///   w'  = mu.kb' - i phi' w,
+///   w'' = mu.kb'' + (mu.p)(kb.p) - 2i phi' mu.kb' - i phi'' w - phi'^2 w.
+double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const BinormalSlopes& b,
+                         PairEnergy& out);
+
+/// Bending of a section with axes, or of a rod curved at rest, between two edges that follow one
+/// another.
+struct SectionBending {
+  static constexpr Term term = Term::bend;
+  MaterialBend bend;
+
+  double value(const PairGeometry& at) const;
+  double add(const PairGeometry& at, PairEnergy& out) const;
+};
+
+// The resistance of a joint to shear.
+
+/// E = k/8 sum over the four pairs of edges at a joint of (angle - rest)^2, one pair each.
+struct JointShear {
+  static constexpr Term term = Term::shear;
+  double stiffness = 0;  ///< k/4, N mm/rad
+  double rest = M_PI / 2;
+
+  double value(const PairGeometry& at) const;
+  double add(const PairGeometry& at, PairEnergy& out) const;
+};
+
+// The spin of a rod at a joint that passes twist: its director beside the joint's normal.
+
+/// phi = theta_e - alpha - side pi/2, in (-pi, pi]: the angle about t from the joint's normal to
+/// the rod's director m1. alpha is that of the other rod's tangent s in the reference frame d1, d2
+/// of e; the normal is side * t x s, `side` +1 or -1.
+double joint_spin(int side, double theta, const EdgeGeometry& e, const Eigen::Vector3d& director,
+                  const EdgeGeometry& f);
+
+/// E = stiffness/2 phi^2 (mJ): returns it and adds gradient and Hessian by edge vectors and angles.
+/// With the complex director d = d1 + i d2 and z = d/(s.d), alpha = Im log(s.d), and d carried in
+/// time d(t') = d - (d.t')/(1 + t.t') (t + t'),
+///   (s.d)'/(s.d)  = z.Qq - c z.p,
+///   (s.d)''/(s.d) = 2 [c (t.p)(z.p) - (s.q)(z.Qq) - (z.p)(t.Qq + s.Pp/2)] + a real part,
+/// p = de/|e|, q = df/|f|.
+double add_joint_spin(double stiffness, int side, double theta, const EdgeGeometry& e,
+                      const Eigen::Vector3d& director, const EdgeGeometry& f, PairEnergy& out);
+
+/// The joint's resistance to the spin of the first of two edges beside the normal: of four pairs of
+/// edges at a joint each holds both rods, k/8 phi^2 a rod and pair, so that k is the joint's.
+struct JointSpin {
+  static constexpr Term term = Term::joint;
+  double stiffness = 0;  ///< k/4, N mm/rad
+  int side = 1;          ///< +1: the normal is t_e x t_f; -1: t_f x t_e
+
+  double value(const PairGeometry& at) const;
+  double add(const PairGeometry& at, PairEnergy& out) const;
+};
+
+}  // namespace gridshell

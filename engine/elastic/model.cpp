@@ -1,0 +1,322 @@
+#include "engine/elastic/model.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/try.h"
+
+namespace gridshell {
+
+BlockSlot BlockPattern::slot(int row, int column) {
+  const auto [low, high] = std::minmax(row, column);
+  auto& known = pairs_of_[std::size_t(low)];
+  const auto at = std::find_if(known.begin(), known.end(),
+                               [high = high](const auto& one) { return one.first == high; });
+  if (at != known.end()) return 2 * at->second + (pairs_[std::size_t(at->second)][0] != row);
+  known.emplace_back(high, int(pairs_.size()));
+  pairs_.push_back({row, column});
+  return 2 * known.back().second;
+}
+
+namespace {
+
+Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rung) {
+  const auto wrong = [&](const std::string& what) {
+    return fail(Fault::bad_input, fmt::format("rod {}: {}", index, what));
+  };
+  const RodMaterial& m = rod.material;
+  if (rod.position.size() != rod.nodes.size() && !rod.closed())
+    return wrong(fmt::format("{} nodes and {} arc lengths", rod.nodes.size(), rod.position.size()));
+  if (rod.nodes.size() < 2) return wrong("has no edge");
+  for (int node : rod.nodes)
+    if (node < 0 || node >= nodes)
+      return wrong(fmt::format("node {} does not exist, there are {}", node, nodes));
+  for (std::size_t k = 1; k < rod.position.size(); ++k)
+    if (!(rod.position[k] > rod.position[k - 1]))
+      return wrong(fmt::format("arc lengths must ascend, {} follows {}", rod.position[k],
+                               rod.position[k - 1]));
+  if (!(m.EA > 0)) return wrong(fmt::format("EA = {} N, must be above 0", m.EA));
+  if (!(m.EI1 > 0 && m.EI2 > 0))
+    return wrong(fmt::format("EI = {}, {} N mm^2, must be above 0", m.EI1, m.EI2));
+  if (rung == RodModel::twist && !(m.GJ > 0))
+    return wrong(fmt::format(
+        "GJ = {} N mm^2, must be above 0: the twist rung needs the torsional stiffness", m.GJ));
+  if (!m.curvature.allFinite() || !std::isfinite(m.twist))
+    return wrong("curvature or twist at rest is not finite");
+  if (rod.closed() && (rod.begin != RodEnd::free || rod.end != RodEnd::free))
+    return wrong("a closed rod has no ends to hold");
+  return {};
+}
+
+/// Rods into a model, one after the other.
+class Builder {
+ public:
+  Builder(int nodes, RodModel rung) : twist_(rung == RodModel::twist) { model_.nodes = nodes; }
+
+  void add(const ModelRod& rod) {
+    Model::Rod entry;
+    entry.closed = rod.closed();
+    entry.director = rod.director;
+    entry.gyration_mm2 = (rod.material.EI1 + rod.material.EI2) / rod.material.EA;
+    entry.first_bend = int(model_.bends.size());
+    const auto& s = rod.position;
+    const int edges = int(s.size()) - 1;
+    if (holds_direction(rod.begin))
+      entry.ghost_begin =
+          add_edge(entry, ghost(rod.ghost_begin), rod.nodes.front(), s[1] - s[0], 0);
+    for (int k = 0; k < edges; ++k)
+      add_edge(entry, rod.nodes[std::size_t(k)], rod.nodes[std::size_t(k + 1) % rod.nodes.size()],
+               s[k + 1] - s[k], rod.material.EA);
+    if (holds_direction(rod.end))
+      entry.ghost_end =
+          add_edge(entry, rod.nodes.back(), ghost(rod.ghost_end), s[edges] - s[edges - 1], 0);
+    for (std::size_t k = 1; k < entry.edges.size(); ++k)
+      add_bend(rod.material, entry, entry.edges[k - 1], entry.edges[k]);
+    if (entry.closed) rings_.push_back({int(model_.rods.size()), rod.material});
+    model_.rods.push_back(std::move(entry));
+  }
+
+  Model build(const std::vector<ModelRod>& rods, std::vector<char> crossings) {
+    // after all others, as they join edges that do not follow one another in the list
+    for (const auto& [rod, material] : rings_)
+      add_bend(material, model_.rods[rod], model_.rods[rod].edges.back(),
+               model_.rods[rod].edges.front());
+    crossings.resize(std::size_t(model_.nodes), 0);
+    mark_shared(rods, crossings);
+    model_.held.assign(std::size_t(model_.nodes), 0);
+    if (twist_) place_spins(crossings);
+    for (std::size_t r = 0; r < rods.size(); ++r) hold(rods[r], model_.rods[r]);
+    lay_along_rods(rods);
+    find_segments(crossings);
+    finish(model_);
+    return std::move(model_);
+  }
+
+ private:
+  int ghost(int known) { return known >= 0 ? known : model_.nodes++; }
+
+  int add_edge(Model::Rod& entry, int from, int to, double length, double EA) {
+    entry.edges.push_back(int(model_.edges.size()));
+    model_.edges.push_back({from, to, length, EA});
+    return entry.edges.back();
+  }
+
+  void add_bend(const RodMaterial& m, const Model::Rod& entry, int e, int f) {
+    // at a held end only the half edge on the rod's side bends
+    const double before = e == entry.ghost_begin ? 0 : model_.edges[std::size_t(e)].rest_length,
+                 after = f == entry.ghost_end ? 0 : model_.edges[std::size_t(f)].rest_length;
+    const double length = 0.5 * (before + after);
+    const bool plain = !twist_ || m.round_and_straight();
+    const int bend = int(model_.bends.size());
+    model_.bends.push_back({e, f, plain ? 2 * std::min(m.EI1, m.EI2) / length : 0});
+    if (!twist_) return;
+    std::get<std::vector<Pair<Torsion>>>(model_.pairs)
+        .push_back({e, f, bend, {m.GJ / length, length * m.twist}});
+    if (!plain)
+      std::get<std::vector<Pair<SectionBending>>>(model_.pairs)
+          .push_back(
+              {e, f, bend, {{Eigen::Vector2d(m.EI1, m.EI2) / length, length * m.curvature}}});
+  }
+
+  /// nodes that rods share
+  void mark_shared(const std::vector<ModelRod>& rods, std::vector<char>& crossings) const {
+    std::vector<int> owner(crossings.size(), -1);
+    for (std::size_t r = 0; r < rods.size(); ++r)
+      for (int node : rods[r].nodes) {
+        int& first = owner[std::size_t(node)];
+        if (first >= 0 && first != int(r)) crossings[std::size_t(node)] = 1;
+        first = int(r);
+      }
+  }
+
+  /// Angles three to a column, the two beside a crossing together: what is eliminated inside a
+  /// segment then does not reach across it.
+  void place_spins(const std::vector<char>& crossings) {
+    model_.spin.resize(model_.edges.size());
+    model_.spin_length = 0;
+    for (const ModelEdge& edge : model_.edges)
+      model_.spin_length += edge.rest_length / double(model_.edges.size());
+    for (const Model::Rod& rod : model_.rods) {
+      int used = 3;  // of the last column
+      for (int edge : rod.edges) {
+        const bool after = crossings[std::size_t(model_.edges[std::size_t(edge)].from)],
+                   before = crossings[std::size_t(model_.edges[std::size_t(edge)].to)];
+        if (used == 3 || (before && !after)) {
+          model_.held.push_back(Model::all_held);
+          used = 0;
+        }
+        const int column = model_.columns() - 1;
+        model_.spin[std::size_t(edge)] = 3 * column + used;
+        model_.held.back() ^= (unsigned char)(1 << used++);
+        if (after && !before) used = 3;
+      }
+    }
+  }
+
+  /// fixes what the ends of one rod hold, and its spin if nothing else does
+  void hold(const ModelRod& rod, Model::Rod& entry) {
+    if (!entry.closed) {
+      if (rod.begin != RodEnd::free) model_.pin(rod.nodes.front());
+      if (rod.end != RodEnd::free) model_.pin(rod.nodes.back());
+    }
+    if (entry.ghost_begin >= 0) model_.pin(model_.edges[std::size_t(entry.ghost_begin)].from);
+    if (entry.ghost_end >= 0) model_.pin(model_.edges[std::size_t(entry.ghost_end)].to);
+    if (!twist_) return;
+    if (rod.begin == RodEnd::clamped) model_.hold_spin(entry.ghost_begin);
+    if (rod.end == RodEnd::clamped) model_.hold_spin(entry.ghost_end);
+    const bool clamped = rod.begin == RodEnd::clamped || rod.end == RodEnd::clamped;
+    if (clamped || !rod.material.round_and_straight()) return;
+    entry.held_spin = entry.edges.front();
+    model_.hold_spin(entry.held_spin);
+  }
+
+  /// rods beside one another, for an ordering where no flat net is known
+  void lay_along_rods(const std::vector<ModelRod>& rods) {
+    model_.flat = Eigen::Matrix2Xd::Zero(2, model_.columns());
+    for (std::size_t r = 0; r < rods.size(); ++r)
+      for (std::size_t k = 0; k < rods[r].nodes.size(); ++k)
+        model_.flat.col(rods[r].nodes[k]) << rods[r].position[k], 100.0 * double(r);
+    for (std::size_t k = 0; k < model_.spin.size(); ++k)
+      model_.flat.col(model_.spin[k] / 3) = model_.flat.col(model_.edges[k].to);
+  }
+
+  /// which columns lie inside a segment, between two crossings of one rod
+  void find_segments(const std::vector<char>& crossings) {
+    model_.segment.assign(std::size_t(model_.columns()), -2);  // not seen yet
+    int segment = 0;
+    const auto take = [&](int column) {
+      int& known = model_.segment[std::size_t(column)];
+      if (known == -2) model_.inside.push_back(column);
+      known = known == -2 || known == segment ? segment : -1;
+    };
+    for (const Model::Rod& rod : model_.rods) {
+      ++segment;
+      for (int edge : rod.edges) {
+        if (!model_.spin.empty()) take(model_.spin[std::size_t(edge)] / 3);
+        const int node = model_.edges[std::size_t(edge)].to;
+        if (crossings[std::size_t(node)]) {
+          model_.segment[std::size_t(node)] = -1;
+          ++segment;
+        } else {
+          take(node);
+        }
+      }
+      const int first = model_.edges[std::size_t(rod.edges.front())].from;
+      if (model_.segment[std::size_t(first)] == -2) model_.segment[std::size_t(first)] = -1;
+    }
+    std::erase_if(model_.inside, [&](int c) { return model_.segment[std::size_t(c)] < 0; });
+  }
+
+  Model model_;
+  bool twist_;
+  std::vector<std::pair<std::size_t, RodMaterial>> rings_;
+};
+
+/// the edges of a rod that meet at a node
+std::vector<int> edges_beside(const Model& model, int rod, int node) {
+  std::vector<int> edges;
+  for (int edge : model.rods[std::size_t(rod)].edges)
+    if (model.edges[std::size_t(edge)].from == node || model.edges[std::size_t(edge)].to == node)
+      edges.push_back(edge);
+  return edges;
+}
+
+/// add(e, f, share) for every pair of edges where two rods cross
+template <class Add>
+void at_crossing(const Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
+                 Add add) {
+  const std::vector<int> first = edges_beside(model, rod_a, node_a),
+                         second = edges_beside(model, rod_b, node_b);
+  const double share = stiffness / double(first.size() * second.size());
+  for (int e : first)
+    for (int f : second) add(e, f, share);
+}
+
+/// where the blocks of a pair of edges stand
+template <class Law>
+void place_pair(Model& model, Pair<Law>& pair) {
+  const ModelEdge &e = model.edges[std::size_t(pair.e)], &f = model.edges[std::size_t(pair.f)];
+  const auto slot = [&](int a, int b) { return a == b ? -1 : model.pattern.slot(a, b); };
+  PairSlots& slots = pair.slots;
+  slots.e = e.slot;
+  slots.f = f.slot;
+  const int ends[4] = {e.from, e.to, f.from, f.to};
+  for (int a = 0; a < 2; ++a)
+    for (int b = 0; b < 2; ++b) slots.across[a][b] = slot(ends[a], ends[2 + b]);
+  if (!model.has_spins()) return;
+  const int angle[2] = {model.spin[std::size_t(pair.e)] / 3, model.spin[std::size_t(pair.f)] / 3};
+  for (int end = 0; end < 4; ++end)
+    for (int k = 0; k < 2; ++k) slots.spin[end][k] = slot(ends[end], angle[k]);
+  slots.spins = slot(angle[0], angle[1]);
+}
+
+}  // namespace
+
+int Model::dof() const {
+  int count = 0;
+  for (unsigned char bits : held) count += 3 - std::popcount(bits);
+  return count;
+}
+
+Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rung,
+                          const std::vector<char>& crossings) {
+  Builder builder(nodes, rung);
+  for (std::size_t r = 0; r < rods.size(); ++r) {
+    TRY_DO(check(int(r), nodes, rods[r], rung));
+    builder.add(rods[r]);
+  }
+  return builder.build(rods, crossings);
+}
+
+void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
+                     double rest_angle) {
+  at_crossing(model, rod_a, node_a, rod_b, node_b, stiffness, [&](int e, int f, double share) {
+    std::get<std::vector<Pair<JointShear>>>(model.pairs).push_back({e, f, -1, {share, rest_angle}});
+  });
+}
+
+void add_joint_spin(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness) {
+  auto& list = std::get<std::vector<Pair<JointSpin>>>(model.pairs);
+  at_crossing(model, rod_a, node_a, rod_b, node_b, stiffness, [&](int e, int f, double share) {
+    list.push_back({e, f, -1, {share, 1}});
+    list.push_back({f, e, -1, {share, -1}});
+  });
+  // a spin that cost nothing and was held does now
+  for (int rod : {rod_a, rod_b}) {
+    int& held = model.rods[std::size_t(rod)].held_spin;
+    if (held < 0) continue;
+    const int place = model.spin[std::size_t(std::exchange(held, -1))];
+    model.held[std::size_t(place / 3)] &= (unsigned char)~(1 << place % 3);
+  }
+}
+
+void finish(Model& model) {
+  model.pattern = BlockPattern(model.columns());
+  for (ModelEdge& edge : model.edges) edge.slot = model.pattern.slot(edge.from, edge.to);
+  for (ModelBend& bend : model.bends)
+    bend.slot = model.pattern.slot(model.edges[std::size_t(bend.e)].from,
+                                   model.edges[std::size_t(bend.f)].to);
+  for (ModelSpring& spring : model.springs)
+    spring.slot = model.pattern.slot(spring.law.a, spring.law.b);
+  std::apply(
+      [&](auto&... lists) {
+        const auto place = [&](auto& list) {
+          for (auto& pair : list) place_pair(model, pair);
+        };
+        (place(lists), ...);
+      },
+      model.pairs);
+  model.free_index.assign(std::size_t(model.columns()), -1);
+  model.free_columns.clear();
+  for (int column = 0; column < model.columns(); ++column) {
+    if (model.pinned(column)) continue;
+    model.free_index[std::size_t(column)] = model.free();
+    model.free_columns.push_back(column);
+  }
+}
+
+}  // namespace gridshell

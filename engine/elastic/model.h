@@ -1,0 +1,206 @@
+// The symmetric Hessian in 3x3 blocks over pairs of columns, and where each block stands.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "engine/core/block3.h"
+#include "engine/core/energies.h"
+#include "engine/core/result.h"
+#include "engine/core/rod_model.h"
+#include "engine/elastic/element_energies.h"
+#include "engine/elastic/rod_material.h"
+#include "engine/footprint/footprint.h"
+
+namespace gridshell {
+
+/// A block's place: its pair's index, twice, plus one where the block is the pair's transposed.
+/// Below zero: there is no such block.
+using BlockSlot = int;
+
+/// The pairs of columns between which there is a block, each once.
+class BlockPattern {
+ public:
+  explicit BlockPattern(int columns = 0) : pairs_of_(std::size_t(columns)) {}
+
+  /// The place of block (row, column); a pair that is new becomes the last. Row and column differ.
+  BlockSlot slot(int row, int column);
+
+  const std::vector<std::array<int, 2>>& pairs() const { return pairs_; }
+
+ private:
+  std::vector<std::array<int, 2>> pairs_;                   // row and column of the block stored
+  std::vector<std::vector<std::pair<int, int>>> pairs_of_;  // per smaller column: larger, index
+};
+
+/// Blocks on the diagonal, one a column, and beside it, one a pair of the pattern. N/mm.
+struct BlockHessian {
+  std::vector<Block3> diagonal, pair;
+
+  void reset(std::size_t columns, std::size_t pairs) {
+    diagonal.assign(columns, {});
+    pair.assign(pairs, {});
+  }
+  void add(BlockSlot slot, const Block3& block) {
+    Block3& known = pair[std::size_t(slot >> 1)];
+    if (slot & 1) {
+      Block3 transposed;
+      transpose(block, transposed);
+      known += transposed;
+    } else {
+      known += block;
+    }
+  }
+  template <class Matrix>
+  void add(BlockSlot slot, const Eigen::MatrixBase<Matrix>& block) {
+    if (slot & 1)
+      pair[std::size_t(slot >> 1)].matrix() += block.transpose();
+    else
+      pair[std::size_t(slot >> 1)].matrix() += block;
+  }
+  void add_entry(BlockSlot slot, int row, int column, double value) {
+    if (slot & 1) std::swap(row, column);
+    pair[std::size_t(slot >> 1)].matrix()(row, column) += value;
+  }
+};
+
+// The mechanical model of a gridshell: its nodes, what stores energy between them, and what is
+// held. Const once built; a state changes beside it.
+
+/// Edge k joins nodes `from` and `to`; edges of a rod follow one another. A ghost has no EA.
+struct ModelEdge {
+  int from = 0, to = 0;
+  double rest_length = 0;  ///< mm
+  double EA = 0;           ///< N
+  BlockSlot slot = 0;
+};
+
+/// Bending at the node between edges e and f: f = e + 1, but where a ring closes.
+struct ModelBend {
+  int e = 0, f = 0;
+  double stiffness =
+      0;  ///< 2 EI/l, l the mean rest length of the two edges (mJ); 0: SectionBending
+  BlockSlot slot = 0;
+};
+
+/// Two nodes joined by a spring.
+struct ModelSpring {
+  NodeSpring law;
+  BlockSlot slot = 0;
+};
+
+/// Blocks between the nodes of two edges and the columns of their angles; -1: none.
+struct PairSlots {
+  BlockSlot e = -1, f = -1;                                         ///< between the ends of an edge
+  BlockSlot across[2][2] = {{-1, -1}, {-1, -1}};                    ///< an end of e, an end of f
+  BlockSlot spin[4][2] = {{-1, -1}, {-1, -1}, {-1, -1}, {-1, -1}};  ///< end (e's, f's), angle
+  BlockSlot spins = -1;                                             ///< between the angles
+};
+
+/// An energy of two edges of one kind.
+template <class Law>
+struct Pair {
+  int e = 0, f = 0;
+  int bend = -1;  ///< of edges that follow one another: whose reference twist it is
+  Law law;
+  PairSlots slots = {};
+};
+
+/// All energies of two edges beside plain bending: an energy more is one list more.
+using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<SectionBending>>,
+                             std::vector<Pair<JointShear>>, std::vector<Pair<JointSpin>>>;
+
+/// A rod: its nodes and their arc lengths at rest. A closed rod has one arc length more than nodes.
+/// Ends that hold a direction (`tangent`, `clamped`) hold it at the end point itself, by a ghost
+/// edge beyond it: its bend counts over half an edge, so the hold is second order [the symmetric
+/// ghost of beam theory].
+struct ModelRod {
+  std::vector<int> nodes;
+  std::vector<double> position;  ///< mm, ascending
+  RodMaterial material;
+  RodEnd begin = RodEnd::pinned, end = RodEnd::pinned;
+  Eigen::Vector3d director{0, 0, 1};     ///< m1 at the begin, as near as the tangent allows
+  int ghost_begin = -1, ghost_end = -1;  ///< nodes of the ghosts; -1: numbered after the others
+
+  bool closed() const { return position.size() == nodes.size() + 1; }
+};
+
+/// The unknowns stand in columns of three: one a node (mm), then, on the twist rung, the angles of
+/// edges, three a column and times `spin_length`, so that every unknown is a length, every force a
+/// force and every stiffness N/mm.
+struct Model {
+  int nodes = 0;           ///< ghosts too
+  double spin_length = 1;  ///< mm; the mean edge
+  std::vector<ModelEdge> edges;
+  std::vector<ModelBend> bends;  ///< in the order of their edges, those that close a ring last
+  std::vector<ModelSpring> springs;
+  PairLists pairs;
+  std::vector<NodeAction> loads;   ///< dead; they count times a load factor
+  std::vector<NodeAction> ground;  ///< what the shell stands on
+  std::vector<int> spin;  ///< per edge: its angle's place, 3 column + row; empty: bend rung
+
+  /// An edge list a rod, for frames and for what turns a held end.
+  struct Rod {
+    std::vector<int> edges;                ///< in order, ghosts too
+    int ghost_begin = -1, ghost_end = -1;  ///< their edges
+    bool closed = false;
+    int first_bend = 0;  ///< of those that follow one another along it
+    int held_spin = -1;  ///< edge whose angle is held as nothing resists the spin, or -1
+    Eigen::Vector3d director;
+    double gyration_mm2 = 0;  ///< of the section about the rod's axis, squared: (I1 + I2)/A
+  };
+  std::vector<Rod> rods;
+
+  /// per column: a bit set for each of its three unknowns that is prescribed or does not exist
+  std::vector<unsigned char> held;
+  static constexpr unsigned char all_held = 7;
+
+  // worked out by finish()
+  BlockPattern pattern;
+  std::vector<int> free_index;    ///< per column: index among those not wholly held, or -1
+  std::vector<int> free_columns;  ///< its inverse
+  Eigen::Matrix2Xd flat;          ///< (u, v) of every column, for seeds and orderings
+  std::vector<int> segment;       ///< per column: the segment of a rod it is inside of, or -1
+  std::vector<int> inside;        ///< columns inside segments, in order along the rods
+
+  int columns() const { return int(held.size()); }
+  int free() const { return int(free_columns.size()); }
+  int dof() const;
+  bool pinned(int column) const { return held[std::size_t(column)] == all_held; }
+  void pin(int node) { held[std::size_t(node)] = all_held; }
+  void hold(int column, int row) { held[std::size_t(column)] |= (unsigned char)(1 << row); }
+  bool has_spins() const { return !spin.empty(); }
+  /// Holds the angle of an edge.
+  void hold_spin(int edge) { hold(spin[std::size_t(edge)] / 3, spin[std::size_t(edge)] % 3); }
+  /// The angle of an edge in a state, rad.
+  double angle(const Eigen::Matrix3Xd& x, int edge) const {
+    return x.data()[spin[std::size_t(edge)]] / spin_length;
+  }
+};
+
+/// Puts rods together; nodes that rods share are shared joints. `crossings` marks more nodes at
+/// which rods hold on to one another (spring joints). On the twist rung the spin of a rod that
+/// nothing resists (round and straight, no end clamped) costs no energy: one of its angles is held.
+/// On the bend rung a section with axes bends as its softer one (a seed for the other rung).
+/// Errors (bad_input): stiffness that is not positive, a torsional stiffness that is missing on the
+/// twist rung, arc lengths that do not ascend, a node that does not exist.
+Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rung,
+                          const std::vector<char>& crossings = {});
+
+/// Adds the resistance to shear `stiffness` (N mm/rad) where rods `a` and `b` of the model cross
+/// at a node (or at two nodes that a spring joins): the edges before and after it on each rod.
+/// finish() afterwards; so for the two below.
+void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
+                     double rest_angle);
+
+/// Adds the resistance to spin `stiffness` (N mm/rad) of both rods where they cross: their first
+/// directors stay near the joint's normal, from the direction of `a` to that of `b`.
+void add_joint_spin(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness);
+
+/// Works out pattern and numbering after elements were added or unknowns held.
+void finish(Model& model);
+
+}  // namespace gridshell

@@ -1,0 +1,57 @@
+// An edge of a rod in a state.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace gridshell {
+
+/// An edge vector with what every energy needs of it.
+struct EdgeGeometry {
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  ///< unit
+  double length = 0;                                   ///< current length, mm
+};
+
+// Reference frames of edges, carried in time by parallel transport [Bergou 2010].
+
+/// Vector `v` carried from unit tangent a to unit tangent b by the rotation about a x b that takes
+/// one to the other. Undefined at b = -a.
+inline Eigen::Vector3d transport(const Eigen::Vector3d& v, const Eigen::Vector3d& a,
+                                 const Eigen::Vector3d& b) {
+  const double c = a.dot(b);
+  const Eigen::Vector3d axis = a.cross(b);
+  return c * v + axis.cross(v) + axis.dot(v) / (1 + c) * axis;
+}
+
+/// `director` carried from tangent a to b, made a unit normal of b again so round-off cannot grow.
+inline Eigen::Vector3d carried_director(const Eigen::Vector3d& director, const Eigen::Vector3d& a,
+                                        const Eigen::Vector3d& b) {
+  const Eigen::Vector3d d = transport(director, a, b);
+  return (d - d.dot(b) * b).normalized();
+}
+
+/// A unit normal of tangent t, as near to `wish` as there is; any where `wish` is along t.
+inline Eigen::Vector3d normal_near(const Eigen::Vector3d& wish, const Eigen::Vector3d& t) {
+  const Eigen::Vector3d d = wish - wish.dot(t) * t;
+  return d.norm() > 1e-6 * wish.norm() ? d.normalized() : t.unitOrthogonal();
+}
+
+/// Angle from unit vector a to b about `axis` (unit, normal to both), in (-pi, pi].
+inline double signed_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                           const Eigen::Vector3d& axis) {
+  return std::atan2(axis.dot(a.cross(b)), a.dot(b));
+}
+
+/// The value of `angle` + 2 pi n nearest to `before`: angles grow past a turn, they do not jump.
+inline double unwrapped(double angle, double before) {
+  return angle + 2 * M_PI * std::round((before - angle) / (2 * M_PI));
+}
+
+/// m_ref: the angle from e's reference director, transported in space to f's tangent, to f's.
+inline double reference_twist(const Eigen::Vector3d& director_e, const Eigen::Vector3d& tangent_e,
+                              const Eigen::Vector3d& director_f, const Eigen::Vector3d& tangent_f) {
+  return signed_angle(transport(director_e, tangent_e, tangent_f), director_f, tangent_f);
+}
+
+}  // namespace gridshell

@@ -1,0 +1,69 @@
+// Cross-section and material of a rod.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+namespace gridshell {
+
+/// Stiffness of a round, naturally straight rod: EA (N) and EI (N mm^2).
+struct RodSection {
+  double EA = 0;
+  double EI = 0;
+};
+
+/// A solid circular section of diameter D (mm) and Young's modulus E (GPa):
+/// EA = E pi D^2/4, EI = E pi D^4/64.
+inline RodSection circular_section(double diameter_mm, double young_GPa) {
+  const double young_MPa = 1e3 * young_GPa;
+  const double area = M_PI * diameter_mm * diameter_mm / 4;
+  return {young_MPa * area, young_MPa * area * diameter_mm * diameter_mm / 16};
+}
+
+// Material and cross-section of a rod on the `twist` rung: two principal axes, torsion, and a shape
+// of its own at rest.
+
+/// Stiffness per rod in its material frame (m1, m2, tangent) [Bergou 2008]. Curvatures are those
+/// about m1 and m2: the curvature binormal's components per length.
+struct RodMaterial {
+  double EA = 0;                    ///< N
+  double EI1 = 0, EI2 = 0;          ///< bending about m1 and about m2, N mm^2
+  double GJ = 0;                    ///< torsion, N mm^2
+  Eigen::Vector2d curvature{0, 0};  ///< at rest, about m1 and m2, 1/mm
+  double twist = 0;                 ///< at rest, rad/mm
+
+  /// Bends alike in every direction, straight at rest: the spin of its section changes nothing.
+  bool round_and_straight() const { return EI1 == EI2 && curvature.isZero(0); }
+};
+
+/// A round rod that is straight at rest.
+inline RodMaterial round_material(const RodSection& section, double GJ) {
+  return {section.EA, section.EI, section.EI, GJ, {0, 0}, 0};
+}
+
+/// A solid circular section of diameter D (mm), Young's modulus E and shear modulus G (GPa):
+/// GJ = G pi D^4/32.
+inline RodMaterial circular_material(double diameter_mm, double young_GPa, double shear_GPa) {
+  const double d2 = diameter_mm * diameter_mm;
+  return round_material(circular_section(diameter_mm, young_GPa),
+                        1e3 * shear_GPa * M_PI * d2 * d2 / 32);
+}
+
+/// A solid rectangular section, `width` along m1 and `height` along m2 (mm), any ratio: EI1 = E w
+/// h^3/12, EI2 = E h w^3/12, GJ by Saint-Venant's series [Timoshenko, Goodier 1951, art. 109].
+inline RodMaterial rectangular_material(double width, double height, double young_GPa,
+                                        double shear_GPa) {
+  const double young = 1e3 * young_GPa, a = std::max(width, height), b = std::min(width, height);
+  double series = 0;
+  for (int n = 1; n < 40; n += 2) series += std::tanh(n * M_PI * a / (2 * b)) / std::pow(n, 5);
+  const double J = a * b * b * b * (1.0 / 3 - 64 / std::pow(M_PI, 5) * b / a * series);
+  return {young * width * height,
+          young * width * height * height * height / 12,
+          young * height * width * width * width / 12,
+          1e3 * shear_GPa * J,
+          {0, 0},
+          0};
+}
+
+}  // namespace gridshell

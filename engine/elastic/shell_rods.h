@@ -1,0 +1,67 @@
+// The rods of a shell, how they cross and what they carry, the same on every mesh of its footprint.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/elastic/model.h"
+#include "engine/elastic/rod_material.h"
+#include "engine/footprint/mesh.h"
+
+namespace gridshell {
+
+/// A dead force on a joint, N.
+struct PointLoad {
+  int joint = 0;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+};
+
+/// How crossing rods hold on to each other.
+struct JointLaw {
+  double spring_N_per_mm = 0;  ///< of spring joints; 0: the rods share a node
+  double shear_Nmm = 0;        ///< per rad; 0: they shear freely
+  double twist_Nmm = 0;        ///< per rad; 0: they pass no twist
+};
+
+/// Sections, joints and dead loads of the rods of a footprint.
+struct ShellRods {
+  std::vector<RodMaterial> materials;   ///< one a rod, or one for all
+  JointLaw joints;                      ///< on the twist rung; on the bend rung rods share nodes
+  std::vector<double> weight_N_per_mm;  ///< one a rod, downwards; empty: none
+  std::vector<PointLoad> points;
+
+  ShellRods() = default;
+  ShellRods(const RodMaterial& material) : materials{material} {}  // NOLINT: rods all alike
+  ShellRods(const RodSection& section) : materials{round_material(section, 0)} {}  // NOLINT
+
+  const RodMaterial& material(std::size_t rod) const {
+    return materials.size() == 1 ? materials.front() : materials[rod];
+  }
+  bool loaded() const {
+    // a member more does not compile here: whoever adds one says whether it loads the shell
+    const auto& [rods, law, weight, loads] = *this;
+    return !weight.empty() || !loads.empty();
+  }
+};
+
+/// What `per_mm` of each rod puts on every node of a mesh: half of each edge that meets there, none
+/// from the edges to ghosts.
+Eigen::VectorXd lumped(const RodMesh& mesh, const std::vector<double>& per_mm);
+
+/// Dead forces on the nodes of a mesh.
+std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods);
+
+/// The model of a meshed footprint; edge points are pinned but for free ends and those on springs,
+/// ghosts, supports of springs and the far ends of tails too. Node
+/// numbers are the mesh's; with spring joints the v rod's own node of a joint comes after them, in
+/// the order of the joints. First directors stand up from the flat (+z). Errors as build_model().
+Result<Model> build_model(const RodMesh& mesh, const ShellRods& rods,
+                          RodModel rung = RodModel::bend);
+
+/// Columns of a model's state from positions of the mesh's nodes: twins of joints where these are,
+/// angles zero.
+Eigen::Matrix3Xd columns_of(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& nodes);
+/// Positions of the mesh's nodes from a state: a joint is half way between its two rods' nodes.
+Eigen::Matrix3Xd nodes_of(const RodMesh& mesh, const Model& model, const Eigen::Matrix3Xd& columns);
+
+}  // namespace gridshell

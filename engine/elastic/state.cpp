@@ -1,0 +1,183 @@
+#include "engine/elastic/state.h"
+
+#include "engine/core/algorithms.h"
+#include "engine/elastic/rod_frame.h"
+
+namespace gridshell {
+namespace {
+
+Eigen::Vector3d tangent_of(const Model& model, const Eigen::Matrix3Xd& x, int edge) {
+  const ModelEdge& e = model.edges[std::size_t(edge)];
+  return (x.col(e.to) - x.col(e.from)).normalized();
+}
+
+Eigen::Matrix3Xd tangents_of(const Model& model, const Eigen::Matrix3Xd& x) {
+  Eigen::Matrix3Xd tangents(3, Eigen::Index(model.edges.size()));
+  for (int edge = 0; edge < int(model.edges.size()); ++edge)
+    tangents.col(edge) = tangent_of(model, x, edge);
+  return tangents;
+}
+
+/// the ghost's node `length` beyond the end
+void put_ghost(const Model& model, int ghost, bool at_end, const Eigen::Vector3d& direction,
+               Eigen::Matrix3Xd& x) {
+  const ModelEdge& edge = model.edges[std::size_t(ghost)];
+  const Eigen::Vector3d step = edge.rest_length * direction;
+  if (at_end)
+    x.col(edge.to) = x.col(edge.from) + step;
+  else
+    x.col(edge.from) = x.col(edge.to) - step;
+}
+
+void put_ghosts(const Model& model, Eigen::Matrix3Xd& x) {
+  for (const Model::Rod& rod : model.rods) {
+    if (rod.ghost_begin >= 0)
+      put_ghost(model, rod.ghost_begin, false, tangent_of(model, x, rod.edges[1]), x);
+    if (rod.ghost_end >= 0)
+      put_ghost(model, rod.ghost_end, true, tangent_of(model, x, rod.edges[rod.edges.size() - 2]),
+                x);
+  }
+}
+
+void carry_reference_twist(const Model& model, const Eigen::Matrix3Xd& tangents, State& state) {
+  for (std::size_t k = 0; k < model.bends.size(); ++k) {
+    const int e = model.bends[k].e, f = model.bends[k].f;
+    const double now = reference_twist(state.director.col(e), tangents.col(e),
+                                       state.director.col(f), tangents.col(f));
+    double& known = state.reference_twist[Eigen::Index(k)];
+    known = unwrapped(now, known);
+  }
+}
+
+}  // namespace
+
+State start_state(const Model& model, const Eigen::Matrix3Xd& x) {
+  const Eigen::Index edges = Eigen::Index(model.edges.size());
+  State state{Eigen::Matrix3Xd::Zero(3, model.columns()), Eigen::VectorXd::Zero(edges)};
+  state.x.leftCols(x.cols()) = x;
+  if (x.cols() < model.nodes) put_ghosts(model, state.x);
+  if (!model.has_spins()) return state;
+  state.director.resize(3, edges);
+  state.reference_twist = Eigen::VectorXd::Zero(Eigen::Index(model.bends.size()));
+  const Eigen::Matrix3Xd tangents = tangents_of(model, state.x);
+  for (const Model::Rod& rod : model.rods) {
+    int before = rod.edges.front();
+    Eigen::Vector3d director = normal_near(rod.director, tangents.col(before));
+    for (int edge : rod.edges) {
+      director = carried_director(director, tangents.col(before), tangents.col(edge));
+      state.director.col(edge) = director;
+      before = edge;
+    }
+  }
+  carry_reference_twist(model, tangents, state);
+  return state;
+}
+
+void move_to(const Model& model, const Eigen::Matrix3Xd& x, State& state) {
+  if (!model.has_spins()) {
+    state.x = x;
+    return;
+  }
+  const Eigen::Matrix3Xd before = tangents_of(model, state.x), after = tangents_of(model, x);
+  for (int edge = 0; edge < int(model.edges.size()); ++edge)
+    state.director.col(edge) =
+        carried_director(state.director.col(edge), before.col(edge), after.col(edge));
+  state.x = x;
+  carry_reference_twist(model, after, state);
+}
+
+void set_end_direction(const Model& model, int rod, bool at_end, const Eigen::Vector3d& direction,
+                       State& state) {
+  const Model::Rod& r = model.rods[std::size_t(rod)];
+  Eigen::Matrix3Xd x = state.x;
+  put_ghost(model, at_end ? r.ghost_end : r.ghost_begin, at_end, direction.normalized(), x);
+  move_to(model, x, state);
+}
+
+Eigen::Vector3d material_director(const Model& model, const State& state, int edge) {
+  return halfway_frame(tangent_of(model, state.x, edge), state.director.col(edge),
+                       model.angle(state.x, edge))
+      .col(0);
+}
+
+double twist_at(const Model& model, const State& state, int bend) {
+  const ModelBend& b = model.bends[std::size_t(bend)];
+  return model.angle(state.x, b.f) - model.angle(state.x, b.e) + state.reference_twist[bend];
+}
+
+namespace {
+
+/// Where each edge of a rod stands along it: its middle, a ghost at the end point itself.
+std::vector<double> places_along(const Model& model, const Model::Rod& rod) {
+  std::vector<double> places;
+  double s = 0;
+  for (int edge : rod.edges) {
+    const bool ghost = edge == rod.ghost_begin || edge == rod.ghost_end;
+    const double length = ghost ? 0 : model.edges[std::size_t(edge)].rest_length;
+    places.push_back(s + 0.5 * length);
+    s += length;
+  }
+  return places;
+}
+
+/// Linear between known values, straight on beyond the ends.
+double interpolated(const std::vector<double>& at, const std::vector<double>& value, double s) {
+  if (at.size() == 1) return value.front();
+  const std::size_t k = piece_at(at, s);
+  const double share = (s - at[k]) / (at[k + 1] - at[k]);
+  return value[k] + share * (value[k + 1] - value[k]);
+}
+
+Eigen::Vector3d tangent_of(const Model& model, const State& state, int edge) {
+  const ModelEdge& e = model.edges[std::size_t(edge)];
+  return (state.x.col(e.to) - state.x.col(e.from)).normalized();
+}
+
+/// the angle from the material director of an edge of `to` to that of an edge of `from`
+double angle_between(const Model& from, const State& a, int edge_a, const Model& to, const State& b,
+                     int edge_b) {
+  const Eigen::Vector3d t = tangent_of(to, b, edge_b);
+  return signed_angle(material_director(to, b, edge_b),
+                      transport(material_director(from, a, edge_a), tangent_of(from, a, edge_a), t),
+                      t);
+}
+
+}  // namespace
+
+StateTransfer::StateTransfer(const RodMesh& from_mesh, const Model& from, const RodMesh& to_mesh,
+                             const Model& to)
+    : from_mesh_(from_mesh), to_mesh_(to_mesh), from_(from), to_(to), meshes_(from_mesh, to_mesh) {}
+
+State StateTransfer::carry(const State& state) const {
+  Eigen::Matrix3Xd nodes;
+  meshes_.nodes(nodes_of(from_mesh_, from_, state.x), nodes);
+  State carried = start_state(to_, columns_of(to_mesh_, to_, nodes));
+  meshes_.edges(state.force, carried.force);
+  if (to_.has_spins()) carry_spins(state, carried);
+  return carried;
+}
+
+/// The carried frames are without twist along each rod, so angles there are the twist itself.
+void StateTransfer::carry_spins(const State& state, State& carried) const {
+  for (std::size_t r = 0; r < from_.rods.size(); ++r) {
+    const Model::Rod &before = from_.rods[r], &after = to_.rods[r];
+    const std::vector<double> at = places_along(from_, before);
+    std::vector<double> turned{
+        angle_between(from_, state, before.edges.front(), to_, carried, after.edges.front())};
+    for (std::size_t k = 1; k < before.edges.size(); ++k)
+      turned.push_back(turned.back() + twist_at(from_, state, before.first_bend + int(k) - 1));
+    const std::vector<double> places = places_along(to_, after);
+    const auto angle = [&](int edge) -> double& {
+      return carried.x.data()[to_.spin[std::size_t(edge)]];
+    };
+    for (std::size_t k = 0; k < after.edges.size(); ++k)
+      angle(after.edges[k]) = to_.spin_length * interpolated(at, turned, places[k]);
+    for (const auto& [old_end, new_end] :
+         {std::pair(before.ghost_begin, after.ghost_begin), {before.ghost_end, after.ghost_end}})
+      if (new_end >= 0)
+        angle(new_end) +=
+            to_.spin_length * angle_between(from_, state, old_end, to_, carried, new_end);
+  }
+}
+
+}  // namespace gridshell

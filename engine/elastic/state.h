@@ -1,0 +1,65 @@
+// What changes of a model: positions, angles, axial forces, and the frames that go with them.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "engine/elastic/model.h"
+#include "engine/elastic/shell_rods.h"
+#include "engine/footprint/mesh.h"
+
+namespace gridshell {
+
+/// Reference frames belong to the positions: move them by move_to() alone.
+struct State {
+  Eigen::Matrix3Xd x;                    ///< 3 x columns of the model: positions and angles, mm
+  Eigen::VectorXd force;                 ///< axial, one an edge, N: unknowns of the mixed form
+  Eigen::Matrix3Xd director = {};        ///< twist rung: of the reference frames, one an edge
+  Eigen::VectorXd reference_twist = {};  ///< twist rung: m_ref, one a bend; whole turns count
+};
+
+/// A state with the columns at `x` and no axial force; along each rod a frame without twist whose
+/// first director is the rod's. Ghosts that x does not have (fewer columns than nodes) go straight
+/// on beyond their ends, and angles are zero.
+State start_state(const Model& model, const Eigen::Matrix3Xd& x);
+
+/// Moves the columns to x, the reference frames along with them (parallel in time).
+void move_to(const Model& model, const Eigen::Matrix3Xd& x, State& state);
+
+/// Moves the nodes of a prescribed end so that the ghost edge of `rod` points along `direction`
+/// (from begin to end of the rod).
+void set_end_direction(const Model& model, int rod, bool at_end, const Eigen::Vector3d& direction,
+                       State& state);
+
+/// m1 of an edge.
+Eigen::Vector3d material_director(const Model& model, const State& state, int edge);
+
+/// tau of a bend on the twist rung: from e's material frame to f's, rad.
+double twist_at(const Model& model, const State& state, int bend);
+
+// States between meshes of one footprint.
+
+/// Carries states from a model on one mesh to a model on another: positions by cubic interpolation
+/// along the rods, axial forces edge by edge, and of the spins the material frames: their twist is
+/// spread along the arc length, and what a clamped end holds is kept to round-off. Meshes and
+/// models must outlive it.
+class StateTransfer {
+ public:
+  StateTransfer(const RodMesh& from_mesh, const Model& from, const RodMesh& to_mesh,
+                const Model& to);
+
+  State carry(const State& state) const;
+
+  /// Positions alone, of the meshes' nodes.
+  const MeshTransfer& meshes() const { return meshes_; }
+
+ private:
+  void carry_spins(const State& state, State& carried) const;
+
+  const RodMesh& from_mesh_;
+  const RodMesh& to_mesh_;
+  const Model& from_;
+  const Model& to_;
+  MeshTransfer meshes_;
+};
+
+}  // namespace gridshell

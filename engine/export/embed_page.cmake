@@ -1,9 +1,0 @@
-# Writes a .cpp that holds page.html as text. Arguments: PAGE, OUTPUT.
-file(READ ${PAGE} content)
-file(WRITE ${OUTPUT} "// Generated from page.html.
-#include \"engine/export/page_template.h\"
-
-namespace gridshell::exports {
-const char* const page_template = R\"page(${content})page\";
-}  // namespace gridshell::exports
-")

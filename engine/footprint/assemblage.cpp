@@ -1,0 +1,353 @@
+#include "engine/footprint/assemblage.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/core/try.h"
+
+namespace gridshell {
+namespace {
+
+// how near two places are the same, over d
+constexpr double same = 1e-9;
+
+bool inside(const std::vector<Interval>& pieces, double at, double margin) {
+  return std::any_of(pieces.begin(), pieces.end(), [&](const Interval& piece) {
+    return at > piece.begin + margin && at < piece.end - margin;
+  });
+}
+
+using Line = std::vector<Eigen::Vector2d>;
+
+/// The parts of a polyline inside a cut; they end before it, where two blocks share a point.
+std::vector<Line> clipped(const Line& line, const Assemblage::PlacedBlock& block, Side side) {
+  std::vector<Line> kept;
+  bool open = false;
+  for (const Eigen::Vector2d& point : line) {
+    const bool inside = block.depth(side, point) > same * block.block.spacing;
+    if (inside && !open) kept.emplace_back();
+    if (inside) kept.back().push_back(point);
+    open = inside;
+  }
+  return kept;
+}
+
+}  // namespace
+
+double along_sides(Side side, const Eigen::Vector2d& uv) {
+  return side == Side::east || side == Side::west ? uv.x() + uv.y() : uv.y() - uv.x();
+}
+
+double outward(Side side) { return side == Side::east || side == Side::north ? 1 : -1; }
+
+Result<NetPoint> Assemblage::PlacedBlock::at(const Eigen::Vector2d& uv) const {
+  const Eigen::Vector2d own = uv - shift;
+  auto point = block.net->at(own.x(), own.y());
+  if (!point)
+    return fail(point.error().fault,
+                fmt::format("block \"{}\": {}", block.name, point.error().message));
+  point->position = block.pose * point->position + offset;
+  point->tangent_u = block.pose.linear() * point->tangent_u;
+  point->tangent_v = block.pose.linear() * point->tangent_v;
+  return point;
+}
+
+double Assemblage::PlacedBlock::depth(Side side, const Eigen::Vector2d& uv) const {
+  const auto& row = block.cut[std::size_t(side)];
+  if (!row) return std::numeric_limits<double>::infinity();
+  return outward(side) * (*row * block.spacing - along_sides(side, uv - shift));
+}
+
+bool Assemblage::PlacedBlock::within_cuts(const Eigen::Vector2d& uv) const {
+  return std::all_of(all_sides.begin(), all_sides.end(),
+                     [&](Side side) { return depth(side, uv) >= -same * block.spacing; });
+}
+
+bool Assemblage::PlacedBlock::within_boundary(const Eigen::Vector2d& uv) const {
+  const Eigen::Vector2d own = uv - shift;
+  const double margin = -same * block.spacing;
+  return inside(block.domain->intervals(Family::u, own.y()), own.x(), margin) ||
+         inside(block.domain->intervals(Family::v, own.x()), own.y(), margin);
+}
+
+std::vector<Interval> Assemblage::PlacedBlock::intervals(Family family, double c) const {
+  const int along = family == Family::u ? 0 : 1;
+  const double own = c - shift[1 - along];
+  std::vector<Interval> pieces;
+  for (Interval piece : block.domain->intervals(family, own)) {
+    for (const Side side : all_sides) {
+      const auto& row = block.cut[std::size_t(side)];
+      if (!row) continue;
+      // u + v grows along both families, v - u falls along u
+      const bool sum = side == Side::east || side == Side::west;
+      const double slope = sum || along == 1 ? 1 : -1;
+      const double rest = sum || along == 0 ? own : -own;
+      const double at = slope * (*row * block.spacing - rest);
+      if (outward(side) * slope > 0)
+        piece.end = std::min(piece.end, at);
+      else
+        piece.begin = std::max(piece.begin, at);
+    }
+    if (piece.begin < piece.end)
+      pieces.push_back({piece.begin + shift[along], piece.end + shift[along]});
+  }
+  return pieces;
+}
+
+std::vector<Eigen::Vector2d> Assemblage::PlacedBlock::row(Side side) const {
+  const auto& cut = block.cut[std::size_t(side)];
+  if (!cut) return {};
+  const double d = block.spacing, margin = 1e-6 * d;
+  const bool sum = side == Side::east || side == Side::west;
+  const int last = static_cast<int>(std::ceil(block.domain->reach() / d)) + 1;
+  std::vector<Eigen::Vector2d> joints;
+  for (int i = -last; i <= last; ++i) {
+    const double u = line_of(block.placement, i, d);
+    const double v = sum ? *cut * d - u : *cut * d + u;
+    // both rods of the joint reach it
+    if (inside(block.domain->intervals(Family::u, v), u, margin) &&
+        inside(block.domain->intervals(Family::v, u), v, margin) &&
+        within_cuts(Eigen::Vector2d(u, v) + shift))
+      joints.push_back(Eigen::Vector2d(u, v) + shift);
+  }
+  return joints;
+}
+
+std::vector<Eigen::Matrix2Xd> Assemblage::PlacedBlock::outline(int points) const {
+  const Eigen::Matrix2Xd ring = block.domain->boundary(points).colwise() + shift;
+  const auto cut_away = [&](Eigen::Index k) {
+    return std::any_of(all_sides.begin(), all_sides.end(),
+                       [&](Side side) { return depth(side, ring.col(k)) < 0; });
+  };
+  // once around, from a point that is cut away where there is one
+  Eigen::Index first = 0;
+  while (first + 1 < ring.cols() && !cut_away(first)) ++first;
+  Line around;
+  for (Eigen::Index k = 0; k <= ring.cols(); ++k)
+    around.emplace_back(ring.col((first + k) % ring.cols()));
+  std::vector<Line> lines{around};
+  for (const Side side : all_sides) {
+    std::vector<Line> kept;
+    for (const Line& line : lines)
+      for (Line& part : clipped(line, *this, side)) kept.push_back(std::move(part));
+    lines = std::move(kept);
+  }
+  std::vector<Eigen::Matrix2Xd> outlines;
+  for (const Line& line : lines) {
+    outlines.emplace_back(2, Eigen::Index(line.size()));
+    for (std::size_t k = 0; k < line.size(); ++k) outlines.back().col(Eigen::Index(k)) = line[k];
+  }
+  return outlines;
+}
+
+namespace {
+
+using Places = Assemblage::Places;
+using PlacedBlock = Assemblage::PlacedBlock;
+
+std::string name_of(const Places& places, const BlockSide& side) {
+  return fmt::format("{}.{}", places[side.block].block.name, word_of(side.side));
+}
+
+std::string name_of(const Places& places, const Join& join) {
+  return name_of(places, join.first) + " - " + name_of(places, join.second);
+}
+
+tl::unexpected<Error> refuse(const Places& places, const Join& join, const std::string& why) {
+  return fail(Fault::bad_input, fmt::format("seam {}: {}", name_of(places, join), why));
+}
+
+bool face(Side a, Side b) {
+  // east and west, north and south stand beside one another
+  return a != b && int(a) / 2 == int(b) / 2;
+}
+
+Result<void> check_sides(const Places& places, const std::vector<Join>& joins) {
+  std::vector<std::array<int, 4>> used(places.size(), {0, 0, 0, 0});
+  for (const Join& join : joins) {
+    if (!face(join.first.side, join.second.side))
+      return refuse(places, join,
+                    "the sides do not face one another; join east with west or north with south");
+    for (const BlockSide& side : {join.first, join.second}) {
+      if (!places[side.block].block.cut[std::size_t(side.side)])
+        return refuse(places, join,
+                      fmt::format("{} is not cut at a row of joints", name_of(places, side)));
+      if (++used[side.block][std::size_t(side.side)] > 1)
+        return refuse(places, join, fmt::format("{} is joined twice", name_of(places, side)));
+    }
+    const Block &a = places[join.first.block].block, &b = places[join.second.block].block;
+    if (a.spacing != b.spacing)
+      return refuse(places, join,
+                    fmt::format("the distance between rods is d = {:g} mm and {:g} mm, it must be "
+                                "the same",
+                                a.spacing, b.spacing));
+    if (a.placement != b.placement)
+      return refuse(places, join,
+                    "rods lie on the axes of one block and beside those of the other");
+  }
+  for (int k = 0; k < int(places.size()); ++k)
+    for (const Side side : all_sides)
+      if (places[k].block.cut[std::size_t(side)] && !used[k][std::size_t(side)])
+        return fail(Fault::bad_input,
+                    fmt::format("{} is cut and not joined: its rods would end in the air",
+                                name_of(places, BlockSide{k, side})));
+  return {};
+}
+
+/// Shift of the second block against the first that brings the joints of their rows together.
+Result<Eigen::Vector2d> shift_of(const Places& places, const Join& join) {
+  const auto a = places[join.first.block].row(join.first.side);
+  const auto b = places[join.second.block].row(join.second.side);
+  if (a.size() != b.size() || a.empty())
+    return refuse(places, join,
+                  fmt::format("{} rods cross {} and {} cross {}; the same number must, at least "
+                              "2: change a radius, a crossing angle or a row",
+                              2 * a.size(), name_of(places, join.first), 2 * b.size(),
+                              name_of(places, join.second)));
+  const Eigen::Vector2d shift = a.front() - b.front();
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if ((a[k] - b[k] - shift).norm() > 1e-9 * places[join.first.block].block.spacing)
+      return refuse(places, join,
+                    fmt::format("its {} rods do not follow one another in the same order on both "
+                                "sides",
+                                2 * a.size()));
+  return shift;
+}
+
+double angle_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180 / std::numbers::pi;
+}
+
+/// Both nets at the joints of a seam between blocks that lie in place.
+Result<std::vector<std::array<NetPoint, 2>>> pairs_at(const Places& places, const Join& join) {
+  std::vector<std::array<NetPoint, 2>> pairs;
+  for (const Eigen::Vector2d& joint : places[join.first.block].row(join.first.side)) {
+    TRY(a, places[join.first.block].at(joint), b = places[join.second.block].at(joint));
+    if (!b) return tl::unexpected(b.error());
+    pairs.push_back({*a, *b});
+  }
+  return pairs;
+}
+
+/// Puts `second` beside the first, or the other way round where `second` lies already.
+Result<void> place_beside(Places& places, const Join& join, bool second) {
+  TRY(shift, shift_of(places, join));
+  PlacedBlock& moved = places[second ? join.second.block : join.first.block];
+  moved.shift += second ? *shift : Eigen::Vector2d(-*shift);
+  TRY(pairs, pairs_at(places, join));
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& [a, b] : *pairs) middle += (a.position - b.position) / double(pairs->size());
+  // level: all boundaries stay in one plane
+  middle.z() = 0;
+  moved.offset += second ? middle : Eigen::Vector3d(-middle);
+  return {};
+}
+
+/// Places all blocks from the first on, along the joins.
+Result<void> place_all(Places& places, const std::vector<Join>& joins) {
+  std::vector<char> placed(places.size(), 0);
+  placed.front() = 1;
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const Join& join : joins) {
+      const int a = join.first.block, b = join.second.block;
+      if (placed[a] == placed[b]) continue;
+      if (auto done = place_beside(places, join, placed[a]); !done) return done;
+      placed[a] = placed[b] = moved = true;
+    }
+  }
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (!placed[k])
+      return fail(Fault::bad_input, fmt::format("no join holds block \"{}\" to block \"{}\"",
+                                                places[k].block.name, places.front().block.name));
+  return {};
+}
+
+Result<Seam> seam_of(const Places& places, const Join& join, double max_gap) {
+  // closes a loop only where nothing is left to shift
+  TRY(shift, shift_of(places, join));
+  const double d = places.front().block.spacing;
+  if (shift->norm() > 1e-9 * d)
+    return refuse(
+        places, join,
+        fmt::format("the joins round the loop leave the sides ({:.4g}, {:.4g}) cells apart",
+                    shift->x() / d, shift->y() / d));
+  TRY(pairs, pairs_at(places, join));
+  const auto joints = places[join.first.block].row(join.first.side);
+  Seam seam{join.first, join.second, name_of(places, join), {}};
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const auto& [a, b] = (*pairs)[k];
+    const double gap = (a.position - b.position).norm();
+    seam.rods.push_back({Family::u, joints[k].y(), gap, angle_deg(a.tangent_u, b.tangent_u)});
+    seam.rods.push_back({Family::v, joints[k].x(), gap, angle_deg(a.tangent_v, b.tangent_v)});
+  }
+  for (std::size_t k = 0; k + 1 < seam.rods.size(); k += 2) {
+    const SeamRod &u = seam.rods[k], &v = seam.rods[k + 1];
+    if (seam.max_gap_mm() <= max_gap || u.gap_mm < seam.max_gap_mm()) continue;
+    return refuse(places, join,
+                  fmt::format("at the joint (u, v) = ({:g}, {:g}) mm the nets are {:.3g} mm apart "
+                              "and the rods' tangents {:.3g} and {:.3g} degrees, the gap must be "
+                              "at most {:g} mm",
+                              v.line_mm, u.line_mm, u.gap_mm, u.kink_deg, v.kink_deg, max_gap));
+  }
+  return seam;
+}
+
+Result<void> check_apart(const Places& places) {
+  const double d = places.front().block.spacing;
+  for (std::size_t a = 0; a < places.size(); ++a)
+    for (std::size_t b = a + 1; b < places.size(); ++b) {
+      const double reach = places[a].block.domain->reach() + places[a].shift.cwiseAbs().maxCoeff();
+      const int last = static_cast<int>(std::ceil(reach / d)) + 1;
+      for (const Family family : {Family::u, Family::v})
+        for (int k = -last; k <= last; ++k) {
+          const double line = line_of(places[a].block.placement, k, d);
+          for (const Interval& one : places[a].intervals(family, line))
+            for (const Interval& two : places[b].intervals(family, line))
+              if (std::min(one.end, two.end) - std::max(one.begin, two.begin) > 1e-6 * d)
+                return fail(Fault::bad_input,
+                            fmt::format("blocks \"{}\" and \"{}\" overlap in the footprint, on the "
+                                        "{}-rod at {:g} mm",
+                                        places[a].block.name, places[b].block.name,
+                                        family == Family::u ? "u" : "v", line));
+        }
+    }
+  return {};
+}
+
+}  // namespace
+
+double Seam::max_gap_mm() const {
+  double largest = 0;
+  for (const SeamRod& rod : rods) largest = std::max(largest, rod.gap_mm);
+  return largest;
+}
+
+double Seam::max_kink_deg() const {
+  double largest = 0;
+  for (const SeamRod& rod : rods) largest = std::max(largest, rod.kink_deg);
+  return largest;
+}
+
+Result<Assemblage> Assemblage::make(std::vector<Block> blocks, const std::vector<Join>& joins,
+                                    double max_gap) {
+  if (blocks.empty()) return fail(Fault::bad_input, "there is no block to assemble");
+  auto places = std::make_shared<Places>();
+  for (Block& block : blocks) places->push_back({std::move(block)});
+  TRY_DO(check_sides(*places, joins));
+  TRY_DO(place_all(*places, joins));
+  Assemblage whole;
+  for (const Join& join : joins) {
+    TRY(seam, seam_of(*places, join, max_gap));
+    whole.seams_.push_back(std::move(*seam));
+  }
+  TRY_DO(check_apart(*places));
+  whole.places_ = std::move(places);
+  whole.joins_ = joins;
+  return whole;
+}
+
+}  // namespace gridshell

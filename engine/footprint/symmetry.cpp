@@ -1,0 +1,173 @@
+#include "engine/footprint/symmetry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace gridshell {
+
+double mirror_defect(const Eigen::Matrix3Xd& joints, const Eigen::Vector2d& normal) {
+  double worst = 0;
+  for (Eigen::Index k = 0; k < joints.cols(); ++k) {
+    Eigen::Vector3d image = joints.col(k);
+    image.head<2>() -= 2 * image.head<2>().dot(normal) * normal;
+    const double nearest = (joints.colwise() - image).colwise().squaredNorm().minCoeff();
+    if (!(nearest <= worst)) worst = nearest;
+  }
+  return std::sqrt(worst);
+}
+
+namespace {
+
+constexpr double same_mm = 1e-3;  // places of the flat mesh that are one
+
+using Place = std::array<long long, 3>;
+
+Place place_of(const Eigen::Vector3d& p) {
+  return {std::llround(p.x() / same_mm), std::llround(p.y() / same_mm),
+          std::llround(p.z() / same_mm)};
+}
+
+/// (u, v, height) of a node.
+Eigen::Vector3d drawn(const RodMesh& mesh, int node) {
+  return {mesh.flat(0, node), mesh.flat(1, node), mesh.height.size() > 0 ? mesh.height[node] : 0};
+}
+
+/// Supports go where what hangs on them goes, if springs as stiff are there.
+std::optional<std::vector<int>> with_supports(const RodMesh& mesh, const Eigen::Matrix3d& map,
+                                              std::vector<int> image) {
+  for (const MeshSpring& spring : mesh.springs) {
+    const int node = image[std::size_t(spring.node)];
+    const Eigen::Vector3d turned = map.cwiseAbs() * spring.N_per_mm;
+    const auto there = std::ranges::find_if(mesh.springs, [&](const MeshSpring& other) {
+      return other.node == node && other.N_per_mm.isApprox(turned);
+    });
+    if (there == mesh.springs.end()) return std::nullopt;
+    image[std::size_t(spring.support)] = there->support;
+  }
+  return image;
+}
+
+/// Where each node goes, if each goes to the place of a node.
+std::optional<std::vector<int>> image_of(const RodMesh& mesh, const Eigen::Matrix3d& map) {
+  std::map<Place, int> node_at;
+  // supports lie on what hangs on them and go with it
+  const int placed = mesh.nodes() - int(mesh.springs.size());
+  for (int node = 0; node < placed; ++node) node_at[place_of(drawn(mesh, node))] = node;
+  std::vector<int> image(std::size_t(mesh.nodes()));
+  std::iota(image.begin(), image.end(), 0);
+  if (map.isIdentity(0)) return image;
+  // of nodes on one another nothing tells which goes where
+  if (int(node_at.size()) < placed) return std::nullopt;
+  for (int node = 0; node < placed; ++node) {
+    const auto [u, v, w] = place_of(map * drawn(mesh, node));
+    int found = -1;
+    // round-off may put it beside the place it belongs to
+    const long long dw_most = mesh.height.size() > 0 ? 1 : 0;
+    for (long long du = -1; du <= 1 && found < 0; ++du)
+      for (long long dv = -1; dv <= 1 && found < 0; ++dv)
+        for (long long dw = -dw_most; dw <= dw_most && found < 0; ++dw)
+          if (const auto at = node_at.find({u + du, v + dv, w + dw}); at != node_at.end())
+            found = at->second;
+    if (found < 0) return std::nullopt;
+    image[std::size_t(node)] = found;
+  }
+  return with_supports(mesh, map, std::move(image));
+}
+
+}  // namespace
+
+std::vector<int> held_nodes(const RodMesh& mesh) {
+  std::vector<int> held = mesh.held_joints;
+  for (int k = 0; k < mesh.edge_points; ++k)
+    if (is_held(mesh.end_of(k))) held.push_back(mesh.joints + k);
+  for (int node = mesh.rod_nodes(); node < mesh.rod_nodes() + mesh.ghosts; ++node)
+    held.push_back(node);
+  return held;
+}
+
+std::optional<std::vector<int>> images_of(const Eigen::Matrix2Xd& points,
+                                          const Eigen::Matrix2d& map, double within_mm) {
+  std::vector<int> images;
+  for (Eigen::Index k = 0; k < points.cols(); ++k) {
+    Eigen::Index nearest = 0;
+    const Eigen::Vector2d there = map * points.col(k);
+    const double off = (points.colwise() - there).colwise().squaredNorm().minCoeff(&nearest);
+    if (!(std::sqrt(off) <= within_mm)) return std::nullopt;
+    images.push_back(int(nearest));
+  }
+  return images;
+}
+
+const std::vector<Eigen::Matrix3d>& square_symmetries() {
+  static const std::vector<Eigen::Matrix3d> all = [] {
+    std::vector<Eigen::Matrix3d> maps;
+    for (const double z : {1.0, -1.0})
+      for (const bool swapped : {false, true})
+        for (const double x : {1.0, -1.0})
+          for (const double y : {1.0, -1.0}) {
+            Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
+            map(0, swapped ? 1 : 0) = x;
+            map(1, swapped ? 0 : 1) = y;
+            map(2, 2) = z;
+            maps.push_back(map);
+          }
+    return maps;
+  }();
+  return all;
+}
+
+Eigen::Matrix3Xd MeshSymmetry::of(const Eigen::Matrix3Xd& x) const {
+  Eigen::Matrix3Xd moved(3, x.cols());
+  for (Eigen::Index k = 0; k < x.cols(); ++k)
+    moved.col(image[std::size_t(k)]) = map * (x.col(k) - centre) + centre;
+  return moved;
+}
+
+std::vector<MeshSymmetry> symmetries_of(const RodMesh& mesh, const Eigen::Matrix3Xd& ends) {
+  const std::vector<int> held = held_nodes(mesh);
+  std::vector<int> sorted = held;
+  std::ranges::sort(sorted);
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const int node : held) centre.z() += ends(2, node) / double(held.size());
+  std::vector<MeshSymmetry> found;
+  for (std::size_t k = 0; k < square_symmetries().size(); ++k) {
+    MeshSymmetry symmetry{int(k), square_symmetries()[k], centre, {}};
+    auto image = image_of(mesh, symmetry.map);
+    if (!image) continue;
+    symmetry.image = std::move(*image);
+    // what is held goes to what is held
+    if (!std::ranges::all_of(held, [&](int node) {
+          return std::ranges::binary_search(sorted, symmetry.image[std::size_t(node)]);
+        }))
+      continue;
+    const Eigen::Matrix3Xd moved = symmetry.of(ends.leftCols(Eigen::Index(symmetry.image.size())));
+    const bool same = std::all_of(held.begin(), held.end(), [&](int node) {
+      return (moved.col(node) - ends.col(node)).norm() < same_mm;
+    });
+    if (same) found.push_back(std::move(symmetry));
+  }
+  return found;
+}
+
+Eigen::Matrix3Xd symmetric_part(const Eigen::Matrix3Xd& x, const std::vector<MeshSymmetry>& group) {
+  Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, x.cols());
+  for (const MeshSymmetry& symmetry : group) sum += symmetry.of(x);
+  return sum / double(group.size());
+}
+
+double distance_under(const MeshSymmetry& symmetry, const Eigen::Matrix3Xd& x,
+                      const Eigen::Matrix3Xd& y) {
+  double largest = 0;
+  for (Eigen::Index k = 0; k < y.cols(); ++k) {
+    const Eigen::Vector3d moved = symmetry.map * (y.col(k) - symmetry.centre) + symmetry.centre;
+    largest = std::max(largest, (x.col(symmetry.image[std::size_t(k)]) - moved).squaredNorm());
+  }
+  return std::sqrt(largest);
+}
+
+}  // namespace gridshell

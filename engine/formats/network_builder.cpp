@@ -1,0 +1,263 @@
+// Joints that a file lists: points of several rods that lie apart become one.
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "engine/core/try.h"
+#include "engine/formats/network_file.h"
+
+namespace gridshell::preset {
+namespace {
+
+constexpr double farthest = 0.25;  // of the shortest stretch of rod beside a joint
+
+using Coordinates = std::vector<double>;
+
+double distance(const Coordinates& a, const Coordinates& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+Coordinates mean_of(const std::vector<int>& points, const Points& places) {
+  Coordinates mean(3, 0);
+  for (const int point : points)
+    for (std::size_t k = 0; k < 3; ++k)
+      mean[k] += places[std::size_t(point)][k] / double(points.size());
+  return mean;
+}
+
+/// Of every joint the shortest stretch of rod that begins or ends at one of its points.
+std::vector<double> shortest_beside(const NetworkData& network, const std::vector<int>& joint_of,
+                                    std::size_t joints) {
+  std::vector<double> shortest(joints, std::numeric_limits<double>::infinity());
+  for (const std::vector<int>& rod : network.rods)
+    for (std::size_t k = 1; k < rod.size(); ++k) {
+      const auto a = std::size_t(rod[k - 1]), b = std::size_t(rod[k]);
+      const double length = distance(network.points[a], network.points[b]);
+      for (const std::size_t end : {a, b})
+        if (joint_of[end] >= 0) {
+          double& known = shortest[std::size_t(joint_of[end])];
+          known = std::min(known, length);
+        }
+    }
+  return shortest;
+}
+
+/// Points at which rods end and none goes on.
+std::set<int> ends_alone(const std::vector<std::vector<int>>& rods) {
+  std::set<int> ends, passed;
+  for (const std::vector<int>& rod : rods) {
+    const bool ring = rod.front() == rod.back();
+    passed.insert(rod.begin() + (ring ? 0 : 1), rod.end() - 1);
+    if (!ring) ends.insert({rod.front(), rod.back()});
+  }
+  std::erase_if(ends, [&](int point) { return passed.contains(point); });
+  return ends;
+}
+
+}  // namespace
+
+Result<void> NetworkBuilder::add_joint(std::vector<int> points, const std::string& at) {
+  // those at one place are one already
+  std::set<int> once;
+  std::erase_if(points, [&](int point) { return !once.insert(point).second; });
+  for (const int point : points)
+    if (!listed_.insert(point).second)
+      return fail(Fault::bad_input,
+                  fmt::format("{}: point {} is of another joint too, must be of one: list all "
+                              "points of a joint together",
+                              at, point));
+  joints_.push_back({std::move(points), at});
+  return {};
+}
+
+/// Every point is of a rod, and no rod comes to a joint twice but to close a ring.
+Result<void> NetworkBuilder::check_rods(const std::vector<int>& joint_of) const {
+  std::set<int> on_rods;
+  for (std::size_t r = 0; r < network_.rods.size(); ++r) {
+    const std::vector<int>& rod = network_.rods[r];
+    on_rods.insert(rod.begin(), rod.end());
+    std::map<int, std::size_t> first;
+    for (std::size_t k = 0; k < rod.size(); ++k) {
+      const int joint = joint_of[std::size_t(rod[k])];
+      if (joint < 0) continue;
+      const auto [there, is_new] = first.try_emplace(joint, k);
+      const bool closes = there->second == 0 && k + 1 == rod.size() && k > 2;
+      if (!is_new && !closes && rod[there->second] != rod[k])
+        return fail(
+            Fault::bad_input,
+            fmt::format("{}: rods[{}] has both point {} and point {}, the points of a joint "
+                        "must be of different rods, or the two ends of a ring",
+                        joints_[std::size_t(joint)].at, r, rod[there->second], rod[k]));
+    }
+  }
+  for (const Joint& joint : joints_)
+    for (const int point : joint.points)
+      if (!on_rods.contains(point))
+        return fail(
+            Fault::bad_input,
+            fmt::format("{}: no rod has point {}, must be a point of a rod", joint.at, point));
+  return {};
+}
+
+/// No point goes further to its joint than a part of the rods beside it.
+Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const {
+  const auto shortest = shortest_beside(network_, joint_of, joints_.size());
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const Coordinates mean = mean_of(joints_[j].points, network_.points);
+    for (const int point : joints_[j].points) {
+      const double way = distance(network_.points[std::size_t(point)], mean);
+      if (!(way <= farthest * shortest[j]))
+        return fail(
+            Fault::bad_input,
+            fmt::format(
+                "{}: point {} lies {:.4g} mm from the middle of the joint's points, must be "
+                "at most {:.4g} mm, a quarter of the shortest stretch of rod beside them",
+                joints_[j].at, point, way, farthest * shortest[j]));
+    }
+  }
+  return {};
+}
+
+/// The first point of a joint in the place of the others.
+void NetworkBuilder::rename(const std::vector<int>& joint_of) {
+  const auto name = [&](int point) {
+    const int joint = joint_of[std::size_t(point)];
+    return joint < 0 ? point : joints_[std::size_t(joint)].points.front();
+  };
+  for (std::vector<int>& rod : network_.rods)
+    for (int& point : rod) point = name(point);
+  for (Points* rows : {&network_.supports, &network_.springs})
+    for (std::vector<double>& row : *rows) row[0] = name(int(row[0]));
+  std::set<int> free, supported;
+  for (const std::vector<double>& row : network_.supports) supported.insert(int(row[0]));
+  for (const int point : network_.free) free.insert(name(point));
+  // rods that only end at a joint hang on one another
+  const std::set<int> ends = ends_alone(network_.rods);
+  for (const Joint& joint : joints_) {
+    const int point = joint.points.front();
+    if (ends.contains(point) && !supported.contains(point)) free.insert(point);
+  }
+  network_.free.assign(free.begin(), free.end());
+}
+
+Result<void> NetworkBuilder::join_listed() {
+  if (joints_.empty()) return {};
+  std::vector<int> joint_of(points(), -1);
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (const int point : joints_[j].points) joint_of[std::size_t(point)] = int(j);
+  if (auto fine = check_rods(joint_of); !fine) return fine;
+  if (auto fine = check_reach(joint_of); !fine) return fine;
+  for (const Joint& joint : joints_)
+    network_.points[std::size_t(joint.points.front())] = mean_of(joint.points, network_.points);
+  rename(joint_of);
+  return {};
+}
+
+// Rods of a drawing are joined wherever they cross or touch.
+
+namespace {
+
+constexpr std::size_t most_stretches = 20000;  // each is held against each
+
+Eigen::Vector3d place_of(const std::vector<double>& point) {
+  return {point[0], point[1], point[2]};
+}
+
+/// Two points of a rod that follow one another.
+struct Stretch {
+  std::size_t rod, first;  ///< of which rod, and after which of its points
+  int from, to;
+  Eigen::Vector3d begin, end;
+
+  Eigen::Vector3d way() const { return end - begin; }
+  Eigen::Vector3d at(double share) const { return begin + share * way(); }
+  double length() const { return way().norm(); }
+  double low() const { return std::min(begin.x(), end.x()) - one_point_mm; }
+  double high() const { return std::max(begin.x(), end.x()) + one_point_mm; }
+};
+
+/// A point to come into a stretch, at a share of its length.
+struct Cut {
+  std::size_t rod, first;
+  double at;
+  int point;
+};
+
+/// Where two stretches meet, as shares of their lengths; none: nowhere, or they run alike.
+std::optional<std::pair<double, double>> meeting(const Stretch& a, const Stretch& b) {
+  const Eigen::Vector3d way_a = a.way(), way_b = b.way(), apart = b.begin - a.begin;
+  const Eigen::Vector3d normal = way_a.cross(way_b);
+  if (!(normal.norm() > 1e-9 * a.length() * b.length())) return std::nullopt;
+  // seen along the axis that is nearest to their normal, of a drawing in the plane z
+  const auto beyond = [&](int k) { return std::abs(normal[2]) < std::abs(normal[k]); };
+  const int view = !beyond(0) && !beyond(1) ? 2 : std::abs(normal[0]) < std::abs(normal[1]) ? 1 : 0;
+  const int x = (view + 1) % 3, y = (view + 2) % 3;
+  const double s = (apart[x] * way_b[y] - apart[y] * way_b[x]) / normal[view],
+               t = (apart[x] * way_a[y] - apart[y] * way_a[x]) / normal[view];
+  const double on_a = one_point_mm / a.length(), on_b = one_point_mm / b.length();
+  if (s < -on_a || s > 1 + on_a || t < -on_b || t > 1 + on_b) return std::nullopt;
+  // one passes over the other
+  if ((a.at(s) - b.at(t)).norm() > one_point_mm) return std::nullopt;
+  return std::pair(s, t);
+}
+
+std::vector<Stretch> stretches_of(const NetworkData& network) {
+  std::vector<Stretch> all;
+  for (std::size_t r = 0; r < network.rods.size(); ++r)
+    for (std::size_t k = 1; k < network.rods[r].size(); ++k) {
+      const int from = network.rods[r][k - 1], to = network.rods[r][k];
+      all.push_back({r, k - 1, from, to, place_of(network.points[std::size_t(from)]),
+                     place_of(network.points[std::size_t(to)])});
+    }
+  std::ranges::sort(all, {}, &Stretch::low);
+  return all;
+}
+
+/// Puts the points of cuts into their rods.
+void put(std::vector<Cut> cuts, std::vector<std::vector<int>>& rods) {
+  std::ranges::sort(cuts, {}, [](const Cut& c) { return std::tuple(c.rod, c.first, c.at); });
+  auto next = cuts.begin();
+  for (std::size_t r = 0; r < rods.size(); ++r) {
+    std::vector<int> points;
+    for (std::size_t k = 0; k < rods[r].size(); ++k) {
+      points.push_back(rods[r][k]);
+      for (; next != cuts.end() && next->rod == r && next->first == k; ++next)
+        points.push_back(next->point);
+    }
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    rods[r] = std::move(points);
+  }
+}
+
+}  // namespace
+
+Result<void> NetworkBuilder::join_crossings(const std::string& name) {
+  const std::vector<Stretch> all = stretches_of(network_);
+  if (all.size() > most_stretches)
+    return fail(Fault::bad_input, fmt::format("{}: holds {} stretches of rods, must be at most {} "
+                                              "for their crossings to be found",
+                                              name, all.size(), most_stretches));
+  std::vector<Cut> cuts;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (std::size_t m = k + 1; m < all.size() && all[m].low() <= all[k].high(); ++m) {
+      const Stretch &a = all[k], &b = all[m];
+      if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) continue;
+      const auto met = meeting(a, b);
+      if (!met) continue;
+      const auto [s, t] = *met;
+      const Eigen::Vector3d there = a.at(s);
+      TRY(point, place({there.x(), there.y(), there.z()}, name));
+      if (*point != a.from && *point != a.to) cuts.push_back({a.rod, a.first, s, *point});
+      if (*point != b.from && *point != b.to) cuts.push_back({b.rod, b.first, t, *point});
+    }
+  put(std::move(cuts), network_.rods);
+  return {};
+}
+
+}  // namespace gridshell::preset

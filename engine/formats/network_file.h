@@ -1,0 +1,113 @@
+// Networks of rods in files that a user brings.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/formats/shape_data.h"
+
+namespace gridshell::preset {
+
+/// The largest file of a network that is read.
+inline constexpr std::size_t largest_network_file = std::size_t(16) << 20;
+
+/// Points of a file nearer to one another than this are one.
+inline constexpr double one_point_mm = 1e-3;
+
+/// Stiffnesses of supports' springs, N/mm: far below and far above that of any rod.
+inline constexpr double softest_spring = 1e-6, stiffest_spring = 1e6;
+
+/// Reads a file as its name's ending says:
+///   .json  {"points_mm": [[x, y], ...], "rods": [[0, 1, ...], ...], "supports": [...]}; a rod is a
+///          list of numbers of points (from 0) or of places [x, y], or {"points": list,
+///          "diameter_mm": d}; a support {"point": number or place, "to_mm": [x, y, z]}, where
+///          "to_mm" may be "free" (of an end that nothing holds) or left out (as the preset says),
+///          and "spring_N_per_mm": k or [kx, ky, kz] puts it on a spring;
+///          "joints": [[a, b, ...], ...] lists points that are one joint though they lie apart
+///   .obj   "v x y z" and polylines "l a b c ..."
+///   .dxf   LINE, LWPOLYLINE and POLYLINE, where there is a layer "rods" of that one alone
+/// In the drawings of the last two rods are joined wherever they cross or touch, in JSON where they
+/// name the same point or place, or points of one listed joint.
+/// Points [x, y] lie at z = 0, others [x, y, z] in space; a rod that ends where it begins is a
+/// ring. Errors (bad_input), with `name` and the line: not of the format, NaN, a point that is not
+/// there, more than 100 000 points or rods, another ending.
+Result<NetworkData> read_network(std::string_view bytes, const std::string& name);
+
+/// The text of a .json file that reads back as the same network.
+std::string network_json(const NetworkData& network);
+
+/// What is wrong with a spring's stiffnesses along x, y, z; empty: nothing.
+std::string spring_fault(const std::vector<double>& k);
+
+/// What is wrong with a network that a preset holds itself; empty: nothing.
+std::string network_fault(const NetworkData& network);
+
+// A network of rods while it is read: points at one place become one.
+
+class NetworkBuilder {
+ public:
+  /// Number of the point at a place of two or three coordinates: of one that is there already, or
+  /// new. `at` says where it stands in the file. Errors (bad_input): another number of coordinates,
+  /// one that is not finite or above 1e9, too many points.
+  Result<int> place(const std::vector<double>& xyz, const std::string& at);
+  /// A new point; it stands for an earlier one at its place.
+  Result<void> add_point(const std::vector<double>& xyz, const std::string& at);
+  /// The earliest point at the place of point `number`. Errors (bad_input): there is no such point.
+  Result<int> point(long number, const std::string& at) const;
+  /// A rod through points; those that follow themselves are one. Errors (bad_input): fewer than
+  /// two points apart, too many rods.
+  Result<void> add_rod(std::vector<int> points, double diameter_mm, const std::string& at);
+  void add_support(std::vector<double> row) { network_.supports.push_back(std::move(row)); }
+  /// The spring of a support, along x, y, z, N/mm.
+  void add_spring(int point, const std::vector<double>& k) {
+    network_.springs.push_back({double(point), k[0], k[1], k[2]});
+  }
+  void add_free(int point) { network_.free.push_back(point); }
+  /// Points that are to be one joint, as `at` lists them. Errors (bad_input): one that another
+  /// joint has too.
+  Result<void> add_joint(std::vector<int> points, const std::string& at);
+  /// Makes the points of every joint that was added one, the first of them, at their mean place: in
+  /// rods, supports and what is free. Where rods only end there, and it is no support, they are
+  /// joined by a hinge. Errors (bad_input), at the joint: a point of no rod, two of one rod that
+  /// are not its two ends, a point further off the mean than a quarter of the shortest stretch of
+  /// rod beside the joint.
+  Result<void> join_listed();
+  /// Joins rods where they cross or touch, as drawings have them: a point more on each.
+  Result<void> join_crossings(const std::string& name);
+  std::size_t points() const { return network_.points.size(); }
+  /// Errors (bad_input): no rods; what network_fault() says.
+  Result<NetworkData> take(const std::string& name);
+
+ private:
+  using Cell = std::tuple<long, long, long>;
+  int known(const std::vector<double>& xyz) const;
+
+  /// Points that are to be one, and where the file says so.
+  struct Joint {
+    std::vector<int> points;
+    std::string at;
+  };
+  Result<void> check_rods(const std::vector<int>& joint_of) const;
+  Result<void> check_reach(const std::vector<int>& joint_of) const;
+  void rename(const std::vector<int>& joint_of);
+
+  NetworkData network_;
+  std::vector<Joint> joints_;
+  std::set<int> listed_;      // points of joints_
+  std::vector<int> same_as_;  // per point: the earliest one at its place
+  std::map<Cell, std::vector<int>> at_;
+  std::size_t entries_ = 0;
+  bool diameters_ = false;
+};
+
+// the formats; errors as read_network()
+Result<NetworkData> read_network_json(std::string_view bytes, const std::string& name);
+Result<NetworkData> read_network_obj(std::string_view bytes, const std::string& name);
+Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& name);
+
+}  // namespace gridshell::preset

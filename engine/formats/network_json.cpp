@@ -1,0 +1,271 @@
+// Networks as JSON: points, rods, listed joints, supports and where these go.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "engine/core/suggest.h"
+#include "engine/core/try.h"
+#include "engine/formats/network_file.h"
+
+namespace gridshell::preset {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Reads on and counts lines.
+class CountingIterator {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  CountingIterator(const char* at, int* line) : at_(at), line_(line) {}
+  reference operator*() const { return *at_; }
+  CountingIterator& operator++() {
+    if (*at_ == '\n') ++*line_;
+    ++at_;
+    return *this;
+  }
+  CountingIterator operator++(int) {
+    const CountingIterator before = *this;
+    ++*this;
+    return before;
+  }
+  bool operator==(const CountingIterator& other) const { return at_ == other.at_; }
+  bool operator!=(const CountingIterator& other) const { return at_ != other.at_; }
+
+ private:
+  const char* at_;
+  int* line_;
+};
+
+// values nested deeper are of no network
+constexpr int deepest = 6;
+
+constexpr std::size_t most_at_a_joint = 100;
+
+/// A text with the lines on which the items of its lists begin.
+struct Document {
+  Json json;
+  std::map<std::string, std::vector<int>> lines;
+};
+
+Result<Document> parse(std::string_view bytes, const std::string& name) {
+  Document document;
+  int line = 1;
+  std::string key;
+  const auto seen = [&](int depth, Json::parse_event_t event, Json& value) {
+    using Event = Json::parse_event_t;
+    if (event == Event::key && depth == 1) key = value.get<std::string>();
+    const bool begins =
+        event == Event::array_start || event == Event::object_start || event == Event::value;
+    if (begins && depth == 2) document.lines[key].push_back(line);
+    return depth < deepest;
+  };
+  try {
+    document.json = Json::parse(CountingIterator(bytes.data(), &line),
+                                CountingIterator(bytes.data() + bytes.size(), &line), seen);
+  } catch (const Json::exception& error) {
+    return fail(Fault::bad_input,
+                fmt::format("{}:{}: {}", name, line,
+                            bytes.empty() ? "is empty, must be JSON" : "is no JSON here"));
+  }
+  if (!document.json.is_object())
+    return fail(Fault::bad_input,
+                name + ":1: must be an object {\"points_mm\": ..., \"rods\": ...}");
+  return document;
+}
+
+/// Numbers of a list, if it is one of numbers.
+std::optional<std::vector<double>> numbers_in(const Json& value) {
+  if (!value.is_array()) return std::nullopt;
+  std::vector<double> numbers;
+  for (const Json& item : value) {
+    if (!item.is_number()) return std::nullopt;
+    numbers.push_back(item.get<double>());
+  }
+  return numbers;
+}
+
+class Reader {
+ public:
+  Reader(const Document& document, const std::string& name) : document_(document), name_(name) {}
+
+  Result<NetworkData> read() {
+    const std::vector<std::string> known{"points_mm", "rods", "joints", "supports"};
+    for (const auto& [key, value] : document_.json.items()) {
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        return fail(Fault::bad_input,
+                    fmt::format("{}: unknown key '{}', must be points_mm, rods, joints "
+                                "or supports{}",
+                                name_, key.substr(0, 40), did_you_mean(key, known)));
+      if (!value.is_array())
+        return fail(Fault::bad_input, fmt::format("{}: '{}' must be a list", name_, key));
+    }
+    return each("points_mm", &Reader::point)
+        .and_then([&] { return each("rods", &Reader::rod); })
+        .and_then([&] { return each("joints", &Reader::joint); })
+        .and_then([&] { return each("supports", &Reader::support); })
+        .and_then([&] { return draft_.join_listed(); })
+        .and_then([&] { return draft_.take(name_); });
+  }
+
+ private:
+  Result<void> each(const char* key, Result<void> (Reader::*item)(const Json&)) {
+    const auto list = document_.json.find(key);
+    if (list == document_.json.end()) return {};
+    const auto lines = document_.lines.find(key);
+    for (std::size_t k = 0; k < list->size(); ++k) {
+      const int line =
+          lines != document_.lines.end() && k < lines->second.size() ? lines->second[k] : 1;
+      at_ = fmt::format("{}:{}: {}[{}]", name_, line, key, k);
+      if (auto done = (this->*item)((*list)[k]); !done) return done;
+    }
+    return {};
+  }
+
+  tl::unexpected<Error> wrong(const char* what) const {
+    return fail(Fault::bad_input, fmt::format("{}: {}", at_, what));
+  }
+
+  Result<void> point(const Json& value) {
+    const auto xyz = numbers_in(value);
+    if (!xyz) return wrong("must be a point [x, y] or [x, y, z], mm");
+    return draft_.add_point(*xyz, at_);
+  }
+
+  /// The number of a point, or its place.
+  Result<int> point_of(const Json& value) {
+    if (value.is_number_integer()) {
+      if (value.is_number_unsigned() && value.get<std::uint64_t>() > draft_.points())
+        return wrong("names a point that is not there");
+      return draft_.point(value.get<long>(), at_);
+    }
+    const auto xyz = numbers_in(value);
+    if (!xyz) return wrong("a point must be its number, or its place [x, y] or [x, y, z]");
+    return draft_.place(*xyz, at_);
+  }
+
+  Result<void> rod(const Json& value) {
+    const Json* list = &value;
+    double diameter = 0;
+    if (value.is_object()) {
+      for (const auto& [key, inner] : value.items()) {
+        if (key == "points") {
+          list = &inner;
+        } else if (key == "diameter_mm" && inner.is_number() && inner.get<double>() > 0) {
+          diameter = inner.get<double>();
+        } else {
+          return wrong("must be {\"points\": list, \"diameter_mm\": number above 0}");
+        }
+      }
+    }
+    if (!list->is_array()) return wrong("must be a list of points");
+    std::vector<int> points;
+    for (const Json& item : *list) {
+      TRY(point, point_of(item));
+      points.push_back(*point);
+    }
+    return draft_.add_rod(std::move(points), diameter, at_);
+  }
+
+  Result<void> joint(const Json& value) {
+    if (!value.is_array() || value.size() < 2 || value.size() > most_at_a_joint)
+      return wrong("must be a list of 2 to 100 points, by number or place");
+    std::vector<int> points;
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      TRY(point, point_of(value[k]));
+      if (std::find(value.begin(), value.begin() + std::ptrdiff_t(k), value[k]) !=
+          value.begin() + std::ptrdiff_t(k))
+        return wrong("lists a point twice, must list each once");
+      points.push_back(*point);
+    }
+    return draft_.add_joint(std::move(points), at_);
+  }
+
+  Result<void> support(const Json& value) {
+    if (!value.is_object() || !value.contains("point"))
+      return wrong("must be {\"point\": number, \"to_mm\": [x, y, z] or \"free\"}");
+    TRY(point, point_of(value["point"]));
+    for (const auto& [key, inner] : value.items())
+      if (key != "point" && key != "to_mm" && key != "spring_N_per_mm")
+        return wrong(
+            "must be {\"point\": number, \"to_mm\": [x, y, z], \"spring_N_per_mm\": number}");
+    if (value.contains("to_mm") && value["to_mm"] == "free") {
+      if (value.contains("spring_N_per_mm"))
+        return wrong("an end that is free has no spring_N_per_mm");
+      draft_.add_free(*point);
+      return {};
+    }
+    std::vector<double> row{double(*point)};
+    if (value.contains("to_mm")) {
+      const auto to = numbers_in(value["to_mm"]);
+      if (!to || to->size() != 3) return wrong("to_mm must be [x, y, z], or \"free\"");
+      for (const double one : *to)
+        if (!(std::abs(one) <= 1e9)) return wrong("to_mm must be at most 1e9");
+      row.insert(row.end(), to->begin(), to->end());
+    }
+    draft_.add_support(std::move(row));
+    return value.contains("spring_N_per_mm") ? spring(*point, value["spring_N_per_mm"])
+                                             : Result<void>();
+  }
+
+  /// The same along x, y and z, or one along each.
+  Result<void> spring(int point, const Json& value) {
+    const auto k = value.is_number() ? std::vector<double>(3, value.get<double>())
+                                     : numbers_in(value).value_or(std::vector<double>());
+    if (k.size() != 3) return wrong("spring_N_per_mm must be a number, or [kx, ky, kz]");
+    if (const auto fault = spring_fault(k); !fault.empty()) return wrong(fault.c_str());
+    draft_.add_spring(point, k);
+    return {};
+  }
+
+  const Document& document_;
+  std::string name_, at_;
+  NetworkBuilder draft_;
+};
+
+}  // namespace
+
+Result<NetworkData> read_network_json(std::string_view bytes, const std::string& name) {
+  TRY(document, parse(bytes, name));
+  return Reader(*document, name).read();
+}
+
+std::string network_json(const NetworkData& network) {
+  std::vector<std::string> points, rods, supports;
+  for (const auto& point : network.points)
+    points.push_back(fmt::format("    [{}]", fmt::join(point, ", ")));
+  for (std::size_t r = 0; r < network.rods.size(); ++r) {
+    const auto list = fmt::format("[{}]", fmt::join(network.rods[r], ", "));
+    const double diameter = network.diameters.empty() ? 0 : network.diameters[r];
+    rods.push_back(diameter > 0
+                       ? fmt::format("    {{\"points\": {}, \"diameter_mm\": {}}}", list, diameter)
+                       : "    " + list);
+  }
+  std::map<double, std::string> springs;
+  for (const auto& row : network.springs)
+    springs[row[0]] = fmt::format(", \"spring_N_per_mm\": [{}, {}, {}]", row[1], row[2], row[3]);
+  for (const auto& row : network.supports) {
+    const auto to = row.size() == 1
+                        ? std::string()
+                        : fmt::format(", \"to_mm\": [{}, {}, {}]", row[1], row[2], row[3]);
+    supports.push_back(fmt::format("    {{\"point\": {}{}{}}}", row[0], to, springs[row[0]]));
+  }
+  for (const int point : network.free)
+    supports.push_back(fmt::format("    {{\"point\": {}, \"to_mm\": \"free\"}}", point));
+  return fmt::format(
+      "{{\n  \"points_mm\": [\n{}\n  ],\n  \"rods\": [\n{}\n  ],\n  \"supports\": "
+      "[\n{}\n  ]\n}}\n",
+      fmt::join(points, ",\n"), fmt::join(rods, ",\n"), fmt::join(supports, ",\n"));
+}
+
+}  // namespace gridshell::preset

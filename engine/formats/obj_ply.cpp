@@ -1,0 +1,271 @@
+#include "engine/formats/obj_ply.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+
+#include "engine/core/text.h"
+#include "engine/core/try.h"
+#include "engine/formats/point_file.h"
+#include "engine/formats/surface_file.h"
+
+namespace gridshell::preset {
+namespace {
+
+std::optional<long> obj_vertex(std::string_view word, long vertices) {
+  word = word.substr(0, word.find('/'));
+  const auto number = parse_number<long>(word);
+  if (!number || *number == 0) return std::nullopt;
+  return *number > 0 ? *number - 1 : vertices + *number;
+}
+
+}  // namespace
+
+Result<void> read_obj_lines(std::string_view bytes, const std::string& name,
+                            std::string_view element, const ObjCallbacks& lines) {
+  long vertices = 0;
+  for (int number = 1; !bytes.empty(); ++number) {
+    const auto words = split_whitespace(next_line(bytes));
+    if (words.empty() || (words[0] != "v" && words[0] != element)) continue;
+    const auto place = fmt::format("{}:{}", name, number);
+    if (words[0] == "v") {
+      std::vector<double> xyz;
+      for (std::size_t k = 1; k < words.size() && k < 4; ++k)
+        if (const auto value = number_of(words[k])) xyz.push_back(*value);
+      if (xyz.size() != 3)
+        return fail(Fault::bad_input, place + ": a vertex must have three numbers, v x y z");
+      if (auto taken = lines.vertex(xyz, place); !taken) return taken;
+      ++vertices;
+      continue;
+    }
+    std::vector<long> corners;
+    for (std::size_t k = 1; k < words.size(); ++k) {
+      const auto corner = obj_vertex(words[k], vertices);
+      if (!corner)
+        return fail(Fault::bad_input, fmt::format("{}: '{}' is no vertex, must be its number",
+                                                  place, words[k].substr(0, 40)));
+      corners.push_back(*corner);
+    }
+    if (auto taken = lines.element(corners, place); !taken) return taken;
+  }
+  return {};
+}
+
+namespace {
+
+enum class Form { text, little, big };
+
+enum class Number { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+std::optional<Number> number_type(std::string_view word) {
+  static const std::map<std::string_view, Number> types{
+      {"char", Number::int8},      {"int8", Number::int8},       {"uchar", Number::uint8},
+      {"uint8", Number::uint8},    {"short", Number::int16},     {"int16", Number::int16},
+      {"ushort", Number::uint16},  {"uint16", Number::uint16},   {"int", Number::int32},
+      {"int32", Number::int32},    {"uint", Number::uint32},     {"uint32", Number::uint32},
+      {"float", Number::float32},  {"float32", Number::float32}, {"double", Number::float64},
+      {"float64", Number::float64}};
+  const auto found = types.find(word);
+  return found == types.end() ? std::nullopt : std::optional(found->second);
+}
+
+struct Property {
+  std::string name;
+  std::optional<Number> count;  ///< of a list: the type of its length
+  Number value = Number::float32;
+};
+
+struct Element {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<Property> properties;
+};
+
+struct Header {
+  Form form = Form::text;
+  std::vector<Element> elements;
+  int lines = 0;
+};
+
+Result<Property> property_of(const std::vector<std::string_view>& words, const std::string& place) {
+  const bool list = words.size() == 5 && words[1] == "list";
+  if (!list && words.size() != 3)
+    return fail(Fault::bad_input,
+                place + ": must be \"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
+  Property property{std::string(words.back()), std::nullopt, Number::float32};
+  const auto value = number_type(words[words.size() - 2]);
+  if (list) property.count = number_type(words[2]);
+  if (!value || (list && !property.count))
+    return fail(Fault::bad_input, place + ": names a type that PLY does not have");
+  property.value = *value;
+  return property;
+}
+
+Result<Header> read_header(std::string_view& bytes, const std::string& name) {
+  constexpr std::size_t most_elements = 100;
+  Header header;
+  bool formed = false;
+  while (!bytes.empty()) {
+    const auto words = split_whitespace(next_line(bytes));
+    const auto place = fmt::format("{}:{}", name, ++header.lines);
+    if (header.lines == 1) {
+      if (words.size() == 1 && words[0] == "ply") continue;
+      return fail(Fault::bad_input, place + ": no PLY, must begin with \"ply\"");
+    }
+    if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+    if (words[0] == "end_header") {
+      if (formed) return header;
+      return fail(Fault::bad_input, place + ": the header names no format");
+    }
+    if (words[0] == "format" && words.size() == 3) {
+      formed = true;
+      if (words[1] == "ascii")
+        header.form = Form::text;
+      else if (words[1] == "binary_little_endian")
+        header.form = Form::little;
+      else if (words[1] == "binary_big_endian")
+        header.form = Form::big;
+      else
+        formed = false;
+      if (formed) continue;
+    }
+    if (words[0] == "element" && words.size() == 3 && header.elements.size() < most_elements) {
+      const auto count = number_of(words[2]);
+      if (count && *count >= 0 && *count <= 1e9 && *count == std::floor(*count)) {
+        header.elements.push_back({std::string(words[1]), std::size_t(*count), {}});
+        continue;
+      }
+    }
+    if (words[0] == "property" && !header.elements.empty() &&
+        header.elements.back().properties.size() < most_elements) {
+      TRY(property, property_of(words, place));
+      header.elements.back().properties.push_back(std::move(*property));
+      continue;
+    }
+    return fail(Fault::bad_input, place + ": is no line of a PLY header");
+  }
+  return fail(Fault::bad_input, name + ": ends within its header");
+}
+
+/// The numbers behind a header, one after another; nothing once they end or are none.
+class Numbers {
+ public:
+  Numbers(std::string_view bytes, Form form) : bytes_(bytes), form_(form) {}
+
+  std::optional<double> next(Number type) {
+    return form_ == Form::text ? next_word() : next_bytes(type);
+  }
+
+ private:
+  std::optional<double> next_word() {
+    constexpr std::string_view blanks = " \t\r\n\f\v";
+    const std::size_t begin = bytes_.find_first_not_of(blanks);
+    if (begin == std::string_view::npos) return std::nullopt;
+    bytes_.remove_prefix(begin);
+    const std::size_t end = std::min(bytes_.find_first_of(blanks), bytes_.size());
+    const auto value = number_of(bytes_.substr(0, end));
+    bytes_.remove_prefix(end);
+    return value;
+  }
+
+  template <class T>
+  std::optional<double> as() {
+    if (bytes_.size() < sizeof(T)) return std::nullopt;
+    char raw[sizeof(T)];
+    std::memcpy(raw, bytes_.data(), sizeof(T));
+    bytes_.remove_prefix(sizeof(T));
+    const auto own = std::endian::native == std::endian::little ? Form::little : Form::big;
+    if (form_ != own) std::reverse(std::begin(raw), std::end(raw));
+    T value;
+    std::memcpy(&value, raw, sizeof(T));
+    return double(value);
+  }
+
+  std::optional<double> next_bytes(Number type) {
+    switch (type) {
+      case Number::int8:
+        return as<std::int8_t>();
+      case Number::uint8:
+        return as<std::uint8_t>();
+      case Number::int16:
+        return as<std::int16_t>();
+      case Number::uint16:
+        return as<std::uint16_t>();
+      case Number::int32:
+        return as<std::int32_t>();
+      case Number::uint32:
+        return as<std::uint32_t>();
+      case Number::float32:
+        return as<float>();
+      case Number::float64:
+        break;
+    }
+    return as<double>();
+  }
+
+  std::string_view bytes_;
+  Form form_;
+};
+
+/// The values of one property of one element: one, or those of a list.
+std::optional<std::vector<double>> values_of(const Property& property, Numbers& numbers) {
+  constexpr double longest = 1000;
+  double count = 1;
+  if (property.count) {
+    const auto length = numbers.next(*property.count);
+    if (!length || !(*length >= 0 && *length <= longest)) return std::nullopt;
+    count = *length;
+  }
+  std::vector<double> values;
+  while (double(values.size()) < count) {
+    const auto value = numbers.next(property.value);
+    if (!value) return std::nullopt;
+    values.push_back(*value);
+  }
+  return values;
+}
+
+Result<PlyItem> read_item(const Element& element, std::size_t number, Numbers& numbers,
+                          const std::string& name) {
+  PlyItem item;
+  item.element = element.name;
+  item.number = number;
+  for (const Property& property : element.properties) {
+    const auto values = values_of(property, numbers);
+    if (!values)
+      return fail(Fault::bad_input,
+                  item.place(name) + ": the file ends there, or what stands there is no number");
+    if (!property.count && property.name.size() == 1 && property.name[0] >= 'x' &&
+        property.name[0] <= 'z')
+      item.xyz[property.name[0] - 'x'] = values->front();
+    if (property.count && (property.name == "vertex_indices" || property.name == "vertex_index"))
+      for (const double corner : *values)
+        item.corners.push_back(std::abs(corner) < 1e9 ? long(corner) : -1);
+  }
+  return item;
+}
+
+}  // namespace
+
+std::string PlyItem::place(const std::string& name) const {
+  return fmt::format("{}: {} {}", name, element, number + 1);
+}
+
+Result<void> each_ply_item(std::string_view bytes, const std::string& name,
+                           const std::function<Result<void>(const PlyItem&)>& take) {
+  TRY(header, read_header(bytes, name));
+  Numbers numbers(bytes, header->form);
+  for (const Element& element : header->elements)
+    // what has no properties takes no room: there may be any number of them
+    for (std::size_t k = 0; k < element.count && !element.properties.empty(); ++k) {
+      TRY(item, read_item(element, k, numbers, name));
+      if (auto taken = take(*item); !taken) return taken;
+    }
+  return {};
+}
+
+}  // namespace gridshell::preset

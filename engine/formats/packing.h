@@ -1,0 +1,89 @@
+// Values to bytes and back, in the numbers of the machine.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+namespace gridshell::record {
+
+/// Values to bytes.
+class ByteWriter {
+ public:
+  template <class T>
+  void number(T value) {
+    text_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void text(const std::string& value) {
+    number(std::uint64_t(value.size()));
+    text_ += value;
+  }
+  template <class Matrix>
+  void matrix(const Matrix& values) {
+    number(std::int64_t(values.rows()));
+    number(std::int64_t(values.cols()));
+    text_.append(reinterpret_cast<const char*>(values.data()),
+                 sizeof(double) * std::size_t(values.size()));
+  }
+  void put(int value) { number(std::int32_t(value)); }
+  void put(double value) { number(value); }
+  void put(const std::string& value) { text(value); }
+  const std::string& bytes() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+/// And back; never beyond the end, and false ever after something was missing.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : left_(bytes) {}
+  bool good() const { return good_; }
+  bool at_end() const { return good_ && left_.empty(); }
+
+  template <class T>
+  T number() {
+    T value{};
+    if (take(sizeof value)) std::memcpy(&value, taken_.data(), sizeof value);
+    return value;
+  }
+  std::string text() {
+    const auto size = number<std::uint64_t>();
+    return take(size) ? std::string(taken_) : std::string();
+  }
+  template <class Matrix>
+  void matrix(Matrix& values, std::int64_t rows_wanted = -1) {
+    const auto rows = number<std::int64_t>(), cols = number<std::int64_t>();
+    const auto most = std::int64_t(left_.size() / sizeof(double));
+    // an empty one may have rows or columns still
+    if (rows < 0 || cols < 0 || rows > std::max<std::int64_t>(most, 3) ||
+        cols > std::max<std::int64_t>(most, 3) || (rows_wanted >= 0 && rows != rows_wanted) ||
+        (cols > 0 && rows > most / cols))
+      good_ = false;
+    if (!good_ || !take(sizeof(double) * std::size_t(rows * cols))) return;
+    if (Matrix::ColsAtCompileTime >= 0 && cols != Matrix::ColsAtCompileTime) {
+      good_ = false;
+      return;
+    }
+    values.resize(rows, cols);
+    if (values.size() > 0) std::memcpy(values.data(), taken_.data(), taken_.size());
+  }
+  void get(int& value) { value = number<std::int32_t>(); }
+  void get(double& value) { value = number<double>(); }
+  void get(std::string& value) { value = text(); }
+
+ private:
+  bool take(std::uint64_t size) {
+    good_ = good_ && size <= left_.size();
+    if (!good_) return false;
+    taken_ = left_.substr(0, size);
+    left_.remove_prefix(size);
+    return true;
+  }
+  std::string_view left_, taken_;
+  bool good_ = true;
+};
+
+}  // namespace gridshell::record

@@ -1,0 +1,283 @@
+#include "engine/formats/surface_file.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "engine/core/try.h"
+#include "engine/formats/obj_ply.h"
+#include "engine/formats/point_file.h"
+
+namespace gridshell::preset {
+
+std::vector<std::string_view> split_whitespace(std::string_view line) {
+  constexpr std::string_view blanks = " \t\r\f\v";
+  std::vector<std::string_view> words;
+  for (std::size_t at = 0; (at = line.find_first_not_of(blanks, at)) != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+std::string_view next_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+Result<void> MeshBuilder::add_vertex(const std::vector<double>& xyz, const std::string& place) {
+  constexpr double largest = 1e9;
+  for (const double value : xyz)
+    if (!(std::abs(value) <= largest))
+      return fail(Fault::bad_input,
+                  fmt::format("{}: a coordinate is {}, must be a number of at most 1e9", place,
+                              std::isfinite(value) ? "too large" : "not a number"));
+  const auto [found, fresh] = at_.try_emplace(xyz, int(mesh_.vertices.size()));
+  // a triangle that stands by itself brings three vertices
+  if (mesh_.vertices.size() == most_vertices || number_.size() == 3 * most_triangles)
+    return fail(Fault::bad_input,
+                fmt::format("{}: more than {} vertices, must be fewer", place, most_vertices));
+  number_.push_back(found->second);
+  if (fresh) mesh_.vertices.push_back(xyz);
+  return {};
+}
+
+Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const std::string& place) {
+  if (corners.size() < 3)
+    return fail(Fault::bad_input, fmt::format("{}: a polygon of {} corners, must have 3 or more",
+                                              place, corners.size()));
+  std::vector<int> ring;
+  for (const long corner : corners) {
+    if (corner < 0 || corner >= long(number_.size()))
+      return fail(Fault::bad_input,
+                  fmt::format("{}: names a vertex that is none of the {} before it", place,
+                              number_.size()));
+    ring.push_back(number_[std::size_t(corner)]);
+  }
+  if (mesh_.triangles.size() + ring.size() - 2 > most_triangles)
+    return fail(Fault::bad_input,
+                fmt::format("{}: more than {} triangles, must be fewer", place, most_triangles));
+  for (std::size_t k = 2; k < ring.size(); ++k)
+    if (ring[0] != ring[k - 1] && ring[k - 1] != ring[k] && ring[k] != ring[0])
+      mesh_.triangles.push_back({ring[0], ring[k - 1], ring[k]});
+  return {};
+}
+
+Result<SurfaceData> MeshBuilder::take(const std::string& name) {
+  if (!mesh_.triangles.empty()) return std::move(mesh_);
+  return fail(Fault::bad_input, name + ": holds no triangle, must be a mesh of triangles");
+}
+
+// Meshes as Wavefront OBJ: vertices and faces.
+
+Result<SurfaceData> read_obj(std::string_view bytes, const std::string& name) {
+  MeshBuilder draft;
+  return read_obj_lines(
+             bytes, name, "f",
+             {[&](const auto& xyz, const auto& at) { return draft.add_vertex(xyz, at); },
+              [&](const auto& corners, const auto& at) { return draft.add_polygon(corners, at); }})
+      .and_then([&] { return draft.take(name); });
+}
+
+// Meshes of triangles in PLY files.
+
+Result<SurfaceData> read_ply(std::string_view bytes, const std::string& name) {
+  MeshBuilder draft;
+  const auto read = each_ply_item(bytes, name, [&](const PlyItem& item) -> Result<void> {
+    if (item.element == "vertex")
+      return draft.add_vertex({item.xyz.x(), item.xyz.y(), item.xyz.z()}, item.place(name));
+    if (item.element == "face") return draft.add_polygon(item.corners, item.place(name));
+    return {};
+  });
+  if (!read) return tl::unexpected(read.error());
+  return draft.take(name);
+}
+
+// STL: triangles by the coordinates of their corners, as text or as 50 bytes each.
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are read as they stand");
+
+constexpr std::size_t header = 84, triangle = 50;
+
+/// The number of triangles that a binary file says it has.
+std::size_t count_in(std::string_view bytes) {
+  std::uint32_t count = 0;
+  if (bytes.size() >= header) std::memcpy(&count, bytes.data() + 80, sizeof(count));
+  return count;
+}
+
+/// A corner; the third ends its triangle.
+Result<void> add_corner(MeshBuilder& draft, const std::vector<double>& xyz,
+                        const std::string& place) {
+  if (auto added = draft.add_vertex(xyz, place); !added) return added;
+  const long count = long(draft.vertices());
+  if (count % 3 != 0) return {};
+  return draft.add_polygon({count - 3, count - 2, count - 1}, place);
+}
+
+Result<SurfaceData> read_binary(std::string_view bytes, const std::string& name) {
+  MeshBuilder draft;
+  for (std::size_t k = 0; k < count_in(bytes); ++k)
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      float xyz[3];
+      // the normal comes first
+      std::memcpy(xyz, bytes.data() + header + k * triangle + 12 * (corner + 1), sizeof(xyz));
+      TRY_DO(
+          add_corner(draft, {xyz[0], xyz[1], xyz[2]}, fmt::format("{}: triangle {}", name, k + 1)));
+    }
+  return draft.take(name);
+}
+
+Result<SurfaceData> read_text(std::string_view bytes, const std::string& name) {
+  MeshBuilder draft;
+  for (int number = 1; !bytes.empty(); ++number) {
+    const auto words = split_whitespace(next_line(bytes));
+    if (words.empty() || words[0] != "vertex") continue;
+    const auto place = fmt::format("{}:{}", name, number);
+    std::vector<double> xyz;
+    for (std::size_t k = 1; k < words.size(); ++k)
+      if (const auto value = number_of(words[k])) xyz.push_back(*value);
+    if (xyz.size() != 3 || words.size() != 4)
+      return fail(Fault::bad_input, place + ": a vertex must have three numbers, vertex x y z");
+    TRY_DO(add_corner(draft, xyz, place));
+  }
+  if (draft.vertices() % 3 != 0)
+    return fail(Fault::bad_input,
+                fmt::format("{}: ends within a triangle: {} vertices, must be three a triangle",
+                            name, draft.vertices()));
+  return draft.take(name);
+}
+
+}  // namespace
+
+Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name) {
+  // a binary file may begin with "solid" too, and is told by its size
+  if (bytes.size() >= header && bytes.size() == header + triangle * count_in(bytes))
+    return read_binary(bytes, name);
+  if (bytes.starts_with("solid")) return read_text(bytes, name);
+  return fail(Fault::bad_input,
+              fmt::format("{}: no STL: begins without \"solid\", and its {} bytes are not those of "
+                          "the {} triangles that it says",
+                          name, bytes.size(), count_in(bytes)));
+}
+
+namespace {
+
+constexpr std::size_t most_heights = 100000, least_side = 4;
+
+/// The values that a coordinate takes, rising; what differs by round-off is one.
+std::vector<double> values_of(const Points& points, std::size_t coordinate) {
+  std::vector<double> values;
+  for (const auto& point : points) values.push_back(point[coordinate]);
+  std::sort(values.begin(), values.end());
+  const double alike = 1e-6 * (values.back() - values.front());
+  values.erase(
+      std::unique(values.begin(), values.end(), [&](double a, double b) { return b - a <= alike; }),
+      values.end());
+  return values;
+}
+
+std::size_t nearest(const std::vector<double>& values, double value) {
+  const auto after = std::lower_bound(values.begin(), values.end(), value);
+  if (after == values.begin()) return 0;
+  const std::size_t k = std::size_t(after - values.begin());
+  return k == values.size() || value - values[k - 1] < values[k] - value ? k - 1 : k;
+}
+
+Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name) {
+  std::vector<int> lines;
+  TRY(points, points_in(std::string(bytes), name, {"x", "y", "z"}, {}, &lines));
+  if (points->size() > most_heights)
+    return fail(Fault::bad_input, fmt::format("{}: holds {} points, must be at most {}", name,
+                                              points->size(), most_heights));
+  SurfaceData grid{values_of(*points, 0), values_of(*points, 1), {}, {}, {}};
+  const std::size_t columns = grid.x.size(), rows = grid.y.size();
+  if (columns < least_side || rows < least_side)
+    return fail(Fault::bad_input, fmt::format("{}: {} different x and {} different y, must be a "
+                                              "grid of at least 4 x 4 places",
+                                              name, columns, rows));
+  const auto holds =
+      fmt::format("holds {} points on a grid of {} x {} places", points->size(), columns, rows);
+  // what lies far from any grid has as many places as the square of its points
+  if (columns * rows > 4 * points->size())
+    return fail(Fault::bad_input, fmt::format("{}: {}, must be a whole rectangle", name, holds));
+  grid.z.assign(rows, std::vector<double>(columns, std::nan("")));
+  for (std::size_t k = 0; k < points->size(); ++k) {
+    const auto& point = (*points)[k];
+    double& z = grid.z[nearest(grid.y, point[1])][nearest(grid.x, point[0])];
+    if (!std::isnan(z))
+      return fail(Fault::bad_input,
+                  fmt::format("{}:{}: a second point at ({:g}, {:g}), must be one", name, lines[k],
+                              point[0], point[1]));
+    z = point[2];
+  }
+  for (std::size_t j = 0; j < rows; ++j)
+    for (std::size_t i = 0; i < columns; ++i)
+      if (std::isnan(grid.z[j][i]))
+        return fail(Fault::bad_input,
+                    fmt::format("{}: {}, and none at ({:g}, {:g}): a hole, must be a whole "
+                                "rectangle",
+                                name, holds, grid.x[i], grid.y[j]));
+  return grid;
+}
+
+std::string rising_fault(const char* key, const std::vector<double>& values) {
+  if (values.size() < least_side)
+    return fmt::format("{} holds {} numbers, must be at least 4", key, values.size());
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (!(values[k] > values[k - 1]))
+      return fmt::format("{} must rise, {:g} stands before {:g}", key, values[k - 1], values[k]);
+  return "";
+}
+
+std::string mesh_fault(const SurfaceData& mesh) {
+  MeshBuilder draft;
+  for (const auto& vertex : mesh.vertices) {
+    if (vertex.size() != 3) return "vertices_mm must be points [x, y, z]";
+    if (auto added = draft.add_vertex(vertex, "vertices_mm"); !added) return added.error().message;
+  }
+  for (const auto& [a, b, c] : mesh.triangles)
+    if (auto added = draft.add_polygon({a, b, c}, "triangles"); !added)
+      return added.error().message;
+  return "";
+}
+
+}  // namespace
+
+std::string surface_fault(const SurfaceData& surface) {
+  if (surface.is_mesh()) return mesh_fault(surface);
+  for (const auto& [key, values] : {std::pair("x_mm", &surface.x), {"y_mm", &surface.y}})
+    if (auto wrong = rising_fault(key, *values); !wrong.empty()) return wrong;
+  if (surface.x.size() * surface.y.size() > most_heights)
+    return fmt::format("holds more than {} heights", most_heights);
+  if (surface.z.size() != surface.y.size())
+    return fmt::format("z_mm holds {} rows, must be one for each of the {} y", surface.z.size(),
+                       surface.y.size());
+  for (const auto& row : surface.z)
+    if (row.size() != surface.x.size())
+      return fmt::format("z_mm holds a row of {} heights, must be one for each of the {} x",
+                         row.size(), surface.x.size());
+  return "";
+}
+
+Result<SurfaceData> read_surface(std::string_view bytes, const std::string& name) {
+  const std::string ending = ending_of(name);
+  if (ending == ".csv" || ending == ".txt") return read_heights(bytes, name);
+  if (ending == ".obj") return read_obj(bytes, name);
+  if (ending == ".ply") return read_ply(bytes, name);
+  if (ending == ".stl") return read_stl(bytes, name);
+  return fail(Fault::bad_input,
+              fmt::format("{}: its name must end in .csv or .txt (heights x, y, z over a grid), or "
+                          ".obj, .ply or .stl (triangles)",
+                          name));
+}
+
+}  // namespace gridshell::preset

@@ -1,0 +1,62 @@
+// Where the values of a preset came from, and what is wrong with them.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "engine/preset/preset.h"
+
+namespace gridshell::preset {
+
+/// What is laid over what.
+enum class ValueLayer { file, one_case, command_line };
+
+/// Where a value came from: a place in a file, or an option of the command line.
+struct SourceLocation {
+  std::string source;
+  unsigned line = 0, column = 0;
+  ValueLayer layer = ValueLayer::file;
+
+  std::string text() const;
+};
+
+/// All that is wrong with a file, gathered on the way.
+class LocatedFaults {
+ public:
+  void add(const SourceLocation& place, std::string text) {
+    faults_.push_back({place, std::move(text)});
+  }
+  bool empty() const { return faults_.empty(); }
+
+  /// A line each, in the order of the file and each once; those of the command line come last.
+  std::string report() const;
+
+ private:
+  struct LocatedFault {
+    SourceLocation place;
+    std::string text;
+  };
+  std::vector<LocatedFault> faults_;
+};
+
+// A preset while its file is read, and what its keys say together once all are laid.
+
+/// A preset on its way, and where each of its keys was set.
+struct PresetBuilder {
+  Preset preset;
+  std::map<std::string, SourceLocation> set_at;  ///< by bracketed name
+  std::set<std::string> faulty;                  ///< keys whose value was refused
+};
+
+/// How a fault calls a key; `item` counts the tables of a list from 0.
+std::string key_label(const std::string& table, const std::string& key, int item = -1);
+
+/// Values that do not agree with each other; where none of them was set the fault is in `source`.
+void check_conflicts(const PresetBuilder& draft, const std::string& source, LocatedFaults& faults);
+
+/// Keys that count for nothing in any of the runs of a file, because of what others are set to.
+void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedFaults& faults);
+
+}  // namespace gridshell::preset

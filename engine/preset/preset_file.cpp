@@ -1,0 +1,258 @@
+#include "engine/preset/preset_file.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <set>
+#include <tuple>
+
+#include "engine/core/file_io.h"
+#include "engine/preset/consistency.h"
+#include "engine/preset/field_table.h"
+#include "engine/preset/preset_access.h"
+#include "engine/preset/sweep_grid.h"
+#include "engine/preset/toml_reader.h"
+
+namespace gridshell::preset {
+namespace {
+
+constexpr std::size_t longest_name = 100;
+
+// the name of a case, or empty with a fault
+std::string case_name(const toml::table& table, const std::set<std::string>& taken,
+                      TomlReader& reading) {
+  const auto* node = table.get("name");
+  const auto place = reading.place_of(node ? node->source() : table.source());
+  if (!node) {
+    reading.faults().add(place, "[[case]]: has no name, must have one: name = \"...\"");
+    return "";
+  }
+  const auto name = node->value<std::string>();
+  if (const auto wrong = case_name_fault(name.value_or("")); !wrong.empty()) {
+    reading.faults().add(place, fmt::format("[[case]] name = {}: {}", toml_text(*node), wrong));
+    return "";
+  }
+  if (taken.contains(*name)) {
+    reading.faults().add(
+        place, fmt::format("[[case]] name = {}: used twice, must be unique", toml_text(*node)));
+    return "";
+  }
+  return *name;
+}
+
+// the base preset and the cases over it
+Presets read_presets(const toml::table& root, const std::string& name,
+                     const std::vector<Override>& overrides, TomlReader& reading) {
+  PresetBuilder base;
+  base.preset.name = name;
+  reading.apply(root, "case", base);  // and with it the lists of tables
+  const auto finish = [&](PresetBuilder draft) {
+    for (const auto& change : overrides) reading.apply_override(change, draft);
+    return draft;
+  };
+  const auto whole = finish(base);
+  Presets presets{whole.preset, {}};
+  const auto* node = root.get("case");
+  if (node && !node->is_array_of_tables()) {
+    reading.faults().add(reading.place_of(node->source()), "case: must be tables, each [[case]]");
+    return presets;
+  }
+  std::set<std::string> taken;
+  std::vector<PresetBuilder> runs;
+  const toml::array none;  // a copy of the list would not know its places
+  for (const auto& item : node ? *node->as_array() : none) {
+    const auto& table = *item.as_table();
+    PresetBuilder draft = base;
+    reading.apply(table, "name", draft);
+    draft = finish(std::move(draft));
+    const auto own = case_name(table, taken, reading);
+    taken.insert(own);
+    draft.preset.name = name + "/" + own;
+    runs.push_back(draft);
+    presets.cases.push_back({own, std::move(draft.preset)});
+  }
+  if (runs.empty()) runs.push_back(whole);
+  for (const PresetBuilder& draft : runs)
+    check_conflicts(draft, reading.source(), reading.faults());
+  check_unused_keys(runs, reading.faults());
+  check_sweep(runs, reading.faults());
+  return presets;
+}
+
+}  // namespace
+
+std::string case_name_fault(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || std::strchr("._-", c); };
+  if (name.empty() || !std::isalnum((unsigned char)name.front()) ||
+      !std::all_of(name.begin(), name.end(), plain))
+    return "names a folder, must be letters, digits, '.', '_' or '-' and begin with a letter or "
+           "digit";
+  if (name.size() > longest_name)
+    return fmt::format("is {} letters long, must be at most {}", name.size(), longest_name);
+  const auto kind = std::filesystem::path(name).extension().string();
+  for (const char* taken : {".csv", ".gif", ".h5", ".journal", ".json", ".mp4", ".pdf", ".png",
+                            ".svg", ".toml", ".webm"})
+    if (kind == taken) return fmt::format("must not end in {}, as the files of a run do", kind);
+  if (name == "frames") return "is the folder of a movie's pictures, must be another name";
+  return "";
+}
+
+Result<Override> parse_override(const std::string& argument) {
+  const auto equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0)
+    return fail(Fault::bad_input, fmt::format("--set {}: must be table.key=value, for example "
+                                              "--set footprint.radius_mm=126",
+                                              argument));
+  const auto trimmed = [](const std::string& text) {
+    const auto first = text.find_first_not_of(' ');
+    return first == std::string::npos ? ""
+                                      : text.substr(first, text.find_last_not_of(' ') + 1 - first);
+  };
+  return Override{"--set", trimmed(argument.substr(0, equals)), argument.substr(equals + 1)};
+}
+
+Result<Presets> read_preset_text(const std::string& text, const std::string& source,
+                                 const std::string& name, const std::vector<Override>& overrides,
+                                 const std::map<std::string, std::string>& files) {
+  toml::table root;
+  try {
+    root = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    const auto& at = error.source().begin;
+    return fail(Fault::bad_input, fmt::format("{}:{}:{}: not TOML: {}", source, at.line, at.column,
+                                              error.description()));
+  }
+  TomlReader reading(source, {std::filesystem::path(source).parent_path(), &files});
+  auto presets = read_presets(root, name, overrides, reading);
+  if (!reading.faults().empty()) return fail(Fault::bad_input, reading.faults().report());
+  return presets;
+}
+
+Result<Presets> read_preset_file(const std::filesystem::path& file,
+                                 const std::vector<Override>& overrides) {
+  auto text = read_file(file, largest_text);
+  if (!text) return fail(Fault::bad_input, text.error().message);
+  return read_preset_text(*text, file.string(), file.stem().string(), overrides);
+}
+
+namespace {
+
+std::string comment_of(const Field& field) {
+  return field.unit.empty() ? field.meaning : fmt::format("{}: {}", field.unit, field.meaning);
+}
+
+// a pipe would end a Markdown cell
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+    text.insert(at, 1, '\\');
+  return text;
+}
+
+// names of the keys that count for something, or do not
+class Used {
+ public:
+  explicit Used(const Preset& preset) {
+    for (const UnusedKey& idle : unused_keys(preset))
+      idle_.insert({idle.table, idle.key, idle.item});
+  }
+  bool operator()(const Field& field, int item = -1) const {
+    return !idle_.contains({field.table, field.key, item});
+  }
+
+ private:
+  std::set<std::tuple<std::string, std::string, int>> idle_;
+};
+
+// one item of a list of tables; where most keys are not wanted, those that say their default are
+// left out
+std::string item_text(const std::string& table, const Preset& preset, const Used& used, int item) {
+  static const Preset defaults = default_items();
+  const Preset one = lists_up_to(preset, item);
+  auto text = fmt::format("\n[[{}]]\n", table);
+  for (const auto& field : field_table()) {
+    if (field.table != table || !used(field, item)) continue;
+    const auto value = value_text(field, one);
+    if (table == "step" && field.key != "do" && value == value_text(field, defaults)) continue;
+    text += fmt::format("{} = {}\n", field.key, value);
+  }
+  return text;
+}
+
+bool is_list(const std::string& name) {
+  return std::any_of(tables().begin(), tables().end(),
+                     [&](const Table& table) { return table.list && table.name == name; });
+}
+
+}  // namespace
+
+std::string to_toml(const Preset& preset) {
+  const Used used(preset);
+  std::string text;
+  for (const auto& table : tables()) {
+    if (table.list) continue;
+    std::string keys;
+    for (const auto& field : field_table())
+      if (field.table == table.name && used(field))
+        keys +=
+            fmt::format("{} = {}  # {}\n", field.key, value_text(field, preset), comment_of(field));
+    if (!table.name.empty() && !keys.empty())
+      text += fmt::format("\n[{}]  # {}\n", table.name, table.meaning);
+    text += keys;
+  }
+  each_list([&](const char* name, auto member) {
+    for (int k = 0; k < int((preset.*member).size()); ++k) text += item_text(name, preset, used, k);
+  });
+  return text;
+}
+
+std::string to_toml(const Presets& presets) {
+  auto text = to_toml(presets.base);
+  const Used in_base(presets.base);
+  const Preset defaults;
+  for (const auto& one : presets.cases) {
+    const Used in_case(one.preset);
+    text += fmt::format("\n[[case]]\nname = \"{}\"\n", one.name);
+    for (const auto& field : field_table()) {
+      if (is_list(field.table) || !in_case(field)) continue;
+      const auto value = value_text(field, one.preset);
+      // what stands above, or where nothing does the default
+      if (value == value_text(field, in_base(field) ? presets.base : defaults)) continue;
+      text += fmt::format("{}{}{} = {}\n", field.table, field.table.empty() ? "" : ".", field.key,
+                          value);
+    }
+  }
+  return text;
+}
+
+std::vector<KeyText> key_texts() {
+  const Preset defaults = default_items();
+  std::vector<KeyText> keys;
+  for (const auto& table : tables())
+    for (const auto& field : field_table())
+      if (field.table == table.name)
+        keys.push_back({field.table, field.key, field.unit, value_text(field, defaults),
+                        allowed(field), field.meaning});
+  return keys;
+}
+
+std::string reference_markdown() {
+  const auto keys = key_texts();
+  std::string text;
+  for (const auto& table : tables()) {
+    text += table.name.empty() ? "At the top of the file: "
+            : table.list       ? fmt::format("`[[{}]]` ", table.name)
+                               : fmt::format("`[{}]` ", table.name);
+    text += table.meaning + "\n\n| key | unit | default | allowed | meaning |\n";
+    text += "| --- | --- | --- | --- | --- |\n";
+    for (const KeyText& key : keys)
+      if (key.table == table.name)
+        text += fmt::format("| `{}` | {} | `{}` | {} | {} |\n", key.key, key.unit, key.value,
+                            cell(key.allowed), cell(key.meaning));
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace gridshell::preset

@@ -1,0 +1,80 @@
+// Reads a preset: default < file < override. All faults of a file are reported at once, a line
+// each:
+//   file:line:column: [table] key = value: what is wrong; did you mean 'x'?
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/preset/preset.h"
+
+namespace gridshell::preset {
+
+/// A value from the command line, laid over the file: `--set rod.diameter_mm=0.3`.
+struct Override {
+  std::string source;  ///< the option, named in faults: "--set", "--frames"
+  std::string key;     ///< "table.key"
+  std::string value;   ///< TOML; what is not TOML is a string
+};
+
+/// One `[[case]]`: the base preset with some keys changed.
+struct Case {
+  std::string name;  ///< unique in the file and safe as the name of a folder
+  Preset preset;     ///< its `name` is "<file>/<case>"
+};
+
+/// A preset file: what it says outside of any case, and its cases.
+struct Presets {
+  Preset base;
+  std::vector<Case> cases;
+};
+
+/// Why a case cannot have this name, which is that of a folder among a run's files; empty when it
+/// can.
+std::string case_name_fault(const std::string& name);
+
+/// "table.key=value" as given to --set. Errors: bad_input when there is no key or no '='.
+Result<Override> parse_override(const std::string& argument);
+
+/// Reads TOML text. `source` names the text in faults, `name` becomes Preset::name; files of points
+/// and surfaces are looked for beside `source`, unless they are among `files` (texts by name), and
+/// what is in them becomes the preset's own.
+/// Errors: bad_input with every fault found.
+Result<Presets> read_preset_text(const std::string& text, const std::string& source,
+                                 const std::string& name,
+                                 const std::vector<Override>& overrides = {},
+                                 const std::map<std::string, std::string>& files = {});
+
+/// Reads a file. Errors: bad_input, also when the file cannot be read.
+Result<Presets> read_preset_file(const std::filesystem::path& file,
+                                 const std::vector<Override>& overrides = {});
+
+// Writes presets as text: as TOML that runs again, and as the reference of all keys.
+
+/// Every key that counts for something in this preset, with value, unit and meaning: what it reads
+/// back as does the same.
+std::string to_toml(const Preset& preset);
+
+/// The base as above, then a [[case]] each with the keys in which it differs from the base.
+std::string to_toml(const Presets& presets);
+
+/// A key as the reference shows it: all in words.
+struct KeyText {
+  std::string table;  ///< empty at the top of the file
+  std::string key, unit;
+  std::string value;    ///< its default, as TOML
+  std::string allowed;  ///< "at least 0"
+  std::string meaning;
+};
+
+/// All of them, in the order of the reference.
+std::vector<KeyText> key_texts();
+
+/// The reference of all keys: a Markdown table of key, unit, default, allowed values and meaning
+/// for each table of the file.
+std::string reference_markdown();
+
+}  // namespace gridshell::preset

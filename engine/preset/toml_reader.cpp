@@ -1,0 +1,306 @@
+#include "engine/preset/toml_reader.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "engine/core/suggest.h"
+#include "engine/preset/field_table.h"
+#include "engine/preset/preset_access.h"
+
+namespace gridshell::preset {
+namespace {
+
+std::vector<std::string> keys_of(const std::string& table) {
+  std::vector<std::string> keys;
+  for (const auto& field : field_table())
+    if (field.table == table) keys.push_back(field.key);
+  return keys;
+}
+
+std::vector<std::string> table_names() {
+  std::vector<std::string> names{"case"};
+  for (const auto& table : tables())
+    if (!table.name.empty()) names.push_back(table.name);
+  return names;
+}
+
+bool is_list_name(const std::string& name) {
+  return std::ranges::any_of(tables(),
+                             [&](const Table& table) { return table.list && table.name == name; });
+}
+
+bool is_table_name(const std::string& name) {
+  const auto names = table_names();
+  return name != "case" && !is_list_name(name) &&
+         std::find(names.begin(), names.end(), name) != names.end();
+}
+
+toml::table override_value(const std::string& value) {
+  try {
+    auto parsed = toml::parse("x = " + value);
+    if (parsed.size() == 1) return parsed;
+  } catch (const toml::parse_error&) {
+  }
+  return toml::table{{"x", value}};
+}
+
+// what a mistyped key may have been: a near one of its table, the same one of another table, or
+// else the list of what there is
+std::string hint(const std::string& table, const std::string& name) {
+  const auto here = keys_of(table);
+  if (const auto near = did_you_mean(name, here); !near.empty()) return near;
+  for (const auto& field : field_table())
+    if (field.key == name)
+      return fmt::format("; did you mean '{}{}{}'?", field.table, field.table.empty() ? "" : ".",
+                         name);
+  return fmt::format(", must be one of {}", fmt::join(here, ", "));
+}
+
+}  // namespace
+
+SourceLocation TomlReader::place_of(const toml::source_region& region) const {
+  // values of an override have no place in the file
+  if (!override_.empty()) return {override_, 0, 0, ValueLayer::command_line};
+  return {source_, unsigned(region.begin.line), unsigned(region.begin.column), layer_};
+}
+
+void TomlReader::apply(const toml::table& root, const std::string& apart, PresetBuilder& draft) {
+  layer_ = apart == "case" ? ValueLayer::file : ValueLayer::one_case;
+  for (const auto& [key, value] : root) {
+    const std::string name(key.str());
+    if (name == apart) continue;
+    if (is_list_name(name))
+      read_items(key, value, apart == "case", draft);
+    else if (!is_table_name(name) && !value.is_table())
+      assign_key("", key, value, draft);
+    else
+      read_table(key, value, draft);
+  }
+}
+
+void TomlReader::apply_override(const Override& change, PresetBuilder& draft) {
+  override_ = change.source;
+  const auto dot = change.key.find('.');
+  const bool top = dot == std::string::npos;
+  const auto table = top ? "" : change.key.substr(0, dot);
+  const auto name = top ? change.key : change.key.substr(dot + 1);
+  const auto value = override_value(change.value);
+  if (!top && !is_table_name(table))
+    faults_.add({override_},
+                fmt::format("[{}] {} = {}: unknown table{}", table, name,
+                            toml_text(*value.get("x")), did_you_mean(table, table_names())));
+  else
+    assign_key(table, toml::key(name), *value.get("x"), draft);
+  override_.clear();
+}
+
+// the items of a list of tables, each with defaults of its own
+void TomlReader::read_items(const toml::key& key, const toml::node& value, bool in_file,
+                            PresetBuilder& draft) {
+  const std::string name(key.str());
+  if (!in_file || !value.is_array_of_tables()) {
+    faults_.add(place_of(key.source()),
+                in_file ? fmt::format("{}: must be tables, each [[{}]]", name, name)
+                        : fmt::format("{}: stands outside of cases, as [[{}]]", name, name));
+    return;
+  }
+  int item = 0;
+  for (const auto& table : *value.as_array()) {
+    add_item(draft.preset, name);
+    draft.set_at[key_label(name, "", item)] = place_of(table.source());
+    for (const auto& [inner, one] : *table.as_table()) assign_key(name, inner, one, draft, item);
+    ++item;
+  }
+}
+
+void TomlReader::read_table(const toml::key& key, const toml::node& value, PresetBuilder& draft) {
+  const std::string name(key.str());
+  const auto place = place_of(key.source());
+  if (!is_table_name(name)) {
+    faults_.add(place,
+                fmt::format("[{}]: unknown table{}", name, did_you_mean(name, table_names())));
+  } else if (const auto* table = value.as_table()) {
+    for (const auto& [inner, item] : *table) assign_key(name, inner, item, draft);
+  } else {
+    faults_.add(place, fmt::format("{} = {}: is a table, must hold keys: {}", name,
+                                   toml_text(value), fmt::join(keys_of(name), ", ")));
+  }
+}
+
+void TomlReader::read_sweep_axes(const AxisList& list, const toml::table& over,
+                                 PresetBuilder& draft) {
+  std::vector<AxisFault> wrong;
+  list.in(draft.preset) = read_axes(over, wrong);
+  for (auto& fault : wrong) faults_.add(place_of(fault.place), std::move(fault.text));
+  if (!wrong.empty()) draft.faulty.insert("[sweep] over");
+}
+
+void TomlReader::assign_key(const std::string& table, const toml::key& key, const toml::node& value,
+                            PresetBuilder& draft, int item) {
+  const std::string name(key.str());
+  const auto* field = find_field(table, name);
+  const auto full = key_label(table, name, item);
+  if (!field) {
+    faults_.add(place_of(key.source()),
+                fmt::format("{} = {}: unknown key{}", full, toml_text(value), hint(table, name)));
+    return;
+  }
+  const auto place = place_of(value.source());
+  if (table == "sweep" && place.layer == ValueLayer::one_case) {
+    faults_.add(place, fmt::format("{} = {}: stands outside of cases: a sweep runs all of them",
+                                   full, toml_text(value)));
+    return;
+  }
+  if (const auto* axes = std::get_if<AxisList>(&field->kind); axes && value.is_table()) {
+    draft.set_at[full] = place_of(key.source());
+    read_sweep_axes(*axes, *value.as_table(), draft);
+    return;
+  }
+  const auto wrong =
+      assign(*field, value, draft.preset, override_.empty() ? beside_ : FileContext{});
+  draft.set_at[full] = place;
+  if (wrong.empty()) {
+    draft.faulty.erase(full);
+  } else {
+    draft.faulty.insert(full);
+    faults_.add(place, fmt::format("{} = {}: {}", full, toml_text(value), wrong));
+  }
+}
+
+namespace {
+
+constexpr std::int64_t most_values = 100000;
+
+/// One swept key as it is written.
+struct Entry {
+  std::string table, key;
+  toml::source_region place;
+  const toml::node* value;
+
+  std::string name() const { return table.empty() ? key : table + "." + key; }
+};
+
+/// The entries in the order of the file, which a table forgets.
+std::vector<Entry> entries_of(const toml::table& over) {
+  std::vector<Entry> entries;
+  for (const auto& [key, node] : over) {
+    const auto* inner = node.as_table();
+    if (!inner) {
+      entries.push_back({"", std::string(key.str()), key.source(), &node});
+      continue;
+    }
+    for (const auto& [name, value] : *inner)
+      entries.push_back({std::string(key.str()), std::string(name.str()), name.source(), &value});
+  }
+  std::ranges::sort(entries, {}, [](const Entry& entry) {
+    return std::tuple(entry.place.begin.line, entry.place.begin.column);
+  });
+  return entries;
+}
+
+/// Reads one entry; faults bear its name.
+class AxisReader {
+ public:
+  AxisReader(const Entry& entry, std::vector<AxisFault>& faults) : entry_(entry), faults_(faults) {}
+
+  std::optional<SweepAxis> read() {
+    const std::size_t before = faults_.size();
+    field_ = find_field(entry_.table, entry_.key);
+    if (!field_) {
+      std::vector<std::string> names;
+      for (const auto& field : field_table())
+        if (affects_results(field.table)) names.push_back(field.table + "." + field.key);
+      refuse(*entry_.value, "unknown key" + did_you_mean(entry_.name(), names));
+    } else if (!affects_results(entry_.table)) {
+      refuse(*entry_.value, "changes no number of a run, must be a key of another table");
+    } else if (const auto* list = entry_.value->as_array()) {
+      if (list->empty()) refuse(*list, "is empty, must hold values");
+      for (const auto& value : *list) take(value);
+    } else if (const auto* range = entry_.value->as_table()) {
+      take_range(*range);
+    } else {
+      refuse(*entry_.value, "must be a list of values or { from, to, count }");
+    }
+    if (faults_.size() > before) return std::nullopt;
+    return SweepAxis{entry_.name(), std::move(values_)};
+  }
+
+ private:
+  void refuse(const toml::node& value, const std::string& why) {
+    const auto& region = value.source();
+    // what was computed has no place of its own
+    faults_.push_back(
+        {region.begin.line > 0 ? region : entry_.place,
+         fmt::format("[sweep.over] {} = {}: {}", entry_.name(), toml_text(value), why)});
+  }
+
+  void take(const toml::node& value) {
+    Preset preset;
+    if (const auto wrong = assign(*field_, value, preset, {}); !wrong.empty())
+      return refuse(value, wrong);
+    auto text = value_text(*field_, preset);
+    if (!taken_.insert(text).second)
+      return refuse(value, "stands there twice, must be another value");
+    values_.push_back(std::move(text));
+  }
+
+  void take_range(const toml::table& range) {
+    static const std::vector<std::string> known{"from", "to", "count", "log"};
+    for (const auto& [key, value] : range)
+      if (const std::string name(key.str()); std::ranges::find(known, name) == known.end())
+        return refuse(range, fmt::format("has no '{}'{}, must be {{ from, to, count }}", name,
+                                         did_you_mean(name, known)));
+    const auto from = range["from"].value<double>(), to = range["to"].value<double>();
+    const auto count = range["count"].as_integer();
+    const bool log = range["log"].value_or(false);
+    if (!from || !to || !count || !std::isfinite(*from) || !std::isfinite(*to))
+      return refuse(range, "must be { from = a number, to = a number, count = an integer }");
+    if (count->get() < 2 || count->get() > most_values)
+      return refuse(range, fmt::format("count must be from 2 to {}", most_values));
+    if (range.contains("log") && !range["log"].is_boolean())
+      return refuse(range, "log must be true or false");
+    if (log && !(*from > 0 && *to > 0)) return refuse(range, "even factors need numbers > 0");
+    for (std::int64_t k = 0; k < count->get(); ++k) {
+      const double part = double(k) / double(count->get() - 1);
+      const double value = log ? *from * std::pow(*to / *from, part) : *from + part * (*to - *from);
+      take_number(value, range);
+    }
+  }
+
+  void take_number(double value, const toml::table& range) {
+    // steps of 0.1 shall read 0.3, not 0.30000000000000004
+    value = std::stod(fmt::format("{:.12g}", value));
+    if (!std::holds_alternative<Integer>(field_->kind)) return take(toml::value<double>(value));
+    if (value != std::round(value) || std::abs(value) > 1e9)
+      return refuse(range, fmt::format("comes to {}, must be {}", value, allowed(*field_)));
+    take(toml::value<std::int64_t>(std::int64_t(value)));
+  }
+
+  const Entry& entry_;
+  std::vector<AxisFault>& faults_;
+  const Field* field_ = nullptr;
+  std::vector<std::string> values_;
+  std::set<std::string> taken_;
+};
+
+}  // namespace
+
+bool affects_results(const std::string& table) {
+  static const std::vector<std::string> others{"",       "sweep", "movie", "style",
+                                               "figure", "page",  "block", "join"};
+  return std::ranges::find(others, table) == others.end();
+}
+
+std::vector<SweepAxis> read_axes(const toml::table& over, std::vector<AxisFault>& faults) {
+  std::vector<SweepAxis> axes;
+  for (const Entry& entry : entries_of(over))
+    if (auto axis = AxisReader(entry, faults).read()) axes.push_back(std::move(*axis));
+  return axes;
+}
+
+}  // namespace gridshell::preset

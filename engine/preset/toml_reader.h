@@ -1,0 +1,82 @@
+// Puts a TOML value into a preset's field, or says in a sentence why it cannot.
+#pragma once
+
+#include <toml++/toml.h>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/preset/field_table.h"
+#include "engine/preset/preset.h"
+#include "engine/preset/preset_builder.h"
+#include "engine/preset/preset_file.h"
+
+namespace gridshell::preset {
+
+/// Where the files lie that a preset names: in a folder, or with it in the program.
+struct FileContext {
+  std::filesystem::path folder;
+  const std::map<std::string, std::string>* built_in = nullptr;  ///< texts by name
+};
+
+/// Empty when `value` was put into `preset`; else what is wrong and what is allowed, and `preset`
+/// is as it was. Files are looked for `beside` the preset.
+std::string assign(const Field& field, const toml::node& value, Preset& preset,
+                   const FileContext& beside);
+
+/// The value as a fault shows it: TOML on one line, shortened when long.
+std::string toml_text(const toml::node& value);
+
+// Reads what a sweep goes over: `[sweep.over]` with keys in dotted form.
+//   rod.diameter_mm = [0.2, 0.3]
+//   actuation.radius_mm = { from = 90, to = 110, count = 5 }
+
+/// What is wrong with a part of a table, and where.
+struct AxisFault {
+  toml::source_region place;
+  std::string text;  ///< "[sweep.over] rod.diameter_mm = "x": is a string, must be a number > 0"
+};
+
+/// The axes in the order in which they are written; what is wrong is added to `faults`, and an axis
+/// with a fault is left out. Each value was assigned to its key once and is within its range.
+std::vector<SweepAxis> read_axes(const toml::table& over, std::vector<AxisFault>& faults);
+
+/// Whether a table of keys can change a number of a run: those of pictures and of the sweep itself
+/// cannot.
+bool affects_results(const std::string& table);
+
+// Lays TOML over presets, and gathers what is wrong on the way.
+
+class TomlReader {
+ public:
+  /// `source` names the text in faults.
+  TomlReader(std::string source, FileContext beside)
+      : source_(std::move(source)), beside_(std::move(beside)) {}
+
+  /// The keys of a file, or of one of its cases, over a draft; `apart` is read by someone else.
+  void apply(const toml::table& root, const std::string& apart, PresetBuilder& draft);
+  /// One value of the command line over a draft.
+  void apply_override(const Override& change, PresetBuilder& draft);
+
+  const std::string& source() const { return source_; }
+  SourceLocation place_of(const toml::source_region& region) const;
+  LocatedFaults& faults() { return faults_; }
+
+ private:
+  void read_items(const toml::key& key, const toml::node& value, bool in_file,
+                  PresetBuilder& draft);
+  void read_table(const toml::key& key, const toml::node& value, PresetBuilder& draft);
+  void assign_key(const std::string& table, const toml::key& key, const toml::node& value,
+                  PresetBuilder& draft, int item = -1);
+
+  void read_sweep_axes(const AxisList& list, const toml::table& over, PresetBuilder& draft);
+
+  std::string source_;
+  FileContext beside_;                   // the file
+  std::string override_;                 // while an override is laid: its option
+  ValueLayer layer_ = ValueLayer::file;  // of what is laid of the file
+  LocatedFaults faults_;
+};
+
+}  // namespace gridshell::preset

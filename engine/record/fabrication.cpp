@@ -1,0 +1,116 @@
+#include "engine/record/fabrication.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/formats/csv.h"
+
+namespace gridshell::exports {
+namespace {
+
+constexpr double label_height_mm = 3, joint_mark_mm = 2;
+
+Eigen::Vector3d flat(const Eigen::Vector2d& at) { return {at.x(), at.y(), 0}; }
+
+/// A closed boundary: a circle where it is one.
+void put_boundary(const Eigen::Matrix2Xd& polyline, double radius_mm, Layer& layer) {
+  if (std::isfinite(radius_mm)) {
+    layer.circles.push_back({Eigen::Vector2d::Zero(), radius_mm});
+    return;
+  }
+  DrawnLine line{{}, true};
+  for (Eigen::Index k = 0; k < polyline.cols(); ++k) line.points.push_back(flat(polyline.col(k)));
+  layer.lines.push_back(std::move(line));
+}
+
+std::string space_separated(const std::vector<double>& numbers) {
+  std::string row;
+  for (const double number : numbers) row += fmt::format("{}{}", row.empty() ? "" : " ", number);
+  return row;
+}
+
+}  // namespace
+
+Drawing footprint_drawing(const FabricationPlan& work) {
+  Layer rods{"rods", 7}, tails{"tails", 3}, joints{"joints", 5}, boundary{"boundary", 1},
+      labels{"labels", 5};
+  for (const CutRod& rod : work.rods) {
+    DrawnLine line{{flat(rod.begin)}};
+    for (const Eigen::Vector2d& corner : rod.corners) line.points.push_back(flat(corner));
+    line.points.push_back(flat(rod.end));
+    rods.lines.push_back(std::move(line));
+    const Eigen::Vector2d along = (rod.end - rod.begin).normalized(), across(-along.y(), along.x());
+    for (const double mark : rod.pin_marks_mm) {
+      const Eigen::Vector2d at = rod.begin + mark * along;
+      tails.lines.push_back({{flat(at - across), flat(at + across)}});
+    }
+    labels.texts.push_back(
+        {work.label_position(rod, 2 * label_height_mm), label_height_mm, rod.name});
+  }
+  const Eigen::Vector2d x(joint_mark_mm / 2, 0), y(0, joint_mark_mm / 2);
+  for (const Eigen::Vector2d& at : work.joints) {
+    joints.lines.push_back({{flat(at - x), flat(at + x)}});
+    joints.lines.push_back({{flat(at - y), flat(at + y)}});
+  }
+  put_boundary(work.original_boundary, work.original_radius_mm, boundary);
+  Drawing drawing{work.title + ": footprint", {rods}};
+  if (!tails.lines.empty()) drawing.layers.push_back(tails);
+  for (const Layer& layer : {joints, boundary, labels}) drawing.layers.push_back(layer);
+  return drawing;
+}
+
+Result<Drawing> plate_drawing(const FabricationPlan& work) {
+  double low = INFINITY, high = -INFINITY;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  int ring = 0;
+  for (const Pin& pin : work.pins) {
+    if (!pin.in_ring) continue;
+    low = std::min(low, pin.at.z());
+    high = std::max(high, pin.at.z());
+    middle += pin.at.head<2>();
+    ++ring;
+  }
+  if (ring == 0) return fail(Fault::bad_input, "nothing is pinned, so there is no plate");
+  if (high - low > 1e-3)
+    return fail(
+        Fault::bad_input,
+        fmt::format("the edge points lie between z = {:.3f} and {:.3f} mm, so no flat plate "
+                    "holds them; '--what plate --to pins.csv' lists them",
+                    low, high));
+  middle /= ring;
+  Layer boundary{"boundary", 1}, holes{"holes", 7}, labels{"labels", 5};
+  put_boundary(work.actuated_boundary.topRows<2>(), work.actuated_radius_mm, boundary);
+  for (const Pin& pin : work.pins) {
+    if (!pin.in_ring) continue;
+    const Eigen::Vector2d at = pin.at.head<2>();
+    holes.circles.push_back({at, work.rod_diameter_mm / 2});
+    labels.texts.push_back(
+        {at + 2 * label_height_mm * (at - middle).normalized(), 0.6 * label_height_mm, pin.name});
+  }
+  return Drawing{work.title + ": plate", {boundary, holes, labels}};
+}
+
+std::string cut_list_csv(const FabricationPlan& work) {
+  record::CsvWriter csv;
+  csv.line("rod", "length_mm", "joint_marks_mm", "pin_marks_mm", "leg_begin_mm", "leg_end_mm",
+           "note");
+  for (const CutRod& rod : work.rods)
+    csv.line(rod.name, rod.length_mm, space_separated(rod.joint_marks_mm),
+             space_separated(rod.pin_marks_mm), rod.leg_begin_mm, rod.leg_end_mm,
+             rod.hard_to_build()
+                 ? fmt::format("a leg below {:g} mm: hard to build", shortest_leg_mm)
+                 : std::string());
+  return std::move(csv).text();
+}
+
+std::string pins_csv(const FabricationPlan& work) {
+  record::CsvWriter csv;
+  csv.line("pin", "ring", "x_mm", "y_mm", "z_mm");
+  for (const Pin& pin : work.pins)
+    csv.line(pin.name, pin.in_ring ? "first" : "second", pin.at.x(), pin.at.y(), pin.at.z());
+  return std::move(csv).text();
+}
+
+}  // namespace gridshell::exports

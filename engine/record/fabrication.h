@@ -1,0 +1,96 @@
+// What is cut, drilled and tied to build a gridshell by hand: rods with their marks, the footprint
+// they lie in, and the pins that hold it. Millimetres.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/formats/drawing.h"
+
+namespace gridshell::exports {
+
+/// A leg shorter than this leaves no room between a joint and the boundary: a joint of the paper is
+/// a cylinder of 3 mm [Baek 2018, 'Materials'].
+inline constexpr double shortest_leg_mm = 3;
+
+/// One rod as it is cut. What is measured along it begins at its begin, tail and leg included.
+struct CutRod {
+  std::string name;  ///< "u-3": its family and index
+  double length_mm = 0;
+  std::vector<double> joint_marks_mm;      ///< where it is tied to others
+  std::vector<double> pin_marks_mm;        ///< its edge points, where they are not its ends
+  Eigen::Vector2d begin, end;              ///< of all of it in the flat
+  std::vector<Eigen::Vector2d> corners{};  ///< between them, of one that is not straight there
+  /// from the edge points to the joints next to them; NaN: it ends at a joint
+  double leg_begin_mm = 0, leg_end_mm = 0;
+  bool free_begin = false, free_end = false;  ///< not pinned
+
+  bool hard_to_build() const {
+    return leg_begin_mm < shortest_leg_mm || leg_end_mm < shortest_leg_mm;
+  }
+};
+
+/// A hole that holds an end of a rod once the shell is actuated.
+struct Pin {
+  std::string name;  ///< "u-3 begin", "u-3 end, far" of a second ring
+  Eigen::Vector3d at;
+  bool in_ring = true;  ///< of the actuated boundary; a far pin of the second ring is not
+};
+
+/// All of it.
+struct FabricationPlan {
+  std::string title;
+  double spacing_mm = 0, rod_diameter_mm = 0;
+  std::vector<CutRod> rods;
+  std::vector<Eigen::Vector2d> joints;
+  Eigen::Matrix2Xd original_boundary;  ///< closed polyline in the flat
+  Eigen::Matrix3Xd actuated_boundary;  ///< closed polyline
+  double original_radius_mm = std::numeric_limits<double>::quiet_NaN();  ///< of circles
+  double actuated_radius_mm = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Pin> pins;
+  bool in_space = false;  ///< it has no flat footprint: rods and joints are seen from above
+
+  Eigen::Vector2d middle() const {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& joint : joints) sum += joint;
+    return sum / double(joints.size());
+  }
+  /// Where a rod's name stands in the flat, `away` beyond one of its ends: at the begin of those
+  /// left of the middle, seen along the rod, at the end of the others, so that the names of the two
+  /// families lie in quarters of their own.
+  Eigen::Vector2d label_position(const CutRod& rod, double away) const {
+    const Eigen::Vector2d along = (rod.end - rod.begin).normalized(), left(-along.y(), along.x());
+    return left.dot(rod.begin - middle()) >= 0 ? Eigen::Vector2d(rod.begin - away * along)
+                                               : Eigen::Vector2d(rod.end + away * along);
+  }
+  double total_length_mm() const {
+    double sum = 0;
+    for (const CutRod& rod : rods) sum += rod.length_mm;
+    return sum;
+  }
+};
+
+// Files for the workshop: the footprint and the plate as drawings, the cut list and the pins as
+// tables.
+
+/// The flat footprint; u-rods begin at the left, v-rods below. Layers: `rods`, `joints` (a cross
+/// each), `boundary`, `labels`, and where there is a second ring `tails` (a tick across a rod at
+/// its edge point).
+Drawing footprint_drawing(const FabricationPlan& work);
+
+/// The plate that holds the shell: the actuated boundary and a hole of the rods' diameter for each
+/// pin of the ring. Layers: `boundary`, `holes`, `labels`. Errors (bad_input): the pins do not lie
+/// in one horizontal plane.
+Result<Drawing> plate_drawing(const FabricationPlan& work);
+
+/// `rod,length_mm,joint_marks_mm,pin_marks_mm,leg_begin_mm,leg_end_mm,note`, a line a rod; marks
+/// are measured from the rod's begin, apart by blanks.
+std::string cut_list_csv(const FabricationPlan& work);
+
+/// `pin,ring,x_mm,y_mm,z_mm`, those of the second ring too.
+std::string pins_csv(const FabricationPlan& work);
+
+}  // namespace gridshell::exports

@@ -1,0 +1,110 @@
+#include "engine/record/frame_values.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace gridshell::record {
+namespace {
+
+/// How many points the rods before a rod have.
+std::size_t points_before(const Layout& layout, std::size_t rod) {
+  std::size_t points = 0;
+  for (std::size_t k = 0; k < rod; ++k) points += layout.rods[k].size();
+  return points;
+}
+
+/// Values that come to nodes from several rods, and their mean.
+class NodeMeans {
+ public:
+  explicit NodeMeans(Eigen::Index nodes)
+      : sum_(Eigen::VectorXd::Zero(nodes)), count_(Eigen::VectorXd::Zero(nodes)) {}
+
+  void add(int node, double value) {
+    sum_[node] += value;
+    count_[node] += 1;
+  }
+  bool has(int node) const { return count_[node] > 0; }
+  double operator[](int node) const { return has(node) ? sum_[node] / count_[node] : 0; }
+  Eigen::VectorXd all() const { return sum_.array() / count_.array().max(1); }
+
+ private:
+  Eigen::VectorXd sum_, count_;
+};
+
+}  // namespace
+
+std::vector<double> curvature_per_mm(const Eigen::Matrix3Xd& points) {
+  std::vector<double> curvature(std::size_t(points.cols()), 0.0);
+  for (Eigen::Index k = 1; k + 1 < points.cols(); ++k) {
+    const Eigen::Vector3d before = points.col(k) - points.col(k - 1),
+                          after = points.col(k + 1) - points.col(k);
+    curvature[std::size_t(k)] = curvature_between(before.normalized(), after.normalized(),
+                                                  0.5 * (before.norm() + after.norm()));
+  }
+  return curvature;
+}
+
+std::vector<double> curvature_per_mm(const Layout& layout, const Frame& frame, std::size_t rod) {
+  const std::vector<int>& nodes = layout.rods[rod];
+  if (frame.curvature_per_mm.size() == 0) return curvature_per_mm(frame.nodes(Eigen::all, nodes));
+  const double* first = frame.curvature_per_mm.data() + points_before(layout, rod);
+  return {first, first + nodes.size()};
+}
+
+std::vector<double> axial_force_N(const Layout& layout, const Frame& frame, std::size_t rod) {
+  const std::size_t points = layout.rods[rod].size();
+  std::vector<double> force(points, unknown);
+  if (frame.axial_force_N.size() == 0 || points < 2) return force;
+  // a rod has one edge less than points
+  const double* edges = frame.axial_force_N.data() + points_before(layout, rod) - rod;
+  force.front() = edges[0];
+  force.back() = edges[points - 2];
+  for (std::size_t k = 1; k + 1 < points; ++k) force[k] = 0.5 * (edges[k - 1] + edges[k]);
+  return force;
+}
+
+Eigen::VectorXd axial_force_of_nodes_N(const Layout& layout, const Frame& frame) {
+  if (frame.axial_force_N.size() == 0) return {};
+  NodeMeans means(frame.nodes.cols());
+  Eigen::Index edge = 0;
+  for (const std::vector<int>& rod : layout.rods)
+    for (std::size_t k = 1; k < rod.size(); ++k, ++edge)
+      for (const int node : {rod[k - 1], rod[k]}) means.add(node, frame.axial_force_N[edge]);
+  return means.all();
+}
+
+Eigen::VectorXd bending_of_nodes_mJ_per_m(const Layout& layout, const Frame& frame) {
+  if (frame.bending_mJ_per_m.size() == 0) return {};
+  // where a rod ends on another it does not bend
+  NodeMeans through(frame.nodes.cols()), ends(frame.nodes.cols());
+  Eigen::Index point = 0;
+  for (const std::vector<int>& rod : layout.rods)
+    for (std::size_t k = 0; k < rod.size(); ++k, ++point)
+      (k == 0 || k + 1 == rod.size() ? ends : through).add(rod[k], frame.bending_mJ_per_m[point]);
+  Eigen::VectorXd bending(frame.nodes.cols());
+  for (int node = 0; node < int(bending.size()); ++node)
+    bending[node] = through.has(node) ? through[node] : ends[node];
+  return bending;
+}
+
+Eigen::VectorXd deviation_of_nodes(const Layout& layout, const Frame& frame) {
+  const Eigen::Index nodes = std::min(frame.nodes.cols(), layout.net_nodes.cols());
+  if (!has_net(layout)) return {};
+  return (frame.nodes.leftCols(nodes) - layout.net_nodes.leftCols(nodes)).colwise().norm() /
+         layout.length_scale_mm;
+}
+
+Eigen::VectorXd deviation_of_cells(const Layout& layout, const Frame& frame) {
+  if (!has_net(layout)) return {};
+  const Eigen::VectorXd off = deviation_of_nodes(layout, frame);
+  Eigen::VectorXd of_cells(Eigen::Index(layout.cells.size()));
+  for (std::size_t k = 0; k < layout.cells.size(); ++k) {
+    double sum = 0;
+    for (const int joint : layout.cells[k].joints)
+      sum += off[layout.joints[std::size_t(joint)].node];
+    of_cells[Eigen::Index(k)] = sum / 4;
+  }
+  return of_cells;
+}
+
+}  // namespace gridshell::record

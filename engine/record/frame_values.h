@@ -1,0 +1,50 @@
+// What a frame says along its rods: curvature and axial force at a rod's points, axial force and
+// bending energy at the nodes. Exports, pictures and the window take them from here.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "engine/record/trajectory.h"
+
+namespace gridshell::record {
+
+/// Curvature at the node between two edges, |kb|/l, from their unit tangents and their mean length.
+inline double curvature_between(const Eigen::Vector3d& te, const Eigen::Vector3d& tf,
+                                double length) {
+  return 2 * te.cross(tf).norm() / (1 + te.dot(tf)) / length;
+}
+
+/// Curvature at each of a rod's points, 1/mm: |2 t x t'| / (1 + t.t') over the mean of the two
+/// edges' lengths, t and t' their unit tangents [Bergou 2008, eq. 1]; 0 at the ends.
+std::vector<double> curvature_per_mm(const Eigen::Matrix3Xd& points);
+
+/// The same of a rod of the frame as its run recorded it; else from its points.
+std::vector<double> curvature_per_mm(const Layout& layout, const Frame& frame, std::size_t rod);
+
+/// Axial force at each of a rod's points, N: the mean of the edges that meet there, below 0 where
+/// they are compressed; NaN where the run did not record it.
+std::vector<double> axial_force_N(const Layout& layout, const Frame& frame, std::size_t rod);
+
+/// Axial force at each node of the frame, N: the mean of all edges that meet there, of both rods
+/// at a joint; 0 at a node of no rod. Empty where the run did not record it.
+Eigen::VectorXd axial_force_of_nodes_N(const Layout& layout, const Frame& frame);
+
+/// Bending energy over length at each node of the frame, mJ/m: the mean of the rods that go through
+/// it, else of those that end there. Empty where the run did not record it.
+Eigen::VectorXd bending_of_nodes_mJ_per_m(const Layout& layout, const Frame& frame);
+
+// How far a frame lies from the net it was designed on, as its run recorded both.
+
+/// Whether a run has a net to lie off.
+inline bool has_net(const Layout& layout) { return layout.net_nodes.cols() > 0; }
+
+/// Distance of each node from its place on the net over rho, the layout's length scale; empty
+/// without a net.
+Eigen::VectorXd deviation_of_nodes(const Layout& layout, const Frame& frame);
+
+/// The same of each cell: the mean of its four joints.
+Eigen::VectorXd deviation_of_cells(const Layout& layout, const Frame& frame);
+
+}  // namespace gridshell::record

@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "engine/core/json.h"
+#include "engine/record/viewer_files.h"
+
+namespace gridshell::exports {
+
+std::array<double, 3> ColourRange::colour(double K) const {
+  if (!std::isfinite(K)) return unknown;
+  const double share = std::min(std::abs(K) / end, 1.0);
+  const Colour& full = K < 0 ? below : above;
+  Colour mixed{};
+  for (std::size_t k = 0; k < 3; ++k) mixed[k] = zero[k] + share * (full[k] - zero[k]);
+  return mixed;
+}
+
+ColourRange range_of(const Eigen::VectorXd& K) {
+  std::vector<double> sizes;
+  for (const double value : K)
+    if (std::isfinite(value)) sizes.push_back(std::abs(value));
+  if (sizes.empty()) return {};
+  std::ranges::sort(sizes);
+  const double end = sizes[std::size_t(0.98 * double(sizes.size() - 1))];
+  return {end > 0 ? end : 1};
+}
+
+std::array<double, 3> linear(const std::array<double, 3>& srgb) {
+  std::array<double, 3> light{};
+  for (std::size_t k = 0; k < 3; ++k)
+    light[k] = srgb[k] <= 0.04045 ? srgb[k] / 12.92 : std::pow((srgb[k] + 0.055) / 1.055, 2.4);
+  return light;
+}
+
+namespace {
+
+using record::Json;
+
+constexpr std::size_t most_page_bytes = 9'000'000;  // of positions, as written
+
+std::string base64(const std::vector<std::uint16_t>& numbers) {
+  static constexpr char letters[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes, text;
+  for (const std::uint16_t number : numbers) {
+    bytes += char(number & 255);
+    bytes += char(number >> 8);
+  }
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t b = 0; b < 3; ++b)
+      three = three << 8 | (k + b < bytes.size() ? std::uint8_t(bytes[k + b]) : 0);
+    for (std::size_t b = 0; b < 4; ++b)
+      text += k + b < bytes.size() + 1 ? letters[three >> (18 - 6 * b) & 63] : '=';
+  }
+  return text;
+}
+
+/// The box around all frames.
+struct Extent {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY);
+  Eigen::Vector3d high = Eigen::Vector3d::Constant(-INFINITY);
+
+  void take(const record::Frame& frame) {
+    low = low.cwiseMin(frame.nodes.rowwise().minCoeff());
+    high = high.cwiseMax(frame.nodes.rowwise().maxCoeff());
+  }
+  /// mm a step
+  double step() const { return std::max((high - low).maxCoeff() / 65535, 1e-12); }
+};
+
+std::string positions(const record::Frame& frame, const Extent& extent) {
+  std::vector<std::uint16_t> rounded;
+  for (Eigen::Index k = 0; k < frame.nodes.cols(); ++k)
+    for (int c = 0; c < 3; ++c)
+      rounded.push_back(
+          std::uint16_t(std::lround((frame.nodes(c, k) - extent.low[c]) / extent.step())));
+  return base64(rounded);
+}
+
+double rounded(double value, int digits) {
+  return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
+}
+
+Json figures(const record::Frame& frame) {
+  Json json = Json::object();
+  const auto put = [&](const char* name, double value) {
+    if (std::isfinite(value)) json[name] = rounded(value, 5);
+  };
+  put("progress", frame.progress);
+  put("R\u2090 (mm)", frame.boundary_radius_mm);
+  put("depth (mm)", frame.depth_mm);
+  put("force (N)", frame.force_N);
+  put("height (mm)", frame.height_mm);
+  put("bend energy (mJ)", frame.energies[Term::bend]);
+  put("total K (rad)", frame.total_K);
+  if (frame.axial_force_N.size() > 0) {
+    put("largest tension (N)", std::max(0.0, frame.axial_force_N.maxCoeff()));
+    put("largest compression (N)", std::max(0.0, -frame.axial_force_N.minCoeff()));
+  }
+  if (frame.reactions_N.cols() > 0)
+    put("largest reaction (N)", frame.reactions_N.colwise().norm().maxCoeff());
+  put("residual (N)", frame.residual_N);
+  put("error estimate (mm)", frame.error_estimate_mm);
+  if (frame.negative_pivots >= 0) json["negative pivots"] = frame.negative_pivots;
+  if (!frame.event.empty()) json["event"] = frame.event;
+  return json;
+}
+
+/// Every n-th point of a boundary, to a tenth of a micrometre.
+Json boundary_json(const Eigen::Matrix3Xd& polyline) {
+  constexpr Eigen::Index most = 128;
+  const Eigen::Index each = (polyline.cols() + most - 1) / most;
+  Json points = Json::array();
+  for (Eigen::Index k = 0; k < polyline.cols(); k += each) {
+    Json point = Json::array();
+    for (int c = 0; c < 3; ++c) point.push_back(std::round(1e4 * polyline(c, k)) / 1e4);
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+Json layout_json(const record::Layout& layout) {
+  Json json = Json::object();
+  json["rods"] = layout.rods;
+  json["boundary"] = {boundary_json(layout.original_boundary),
+                      boundary_json(layout.actuated_boundary)};
+  json["joints"] = Json::array();
+  for (const record::Joint& joint : layout.joints) json["joints"].push_back(joint.node);
+  json["cells"] = Json::array();
+  for (const record::Cell& cell : layout.cells) {
+    Json corners = Json::array();
+    for (const int joint : cell.joints) corners.push_back(layout.joints[std::size_t(joint)].node);
+    json["cells"].push_back(std::move(corners));
+  }
+  return json;
+}
+
+}  // namespace
+
+Result<std::string> to_page(const record::Trajectory& run, const std::string& title) {
+  const auto nodes = std::size_t(run.frames.front().nodes.cols());
+  const std::size_t a_frame = 8 * nodes + 8 * run.layout.cells.size() + 400;
+  if (a_frame > most_page_bytes)
+    return fail(Fault::bad_input,
+                fmt::format("one frame of {} nodes takes more than {} MB in a page", nodes,
+                            most_page_bytes / 1'000'000));
+  const std::size_t kept = std::min(run.frames.size(), most_page_bytes / a_frame);
+  const auto index = [&](std::size_t k) {
+    return kept == 1 ? run.frames.size() - 1 : k * (run.frames.size() - 1) / (kept - 1);
+  };
+  Extent extent;
+  for (std::size_t k = 0; k < kept; ++k) extent.take(run.frames[index(k)]);
+
+  Json json = layout_json(run.layout);
+  json["title"] = title;
+  json["low"] = {extent.low.x(), extent.low.y(), extent.low.z()};
+  json["step"] = extent.step();
+  json["K_end"] = rounded(range_of(run.frames.back().cell_K).end, 3);
+  json["colours"] = {{"below", ColourRange::below},
+                     {"zero", ColourRange::zero},
+                     {"above", ColourRange::above},
+                     {"unknown", ColourRange::unknown}};
+  json["rod_mm"] = run.layout.rod_diameter_mm;
+  json["frames"] = Json::array();
+  for (std::size_t k = 0; k < kept; ++k) {
+    const record::Frame& frame = run.frames[index(k)];
+    Json K = Json::array();
+    for (const double value : frame.cell_K) K.push_back(rounded(value, 3));
+    json["frames"].push_back({{"index", frame.index},
+                              {"actuation", frame.actuation},
+                              {"nodes", positions(frame, extent)},
+                              {"K", std::move(K)},
+                              {"figures", figures(frame)}});
+  }
+  if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
+
+  std::string data = record::line_of(json, true);
+  // a script ends at the first "</script", whatever it stands in
+  for (std::size_t at = 0; (at = data.find("</", at)) != data.npos; at += 3)
+    data.replace(at, 2, "<\\/");
+  std::string page = page_template;
+  const std::string place = "/*RUN*/";
+  page.replace(page.find(place), place.size(), data);
+  return page;
+}
+
+}  // namespace gridshell::exports

@@ -1,0 +1,73 @@
+// One frame of a run as other programs see it: rods as lines or tubes, cells as quadrilaterals.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/formats/drawing.h"
+#include "engine/record/trajectory.h"
+
+namespace gridshell::exports {
+
+/// What is written; what it refers to must outlive it.
+struct Shape {
+  const record::Layout& layout;
+  const record::Frame& frame;
+  const record::Frame& start;  ///< what displacements are from: the first frame of the run
+  std::string title;
+};
+
+/// A rod's nodes from end to end, 3 x n, mm.
+Eigen::Matrix3Xd rod_points(const record::Layout& layout, const record::Frame& frame,
+                            std::size_t rod);
+
+/// The force that holds each node of the frame, N: 0 where nothing does, NaN where the run did not
+/// record it.
+Eigen::Matrix3Xd reactions_N(const record::Layout& layout, const record::Frame& frame);
+
+/// Four corners of a cell, joints in order, 3 x 4, mm.
+Eigen::Matrix<double, 3, 4> cell_corners(const record::Layout& layout, const record::Frame& frame,
+                                         std::size_t cell);
+
+/// A rod as a tube: `sides` vertices around each point, ends closed.
+struct Tube {
+  Eigen::Matrix3Xd vertices, normals;
+  std::vector<std::array<int, 3>> triangles;  ///< anticlockwise from outside
+};
+
+/// The directions around it are carried along without twist. The same number of points gives the
+/// same triangles.
+Tube tube_around(const Eigen::Matrix3Xd& points, double radius_mm, int sides);
+
+// Shapes as text for other programs: Rhino and Blender (.obj, .dxf), ParaView (.vtp, .pvd, .xdmf),
+// spreadsheets (.csv). Millimetres, z up.
+
+/// Wavefront: a line element a rod (group `rods`), a point a joint, a face a cell (group `cells`).
+std::string to_obj(const Shape& shape);
+/// The same with rods as tubes of their diameter (8 sides), and without joints.
+std::string to_obj_tubes(const Shape& shape);
+
+/// Rods as 3D polylines (layer `rods`) and the actuated boundary, for to_dxf().
+Drawing rods_in_space(const Shape& shape);
+
+/// VTK PolyData in ASCII: a polyline a rod with points of its own, a polygon a cell. Point data:
+/// `displacement_mm`, `curvature_per_mm`, `axial_force_N` (the mean of the edges that meet),
+/// `reaction_N` (of what holds a point; a joint's at the cells' corner alone); cell data: `rod` (-1
+/// for a cell), `K_rad` (nan for a rod); field data: `TimeValue` (progress).
+std::string to_vtp(const Shape& shape);
+/// ParaView's list of such files over progress.
+std::string to_pvd(const std::vector<double>& progress, const std::vector<std::string>& files);
+
+/// XDMF of all frames of `trajectory.h5`: edges over /nodes at each progress with `axial_force_N`,
+/// and the supports with `reaction_N`. For ParaView's `XDMF
+/// Reader`; its Xdmf3 readers know no HyperSlab.
+std::string to_xdmf(const record::Layout& layout, const record::FrameList& frames,
+                    const std::string& trajectory);
+
+/// `rod,point,x_mm,y_mm,z_mm,curvature_per_mm,axial_force_N,reaction_x_N,reaction_y_N,
+/// reaction_z_N`, rod by rod; forces empty where the run did not record them.
+std::string to_csv(const Shape& shape);
+
+}  // namespace gridshell::exports

@@ -1,0 +1,177 @@
+// What the charts of methods are made of: a line of accuracy.csv a point of speed against accuracy,
+// a line of stability.csv a cell of a map. Millimetres, seconds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/core/enum_words.h"
+#include "engine/record/frame.h"
+#include "engine/record/trajectory.h"
+
+namespace gridshell::record {
+
+/// What a method's run came to, judged from outside. The last three are *silent*: the method
+/// reported success.
+enum class RunOutcome {
+  right,          ///< reported success, and it is the state asked for
+  refused,        ///< the method said that it cannot, or that what it found is not stable
+  not_converged,  ///< ended without a rest, and said so
+  blow_up,        ///< grew without bound, and said so
+  too_slow,       ///< stopped at the time limit
+  planar_saddle,  ///< rests in the boundary's plane, where the shell is not stable
+  other_state,    ///< rests in another stable state than the one the path leads to
+  silent_wrong,   ///< neither: off by more than ten times the tolerance, or with negative pivots
+};
+
+constexpr auto words(RunOutcome) {
+  return word_table<RunOutcome>({{RunOutcome::right, "right"},
+                                 {RunOutcome::refused, "refused"},
+                                 {RunOutcome::not_converged, "not_converged"},
+                                 {RunOutcome::blow_up, "blow_up"},
+                                 {RunOutcome::too_slow, "too_slow"},
+                                 {RunOutcome::planar_saddle, "planar_saddle"},
+                                 {RunOutcome::other_state, "other_state"},
+                                 {RunOutcome::silent_wrong, "silent_wrong"}});
+}
+
+/// Whether a user would have been told a wrong result.
+bool silently_wrong(RunOutcome outcome);
+
+/// One method on one mesh.
+struct AccuracyRow {
+  std::string method;
+  int edges_per_segment = 0;  ///< of the finest mesh; 0 for the net
+  int dof = 0;
+  double error = unknown;  ///< largest joint error over R_o or rho
+  double cpu_s = unknown;  ///< median
+  double cpu_min_s = unknown, cpu_max_s = unknown;
+  RunOutcome outcome = RunOutcome::right;
+};
+
+/// How a method's time grows with the number of rods.
+struct ScalingRow {
+  std::string method;
+  int rods = 0;  ///< a direction
+  int edges_per_segment = 0, dof = 0;
+  double cpu_s = unknown, cpu_min_s = unknown, cpu_max_s = unknown;
+  RunOutcome outcome = RunOutcome::right;
+};
+
+/// One cell of a map.
+struct StabilityRow {
+  std::string map, method;
+  std::string x_name;
+  double x = 0;
+  std::string y_name;
+  double y = 0;
+  RunOutcome outcome = RunOutcome::right;
+};
+
+/// The texts of accuracy.csv, scaling.csv and stability.csv; unknown numbers are empty.
+std::string accuracy_csv(const std::vector<AccuracyRow>& rows);
+std::string scaling_csv(const std::vector<ScalingRow>& rows);
+std::string stability_csv(const std::vector<StabilityRow>& rows);
+
+/// Slope of log(y) over log(x) by least squares; NaN for fewer than two positive points.
+double exponent(const std::vector<double>& x, const std::vector<double>& y);
+
+/// Indices of the points that no other is both faster and more accurate than, from the fastest to
+/// the most accurate; only outcomes `right`. Errors within 5 % count as the same: methods on one
+/// mesh differ by how far they came to rest.
+std::vector<std::size_t> pareto_front(const std::vector<AccuracyRow>& rows);
+
+// What a study of trust found: a line of trust.csv a random scene, solved as by default and beside
+// it on meshes of another family with finer steps.
+
+/// How the default's answer stands beside the finer one.
+enum class TrustClass {
+  right,                 ///< the same states, within twice the estimate
+  estimate_small,        ///< the same states, further apart than twice the estimate
+  other_branch,          ///< another state, and no event was told: silently wrong
+  after_snap,            ///< another state after a snap that was told
+  doubted,               ///< another state, and its leading meshes were told not to agree
+  limited,               ///< both ended before their end, and said so
+  limited_only_default,  ///< only the default did
+  inner_unphysical,      ///< a frame that is no shell, and does not say so
+  frame_dependent,       ///< another number of frames ended elsewhere
+  refused,               ///< the scene was refused with a reason
+  too_slow,              ///< stopped at the time limit
+};
+constexpr auto words(TrustClass) {
+  return word_table<TrustClass>({{TrustClass::right, "right"},
+                                 {TrustClass::estimate_small, "estimate_small"},
+                                 {TrustClass::other_branch, "other_branch"},
+                                 {TrustClass::after_snap, "after_snap"},
+                                 {TrustClass::doubted, "doubted"},
+                                 {TrustClass::limited, "limited"},
+                                 {TrustClass::limited_only_default, "limited_only_default"},
+                                 {TrustClass::inner_unphysical, "inner_unphysical"},
+                                 {TrustClass::frame_dependent, "frame_dependent"},
+                                 {TrustClass::refused, "refused"},
+                                 {TrustClass::too_slow, "too_slow"}});
+}
+
+/// Whether a user would have been told something wrong without a word.
+bool silently_wrong(TrustClass found);
+
+/// One scene.
+struct TrustRow {
+  int scene = 0;
+  std::string kind;  ///< "circle", "push", ...
+  TrustClass found = TrustClass::right;
+  double error =
+      unknown;  ///< largest distance of a joint in a frame of both, over the length scale
+  double estimate = unknown;  ///< what that frame said of it
+  int exit_default = 0, exit_fine = 0;
+  bool snap_default = false, snap_fine = false;  ///< whether a snap was told
+  bool doubt = false;  ///< whether the default told that its leading meshes do not agree
+
+  /// A snap that one family of meshes alone tells of.
+  bool snap_alone() const {
+    return exit_default == 0 && exit_fine == 0 && snap_default != snap_fine;
+  }
+};
+
+/// The text of trust.csv; unknown numbers are empty.
+std::string trust_csv(const std::vector<TrustRow>& rows);
+
+// A bifurcation diagram: the points of a path and of the branches that leave it.
+
+/// What happens at a point of a branch.
+enum class BranchEvent {
+  none,
+  bifurcation,  ///< stability changes and the path goes on: branches cross
+  turn,         ///< the path turns back: a limit point
+  joins,        ///< the branch meets one that was followed before
+  locking,      ///< the rods are at their length: it ends there
+  lost,         ///< it could not be followed further
+};
+constexpr auto words(BranchEvent) {
+  return word_table<BranchEvent>({{BranchEvent::none, ""},
+                                  {BranchEvent::bifurcation, "bifurcation"},
+                                  {BranchEvent::turn, "turn"},
+                                  {BranchEvent::joins, "joins"},
+                                  {BranchEvent::locking, "locking"},
+                                  {BranchEvent::lost, "lost"}});
+}
+
+/// One equilibrium of a branch; points of a branch stand in the order of its arc length.
+struct BranchPoint {
+  int branch = 0;       ///< 0: the path itself
+  double progress = 0;  ///< of the actuation, or of the push
+  double boundary_radius_mm = unknown;
+  double height_mm = 0;        ///< highest joint above the boundary's plane
+  double amplitude = unknown;  ///< root mean square of what breaks the symmetry of the path, over
+                               ///< the length scale, signed
+  double energy_mJ = 0;
+  int negative_pivots = 0;
+  BranchEvent event = BranchEvent::none;
+
+  bool stable() const { return negative_pivots == 0; }
+};
+
+/// The text of branches.csv; unknown numbers are empty.
+std::string branches_csv(const std::vector<BranchPoint>& points);
+
+}  // namespace gridshell::record

@@ -1,0 +1,289 @@
+#include "engine/record/sweep_results.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "engine/core/checksum.h"
+#include "engine/core/file_io.h"
+#include "engine/core/json.h"
+#include "engine/core/text.h"
+#include "engine/core/try.h"
+#include "engine/formats/csv.h"
+#include "engine/record/frame.h"
+
+namespace gridshell::record {
+namespace {
+
+/// The names of all figures, in the order in which they first come.
+std::vector<std::string> names_of(const SweepTable& table) {
+  std::vector<std::string> names;
+  for (const auto& row : table.rows)
+    for (const auto& [name, figure] : row.result.figures)
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  return names;
+}
+
+void put(CsvWriter& csv, const Figure* figure) {
+  if (!figure || std::holds_alternative<std::monostate>(*figure))
+    csv.cell("");
+  else if (const auto* flag = std::get_if<bool>(figure))
+    csv.cell(*flag ? "true" : "false");
+  else if (const auto* number = std::get_if<double>(figure))
+    csv.cell(*number);
+  else
+    csv.cell(std::get<std::string>(*figure));
+}
+
+/// A string of TOML without its quotes.
+std::string bare(const std::string& value) {
+  const bool quoted = value.size() > 1 && value.front() == '"' && value.back() == '"';
+  return quoted ? value.substr(1, value.size() - 2) : value;
+}
+
+}  // namespace
+
+double number_of(const Figure& figure) {
+  if (const auto* number = std::get_if<double>(&figure)) return *number;
+  if (const auto* flag = std::get_if<bool>(&figure)) return *flag ? 1 : 0;
+  return unknown;
+}
+
+const Figure* PointResult::figure(const std::string& name) const {
+  for (const auto& [key, value] : figures)
+    if (key == name) return &value;
+  return nullptr;
+}
+
+std::string sweep_csv(const SweepTable& table) {
+  const auto names = names_of(table);
+  CsvWriter csv;
+  csv.cell("point");
+  if (table.has_cases) csv.cell("case");
+  for (const auto& axis : table.axes) csv.cell(axis);
+  if (table.has_seeds) csv.cell("seed");
+  csv.cell("outcome");
+  for (const auto& name : names) csv.cell(name);
+  csv.cell("reason");
+  csv.end_line();
+  for (const auto& [keys, result] : table.rows) {
+    csv.cell(int(result.point));
+    if (table.has_cases) csv.cell(keys.case_name);
+    for (const auto& value : keys.values) csv.cell(bare(value));
+    if (table.has_seeds) csv.cell(keys.seed);
+    csv.cell(std::string(word_of(result.outcome)));
+    for (const auto& name : names) put(csv, result.figure(name));
+    csv.cell(result.reason);
+    csv.end_line();
+  }
+  return std::move(csv).text();
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t sum_length = 26;  // of ,"sum":"0123456789abcdef"}
+
+/// A JSON object as a line that ends with the checksum of all before it.
+std::string sealed(const Json& json) {
+  std::string text = line_of(json);
+  text.pop_back();
+  Checksum sum;
+  sum.add(text);
+  return text + fmt::format(",\"sum\":\"{:016x}\"}}\n", sum.value());
+}
+
+/// The object of a line, or nothing where its checksum is wrong.
+std::optional<Json> unsealed(std::string_view line) {
+  if (line.size() <= sum_length) return std::nullopt;
+  const auto text = line.substr(0, line.size() - sum_length);
+  Checksum sum;
+  sum.add(text);
+  if (line.substr(text.size()) != fmt::format(",\"sum\":\"{:016x}\"}}", sum.value()))
+    return std::nullopt;
+  Json json = parsed(line);
+  if (!json.is_object()) return std::nullopt;
+  return json;
+}
+
+/// Whether a key is there and of that kind.
+bool has(const Json& json, const char* key, bool (Json::*kind)() const noexcept) {
+  return json.contains(key) && (json.at(key).*kind)();
+}
+
+Json json_of(const Figure& figure) {
+  if (const auto* flag = std::get_if<bool>(&figure)) return *flag;
+  if (const auto* number = std::get_if<double>(&figure)) return *number;
+  if (const auto* text = std::get_if<std::string>(&figure)) return *text;
+  return nullptr;
+}
+
+Figure figure_of(const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number()) return json.get<double>();
+  if (json.is_string()) return json.get<std::string>();
+  return {};
+}
+
+std::string first_line(const SweepIdentity& name) {
+  Json json = Json::object();
+  json["sweep"] = name.preset;
+  json["config"] = fmt::format("{:016x}", name.config);
+  json["points"] = name.points;
+  return sealed(json);
+}
+
+std::optional<SweepIdentity> name_of(std::string_view line) {
+  const auto json = unsealed(line);
+  if (!json || !has(*json, "sweep", &Json::is_string) || !has(*json, "config", &Json::is_string) ||
+      !has(*json, "points", &Json::is_number_unsigned))
+    return std::nullopt;
+  const auto config = json->at("config").get<std::string>();
+  const auto number = parse_number<decltype(SweepIdentity::config)>(config, 16);
+  if (!number) return std::nullopt;
+  return SweepIdentity{json->at("sweep").get<std::string>(), *number,
+                       json->at("points").get<std::size_t>()};
+}
+
+std::string point_line(const std::vector<std::string>& axes, const PointKeys& keys,
+                       const PointResult& result) {
+  Json json = Json::object();
+  json["point"] = result.point;
+  if (!keys.case_name.empty()) json["case"] = keys.case_name;
+  json["keys"] = Json::object();
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    // numbers, words and lists are written alike in TOML and JSON
+    Json value = parsed(keys.values[k]);
+    json["keys"][axes[k]] = value.is_discarded() ? Json(keys.values[k]) : std::move(value);
+  }
+  if (keys.seed != 0) json["seed"] = keys.seed;
+  json["outcome"] = word_of(result.outcome);
+  if (!result.reason.empty()) json["reason"] = result.reason;
+  json["figures"] = Json::object();
+  for (const auto& [name, figure] : result.figures) json["figures"][name] = json_of(figure);
+  return sealed(json);
+}
+
+std::optional<PointResult> point_of(std::string_view line, std::size_t points) {
+  const auto json = unsealed(line);
+  if (!json || !has(*json, "point", &Json::is_number_unsigned) ||
+      !has(*json, "outcome", &Json::is_string) || !has(*json, "figures", &Json::is_object))
+    return std::nullopt;
+  const auto outcome = find_word<PointOutcome>(json->at("outcome").get<std::string>());
+  PointResult result;
+  result.point = json->at("point").get<std::size_t>();
+  if (!outcome || result.point >= points) return std::nullopt;
+  result.outcome = *outcome;
+  if (has(*json, "reason", &Json::is_string)) result.reason = json->at("reason").get<std::string>();
+  for (const auto& [name, figure] : json->at("figures").items())
+    result.figures.emplace_back(name, figure_of(figure));
+  return result;
+}
+
+}  // namespace
+
+Result<SweepContents> read_sweep_log(const fs::path& file) {
+  TRY(text, read_file(file));
+  SweepContents contents;
+  std::string_view rest = *text;
+  for (bool first = true; !rest.empty(); first = false) {
+    const auto end = rest.find('\n');
+    if (end == std::string_view::npos) {
+      contents.cut_off = true;
+      break;
+    }
+    const auto line = rest.substr(0, end);
+    rest.remove_prefix(end + 1);
+    if (first) {
+      const auto name = name_of(line);
+      if (!name)
+        return fail(Fault::bad_input,
+                    fmt::format("'{}' is no log of a sweep: its first line does not name one",
+                                file.string()));
+      contents.name = *name;
+    } else if (auto point = point_of(line, contents.name.points)) {
+      contents.found.try_emplace(point->point, std::move(*point));
+    } else {
+      ++contents.damaged;
+    }
+    contents.whole_bytes += end + 1;
+  }
+  return contents;
+}
+
+Result<SweepLog> SweepLog::open(const fs::path& file, const SweepIdentity& name,
+                                std::vector<std::string> axes, KeysOf keys) {
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  SweepLog log(file, descriptor);
+  if (descriptor < 0) return log.refuse(Fault::io, std::generic_category().message(errno));
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    return log.refuse(Fault::bad_input, errno == EWOULDBLOCK
+                                            ? "another sweep is writing it"
+                                            : std::generic_category().message(errno));
+  log.axes_ = std::move(axes);
+  log.keys_ = std::move(keys);
+  TRY_DO(log.resume_log(name));
+  return log;
+}
+
+/// Reads what is there, drops what was cut off, and begins where there is nothing.
+Result<void> SweepLog::resume_log(const SweepIdentity& name) {
+  TRY(contents, read_sweep_log(file_));
+  contents_ = std::move(*contents);
+  if (contents_.whole_bytes == 0) {
+    // a first line that was cut off is a part of the one that belongs there, or another's text
+    TRY(text, read_file(file_));
+    if (!first_line(name).starts_with(*text))
+      return refuse(Fault::bad_input, "it is no log of a sweep");
+  } else if (!contents_.name.same_sweep(name)) {
+    return refuse(Fault::bad_input,
+                  fmt::format("it is of another preset ('{}', {} points), or of other values; "
+                              "choose another folder with -o",
+                              contents_.name.preset, contents_.name.points));
+  }
+  if (contents_.cut_off && ::ftruncate(fd_, off_t(contents_.whole_bytes)) != 0)
+    return refuse(Fault::io, std::generic_category().message(errno));
+  if (contents_.whole_bytes == 0) return put(first_line(name));
+  return {};
+}
+
+Result<void> SweepLog::append(const PointResult& result) {
+  auto written = put(point_line(axes_, keys_(result.point), result));
+  if (written) contents_.found.try_emplace(result.point, result);
+  return written;
+}
+
+Result<void> SweepLog::put(const std::string& line) {
+  if (const int code = write_all(fd_, line)) {
+    // what others find is whole
+    if (::ftruncate(fd_, off_t(contents_.whole_bytes)) != 0) contents_.cut_off = true;
+    return refuse(Fault::io, std::generic_category().message(code));
+  }
+  contents_.whole_bytes += line.size();
+  if (::fdatasync(fd_) != 0 && errno != EINVAL)
+    return refuse(Fault::io, std::generic_category().message(errno));
+  return {};
+}
+
+tl::unexpected<Error> SweepLog::refuse(Fault fault, const std::string& why) const {
+  return fail(fault, fmt::format("cannot write '{}': {}", file_.string(), why));
+}
+
+SweepLog::SweepLog(SweepLog&& other) noexcept
+    : file_(std::move(other.file_)),
+      fd_(std::exchange(other.fd_, -1)),
+      contents_(std::move(other.contents_)),
+      axes_(std::move(other.axes_)),
+      keys_(std::move(other.keys_)) {}
+
+SweepLog::~SweepLog() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+}  // namespace gridshell::record

@@ -1,0 +1,129 @@
+// What the points of a sweep came to, and the table and pictures that are made of them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "engine/core/enum_words.h"
+#include "engine/core/result.h"
+
+namespace gridshell::record {
+
+/// How a point of a sweep ended. A path that met a limit is done too: its figures say so.
+enum class PointOutcome { done, no_equilibrium, refused };
+constexpr auto words(PointOutcome) {
+  return word_table<PointOutcome>({{PointOutcome::done, "done"},
+                                   {PointOutcome::no_equilibrium, "no_equilibrium"},
+                                   {PointOutcome::refused, "refused"}});
+}
+
+/// One figure of a run; nothing where it is not known.
+using Figure = std::variant<std::monostate, bool, double, std::string>;
+using Figures = std::vector<std::pair<std::string, Figure>>;
+
+/// A figure as a number, NaN where it is none.
+double number_of(const Figure& figure);
+
+/// A finished point.
+struct PointResult {
+  std::size_t point = 0;
+  PointOutcome outcome = PointOutcome::done;
+  std::string reason;  ///< why it has no figures
+  Figures figures;     ///< by the names of summary.json, units in them
+
+  /// The figure of that name, nothing where there is none.
+  const Figure* figure(const std::string& name) const;
+};
+
+/// What a point was set to, as the files say it.
+struct PointKeys {
+  std::string case_name;            ///< empty where the preset has no cases
+  std::vector<std::string> values;  ///< as TOML, one an axis
+  int seed = 0;                     ///< 0 where the sweep has one alone
+};
+
+/// A finished sweep, a row a point in their order.
+struct SweepTable {
+  std::vector<std::string> axes;  ///< "rod.diameter_mm"
+  bool has_cases = false, has_seeds = false;
+  struct Row {
+    PointKeys keys;
+    PointResult result;
+  };
+  std::vector<Row> rows;
+};
+
+/// The text of sweep.csv: point, case and seed where there are some, the keys, the outcome, every
+/// figure that any point has, the reason.
+std::string sweep_csv(const SweepTable& table);
+
+// The log of a sweep, `sweep.jsonl`: a line that names the sweep, then a line a finished point,
+// each JSON with a checksum, only ever appended to. Whoever writes holds its lock.
+
+inline constexpr const char* sweep_log_name = "sweep.jsonl";
+
+/// Which sweep a log is of.
+struct SweepIdentity {
+  std::string preset;        ///< for whoever reads the log
+  std::uint64_t config = 0;  ///< hash of what its numbers depend on
+  std::size_t points = 0;    ///< in all
+
+  bool same_sweep(const SweepIdentity& other) const {
+    return config == other.config && points == other.points;
+  }
+};
+
+/// What stands in a log.
+struct SweepContents {
+  SweepIdentity name;
+  std::map<std::size_t, PointResult> found;  ///< by the point; the first line of one counts
+  std::size_t damaged = 0;                   ///< lines whose checksum is wrong
+  bool cut_off = false;                      ///< the last line was not written to its end
+  std::uintmax_t whole_bytes = 0;            ///< up to the end of the last whole line
+};
+
+/// Reads a log that others may be writing. Errors (bad_input): no log of a sweep, naming the file.
+Result<SweepContents> read_sweep_log(const std::filesystem::path& file);
+
+/// A log in hand, locked while it lives.
+class SweepLog {
+ public:
+  /// What a point was set to, for its line.
+  using KeysOf = std::function<PointKeys(std::size_t point)>;
+
+  /// Begins a log, or goes on with one: a last line that was cut off is dropped. Errors
+  /// (bad_input): another program holds it, it is of another sweep, it is no log; io.
+  static Result<SweepLog> open(const std::filesystem::path& file, const SweepIdentity& name,
+                               std::vector<std::string> axes, KeysOf keys);
+
+  SweepLog(SweepLog&& other) noexcept;
+  SweepLog& operator=(SweepLog&&) = delete;
+  ~SweepLog();
+
+  const std::map<std::size_t, PointResult>& found() const { return contents_.found; }
+  std::size_t damaged() const { return contents_.damaged; }
+  bool cut_off() const { return contents_.cut_off; }
+
+  /// A line on the disk, or none. Errors: io.
+  Result<void> append(const PointResult& result);
+
+ private:
+  SweepLog(std::filesystem::path file, int descriptor) : file_(std::move(file)), fd_(descriptor) {}
+  Result<void> resume_log(const SweepIdentity& name);
+  Result<void> put(const std::string& line);
+  tl::unexpected<Error> refuse(Fault fault, const std::string& why) const;
+
+  std::filesystem::path file_;
+  int fd_ = -1;
+  SweepContents contents_;
+  std::vector<std::string> axes_;
+  KeysOf keys_;
+};
+
+}  // namespace gridshell::record

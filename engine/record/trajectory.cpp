@@ -1,0 +1,217 @@
+#include "engine/record/trajectory.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gridshell::record {
+namespace {
+
+// what a list with a source keeps of the frames asked for last
+constexpr std::size_t kept_bytes = std::size_t(64) << 20, kept_frames = 8;
+
+std::size_t bytes_of(const Frame& frame) {
+  return sizeof(Frame) +
+         sizeof(double) *
+             std::size_t(frame.nodes.size() + frame.cell_K.size() + frame.K_bins.size() +
+                         frame.axial_force_N.size() + frame.curvature_per_mm.size() +
+                         frame.bending_mJ_per_m.size() + frame.reactions_N.size());
+}
+
+}  // namespace
+
+FrameList::FrameList(std::shared_ptr<const FrameSource> source) : source_(std::move(source)) {}
+
+const Frame& FrameList::operator[](std::size_t k) const {
+  if (!source_) return frames_[k];
+  if (k == 0) {
+    if (!first_) first_ = fetch(k);
+    return *first_;
+  }
+  if (k + 1 == source_->size()) {
+    if (!last_) last_ = fetch(k);
+    return *last_;
+  }
+  for (auto at = recent_.begin(); at != recent_.end(); ++at)
+    if (at->k == k) {
+      recent_.splice(recent_.begin(), recent_, at);
+      return *recent_.front().frame;
+    }
+  auto frame = fetch(k);
+  recent_.push_front({k, bytes_of(*frame), frame});
+  bytes_ += recent_.front().bytes;
+  while (recent_.size() > kept_frames && bytes_ > kept_bytes) {
+    bytes_ -= recent_.back().bytes;
+    recent_.pop_back();
+  }
+  return *recent_.front().frame;
+}
+
+std::shared_ptr<const Frame> FrameList::fetch(std::size_t k) const {
+  auto frame = source_->read(k);
+  if (frame) return std::make_shared<const Frame>(std::move(*frame));
+  if (!fault_) fault_ = frame.error();
+  return std::make_shared<const Frame>();
+}
+
+std::vector<Frame>& FrameList::in_memory() {
+  if (!source_) return frames_;
+  std::vector<Frame> all;
+  for (std::size_t k = 0; k < size(); ++k) all.push_back(std::as_const(*this)[k]);
+  auto fault = std::move(fault_);
+  *this = FrameList(std::move(all));
+  fault_ = std::move(fault);
+  return frames_;
+}
+
+namespace {
+
+Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
+  const auto joints = static_cast<Eigen::Index>(layout.joints.size());
+  const auto itself = [](int index) { return std::array{index}; };
+  const auto all = [](const auto& indices) -> const auto& { return indices; };
+  // the indices that each owner names, of `count` things of that kind
+  const auto check = [](const char* owner, const auto& owners, const auto& named, const char* kind,
+                        Eigen::Index count) -> Result<void> {
+    for (std::size_t k = 0; k < owners.size(); ++k)
+      for (const int index : named(owners[k]))
+        if (index < 0 || index >= count)
+          return fail(Fault::bad_input,
+                      fmt::format("{} {} names {} {} of {}", owner, k, kind, index, count));
+    return {};
+  };
+  const auto within_layout =
+      check("rod", layout.rods, all, "node", nodes)
+          .and_then([&] {
+            return check(
+                "joint", layout.joints, [](const Joint& joint) { return std::array{joint.node}; },
+                "node", nodes);
+          })
+          .and_then([&] { return check("edge point", layout.edge_points, itself, "node", nodes); })
+          .and_then([&] { return check("support", layout.supports, itself, "node", nodes); })
+          .and_then([&] {
+            return check(
+                "cell", layout.cells, [](const Cell& cell) { return cell.joints; }, "joint",
+                joints);
+          })
+          .and_then([&] {
+            return check(
+                "loaded joint", layout.loaded_joints,
+                [](const auto& loaded) { return std::array{loaded.joint}; }, "joint", joints);
+          });
+  if (!within_layout) return within_layout;
+  for (const Part& part : layout.parts) {
+    if (part.net.cols() != part.flat.cols())
+      return fail(Fault::bad_input, fmt::format("block \"{}\" has {} points on its net and {} in "
+                                                "the flat",
+                                                part.name, part.net.cols(), part.flat.cols()));
+    if (auto rods = check("rod", part.rods, all, "point", part.net.cols()); !rods) return rods;
+  }
+  return {};
+}
+
+// what coordinates may come to: their products must stay numbers
+constexpr double largest_mm = 1e9;
+
+bool computable(const Eigen::Matrix3Xd& points) {
+  return points.size() == 0 || points.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= largest_mm;
+}
+
+Result<void> check_numbers(const Layout& layout) {
+  const auto refuse = [](const char* what) {
+    return fail(Fault::bad_input, fmt::format("{} holds a number that is no length in mm", what));
+  };
+  for (const double length : {layout.spacing_mm, layout.rod_diameter_mm, layout.length_scale_mm})
+    if (!(length >= 0 && length <= largest_mm)) return refuse("/layout");
+  for (const double diameter : layout.diameters_mm)
+    if (!(diameter >= 0 && diameter <= largest_mm)) return refuse("a rod's diameter");
+  if (!computable(layout.original_boundary) || !computable(layout.actuated_boundary))
+    return refuse("a boundary");
+  if (!computable(layout.net_nodes) || !computable(layout.flat_nodes)) return refuse("the net");
+  for (const Part& part : layout.parts)
+    if (!computable(part.net) || !computable(part.flat)) return refuse("a block");
+  for (const Joint& joint : layout.joints)
+    if (!(std::max(std::abs(joint.u_mm), std::abs(joint.v_mm)) <= largest_mm))
+      return refuse("a joint");
+  for (const LoadedJoint& load : layout.loaded_joints)
+    if (!(std::abs(load.direction.norm() - 1) <= 1e-6))
+      return fail(Fault::bad_input, "the direction of a loaded joint is no unit vector");
+  return {};
+}
+
+// rods are paths over the nodes, a joint being on two: longer lists are nobody's shell
+Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
+  Eigen::Index named = 0, most = 0;
+  for (const auto& rod : layout.rods) {
+    named += Eigen::Index(rod.size());
+    for (const int node : rod) most = std::max<Eigen::Index>(most, node + 1);
+  }
+  if (named > 4 * nodes)
+    return fail(Fault::bad_input, fmt::format("the rods name {} nodes of {}", named, nodes));
+  most = std::max<Eigen::Index>(most, Eigen::Index(layout.joints.size()));
+  if (!layout.families.empty() && layout.families.size() != layout.rods.size())
+    return fail(Fault::bad_input, fmt::format("{} families are named for {} rods",
+                                              layout.families.size(), layout.rods.size()));
+  if (!layout.diameters_mm.empty() && layout.diameters_mm.size() != layout.rods.size())
+    return fail(Fault::bad_input, fmt::format("{} diameters are given for {} rods",
+                                              layout.diameters_mm.size(), layout.rods.size()));
+  for (const auto* net : {&layout.net_nodes, &layout.flat_nodes})
+    if (net->cols() > 0 && net->cols() < most)
+      return fail(Fault::bad_input,
+                  fmt::format("the net has {} nodes, the shell {}", net->cols(), most));
+  return {};
+}
+
+}  // namespace
+
+Result<void> check_layout(const Layout& layout, Eigen::Index nodes) {
+  if (layout.original_boundary.cols() != layout.actuated_boundary.cols())
+    return fail(Fault::bad_input,
+                fmt::format("the original boundary has {} points, the actuated one {}",
+                            layout.original_boundary.cols(), layout.actuated_boundary.cols()));
+  return check_indices(layout, nodes)
+      .and_then([&] { return check_sizes(layout, nodes); })
+      .and_then([&] { return check_numbers(layout); });
+}
+
+Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k,
+                         Eigen::Index nodes) {
+  const auto cells = static_cast<Eigen::Index>(layout.cells.size());
+  if (frame.nodes.cols() != nodes)
+    return fail(Fault::bad_input, fmt::format("frame {} has {} nodes, the first one {}", k,
+                                              frame.nodes.cols(), nodes));
+  if (frame.cell_K.size() != cells)
+    return fail(Fault::bad_input, fmt::format("frame {} has {} values of cell_K for {} cells", k,
+                                              frame.cell_K.size(), cells));
+  const auto fits = [&](const char* what, Eigen::Index values,
+                        Eigen::Index wanted) -> Result<void> {
+    if (values == 0 || values == wanted) return {};
+    return fail(Fault::bad_input,
+                fmt::format("frame {} has {} values of {}, must be {}", k, values, what, wanted));
+  };
+  return fits("axial_force_N", frame.axial_force_N.size(), edges_of_rods(layout))
+      .and_then([&] {
+        return fits("curvature_per_mm", frame.curvature_per_mm.size(), points_of_rods(layout));
+      })
+      .and_then([&] {
+        return fits("bending_mJ_per_m", frame.bending_mJ_per_m.size(), points_of_rods(layout));
+      })
+      .and_then([&] {
+        return fits("reactions_N", frame.reactions_N.cols(), Eigen::Index(layout.supports.size()));
+      });
+}
+
+Result<void> check_consistency(const Trajectory& trajectory) {
+  const Layout& layout = trajectory.layout;
+  const FrameList& frames = trajectory.frames;
+  // without a frame nobody knows how many nodes there are
+  const Eigen::Index nodes = frames.empty() ? 0 : frames.front().nodes.cols();
+  if (!frames.empty() || layout.original_boundary.cols() != layout.actuated_boundary.cols())
+    if (auto fits = check_layout(layout, nodes); !fits) return fits;
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    if (auto fits = check_frame(layout, frames[k], k, nodes); !fits) return fits;
+  return {};
+}
+
+}  // namespace gridshell::record

@@ -1,0 +1,253 @@
+// The frames of a run in order: held in memory, or read from a file one at a time as they are asked
+// for, so that a run of any length can be drawn and rewritten in bounded memory.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <iterator>
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/record/frame.h"
+
+namespace gridshell::record {
+
+/// Frames that lie elsewhere.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  virtual std::size_t size() const = 0;
+  /// The k-th in order. Errors: io, bad_input when what is read is damaged.
+  virtual Result<Frame> read(std::size_t k) const = 0;
+};
+
+/// Behaves as a const vector of frames whichever way they are kept, for one thread at a time.
+/// References into a list with a source hold until some other eight frames have been asked for;
+/// those to its first and last frame hold always. Whoever changes a list brings it into memory.
+class FrameList {
+ public:
+  class const_iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = Frame;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const Frame*;
+    using reference = const Frame&;
+
+    const_iterator(const FrameList* list, std::size_t at) : list_(list), at_(at) {}
+    const Frame& operator*() const { return (*list_)[at_]; }
+    const Frame* operator->() const { return &(*list_)[at_]; }
+    const_iterator& operator++() { return ++at_, *this; }
+    bool operator==(const const_iterator& other) const { return at_ == other.at_; }
+
+   private:
+    const FrameList* list_;
+    std::size_t at_;
+  };
+
+  FrameList() = default;
+  FrameList(std::initializer_list<Frame> frames) : frames_(frames) {}
+  FrameList(std::vector<Frame> frames) : frames_(std::move(frames)) {}
+  explicit FrameList(std::shared_ptr<const FrameSource> source);
+
+  std::size_t size() const { return source_ ? source_->size() : frames_.size(); }
+  bool empty() const { return size() == 0; }
+  const Frame& operator[](std::size_t k) const;
+  const Frame& front() const { return (*this)[0]; }
+  const Frame& back() const { return (*this)[size() - 1]; }
+  const_iterator begin() const { return {this, 0}; }
+  const_iterator end() const { return {this, size()}; }
+
+  /// Why a frame could not be read, the first time that happened; it then stood for an empty one.
+  const std::optional<Error>& fault() const { return fault_; }
+
+  Frame& operator[](std::size_t k) { return in_memory()[k]; }
+  Frame& front() { return in_memory().front(); }
+  Frame& back() { return in_memory().back(); }
+  auto begin() { return in_memory().begin(); }
+  auto end() { return in_memory().end(); }
+  void push_back(Frame frame) { in_memory().push_back(std::move(frame)); }
+  void insert(std::vector<Frame>::iterator before, Frame frame) {
+    in_memory().insert(before, std::move(frame));
+  }
+  void pop_back() { in_memory().pop_back(); }
+  void resize(std::size_t size) { in_memory().resize(size); }
+  void clear() { *this = FrameList(); }
+
+ private:
+  struct Kept {
+    std::size_t k = 0, bytes = 0;
+    std::shared_ptr<const Frame> frame;
+  };
+
+  std::vector<Frame>& in_memory();
+  std::shared_ptr<const Frame> fetch(std::size_t k) const;
+
+  std::vector<Frame> frames_;  // without a source
+  std::shared_ptr<const FrameSource> source_;
+  mutable std::list<Kept> recent_;  // the latest first
+  mutable std::shared_ptr<const Frame> first_, last_;
+  mutable std::size_t bytes_ = 0;
+  mutable std::optional<Error> fault_;
+};
+
+// What a run leaves behind for whoever shows, stores or compares it: the net's layout, which does
+// not change, and one frame per sampled state. Millimetres, newtons, millijoules, z up.
+
+/// A crossing of a u-rod and a v-rod at grid position (u, v) of the flat footprint.
+struct Joint {
+  int i = 0, j = 0;
+  double u_mm = 0, v_mm = 0;
+  int node = 0;  ///< column of Frame::nodes
+};
+
+/// A complete cell: the joints (i,j), (i+1,j), (i+1,j+1), (i,j+1) as indices into Layout::joints.
+struct Cell {
+  int i = 0, j = 0;
+  double u_mm = 0, v_mm = 0;  ///< middle of the cell in the footprint
+  std::array<int, 4> joints{};
+};
+
+/// A building block on its own net: rods as polylines, where they would lie without the others.
+struct Part {
+  std::string name;
+  std::vector<std::vector<int>> rods;  ///< columns of the points below
+  Eigen::Matrix3Xd net, flat;          ///< in space, and in the flat footprint
+};
+
+/// A rod across the seam of two building blocks.
+struct SeamRod {
+  std::string seam;  ///< "left.east - middle.west"
+  char family = 'u';
+  double line_mm = 0;   ///< v of a u-rod, u of a v-rod
+  double gap_mm = 0;    ///< between the two nets at the seam
+  double kink_deg = 0;  ///< between its tangents there
+};
+
+/// A joint that is pushed or pulled, and which way: a unit vector.
+struct LoadedJoint {
+  int joint = 0;  ///< of Layout::joints
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  /// In the frames alone whose reactions say so, as a step by hand takes and lets go; else in all.
+  bool at_times = false;
+};
+
+/// The net, fixed over a run.
+struct Layout {
+  double spacing_mm = 0;
+  double rod_diameter_mm = 0;
+  /// Of each rod, that of a round section of its area; empty: all of rod_diameter_mm.
+  std::vector<double> diameters_mm;
+  double length_scale_mm = 0;  ///< R_o for a circle, rho for a net: what errors are relative to
+  std::vector<std::vector<int>> rods;  ///< nodes of each rod from edge point to edge point
+  std::vector<std::string> families;   ///< of each rod: "u" or "v"; empty: not known
+  std::vector<Joint> joints;
+  std::vector<Cell> cells;
+  std::vector<int> edge_points;  ///< nodes pinned on the boundary
+  /// Nodes that something may hold: joints, edge points, far ends of tails. Empty: not known.
+  std::vector<int> supports;
+  Eigen::Matrix3Xd original_boundary;      ///< closed polyline (last point joins the first)
+  Eigen::Matrix3Xd actuated_boundary;      ///< same number of points; in correspondence
+  Eigen::Matrix3Xd net_nodes;              ///< place of every node on the net designed on, if any
+  Eigen::Matrix3Xd flat_nodes;             ///< and in the flat footprint, where there is a net
+  std::vector<Part> parts;                 ///< of a net made of building blocks
+  std::vector<SeamRod> seam_rods;          ///< and how they meet
+  std::vector<LoadedJoint> loaded_joints;  ///< where the shell is pushed or pulled
+  /// Whether nodes, energies and K of frames are extrapolated over the last two meshes. Residuals
+  /// and pivots are those of the finest mesh always. Written, not read back.
+  bool extrapolated = false;
+};
+
+/// Where a run comes from; empty words are not known.
+struct Origin {
+  std::string title, preset;
+  std::string program;  ///< "gridshell 0.2.0"
+};
+
+/// All frames of a run over one layout.
+struct Trajectory {
+  Layout layout;
+  FrameList frames;
+  Origin origin = {};
+};
+
+/// Diameter of a rod, mm.
+inline double diameter_of(const Layout& layout, std::size_t rod) {
+  return rod < layout.diameters_mm.size() ? layout.diameters_mm[rod] : layout.rod_diameter_mm;
+}
+/// The same over that of the layout; 1 where neither is known.
+inline double thickness_of(const Layout& layout, std::size_t rod) {
+  const double over = diameter_of(layout, rod) / layout.rod_diameter_mm;
+  return over > 0 && over < 1e3 ? over : 1;
+}
+
+/// How many numbers the forces, curvatures and energies of a frame are: edges and points of all
+/// rods.
+inline Eigen::Index edges_of_rods(const Layout& layout) {
+  Eigen::Index edges = 0;
+  for (const auto& rod : layout.rods) edges += std::max<Eigen::Index>(0, long(rod.size()) - 1);
+  return edges;
+}
+inline Eigen::Index points_of_rods(const Layout& layout) {
+  Eigen::Index points = 0;
+  for (const auto& rod : layout.rods) points += Eigen::Index(rod.size());
+  return points;
+}
+
+// Whether the parts of a trajectory fit each other, so that whoever reads one may trust its
+// indices and numbers.
+
+/// Every index of the layout points at something of a shell of `nodes` nodes, rods are no longer
+/// than those, the two boundaries have equally many points, nets hold what they are asked for, and
+/// every number can be computed with. Errors: Fault::bad_input naming what does not fit, with both
+/// numbers.
+Result<void> check_layout(const Layout& layout, Eigen::Index nodes);
+
+/// The frame has `nodes` nodes and one K a cell. Errors: as above; `k` names the frame.
+Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k,
+                         Eigen::Index nodes);
+
+/// All of this, of every frame the nodes of the first.
+Result<void> check_consistency(const Trajectory& trajectory);
+
+// Where the frames of a run go as they are found.
+
+/// Takes a run's layout, then its certified frames one by one as they are found, in any order:
+/// `Frame::index` says which is which. An error stops the run and is passed on.
+class Sink {
+ public:
+  virtual ~Sink() = default;
+  /// May come again, when a finer mesh takes over: what came before is then dropped.
+  virtual Result<void> begin(Layout layout) = 0;
+  virtual Result<void> take(Frame frame) = 0;
+};
+
+/// Keeps all frames, in the order of their index.
+class MemorySink final : public Sink {
+ public:
+  Result<void> begin(Layout layout) override {
+    trajectory_ = {std::move(layout), {}};
+    return {};
+  }
+  Result<void> take(Frame frame) override {
+    auto& frames = trajectory_.frames;
+    const auto after =
+        std::upper_bound(frames.begin(), frames.end(), frame.index,
+                         [](int index, const Frame& other) { return index < other.index; });
+    frames.insert(after, std::move(frame));
+    return {};
+  }
+  Trajectory& trajectory() { return trajectory_; }
+
+ private:
+  Trajectory trajectory_;
+};
+
+}  // namespace gridshell::record

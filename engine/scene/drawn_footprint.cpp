@@ -1,0 +1,222 @@
+#include "engine/scene/drawn_footprint.h"
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "engine/core/try.h"
+#include "engine/footprint/domains.h"
+#include "engine/footprint/network.h"
+
+namespace gridshell {
+namespace {
+
+Eigen::Matrix2Xd matrix_of(const preset::Points& points, double scale) {
+  Eigen::Matrix2Xd matrix(2, points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+    matrix.col(Eigen::Index(k)) << scale * points[k].at(0), scale * points[k].at(1);
+  return matrix;
+}
+
+Result<ClosedCurve> curve_of(const preset::Curve& wanted, double radius, double scale) {
+  const double x = scale * wanted.half_x_mm, y = scale * wanted.half_y_mm;
+  switch (wanted.kind) {
+    case preset::CurveKind::circle:
+      return ClosedCurve::ellipse(scale * radius, scale * radius);
+    case preset::CurveKind::ellipse:
+      return ClosedCurve::ellipse(x, y);
+    case preset::CurveKind::superellipse:
+      return ClosedCurve::superellipse(x, y, wanted.exponent);
+    case preset::CurveKind::polygon:
+      return ClosedCurve::polygon(matrix_of(wanted.points, scale));
+    case preset::CurveKind::spline:
+      break;
+  }
+  return ClosedCurve::spline(matrix_of(wanted.points, scale));
+}
+
+tl::unexpected<Error> refuse(const char* which, const Error& error) {
+  return fail(error.fault, std::string(which) + error.message);
+}
+
+}  // namespace
+
+Eigen::Matrix2Xd CurveDesign::actuated(const Eigen::Matrix2Xd& on_original) const {
+  Eigen::Matrix2Xd moved(2, on_original.cols());
+  for (Eigen::Index k = 0; k < moved.cols(); ++k) moved.col(k) = map(on_original.col(k));
+  return moved;
+}
+
+Result<CurveDesign> curve_design(const preset::Preset& preset) {
+  const auto& footprint = preset.footprint;
+  auto original = curve_of(footprint.boundary, footprint.radius_mm, 1);
+  if (!original) return refuse("[footprint] boundary: ", original.error());
+  const auto& to = preset.actuation;
+  auto actuated = to.scale > 0 ? curve_of(footprint.boundary, footprint.radius_mm, to.scale)
+                               : curve_of(to.boundary, to.radius_mm, 1);
+  if (!actuated) return refuse("[actuation] boundary: ", actuated.error());
+  TRY(map, BoundaryMap::make(*original, *actuated, same_word<Correspondence>(to.correspondence)));
+  auto domain = std::make_unique<CurveDomain>(*original);
+  const Eigen::Matrix2Xd ring = domain->boundary(1024);
+  const double scale = 0.5 * (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();
+  return CurveDesign{std::move(domain), std::move(*map), scale};
+}
+
+namespace {
+
+Eigen::Vector3d vector_of(const std::vector<double>& row, std::size_t first) {
+  return {row.at(first), row.at(first + 1), row.at(first + 2)};
+}
+
+/// Of the box around the points of all rods: the middle of its floor, above which heights are.
+Eigen::Vector3d origin_of(const preset::NetworkData& file) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
+  for (const auto& rod : file.rods)
+    for (const int point : rod) {
+      const Eigen::Vector3d at = vector_of(file.points[std::size_t(point)], 0);
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+    }
+  Eigen::Vector3d origin = 0.5 * (low + high);
+  origin.z() = low.z();
+  return origin;
+}
+
+RodNetwork network_of(const preset::NetworkData& file, const Eigen::Vector3d& origin) {
+  constexpr double in_plane_mm = 1e-3;  // as near as points are one
+  RodNetwork network;
+  network.points.resize(3, Eigen::Index(file.points.size()));
+  for (std::size_t k = 0; k < file.points.size(); ++k)
+    network.points.col(Eigen::Index(k)) = vector_of(file.points[k], 0) - origin;
+  const bool in_plane = std::ranges::all_of(file.rods, [&](const std::vector<int>& rod) {
+    return network.points(2, rod).cwiseAbs().maxCoeff() < in_plane_mm;
+  });
+  if (in_plane) network.points.row(2).setZero();
+  network.rods = file.rods;
+  network.supported.assign(file.points.size(), 0);
+  network.free.assign(file.points.size(), 0);
+  for (const auto& row : file.supports) network.supported[std::size_t(row[0])] = 1;
+  for (const int point : file.free) network.free[std::size_t(point)] = 1;
+  for (const auto& row : file.springs) network.springs[int(row[0])] = vector_of(row, 1);
+  return network;
+}
+
+/// Where what is held goes.
+class Way {
+ public:
+  Way(const preset::Preset& preset, const Scene& scene)
+      : scale_(preset.actuation.scale > 0 ? preset.actuation.scale : 1), flat_(scene.flat) {
+    for (const auto& row : preset.footprint.file.supports)
+      if (row.size() == 4) to_[int(row[0])] = vector_of(row, 1);
+  }
+  /// (u, v) and height of a place as drawn; a height is not scaled.
+  Eigen::Vector3d begin(const Eigen::Vector3d& from) const {
+    return flat_.at(from.head<2>()) + from.z() * Eigen::Vector3d::UnitZ();
+  }
+  Eigen::Vector3d end(int point, const Eigen::Vector3d& from) const {
+    const auto named = to_.find(point);
+    if (named != to_.end()) return named->second;
+    return begin({scale_ * from.x(), scale_ * from.y(), from.z()});
+  }
+
+ private:
+  double scale_;
+  FlatFrame flat_;
+  std::map<int, Eigen::Vector3d> to_;
+};
+
+/// The motion of ends and held joints; columns of what is held in `held`, from and to.
+void put_motion(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, const Way& way,
+                Scene& scene) {
+  const auto fill = [&](const std::vector<int>& numbers, Eigen::Matrix3Xd& begin,
+                        Eigen::Matrix3Xd& end) {
+    begin.resize(3, Eigen::Index(numbers.size()));
+    end.resizeLike(begin);
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      const Eigen::Vector3d from = points.col(numbers[k]);
+      begin.col(Eigen::Index(k)) = way.begin(from);
+      end.col(Eigen::Index(k)) = way.end(numbers[k], from);
+    }
+  };
+  fill(made.ends, scene.motion.begin, scene.motion.end);
+  fill(made.joints, scene.motion.begin_joints, scene.motion.end_joints);
+}
+
+/// Places across the plane that they lie nearest to.
+Eigen::Matrix2Xd seen_across(const Eigen::Matrix3Xd& places) {
+  const Eigen::Vector3d middle = places.rowwise().mean();
+  const Eigen::Matrix3Xd about = places.colwise() - middle;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(about * about.transpose());
+  return axes.eigenvectors().rightCols<2>().transpose() * about;
+}
+
+/// What is held around the rods, of a network in the plane the corners alone. Half the diagonal of
+/// the box around what is held is the length scale.
+void put_boundaries(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, Scene& scene) {
+  std::vector<int> numbers = made.joints;
+  std::vector<Eigen::Vector3d> from, to;
+  for (Eigen::Index k = 0; k < scene.motion.end_joints.cols(); ++k) {
+    from.push_back(scene.motion.begin_joints.col(k));
+    to.push_back(scene.motion.end_joints.col(k));
+  }
+  for (std::size_t end = 0; end < made.ends.size(); ++end) {
+    const FootprintRod& rod = made.footprint.rods[end / 2];
+    if (!is_held(end % 2 == 0 ? rod.begin : rod.end)) continue;
+    numbers.push_back(made.ends[end]);
+    from.push_back(scene.motion.begin.col(Eigen::Index(end)));
+    to.push_back(scene.motion.end.col(Eigen::Index(end)));
+  }
+  const Eigen::Matrix3Xd held = points(Eigen::all, numbers);
+  const std::vector<int> hull =
+      made.footprint.in_space() ? rim_of(seen_across(held)) : hull_of(held.topRows<2>());
+  scene.original_boundary.resize(3, Eigen::Index(hull.size()));
+  scene.actuated_boundary.resizeLike(scene.original_boundary);
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    scene.original_boundary.col(Eigen::Index(k)) = from[std::size_t(hull[k])];
+    scene.actuated_boundary.col(Eigen::Index(k)) = to[std::size_t(hull[k])];
+  }
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& place : from) box.extend(place);
+  scene.length_scale_mm = 0.5 * box.diagonal().norm();
+}
+
+/// Diameters of the file, of rods that have one.
+Result<void> put_diameters(const preset::Preset& preset, NetworkFootprint& made) {
+  const std::vector<double>& diameters = preset.footprint.file.diameters;
+  for (std::size_t r = 0; r < made.rods.size(); ++r) {
+    const int number = made.rods[r];
+    const double given = diameters.empty() ? 0 : diameters[std::size_t(number)];
+    const double diameter = given > 0 ? given : preset.rod.diameter_mm;
+    if (!(diameter < made.footprint.spacing))
+      return fail(Fault::bad_input,
+                  fmt::format("rods[{}]: a diameter of {:g} mm, must be less than the usual "
+                              "distance of {:g} mm between joints",
+                              number, diameter, made.footprint.spacing));
+    made.footprint.rods[r].diameter_mm = given;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> build_network(const preset::Preset& preset, Scene& scene) {
+  const preset::NetworkData& file = preset.footprint.file;
+  scene.flat.origin = origin_of(file);
+  const RodNetwork network = network_of(file, scene.flat.origin);
+  const auto refuse = [](const Error& error) {
+    return fail(error.fault, "[footprint] file: " + error.message);
+  };
+  auto made = network_footprint(network);
+  if (!made) return refuse(made.error());
+  if (auto put = put_diameters(preset, *made); !put) return refuse(put.error());
+  put_motion(*made, network.points, Way(preset, scene), scene);
+  put_boundaries(*made, network.points, scene);
+  scene.footprint = std::move(made->footprint);
+  scene.drawn_in_space = scene.footprint.in_space();
+  return {};
+}
+
+}  // namespace gridshell

@@ -1,0 +1,36 @@
+// A footprint inside a closed curve that a user gives, and the curve its boundary moves to.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "engine/core/result.h"
+#include "engine/footprint/footprint.h"
+#include "engine/geometry/closed_curve.h"
+#include "engine/preset/preset.h"
+#include "engine/scene/scene.h"
+
+namespace gridshell {
+
+struct CurveDesign {
+  std::unique_ptr<Domain> domain;
+  BoundaryMap map;
+  double scale_mm = 0;  ///< half the diagonal of the box around the original boundary
+
+  /// Where points of the original boundary are moved to, 2 x n.
+  Eigen::Matrix2Xd actuated(const Eigen::Matrix2Xd& on_original) const;
+};
+
+/// Errors (bad_input): those of the curves and of the map between them, saying which.
+Result<CurveDesign> curve_design(const preset::Preset& preset);
+
+// A footprint from a file of rods, what holds it and where that goes.
+
+/// Fills footprint, frame, motion and boundaries of a scene from `[footprint] file`. The flat frame
+/// stands in the middle of the box around the rods. Supports go where the file says; ends of which
+/// it says nothing to `[actuation] scale` times their place from the middle (0: they stay).
+/// Boundaries are the convex hull of what is held. Errors (bad_input): those of
+/// network_footprint().
+Result<void> build_network(const preset::Preset& preset, Scene& scene);
+
+}  // namespace gridshell

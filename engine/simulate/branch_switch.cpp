@@ -1,0 +1,136 @@
+#include "engine/simulate/branch_switch.h"
+
+#include <cmath>
+#include <optional>
+
+#include "engine/core/algorithms.h"
+#include "engine/core/try.h"
+#include "engine/solve/equilibrium.h"
+#include "engine/solve/newton.h"
+
+namespace gridshell {
+namespace {
+
+constexpr double still_mm = 0.01;  // what an unstable rest is pushed by in a snap in time
+
+/// The side of `mode` that a departure takes; of sides that are alike that on which the energy
+/// falls.
+State perturbed_along_mode(Linearisation& system, const State& state, const Eigen::Matrix3Xd& mode,
+                           BranchSide side) {
+  const double push = 2 * still_mm / max_column_norm(mode);
+  State along = state, against = state;
+  move_to(system.model(), state.x + push * mode, along);
+  move_to(system.model(), state.x - push * mode, against);
+  if (side == BranchSide::along) return along;
+  if (side == BranchSide::against) return against;
+  return system.energy_at(along) <= system.energy_at(against) ? along : against;
+}
+
+BranchSwitch departure_for(Event::Kind kind, const Scene& scene, const NestedShell& shell) {
+  BranchSwitch departure = departure_of(scene, shell.mesh(0), shell.model(0));
+  // a path that turns back has one way on
+  if (kind != Event::Kind::stability_lost) departure.side = BranchSide::lower;
+  return departure;
+}
+
+/// The unstable equilibrium on the same branch, a little past the loss of stability. A push off it
+/// stays on its side; off a state that is no equilibrium the first corrections take the push back,
+/// and the side would be left to chance.
+std::optional<State> unstable_branch(Linearisation& system, State state, double farthest_mm,
+                                     const Watch& watch) {
+  NewtonOptions options;
+  options.farthest_mm = farthest_mm;
+  if (newton(system, state, options, watch).outcome != Outcome::reached) return std::nullopt;
+  const Inertia inertia = system.at(state, false);
+  if (!inertia.usable || inertia.positive_definite()) return std::nullopt;
+  return state;
+}
+
+}  // namespace
+
+State extrapolated_state(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
+                         double there, double farthest_mm, const Watch& watch) {
+  constexpr double least_shift = 1e-9, largest_shift = 1e4;  // N/mm
+  const double way = there - last.t;
+  State state = last.state;
+  motion.apply_loads(system, last.t);
+  Inertia inertia = system.at(last.state);
+  for (double shift = least_shift; shift <= largest_shift && !watch.cancelled(); shift *= 16) {
+    if (inertia.positive_definite()) {
+      State velocity;
+      motion.velocity(system, last.t, last.state, velocity);
+      if (std::abs(way) * max_column_norm(velocity.x) <= farthest_mm) {
+        move_to(system.model(), last.state.x + way * velocity.x, state);
+        state.force += way * velocity.force;
+        break;
+      }
+    }
+    inertia = system.shifted(shift);
+  }
+  motion.impose(system, there, state);
+  return state;
+}
+
+BranchSwitch departure_of(const Scene& scene, const RodMesh& mesh, const Model& model) {
+  const Imperfection& imperfection = scene.imperfection;
+  BranchSwitch departure;
+  departure.step_mm = 0.025 * scene.footprint.spacing;
+  if (!imperfection.chooses()) return departure;
+  departure.amplitude_mm = imperfection.size_mm;
+  departure.side = BranchSide::along;
+  if (imperfection.soft_mode && imperfection.seed % 2 == 0) departure.side = BranchSide::against;
+  std::mt19937 random{imperfection.soft_mode ? 0u : std::uint32_t(imperfection.seed)};
+  departure.start = Eigen::Matrix3Xd::Zero(3, model.columns());
+  for (int joint = 0; joint < mesh.joints; ++joint)
+    for (int axis = 0; axis < 3; ++axis) departure.start(axis, joint) = symmetric_uniform(random);
+  return departure;
+}
+
+Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, const PathPoint& last,
+                                     Event::Kind kind, double there,
+                                     std::vector<TimedState>& moments, const Watch& watch) {
+  Linearisation& system = shell.system(0);
+  const PinnedMotion& motion = shell.motion(0);
+  BranchSwitch departure = departure_for(kind, scene, shell);
+  departure.symmetries = symmetries_of(shell.mesh(0), motion.at(there));
+  // the mode that went soft first, of several that are unstable beyond
+  motion.apply_loads(system, last.t);
+  system.at(last.state, false);
+  const Eigen::Matrix3Xd mode = softest_mode(system, departure.start, watch);
+  State state =
+      extrapolated_state(system, motion, last, there, 0.2 * scene.footprint.spacing, watch);
+  if (kind == Event::Kind::stability_lost)
+    state = unstable_branch(system, state, 0.1 * scene.footprint.spacing, watch).value_or(state);
+  if (!scene.snap.wanted) return leave_saddle(system, state, mode, departure, watch);
+  auto moved = rest_in_time(
+      shell, scene, perturbed_along_mode(system, state, mode, departure.side),
+      {.still_N = 1e-4, .still_mJ = 1e-7},
+      [&](const MovingState& now) {
+        moments.push_back({now.time, now.state});
+      },
+      watch);
+  if (!moved) return moved;
+  if (minimise(system, *moved, {}, watch).outcome != Outcome::reached)
+    return fail(Fault::no_equilibrium, "the motion did not end near a rest");
+  return moved;
+}
+
+Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& from,
+                           const RestOptions& rest,
+                           const std::function<void(const MovingState&)>& seen,
+                           const Watch& watch) {
+  Linearisation& system = shell.system(0);
+  TRY(mass, lumped_mass(system.model(), scene.mass_t_per_mm));
+  DynamicsOptions options;
+  options.step_s = scene.snap.step_s;
+  options.damping_per_s = scene.snap.damping_per_s;
+  options.tolerance_mm = 1e-7;
+  DampedMotion damped(system.model(), *mass, options, system.outside, system.holds());
+  MovingState moving = MovingState::at_rest(from);
+  TRY_DO(damped.settle(moving, rest, seen, watch));
+  system.gradient_at(moving.state);
+  moving.state.force = system.assembly().force;
+  return moving.state;
+}
+
+}  // namespace gridshell

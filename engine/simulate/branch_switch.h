@@ -1,0 +1,40 @@
+// Leaving a branch that ended: which way a shell goes, and where it comes to rest.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "engine/scene/scene.h"
+#include "engine/simulate/session.h"
+#include "engine/solve/dynamics.h"
+#include "engine/solve/equilibrium.h"
+#include "engine/solve/nested_shell.h"
+
+namespace gridshell {
+
+/// How the scene's imperfection leaves a state that lost its stability. Drawn a joint, so it is the
+/// same on every mesh.
+BranchSwitch departure_of(const Scene& scene, const RodMesh& mesh, const Model& model);
+
+/// The last state of a path, moved on with its boundary to `there` by the path's velocity. The
+/// stiffness is shifted by as little as keeps every node within `farthest_mm`; where no shift does,
+/// only what is prescribed moves. A boundary that moves alone would strain the legs, to thousands
+/// of times the energy that is at stake, and the way down would be a release of that.
+State extrapolated_state(Linearisation& system, const PinnedMotion& motion, const PathPoint& last,
+                         double there, double farthest_mm, const Watch& watch);
+
+/// Where the shell, on its coarsest mesh, comes to rest that lost its branch at `last`, with what
+/// is prescribed at `there`: down the energy, or in time where the scene wants it, every time step
+/// then in `moments`. At a loss of stability the imperfection says to which side, at a limit point
+/// the energy. Errors: bad_input (a mass not known), no_equilibrium, cancelled.
+Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, const PathPoint& last,
+                                     Event::Kind kind, double there,
+                                     std::vector<TimedState>& moments, const Watch& watch);
+
+/// Moves in time from a state of the coarsest mesh, with the scene's damping, until it rests.
+/// Errors: as rest_after_bifurcation().
+Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& from,
+                           const RestOptions& rest,
+                           const std::function<void(const MovingState&)>& seen, const Watch& watch);
+
+}  // namespace gridshell

@@ -1,0 +1,361 @@
+// The `net` rung: the smooth Chebyshev net itself, sampled at the rods.
+
+#include "engine/simulate/experiment.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "engine/core/system_info.h"
+#include "engine/core/try.h"
+#include "engine/core/watch.h"
+#include "engine/preset/model_choice.h"
+#include "engine/record/gauss_curvature.h"
+#include "engine/record/shape_measures.h"
+#include "engine/record/trajectory.h"
+#include "engine/scene/scene.h"
+#include "engine/simulate/actuation.h"
+#include "engine/simulate/frames.h"
+#include "engine/simulate/indentation.h"
+#include "engine/simulate/mesh_choice.h"
+#include "engine/simulate/steps.h"
+#include "engine/solve/buckling.h"
+#include "engine/solve/mesh_levels.h"
+
+namespace gridshell::experiment {
+
+/// What a gridshell's joints are away from their net, as a rule and over rho: caps of a sphere with
+/// pinned ends lie within 0.032 of it.
+constexpr double net_error = 0.032;
+
+/// The flat footprint and the net, where `progress` has 0 and 1; nothing in between, as no
+/// equilibrium is solved for. Residual, energies, pivots and error estimate are not known. Returns
+/// the mesh that was drawn. Errors (bad_input): those of the net; the sink's.
+Result<RodMesh> write_net_frames(const Scene& scene, const std::vector<double>& progress,
+                                 record::Sink& sink, Watch& watch);
+
+namespace {
+
+constexpr int edges_per_segment = 4;  // for the pictures of the rods between joints
+
+record::Frame frame_at(const Scene& scene, const RodMesh& mesh, int index, double progress,
+                       const Eigen::Matrix3Xd& x, const Eigen::VectorXd& K) {
+  record::Frame frame;
+  fill_shape(scene, mesh, x, K, frame);
+  frame.index = index;
+  frame.progress = frame.actuation = progress;
+  frame.energies = Energies::not_known();
+  frame.residual_N = record::unknown;
+  frame.negative_pivots = -1;
+  frame.event = progress == 0 ? "" : "the net itself, no equilibrium";
+  return frame;
+}
+
+/// from the net's own tangents
+Result<Eigen::VectorXd> curvature_of(const Scene& scene) {
+  JointTangents tangents;
+  const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
+  tangents.u.resize(3, joints);
+  tangents.v.resize(3, joints);
+  for (Eigen::Index k = 0; k < joints; ++k) {
+    const FootprintJoint& joint = scene.footprint.joints[std::size_t(k)];
+    TRY(point, scene.net->at(joint.u, joint.v));
+    tangents.u.col(k) = point->tangent_u;
+    tangents.v.col(k) = point->tangent_v;
+  }
+  return cell_curvature(scene.footprint, tangents);
+}
+
+}  // namespace
+
+Result<RodMesh> write_net_frames(const Scene& scene, const std::vector<double>& progress,
+                                 record::Sink& sink, Watch& watch) {
+  RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
+  TRY(layout, layout_of(scene, mesh));
+  TRY(K, curvature_of(scene));
+  const Eigen::Matrix3Xd net = layout->net_nodes;
+  TRY_DO(sink.begin(std::move(*layout)));
+  for (std::size_t k = 0; k < progress.size(); ++k) {
+    Result<void> taken;
+    if (progress[k] == 0)
+      taken = sink.take(frame_at(scene, mesh, int(k), 0, scene.flat.all(mesh.flat),
+                                 Eigen::VectorXd::Zero(K->size())));
+    if (progress[k] == 1) taken = sink.take(frame_at(scene, mesh, int(k), 1, net, *K));
+    if (!taken) return tl::unexpected<Error>(taken.error());
+  }
+  watch.report(1);
+  return mesh;
+}
+
+namespace {
+
+/// From 0 to 1, both among them.
+std::vector<double> evenly(int frames) {
+  std::vector<double> progress;
+  for (int k = 0; k < frames; ++k) progress.push_back(double(k) / (frames - 1));
+  return progress;
+}
+
+std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
+  // only a circle's boundary has a radius all the way
+  if (stills && preset.footprint.kind != preset::FootprintKind::circle) return {1.0};
+  if (stills && !preset.figure.radii_mm.empty()) {
+    std::vector<double> progress;
+    const double from = preset.original_radius_mm(), to = preset.actuated_radius_mm();
+    for (double radius : preset.figure.radii_mm) progress.push_back((from - radius) / (from - to));
+    std::sort(progress.begin(), progress.end());
+    return progress;
+  }
+  return preset.movie.frames == 1 ? std::vector{1.0} : evenly(preset.movie.frames);
+}
+
+/// Of a push: all frames of a movie, or enough for the curve of its force.
+std::vector<double> samples_of_push(const preset::Preset& preset, bool stills) {
+  return evenly(stills ? 11 : std::max(2, preset.movie.frames));
+}
+
+/// Passes frames on, and keeps the layout and the last frame for the summary. What solvers say once
+/// they were stopped holds for nothing, so no frame passes after that.
+class LastFrame final : public record::Sink {
+ public:
+  LastFrame(record::Sink& next, const Watch& watch) : next_(next), watch_(watch) {}
+  Result<void> begin(record::Layout layout) override {
+    net_joints_ = layout.net_nodes.leftCols(
+        std::min(layout.net_nodes.cols(), Eigen::Index(layout.joints.size())));
+    scale_mm_ = layout.length_scale_mm;
+    frame_.reset();
+    return next_.begin(std::move(layout));
+  }
+  Result<void> take(record::Frame frame) override {
+    if (watch_.cancelled()) return stopped();
+    if (!frame_ || frame.index >= frame_->index) frame_ = frame;
+    return next_.take(std::move(frame));
+  }
+  const std::optional<record::Frame>& frame() const { return frame_; }
+  const Eigen::Matrix3Xd& net_joints() const { return net_joints_; }
+  double scale_mm() const { return scale_mm_; }
+
+ private:
+  record::Sink& next_;
+  const Watch& watch_;
+  std::optional<record::Frame> frame_;
+  Eigen::Matrix3Xd net_joints_;
+  double scale_mm_ = 1;
+};
+
+void put_deviation(const LastFrame& seen, record::Summary& s) {
+  if (seen.net_joints().size() == 0) return;
+  const NetDeviation deviation(seen.frame()->nodes.leftCols(seen.net_joints().cols()),
+                               seen.net_joints(), seen.scale_mm());
+  s.max_deviation = deviation.largest();
+  s.mean_deviation = deviation.mean();
+  s.median_deviation = deviation.quantile(0.5);
+  s.deviation_p90 = deviation.quantile(0.9);
+}
+
+void put_seams(const Scene& scene, record::Summary& s) {
+  if (!scene.blocks || scene.blocks->seams().empty()) return;
+  s.max_seam_gap_mm = s.max_seam_kink_deg = 0;
+  for (const Seam& seam : scene.blocks->seams()) {
+    s.max_seam_gap_mm = std::max(s.max_seam_gap_mm, seam.max_gap_mm());
+    s.max_seam_kink_deg = std::max(s.max_seam_kink_deg, seam.max_kink_deg());
+  }
+}
+
+/// What was followed, and on which meshes.
+void put_course(const EquilibriumPath& course, record::Summary& s) {
+  const NestedShell& shell = course.session.shell();
+  s.edges_per_segment = shell.plan().edges_per_segment.back();
+  s.dof = shell.model(shell.levels() - 1).dof();
+  s.limit = course.limit;
+  s.limit_reason = course.limit_reason;
+  s.doubt = course.mesh_disagreement;
+  s.largest_strain = course.session.certificate().largest_strain;
+  const Effort effort = course.session.effort();
+  s.newton_iterations = effort.newton_iterations;
+  s.factorizations = effort.factorizations;
+  s.seconds_setup = course.seconds_setup;
+}
+
+record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
+                           const LastFrame& seen) {
+  record::Summary s = summary_before(preset, scene);
+  s.take_state(*seen.frame());
+  put_deviation(seen, s);
+  put_seams(scene, s);
+  return s;
+}
+
+int dof_of(const Scene& scene, int edges_per_segment) {
+  if (scene.rung == RodModel::net) return 0;
+  const auto model =
+      build_model(mesh_rods(scene.footprint, edges_per_segment), scene.rods, scene.solved_model());
+  return model ? model->dof() : 0;
+}
+
+/// About how long a run takes on one core: bringing the coarsest mesh to rest, then two corrections
+/// a frame on each mesh. Measured on shells of 500 to 40 000 unknowns; good within a factor of
+/// three.
+double seconds_for(const Scene& scene, const preset::Preset& preset) {
+  constexpr double to_rest = 1.5e-5, a_frame = 4e-7, a_twist_frame = 1.5e-6;  // seconds an unknown
+  if (scene.rung == RodModel::net) return 0.01;
+  const bool twist = scene.rung == RodModel::twist;
+  double seconds = 0;
+  for (int edges : initial_levels(scene).edges_per_segment) {
+    const double dof = dof_of(scene, edges);
+    if (seconds == 0) seconds = to_rest * dof;
+    seconds += (twist ? a_twist_frame : a_frame) * dof * preset.movie.frames;
+  }
+  // a trial ends on a mesh of 4 edges a segment; measured on 8 to 20 rods
+  constexpr double a_trial = 2e-5;
+  const preset::SearchSettings& jitter = preset.jitter;
+  if (jitter.wanted()) seconds = a_trial * dof_of(scene, 4) * (jitter.trials + jitter.confined);
+  return seconds;
+}
+
+/// Steps name joints that are there, and let go of what a step before took.
+Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint& footprint) {
+  std::set<std::vector<int>> held;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const preset::Step& step = steps[k];
+    const bool one = !step.joint.empty();
+    if (one)
+      if (auto joint = joint_of(step, footprint); !joint)
+        return fail(joint.error().fault,
+                    fmt::format("[[step]] {} {}", k + 1, joint.error().message));
+    if (step.deed == preset::StepKind::push || step.deed == preset::StepKind::hold)
+      held.insert(step.joint);
+    if (step.deed != preset::StepKind::release) continue;
+    if (one ? !held.contains(step.joint) : held.empty())
+      return fail(
+          Fault::bad_input,
+          fmt::format("[[step]] {}: no joint is held that could be let go: a step before it "
+                      "must push or hold it",
+                      k + 1));
+    if (one)
+      held.erase(step.joint);
+    else
+      held.clear();
+  }
+  return {};
+}
+
+}  // namespace
+
+namespace {
+
+/// Whether the boundary's motion takes the rods out of the flat at all. Errors: bad_input.
+Result<void> check_motion(const Scene& scene) {
+  if (scene.from_net || scene.drawn_in_space || scene.rung == RodModel::net) return {};
+  MeshLevel flat;
+  const int edges = initial_levels(scene).edges_per_segment.front();
+  if (auto built = flat.build(scene.footprint, scene.rods, RodModel::bend, scene.motion, edges);
+      !built)
+    return built;
+  return parameter_of_shortening(flat.mesh, flat.motion, flat_shortening).map([](double) {});
+}
+
+}  // namespace
+
+Result<Plan> plan(const preset::Preset& preset) {
+  TRY(scene, scene_of(preset));
+  const LevelPlan levels = initial_levels(*scene);
+  TRY_DO(fits_memory(*scene, levels));
+  // what the run would only find out later
+  if (preset.indentation.wanted() && preset.indentation.joint.size() == 2)
+    TRY_DO(pushed_joint(preset.indentation, scene->footprint, {}));
+  TRY_DO(check_steps(preset.step, scene->footprint));
+  TRY_DO(check_motion(*scene));
+  Plan plan;
+  plan.model = word_of(scene->rung);
+  plan.memory_GB = memory_GB(scene->footprint, scene->rung, levels);
+  plan.model_reason = preset::model_reason(preset);
+  plan.levels = levels.edges_per_segment;
+  plan.edges_per_segment = plan.levels.back();
+  plan.extrapolated = levels.extrapolate;
+  plan.rods = int(scene->footprint.rods.size());
+  plan.joints = int(scene->footprint.joints.size());
+  plan.cells = int(scene->footprint.cells.size());
+  plan.dof = dof_of(*scene, plan.edges_per_segment);
+  plan.expected_error_mm =
+      (scene->rung == RodModel::net ? net_error : expected_error(levels)) * scene->length_scale_mm;
+  plan.expected_seconds = seconds_for(*scene, preset);
+  plan.footprint = fmt::format("{} rods, {} joints, {} cells", plan.rods, plan.joints, plan.cells);
+  // a ring has no legs
+  if (const double d = scene->footprint.spacing; scene->footprint.longest_leg() > 0)
+    plan.footprint +=
+        fmt::format("; longest leg {:.2f} d, shortest {:.2f} d", scene->footprint.longest_leg() / d,
+                    scene->footprint.shortest_leg() / d);
+  if (scene->blocks)
+    for (const Seam& seam : scene->blocks->seams())
+      plan.seams.push_back(fmt::format(
+          "{}: {} rods across, at most {:.2f} mm apart, kinked by at most {:.1f} degrees",
+          seam.name, seam.rods.size(), seam.max_gap_mm(), seam.max_kink_deg()));
+  return plan;
+}
+
+namespace {
+
+/// What the preset wants done, followed and shown; of steps, what each came to.
+Result<EquilibriumPath> course_for(const preset::Preset& preset,
+                                   const std::shared_ptr<const Scene>& scene, bool stills,
+                                   std::vector<std::string>& told, LastFrame& sink, Watch& watch) {
+  if (preset.indentation.wanted())
+    return run_indentation(scene, preset.indentation, samples_of_push(preset, stills), sink, watch);
+  if (preset.step.empty()) return run_actuation(scene, samples_of(preset, stills), sink, watch);
+  // stills show each step's end
+  TRY(stepped, run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch));
+  told = std::move(stepped->messages);
+  return std::move(stepped->course);
+}
+
+/// Runs a scene on a rung that solves, and says what was followed.
+Result<void> follow(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
+                    bool stills, LastFrame& sink, Watch& watch, record::Summary& summary) {
+  const double begin = seconds_now();
+  std::vector<std::string> told;
+  auto course = course_for(preset, scene, stills, told, sink, watch);
+  if (watch.cancelled()) return stopped();
+  if (!course) return tl::unexpected<Error>(course.error());
+  if (!sink.frame())
+    return fail(Fault::no_equilibrium, "no frame was certified: " + course->limit_reason);
+  summary = summary_of(preset, *scene, sink);
+  put_course(*course, summary);
+  summary.steps = std::move(told);
+  summary.seconds_simulation = seconds_now() - begin - summary.seconds_setup;
+  return {};
+}
+
+}  // namespace
+
+Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
+                            Watch& watch) {
+  TRY(scene, shared_scene_of(preset));
+  return run(preset, *scene, stills, sink, watch);
+}
+
+Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
+                            bool stills, record::Sink& sink, Watch& watch) {
+  LastFrame seen(sink, watch);
+  record::Summary summary;
+  if (scene->rung != RodModel::net) {
+    TRY(followed, follow(preset, scene, stills, seen, watch, summary));
+    return summary;
+  }
+  const double begin = seconds_now();
+  TRY(mesh, write_net_frames(*scene, samples_of(preset, stills), seen, watch));
+  summary = summary_of(preset, *scene, seen);
+  summary.edges_per_segment = mesh->edges_per_segment;
+  summary.seconds_simulation = seconds_now() - begin;
+  return summary;
+}
+
+Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& watch) {
+  record::MemorySink sink;
+  TRY(summary, run(preset, stills, sink, watch));
+  return ExperimentResult{std::move(sink.trajectory()), std::move(*summary)};
+}
+
+}  // namespace gridshell::experiment

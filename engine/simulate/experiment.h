@@ -1,0 +1,55 @@
+// From a preset to a trajectory: the one entry point behind every command that simulates.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/preset/preset.h"
+#include "engine/record/summary.h"
+#include "engine/record/trajectory.h"
+#include "engine/scene/scene.h"
+
+namespace gridshell::experiment {
+
+/// A finished experiment. When the path ended early, `summary.limit` says why and `trajectory`
+/// holds the certified frames up to there; a state that is not an equilibrium is never in it.
+struct ExperimentResult {
+  record::Trajectory trajectory;
+  record::Summary summary;
+};
+
+/// What would run, without running it (`gridshell check`).
+struct Plan {
+  std::string model;          ///< the rung chosen
+  std::string model_reason;   ///< one sentence
+  int edges_per_segment = 0;  ///< of the finest mesh
+  std::vector<int> levels;    ///< edges per segment of every mesh solved
+  bool extrapolated = false;  ///< Richardson over the last levels
+  int rods = 0, joints = 0, cells = 0, dof = 0;
+  double expected_error_mm = record::unknown;
+  double expected_seconds = record::unknown;
+  double memory_GB = record::unknown;  ///< that its meshes take, at most
+  std::vector<std::string> seams;      ///< of building blocks, a sentence each
+  std::string footprint;               ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
+};
+
+/// Builds the scene of a preset and says what would run. Errors: Fault::bad_input with the reason.
+Result<Plan> plan(const preset::Preset& preset);
+
+/// Runs the experiment and hands every certified frame to `sink`. Frames sample the path at
+/// `preset.movie.frames` even steps, or at `preset.figure.radii_mm` when `stills` is set. Errors:
+/// bad_input, no_equilibrium, cancelled, and what the sink says.
+Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
+                            Watch& watch);
+
+/// The same on a scene of that preset which was changed: other meshes, other load steps.
+Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
+                            bool stills, record::Sink& sink, Watch& watch);
+
+/// The same with all frames kept in memory.
+Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& watch);
+
+}  // namespace gridshell::experiment

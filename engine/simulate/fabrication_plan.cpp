@@ -1,0 +1,78 @@
+#include "engine/simulate/fabrication_plan.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/core/try.h"
+#include "engine/preset/preset_access.h"
+#include "engine/scene/scene.h"
+
+namespace gridshell::experiment {
+namespace {
+
+using exports::CutRod;
+using exports::Pin;
+
+CutRod cut(const FootprintRod& rod, const Scene& scene) {
+  CutRod piece;
+  const bool of_grid = rod.family != Family::other;
+  piece.name = of_grid ? fmt::format("{}{:+}", name_of(rod.family), rod.index)
+                       : fmt::format("{}{}", name_of(rod.family), rod.index);
+  const double begin = rod.span.begin - rod.tail_begin, end = rod.span.end + rod.tail_end;
+  const auto at = [&](double along) -> Eigen::Vector2d {
+    return scene.flat.at(rod.at(along)).head<2>();
+  };
+  piece.length_mm = end - begin;
+  piece.begin = at(begin);
+  piece.end = at(end);
+  for (const double mark : rod.marks) piece.joint_marks_mm.push_back(mark - begin);
+  if (rod.tail_begin > 0) piece.pin_marks_mm.push_back(rod.tail_begin);
+  if (rod.tail_end > 0) piece.pin_marks_mm.push_back(rod.span.end - begin);
+  piece.leg_begin_mm = piece.joint_marks_mm.front() - rod.tail_begin;
+  piece.leg_end_mm = piece.length_mm - rod.tail_end - piece.joint_marks_mm.back();
+  if (rod.begin == RodEnd::joined) piece.leg_begin_mm = std::nan("");
+  if (rod.end == RodEnd::joined) piece.leg_end_mm = std::nan("");
+  for (std::size_t k = 1; k + 1 < rod.path.size(); ++k)
+    piece.corners.push_back(at(rod.path[k].w()));
+  piece.free_begin = rod.begin == RodEnd::free;
+  piece.free_end = rod.end == RodEnd::free;
+  return piece;
+}
+
+void add_pins(const FootprintRod& rod, Eigen::Index r, const std::string& name, const Scene& scene,
+              std::vector<Pin>& pins) {
+  const auto add = [&](Eigen::Index end, RodEnd held, double tail, const char* word) {
+    if (!is_held(held)) return;
+    pins.push_back({name + " " + word, scene.motion.end.col(end), true});
+    if (tail > 0)
+      pins.push_back({name + " " + word + ", far", scene.motion.end_far.col(end), false});
+  };
+  add(2 * r, rod.begin, rod.tail_begin, "begin");
+  add(2 * r + 1, rod.end, rod.tail_end, "end");
+}
+
+}  // namespace
+
+Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& preset) {
+  TRY(scene, scene_of(preset));
+  exports::FabricationPlan work;
+  work.title = preset::title_or_name(preset);
+  work.spacing_mm = scene->footprint.spacing;
+  work.rod_diameter_mm = scene->rod_diameter_mm;
+  for (std::size_t r = 0; r < scene->footprint.rods.size(); ++r) {
+    const FootprintRod& rod = scene->footprint.rods[r];
+    work.rods.push_back(cut(rod, *scene));
+    add_pins(rod, Eigen::Index(r), work.rods.back().name, *scene, work.pins);
+  }
+  for (const FootprintJoint& joint : scene->footprint.joints)
+    work.joints.push_back(scene->flat.at({joint.u, joint.v}).head<2>());
+  work.original_boundary = scene->original_boundary.topRows<2>();
+  work.actuated_boundary = scene->actuated_boundary;
+  work.in_space = scene->drawn_in_space;
+  work.original_radius_mm = scene->radius_begin_mm;
+  work.actuated_radius_mm = scene->radius_end_mm;
+  return work;
+}
+
+}  // namespace gridshell::experiment

@@ -1,0 +1,103 @@
+#include "engine/simulate/first_state.h"
+
+#include <cmath>
+
+#include "engine/core/try.h"
+#include "engine/scene/net_design.h"
+#include "engine/scene/rod_ends.h"
+#include "engine/solve/buckling.h"
+#include "engine/solve/equilibrium.h"
+#include "engine/solve/mesh_levels.h"
+
+namespace gridshell {
+namespace {
+
+constexpr int choosing_edges = 4;  // a segment, of the mesh that finds the first buckled state
+
+/// By how much the joints far out on y = -x lie higher than those on y = x, mm.
+double lower_on_diagonal(const RodMesh& mesh, const Eigen::Matrix3Xd& nodes) {
+  Eigen::VectorXd weight(mesh.joints);
+  for (int k = 0; k < mesh.joints; ++k) weight[k] = -std::pow(mesh.flat.col(k).prod(), 3);
+  const double all = weight.cwiseAbs().sum();
+  return all > 0 ? weight.dot(nodes.row(2).head(mesh.joints)) / all : 0;
+}
+
+/// The seed's dome, at rest on the bend rung; of mirror images the one asked for.
+Result<State> buckled_dome(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
+                           double t, const Scene& scene, const Watch& watch) {
+  constexpr double clearly_mm = 1e-3;  // that one diagonal lies lower
+  auto first = first_buckled(system, mesh, motion, t, scene.seed, scene.flat, watch);
+  const auto lower = [&](const State& state) {
+    return scene.seed.diagonal * lower_on_diagonal(mesh, nodes_of(mesh, system.model(), state.x));
+  };
+  if (!first || lower(*first) > -clearly_mm) return first;
+  BuckleSeed other = scene.seed;
+  other.diagonal *= -1;
+  auto second = first_buckled(system, mesh, motion, t, other, scene.flat, watch);
+  return second && lower(*second) > lower(*first) ? second : first;
+}
+
+/// As it is drawn, at rest on the bend rung.
+Result<State> drawn_rest(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
+                         double t, const Scene& scene, const Watch& watch) {
+  State state = flat_state(system.model(), mesh, motion, scene.flat);
+  motion.impose(system, t, state);
+  return find_equilibrium(system, state, 0.5 * scene.footprint.spacing, watch);
+}
+
+using FindShape = decltype(drawn_rest);
+
+/// What `find` finds on the mesh that chooses, at rest on the coarsest.
+Result<State> chosen(FindShape& find, NestedShell& shell, const Scene& scene, const ShellRods& rods,
+                     double t, const Watch& watch) {
+  const RodMesh& mesh = shell.mesh(0);
+  if (scene.solved_model() == RodModel::bend && shell.plan().edges_per_segment[0] == choosing_edges)
+    return find(shell.system(0), mesh, shell.motion(0), t, scene, watch);
+  MeshLevel chooser;
+  TRY_DO(chooser.build(scene.footprint, rods, RodModel::bend, scene.motion, choosing_edges));
+  const auto shape = find(*chooser.system, chooser.mesh, chooser.motion, t, scene, watch);
+  shell.system(0).effort() += chooser.system->effort();
+  if (!shape) return shape;
+  Eigen::Matrix3Xd nodes;
+  MeshTransfer(chooser.mesh, mesh).nodes(nodes_of(chooser.mesh, chooser.model, shape->x), nodes);
+  const Model& model = shell.model(0);
+  State state = flat_state(model, mesh, shell.motion(0), scene.flat);
+  move_to(model, columns_of(mesh, model, nodes), state);
+  shell.motion(0).impose(shell.system(0), t, state);
+  return minimise_from(shell.system(0), std::move(state), watch);
+}
+
+}  // namespace
+
+Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellRods& rods, double t,
+                            const Watch& watch) {
+  return chosen(buckled_dome, shell, scene, rods, t, watch);
+}
+
+Result<State> state_as_drawn(NestedShell& shell, const Scene& scene, const ShellRods& rods,
+                             const Watch& watch) {
+  return chosen(drawn_rest, shell, scene, rods, 0, watch).map_error([](const Error& error) {
+    return Error{error.fault, "from the network as drawn: " + error.message};
+  });
+}
+
+Result<State> state_on_net(NestedShell& shell, const Scene& scene, const Watch& watch) {
+  const RodMesh& mesh = shell.mesh(0);
+  const double spacing = scene.footprint.spacing;
+  const Eigen::Matrix2Xd flat = within_boundary(scene.footprint, mesh);
+  // blocks that meet with a gap would tear the rods between them
+  TRY(net, scene.blocks ? scene.blocks->closed(flat, 4 * spacing) : points_on(*scene.net, flat));
+  place_tails(scene, mesh, *net);
+  net->conservativeResize(3, mesh.nodes());
+  net->rightCols(mesh.beside_rods()) =
+      shell.motion(0).at(1).middleCols(mesh.rod_nodes(), mesh.beside_rods());
+  const Model& model = shell.model(0);
+  State state = flat_state(model, mesh, shell.motion(0), scene.flat);
+  move_to(model, columns_of(mesh, model, *net), state);
+  shell.motion(0).impose(shell.system(0), 1, state);
+  auto rest = find_equilibrium(shell.system(0), state, 0.5 * spacing, watch);
+  if (!rest) return fail(rest.error().fault, "next to the net there is " + rest.error().message);
+  return rest;
+}
+
+}  // namespace gridshell

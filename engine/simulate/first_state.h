@@ -1,0 +1,30 @@
+// Where a path begins: a buckled state out of the flat, the rest beside a net, or that of a network
+// as it is drawn in space.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/scene/scene.h"
+#include "engine/solve/nested_shell.h"
+
+namespace gridshell {
+
+/// The seed's buckled state of the coarsest mesh at t, at rest. Every rung and mesh starts from the
+/// shape of the bend rung on 4 edges a segment: neither what twist and springs add nor the mesh
+/// asked for chooses the branch. Of the two diagonals the
+/// one asked for lies lower; a dome that went to the other is begun from the other seed, which for
+/// symmetric footprints is its mirror image. Errors: no_equilibrium, cancelled, bad_input (rods
+/// that the rung cannot take).
+Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellRods& rods, double t,
+                            const Watch& watch);
+
+/// The rest that a network drawn in space comes to, its supports where they are drawn; found on the
+/// same mesh. Errors: as buckled_state().
+Result<State> state_as_drawn(NestedShell& shell, const Scene& scene, const ShellRods& rods,
+                             const Watch& watch);
+
+/// The state of the coarsest mesh next to the scene's net, at rest. Errors: as buckled_state(), and
+/// the net's.
+Result<State> state_on_net(NestedShell& shell, const Scene& scene, const Watch& watch);
+
+}  // namespace gridshell

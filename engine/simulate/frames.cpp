@@ -1,0 +1,358 @@
+#include "engine/simulate/frames.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "engine/core/try.h"
+#include "engine/preset/model_choice.h"
+#include "engine/record/frame_values.h"
+#include "engine/record/gauss_curvature.h"
+#include "engine/scene/rod_ends.h"
+
+namespace gridshell::experiment {
+namespace {
+
+constexpr int most_frames_in_motion = 24;
+constexpr double still_move = 0.01;  // of d: nearer to the rest nothing is seen to move
+
+Eigen::VectorXd curvature(const Session& session, int level) {
+  const NestedShell& shell = session.shell();
+  const RodMesh& mesh = shell.mesh(level);
+  const Eigen::Matrix3Xd nodes =
+      nodes_of(mesh, shell.model(level), shell.state().levels[std::size_t(level)].x);
+  const Footprint& footprint = session.scene().footprint;
+  return cell_curvature(footprint, joint_tangents(footprint, mesh, nodes));
+}
+
+/// K of the cells in bins of x/L, L the half-span of the actuated boundary and x from its middle,
+/// at the nodes x; rows: bins, columns: mean, deviation, cells.
+Eigen::MatrixX3d bins_of(const Scene& scene, const Eigen::Matrix3Xd& x, const Eigen::VectorXd& K) {
+  // an assemblage need not lie about the origin
+  if (K.size() == 0) return {};
+  const auto ends = scene.actuated_boundary.row(0);
+  const double middle = 0.5 * (ends.minCoeff() + ends.maxCoeff()), L = ends.maxCoeff() - middle;
+  Eigen::VectorXd along(K.size());
+  for (Eigen::Index k = 0; k < K.size(); ++k) {
+    const auto& joints = scene.footprint.cells[std::size_t(k)].joints;
+    const double at = x(0, joints[0]) + x(0, joints[1]) + x(0, joints[2]) + x(0, joints[3]);
+    along[k] = (0.25 * at - middle) / L;
+  }
+  const CurvatureBins bins = curvature_bins(along, K);
+  Eigen::MatrixX3d rows(bins.mean.size(), 3);
+  rows << bins.mean, bins.deviation, bins.cells.cast<double>();
+  return rows;
+}
+
+/// The edge point of an end, or where it is joined that joint.
+int end_node(const RodMesh& mesh, int k) {
+  const std::vector<int>& rod = mesh.rods[std::size_t(k / 2)];
+  if (mesh.end_of(k) != RodEnd::joined) return mesh.joints + k;
+  return k % 2 == 0 ? rod.front() : rod.back();
+}
+
+/// What may be held: joints, edge points, far ends of tails.
+std::vector<int> supports_of(const RodMesh& mesh) {
+  std::vector<int> nodes(std::size_t(mesh.joints));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  for (int k = 0; k < mesh.edge_points; ++k)
+    if (mesh.end_of(k) != RodEnd::joined) nodes.push_back(mesh.joints + k);
+  for (int node : mesh.far_ends)
+    if (node >= 0) nodes.push_back(node);
+  return nodes;
+}
+
+/// What bends between two edges: the mean of their rest lengths; a ghost has none.
+double length_between(const Model& model, int e, int f) {
+  const auto length = [&](int edge) {
+    const ModelEdge& one = model.edges[std::size_t(edge)];
+    return one.EA > 0 ? one.rest_length : 0;
+  };
+  return 0.5 * (length(e) + length(f));
+}
+
+/// Curvature (1/mm) and bending energy over length (mJ/m), point after point.
+class Bending {
+ public:
+  Bending(const Model& model, const State& state, const Assembly& at)
+      : model_(model), at_(at), energy_(bending_of(model, state)) {}
+
+  void put(int bend) {
+    const auto& [e, f, stiffness, slot] = model_.bends[std::size_t(bend)];
+    const double length = length_between(model_, e, f);
+    curvature_.push_back(
+        record::curvature_between(at_.tangents.col(e), at_.tangents.col(f), length));
+    over_length_.push_back(1000 * energy_[bend] / length);
+  }
+  void put_straight() {
+    curvature_.push_back(0);
+    over_length_.push_back(0);
+  }
+  void fill(record::Frame& frame) const {
+    const auto vector_of = [](const std::vector<double>& values) {
+      return Eigen::VectorXd(
+          Eigen::Map<const Eigen::VectorXd>(values.data(), Eigen::Index(values.size())));
+    };
+    frame.curvature_per_mm = vector_of(curvature_);
+    frame.bending_mJ_per_m = vector_of(over_length_);
+  }
+
+ private:
+  const Model& model_;
+  const Assembly& at_;
+  Eigen::VectorXd energy_;
+  std::vector<double> curvature_, over_length_;
+};
+
+/// Forces, curvature and bending along the rods; ends that hold no direction do not bend.
+void put_rods(const Model& model, const State& state, const Assembly& at, record::Frame& frame) {
+  std::vector<double> force;
+  Bending bending(model, state, at);
+  // what closes rings comes last
+  int closing = int(model.bends.size());
+  for (const Model::Rod& rod : model.rods) closing -= rod.closed;
+  for (const Model::Rod& rod : model.rods) {
+    const auto ghost = [&](std::size_t k) {
+      return model.edges[std::size_t(rod.edges[k])].EA == 0;
+    };
+    const auto put_end = [&] {
+      // where a ring closes its two ends are one node
+      if (rod.closed)
+        bending.put(closing);
+      else
+        bending.put_straight();
+    };
+    for (std::size_t k = 0; k < rod.edges.size(); ++k) {
+      if (k > 0)
+        bending.put(rod.first_bend + int(k) - 1);
+      else if (!ghost(k))
+        put_end();
+      if (!ghost(k)) force.push_back(at.force[rod.edges[k]]);
+    }
+    if (!ghost(rod.edges.size() - 1)) put_end();
+    closing += rod.closed;
+  }
+  frame.axial_force_N = Eigen::Map<Eigen::VectorXd>(force.data(), long(force.size()));
+  bending.fill(frame);
+}
+
+/// What holds the supports: all of the force on a pinned node, with what turns its end; of a joint
+/// what its hold prescribes; the force of its spring where it is on one.
+void put_reactions(const RodMesh& mesh, const Model& model, const Assembly& at,
+                   const std::vector<Constraint>& holds, record::Frame& frame) {
+  const std::vector<int> supports = supports_of(mesh);
+  std::vector<Eigen::Vector3d> on(std::size_t(mesh.rod_nodes()), Eigen::Vector3d::Zero());
+  for (const int node : supports)
+    if (model.pinned(node)) on[std::size_t(node)] = at.gradient.col(node);
+  // a ghost is held by what holds its end
+  for (const Model::Rod& rod : model.rods) {
+    for (const int edge : {rod.ghost_begin, rod.ghost_end}) {
+      if (edge < 0) continue;
+      const ModelEdge& ghost = model.edges[std::size_t(edge)];
+      const bool begins = edge == rod.ghost_begin;
+      const int end = begins ? ghost.to : ghost.from, beyond = begins ? ghost.from : ghost.to;
+      if (end < mesh.rod_nodes()) on[std::size_t(end)] += at.gradient.col(beyond);
+    }
+  }
+  for (const Constraint& hold : holds)
+    on[std::size_t(hold.node)] = hold.part(at.gradient.col(hold.node));
+  for (const MeshSpring& spring : mesh.springs)
+    on[std::size_t(spring.node)] += at.gradient.col(spring.support);
+  frame.reactions_N.resize(3, long(supports.size()));
+  for (std::size_t k = 0; k < supports.size(); ++k)
+    frame.reactions_N.col(long(k)) = on[std::size_t(supports[k])];
+}
+
+/// Of the finest mesh's own state.
+void put_forces(const Session& session, record::Frame& frame) {
+  const NestedShell& shell = session.shell();
+  const int last = shell.levels() - 1;
+  const Assembly at = shell.forces(last);
+  put_rods(shell.model(last), shell.state().levels[std::size_t(last)], at, frame);
+  put_reactions(shell.mesh(last), shell.model(last), at, session.holds(), frame);
+}
+
+/// Adds the blocks on their own nets and the rods across their seams to a layout.
+Result<void> record_blocks(const Assemblage& blocks, const FlatFrame& flat,
+                           record::Layout& layout) {
+  for (int k = 0; k < blocks.blocks(); ++k) {
+    TRY(rods, blocks.rods(k, blocks.block(k).spacing / 8));
+    record::Part part;
+    part.name = blocks.block(k).name;
+    Eigen::Index points = 0;
+    for (const BlockRod& rod : *rods) points += rod.net.cols();
+    part.net.resize(3, points);
+    part.flat.resize(3, points);
+    int next = 0;
+    for (const BlockRod& rod : *rods) {
+      part.net.middleCols(next, rod.net.cols()) = rod.net;
+      part.flat.middleCols(next, rod.net.cols()) = flat.all(rod.flat);
+      part.rods.emplace_back();
+      for (Eigen::Index n = 0; n < rod.net.cols(); ++n) part.rods.back().push_back(next++);
+    }
+    layout.parts.push_back(std::move(part));
+  }
+  for (const Seam& seam : blocks.seams())
+    for (const SeamRod& rod : seam.rods)
+      layout.seam_rods.push_back(
+          {seam.name, rod.family == Family::u ? 'u' : 'v', rod.line_mm, rod.gap_mm, rod.kink_deg});
+  return {};
+}
+
+}  // namespace
+
+record::Summary summary_before(const preset::Preset& preset, const Scene& scene) {
+  record::Summary s;
+  s.preset = preset.name;
+  s.model = word_of(scene.rung);
+  s.model_reason = preset::model_reason(preset);
+  s.solved = scene.rung != RodModel::net;
+  s.rods = int(scene.footprint.rods.size());
+  s.joints = int(scene.footprint.joints.size());
+  s.cells = int(scene.footprint.cells.size());
+  return s;
+}
+
+Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
+  record::Layout layout;
+  layout.spacing_mm = scene.footprint.spacing;
+  layout.rod_diameter_mm = scene.rod_diameter_mm;
+  const auto other = [&](double diameter) { return diameter != scene.rod_diameter_mm; };
+  if (std::ranges::any_of(scene.drawn_diameters_mm, other))
+    layout.diameters_mm = scene.drawn_diameters_mm;
+  layout.length_scale_mm = scene.length_scale_mm;
+  for (const std::vector<int>& nodes : mesh.rods) {
+    layout.rods.emplace_back();
+    for (int node : nodes)
+      if (!mesh.is_ghost(node)) layout.rods.back().push_back(node);
+  }
+  for (const FootprintRod& rod : scene.footprint.rods)
+    layout.families.emplace_back(rod.family == Family::other ? "other" : name_of(rod.family));
+  layout.supports = supports_of(mesh);
+  for (int k = 0; k < mesh.joints; ++k) {
+    const FootprintJoint& joint = scene.footprint.joints[k];
+    layout.joints.push_back({joint.i, joint.j, joint.u, joint.v, k});
+  }
+  for (const FootprintCell& cell : scene.footprint.cells) {
+    const FootprintJoint& corner = scene.footprint.joints[cell.joints[0]];
+    const double half = 0.5 * scene.footprint.spacing;
+    layout.cells.push_back({cell.i, cell.j, corner.u + half, corner.v + half, cell.joints});
+  }
+  for (int k = 0; k < mesh.edge_points; ++k) layout.edge_points.push_back(end_node(mesh, k));
+  layout.original_boundary = scene.original_boundary;
+  layout.actuated_boundary = scene.actuated_boundary;
+  for (const PointLoad& load : scene.rods.points)
+    if (load.force.norm() > 0)
+      layout.loaded_joints.push_back({load.joint, load.force.normalized()});
+  if (scene.net) {
+    const Eigen::Matrix2Xd flat = mesh.flat.leftCols(mesh.rod_nodes());
+    TRY(net, places_on_net(scene, mesh));
+    layout.net_nodes = std::move(*net);
+    layout.flat_nodes = scene.flat.all(flat);
+  }
+  if (scene.blocks) {
+    TRY_DO(record_blocks(*scene.blocks, scene.flat, layout));
+  }
+  return layout;
+}
+
+void fill_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
+                const Eigen::VectorXd& K, record::Frame& frame) {
+  frame.cell_K = K;
+  frame.total_K = K.sum();
+  frame.K_bins = bins_of(scene, x, K);
+  frame.height_mm = x.row(2).leftCols(mesh.joints).maxCoeff() - scene.flat.origin.z();
+  frame.nodes = x.leftCols(mesh.rod_nodes());
+}
+
+record::Frame frame_of(const Session& session) {
+  const NestedShell& shell = session.shell();
+  const int last = shell.levels() - 1;
+  Eigen::VectorXd K = curvature(session, last);
+  if (shell.plan().extrapolate && last > 0) K = ((4 * K - curvature(session, last - 1)) / 3).eval();
+  record::Frame frame;
+  fill_shape(session.scene(), shell.finest(), session.nodes(), K, frame);
+  frame.energies = session.energies();
+  const Certificate certificate = session.certificate();
+  frame.residual_N = certificate.residual_N;
+  frame.negative_pivots = certificate.negative_pivots;
+  frame.error_estimate_mm = certificate.error_estimate_mm;
+  put_forces(session, frame);
+  return frame;
+}
+
+record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& model,
+                       const State& state, const Assembly& forces) {
+  const Eigen::Matrix3Xd nodes = nodes_of(mesh, model, state.x);
+  record::Frame frame;
+  fill_shape(scene, mesh, nodes,
+             cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)), frame);
+  frame.energies = forces.energies;
+  put_rods(model, state, forces, frame);
+  put_reactions(mesh, model, forces, {}, frame);
+  return frame;
+}
+
+record::Frame flat_frame(Session& session) {
+  const Checkpoint before = session.save();
+  const Report flat = session.begin_flat();
+  record::Frame frame;
+  const Scene& scene = session.scene();
+  fill_shape(scene, session.shell().finest(), session.nodes(),
+             Eigen::VectorXd::Zero(Eigen::Index(scene.footprint.cells.size())), frame);
+  frame.energies = session.shell().energies(session.shell().levels() - 1);
+  frame.negative_pivots = flat.certificate.negative_pivots;
+  frame.residual_N = flat.certificate.residual_N;
+  frame.error_estimate_mm = 0;
+  frame.boundary_radius_mm = scene.radius_begin_mm;
+  put_forces(session, frame);
+  session.restore(before);
+  return frame;
+}
+
+namespace {
+
+/// the moments to show
+std::vector<const TimedState*> shown(const std::vector<TimedState>& all, double spacing) {
+  std::size_t end = all.size();
+  while (end > 1 &&
+         max_column_norm(all[end - 1].state.x - all.back().state.x) < still_move * spacing)
+    --end;
+  std::vector<const TimedState*> few;
+  const double until = all[end - 1].time;
+  for (std::size_t k = 0; k < end; ++k)
+    if (all[k].time >= until * double(few.size() + 1) / most_frames_in_motion)
+      few.push_back(&all[k]);
+  return few;
+}
+
+}  // namespace
+
+std::vector<record::Frame> frames_in_motion(Session& session,
+                                            const std::vector<TimedState>& moments) {
+  std::vector<record::Frame> frames;
+  if (moments.empty()) return frames;
+  const Scene& scene = session.scene();
+  NestedShell& shell = session.shell();
+  const RodMesh& mesh = shell.mesh(0);
+  const MeshTransfer to_finest(mesh, shell.finest());
+  Linearisation& system = shell.system(0);
+  for (const TimedState* moment : shown(moments, scene.footprint.spacing)) {
+    const Eigen::Matrix3Xd nodes = nodes_of(mesh, shell.model(0), moment->state.x);
+    Eigen::Matrix3Xd x;
+    to_finest.nodes(nodes, x);
+    record::Frame frame;
+    fill_shape(scene, shell.finest(), x,
+               cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)),
+               frame);
+    system.gradient_at(moment->state);
+    frame.energies = system.assembly().energies;
+    frame.residual_N = system.residual();
+    frame.negative_pivots = -1;
+    frame.time_s = moment->time;
+    frame.event = "in motion";
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+}  // namespace gridshell::experiment

@@ -1,0 +1,281 @@
+#include "engine/simulate/indentation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/try.h"
+#include "engine/record/gauss_curvature.h"
+#include "engine/record/shape_measures.h"
+#include "engine/scene/net_design.h"
+#include "engine/simulate/actuation.h"
+#include "engine/simulate/equilibrium_path.h"
+#include "engine/simulate/frames.h"
+#include "engine/solve/equilibrium_path.h"
+
+namespace gridshell::experiment {
+namespace {
+
+Eigen::Vector3d direction_of(const preset::Indentation& indentation) {
+  const double degree = M_PI / 180, latitude = degree * indentation.latitude_deg,
+               longitude = degree * indentation.longitude_deg;
+  return {std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
+          std::sin(latitude)};
+}
+
+/// Index of the joint with the largest score; of equal ones that with the smallest (i, j).
+int best_joint(const Footprint& footprint, const Eigen::VectorXd& score) {
+  const double equal = 1e-9 * score.cwiseAbs().maxCoeff();
+  int best = 0;
+  for (int k = 1; k < int(footprint.joints.size()); ++k) {
+    const FootprintJoint &a = footprint.joints[k], &b = footprint.joints[best];
+    const bool before = std::pair(a.i, a.j) < std::pair(b.i, b.j);
+    if (score[k] > score[best] + equal || (before && score[k] > score[best] - equal)) best = k;
+  }
+  return best;
+}
+
+}  // namespace
+
+Result<void> not_on_boundary(const Footprint& footprint, int joint) {
+  if (std::ranges::find(footprint.held_joints, joint) == footprint.held_joints.end() ||
+      footprint.is_sprung(joint))
+    return {};
+  const FootprintJoint& at = footprint.joints[std::size_t(joint)];
+  return fail(Fault::bad_input,
+              fmt::format("joint [{}, {}] is a support: nothing can push it", at.i, at.j));
+}
+
+Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
+                         const Eigen::Matrix3Xd& joints) {
+  if (indentation.joint.size() == 2) {
+    for (std::size_t k = 0; k < footprint.joints.size(); ++k)
+      if (footprint.joints[k].i == indentation.joint[0] &&
+          footprint.joints[k].j == indentation.joint[1])
+        return int(k);
+    return fail(Fault::bad_input,
+                fmt::format("[indentation] joint = [{}, {}]: the footprint has no such joint",
+                            indentation.joint[0], indentation.joint[1]));
+  }
+  const Eigen::VectorXd height = joints.row(2).transpose();
+  if (indentation.at == preset::IndentationPlace::highest && indentation.latitude_deg == 90)
+    return best_joint(footprint, height);
+  return best_joint(footprint,
+                    joints.colwise().normalized().transpose() * direction_of(indentation));
+}
+
+Result<PushOf> push_of(const preset::Indentation& asked, const Scene& scene, const RodMesh& mesh,
+                       const Eigen::Matrix3Xd& nodes) {
+  const Eigen::Index joints = Eigen::Index(scene.footprint.joints.size());
+  Eigen::Matrix3Xd places = nodes.leftCols(joints);
+  if (scene.net) {
+    TRY(net, points_on(*scene.net, mesh.flat.leftCols(joints)));
+    places = std::move(*net);
+  }
+  TRY(joint, pushed_joint(asked, scene.footprint, places));
+  TRY_DO(not_on_boundary(scene.footprint, *joint));
+  PushOf push{*joint};
+  if (scene.net) {
+    const FootprintJoint& at = scene.footprint.joints[std::size_t(*joint)];
+    TRY(point, scene.net->at(at.u, at.v));
+    push.displacement = point->normal();
+  } else {
+    push.displacement = joint_tangents(scene.footprint, mesh, nodes).normal(*joint);
+    if (push.displacement.isZero(0))
+      return fail(Fault::bad_input,
+                  "[indentation]: no two rods cross at the joint pushed, so the "
+                  "shell has no normal there");
+  }
+  const double depth = asked.depth_mm > 0 ? asked.depth_mm : asked.depth * scene.length_scale_mm;
+  push.displacement *= asked.direction == preset::Direction::inward ? -depth : depth;
+  return push;
+}
+
+Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
+                               const preset::Indentation& asked, const LevelPlan& plan,
+                               const Watch& watch) {
+  TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch));
+  Session& session = actuated->session;
+  TRY(push, push_of(asked, *scene, session.shell().finest(), session.nodes()));
+  const auto joints = Eigen::Index(scene->footprint.joints.size());
+  Eigen::Matrix3Xd before = session.nodes().leftCols(joints);
+  HeldShell held{std::move(*actuated), *push, std::move(before)};
+  held.course.earlier = std::exchange(held.course.legs, {});
+  Constraint hold{push->joint};
+  if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
+  const Report taken = held.course.session.begin_joint_push({hold}, {push->displacement}, watch);
+  if (taken.end != Outcome::reached)
+    return fail(Fault::no_equilibrium, "the unloaded shell cannot be held at the joint pushed");
+  return held;
+}
+
+namespace {
+
+/// One push of one shell, with what its frames need to know.
+struct Pushed : HeldShell {
+  double depth_mm = 0;
+};
+
+At at_depth(double depth_mm) {
+  return [depth_mm](double t, std::optional<double> error) {
+    auto text = fmt::format("at depth {:.3f} mm", t * depth_mm);
+    if (error) text += fmt::format(" ± {:.1g} mm", *error * depth_mm);
+    return text;
+  };
+}
+
+/// Where the path that was lost turns back, as the arc length says.
+std::string turning_back(Session& session, const PathSegment& leg, double depth_mm,
+                         const Watch& watch) {
+  // the last one before the jump: the event's own place may be extrapolated past what came after it
+  const Event& event = leg.report.events.front();
+  const LoadStep* last = nullptr;
+  for (const LoadStep& station : leg.trail.stations) {
+    if (event.to && station.point.t == *event.to) break;
+    last = &station;
+  }
+  if (!last) return {};
+  const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
+  const auto turn = turning_point(session.shell().system(0), session.shell().motion(0), last->point,
+                                  leg.way(), fine, watch);
+  return turn ? fmt::format(" (on the leading mesh its path turns back at {:.3f} mm)",
+                            *turn * depth_mm)
+              : std::string();
+}
+
+/// Why the push stopped, or what it came past, in its own words: the first leg to which anything
+/// happened; empty where the common ones serve.
+std::string reason_of(Pushed& pushed, const At& at, const Watch& watch) {
+  EquilibriumPath& course = pushed.course;
+  const auto told =
+      std::find_if(course.legs.begin(), course.legs.end(), [](const PathSegment& leg) {
+        return !leg.report.events.empty() || leg.report.end != Outcome::reached;
+      });
+  if (told == course.legs.end() || told->report.events.empty()) return {};
+  const PathSegment& leg = *told;
+  const Scene& scene = course.session.scene();
+  const Event& first = leg.report.events.front();
+  std::string reason;
+  if (course.limit == record::Limit::snap)
+    reason = fmt::format(
+        "held at the joint, the shell lost its {} {}{} and came to rest in another state",
+        first.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
+        at(first.t, first.error), turning_back(course.session, leg, pushed.depth_mm, watch));
+  const double strain = leg.report.certificate.largest_strain;
+  if (course.limit == record::Limit::locking && strain > 0)
+    reason =
+        fmt::format("{} ({:.4f} of the length scale) and {:.4g} N the rods are at their length: {}",
+                    at(leg.report.t, {}), leg.report.t * pushed.depth_mm / scene.length_scale_mm,
+                    pushed.push.displacement.normalized().dot(course.session.force(0)),
+                    strain > 0.99 * scene.max_strain
+                        ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
+                        : "the push meets 100 times its first stiffness");
+  return reason;
+}
+
+void tell(Pushed& pushed, const Watch& watch) {
+  EquilibriumPath& course = pushed.course;
+  const At at = at_depth(pushed.depth_mm);
+  const auto doubt = std::exchange(course.mesh_disagreement, {});
+  set_limit(course, at);
+  if (auto reason = reason_of(pushed, at, watch); !reason.empty())
+    course.limit_reason = std::move(reason);
+  const auto say = [&](const std::string& more) {
+    course.limit_reason += (course.limit_reason.empty() ? "" : "; ") + more;
+  };
+  // which shell was pushed hangs on what happened before
+  if (const auto places = branch_loss_places(course.earlier, at_progress); !places.empty()) {
+    if (course.limit == record::Limit::none) course.limit = record::Limit::snap;
+    say("before the push the path lost its stability " + places +
+        " and came to rest in another state");
+  }
+  if (!doubt.empty()) say(doubt);
+  course.mesh_disagreement = doubt;
+}
+
+Result<Pushed> follow_push(const std::shared_ptr<const Scene>& scene,
+                           const preset::Indentation& asked, const LevelPlan& plan,
+                           const Watch& watch) {
+  TRY(held, hold_to_push(scene, asked, plan, watch));
+  const double depth_mm = held->push.displacement.norm();
+  Pushed pushed{std::move(*held), depth_mm};
+  EquilibriumPath& course = pushed.course;
+  for (double to : asked.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
+    const PathSegment& leg = follow_segment(course, to, {}, watch);
+    if (watch.cancelled()) return stopped();
+    if (leg.report.end != Outcome::reached) break;
+  }
+  return pushed;
+}
+
+Caption caption_of(const Pushed& pushed) {
+  const Session& session = pushed.course.session;
+  return {at_depth(pushed.depth_mm),
+          [&](record::Frame& frame, double t, double) {
+            frame.actuation = 1;
+            frame.boundary_radius_mm = session.scene().radius_end_mm;
+            frame.depth_mm = t * pushed.depth_mm;
+          },
+          [&](record::Frame& frame) {
+            frame.force_N = pushed.push.displacement.normalized().dot(session.force(0));
+            const PushReach reach =
+                push_reach(pushed.before, frame.nodes.leftCols(pushed.before.cols()),
+                           session.shell().state().t * pushed.depth_mm);
+            frame.reach_above_tenth = reach.above_tenth;
+            frame.reach_above_half = reach.above_half;
+            frame.lowest_latitude_deg = reach.lowest_latitude_deg;
+          }};
+}
+
+/// Where on the push a frame's progress lies.
+PathSample sample_of(std::size_t index, double progress, bool unload) {
+  if (!unload) return {int(index), 0, progress, progress};
+  const bool back = progress > 0.5;
+  return {int(index), back ? 1u : 0u, back ? 2 * (1 - progress) : 2 * progress, progress};
+}
+
+/// Whether a push came as far as a sample.
+bool came_to(const EquilibriumPath& course, const PathSample& sample) {
+  if (sample.leg >= course.legs.size()) return false;
+  const PathSegment& leg = course.legs[sample.leg];
+  return leg.way() * (leg.end() - sample.t) >= 0;
+}
+
+}  // namespace
+
+Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
+                                        const preset::Indentation& indentation,
+                                        const std::vector<double>& progress, record::Sink& sink,
+                                        Watch& watch) {
+  auto kept = converged_path_holder<Pushed>(
+      *scene,
+      [&](const LevelPlan& plan, const Watch& w) {
+        return follow_push(scene, indentation, plan, w);
+      },
+      watch);
+  if (!kept) return tl::unexpected<Error>(kept.error());
+  tell(*kept, watch);
+  TRY(layout, layout_of(*scene, kept->course.session.shell().finest()));
+  layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
+  layout->extrapolated = kept->course.session.shell().plan().extrapolate;
+  TRY_DO(sink.begin(std::move(*layout)));
+  const Checkpoint end = kept->course.session.save();
+  PathSampler sampler(kept->course, caption_of(*kept), sink, watch, progress.size());
+  for (std::size_t k = 0; k < progress.size(); ++k) {
+    PathSample sample = sample_of(k, progress[k], indentation.unload);
+    Result<bool> taken = false;
+    if (came_to(kept->course, sample)) taken = sampler.at(sample);
+    if (!taken) return tl::unexpected<Error>(taken.error());
+    if (*taken || kept->course.limit != record::Limit::locking) continue;
+    // the state in which the rods came to their length
+    kept->course.session.restore(end);
+    sample.t = end.state.t;
+    TRY_DO(sampler.stand(sample, "locking", sample.t));
+    break;
+  }
+  return std::move(kept->course);
+}
+
+}  // namespace gridshell::experiment

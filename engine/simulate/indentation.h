@@ -1,0 +1,57 @@
+// A point load by prescribed displacement: one joint of an actuated gridshell is pushed along the
+// normal [Baek 2018, 'Nonlocal Response to Point Loading'].
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/record/trajectory.h"
+#include "engine/simulate/equilibrium_path.h"
+
+namespace gridshell::experiment {
+
+/// Errors (bad_input): the boundary holds that joint.
+Result<void> not_on_boundary(const Footprint& footprint, int joint);
+
+/// The joint nearest to the place a preset asks for, as seen from the origin: by its direction on
+/// the net, or in the unloaded shell (`joints`, 3 x n) where there is no net. Ties go to the
+/// smallest (i, j). Errors (bad_input): a joint by indices that the footprint does not have.
+Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
+                         const Eigen::Matrix3Xd& joints);
+
+/// What a preset pushes, and where to: the joint, and its whole displacement along the normal, the
+/// net's or that of the unloaded shell.
+struct PushOf {
+  int joint = 0;
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< mm
+};
+
+/// For the unloaded shell with the nodes of `mesh` at `nodes`. Errors (bad_input) as
+/// pushed_joint().
+Result<PushOf> push_of(const preset::Indentation& indentation, const Scene& scene,
+                       const RodMesh& mesh, const Eigen::Matrix3Xd& nodes);
+
+/// An actuated shell that is held at the joint to be pushed, and what is to be done to it.
+struct HeldShell {
+  EquilibriumPath course;
+  PushOf push;
+  Eigen::Matrix3Xd before;  ///< joints of the unloaded shell, 3 x n
+};
+
+/// Actuates on the meshes of `plan` and takes hold. Errors: bad_input as push_of(), no_equilibrium
+/// (no shell to push, or it cannot be held), cancelled.
+Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
+                               const preset::Indentation& indentation, const LevelPlan& plan,
+                               const Watch& watch);
+
+/// Actuates, then pushes. Frames sample the push at `progress` in [0, 1] (of the depth; with
+/// `unload` of the way there and back), the first being the unloaded shell; the solver takes load
+/// steps of its own in between. Every frame is certified: the residual is that of all forces but
+/// the one on the joint. Errors: bad_input, no_equilibrium (no shell to push), cancelled, the
+/// sink's.
+Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
+                                        const preset::Indentation& indentation,
+                                        const std::vector<double>& progress, record::Sink& sink,
+                                        Watch& watch);
+
+}  // namespace gridshell::experiment

@@ -1,0 +1,241 @@
+#include "engine/simulate/mesh_choice.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/system_info.h"
+
+namespace gridshell {
+namespace {
+
+// of all meshes of a run together; measured on shells of 24 to 150 rods and 100 000 to 1 500 000
+// unknowns: 400 to 820 bytes on the bend rung, more for the larger ones, and 1200 on the twist
+// rung
+constexpr double bytes_an_unknown = 1000, bytes_a_twist_unknown = 2000;
+// of one mesh of a large net: what it has more in its factor, a joint, for each time that there are
+// twice as many joints as this; measured on 48, 96 and 192 rods a direction (41 MB, 240 MB, 1.2 GB)
+constexpr double bytes_a_doubling = 6500, joints_of_a_small_net = 1800;
+
+}  // namespace
+
+double unknowns_of(const Footprint& footprint, RodModel rung, int edges_per_segment) {
+  double segments = 0;
+  for (const FootprintRod& rod : footprint.rods) segments += double(rod.joints.size()) + 1;
+  const double edges = segments * edges_per_segment;
+  if (rung == RodModel::net) return 0;
+  // an edge brings a node, and joints, which two rods share, are counted twice
+  const double nodes = edges - double(footprint.joints.size());
+  return 3 * nodes + (rung == RodModel::twist ? edges : 0);
+}
+
+double memory_GB(const Footprint& footprint, RodModel rung, const LevelPlan& plan) {
+  double unknowns = 0;
+  for (const int edges : plan.edges_per_segment) unknowns += unknowns_of(footprint, rung, edges);
+  const double joints = double(footprint.joints.size());
+  const double doublings = std::max(0.0, std::log2(joints / joints_of_a_small_net));
+  const double meshes = double(plan.edges_per_segment.size());
+  return 1e-9 * (unknowns * (rung == RodModel::twist ? bytes_a_twist_unknown : bytes_an_unknown) +
+                 meshes * joints * doublings * bytes_a_doubling);
+}
+
+Result<void> fits_memory(const Scene& scene, const LevelPlan& plan) {
+  const double asked = scene.memory_GB;
+  const double given = asked > 0 ? asked : default_memory_GB();
+  const double wanted = memory_GB(scene.footprint, scene.rung, plan);
+  if (given == 0 || wanted <= given) return {};
+  const int edges = plan.edges_per_segment.back();
+  return fail(
+      Fault::bad_input,
+      fmt::format("{} edges a segment, {:.3g} unknowns, take about {:.2g} GB, more than the {:.2g} "
+                  "GB of {}; {} needs less",
+                  edges, unknowns_of(scene.footprint, scene.rung, edges), wanted, given,
+                  asked > 0 ? "[accuracy] memory_GB"
+                            : "half of the machine's memory ([accuracy] "
+                              "memory_GB changes that)",
+                  scene.edges_per_segment > 0 ? "a smaller [accuracy] edges_per_segment"
+                                              : "a larger [accuracy] tolerance"));
+}
+
+}  // namespace gridshell
+
+namespace gridshell::experiment {
+namespace {
+
+constexpr int most_leaders = 3;
+constexpr double near_t = 0.05;  // events that two leaders place so near are the same
+// of turns: frames between the coarser leader's and the true one show the state beyond
+constexpr double same_t = 0.005;
+
+int leading_edges_of(const EquilibriumPath& course) {
+  return course.asked.edges_per_segment.front();
+}
+
+/// Whether every leg came to its end, or to a limit of the rods.
+bool whole(const EquilibriumPath& course) {
+  return std::all_of(course.legs.begin(), course.legs.end(), [](const PathSegment& leg) {
+    return leg.report.end == Outcome::reached || leg.report.end == Outcome::locked;
+  });
+}
+
+std::optional<std::string> leg_disagreement(const PathSegment& a, const PathSegment& b) {
+  const auto &seen = a.report.events, &found = b.report.events;
+  if (seen.size() != found.size())
+    return fmt::format("{} and {} losses of the branch", seen.size(), found.size());
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const bool locks = seen[k].kind == Event::Kind::locked;
+    if (locks != (found[k].kind == Event::Kind::locked) ||
+        seen[k].to.has_value() != found[k].to.has_value())
+      return "events of another kind";
+    if (std::abs(seen[k].t - found[k].t) > near_t)
+      return fmt::format("path parameters {:.3f} and {:.3f} of an event", seen[k].t, found[k].t);
+    if (seen[k].to && std::abs(*seen[k].to - *found[k].to) > near_t)
+      return fmt::format("rests found at path parameters {:.3f} and {:.3f}", *seen[k].to,
+                         *found[k].to);
+  }
+  if (std::abs(a.end() - b.end()) > near_t)
+    return fmt::format("ends at path parameters {:.3f} and {:.3f}", a.end(), b.end());
+  return std::nullopt;
+}
+
+/// The places of events in both, extrapolated from those of two leaders, the finer of twice the
+/// edges.
+void extrapolate_events(std::vector<PathSegment>& coarse, std::vector<PathSegment>& fine) {
+  for (std::size_t k = 0; k < coarse.size(); ++k) {
+    auto &seen = coarse[k].report.events, &found = fine[k].report.events;
+    for (std::size_t e = 0; e < seen.size(); ++e) {
+      const double step = found[e].t - seen[e].t;
+      // of a lock the finest mesh decides, and the state that is kept is its own
+      if (seen[e].kind != Event::Kind::locked) seen[e].t = found[e].t = found[e].t + step / 3;
+      seen[e].error = found[e].error = std::abs(step) / 3;
+    }
+  }
+}
+
+/// Whether a path turns back clearly further on where a finer leader leads.
+bool turns_later(const std::vector<PathSegment>& coarse, const std::vector<PathSegment>& fine) {
+  for (std::size_t k = 0; k < coarse.size(); ++k) {
+    const auto &early = coarse[k].report.events, &late = fine[k].report.events;
+    for (std::size_t e = 0; e < early.size(); ++e)
+      if (early[e].kind == Event::Kind::turned_back &&
+          coarse[k].way() * (late[e].t - early[e].t) > same_t)
+        return true;
+  }
+  return false;
+}
+
+/// Whether the finest mesh, too, loses its stability where two leaders say that the shell does:
+/// past the event, by more than they differ. Where the leader cannot be followed there, it does.
+bool seen_on_finest(EquilibriumPath& fine, const PathSegment& leg, const Event& event,
+                    double coarse_t, const Watch& watch) {
+  constexpr double least = 2e-3;  // in the path parameter
+  const double apart = std::abs(event.t - coarse_t);
+  const double there = event.t + leg.way() * (apart + least);
+  Session& session = fine.session;
+  const Checkpoint end = session.save();
+  const Report beyond = session.sample(there, load_step_before(leg, event.t), true, watch);
+  session.restore(end);
+  return beyond.end != Outcome::reached || !beyond.certificate.stable();
+}
+
+/// Losses of stability that the leaders of both courses see and the finest mesh does not: a
+/// sentence, or nothing. Motions that are over are not looked at: the actuation before a push, and
+/// steps.
+std::optional<std::string> only_on_leaders(const EquilibriumPath& coarse, EquilibriumPath& fine,
+                                           const Watch& watch) {
+  if (!fine.single_motion) return std::nullopt;
+  for (std::size_t k = 0; k < fine.legs.size(); ++k) {
+    const auto &seen = coarse.legs[k].report.events, &events = fine.legs[k].report.events;
+    for (std::size_t e = 0; e < events.size(); ++e) {
+      const bool left = events[e].kind == Event::Kind::stability_lost && events[e].to;
+      if (left && !seen_on_finest(fine, fine.legs[k], events[e], seen[e].t, watch))
+        return fmt::format(
+            "{} edges a segment do not lose their stability at path parameter {:.3f}",
+            fine.session.shell().plan().edges_per_segment.back(), events[e].t);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
+                                             const EquilibriumPath& fine) {
+  for (const auto legs : {&EquilibriumPath::earlier, &EquilibriumPath::legs}) {
+    const auto &a = coarse.*legs, &b = fine.*legs;
+    if (a.size() != b.size()) return "another way from the flat";
+    for (std::size_t k = 0; k < a.size(); ++k)
+      if (auto found = leg_disagreement(a[k], b[k])) return found;
+  }
+  if (coarse.legs.empty() || coarse.legs.back().end() != fine.legs.back().end())
+    return std::nullopt;  // both ended early, at states of their own
+  const double apart = distance_of_joints(coarse.session, fine.session.nodes()),
+               d = coarse.session.scene().footprint.spacing;
+  if (apart > near_spacings * d) return fmt::format("ends {:.3g} mm apart", apart);
+  return std::nullopt;
+}
+
+Result<EquilibriumPath> confirm_on_finer_meshes(const Scene& scene, EquilibriumPath course,
+                                                const Follow& follow, const Watch& watch) {
+  // the first buckling is a choice too, which the coarsest mesh made
+  const auto chose = [&] { return course.has_events() || !scene.from_net; };
+  auto plan = std::optional(course.asked);
+  for (int asked = 0; asked < most_leaders && chose(); ++asked) {
+    plan = with_finer_leader(*plan);
+    if (!plan || !fits_memory(scene, *plan)) {
+      course.mesh_disagreement = fmt::format(
+          "no mesh finer than {} edges a segment led to confirm it", leading_edges_of(course));
+      return course;
+    }
+    auto fine = follow(*plan, watch);
+    if (watch.cancelled()) return stopped();
+    if (!fine) {
+      course.mesh_disagreement = fmt::format("with {} edges a segment leading: {}",
+                                             plan->edges_per_segment.front(), fine.error().message);
+      return course;
+    }
+    fine->asked = *plan;
+    const auto keep_fine = [&] {
+      fine->session.charge(course.session.effort());
+      fine->seconds_setup += course.seconds_setup;
+      course = std::move(*fine);
+    };
+    auto differs = mesh_disagreement(course, *fine);
+    if (!differs) differs = only_on_leaders(course, *fine, watch);
+    if (!differs) {
+      const bool later =
+          course.single_motion && !scene.leader_asked && turns_later(course.legs, fine->legs);
+      extrapolate_events(course.legs, fine->legs);
+      extrapolate_events(course.earlier, fine->earlier);
+      if (later)
+        keep_fine();
+      else
+        course.session.charge(fine->session.effort());
+      course.mesh_disagreement.clear();
+      return course;
+    }
+    const std::string disagreed =
+        fmt::format("leading meshes of {} and {} edges a segment do not agree: {}",
+                    leading_edges_of(course), leading_edges_of(*fine), *differs);
+    // whoever asks for a leader has its path
+    if (scene.leader_asked) {
+      course.mesh_disagreement = disagreed;
+      course.session.charge(fine->session.effort());
+      return course;
+    }
+    // a path that came through is not given up for one that did not: a still finer one is asked
+    if (whole(course) && !whole(*fine)) {
+      course.mesh_disagreement =
+          fmt::format("a leading mesh of {} edges a segment did not come so far: {}",
+                      leading_edges_of(*fine), *differs);
+      course.session.charge(fine->session.effort());
+      continue;
+    }
+    keep_fine();
+    course.mesh_disagreement = disagreed;
+    if (!chose()) course.mesh_disagreement.clear();
+  }
+  return course;
+}
+
+}  // namespace gridshell::experiment

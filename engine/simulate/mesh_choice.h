@@ -1,0 +1,44 @@
+// What the meshes of a run take of the machine's memory, worked out before any is built.
+#pragma once
+
+#include "engine/core/result.h"
+#include "engine/footprint/footprint.h"
+#include "engine/scene/scene.h"
+#include "engine/simulate/equilibrium_path.h"
+#include "engine/solve/mesh_levels.h"
+
+namespace gridshell {
+
+/// Unknowns of a mesh with so many edges a segment, to within a few per cent.
+double unknowns_of(const Footprint& footprint, RodModel rung, int edges_per_segment);
+
+/// Gigabytes that a run on these meshes takes at most, all of them and their factors at a time.
+double memory_GB(const Footprint& footprint, RodModel rung, const LevelPlan& plan);
+
+/// Whether that is within [accuracy] memory_GB, by default half of the machine's. Errors: bad_input
+/// with what was asked for, what it would take, and what there is.
+Result<void> fits_memory(const Scene& scene, const LevelPlan& plan);
+
+}  // namespace gridshell
+
+// What happens on a path belongs to the shell, not to the mesh that led: it is looked for on a
+// finer leader too.
+
+namespace gridshell::experiment {
+
+/// Whether two courses on different meshes tell the same: the same legs with the same events, which
+/// lie near each other, to the same end. Otherwise a sentence says what they differ in.
+std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
+                                             const EquilibriumPath& fine);
+
+/// A course that began in a buckled state out of the flat, or on which something happened, followed
+/// once more with leading meshes of twice the edges.
+/// Where both tell the same, the events' places are extrapolated (the error falls fourfold), with
+/// an error, and where the path turns back clearly later with the finer one, its course is kept;
+/// where they do not, the finer one is asked against a still finer one, at most three
+/// times. Where a leader was asked for, its course is kept, and what a finer one does not confirm
+/// is said. What remains in doubt is said. Errors: cancelled.
+Result<EquilibriumPath> confirm_on_finer_meshes(const Scene& scene, EquilibriumPath course,
+                                                const Follow& follow, const Watch& watch);
+
+}  // namespace gridshell::experiment

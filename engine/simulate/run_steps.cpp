@@ -1,0 +1,291 @@
+#include "engine/core/try.h"
+#include "engine/simulate/steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/simulate/actuation.h"
+#include "engine/simulate/equilibrium_path.h"
+#include "engine/simulate/frames.h"
+
+namespace gridshell::experiment {
+namespace {
+
+using preset::StepKind;
+
+/// One step that was done: its leg of the course stands at the same place.
+struct Done {
+  BoundaryPosition before, after;
+  GrippedJoint taken;
+  Checkpoint way_end, end;  ///< where its way ended, and where it stands after it
+};
+
+/// A hand's whole work on one plan of meshes.
+struct Work {
+  EquilibriumPath course;
+  Checkpoint begin;
+  std::vector<Done> done = {};
+};
+
+/// Whether frames are taken on the way of a step, which a leg then knows: of a push, and of a move
+/// of the whole boundary, before and after which no edge point lies off it.
+bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
+  if (steps[k].deed != StepKind::move) return steps[k].deed == StepKind::push;
+  const auto before = std::find_if(steps.rend() - std::ptrdiff_t(k), steps.rend(),
+                                   [](const auto& step) { return step.deed == StepKind::move; });
+  return steps[k].edge_points.empty() && (before == steps.rend() || before->edge_points.empty());
+}
+
+bool snapped(const PathSegment& leg) {
+  return std::ranges::any_of(leg.report.events,
+                             [](const Event& one) { return one.to.has_value(); });
+}
+
+/// A step without a way is a leg from its begin to its end, which is all that is known of it.
+void close(PathSegment& leg, const Session& session) {
+  if (!leg.trail.stations.empty()) {
+    leg.from = leg.trail.stations.front().point.t;
+    // one mesh alone knows no error
+    for (LoadStep& station : leg.trail.stations)
+      if (std::isnan(station.certificate.error_estimate_mm))
+        station.certificate.error_estimate_mm = session.certificate().error_estimate_mm;
+    return;
+  }
+  leg.trail.stations.push_back({session.shell().point(), session.certificate()});
+  leg.from = leg.to = leg.end();
+}
+
+Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
+                      const std::vector<preset::Step>& steps, const LevelPlan& plan,
+                      const Watch& watch) {
+  TRY(actuated, follow_whole_actuation(scene, plan, "to begin with", watch));
+  Checkpoint begin = actuated->session.save();
+  Work work{std::move(*actuated), std::move(begin)};
+  work.course.earlier = std::exchange(work.course.legs, {});
+  work.course.single_motion = false;
+  Session& session = work.course.session;
+  BoundaryPosition boundary = BoundaryPosition::of(*scene);
+  GrippedJoints grips;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    Done done{.before = boundary, .after = {}, .taken = {}, .way_end = {}, .end = {}};
+    grips.note(session);
+    const StepKind deed = steps[k].deed;
+    const double to = deed == StepKind::move ? parameter_at(progress_of(steps[k], *scene)) : 1;
+    PathSegment& leg = work.course.legs.emplace_back(PathSegment{0, to, {}, {}});
+    StepPath way;
+    auto report = apply_step(session, boundary, steps[k], watch, &way);
+    if (watch.cancelled()) return stopped();
+    if (!report)
+      return fail(report.error().fault,
+                  fmt::format("[[step]] {}: {}", k + 1, report.error().message));
+    leg.report = std::move(*report);
+    leg.trail = std::move(way.trail);
+    close(leg, session);
+    done.way_end = std::move(way.end);
+    done.after = boundary;
+    done.taken = grips.last(session);
+    done.end = session.save();
+    work.done.push_back(std::move(done));
+    if (leg.report.end != Outcome::reached) break;
+  }
+  return work;
+}
+
+/// Hands the frames of one work to a sink.
+class Show {
+ public:
+  Show(Work& work, const std::vector<preset::Step>& steps, int frames, record::Sink& sink,
+       Watch& watch)
+      : work_(work), steps_(steps), watch_(watch), shares_(frames_of_steps(steps, frames)) {
+    for (const int share : shares_) count_ += share;
+    sampler_.emplace(work.course, caption(), sink, watch, std::size_t(count_) + 1);
+  }
+
+  Result<void> all() {
+    Session& session = work_.course.session;
+    if (!work_.done.empty()) meshes_ = work_.done.back().end.plan;
+    if (auto stood = stand(work_.begin); !stood) return stood;
+    boundary_ = {1, 1};
+    // of no step
+    if (auto first = sampler_->stand({0, steps_.size(), 1, 0}, "", 1); !first) return first;
+    shown_ = true;
+    for (step_ = 0; step_ < work_.done.size(); ++step_)
+      if (auto shown = one(); !shown) return shown;
+    session.restore(work_.done.empty() ? work_.begin : work_.done.back().end);
+    return {};
+  }
+
+ private:
+  /// Stands in a state, on the meshes of the last one: frames have the same nodes. Errors:
+  /// no_equilibrium where these meshes do not have it.
+  Result<void> stand(const Checkpoint& state) {
+    Session& session = work_.course.session;
+    session.restore(state);
+    if (state.plan.edges_per_segment == meshes_.edges_per_segment) return {};
+    const auto fine = session.remesh(meshes_, watch_);
+    if (watch_.cancelled()) return stopped();
+    if (fine && fine->end == Outcome::reached) return {};
+    return fail(Fault::no_equilibrium,
+                fmt::format("the steps end on {} edges a segment, which do not have the state {} "
+                            "step {}; what may help: --set accuracy.leading_edges={}",
+                            meshes_.edges_per_segment.back(), shown_ ? "after" : "before",
+                            step_ + 1, meshes_.edges_per_segment.front()));
+  }
+
+  /// The frames on the way of a step, and the one at its end.
+  Result<void> one() {
+    const Done& done = work_.done[step_];
+    const PathSegment& leg = work_.course.legs[step_];
+    const int share = shares_[step_];
+    taken_ = done.taken;
+    boundary_ = {done.before.progress, done.after.progress};
+    for (int k = 1; k < share; ++k) {
+      const double part = double(k) / share;
+      const bool moves = steps_[step_].deed == StepKind::move;
+      const double t = moves ? parameter_at(boundary_[0] + part * (boundary_[1] - boundary_[0]))
+                             : leg.from + part * (leg.end() - leg.from);
+      if (auto taken = between(done, sample(t)); !taken) return taken;
+    }
+    if (auto stood = stand(done.end); !stood) return stood;
+    const PathSample last = sample(leg.end());
+    return sampler_->stand(last, event(last), last.t);
+  }
+
+  /// A sample of the way, on the meshes of its end; what has no state on them is left out.
+  Result<void> between(const Done& done, const PathSample& sample) {
+    Session& session = work_.course.session;
+    session.restore(done.way_end);
+    const CertifiedSample stood = certify_sample(work_.course, sample, watch_);
+    if (watch_.cancelled()) return stopped();
+    if (stood.report.end != Outcome::reached) return {};
+    if (session.shell().plan().edges_per_segment != meshes_.edges_per_segment) {
+      const auto fine = session.remesh(meshes_, watch_);
+      if (watch_.cancelled()) return stopped();
+      if (!fine || fine->end != Outcome::reached) return {};
+    }
+    return sampler_->stand(sample, sampler_->events(sample, stood.past), stood.past);
+  }
+
+  PathSample sample(double t) {
+    ++index_;
+    return {index_, step_, t, double(index_) / count_};
+  }
+
+  /// What the end of a step says.
+  std::string event(const PathSample& sample) const {
+    const PathSegment& leg = work_.course.legs[step_];
+    if (leg.report.end == Outcome::locked) return "locking";
+    if (has_way(steps_, step_)) return sampler_->events(sample, sample.t);
+    return text_of(steps_[step_]) + (snapped(leg) ? ": snap to another state" : "");
+  }
+
+  Caption caption() {
+    return {[](double t, std::optional<double>) { return fmt::format("at {:.3f} of its way", t); },
+            [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
+            [this](record::Frame& frame) { fill_push(work_.course.session, taken_, frame); }};
+  }
+
+  void put_boundary(record::Frame& frame, double t) const {
+    const bool on_way = step_ < steps_.size() && steps_[step_].deed == StepKind::move &&
+                        has_way(steps_, step_) && boundary_[0] != boundary_[1];
+    frame.actuation = on_way ? progress_at(t) : boundary_[1];
+    frame.boundary_radius_mm = work_.course.session.scene().radius_at(frame.actuation);
+  }
+
+  Work& work_;
+  const std::vector<preset::Step>& steps_;
+  Watch& watch_;
+  LevelPlan meshes_ = work_.begin.plan;  // of all frames
+  std::vector<int> shares_;
+  int count_ = 0, index_ = 0;
+  std::size_t step_ = 0;
+  bool shown_ = false;  // the state before the first step
+  GrippedJoint taken_;
+  std::array<double, 2> boundary_{1, 1};  // progress before and after the step
+  std::optional<PathSampler> sampler_;
+};
+
+/// "2 push [0, 0]: reached, residual 3.1e-10 N, stable"
+std::string message_of(std::size_t k, const preset::Step& step, const PathSegment& leg) {
+  const Report& report = leg.report;
+  std::string text = fmt::format("{} {}: {}", k + 1, text_of(step), words_of(report.end).name);
+  for (const Event& event : report.events)
+    if (event.to) text += fmt::format(", snap to another state at {:.3f} of its way", event.t);
+  const Certificate& certificate = report.certificate;
+  text += fmt::format(", residual {:.2g} N, ", certificate.residual_N);
+  text += certificate.stable()
+              ? "stable"
+              : fmt::format("unstable: {} negative pivots", certificate.negative_pivots);
+  if (std::isfinite(certificate.error_estimate_mm))
+    text += fmt::format(", error {:.2g} mm", certificate.error_estimate_mm);
+  return text;
+}
+
+/// Which step the limit belongs to, in front of its reason.
+void tell(Work& work, const std::vector<preset::Step>& steps) {
+  EquilibriumPath& course = work.course;
+  set_limit(course, [](double t, std::optional<double>) {
+    return fmt::format("at path parameter {:.4f}", t);
+  });
+  for (std::size_t k = 0; k < course.legs.size(); ++k) {
+    const PathSegment& leg = course.legs[k];
+    if (!snapped(leg) && leg.report.end == Outcome::reached) continue;
+    if (course.limit != record::Limit::none)
+      course.limit_reason.insert(0, fmt::format("step {} ({}): ", k + 1, text_of(steps[k])));
+    break;
+  }
+}
+
+void put_loads(const Work& work, const std::vector<preset::Step>& steps, record::Layout& layout) {
+  for (std::size_t k = 0; k < work.done.size(); ++k) {
+    if (steps[k].deed != StepKind::push) continue;
+    const Done& done = work.done[k];
+    const Eigen::Vector3d moved = done.end.state.x.col(done.taken.joint) - done.taken.at;
+    const bool there = std::ranges::any_of(
+        layout.loaded_joints, [&](const auto& load) { return load.joint == done.taken.joint; });
+    if (!there && moved.norm() > nearest_mm)
+      layout.loaded_joints.push_back({done.taken.joint, moved.normalized(), true});
+  }
+}
+
+}  // namespace
+
+std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int frames) {
+  std::vector<int> shares(steps.size(), 1);
+  int ways = 0;
+  for (std::size_t k = 0; k < steps.size(); ++k) ways += has_way(steps, k);
+  int left = frames - 1 - int(steps.size()), to_come = ways;
+  for (std::size_t k = 0; k < steps.size() && left > 0; ++k) {
+    if (!has_way(steps, k)) continue;
+    const int more = (left + to_come - 1) / to_come;
+    shares[k] += more;
+    left -= more;
+    --to_come;
+  }
+  return shares;
+}
+
+Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
+                              const std::vector<preset::Step>& steps, int frames,
+                              record::Sink& sink, Watch& watch) {
+  auto work = converged_path_holder<Work>(
+      *scene,
+      [&](const LevelPlan& plan, const Watch& w) { return do_steps(scene, steps, plan, w); },
+      watch);
+  if (!work) return tl::unexpected<Error>(work.error());
+  tell(*work, steps);
+  TRY(layout, layout_of(*scene, work->course.session.shell().finest()));
+  layout->extrapolated = work->course.session.shell().plan().extrapolate;
+  put_loads(*work, steps, *layout);
+  TRY_DO(sink.begin(std::move(*layout)));
+  TRY_DO(Show(*work, steps, frames, sink, watch).all());
+  StepsResult stepped{std::move(work->course)};
+  for (std::size_t k = 0; k < stepped.course.legs.size(); ++k)
+    stepped.messages.push_back(message_of(k, steps[k], stepped.course.legs[k]));
+  return stepped;
+}
+
+}  // namespace gridshell::experiment

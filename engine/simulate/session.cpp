@@ -1,0 +1,187 @@
+#include "engine/simulate/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/system_info.h"
+#include "engine/core/try.h"
+#include "engine/simulate/first_state.h"
+#include "engine/solve/buckling.h"
+#include "engine/solve/equilibrium.h"
+
+namespace gridshell {
+namespace {
+
+constexpr double stiffness_growth = 100;  // at which the rods are at their length
+
+PathOptions options_for(const Scene& scene) {
+  PathOptions options;
+  options.spacing_mm = scene.footprint.spacing;
+  // far below what the meshes leave, so that it does not show in the differences between them
+  options.tolerance_mm = std::clamp(1e-3 * scene.tolerance * scene.length_scale_mm, 1e-7, 1e-4);
+  return options;
+}
+
+}  // namespace
+
+Result<Session> Session::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan) {
+  Session session(std::move(scene));
+  TRY_DO(session.build(plan));
+  return session;
+}
+
+Result<void> Session::build(const LevelPlan& plan) {
+  TRY(shell, NestedShell::make(scene_->footprint, rods_ ? *rods_ : scene_->rods,
+                               scene_->solved_model(), scene_->motion, plan, options_for(*scene_)));
+  if (shell_) spent_ += shell_->effort();
+  shell_ = std::make_unique<NestedShell>(std::move(*shell));
+  return {};
+}
+
+// ---- reports ----
+
+Certificate Session::certificate() const {
+  const NestedState& state = shell_->state();
+  return {state.residual_N, state.inertia.negative_pivots, state.error_estimate_mm,
+          state.largest_strain};
+}
+
+Report Session::report(Outcome end, double t, const Effort& before, double begin) const {
+  Report report;
+  report.end = end;
+  report.t = t;
+  report.certificate = certificate();
+  report.effort = effort() - before;
+  report.seconds = seconds_now() - begin;
+  return report;
+}
+
+Energies Session::energies() const {
+  const int last = shell_->levels() - 1;
+  const Energies fine = shell_->energies(last);
+  if (!shell_->plan().extrapolate || last == 0) return fine;
+  return (4 * fine - shell_->energies(last - 1)) / 3;
+}
+
+bool Session::locked() const {
+  const NestedState& state = shell_->state();
+  if (std::abs(state.largest_strain) > scene_->max_strain) return true;
+  if (actuating_ || holds_.empty() || !(first_stiffness_ > 0)) return false;
+  return push_stiffness() > stiffness_growth * first_stiffness_;
+}
+
+double Session::push_stiffness() const {
+  return along_.dot(shell_->state().held_stiffness * along_);
+}
+
+// ---- begin ----
+
+Report Session::begin_flat() {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  NestedState flat;
+  for (int k = 0; k < shell_->levels(); ++k) {
+    Linearisation& system = shell_->system(k);
+    flat.levels.push_back(
+        flat_state(shell_->model(k), shell_->mesh(k), shell_->motion(k), scene_->flat));
+    shell_->motion(k).apply_loads(system, 0);
+    if (k + 1 < shell_->levels()) continue;
+    flat.inertia = system.at(flat.levels.back(), false);
+    flat.residual_N = system.residual();
+    flat.x = nodes_of(shell_->mesh(k), shell_->model(k), flat.levels.back().x);
+  }
+  shell_->restore(flat, shell_->motions(), {});
+  actuating_ = true;
+  progress_ = 0;
+  return report(Outcome::reached, 0, before, begin);
+}
+
+Result<Report> Session::begin_buckled(double shortening, const Watch& watch) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  TRY(t, parameter_of_shortening(shell_->mesh(0), shell_->motion(0), shortening));
+  TRY(first, buckled_state(*shell_, *scene_, rods_ ? *rods_ : scene_->rods, *t, watch));
+  Report report = begin_at(*t, *first, watch);
+  report.effort = effort() - before;
+  report.seconds = seconds_now() - begin;
+  return report;
+}
+
+Result<Report> Session::begin_on_net(const Watch& watch) {
+  TRY(rest, state_on_net(*shell_, *scene_, watch));
+  return begin_at(1, *rest, watch);
+}
+
+Result<Report> Session::begin_as_drawn(const Watch& watch) {
+  TRY(rest, state_as_drawn(*shell_, *scene_, rods_ ? *rods_ : scene_->rods, watch));
+  return begin_at(0, *rest, watch);
+}
+
+Report Session::begin_at(double t, const State& coarse, const Watch& watch) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  actuating_ = true;
+  holds_.clear();
+  shell_->actuate(t, {}, load_scale_);
+  const NestedReport nested = shell_->start(t, coarse, watch);
+  if (nested.end == Outcome::reached) progress_ = progress_at(t);
+  return report(nested.end, nested.t, before, begin);
+}
+
+// ---- keep ----
+
+/// Other meshes or rods in the place of these, at rest where these stand; if they are not, these
+/// stay.
+Result<Outcome> Session::replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch) {
+  std::unique_ptr<NestedShell> before = std::move(shell_);
+  const auto back = [&] {
+    if (shell_) spent_ += shell_->effort();
+    shell_ = std::move(before);
+  };
+  if (auto built = build(plan); !built) {
+    back();
+    return tl::unexpected<Error>(built.error());
+  }
+  shell_->set_fields(field_, {});
+  const double t = actuating_ ? before->state().t : 0;
+  State state = shell_->stay(*before, holds_);
+  if (actuating_) shell_->actuate(t, holds_, load_scale_);
+  if (nearby) {
+    shell_->motion(0).apply_loads(shell_->system(0), t);
+    if (auto rest =
+            find_equilibrium(shell_->system(0), state, 0.5 * scene_->footprint.spacing, watch))
+      state = std::move(*rest);
+  }
+  // a state that is not stable is one on finer meshes too
+  shell_->allow_unstable(before->state().inertia.negative_pivots > 0);
+  Outcome end = shell_->start(t, state, watch).end;
+  shell_->allow_unstable(false);
+  if (watch.cancelled()) end = Outcome::cancelled;
+  if (end == Outcome::reached)
+    spent_ += before->effort();
+  else
+    back();
+  return end;
+}
+
+Checkpoint Session::save() const {
+  return {shell_->state(), shell_->plan(), rods_,     shell_->motions(), holds_,
+          field_,          load_scale_,    progress_, actuating_};
+}
+
+void Session::restore(const Checkpoint& kept) {
+  if (kept.rods.has_value() != rods_.has_value() || rods_.has_value() ||
+      kept.plan.edges_per_segment != shell_->plan().edges_per_segment) {
+    rods_ = kept.rods;
+    // it was built before, so it can be built again
+    if (!build(kept.plan)) return;
+  }
+  holds_ = kept.holds;
+  load_scale_ = kept.load_scale;
+  progress_ = kept.progress;
+  actuating_ = kept.actuating;
+  apply_field(kept.field);
+  shell_->restore(kept.state, kept.motions, kept.holds);
+}
+
+}  // namespace gridshell

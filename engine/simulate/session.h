@@ -1,0 +1,209 @@
+// What a step of a session says: how it ended, what it certified, what happened on its way.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/outcome.h"
+#include "engine/scene/scene.h"
+#include "engine/solve/dynamics.h"
+#include "engine/solve/equilibrium.h"
+#include "engine/solve/nested_shell.h"
+
+namespace gridshell {
+
+/// What is known of a state.
+struct Certificate {
+  double residual_N = 0;         ///< largest force that nothing holds
+  int negative_pivots = 0;       ///< of the Hessian with what is held held; 0: stable
+  double error_estimate_mm = 0;  ///< of the joints; NaN on one mesh
+  double largest_strain = 0;     ///< by size; below 0: a compression
+
+  bool stable() const { return negative_pivots == 0; }
+};
+
+/// Something that happened to the shell on its path.
+struct Event {
+  enum class Kind { stability_lost, turned_back, locked };
+  Kind kind = Kind::stability_lost;
+  double t = 0;                 ///< where: as one mesh says, or extrapolated where two say it
+  std::optional<double> error;  ///< of t, where two meshes say it
+  std::optional<double> to;     ///< where the next rest stands, if one was found
+};
+
+/// How a step ended: what was reached, why no more, what it cost. Where not all was reached the
+/// shell stands in the last certified state.
+struct Report {
+  Outcome end = Outcome::reached;
+  double t = 0;               ///< path parameter reached
+  Certificate certificate;    ///< of the state the shell stands in
+  std::vector<Event> events;  ///< on the way
+  Effort effort;
+  double seconds = 0;
+};
+
+/// A point of a path with the certificate of all meshes.
+struct LoadStep {
+  NestedPathPoint point;
+  Certificate certificate;
+};
+
+/// What the coarsest mesh was like at a time, while it moved.
+struct TimedState {
+  double time = 0;  ///< s
+  State state;
+};
+
+/// What a path leaves to whoever watches it: a station a certified load step, in order, and what
+/// moved in time where a snap was followed so.
+struct PathRecord {
+  std::vector<LoadStep> stations;
+  struct Snap {
+    std::size_t before = 0;  ///< the station that it left from
+    std::vector<TimedState> moments;
+  };
+  std::vector<Snap> snaps;
+};
+
+/// How a branch that ended is left.
+struct BifurcationPolicy {
+  bool wanted = true;             ///< false: the path ends there
+  bool through_unstable = false;  ///< go on through states that are not stable instead
+};
+
+// A shell held in one hand: begun, moved, pushed, loaded, let go, refined and taken back, each step
+// with its certificate.
+
+/// A state to go back to; taking one and going back cost a copy.
+struct Checkpoint {
+  NestedState state;
+  LevelPlan plan;
+  std::optional<ShellRods> rods;
+  std::vector<PinnedMotion> motions;  ///< one a mesh
+  std::vector<Constraint> holds;
+  std::vector<NodeAction> field;
+  double load_scale = 1, progress = 0;
+  bool actuating = true;
+};
+
+/// Whether a pushed joint finds its own way across the push.
+enum class Across { free, held };
+
+/// One shell of one scene. Not thread-safe; its watch may be cancelled from any thread, which is
+/// answered within one factorisation. Every call ends by itself too: a load step is halved five
+/// times at most, a way leaves eight branches at most, and Newton's corrections are counted.
+class Session {
+ public:
+  /// Errors (bad_input): rods that the rung cannot take.
+  static Result<Session> open(std::shared_ptr<const Scene> scene, const LevelPlan& plan);
+
+  // ---- begin ----
+
+  /// The flat footprint itself.
+  Report begin_flat();
+  /// A buckled state where the rods are `shortening` shorter than flat on average: the seed's.
+  /// Errors (bad_input, no_equilibrium) as first_buckled().
+  Result<Report> begin_buckled(double shortening, const Watch& watch);
+  /// The equilibrium next to the net.
+  Result<Report> begin_on_net(const Watch& watch);
+  /// The rest that a network drawn in space comes to.
+  Result<Report> begin_as_drawn(const Watch& watch);
+  /// A state of the coarsest mesh, at rest or nearly.
+  Report begin_at(double t, const State& coarse, const Watch& watch);
+
+  // ---- move ----
+
+  /// Follows the path to t in load steps of its own, past snaps and to the limit of the rods'
+  /// length. The path parameter is sqrt(progress) in an actuation, else from 0 to 1 since the drive
+  /// began.
+  Report go(double t, const Watch& watch, const BifurcationPolicy& leaving = {},
+            PathRecord* trail = nullptr);
+  /// The boundary to a progress of the scene's motion, joints held where they are.
+  Report move_to(double progress, const Watch& watch, PathRecord* trail = nullptr);
+  /// The boundary to somewhere else altogether: the edge points straight to the motion's end.
+  Report move_edge_points(const BoundaryMotion& motion, const Watch& watch);
+  /// Moves a joint, held from now on.
+  Report push(int joint, const Eigen::Vector3d& displacement, Across across, const Watch& watch,
+              PathRecord* trail = nullptr);
+  /// Lets a joint go: the force on it is taken away in even steps.
+  Report release(int joint, const Watch& watch);
+  /// From now on the scene's dead loads count `factor` times.
+  Report load(double factor, const Watch& watch);
+  /// Puts a field of forces on, or takes it away (empty).
+  Report set_field(std::vector<NodeAction> field, const Watch& watch);
+  /// Down the energy to rest from where it is, whatever happened to it; off a saddle to that side.
+  Report rest(const Watch& watch, BranchSide side = BranchSide::lower);
+  /// The same in time, with the scene's damping; `seen` after each time step.
+  Report rest_in_time(const Watch& watch, const std::function<void(const MovingState&)>& seen);
+  /// Other rods on the same footprint, from where it is. Errors (bad_input) as open().
+  Result<Report> set_rods(const ShellRods& rods, const Watch& watch);
+  /// The same shell on other meshes, finer or coarser. Errors (bad_input) as open().
+  Result<Report> remesh(const LevelPlan& plan, const Watch& watch);
+  /// Finer meshes until the error estimate is below `tolerance_mm`, or no plan is finer or fits the
+  /// memory.
+  Report refine(double tolerance_mm, const Watch& watch);
+  /// Begins to push joints without going anywhere: the drive of `push`, for go().
+  Report begin_joint_push(std::vector<Constraint> holds, std::vector<Eigen::Vector3d> displacements,
+                          const Watch& watch);
+
+  // ---- keep ----
+
+  Checkpoint save() const;
+  void restore(const Checkpoint& checkpoint);
+
+  // ---- look ----
+
+  const Scene& scene() const { return *scene_; }
+  NestedShell& shell() { return *shell_; }
+  const NestedShell& shell() const { return *shell_; }
+  Certificate certificate() const;
+  /// Positions of the nodes of the finest mesh, extrapolated where planned; joints come first.
+  const Eigen::Matrix3Xd& nodes() const { return shell_->state().x; }
+  /// The force that holds joint `k` of holds(), N.
+  Eigen::Vector3d force(std::size_t k) const { return shell_->state().reactions[k]; }
+  const std::vector<Constraint>& holds() const { return holds_; }
+  double progress() const { return progress_; }
+  /// Energies by term under what acts, extrapolated as the nodes.
+  Energies energies() const;
+  Effort effort() const { return spent_ + shell_->effort(); }
+  /// Counts what another session spent before this one.
+  void charge(const Effort& spent) { spent_ += spent; }
+  /// Certifies the state at t beside a station, without moving the path on; with `unstable`, or
+  /// beside a station that is not stable, any equilibrium, which says how stable it is.
+  Report sample(double t, const LoadStep& beside, bool unstable, const Watch& watch);
+  /// The rest at t that a shell comes to which lost its branch behind the station.
+  Report certify_rest_at(double t, const LoadStep& before, const Watch& watch);
+  /// Whether the rods have come to their length.
+  bool locked() const;
+
+ private:
+  Session(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
+  Result<void> build(const LevelPlan& plan);
+  Report report(Outcome end, double t, const Effort& before, double begin) const;
+  Report drive(const PrescribedMove& drive, std::vector<NodeAction> field, const Watch& watch);
+  void apply_field(std::vector<NodeAction> field);
+  LoadFactor steady_load() const;
+  double load_step() const;
+  bool leave(double t, Event& event, PathRecord* trail, const Watch& watch);
+  Result<Outcome> replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch);
+  double push_stiffness() const;
+  void bisect_to_last_accepted(double beyond, const NestedState& good,
+                               const std::function<bool()>& accepted, const Watch& watch);
+
+  std::shared_ptr<const Scene> scene_;
+  std::optional<ShellRods> rods_;  // in the place of the scene's
+  std::unique_ptr<NestedShell> shell_;
+  std::vector<Constraint> holds_;
+  std::vector<NodeAction> field_;  // that is there
+  double load_scale_ = 1;          // of the scene's dead loads
+  double progress_ = 0;
+  double first_stiffness_ = 0;  // of the last push, where it began
+  Eigen::VectorXd along_;       // of its displacements, in the holds' directions
+  bool actuating_ = true;       // the path is the scene's motion, not a drive
+  Effort spent_;                // by meshes that finer ones replaced
+};
+
+}  // namespace gridshell

@@ -1,0 +1,216 @@
+// What a hand does to a session: each takes the path's place by a drive of its own, or brings the
+// shell to rest where it is.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/system_info.h"
+#include "engine/core/try.h"
+#include "engine/simulate/branch_switch.h"
+#include "engine/simulate/mesh_choice.h"
+#include "engine/simulate/session.h"
+
+namespace gridshell {
+namespace {
+
+/// `b` in the place of `a`: what comes on beside `a` as it goes.
+std::vector<NodeAction> difference(std::vector<NodeAction> b, const std::vector<NodeAction>& a) {
+  for (NodeAction action : a) {
+    action.force *= -1;
+    action.stiffness *= -1;
+    b.push_back(action);
+  }
+  return b;
+}
+
+std::vector<NodeAction> times(std::vector<NodeAction> actions, double factor) {
+  for (NodeAction& action : actions) action.force *= factor, action.stiffness *= factor;
+  return actions;
+}
+
+}  // namespace
+
+LoadFactor Session::steady_load() const {
+  return {actuating_ ? load_scale_ * progress_ : load_scale_, 0};
+}
+
+void Session::apply_field(std::vector<NodeAction> field) {
+  field_ = std::move(field);
+  shell_->set_fields(field_, {});
+}
+
+/// Drives the shell from where it is, all the way if it can.
+Report Session::drive(const PrescribedMove& drive, std::vector<NodeAction> coming,
+                      const Watch& watch) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  const std::vector<Constraint> held = drive.holds;
+  shell_->set_fields(field_, coming);
+  shell_->drive(drive);
+  holds_ = held;
+  actuating_ = false;
+  first_stiffness_ = 0;
+  const NestedReport started = shell_->start(0, shell_->state().levels[0], watch);
+  if (started.end != Outcome::reached) return report(started.end, 0, before, begin);
+  Report done = go(1, watch);
+  std::vector<NodeAction> field = field_;
+  const auto come = times(std::move(coming), drive.field.begin + done.t * drive.field.change);
+  field.insert(field.end(), come.begin(), come.end());
+  std::erase_if(field,
+                [](const NodeAction& a) { return a.force.isZero(0) && a.stiffness.isZero(0); });
+  apply_field(std::move(field));
+  return done;
+}
+
+Report Session::move_to(double progress, const Watch& watch, PathRecord* trail) {
+  const double t = parameter_at(progress);
+  if (!actuating_) {
+    const double now = parameter_at(progress_);
+    shell_->actuate(now, holds_, load_scale_);
+    actuating_ = true;
+    const NestedReport started = shell_->start(now, shell_->state().levels[0], watch);
+    if (started.end != Outcome::reached) return report(started.end, now, effort(), seconds_now());
+  }
+  return go(t, watch, {}, trail);
+}
+
+Report Session::move_edge_points(const BoundaryMotion& motion, const Watch& watch) {
+  const LoadFactor load = steady_load();
+  return drive({.holds = holds_, .displacements = {}, .boundary = motion, .load = load}, {}, watch);
+}
+
+Report Session::begin_joint_push(std::vector<Constraint> holds,
+                                 std::vector<Eigen::Vector3d> displacements, const Watch& watch) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  const LoadFactor load = steady_load();
+  along_.resize(0);
+  for (std::size_t k = 0; k < holds.size(); ++k) {
+    const Eigen::VectorXd part = holds[k].directions.transpose() * displacements[k];
+    along_.conservativeResize(along_.size() + part.size());
+    along_.tail(part.size()) = part;
+  }
+  along_.normalize();
+  shell_->drive({.holds = holds, .displacements = std::move(displacements), .load = load});
+  holds_ = std::move(holds);
+  actuating_ = false;
+  const NestedReport nested = shell_->start(0, shell_->state().levels[0], watch);
+  if (nested.end == Outcome::reached) first_stiffness_ = push_stiffness();
+  return report(nested.end, nested.t, before, begin);
+}
+
+Report Session::push(int joint, const Eigen::Vector3d& displacement, Across across,
+                     const Watch& watch, PathRecord* trail) {
+  std::vector<Constraint> holds = holds_;
+  std::erase_if(holds, [&](const Constraint& hold) { return hold.node == joint; });
+  Constraint hold{joint};
+  if (across == Across::free) hold.directions = displacement.normalized();
+  holds.push_back(hold);
+  // a push that goes on is measured by how stiff the shell was where it began
+  const bool goes_on = !holds_.empty() && holds_.back().node == joint &&
+                       holds_.back().directions.cols() == hold.directions.cols() &&
+                       holds_.back().part(displacement).isApprox(displacement, 1e-6);
+  const double first_stiffness = goes_on ? first_stiffness_ : 0;
+  std::vector<Eigen::Vector3d> displacements(holds.size(), Eigen::Vector3d::Zero());
+  displacements.back() = displacement;
+  const Report taken = begin_joint_push(std::move(holds), std::move(displacements), watch);
+  if (first_stiffness > 0) first_stiffness_ = first_stiffness;
+  return taken.end == Outcome::reached ? go(1, watch, {}, trail) : taken;
+}
+
+Report Session::release(int joint, const Watch& watch) {
+  std::vector<Constraint> left = holds_;
+  std::vector<NodeAction> force;
+  for (std::size_t k = 0; k < holds_.size(); ++k)
+    if (holds_[k].node == joint) force.push_back({joint, holds_[k].part(this->force(k))});
+  std::erase_if(left, [&](const Constraint& hold) { return hold.node == joint; });
+  const LoadFactor load = steady_load();
+  const Checkpoint held = save();
+  Report done = drive({.holds = left, .load = load, .field = {1, -1}}, std::move(force), watch);
+  if (done.end == Outcome::reached || watch.cancelled()) return done;
+  // held it was stable, under the same force it is not: the hand opens, and the shell goes to rest
+  restore(held);
+  shell_->drive({.holds = left, .load = load});
+  holds_ = left;
+  const auto found = minimise_from(shell_->system(0), shell_->state().levels[0], watch);
+  Outcome end = Outcome::not_converged;
+  if (found) end = shell_->start(0, *found, watch).end;
+  if (end != Outcome::reached) restore(held);
+  done.certificate = certificate();
+  done.end = watch.cancelled() ? Outcome::cancelled : end;
+  return done;
+}
+
+Report Session::load(double factor, const Watch& watch) {
+  const LoadFactor now = steady_load();
+  Report done = drive({.holds = holds_, .load = {now.begin, factor - now.begin}}, {}, watch);
+  load_scale_ = now.begin + done.t * (factor - now.begin);
+  return done;
+}
+
+Report Session::set_field(std::vector<NodeAction> field, const Watch& watch) {
+  const LoadFactor load = steady_load();
+  const std::vector<NodeAction> coming = difference(field, field_);
+  Report done = drive({.holds = holds_, .load = load, .field = {0, 1}}, coming, watch);
+  if (done.end == Outcome::reached) apply_field(std::move(field));
+  return done;
+}
+
+Report Session::rest(const Watch& watch, BranchSide side) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  const Checkpoint good = save();
+  const double t = shell_->state().t;
+  BranchSwitch departure = departure_of(*scene_, shell_->mesh(0), shell_->model(0));
+  if (side != BranchSide::lower) departure.side = side;
+  const auto found = minimise_from(shell_->system(0), shell_->state().levels[0], watch, departure);
+  Outcome end = watch.cancelled() ? Outcome::cancelled : Outcome::not_converged;
+  if (found) end = shell_->start(t, *found, watch).end;
+  if (end != Outcome::reached) restore(good);
+  return report(end, t, before, begin);
+}
+
+Report Session::rest_in_time(const Watch& watch,
+                             const std::function<void(const MovingState&)>& seen) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  const Checkpoint good = save();
+  Outcome end = Outcome::not_converged;
+  if (const auto rest =
+          gridshell::rest_in_time(*shell_, *scene_, shell_->state().levels[0], {}, seen, watch))
+    end = shell_->start(shell_->state().t, *rest, watch).end;
+  if (watch.cancelled()) end = Outcome::cancelled;
+  if (end != Outcome::reached) restore(good);
+  return report(end, shell_->state().t, before, begin);
+}
+
+Result<Report> Session::set_rods(const ShellRods& rods, const Watch& watch) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  std::optional<ShellRods> old = std::exchange(rods_, rods);
+  const auto taken = replace_meshes(shell_->plan(), true, watch);
+  if (!taken || *taken != Outcome::reached) rods_ = std::move(old);
+  if (!taken) return tl::unexpected<Error>(taken.error());
+  return report(*taken, shell_->state().t, before, begin);
+}
+
+Result<Report> Session::remesh(const LevelPlan& plan, const Watch& watch) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  TRY(taken, replace_meshes(plan, false, watch));
+  return report(*taken, shell_->state().t, before, begin);
+}
+
+Report Session::refine(double tolerance_mm, const Watch& watch) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  Outcome end = Outcome::reached;
+  while (end == Outcome::reached && !(certificate().error_estimate_mm <= tolerance_mm)) {
+    const auto plan = finer(shell_->plan());
+    if (!plan || !fits_memory(*scene_, *plan)) break;
+    end = replace_meshes(*plan, false, watch).value_or(Outcome::not_converged);
+  }
+  return report(end, shell_->state().t, before, begin);
+}
+
+}  // namespace gridshell

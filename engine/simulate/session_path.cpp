@@ -1,0 +1,220 @@
+// How a path steps where its shell grows soft.
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/core/system_info.h"
+#include "engine/core/watch.h"
+#include "engine/simulate/branch_switch.h"
+#include "engine/simulate/session.h"
+#include "engine/solve/nested_shell.h"
+#include "engine/solve/newton.h"
+
+namespace gridshell {
+
+/// Follows the stiffness of the softest mode on the leading mesh from load step to load step. A
+/// branch may lose its stability and regain it within one step, and the shell would have left it
+/// in between: where the stiffness heads for zero, steps become short enough to see that.
+class StabilityStepControl {
+ public:
+  /// After a load step that was certified.
+  void take(NestedShell& shell, const Watch& watch);
+  /// Nothing is known of the path: it goes on from somewhere else.
+  void forget() { before_.reset(), now_.reset(); }
+  /// The load step to take in the place of `step`, at least an eighth of it.
+  double shortened(double step) const;
+
+ private:
+  struct Point {
+    double t, stiffness;
+  };
+  std::optional<Point> before_, now_;
+};
+
+void StabilityStepControl::take(NestedShell& shell, const Watch& watch) {
+  constexpr double roughly = 0.02;  // the trend is enough
+  const Eigen::VectorXd alike = Eigen::VectorXd::Ones(shell.model(0).nodes);
+  before_ = now_;
+  now_ = Point{shell.state().t,
+               lowest_eigenvalue(shell.system(0), shell.state().levels[0], alike, watch, roughly)};
+}
+
+double StabilityStepControl::shortened(double step) const {
+  if (!before_ || !now_) return step;
+  const double fall = (before_->stiffness - now_->stiffness) / std::abs(now_->t - before_->t);
+  // also where a stiffness is not known
+  if (!(fall > 0)) return step;
+  const double to_zero = now_->stiffness / fall;
+  return to_zero < 3 * step ? std::clamp(to_zero / 3, step / 8, step) : step;
+}
+
+// How a session follows its path: in load steps, over branches that end, to the rods' length; and
+// what is read off the path afterwards.
+
+namespace {
+
+constexpr double push_step = 0.02;       // of the length scale: the largest load step
+constexpr double actuation_step = 0.05;  // in the path parameter
+constexpr double locate_mm = 5e-3;       // of prescribed move: to which a limit is located
+constexpr int most_halvings = 5;         // of a load step that a finer mesh does not follow
+constexpr std::size_t most_events = 8;   // branches left on one way
+
+}  // namespace
+
+double Session::load_step() const {
+  if (actuating_) return scene_->load_step * actuation_step;
+  const double reach = shell_->reach_mm();
+  return scene_->load_step * (reach > 0 ? push_step * scene_->length_scale_mm / reach : 0.1);
+}
+
+Report Session::go(double t, const Watch& watch, const BifurcationPolicy& leaving,
+                   PathRecord* trail) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  std::vector<Event> events;
+  const auto end = [&](Outcome outcome) {
+    shell_->allow_unstable(false);
+    // the leader may stand ahead of what is certified
+    if (outcome != Outcome::reached && outcome != Outcome::locked) shell_->back_to(shell_->state());
+    Report done = report(outcome, shell_->state().t, before, begin);
+    done.events = std::move(events);
+    if (actuating_) progress_ = progress_at(done.t);
+    return done;
+  };
+  const auto station = [&] {
+    if (trail) trail->stations.push_back({shell_->point(), certificate()});
+  };
+  bool unstable_too = leaving.through_unstable;
+  shell_->allow_unstable(unstable_too);
+  // of a path that is followed for what happens on it
+  StabilityStepControl softening;
+  const auto take_softness = [&] {
+    if (trail && actuating_ && leaving.wanted && scene_->imperfection.chooses())
+      softening.take(*shell_, watch);
+  };
+  station();
+  take_softness();
+  int halvings = 0;
+  while (shell_->state().t != t) {
+    if (watch.cancelled()) return end(Outcome::cancelled);
+    const double now = shell_->state().t, left = t - now;
+    const double step = softening.shortened(load_step()) / (1 << halvings);
+    const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
+    const double next = steps == 1 ? t : now + left / steps;
+    const NestedState good = shell_->state();
+    const NestedReport nested = shell_->advance(next, watch);
+    if (nested.end == Outcome::cancelled) return end(Outcome::cancelled);
+    if (nested.end == Outcome::reached) {
+      if (locked()) {
+        bisect_to_last_accepted(
+            next, good, [&] { return !locked(); }, watch);
+        events.push_back({Event::Kind::locked, shell_->state().t, {}, {}});
+        return end(Outcome::locked);
+      }
+      halvings = std::max(halvings - 1, 0);
+      station();
+      take_softness();
+      continue;
+    }
+    // a finer mesh that did not follow is asked again nearer by
+    if (nested.end == Outcome::meshes_disagree && ++halvings <= most_halvings) {
+      shell_->back_to(good);
+      continue;
+    }
+    const bool branch_ended = nested.end == Outcome::unstable || nested.end == Outcome::lost;
+    if (!leaving.wanted || !branch_ended || events.size() >= most_events) return end(nested.end);
+    const auto kind =
+        nested.end == Outcome::unstable ? Event::Kind::stability_lost : Event::Kind::turned_back;
+    // what the finer meshes lost and the leader did not is not located yet
+    if (shell_->followed().t == next && kind == Event::Kind::stability_lost) {
+      bisect_to_last_accepted(
+          next, good, [] { return true; }, watch);
+      if (shell_->state().t != good.t) station();
+    }
+    events.push_back({kind, shell_->followed().t, {}, {}});
+    if (kind == Event::Kind::stability_lost && !scene_->imperfection.chooses()) {
+      shell_->back_to(shell_->state());
+      shell_->allow_unstable(unstable_too = true);
+      continue;
+    }
+    if (!leave(t, events.back(), trail, watch))
+      return end(watch.cancelled() ? Outcome::cancelled : nested.end);
+    if (locked()) {
+      // the rest beyond would need longer rods
+      shell_->back_to(good);
+      events.back() = {Event::Kind::locked, shell_->state().t, {}, {}};
+      return end(Outcome::locked);
+    }
+    station();
+    softening.forget();
+    take_softness();
+  }
+  return end(Outcome::reached);
+}
+
+/// Stands in the last certified state, between `good` and `beyond`, that is accepted.
+void Session::bisect_to_last_accepted(double beyond, const NestedState& good,
+                                      const std::function<bool()>& accepted, const Watch& watch) {
+  const double reach = std::max(shell_->reach_mm(), 1e-9);
+  NestedState last = good;
+  double bad = beyond;
+  while (std::abs(bad - last.t) * reach > locate_mm && !watch.cancelled()) {
+    shell_->back_to(last);
+    const double middle = 0.5 * (last.t + bad);
+    if (shell_->advance(middle, watch).end == Outcome::reached && accepted())
+      last = shell_->state();
+    else
+      bad = middle;
+  }
+  shell_->back_to(last);
+}
+
+/// The branch ended: comes to rest again a little further on. The meshes lose it at slightly
+/// different places; beyond the last of them all find the new state.
+bool Session::leave(double t, Event& event, PathRecord* trail, const Watch& watch) {
+  const PathPoint last = shell_->followed();
+  const double way = t > last.t ? 1 : -1;
+  const double speed =
+      std::max(shell_->reach_mm() * shell_->motion(0).speed(last.t), 0.1);  // mm by t
+  for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
+    double there = last.t + way * beyond * scene_->length_scale_mm / speed;
+    if (way * (there - t) > 0) there = t;
+    std::vector<TimedState> moments;
+    const auto rest =
+        rest_after_bifurcation(*shell_, *scene_, last, event.kind, there, moments, watch);
+    if (watch.cancelled()) return false;
+    if (rest && shell_->start(there, *rest, watch).end == Outcome::reached) {
+      event.to = there;
+      if (trail && !moments.empty())
+        trail->snaps.push_back({trail->stations.size() - 1, std::move(moments)});
+      return true;
+    }
+    if (there == t) break;
+    // the path stands where it was lost
+    shell_->back_to(shell_->state());
+    shell_->place(last.t, last.state);
+  }
+  return false;
+}
+
+Report Session::sample(double t, const LoadStep& beside, bool unstable, const Watch& watch) {
+  const double begin = seconds_now();
+  const Effort before = effort();
+  shell_->allow_unstable(unstable || !beside.certificate.stable());
+  const NestedReport nested = shell_->sample(t, beside.point, watch);
+  shell_->allow_unstable(false);
+  return report(nested.end, nested.t, before, begin);
+}
+
+Report Session::certify_rest_at(double t, const LoadStep& before, const Watch& watch) {
+  const double begin = seconds_now();
+  const Effort spent = effort();
+  std::vector<TimedState> moments;
+  const auto rest = rest_after_bifurcation(*shell_, *scene_, before.point,
+                                           Event::Kind::stability_lost, t, moments, watch);
+  if (!rest) return report(Outcome::lost, t, spent, begin);
+  return sample(t, {{{t, *rest, {}}}, {}}, false, watch);
+}
+
+}  // namespace gridshell

@@ -1,0 +1,278 @@
+#include "engine/simulate/steps.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/algorithms.h"
+#include "engine/core/try.h"
+#include "engine/record/gauss_curvature.h"
+#include "engine/simulate/indentation.h"
+#include "engine/simulate/mesh_choice.h"
+
+namespace gridshell::experiment {
+namespace {
+
+Eigen::Vector3d vector_of(const std::vector<double>& xyz) { return {xyz[0], xyz[1], xyz[2]}; }
+
+/// t_u x t_v at a joint of the shell as it stands; zero where no two rods cross.
+Eigen::Vector3d normal_at(const Session& session, int joint) {
+  return joint_tangents(session.scene().footprint, session.shell().finest(), session.nodes())
+      .normal(joint);
+}
+
+/// Where a move has the edge points, off the scene's motion.
+Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene) {
+  Eigen::Matrix3Xd dragged = BoundaryPosition::of(scene).dragged;
+  for (const auto& row : step.edge_points) {
+    const auto k = Eigen::Index(row[0]);
+    if (k >= dragged.cols())
+      return fail(Fault::bad_input, fmt::format("there is no edge point {}, they go from 0 to {}",
+                                                k, dragged.cols() - 1));
+    dragged.col(k) << row[1], row[2], row[3];
+  }
+  const BoundaryMotion& motion = scene.motion;
+  if (!step.edge_points.empty() && (motion.end_tangent.cols() > 0 || motion.end_far.cols() > 0))
+    return fail(Fault::bad_input, "ends whose direction is held cannot be moved one by one");
+  return dragged;
+}
+
+Result<Report> move(Session& session, BoundaryPosition& boundary, const preset::Step& step,
+                    const Watch& watch, StepPath* way) {
+  const Scene& scene = session.scene();
+  TRY(dragged, dragged_of(step, scene));
+  const double progress = progress_of(step, scene);
+  if (dragged->isZero(0) && boundary.dragged.isZero(0)) {
+    const Report report = session.move_to(progress, watch, way ? &way->trail : nullptr);
+    if (way) way->end = session.save();
+    boundary.progress = session.progress();
+    return report;
+  }
+  BoundaryMotion motion = scene.motion;
+  motion.end = motion.begin + progress * (motion.end - motion.begin) + *dragged;
+  motion.end_joints = motion.begin_joints + progress * (motion.end_joints - motion.begin_joints);
+  const Report report = session.move_edge_points(motion, watch);
+  boundary.progress += report.t * (progress - boundary.progress);
+  boundary.dragged += report.t * (*dragged - boundary.dragged);
+  return report;
+}
+
+/// Where a step takes a joint: to `target`, or as far as it lies along `along` where the joint is
+/// free across.
+struct Goal {
+  int joint = 0;
+  Eigen::Vector3d target, along;
+  bool free = false;
+};
+
+Result<Goal> goal_of(const Session& session, const preset::Step& step) {
+  TRY(joint, joint_of(step, session.scene().footprint));
+  TRY_DO(not_on_boundary(session.scene().footprint, *joint));
+  const Eigen::Vector3d at = session.nodes().col(*joint);
+  const bool holds = step.deed == preset::StepKind::hold;
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  if (!holds && !step.to_mm.empty()) way = vector_of(step.to_mm) - at;
+  if (!holds && step.to_mm.empty()) {
+    const Eigen::Vector3d normal = normal_at(session, *joint);
+    if (normal.isZero(0))
+      return fail(Fault::bad_input,
+                  "no two rods cross at the joint, so the shell has no normal there: to_mm must "
+                  "say where it goes");
+    way = -step.depth_mm * normal;
+  }
+  Goal goal{*joint, at + way, Eigen::Vector3d::UnitZ(), false};
+  goal.free = holds ? !step.along.empty() : step.lateral == preset::Lateral::free;
+  if (!step.along.empty())
+    goal.along = vector_of(step.along).normalized();
+  else if (way.norm() >= nearest_mm)
+    goal.along = way.normalized();
+  if (!step.along.empty()) goal.target = at + goal.along * goal.along.dot(way);
+  return goal;
+}
+
+Result<Report> push(Session& session, const Goal& goal, const Watch& watch, StepPath* path) {
+  Eigen::Vector3d way = goal.target - session.nodes().col(goal.joint);
+  if (goal.free) way = goal.along * goal.along.dot(way);
+  // a hand that does not move yet takes hold along its own direction
+  if (way.norm() < nearest_mm) way = nearest_mm * goal.along;
+  const Report report = session.push(goal.joint, way, goal.free ? Across::free : Across::held,
+                                     watch, path ? &path->trail : nullptr);
+  if (path) path->end = session.save();
+  return report;
+}
+
+/// The meshes to try where finer ones do not have what `plan`'s leader came to.
+std::optional<LevelPlan> with_next_leader(const Scene& scene, const LevelPlan& plan) {
+  if (scene.edges_per_segment == 0) {
+    auto next = with_finer_leader(plan);
+    return next && fits_memory(scene, *next) ? next : std::nullopt;
+  }
+  // the mesh asked for stays the finest
+  LevelPlan next = plan;
+  auto& edges = next.edges_per_segment;
+  edges.erase(edges.begin());
+  return edges.empty() ? std::nullopt : std::optional(next);
+}
+
+/// Does a deed on the coarsest mesh of a plan alone, then brings the finer ones there; what they do
+/// not have is Outcome::meshes_disagree.
+template <class Do>
+Result<Report> do_led(Session& session, const LevelPlan& plan, const Watch& watch, const Do& deed) {
+  const auto refused = [&] {
+    return watch.cancelled() ? Outcome::cancelled : Outcome::meshes_disagree;
+  };
+  auto coarse = session.remesh({{plan.edges_per_segment.front()}, false}, watch);
+  if (!coarse) return coarse;
+  if (coarse->end != Outcome::reached) return coarse->end = refused(), coarse;
+  auto report = deed();
+  if (!report) return report;
+  const auto fine = session.remesh(plan, watch);
+  if (!fine) return fine;
+  if (fine->end != Outcome::reached) report->end = refused();
+  report->certificate = session.certificate();
+  return report;
+}
+
+/// A deed led by the coarsest mesh alone, which finer ones follow: where a shell snaps or is shaken
+/// to then hangs on no other mesh, and each holds a joint where that one has it. Where they cannot
+/// follow, a finer one leads; last of all the shell stands where it was.
+template <class Do>
+Result<Report> led_by_coarsest(Session& session, const Watch& watch, const Do& deed) {
+  constexpr int most_leaders = 3;
+  std::optional<LevelPlan> plan = session.shell().plan();
+  if (plan->edges_per_segment.size() == 1) return deed();
+  const Checkpoint before = session.save();
+  Result<Report> report;
+  for (int tried = 0; plan && tried < most_leaders; ++tried) {
+    report = do_led(session, *plan, watch, deed);
+    if (report && report->end != Outcome::meshes_disagree && report->end != Outcome::cancelled)
+      return report;
+    session.restore(before);
+    if (!report || report->end == Outcome::cancelled) return report;
+    plan = with_next_leader(session.scene(), *plan);
+  }
+  return report;
+}
+
+/// Where it goes is measured on all meshes.
+Result<Report> push_by_coarsest(Session& session, const preset::Step& step, const Watch& watch,
+                                StepPath* path) {
+  TRY(goal, goal_of(session, step));
+  return led_by_coarsest(session, watch, [&] { return push(session, *goal, watch, path); });
+}
+
+Result<Report> release(Session& session, const preset::Step& step, const Watch& watch) {
+  std::vector<int> joints;
+  if (step.joint.empty()) {
+    for (const Constraint& hold : session.holds()) joints.push_back(hold.node);
+  } else {
+    TRY(joint, joint_of(step, session.scene().footprint));
+    if (std::ranges::any_of(session.holds(),
+                            [&](const Constraint& hold) { return hold.node == *joint; }))
+      joints = {*joint};
+  }
+  if (joints.empty()) return fail(Fault::bad_input, "no joint is held that could be let go");
+  Report all;
+  for (const int joint : joints) {
+    std::vector<Event> before = std::move(all.events);
+    all = session.release(joint, watch);
+    all.events.insert(all.events.begin(), before.begin(), before.end());
+    if (all.end != Outcome::reached) break;
+  }
+  return all;
+}
+
+/// One random force on every joint.
+std::vector<NodeAction> random_field(const Scene& scene, int seed, double force_N) {
+  std::mt19937 random{std::uint32_t(seed)};
+  std::vector<NodeAction> field;
+  for (int joint = 0; joint < int(scene.footprint.joints.size()); ++joint) {
+    const double x = symmetric_uniform(random), y = symmetric_uniform(random),
+                 z = symmetric_uniform(random);
+    field.push_back({joint, force_N * Eigen::Vector3d(x, y, z)});
+  }
+  return field;
+}
+
+Result<Report> jitter(Session& session, const preset::Step& step, const Watch& watch) {
+  const Checkpoint before = session.save();
+  const auto field = random_field(session.scene(), step.seed, step.force_N);
+  const Report thrown = session.set_field(field, watch);
+  // a field that the shell cannot bear all the way has moved it as well
+  if (watch.cancelled()) return session.restore(before), thrown;
+  Report back = session.set_field({}, watch);
+  back.events.insert(back.events.begin(), thrown.events.begin(), thrown.events.end());
+  if (back.end != Outcome::reached) session.restore(before);
+  return back;
+}
+
+}  // namespace
+
+std::string text_of(const preset::Step& step) {
+  std::string text(word_of(step.deed));
+  if (!step.joint.empty()) text += fmt::format(" [{}]", fmt::join(step.joint, ", "));
+  return text;
+}
+
+Result<int> joint_of(const preset::Step& step, const Footprint& footprint) {
+  const auto& joints = footprint.joints;
+  const auto found = std::ranges::find_if(joints, [&](const FootprintJoint& joint) {
+    return step.joint.size() == 2 && joint.i == step.joint[0] && joint.j == step.joint[1];
+  });
+  if (found == joints.end())
+    return fail(Fault::bad_input, fmt::format("joint = [{}]: the footprint has no such joint",
+                                              fmt::join(step.joint, ", ")));
+  return int(found - joints.begin());
+}
+
+double progress_of(const preset::Step& step, const Scene& scene) {
+  return step.radius_mm == 0 ? step.progress : scene.progress_of_radius(step.radius_mm);
+}
+
+Result<Report> apply_step(Session& session, BoundaryPosition& boundary, const preset::Step& step,
+                          const Watch& watch, StepPath* way) {
+  switch (step.deed) {
+    case preset::StepKind::move:
+      return move(session, boundary, step, watch, way);
+    case preset::StepKind::push:
+    case preset::StepKind::hold:
+      return push_by_coarsest(session, step, watch, way);
+    case preset::StepKind::release:
+      return led_by_coarsest(session, watch, [&] { return release(session, step, watch); });
+    case preset::StepKind::load:
+      return session.load(step.factor, watch);
+    case preset::StepKind::rest:
+      return led_by_coarsest(session, watch, [&]() -> Result<Report> {
+        return session.rest(watch, same_word<BranchSide>(step.side));
+      });
+    case preset::StepKind::jitter:
+      return led_by_coarsest(session, watch, [&] { return jitter(session, step, watch); });
+  }
+  return Report{};
+}
+
+void GrippedJoints::note(const Session& session) {
+  for (int joint = 0; joint < int(session.scene().footprint.joints.size()); ++joint) {
+    const bool held = std::ranges::any_of(
+        session.holds(), [&](const Constraint& hold) { return hold.node == joint; });
+    if (!held) at_[joint] = session.nodes().col(joint);
+  }
+}
+
+GrippedJoint GrippedJoints::last(const Session& session) const {
+  if (session.holds().empty()) return {};
+  const int joint = session.holds().back().node;
+  return {joint, at_.at(joint)};
+}
+
+void fill_push(const Session& session, const GrippedJoint& grip, record::Frame& frame) {
+  if (grip.joint < 0 || session.holds().empty()) return;
+  const Constraint& hold = session.holds().back();
+  const Eigen::Vector3d moved = hold.part(session.nodes().col(grip.joint) - grip.at);
+  frame.depth_mm = moved.norm();
+  const Eigen::Vector3d force = hold.part(session.force(session.holds().size() - 1));
+  frame.force_N = frame.depth_mm > nearest_mm ? force.dot(moved.normalized()) : 0;
+}
+
+}  // namespace gridshell::experiment

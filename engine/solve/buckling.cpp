@@ -1,0 +1,101 @@
+#include "engine/solve/buckling.h"
+
+#include <cmath>
+#include <set>
+
+#include "engine/footprint/symmetry.h"
+#include "engine/solve/equilibrium.h"
+
+namespace gridshell {
+namespace {
+
+constexpr double tilt = 0.8;  // of the dome towards a diagonal; small ones are lost to round-off
+
+/// Between two nodes of a rod in the flat, mm: their length along it where it is straight.
+double flat_chord(const RodMesh& mesh, std::size_t r, std::size_t from, std::size_t to) {
+  const double along = mesh.position[r][to] - mesh.position[r][from];
+  const double chord = (mesh.flat.col(mesh.rods[r][to]) - mesh.flat.col(mesh.rods[r][from])).norm();
+  return chord < (1 - 1e-9) * along ? chord : along;
+}
+
+/// Distances of what is held from its middle, all together, mm.
+double spread(const RodMesh& mesh, const Eigen::Matrix3Xd& x) {
+  const std::vector<int> held = held_nodes(mesh);
+  const Eigen::Matrix3Xd places = x(Eigen::all, held);
+  return (places.colwise() - Eigen::Vector3d(places.rowwise().mean())).colwise().norm().sum();
+}
+
+}  // namespace
+
+double mean_shortening(const RodMesh& mesh, const PinnedMotion& motion, double t) {
+  double chords = 0, lengths = 0;
+  const Eigen::Matrix3Xd x = motion.at(t);
+  const std::set<int> held(mesh.held_joints.begin(), mesh.held_joints.end());
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
+    // from one node that is held to the next
+    const std::vector<int>& node = mesh.rods[r];
+    const std::size_t none = node.size();
+    std::size_t before = none;
+    for (std::size_t k = 0; k < node.size(); ++k) {
+      const bool end = k == 0 || k + 1 == node.size();
+      if (!(end && node[k] >= mesh.joints) && !held.contains(node[k])) continue;
+      if (before != none) {
+        chords += (x.col(node[k]) - x.col(node[before])).norm();
+        lengths += flat_chord(mesh, r, before, k);
+      }
+      before = k;
+    }
+  }
+  // where no rod is held at two points: by how much all held points come together
+  return lengths > 0 ? 1 - chords / lengths : 1 - spread(mesh, x) / spread(mesh, motion.at(0));
+}
+
+Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& motion,
+                                       double shortening) {
+  double low = 0, high = 1;
+  while (mean_shortening(mesh, motion, high) < shortening) {
+    high *= 2;
+    if (high > 1000)
+      return fail(Fault::bad_input,
+                  "the actuated boundary does not shorten the rods: nothing would buckle");
+  }
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (mean_shortening(mesh, motion, middle) < shortening ? low : high) = middle;
+  }
+  return high;
+}
+
+State flat_state(const Model& model, const RodMesh& mesh, const PinnedMotion& motion,
+                 const FlatFrame& flat) {
+  Eigen::Matrix3Xd nodes = drawn_nodes(mesh, flat);
+  nodes.rightCols(mesh.beside_rods()) =
+      motion.begin.middleCols(mesh.rod_nodes(), mesh.beside_rods());
+  return start_state(model, columns_of(mesh, model, nodes));
+}
+
+Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
+                            double t, const BuckleSeed& seed, const FlatFrame& flat,
+                            const Watch& watch) {
+  const Model& model = system.model();
+  const double reach2 = mesh.flat.colwise().squaredNorm().maxCoeff();
+  const double shortening = mean_shortening(mesh, motion, t);
+  const double height = std::sqrt(std::max(shortening, 0.0) * reach2);
+  Eigen::Matrix3Xd dome(3, mesh.nodes());
+  for (int node = 0; node < mesh.nodes(); ++node) {
+    const Eigen::Vector2d p = mesh.flat.col(node);
+    const double tilted = 1 - seed.up * seed.diagonal * tilt * p.x() * p.y() / reach2;
+    dome.col(node) = flat.at((1 - shortening) * p);
+    dome(2, node) += seed.up * height * (1 - p.squaredNorm() / reach2) * tilted;
+  }
+  State state = flat_state(model, mesh, motion, flat);
+  move_to(model, columns_of(mesh, model, dome), state);
+  motion.impose(system, t, state);
+  // soft rods first: they come near the rest of the rods as they are without stretching
+  if (minimise(system, state, {.tolerance_mm = 1e-2, .EA_scale = 0.01}, watch).outcome ==
+      Outcome::not_finite)
+    return fail(Fault::no_equilibrium, "no equilibrium: a position was not finite");
+  return minimise_from(system, std::move(state), watch);
+}
+
+}  // namespace gridshell

@@ -1,0 +1,385 @@
+#include "engine/solve/equilibrium.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace gridshell {
+namespace {
+
+constexpr int most_steps = 1000;
+constexpr double smallest_shift = 1e-9, largest_shift = 1e8;  // N/mm
+
+/// What shifts are changed by: twofold at first, then the square of the last, until reset.
+class ShiftGrowth {
+ public:
+  explicit ShiftGrowth(double most) : most_(most) {}
+  double next() { return std::exchange(factor_, std::min(factor_ * factor_, most_)); }
+  void reset() { factor_ = 2; }
+
+ private:
+  double most_, factor_ = 2;
+};
+
+/// The way down: what changes between its steps.
+class GradientFlow {
+ public:
+  GradientFlow(Linearisation& system, State& state, double step_mm, const Watch& watch)
+      : system_(system), state_(state), step_mm_(step_mm), watch_(watch) {
+    system.stop_at_negative(system.holds().empty());
+  }
+  ~GradientFlow() { system_.stop_at_negative(false); }
+  GradientFlow(const GradientFlow&) = delete;
+  GradientFlow& operator=(const GradientFlow&) = delete;
+
+  /// One step; true if it was Newton's own and short. Nothing: no shift serves.
+  std::optional<bool> step() {
+    bool at_once = true;
+    ShiftGrowth up{16};
+    for (Inertia inertia = system_.at(state_, true, shift_);; inertia = system_.shifted(shift_)) {
+      if (inertia.positive_definite()) {
+        system_.correction(dx_);
+        const double move = max_column_norm(dx_);
+        if (!std::isfinite(move)) return std::nullopt;
+        if (move <= longest * step_mm_) return go(std::min(1.0, step_mm_ / move), at_once);
+      }
+      at_once = false;
+      shift_ = std::max(up.next() * shift_, smallest_shift);
+      if (shift_ > largest_shift || watch_.cancelled()) return std::nullopt;
+    }
+  }
+
+ private:
+  // in steps: what is longer is corrected anew with more shift; a rest is within so much
+  static constexpr double longest = 2, near = 0.1;
+
+  bool go(double share, bool at_once) {
+    ++system_.effort().newton_iterations;
+    const Eigen::VectorXd force = state_.force;
+    system_.apply(share * dx_, state_);
+    // of an unknown of its own a part of the step is a part of its change
+    state_.force += (1 - share) * (force - system_.assembly().force);
+    const bool newton = shift_ == 0 && max_column_norm(dx_) < near * step_mm_;
+    // less and less shift as long as that goes well
+    if (at_once && share == 1) {
+      shift_ /= down_.next();
+      if (shift_ < smallest_shift) shift_ = 0;
+    } else {
+      down_.reset();
+    }
+    return newton;
+  }
+
+  Linearisation& system_;
+  State& state_;
+  const double step_mm_;
+  const Watch& watch_;
+  double shift_ = 0;
+  ShiftGrowth down_{256};
+  Eigen::Matrix3Xd dx_;
+};
+
+}  // namespace
+
+Outcome gradient_flow(Linearisation& system, State& state, double step_mm, const Watch& watch) {
+  GradientFlow drift(system, state, step_mm, watch);
+  for (int step = 0; step < most_steps; ++step) {
+    if (watch.cancelled()) return Outcome::cancelled;
+    const std::optional<bool> arrived = drift.step();
+    if (!arrived) return watch.cancelled() ? Outcome::cancelled : Outcome::not_finite;
+    if (*arrived) return Outcome::reached;
+  }
+  return Outcome::not_converged;
+}
+
+namespace {
+
+/// The way down: what changes between its steps.
+class Descent {
+ public:
+  Descent(Linearisation& system, State& state, const MinimiseOptions& options, const Watch& watch)
+      : system_(system), state_(state), options_(options), watch_(watch) {
+    system.stop_at_negative(system.holds().empty());
+    for (const ModelEdge& edge : system.model().edges)
+      near_mm_ += 0.1 * edge.rest_length / double(system.model().edges.size());
+  }
+
+  ~Descent() { system_.stop_at_negative(false); }
+  Descent(const Descent&) = delete;
+  Descent& operator=(const Descent&) = delete;
+
+  /// Factorises the mixed form at the state, or what is near it and positive definite.
+  Inertia factorise(double last_move_mm) {
+    return options_.rough ? from_what_served(last_move_mm) : from_the_form_itself();
+  }
+
+  /// Whether the last matrix was the mixed form as it is.
+  bool exact() const { return weakening_ == 0 && shift_ == 0; }
+
+  /// As far along dx as the energy falls.
+  void go(const Eigen::Matrix3Xd& dx) {
+    const double begin = energy_at(state_), slope = product(system_.assembly().gradient, dx);
+    const Eigen::VectorXd force = system_.assembly().force, change = system_.force_change(dx);
+    const auto falls = [&](double step) {
+      return energy_at(trial_) <= begin + 1e-4 * step * slope + 1e-14 * std::abs(begin);
+    };
+    double step = 1;
+    for (; step > 1e-10; step /= 2) {
+      trial_ = state_;
+      move_to(system_.model(), state_.x + step * dx, trial_);
+      if (falls(step)) break;
+      system_.restore_lengths(force + step * change, trial_);
+      if (falls(step)) break;
+    }
+    std::swap(state_, trial_);
+    state_.force = force + step * change;
+  }
+
+ private:
+  static constexpr double least_weakening = 0.015, least_shift = 1e-4;  // of 1, N/mm
+
+  /// The form as it is comes first at every step.
+  Inertia from_the_form_itself() {
+    const double shift = shift_ / 4;
+    shift_ = 0;
+    weakening_ = weakening_ < 0.01 ? 0 : weakening_ / 4;
+    for (;;) {
+      const Inertia inertia = assemble();
+      if (inertia.positive_definite()) return inertia;
+      if (weakening_ >= 1 || watch_.cancelled()) break;
+      weakening_ = weakening_ == 0 ? 0.1 : 1.0;
+    }
+    shift_ = shift;
+    return shifted(1e-6);
+  }
+
+  /// Tries a little less shift or weakening than served last; after a failure it keeps to that for
+  /// some steps.
+  Inertia from_what_served(double last_move_mm) {
+    const double served = weakening_;
+    if (shift_ > 0)
+      shift_ = shift_ > least_shift ? shift_ / 8 : 0;
+    else if (--wait_ <= 0 || last_move_mm < near_mm_)
+      weakening_ = weakening_ > least_weakening ? weakening_ / 4 : 0;
+    Inertia inertia = assemble();
+    if (inertia.positive_definite()) {
+      if (weakening_ < served) patience_ = 1;
+      return inertia;
+    }
+    if (weakening_ < served) wait_ = patience_ = std::min(2 * patience_, 8);
+    while (weakening_ < 1) {
+      const double more = std::clamp(4 * weakening_, 4 * least_weakening, 1.0);
+      weakening_ = weakening_ < served ? served : more;
+      inertia = assemble();
+      if (inertia.positive_definite() || watch_.cancelled()) return inertia;
+    }
+    return shifted(least_shift);
+  }
+
+  /// Multiplies the last shift by four until the matrix is positive definite.
+  Inertia shifted(double least) {
+    Inertia inertia;
+    do {
+      shift_ = std::max(4 * shift_, least);
+      inertia = system_.shifted(shift_);
+    } while (!inertia.positive_definite() && shift_ < 1e8 && !watch_.cancelled());
+    return inertia;
+  }
+
+  Inertia assemble() {
+    State weakened = state_;
+    weakened.force = state_.force.cwiseMax((1 - weakening_) * state_.force);
+    return system_.at(weakened, true, shift_, options_.EA_scale);
+  }
+
+  double energy_at(const State& state) const {
+    Energies energies = energies_of(system_.model(), state, system_.outside);
+    energies[Term::stretch] *= options_.EA_scale;
+    return energies.total();
+  }
+
+  Linearisation& system_;
+  State& state_;
+  const MinimiseOptions& options_;
+  const Watch& watch_;
+  State trial_;
+  double weakening_ = 0, shift_ = 0;
+  int wait_ = 0, patience_ = 1;  // steps before less weakening is tried again
+  double near_mm_ = 0;           // corrections below this are near the end
+};
+
+/// Whether the energy's Hessian is positive definite, but for round-off: a rod between two pins may
+/// turn about their line without any force.
+bool is_minimum(Linearisation& system, const State& state, double EA_scale) {
+  constexpr double round_off = 1e-12;
+  const double largest = system.at(state, false, 0, EA_scale).largest_pivot;
+  return system.shifted(round_off * largest).positive_definite();
+}
+
+}  // namespace
+
+NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions& options,
+                      const Watch& watch) {
+  NewtonReport report;
+  Eigen::Matrix3Xd dx;
+  Descent descent(system, state, options, watch);
+  double move = std::numeric_limits<double>::infinity();
+  for (report.iterations = 1; report.iterations <= options.most_iterations; ++report.iterations) {
+    if (watch.cancelled()) {
+      report.outcome = Outcome::cancelled;
+      return report;
+    }
+    report.inertia = descent.factorise(move);
+    ++system.effort().newton_iterations;
+    const bool usable = report.inertia.positive_definite();
+    if (usable) system.correction(dx);
+    move = usable ? max_column_norm(dx) : std::numeric_limits<double>::infinity();
+    if (!std::isfinite(move)) {
+      report.outcome = watch.cancelled() ? Outcome::cancelled : Outcome::not_finite;
+      return report;
+    }
+    if (report.iterations == 1) report.first_move_mm = move;
+    report.last_move_mm = move;
+    if (move > options.tolerance_mm) {
+      descent.go(dx);
+      continue;
+    }
+    system.apply(dx, state);
+    if (descent.exact() || is_minimum(system, state, options.EA_scale))
+      report.outcome = Outcome::reached;
+    return report;
+  }
+  return report;
+}
+
+Eigen::Matrix3Xd generic_direction(Eigen::Index columns) {
+  Eigen::Matrix3Xd any(3, columns);
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    const double column = double(k);
+    any.col(k) << std::sin(0.7 + 1.3 * column), std::sin(1.9 + 2.1 * column),
+        1 + std::sin(2.3 + 0.9 * column);
+  }
+  return any / std::sqrt(6.0);
+}
+
+Eigen::Matrix3Xd softest_mode(Linearisation& system, const Eigen::Matrix3Xd& start,
+                              const Watch& watch) {
+  double shift = 1e-6;
+  while (!system.shifted(shift).positive_definite() && shift < 1e6 && !watch.cancelled())
+    shift *= 4;
+  Eigen::Matrix3Xd mode = start.size() > 0 ? start : generic_direction(system.model().columns());
+  for (int k = 0; k < 20; ++k) {
+    system.solve(mode);
+    mode /= mode.norm();
+  }
+  return mode;
+}
+
+Result<State> minimise_from(Linearisation& system, State state, const Watch& watch,
+                            const BranchSwitch& departure) {
+  const NewtonReport down = minimise(system, state, {}, watch);
+  if (down.outcome == Outcome::reached) return state;
+  if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for an equilibrium");
+  // nothing moves any more, but a mode without stiffness keeps it from being a minimum
+  if (down.outcome == Outcome::not_converged && down.last_move_mm < 1e-3) {
+    system.at(state, false);
+    return leave_saddle(system, state, softest_mode(system, departure.start, watch), departure,
+                        watch);
+  }
+  return fail(Fault::no_equilibrium,
+              fmt::format("no equilibrium after {} iterations; the last moved a node by {:.2g} mm",
+                          down.iterations, down.last_move_mm));
+}
+
+Result<State> find_equilibrium(Linearisation& system, const State& state, double farthest_mm,
+                               const Watch& watch) {
+  State found = state;
+  NewtonOptions options;
+  options.farthest_mm = farthest_mm;
+  options.tolerance_mm = 1e-7;
+  const NewtonReport report = newton(system, found, options, watch);
+  if (report.outcome == Outcome::reached && system.at(found, false).positive_definite())
+    return found;
+  return minimise_from(system, state, watch);
+}
+
+namespace {
+
+State pushed(const Model& model, const State& state, const Eigen::Matrix3Xd& by) {
+  State moved = state;
+  move_to(model, state.x + by, moved);
+  return moved;
+}
+
+/// Whether one way down is enough, as the other is known from it.
+bool sides_equivalent(Linearisation& system, const State& unstable, const Eigen::Matrix3Xd& push,
+                      const BranchSwitch& departure) {
+  if (departure.side != BranchSide::lower) return false;
+  const Model& model = system.model();
+  const State along = pushed(model, unstable, push), against = pushed(model, unstable, -push);
+  const auto slope_at = [&](const State& state) {
+    system.gradient_at(state);
+    return system.assembly().gradient;
+  };
+  const Eigen::Matrix3Xd slope = slope_at(along);
+  // beside a state that is no equilibrium, as beyond a fold, the slope leads to one side from both
+  const double here = product(slope, push), there = product(slope_at(against), push);
+  if (std::abs(here - there) < 0.1 * std::abs(here + there)) return true;
+
+  // a symmetry that takes one side to the other and, of all that the energy is made of (rods,
+  // loads, field), the slope there with it
+  constexpr double same_mm = 1e-5, same_slope = 1e-6;
+  const int nodes = model.nodes;
+  if (model.has_spins() || !system.holds().empty()) return false;
+  return std::ranges::any_of(departure.symmetries, [&](const MeshSymmetry& symmetry) {
+    if (distance_under(symmetry, against.x, along.x.leftCols(nodes)) > same_mm) return false;
+    State image = against;
+    image.x.leftCols(nodes) = symmetry.of(along.x.leftCols(nodes));
+    MeshSymmetry turn = symmetry;
+    turn.centre.setZero();
+    return distance_under(turn, slope_at(image), slope.leftCols(nodes)) <=
+           same_slope * max_column_norm(slope);
+  });
+}
+
+/// To rest from beside an unstable state, pushed `along`, whose largest column is 1.
+std::optional<State> rest_beside(Linearisation& system, const State& unstable,
+                                 const Eigen::Matrix3Xd& along, const BranchSwitch& departure,
+                                 const Watch& watch) {
+  constexpr double most_mm = 1;
+  for (double push = departure.amplitude_mm; push <= most_mm && !watch.cancelled(); push *= 4) {
+    State state = pushed(system.model(), unstable, push * along);
+    if (gradient_flow(system, state, departure.step_mm, watch) != Outcome::reached) continue;
+    if (minimise(system, state, {}, watch).outcome == Outcome::reached) return state;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<State> leave_saddle(Linearisation& system, const State& unstable,
+                           const Eigen::Matrix3Xd& mode, const BranchSwitch& departure,
+                           const Watch& watch) {
+  const Eigen::Matrix3Xd unit = mode / max_column_norm(mode);
+  const bool one = sides_equivalent(system, unstable, departure.amplitude_mm * unit, departure);
+  Result<State> best = fail(Fault::no_equilibrium, "no rest found beside an unstable state");
+  double lowest = 0;
+  for (double way : {1.0, -1.0}) {
+    if (departure.side == (way > 0 ? BranchSide::against : BranchSide::along)) continue;
+    auto state = rest_beside(system, unstable, way * unit, departure, watch);
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while looking for a rest");
+    if (!state) continue;
+    if (one) return *state;
+    // of two mirror images it is always the same one, whatever round-off says
+    const double found = system.energy_at(*state);
+    if (best && found > lowest - 1e-6 * std::abs(lowest)) continue;
+    lowest = found;
+    best = std::move(*state);
+  }
+  return best;
+}
+
+}  // namespace gridshell

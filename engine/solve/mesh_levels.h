@@ -1,0 +1,59 @@
+// A shell on one mesh: its model, how its ends move, and what is solved with.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/elastic/shell_rods.h"
+#include "engine/footprint/actuation.h"
+#include "engine/solve/equilibrium_path.h"
+
+namespace gridshell {
+
+/// Stays where it was made: `system` refers to `model`.
+struct MeshLevel {
+  RodMesh mesh;
+  Model model;
+  PinnedMotion motion;
+  std::unique_ptr<Linearisation> system;
+
+  /// Fills it, for a mesh of so many edges a segment. Errors (bad_input): rods that the rung cannot
+  /// take.
+  Result<void> build(const Footprint& footprint, const ShellRods& rods, RodModel rung,
+                     const BoundaryMotion& boundary, int edges_per_segment);
+};
+
+// Which meshes a shell is solved on, from the accuracy asked for.
+
+/// Which meshes are solved and how they are used.
+struct LevelPlan {
+  std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before
+  bool extrapolate = false;  ///< over the last two (needs three, the third for the estimate)
+};
+
+/// The cheapest plan worth trying for a tolerance of the largest joint error, relative to the
+/// length scale: the error of k edges falls as 1/k^2, extrapolated as 1/k^4, and is about 3e-3 at
+/// four edges for shells of the paper's kind. The estimate says afterwards whether it held; `finer`
+/// is what to try then. `leader`: edges a segment of the coarsest mesh.
+LevelPlan plan_levels(double tolerance, int leader = 4);
+
+/// The meshes that nest in one of `edges` a segment, from four edges up, itself the last. Where
+/// none nests in it there is one mesh, and no estimate of its error.
+LevelPlan plan_of_mesh(int edges);
+
+/// What a plan leaves of the largest joint error, over the length scale, as a rule: for plans
+/// before a run.
+double expected_error(const LevelPlan& plan);
+
+/// The next plan: extrapolation, or one level more. Empty when the finest mesh would pass 128
+/// edges.
+std::optional<LevelPlan> finer(const LevelPlan& plan);
+
+/// The plan whose leading mesh has twice the edges: events that only a coarse mesh has do not
+/// happen on it. Where its finest mesh would pass 128 edges, the same plan without its leader;
+/// empty where too few meshes are left for an estimate.
+std::optional<LevelPlan> with_finer_leader(const LevelPlan& plan);
+
+}  // namespace gridshell

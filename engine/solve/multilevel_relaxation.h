@@ -1,0 +1,70 @@
+// From a rough state to rest over meshes that grow finer: 1, 2, 4 ... edges a segment. A coarse
+// mesh has few states, and each way down from it to the next is short.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/elastic/state.h"
+#include "engine/footprint/actuation.h"
+#include "engine/footprint/mesh.h"
+#include "engine/footprint/symmetry.h"
+#include "engine/solve/equilibrium.h"
+#include "engine/solve/mesh_levels.h"
+
+namespace gridshell {
+
+/// The meshes of one footprint, each with a factorisation of its own. Which state a rough one comes
+/// to is decided on the finest: coarse meshes have states that finer ones do not.
+class MultilevelRelaxation {
+ public:
+  /// Meshes of 1, 2, 4 ... edges a segment, the last `edges` (a power of two). Errors (bad_input):
+  /// rods that the rung cannot take.
+  static Result<MultilevelRelaxation> make(const Footprint& footprint, const ShellRods& rods,
+                                           RodModel rung, const BoundaryMotion& motion,
+                                           const FlatFrame& flat, int edges);
+
+  /// The nodes of the coarsest mesh as the flat footprint would stretch and turn with its ends at
+  /// t: the affine map that takes the ends nearest to where they are.
+  Eigen::Matrix3Xd stretched_flat(double t) const;
+  /// Positions of the coarsest mesh's nodes, what is held put where it is at t, to a stable rest on
+  /// the finest. Errors: no_equilibrium, cancelled.
+  Result<State> rest(double t, const Eigen::Matrix3Xd& nodes, const Watch& watch);
+  /// The same with every symmetry of `group` (indices of square_symmetries(), a group of those
+  /// that the footprint has) kept all the way; then let go: to the rest itself where it is stable,
+  /// else to that below it.
+  Result<State> rest_confined(double t, const Eigen::Matrix3Xd& nodes,
+                              const std::vector<int>& group, const Watch& watch);
+
+  /// A state of the finest mesh, what is held put where it is at t, to rest under forces on its
+  /// joints. Errors: no_equilibrium, cancelled.
+  Result<State> rest_under(const std::vector<NodeAction>& forces, double t, State state,
+                           const Watch& watch);
+
+  /// Symmetries of the finest mesh.
+  const std::vector<MeshSymmetry>& symmetries() const { return levels_.back()->symmetries; }
+  const RodMesh& finest() const { return levels_.back()->mesh; }
+  const Model& model() const { return levels_.back()->model; }
+  Linearisation& system() { return *levels_.back()->system; }
+
+ private:
+  struct Level : MeshLevel {
+    std::unique_ptr<StateTransfer> from_coarser;
+    std::vector<MeshSymmetry> symmetries;
+  };
+  MultilevelRelaxation(const FlatFrame& flat, double spacing_mm)
+      : flat_(flat), spacing_mm_(spacing_mm) {}
+  State begin_of(const Level& level, double t, const Eigen::Matrix3Xd& nodes,
+                 const State& coarser) const;
+  bool step_to_equilibrium(Level& level, State& state, const Watch& watch) const;
+  Result<State> let_go(Level& level, State state, const Watch& watch) const;
+  void down(Level& level, const std::vector<MeshSymmetry>& group, State& state,
+            const Watch& watch) const;
+
+  FlatFrame flat_;
+  double spacing_mm_;
+  std::vector<std::unique_ptr<Level>> levels_;  // coarse to fine
+};
+
+}  // namespace gridshell

@@ -1,0 +1,96 @@
+// The problem that every method of a study is given: from one certified state to the next, on any
+// mesh, and the answers to judge it by.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "engine/core/result.h"
+#include "engine/elastic/shell_rods.h"
+#include "engine/preset/preset.h"
+#include "engine/scene/scene.h"
+#include "engine/solve/nested_shell.h"
+
+namespace gridshell::study {
+
+/// What is to be done: move the boundary, come to rest beside the net, or push a joint.
+enum class Task { actuation, beside_net, push };
+
+/// On which rung a method solves, and with which joints.
+struct ModelVariant {
+  RodModel rung = RodModel::bend;
+  double spring_N_per_mm = 0;  ///< of spring joints; 0: shared nodes
+};
+
+/// The task on one mesh. Pinned nodes move from t to 1; of a push the joint is one of them.
+struct Problem {
+  int edges = 0;  ///< a segment
+  RodMesh mesh;
+  Model model;
+  PinnedMotion motion;
+  double t = 0;  ///< where it starts
+  State start;   ///< certified on this mesh (beside_net: the net itself)
+  State end;     ///< the equilibrium of *this* mesh at t = 1 on the branch of the reference
+};
+
+/// A scene with its reference. The start is the first buckled state where the rods are 2 % shorter
+/// than flat on average (of a circle: R_a = 0.98 R_o), the net, or the unloaded shell. The
+/// reference is followed from there on meshes of 4, 8, ... `finest` edges a segment and
+/// extrapolated over the last two; every coarser mesh is brought to rest from the reference's
+/// positions, so all starts and ends lie on one branch. A push holds the joint across, too
+/// (`lateral = "held"`): one problem for methods that cannot prescribe one direction alone.
+class BenchmarkProblem {
+ public:
+  /// Errors: bad_input (scene), no_equilibrium (the path is lost or snaps on the way: there is
+  /// nothing to compare with), cancelled.
+  /// `EA_scale` multiplies the rods' EA.
+  static Result<std::unique_ptr<BenchmarkProblem>> create(const preset::Preset& preset, int finest,
+                                                          Watch& watch, double EA_scale = 1);
+
+  /// Made once a mesh, from any thread. Errors: no_equilibrium where the mesh has no state near the
+  /// reference's.
+  Result<const Problem*> problem(int edges, const Watch& watch);
+
+  /// Largest distance of a joint from the reference's end over the length scale; `x` has the joints
+  /// in its first columns.
+  double error_of(const Eigen::Matrix3Xd& x) const;
+  double scale_mm() const { return scene_->length_scale_mm; }
+  int joints() const { return int(scene_->footprint.joints.size()); }
+  const Scene& scene() const { return *scene_; }
+  /// The same problem on another rung or with other joints; its end is the bend rung's.
+  Problem on_model(const Problem& problem, const ModelVariant& on) const;
+  Task task() const { return task_; }
+  double reference_error() const { return reference_error_; }  ///< estimated, over the scale
+
+  /// A nested shell as an experiment makes it for a tolerance.
+  NestedShell shell(const LevelPlan& plan, double tolerance, const ModelVariant& on = {}) const;
+  /// Brings the shell to the start, as far as that is given and not the method's own work.
+  NestedReport begin(NestedShell& shell, const Watch& watch);
+  /// From there to the end, in load steps as the experiments choose them.
+  NestedReport go(NestedShell& shell, const Watch& watch) const;
+
+ private:
+  BenchmarkProblem() = default;
+  Result<void> set_up(const preset::Preset& preset);
+  Result<void> follow(int finest, Watch& watch);
+  Result<void> find_push(const NestedShell& shell);
+  Result<State> rest_beside(const Problem& problem, const Eigen::Matrix3Xd& wanted, double t,
+                            const Watch& watch) const;
+  ShellRods rods_on(const ModelVariant& on) const;
+  void push(NestedShell& shell) const;
+
+  std::shared_ptr<const Scene> scene_;
+  preset::Indentation pushed_;
+  Task task_ = Task::actuation;
+  double t_ = 0;    // where the actuation starts
+  int joint_ = -1;  // pushed
+  Eigen::Vector3d displacement_ = Eigen::Vector3d::Zero();
+  RodMesh finest_;
+  Eigen::Matrix3Xd start_, end_;  // of the reference, on finest_
+  double reference_error_ = 0;
+  std::mutex mutex_;  // of problems_
+  std::map<int, Problem> problems_;
+};
+
+}  // namespace gridshell::study

@@ -1,0 +1,278 @@
+#include "engine/study/scan.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include "engine/core/box_grid.h"
+
+namespace gridshell {
+namespace {
+
+constexpr int most_triples = 80, least_points = 4;
+constexpr Eigen::Index most_tried = 1500;  // places of a triple; of more, that many drawn
+constexpr std::size_t most_pairs = 4000;   // of places at one distance that are tried
+constexpr int looked_at = 24;              // points that must agree before all are counted
+constexpr double least_agreeing = 0.35;    // of those
+constexpr double enough = 0.9;             // of the places or points: no further triple is drawn
+constexpr double as_good = 0.8;            // of the best pose's count: worth refining
+constexpr std::size_t most_refined = 16;
+constexpr double other_pose = 0.1;                          // rad
+constexpr double shortest_side = 0.2, least_height = 0.15;  // of the shape, in a triple
+constexpr int most_turns = 60;
+
+double distance(const Eigen::Matrix3Xd& points, int a, int b) {
+  return (points.col(a) - points.col(b)).norm();
+}
+
+double extent_of(const Eigen::Matrix3Xd& points) {
+  return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+}
+
+/// The rotation and shift that bring `from` nearest to `to`.
+Pose fit(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
+  const Eigen::Matrix4d moved = Eigen::umeyama(from, to, false);
+  return {moved.topLeftCorner<3, 3>(), moved.topRightCorner<3, 1>()};
+}
+
+/// The places of a shape, found by where they are.
+class Places {
+ public:
+  Places(const Eigen::Matrix3Xd& places, double within)
+      : places_(places), within_(within), grid_(2 * within) {
+    for (int k = 0; k < int(places.cols()); ++k) {
+      const Eigen::Vector3d p = places.col(k), around = Eigen::Vector3d::Constant(within);
+      grid_.add(k, {p - around, p + around}, std::numeric_limits<std::size_t>::max());
+    }
+  }
+
+  /// visit(place, distance) for those within the length that it was made with.
+  void near(const Eigen::Vector3d& p, auto visit) const {
+    const std::vector<int>* few = grid_.at(p);
+    if (!few) return;
+    for (const int k : *few)
+      if (const double off = (places_.col(k) - p).norm(); off <= within_) visit(k, off);
+  }
+  bool any(const Eigen::Vector3d& p) const {
+    bool found = false;
+    near(p, [&](int, double) { found = true; });
+    return found;
+  }
+
+ private:
+  const Eigen::Matrix3Xd& places_;
+  double within_;
+  BoxGrid grid_;
+};
+
+/// Two places and how far they are apart.
+struct PlacePair {
+  double apart = 0;
+  int i = 0, j = 0;
+};
+
+struct Guess {
+  Pose pose;
+  int agreeing = 0;
+};
+
+/// Draws triples and keeps the poses in which most points agree.
+class Search {
+ public:
+  Search(const Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& places, double bar)
+      : points_(points), places_(places), bar_(bar), near_(places, bar), size_(extent_of(places)) {
+    tried_.resize(std::size_t(places.cols()));
+    std::iota(tried_.begin(), tried_.end(), 0);
+    if (places.cols() > most_tried) {
+      std::shuffle(tried_.begin(), tried_.end(), draw_);
+      tried_.resize(most_tried);
+    }
+    for (const int i : tried_)
+      for (const int j : tried_)
+        if (j < i) pairs_.push_back({distance(places, i, j), i, j});
+    std::ranges::sort(pairs_, {}, &PlacePair::apart);
+    order_.resize(std::size_t(points.cols()));
+    std::iota(order_.begin(), order_.end(), 0);
+    std::shuffle(order_.begin(), order_.end(), draw_);
+  }
+
+  std::vector<Guess> guesses() {
+    const auto all = int(std::min(points_.cols(), places_.cols()));
+    for (int k = 0; k < most_triples && best_ < enough * all; ++k) {
+      // first as if all were exact, then as far off as may be
+      within_ = k % 2 == 0 ? bar_ / 3 : bar_;
+      if (const auto triple = drawn()) try_all(*triple);
+    }
+    std::ranges::stable_sort(guesses_, std::ranges::greater{}, &Guess::agreeing);
+    return apart_from_one_another();
+  }
+
+ private:
+  using Triple = std::array<int, 3>;
+
+  int random_point() { return int(draw_() % std::uint64_t(points_.cols())); }
+
+  /// Three points that could lie on the shape and tell a pose.
+  std::optional<Triple> drawn() {
+    for (int k = 0; k < 1000; ++k) {
+      const Triple t{random_point(), random_point(), random_point()};
+      const Eigen::Vector3d ab = points_.col(t[1]) - points_.col(t[0]),
+                            ac = points_.col(t[2]) - points_.col(t[0]);
+      const double sides[] = {ab.norm(), ac.norm(), (ab - ac).norm()};
+      const auto [least, most] = std::ranges::minmax(sides);
+      if (least < shortest_side * size_ || most > size_) continue;
+      if (ab.cross(ac).norm() >= least_height * size_ * ab.norm()) return t;
+    }
+    return std::nullopt;
+  }
+
+  void try_all(const Triple& t) {
+    const double ab = distance(points_, t[0], t[1]), ac = distance(points_, t[0], t[2]),
+                 bc = distance(points_, t[1], t[2]);
+    const auto first = std::ranges::lower_bound(pairs_, ab - within_, {}, &PlacePair::apart),
+               last = std::ranges::upper_bound(pairs_, ab + within_, {}, &PlacePair::apart);
+    const auto step = std::max<std::ptrdiff_t>(1, (last - first) / std::ptrdiff_t(most_pairs));
+    for (auto at = first; last - at > 0; at += std::min(step, last - at))
+      for (const auto& [i, j] : {std::pair(at->i, at->j), std::pair(at->j, at->i)})
+        for (const int k : tried_)
+          if (std::abs(distance(places_, i, k) - ac) < within_ &&
+              std::abs(distance(places_, j, k) - bc) < within_)
+            try_pose(t, {i, j, k});
+  }
+
+  void try_pose(const Triple& t, const Triple& on) {
+    Eigen::Matrix3Xd from(3, 3), to(3, 3);
+    for (int k = 0; k < 3; ++k) {
+      from.col(k) = points_.col(t[std::size_t(k)]);
+      to.col(k) = places_.col(on[std::size_t(k)]);
+    }
+    const Pose pose = fit(from, to);
+    const auto agrees = [&](int k) { return near_.any(pose.turn * points_.col(k) + pose.shift); };
+    const auto few = order_.begin() + std::min<std::ptrdiff_t>(looked_at, std::ssize(order_));
+    int agreeing = int(std::count_if(order_.begin(), few, agrees));
+    if (agreeing < least_agreeing * double(few - order_.begin())) return;
+    agreeing += int(std::count_if(few, order_.end(), agrees));
+    if (agreeing < as_good * best_) return;
+    best_ = std::max(best_, agreeing);
+    guesses_.push_back({pose, agreeing});
+  }
+
+  std::vector<Guess> apart_from_one_another() const {
+    std::vector<Guess> kept;
+    for (const Guess& guess : guesses_) {
+      if (kept.size() == most_refined || guess.agreeing < as_good * best_) break;
+      const auto same = [&](const Guess& other) {
+        const Eigen::Matrix3d between = guess.pose.turn.transpose() * other.pose.turn;
+        return std::abs(Eigen::AngleAxisd(between).angle()) < other_pose &&
+               (guess.pose.shift - other.pose.shift).norm() < other_pose * size_;
+      };
+      if (std::ranges::none_of(kept, same)) kept.push_back(guess);
+    }
+    return kept;
+  }
+
+  const Eigen::Matrix3Xd &points_, &places_;
+  double bar_, within_ = 0;
+  Places near_;
+  double size_;
+  std::vector<int> tried_;  // places that triples are laid on
+  std::vector<PlacePair> pairs_;
+  std::vector<int> order_;
+  std::mt19937_64 draw_{1};
+  std::vector<Guess> guesses_;
+  int best_ = 0;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Each place its point, the nearest pairs first, none further than `most`.
+void assign(const Eigen::Matrix3Xd& moved, const Places& near, double most, Registration& found) {
+  struct Near {
+    double off;
+    int place, point;
+  };
+  std::vector<Near> all;
+  for (int point = 0; point < int(moved.cols()); ++point)
+    near.near(moved.col(point), [&](int place, double off) {
+      if (off <= most) all.push_back({off, place, point});
+    });
+  std::ranges::stable_sort(all, {}, &Near::off);
+  std::vector<char> taken(std::size_t(moved.cols()), 0);
+  std::ranges::fill(found.point_of, -1);
+  found.distance.setConstant(std::nan(""));
+  found.found = 0;
+  for (const Near& one : all) {
+    if (taken[std::size_t(one.point)] || found.point_of[std::size_t(one.place)] >= 0) continue;
+    taken[std::size_t(one.point)] = 1;
+    found.point_of[std::size_t(one.place)] = one.point;
+    found.distance[one.place] = one.off;
+    ++found.found;
+  }
+}
+
+Pose fit_found(const Registration& found, const Eigen::Matrix3Xd& points,
+               const Eigen::Matrix3Xd& places) {
+  Eigen::Matrix3Xd from(3, found.found), to(3, found.found);
+  Eigen::Index k = 0;
+  for (Eigen::Index place = 0; place < places.cols(); ++place) {
+    const int point = found.point_of[std::size_t(place)];
+    if (point < 0) continue;
+    from.col(k) = points.col(point);
+    to.col(k++) = places.col(place);
+  }
+  return fit(from, to);
+}
+
+std::optional<Registration> refined(const Pose& guess, const Eigen::Matrix3Xd& points,
+                                    const Eigen::Matrix3Xd& places, const Places& near,
+                                    const RegistrationOptions& options) {
+  Registration found;
+  found.pose = guess;
+  found.point_of.assign(std::size_t(places.cols()), -1);
+  found.distance.resize(places.cols());
+  double gate = options.reach;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const auto before = found.point_of;
+    assign(found.pose.of(points), near, gate, found);
+    if (found.found < least_points) return std::nullopt;
+    if (turn > 0 && before == found.point_of) break;
+    found.pose = fit_found(found, points, places);
+    std::vector<double> off;
+    for (const double one : found.distance)
+      if (!std::isnan(one)) off.push_back(one);
+    gate = std::clamp(5 * median(off), options.nearest, options.reach);
+  }
+  // of the last fit
+  assign(found.pose.of(points), near, gate, found);
+  if (found.found < least_points) return std::nullopt;
+  for (const double one : found.distance) {
+    const double off = std::isnan(one) ? options.bar : std::min(one, options.bar);
+    found.cost += off * off;
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<Registration> register_points(const Eigen::Matrix3Xd& points,
+                                            const Eigen::Matrix3Xd& places,
+                                            const RegistrationOptions& options) {
+  if (points.cols() < least_points || places.cols() < least_points) return std::nullopt;
+  if (!points.allFinite() || !places.allFinite() || !(extent_of(places) > 0)) return std::nullopt;
+  const Places near(places, options.reach);
+  std::optional<Registration> best;
+  for (const Guess& guess : Search(points, places, options.bar).guesses()) {
+    auto found = refined(guess.pose, points, places, near, options);
+    if (found && (!best || found->cost < best->cost)) best = std::move(found);
+  }
+  return best;
+}
+
+}  // namespace gridshell

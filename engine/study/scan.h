@@ -1,0 +1,115 @@
+// The tops of joints in a cloud of points: what lies together is one of them.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/record/trajectory.h"
+
+namespace gridshell {
+
+/// What a cloud comes to.
+struct Clusters {
+  Eigen::Matrix3Xd tops;    ///< middles of the discs, mm
+  std::vector<int> points;  ///< of each
+  int specks = 0;           ///< clusters of too few points
+  int others = 0;           ///< clusters wider than a joint, or two things that touch
+};
+
+/// Points that lie nearer to one another than a third of `diameter_mm` are one cluster (further
+/// apart than 1.2 diameters never). A cluster with less than a quarter of the points of the cluster
+/// that the median point is in is a speck; one that reaches further than a diameter from its
+/// middle, or with a twentieth of its points beyond 1.25 radii, is no joint. The middle of a top is
+/// that of a disc of the diameter in the points' plane which they overhang least, since their mean
+/// depends on how evenly a scanner sees it; along the normal it is their mean. Errors (bad_input):
+/// points so far apart that they cannot be one shell.
+Result<Clusters> cluster_joint_tops(const Eigen::Matrix3Xd& cloud, double diameter_mm);
+
+// Lays measured points on a shape whose pose is not known: rigidly, some missing, some spurious.
+
+/// p goes to turn p + shift; `turn` is a rotation, or one with a mirror.
+struct Pose {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+
+  Eigen::Matrix3Xd of(const Eigen::Matrix3Xd& points) const {
+    return (turn * points).colwise() + shift;
+  }
+};
+
+/// How points lie on the places of a shape.
+struct Registration {
+  Pose pose;
+  std::vector<int> point_of;  ///< of each place, -1: missing
+  Eigen::VectorXd distance;   ///< of each place, NaN: missing
+  int found = 0;              ///< places with a point
+  /// Sum over the places of their squared distance, at most `bar`^2 each, a missing one's too.
+  double cost = 0;
+};
+
+/// Lengths in the unit of the points.
+struct RegistrationOptions {
+  double bar = 3;        ///< places nearer to a point than that agree with it
+  double reach = 8;      ///< no point belongs to a place further away
+  double nearest = 1.5;  ///< within that it does, however well all others lie
+};
+
+/// The pose in which most places have a point within the bar and, among those, the cost is least.
+/// Poses are tried that lay three points, drawn at random (always the same), on three places at
+/// their distances [Fischler and Bolles 1981]; the best are refined by turns of assignment (each
+/// place its point, the nearest pairs first, none further than five medians of all) and fit [Besl
+/// and McKay 1992; Umeyama 1991]. Nothing: there are fewer than four of either, or no pose lays
+/// four points on places.
+std::optional<Registration> register_points(const Eigen::Matrix3Xd& points,
+                                            const Eigen::Matrix3Xd& places,
+                                            const RegistrationOptions& options);
+
+// A 3D scan against the joints of a simulated shell [Baek 2018, Figs. 2A, 3C and 5E].
+
+/// A joint's cylinder: its top lies `height_mm` above the rods' crossing along the shell's normal.
+struct JointCylinder {
+  double diameter_mm = 3, height_mm = 5;
+};
+
+/// What a scan is laid on: the joints of one state, 3 x n.
+struct ScanTarget {
+  Eigen::Matrix3Xd joints, normals;
+  double spacing_mm = 0;
+  /// A mirror that leaves footprint and boundary as they are: the shell may rest in the mirror
+  /// image as well.
+  std::optional<Eigen::Matrix3d> mirror;
+};
+
+/// The normals are t_u x t_v of the rods at each joint, t of the quadratic through the nodes beside
+/// it.
+ScanTarget form_of(const record::Layout& layout, const record::Frame& frame);
+
+/// A scan laid on a state. Joints in the order of the form, in the frame of the run.
+struct RegisteredScan {
+  Eigen::Matrix3Xd joints;      ///< measured, 3 x n; NaN: missing
+  Eigen::VectorXd distance_mm;  ///< from the simulated ones; NaN: missing
+  Eigen::Matrix3Xd outliers;    ///< tops that belong to no joint, in the frame of the run
+  Pose pose;                    ///< from the scan's frame to the run's
+  bool mirrored = false;
+  int found = 0, within_bar = 0;  ///< joints; of them within two radii
+  double rms_mm = 0, max_mm = 0, mean_mm = 0;
+  double cost = 0;  ///< Registration::cost: of several states the least is the one
+
+  int missing() const { return int(joints.cols()) - found; }
+  /// The joints that are not missing.
+  Eigen::Matrix3Xd measured() const;
+};
+
+/// The scan's tops on a state, rigidly or, where the form has a mirror, mirrored too. Nothing: it
+/// cannot be laid on it at all.
+std::optional<RegisteredScan> register_points(const Clusters& clusters, const ScanTarget& form,
+                                              const JointCylinder& cylinder);
+
+/// Whether a scan laid so shows that state: nine tenths of the joints found lie within two radii of
+/// the simulated ones, as do seven tenths of what could (of the joints or of the tops, whichever
+/// are fewer), and their rms is at most a radius.
+bool scan_matches(const RegisteredScan& scan, const JointCylinder& cylinder);
+
+}  // namespace gridshell

@@ -1,0 +1,89 @@
+// Which of the states met so far a new one is, modulo the symmetries of the shell.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/footprint/symmetry.h"
+#include "engine/record/states.h"
+#include "engine/record/summary.h"
+#include "engine/record/trajectory.h"
+#include "engine/study/state_search.h"
+
+namespace gridshell::experiment {
+
+/// States by the positions of their joints.
+class StateCatalogue {
+ public:
+  /// `tolerance_mm`: joints of one and the same state lie nearer than that.
+  StateCatalogue(std::vector<MeshSymmetry> symmetries, double tolerance_mm)
+      : symmetries_(std::move(symmetries)), tolerance_mm_(tolerance_mm) {}
+
+  /// The one that `joints` (3 x n, mm; energy in mJ) are an image of, if any.
+  std::optional<std::size_t> find(const Eigen::Matrix3Xd& joints, double energy_mJ) const;
+  /// The same, entered as a new one where there is none.
+  std::size_t enter(const Eigen::Matrix3Xd& joints, double energy_mJ);
+
+  std::size_t size() const { return entries_.size(); }
+
+ private:
+  struct Entry {
+    Eigen::Matrix3Xd joints;
+    double energy_mJ = 0;
+  };
+  std::vector<MeshSymmetry> symmetries_;
+  double tolerance_mm_;
+  std::vector<Entry> entries_;
+};
+
+// The states that a shell can rest in at the end of its actuation: looked for by shaking it, told
+// apart modulo its symmetries, and measured.
+
+/// One of them.
+struct ShellState {
+  record::StateRow row;
+  record::Frame frame;   ///< extrapolated as planned, upright where up and down are alike
+  State rest;            ///< on the mesh that states are judged on
+  double energy_mJ = 0;  ///< there
+};
+
+/// What a search found, in the order of energy.
+struct StateLibrary {
+  std::vector<ShellState> states;
+  record::StateSearch search;
+  record::Layout layout;               ///< of the frames
+  Effort effort;                       ///< of the measures
+  int dof = 0, edges_per_segment = 0;  ///< of the finest mesh
+};
+
+struct SearchOptions {
+  int threads = 1;
+  bool lives = true;  ///< find out how far back along the path each state lives
+};
+
+/// Shakes the shell of a scene `jitter.trials` times, and `jitter.confined` times from symmetric
+/// forms, keeps each state once and certifies it on the meshes that the scene's accuracy asks for,
+/// two at least. The same for any number of threads. Errors: bad_input; cancelled; no_equilibrium
+/// where not one trial ends in a state, with the reasons.
+Result<StateLibrary> find_states(const std::shared_ptr<const Scene>& scene,
+                                 const preset::SearchSettings& jitter, const SearchOptions& options,
+                                 Watch& watch);
+
+/// What a run leaves beside the frames of its states.
+struct StateSearchRun {
+  record::Summary summary;  ///< of the state of lowest energy
+  record::StateTables tables;
+};
+
+/// The state of lowest energy of a library that has one, as a run's summary.
+record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
+                           const StateLibrary& library);
+
+/// find_states() of a preset, then the ways between them and the barriers; the states are handed to
+/// `sink` as frames in the order of energy. Errors: as find_states(), and the sink's.
+Result<StateSearchRun> run_states(const preset::Preset& preset, int threads, record::Sink& sink,
+                                  Watch& watch);
+
+}  // namespace gridshell::experiment

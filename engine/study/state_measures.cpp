@@ -1,0 +1,194 @@
+#include "engine/study/state_measures.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "engine/core/try.h"
+#include "engine/record/shape_measures.h"
+#include "engine/simulate/equilibrium_path.h"
+#include "engine/simulate/frames.h"
+#include "engine/solve/buckling.h"
+#include "engine/solve/newton.h"
+#include "engine/study/state_search.h"
+
+namespace gridshell::experiment {
+namespace {
+
+constexpr double largest_step = 0.05;  // in the path parameter: where a branch is asked for
+constexpr double located = 1e-3;       // in it: to which the end of a branch is located
+
+/// The paper's ii and iii break the symmetry by rods of higher modes: a dome that leans is neither.
+record::StateClass class_of(const std::string& group, bool first_mode) {
+  using record::StateClass;
+  if (group == "C4v") return first_mode ? StateClass::i : StateClass::iv;
+  if (first_mode) return StateClass::other;
+  if (group == "C2v_axes" || group == "C2v_diagonals") return StateClass::ii;
+  return group == "C4" ? StateClass::iii : StateClass::other;
+}
+
+/// "0 0 2 | 0 1 0", u rods before the bar; of a network that is no grid without one.
+std::string modes_told(const std::vector<int>& modes, const Footprint& footprint) {
+  std::vector<int> u, v, other;
+  for (std::size_t r = 0; r < modes.size(); ++r) {
+    const Family family = footprint.rods[r].family;
+    (family == Family::u ? u : family == Family::v ? v : other).push_back(modes[r]);
+  }
+  if (!other.empty()) return fmt::format("{}", fmt::join(other, " "));
+  return fmt::format("{} | {}", fmt::join(u, " "), fmt::join(v, " "));
+}
+
+/// To round-off, which a designed shell's diameters have.
+bool alike(const ShellRods& rods, std::size_t a, std::size_t b) {
+  const auto same = [](double one, double other) {
+    return std::abs(one - other) <= 1e-6 * std::abs(one);
+  };
+  const RodMaterial &one = rods.material(a), &other = rods.material(b);
+  const bool weigh_alike =
+      rods.weight_N_per_mm.empty() || same(rods.weight_N_per_mm[a], rods.weight_N_per_mm[b]);
+  return same(one.EA, other.EA) && same(one.EI1, other.EI1) && same(one.EI2, other.EI2) &&
+         same(one.GJ, other.GJ) && weigh_alike;
+}
+
+/// Whether every edge goes to an edge of a rod of the same kind.
+bool keeps_kinds(const ShellRods& rods, const RodMesh& mesh, const MeshSymmetry& symmetry) {
+  const auto edge = [](int a, int b) { return std::pair(std::min(a, b), std::max(a, b)); };
+  std::map<std::pair<int, int>, std::size_t> rod_of;
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r)
+    for (std::size_t k = 1; k < mesh.rods[r].size(); ++k)
+      rod_of[edge(mesh.rods[r][k - 1], mesh.rods[r][k])] = r;
+  return std::ranges::all_of(rod_of, [&](const auto& at) {
+    const auto [a, b] = at.first;
+    const auto there =
+        rod_of.find(edge(symmetry.image[std::size_t(a)], symmetry.image[std::size_t(b)]));
+    return there != rod_of.end() && alike(rods, at.second, there->second);
+  });
+}
+
+}  // namespace
+
+std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh& mesh,
+                                              const std::vector<MeshSymmetry>& of_mesh) {
+  const ShellRods& rods = scene.rods;
+  const bool shaped = std::ranges::any_of(rods.materials, [](const RodMaterial& material) {
+    return !material.curvature.isZero(0) || material.twist != 0;
+  });
+  std::vector<MeshSymmetry> kept;
+  for (const MeshSymmetry& symmetry : of_mesh) {
+    const bool identity = symmetry.index == 0;
+    const bool allowed = !shaped && rods.points.empty() &&
+                         (!rods.loaded() || !symmetry.turns_over()) &&
+                         keeps_kinds(rods, mesh, symmetry);
+    if (identity || allowed) kept.push_back(symmetry);
+  }
+  return kept;
+}
+
+LevelPlan measuring_plan(const Scene& scene) {
+  // trials end on the mesh that leads here
+  const int finest = std::max(2 * judged_edges, initial_levels(scene).edges_per_segment.back());
+  LevelPlan plan{{judged_edges}, true};
+  while (2 * plan.edges_per_segment.back() <= finest)
+    plan.edges_per_segment.push_back(2 * plan.edges_per_segment.back());
+  return plan;
+}
+
+StateMeasures::StateMeasures(std::shared_ptr<const Scene> scene, double tolerance_mm,
+                             Session session, Session path)
+    : scene_(std::move(scene)),
+      tolerance_mm_(tolerance_mm),
+      session_(std::move(session)),
+      path_(std::move(path)) {
+  const auto on = [&](const NestedShell& shell, int level) {
+    const RodMesh& mesh = shell.mesh(level);
+    return symmetries_of_shell(*scene_, mesh, symmetries_of(mesh, shell.motion(level).at(1)));
+  };
+  coarse_ = on(session_.shell(), 0);
+  fine_ = on(session_.shell(), session_.shell().levels() - 1);
+}
+
+Result<StateMeasures> StateMeasures::make(std::shared_ptr<const Scene> scene, double tolerance_mm) {
+  TRY(session, Session::open(scene, measuring_plan(*scene)));
+  TRY(path, Session::open(scene, {{judged_edges}, false}));
+  return StateMeasures(std::move(scene), tolerance_mm, std::move(*session), std::move(*path));
+}
+
+/// Turned over where the shell hangs below its boundary and up and down are alike.
+State StateMeasures::upright(const State& rest) const {
+  const RodMesh& mesh = session_.shell().mesh(0);
+  const Model& model = session_.shell().model(0);
+  const Eigen::Matrix3Xd nodes = nodes_of(mesh, model, rest.x);
+  for (const MeshSymmetry& symmetry : coarse_) {
+    if (!symmetry.turns_over() || model.has_spins()) continue;
+    const double level = symmetry.centre.z();
+    if (nodes.row(2).mean() >= level) return rest;
+    return start_state(model, columns_of(mesh, model, symmetry.of(nodes)));
+  }
+  return rest;
+}
+
+double StateMeasures::eigenvalue(const Watch& watch) {
+  NestedShell& shell = session_.shell();
+  const auto on = [&](int level) {
+    const RodMesh& mesh = shell.mesh(level);
+    const Eigen::VectorXd length = lumped(mesh, std::vector<double>(mesh.rods.size(), 1.0));
+    return lowest_eigenvalue(shell.system(level), shell.state().levels[std::size_t(level)], length,
+                             watch);
+  };
+  const int last = shell.levels() - 1;
+  return (4 * on(last) - on(last - 1)) / 3;
+}
+
+/// Back along the path, on the mesh that states are judged on, until the branch ends.
+void StateMeasures::put_life(const State& rest, record::StateRow& row, const Watch& watch) {
+  const NestedShell& shell = path_.shell();
+  if (path_.begin_at(1, rest, watch).end != Outcome::reached) return;
+  const auto nearly_flat = parameter_of_shortening(shell.mesh(0), shell.motion(0), flat_shortening);
+  const double to = nearly_flat && !scene_->drawn_in_space ? std::min(*nearly_flat, 1.0) : 0;
+  double good = path_.go(to, watch, {.wanted = false}).t;
+  // it ended within the load step after that
+  double bad = std::max(to, good - largest_step);
+  while (good > to && good - bad > located && !watch.cancelled()) {
+    const double middle = 0.5 * (good + bad);
+    const bool there = path_.go(middle, watch, {.wanted = false}).t == middle;
+    (there ? good : bad) = middle;
+  }
+  row.lives_to = good * good;
+  row.lives_to_radius_mm = scene_->radius_at(row.lives_to);
+}
+
+std::optional<MeasuredState> StateMeasures::of(const State& found, bool life, const Watch& watch) {
+  const Effort before = session_.effort() + path_.effort();
+  MeasuredState one;
+  const State turned = upright(found);
+  if (session_.begin_at(1, turned, watch).end != Outcome::reached || session_.locked())
+    return std::nullopt;
+  one.rest = session_.shell().state().levels[0];
+  one.frame = frame_of(session_);
+  one.frame.progress = one.frame.actuation = 1;
+  one.frame.boundary_radius_mm = scene_->radius_end_mm;
+  const RodMesh& mesh = session_.shell().finest();
+  const Eigen::Matrix3Xd& nodes = session_.nodes();
+  const Eigen::Index joints = mesh.joints;
+  const std::vector<int> modes = inflections(mesh, nodes);
+  record::StateRow& row = one.row;
+  row.group = name_of_group(group_of(fine_, nodes.leftCols(joints), tolerance_mm_));
+  row.kind = class_of(row.group, std::ranges::all_of(modes, [](int n) { return n == 0; }));
+  row.inflections = modes_told(modes, scene_->footprint);
+  row.energies = one.frame.energies;
+  row.height_mm = one.frame.height_mm;
+  const double plane = scene_->flat.origin.z();
+  row.z_max_mm = one.frame.nodes.row(2).maxCoeff() - plane;
+  row.z_min_mm = one.frame.nodes.row(2).minCoeff() - plane;
+  row.error_estimate_mm = one.frame.error_estimate_mm;
+  row.eigenvalue_N_per_mm2 = eigenvalue(watch);
+  if (life) put_life(one.rest, row, watch);
+  one.effort = session_.effort() + path_.effort() - before;
+  return one;
+}
+
+}  // namespace gridshell::experiment

@@ -1,0 +1,59 @@
+// What is measured on a state: its certificate on finer meshes, its symmetry, modes and life.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/record/frame.h"
+#include "engine/record/shape_symmetry.h"
+#include "engine/record/states.h"
+#include "engine/simulate/session.h"
+
+namespace gridshell::experiment {
+
+/// The symmetries of a mesh that its shell has: none of those that would exchange rods of different
+/// kinds, or turn over or move loads and rods that are curved at rest.
+std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh& mesh,
+                                              const std::vector<MeshSymmetry>& of_mesh);
+
+/// The meshes that the accuracy asks for, but two at least, of which energies are extrapolated.
+LevelPlan measuring_plan(const Scene& scene);
+
+/// A state as measured, without its number and counts.
+struct MeasuredState {
+  record::StateRow row;
+  record::Frame frame;
+  State rest;  ///< on the mesh that states are judged on, upright
+  Effort effort;
+};
+
+/// Measures states, one after another; one a thread.
+class StateMeasures {
+ public:
+  /// `tolerance_mm`: joints that a symmetry moves by less stay where they are. Errors (bad_input):
+  /// rods that the rung cannot take.
+  static Result<StateMeasures> make(std::shared_ptr<const Scene> scene, double tolerance_mm);
+
+  /// A state at the end of the actuation, on the coarsest mesh; nothing where finer meshes do not
+  /// have it, have it and it is not stable, or its rods are beyond the strain allowed.
+  std::optional<MeasuredState> of(const State& rest, bool life, const Watch& watch);
+
+  const Session& session() const { return session_; }
+  /// Of the finest mesh, and so of its joints.
+  const std::vector<MeshSymmetry>& symmetries() const { return fine_; }
+
+ private:
+  StateMeasures(std::shared_ptr<const Scene> scene, double tolerance_mm, Session session,
+                Session path);
+  State upright(const State& rest) const;
+  void put_life(const State& rest, record::StateRow& row, const Watch& watch);
+  double eigenvalue(const Watch& watch);
+
+  std::shared_ptr<const Scene> scene_;
+  double tolerance_mm_;
+  Session session_, path_;  // on all meshes, and on the coarsest alone
+  std::vector<MeshSymmetry> coarse_, fine_;
+};
+
+}  // namespace gridshell::experiment

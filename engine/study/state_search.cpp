@@ -1,0 +1,209 @@
+#include "engine/study/state_search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/algorithms.h"
+#include "engine/core/try.h"
+#include "engine/simulate/actuation.h"
+#include "engine/simulate/indentation.h"
+#include "engine/study/state_measures.h"
+
+namespace gridshell::experiment {
+namespace {
+
+using preset::SearchMode;
+
+const LevelPlan judged_plan{{judged_edges}, false};
+
+/// What tells the generators of trials apart.
+enum class Purpose : std::uint32_t { trial, confined, poke };
+
+/// A generator a trial, so that any trial can be made by itself.
+std::mt19937 generator(int seed, Purpose purpose, int k) {
+  std::seed_seq seeds{std::uint32_t(seed), std::uint32_t(purpose), std::uint32_t(k)};
+  return std::mt19937(seeds);
+}
+
+double share(std::mt19937& random) { return 0.5 * (1 + symmetric_uniform(random)); }
+
+/// A random direction, each equally likely.
+Eigen::Vector3d direction(std::mt19937& random) {
+  const double z = symmetric_uniform(random), angle = M_PI * symmetric_uniform(random),
+               r = std::sqrt(1 - z * z);
+  return {r * std::cos(angle), r * std::sin(angle), z};
+}
+
+tl::unexpected<Error> no_rest(std::string why) {
+  return fail(Fault::no_equilibrium, std::move(why));
+}
+/// Errors of solvers name numbers; trials are counted by what happened.
+Result<State> in_few_words(Result<State> rest, const char* why) {
+  if (!rest && rest.error().fault == Fault::no_equilibrium) return no_rest(why);
+  return rest;
+}
+
+std::vector<double> levels_of(const preset::SearchSettings& jitter) {
+  if (!jitter.levels.empty()) return jitter.levels;
+  if (jitter.mode == SearchMode::gravity) return {0.02, 0.05, 0.1, 0.2, 0.35, 0.5};
+  return {1};
+}
+
+}  // namespace
+
+Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>& scene,
+                                              const preset::SearchSettings& jitter,
+                                              const Watch& watch) {
+  std::vector<StartForm> forms;
+  Result<void> last;
+  for (const double level : levels_of(jitter)) {
+    forms.push_back({parameter_at(level), {}});
+    if (jitter.mode == SearchMode::random) continue;
+    auto course = follow_actuation(scene, judged_plan, level < 1, level, watch);
+    if (watch.cancelled()) return stopped();
+    if (course && scene->from_net) course->session.go(forms.back().t, watch);
+    const bool there = course && course->session.shell().state().t == forms.back().t;
+    if (there)
+      forms.back().state = course->session.shell().state().levels[0];
+    else
+      forms.pop_back();
+    if (!course) last = tl::unexpected<Error>(course.error());
+  }
+  if (!forms.empty()) return forms;
+  if (!last) return tl::unexpected<Error>(last.error());
+  return no_rest("the actuation comes to none of [jitter] levels");
+}
+
+StateSearcher::StateSearcher(std::shared_ptr<const Scene> scene,
+                             const preset::SearchSettings& jitter,
+                             const std::vector<StartForm>& forms, MultilevelRelaxation cascade,
+                             Session session)
+    : scene_(std::move(scene)),
+      jitter_(jitter),
+      forms_(&forms),
+      symmetries_(symmetries_of_shell(*scene_, cascade.finest(), cascade.symmetries())),
+      groups_(subgroups(symmetries_)),
+      cascade_(std::move(cascade)),
+      session_(std::move(session)) {
+  // what lies between joints counts half to each
+  const RodMesh mesh = mesh_rods(scene_->footprint, 1);
+  joint_length_ = lumped(mesh, std::vector<double>(mesh.rods.size(), 1.0)).head(mesh.joints);
+  for (int joint = 0; joint < mesh.joints; ++joint)
+    if (not_on_boundary(scene_->footprint, joint)) pushable_.push_back(joint);
+}
+
+Result<StateSearcher> StateSearcher::make(std::shared_ptr<const Scene> scene,
+                                          const preset::SearchSettings& jitter,
+                                          const std::vector<StartForm>& forms) {
+  TRY(cascade, MultilevelRelaxation::make(scene->footprint, scene->rods, scene->solved_model(),
+                                          scene->motion, scene->flat, judged_edges));
+  TRY(session, Session::open(scene, judged_plan));
+  return StateSearcher(std::move(scene), jitter, forms, std::move(*cascade), std::move(*session));
+}
+
+Eigen::Matrix3Xd StateSearcher::random_nodes(double t, std::mt19937& random) const {
+  Eigen::Matrix3Xd nodes = cascade_.stretched_flat(t);
+  const double reach = jitter_.amplitude * scene_->footprint.spacing;
+  for (double& coordinate : nodes.reshaped()) coordinate += reach * symmetric_uniform(random);
+  return nodes;
+}
+
+Result<State> StateSearcher::random_start(const StartForm& form, std::mt19937& random,
+                                          const Watch& watch) {
+  return in_few_words(cascade_.rest(form.t, random_nodes(form.t, random), watch),
+                      "did not come to rest");
+}
+
+Result<State> StateSearcher::pull_start(const StartForm& form, std::mt19937& random,
+                                        const Watch& watch) {
+  const Eigen::Vector3d field = jitter_.field_N_per_mm * share(random) * direction(random);
+  std::vector<NodeAction> forces;
+  for (int joint = 0; joint < joint_length_.size(); ++joint)
+    forces.push_back({joint, joint_length_[joint] * field});
+  auto under = in_few_words(cascade_.rest_under(forces, form.t, form.state, watch),
+                            "did not come to rest under the field");
+  if (!under) return under;
+  return in_few_words(cascade_.rest_under({}, form.t, std::move(*under), watch),
+                      "did not come to rest after the field");
+}
+
+Result<State> StateSearcher::push_start(const StartForm& form, std::mt19937& random,
+                                        const Watch& watch) {
+  constexpr unsigned most_pushes = 3;
+  if (session_.begin_at(form.t, form.state, watch).end != Outcome::reached)
+    return watch.cancelled() ? Result<State>(stopped())
+                             : Result<State>(no_rest("the form to push is not at rest"));
+  if (pushable_.empty()) return no_rest("every joint is a support, nothing can push it");
+  const unsigned pushes = 1 + random() % most_pushes;
+  for (unsigned k = 0; k < pushes; ++k) {
+    const int joint = pushable_[random() % std::uint32_t(pushable_.size())];
+    const double depth = jitter_.depth * scene_->footprint.spacing * share(random);
+    // how far it came is far enough: a hand stops where the rods are at their length
+    session_.push(joint, depth * direction(random), Across::free, watch);
+    if (watch.cancelled()) return stopped();
+    if (session_.release(joint, watch).end != Outcome::reached)
+      return watch.cancelled() ? Result<State>(stopped())
+                               : Result<State>(no_rest("did not come to rest when it was let go"));
+  }
+  return session_.shell().state().levels[0];
+}
+
+/// Where the session goes from where it stands, on the scene's own motion.
+Result<State> StateSearcher::go(double t, const Watch& watch) {
+  Report report = session_.go(t, watch);
+  // a scene that chooses no branch goes on through states that are not stable
+  if (report.end == Outcome::reached && !report.certificate.stable()) report = session_.rest(watch);
+  if (watch.cancelled()) return stopped();
+  if (report.end == Outcome::locked) return no_rest("the rods came to their length");
+  if (report.end != Outcome::reached || !session_.certificate().stable())
+    return no_rest("the actuation did not come to its end");
+  return session_.shell().state().levels[0];
+}
+
+Result<State> StateSearcher::tighten_boundary(double t, Result<State> rest, const Watch& watch) {
+  if (!rest || t == 1) return rest;
+  if (session_.begin_at(t, *rest, watch).end != Outcome::reached)
+    return watch.cancelled() ? Result<State>(stopped())
+                             : Result<State>(no_rest("its rest is not certified"));
+  return go(1, watch);
+}
+
+Result<State> StateSearcher::trial(int k, const Watch& watch) {
+  std::mt19937 random = generator(jitter_.seed, Purpose::trial, k);
+  const StartForm& form = (*forms_)[std::size_t(k) % forms_->size()];
+  switch (jitter_.mode) {
+    case SearchMode::gravity:
+      return tighten_boundary(form.t, pull_start(form, random, watch), watch);
+    case SearchMode::random:
+      return tighten_boundary(form.t, random_start(form, random, watch), watch);
+    case SearchMode::poke:
+      return tighten_boundary(form.t, push_start(form, random, watch), watch);
+  }
+  return no_rest("no such mode");
+}
+
+Result<State> StateSearcher::symmetric_trial(int k, const Watch& watch) {
+  if (groups_.empty()) return no_rest("the footprint has no symmetry");
+  std::mt19937 random = generator(jitter_.seed, Purpose::confined, k);
+  const SymmetryGroup& group = groups_[std::size_t(k) % groups_.size()];
+  return in_few_words(cascade_.rest_confined(1, random_nodes(1, random), group, watch),
+                      "did not come to rest");
+}
+
+Result<State> StateSearcher::release_boundary(const State& from, double to, const Watch& watch) {
+  if (session_.begin_at(1, from, watch).end != Outcome::reached)
+    return watch.cancelled() ? Result<State>(stopped())
+                             : Result<State>(no_rest("its rest is not certified"));
+  if (auto out = go(parameter_at(to), watch); !out) return out;
+  return go(1, watch);
+}
+
+Result<State> StateSearcher::poke_start(const State& from, int k, const Watch& watch) {
+  std::mt19937 random = generator(jitter_.seed, Purpose::poke, k);
+  return push_start({1, from}, random, watch);
+}
+
+}  // namespace gridshell::experiment

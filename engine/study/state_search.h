@@ -1,0 +1,80 @@
+// A shell shaken out of the state it would rest in [Baek 2018, 'DER Simulations and Jittering
+// Algorithm']: one trial after another, each seeded by itself.
+#pragma once
+
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "engine/preset/preset.h"
+#include "engine/record/shape_symmetry.h"
+#include "engine/simulate/session.h"
+#include "engine/solve/multilevel_relaxation.h"
+
+namespace gridshell::experiment {
+
+/// Edges a segment of the mesh that trials end on and that tells states apart.
+inline constexpr int judged_edges = 4;
+
+/// A form that the actuation came past: what is shaken.
+struct StartForm {
+  double t = 1;  ///< path parameter
+  State state;   ///< on the mesh that states are judged on
+};
+
+/// The forms at every level of `jitter` (its mode's own where it names none), along the path that
+/// the actuation takes. A level that the path does not reach is left out; for "random" forms are
+/// not needed and only their parameters are set. Errors: bad_input, cancelled; no_equilibrium where
+/// none is reached.
+Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>& scene,
+                                              const preset::SearchSettings& jitter,
+                                              const Watch& watch);
+
+/// Makes trials; one a thread. What comes of trial k hangs on the seed and k alone.
+class StateSearcher {
+ public:
+  /// `forms` must outlive it. Errors (bad_input): rods that the rung cannot take.
+  static Result<StateSearcher> make(std::shared_ptr<const Scene> scene,
+                                    const preset::SearchSettings& jitter,
+                                    const std::vector<StartForm>& forms);
+
+  /// The stable rest, the actuation finished, that trial k ends in, on the mesh that states are
+  /// judged on. Errors: no_equilibrium with the reason, in a few words that many trials share;
+  /// cancelled.
+  Result<State> trial(int k, const Watch& watch);
+  /// The same from a form confined to the k-th of groups(), counted round and round.
+  Result<State> symmetric_trial(int k, const Watch& watch);
+  /// From a state at the end of the actuation: the boundary let out to progress `to` and drawn in
+  /// again, past the snaps on the way. Errors as trial().
+  Result<State> release_boundary(const State& from, double to, const Watch& watch);
+  /// The same of random pushes, the k-th of this state.
+  Result<State> poke_start(const State& from, int k, const Watch& watch);
+
+  const std::vector<SymmetryGroup>& groups() const { return groups_; }
+  const std::vector<MeshSymmetry>& symmetries() const { return symmetries_; }
+  MultilevelRelaxation& cascade() { return cascade_; }
+  const MultilevelRelaxation& cascade() const { return cascade_; }
+
+ private:
+  StateSearcher(std::shared_ptr<const Scene> scene, const preset::SearchSettings& jitter,
+                const std::vector<StartForm>& forms, MultilevelRelaxation cascade, Session session);
+  Result<State> random_start(const StartForm& form, std::mt19937& random, const Watch& watch);
+  Result<State> pull_start(const StartForm& form, std::mt19937& random, const Watch& watch);
+  Result<State> push_start(const StartForm& form, std::mt19937& random, const Watch& watch);
+  Result<State> tighten_boundary(double t, Result<State> rest, const Watch& watch);
+  Result<State> go(double t, const Watch& watch);
+  Eigen::Matrix3Xd random_nodes(double t, std::mt19937& random) const;
+
+  std::shared_ptr<const Scene> scene_;
+  preset::SearchSettings jitter_;
+  const std::vector<StartForm>* forms_;
+  std::vector<MeshSymmetry> symmetries_;  // of the shell, on the mesh that states are judged on
+  std::vector<SymmetryGroup> groups_;
+  Eigen::VectorXd joint_length_;  // of rod that each joint stands for, mm
+  std::vector<int> pushable_;     // joints that no support holds
+  MultilevelRelaxation cascade_;
+  Session session_;
+};
+
+}  // namespace gridshell::experiment

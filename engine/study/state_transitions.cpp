@@ -1,0 +1,247 @@
+#include "engine/study/state_transitions.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "engine/core/parallel.h"
+#include "engine/core/try.h"
+#include "engine/solve/mountain_pass.h"
+#include "engine/study/state_library.h"
+#include "engine/study/state_measures.h"
+
+namespace gridshell::experiment {
+namespace {
+
+constexpr int pokes = 8, ways = pokes + 1;  // of a state; the first lets the boundary out
+constexpr double beyond = 0.98;             // of the progress at which a state ends
+constexpr int nowhere = -1;
+
+void count(std::vector<record::Transition>& all, int from, int to, const char* by) {
+  const auto known = std::ranges::find_if(all, [&](const record::Transition& way) {
+    return way.from == from && way.to == to && way.by == by;
+  });
+  if (known != all.end())
+    ++known->count;
+  else
+    all.push_back({from, to, by, 1});
+}
+
+}  // namespace
+
+Result<std::vector<record::Transition>> transitions_between(
+    const StateLibrary& library, const std::shared_ptr<const Scene>& scene,
+    const preset::SearchSettings& jitter, int threads, double begun, double end, Watch& watch) {
+  const auto& states = library.states;
+  const int followed = std::min(jitter.transitions, int(states.size()));
+  const std::vector<StartForm> none;
+  const auto make = [&] { return StateSearcher::make(scene, jitter, none); };
+  TRY(judge, make());
+  const Eigen::Index joints = judge->cascade().finest().joints;
+  StateCatalogue book(judge->symmetries(), jitter.tolerance * scene->footprint.spacing);
+  for (const ShellState& state : states) book.enter(state.rest.x.leftCols(joints), state.energy_mJ);
+  std::vector<int> to(std::size_t(followed * ways), nowhere);
+  const auto follow = [&](StateSearcher& hand, int k) {
+    const ShellState& from = states[std::size_t(k / ways)];
+    const int way = k % ways;
+    const auto rest = way == 0 ? hand.release_boundary(from.rest, beyond * from.row.lives_to, watch)
+                               : hand.poke_start(from.rest, way, watch);
+    if (!rest) return;
+    const auto at = book.find(rest->x.leftCols(joints), hand.cascade().system().energy_at(*rest));
+    to[std::size_t(k)] = at ? states[*at].row.state : 0;
+  };
+  const auto shared = parallel_for(int(to.size()), threads, watch, make, follow, [&](double share) {
+    watch.report(begun + (end - begun) * share);
+  });
+  if (!shared) return tl::unexpected<Error>(shared.error());
+  std::vector<record::Transition> all;
+  for (std::size_t k = 0; k < to.size(); ++k)
+    if (to[k] != nowhere)
+      count(all, states[k / ways].row.state, to[k], k % ways == 0 ? "let out" : "poked");
+  return all;
+}
+
+namespace {
+
+constexpr int neighbours = 2;        // of each state
+constexpr double way_down_mm = 0.5;  // off a saddle, and steps from there
+constexpr double step_over_d = 0.1;  // of a node on a string's way down
+
+/// Two states with a way between them, and which image of the second is nearest to the first.
+struct Pairing {
+  std::size_t from = 0, to = 0, symmetry = 0;
+};
+
+/// What the two sides of a pass lead to.
+struct Crossing {
+  int from = 0, to = 0;  ///< as Barrier
+  double from_mJ = 0, to_mJ = 0;
+  MountainPass pass;
+};
+
+/// The shell on the mesh that states are judged on; one a thread.
+class Crossings {
+ public:
+  Crossings(StateSearcher hand, const StateLibrary& library, const StateCatalogue& book,
+            double spacing)
+      : hand_(std::move(hand)), library_(&library), book_(&book), spacing_(spacing) {}
+
+  Eigen::Matrix3Xd nodes(std::size_t state) const {
+    const MultilevelRelaxation& cascade = hand_.cascade();
+    return nodes_of(cascade.finest(), cascade.model(), library_->states[state].rest.x);
+  }
+
+  /// The ways to the nearest states: of the images that the bend rung can turn, else the states as
+  /// they are.
+  std::vector<Pairing> ways(const std::vector<std::size_t>& drawn) const {
+    std::set<std::pair<std::size_t, std::size_t>> pairs;
+    std::vector<Pairing> all;
+    for (const std::size_t from : drawn) {
+      std::vector<std::pair<double, Pairing>> others;
+      for (const std::size_t to : drawn)
+        if (to != from) others.push_back(nearest(from, to));
+      const std::size_t kept = std::min(others.size(), std::size_t(neighbours));
+      std::ranges::partial_sort(others, others.begin() + std::ptrdiff_t(kept), {},
+                                &std::pair<double, Pairing>::first);
+      for (std::size_t k = 0; k < kept; ++k)
+        if (pairs.insert(std::minmax(from, others[k].second.to)).second)
+          all.push_back(others[k].second);
+    }
+    return all;
+  }
+
+  std::optional<Crossing> cross(const Pairing& way, const Watch& watch) {
+    MultilevelRelaxation& cascade = hand_.cascade();
+    Linearisation& system = cascade.system();
+    const MeshSymmetry& symmetry = hand_.symmetries()[way.symmetry];
+    State target = library_->states[way.to].rest;
+    if (symmetry.index != 0) {
+      const auto image = symmetry.of(nodes(way.to));
+      target = start_state(cascade.model(), columns_of(cascade.finest(), cascade.model(), image));
+      auto rest = find_equilibrium(system, target, spacing_, watch);
+      if (!rest) return std::nullopt;
+      target = std::move(*rest);
+    }
+    PassOptions options;
+    options.step_mm = step_over_d * spacing_;
+    Crossing crossing;
+    crossing.pass = mountain_pass(system, library_->states[way.from].rest, target, options, watch);
+    if (crossing.pass.outcome != Outcome::reached) return std::nullopt;
+    const bool back =
+        descend(crossing.pass, BranchSide::against, crossing.from, crossing.from_mJ, watch);
+    const bool on = descend(crossing.pass, BranchSide::along, crossing.to, crossing.to_mJ, watch);
+    if (!back || !on) return std::nullopt;
+    return crossing;
+  }
+
+ private:
+  std::pair<double, Pairing> nearest(std::size_t from, std::size_t to) const {
+    std::pair<double, Pairing> best{std::numeric_limits<double>::infinity(), {from, to, 0}};
+    const Eigen::Index joints = hand_.cascade().finest().joints;
+    const bool turns = !hand_.cascade().model().has_spins();
+    for (std::size_t k = 0; k < hand_.symmetries().size(); ++k) {
+      const MeshSymmetry& symmetry = hand_.symmetries()[k];
+      if (symmetry.index != 0 && !turns) continue;
+      const double away =
+          distance_under(symmetry, nodes(from).leftCols(joints), nodes(to).leftCols(joints));
+      if (away < best.first) best = {away, {from, to, k}};
+    }
+    return best;
+  }
+
+  bool descend(const MountainPass& pass, BranchSide side, int& state, double& energy,
+               const Watch& watch) {
+    BranchSwitch departure;
+    departure.side = side;
+    departure.amplitude_mm = departure.step_mm = way_down_mm;
+    Linearisation& system = hand_.cascade().system();
+    const auto rest = leave_saddle(system, pass.saddle, pass.towards_b, departure, watch);
+    if (!rest) return false;
+    energy = system.energy_at(*rest);
+    const auto at = book_->find(rest->x.leftCols(hand_.cascade().finest().joints), energy);
+    state = at ? library_->states[*at].row.state : 0;
+    return true;
+  }
+
+  StateSearcher hand_;
+  const StateLibrary* library_;
+  const StateCatalogue* book_;
+  double spacing_;
+};
+
+record::Barrier barrier_of(const Crossing& crossing) {
+  record::Barrier barrier{crossing.from, crossing.to, crossing.pass.energy_mJ};
+  barrier.barrier_mJ = crossing.pass.energy_mJ - crossing.from_mJ;
+  barrier.back_mJ = crossing.pass.energy_mJ - crossing.to_mJ;
+  barrier.residual_N = crossing.pass.residual_N;
+  // from the state that is known, and of two known ones from the lower
+  if (barrier.from == 0 || (barrier.to != 0 && barrier.to < barrier.from)) {
+    std::swap(barrier.from, barrier.to);
+    std::swap(barrier.barrier_mJ, barrier.back_mJ);
+  }
+  return barrier;
+}
+
+/// Of several passes between the same two states the lowest, in the order of the states; a pass
+/// between two that were not met says nothing of any state.
+std::vector<record::Barrier> lowest_each(std::vector<record::Barrier> all) {
+  std::erase_if(all, [](const record::Barrier& one) { return one.from == 0; });
+  std::ranges::stable_sort(all, {}, [](const record::Barrier& one) {
+    return std::tuple(one.from, one.to, one.energy_mJ);
+  });
+  const auto same = [](const record::Barrier& a, const record::Barrier& b) {
+    return a.from == b.from && a.to == b.to;
+  };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  return all;
+}
+
+void lower(double& barrier, double height) {
+  if (!(barrier <= height)) barrier = height;
+}
+
+}  // namespace
+
+Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
+                                                      const std::shared_ptr<const Scene>& scene,
+                                                      const preset::SearchSettings& jitter,
+                                                      int threads, double begun, double end,
+                                                      Watch& watch) {
+  const double spacing = scene->footprint.spacing;
+  const std::vector<StartForm> none;
+  std::vector<record::StateRow> rows;
+  for (const ShellState& state : library.states) rows.push_back(state.row);
+  TRY(judge, StateSearcher::make(scene, jitter, none));
+  StateCatalogue book(judge->symmetries(), jitter.tolerance * spacing);
+  const Eigen::Index joints = judge->cascade().finest().joints;
+  for (const ShellState& state : library.states)
+    book.enter(state.rest.x.leftCols(joints), state.energy_mJ);
+  const auto ways = Crossings(std::move(*judge), library, book, spacing)
+                        .ways(record::states_to_draw(rows, jitter.drawn));
+  std::vector<std::optional<Crossing>> found(ways.size());
+  const auto shared = parallel_for(
+      int(ways.size()), threads, watch,
+      [&]() -> Result<Crossings> {
+        TRY(hand, StateSearcher::make(scene, jitter, none));
+        return Crossings(std::move(*hand), library, book, spacing);
+      },
+      [&](Crossings& hand, int k) {
+        found[std::size_t(k)] = hand.cross(ways[std::size_t(k)], watch);
+      },
+      [&](double share) { watch.report(begun + (end - begun) * share); });
+  if (!shared) return tl::unexpected<Error>(shared.error());
+  std::vector<record::Barrier> all;
+  for (const auto& crossing : found)
+    if (crossing) all.push_back(barrier_of(*crossing));
+  library.search.ways_followed = int(ways.size());
+  library.search.passes_found = int(all.size());
+  for (const record::Barrier& one : all)
+    for (const auto& [state, height] : {std::pair(one.from, one.barrier_mJ), {one.to, one.back_mJ}})
+      if (state != 0) lower(library.states[std::size_t(state) - 1].row.barrier_mJ, height);
+  return lowest_each(std::move(all));
+}
+
+}  // namespace gridshell::experiment

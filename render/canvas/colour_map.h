@@ -1,0 +1,52 @@
+// Quantities to colours. Both maps are made in Oklab, where equal steps look equal
+// [Ottosson 2020].
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "render/gl/image.h"
+
+namespace gridshell::render {
+
+/// Lightness and two opponent axes (green-red, blue-yellow).
+struct Oklab {
+  double L = 0, a = 0, b = 0;
+};
+Oklab to_oklab(Colour colour);
+/// Components outside of sRGB are clipped.
+Colour to_colour(Oklab lab, float alpha = 1);
+
+/// Blue - white - red over t in [-1, 1] (clipped): from the neutral middle two straight lines of
+/// equal length and equal lightness, so that equal |t| looks equally strong. `start` greys the
+/// middle by that share of the way to the ends' lightness.
+Colour diverging(double t, double start = 0);
+
+/// Sand - apricot - coral - plum - indigo over t in [0, 1] (clipped): lightness falls evenly, and
+/// equal steps of t are equal distances in Oklab. Light where there is little, so that dark rods
+/// stand out and paper stays white.
+Colour sequential(double t);
+
+/// Light to dark grey over t in [0, 1], for print without colours.
+Colour grey(double t);
+
+enum class ColourMap { diverging, sequential, grey };
+
+/// What a value looks like: `low` … `high` over the whole map; beyond it the end colours, for an
+/// unknown value grey.
+struct ColourScale {
+  ColourMap map = ColourMap::diverging;
+  double low = -1, high = 1;
+  double start = 0;  ///< where in its map the least size stands, for thin lines on white
+
+  Colour operator()(double value) const;
+  bool operator==(const ColourScale&) const = default;
+};
+
+/// The diverging scale, symmetric about zero, that suits `values`: its end is the `quantile` of
+/// their sizes (or the largest, where that is not far off), rounded up to a nice number, so that a
+/// few extreme cells do not pale the rest. Not finite values are ignored; without any, or all zero,
+/// the end is 1.
+ColourScale symmetric_scale(std::vector<double> values, double quantile);
+
+}  // namespace gridshell::render

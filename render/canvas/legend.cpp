@@ -1,0 +1,165 @@
+#include "render/canvas/legend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/canvas/text.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
+
+double bar_thickness(double font_size) { return 0.9 * font_size; }
+double tick_length(double font_size) { return 0.3 * font_size; }
+// of the column of words beside the ticks
+double words_column(const ColourBar& bar, double font_size) {
+  return bar.words.empty() ? 0 : 1.35 * font_size;
+}
+
+constexpr int fewest_ticks = 2, most_ticks = 6;
+
+std::vector<Tick> bar_ticks(const ColourScale& scale, double height, double font_size) {
+  const int count = std::clamp(int(height / (2.2 * font_size)), fewest_ticks, most_ticks);
+  return linear_ticks(scale.low, scale.high, count);
+}
+
+// of all ticks that bars of this scale may have: taller ones have more, with more digits
+double widest_label(const Canvas& canvas, const ColourScale& scale, const TextStyle& style) {
+  double width = 0;
+  for (int count = fewest_ticks; count <= most_ticks; ++count)
+    for (const Tick& tick : linear_ticks(scale.low, scale.high, count))
+      if (tick.major) width = std::max(width, canvas.measure(tick.label, style).width);
+  return width;
+}
+
+// each colour reaches down to the end and the next covers it: no seam and no pixel half white
+void draw_colours(Canvas& canvas, const Box& bar, const ColourScale& scale) {
+  const int steps = 128;
+  for (int k = 0; k < steps; ++k) {
+    const double value = scale.high + (scale.low - scale.high) * (k + 0.5) / steps;
+    const double y = bar.y + bar.height * k / steps;
+    canvas.rectangle({bar.x, y, bar.width, bar.bottom() - y}, scale(value));
+  }
+}
+
+// along the right edge, smaller where the bar is short; left out where there is no room
+void draw_words(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size) {
+  if (bar.words.empty() || box.width < colour_bar_width(canvas, bar, font_size) - 0.3 * font_size)
+    return;
+  constexpr double smallest = 0.7;
+  TextStyle style{.size = 0.9 * font_size, .align_x = AlignX::centre, .align_y = AlignY::middle};
+  style.angle_deg = 90;
+  const double share = 1.1 * box.height / std::max(1.0, canvas.measure(bar.words, style).width);
+  if (share < smallest) return;
+  style.size *= std::min(1.0, share);
+  canvas.text(bar.words, {box.right() - 0.55 * font_size, box.middle().y}, style);
+}
+
+}  // namespace
+
+double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_size) {
+  const TextStyle style{.size = font_size};
+  const double ticks = widest_label(canvas, bar.scale, style);
+  const double with_ticks =
+      bar_thickness(font_size) + tick_length(font_size) + 0.25 * font_size + ticks;
+  const double words = words_column(bar, font_size);
+  return std::max(with_ticks + words, canvas.measure(bar.label, style).width) + 0.2 * font_size;
+}
+
+void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size) {
+  const TextStyle style{.size = font_size};
+  const double line = canvas.measure("0", style).height;
+  canvas.text(bar.label, {box.x, box.y}, {.size = font_size, .align_y = AlignY::top});
+
+  // room for the label, half a line for the outermost ticks' labels, and the points
+  const double point = 0.7 * bar_thickness(font_size);
+  const double top = box.y + 1.25 * line + std::max(line / 2, bar.beyond_high ? point : 0);
+  const double bottom = box.bottom() - std::max(line / 2, bar.beyond_low ? point : 0);
+  const Box body{box.x, top, bar_thickness(font_size), bottom - top};
+  if (body.height < line) return;
+
+  draw_colours(canvas, body, bar.scale);
+  std::vector<Point> rim = {{body.x, body.y}};
+  const double middle = body.middle().x;
+  if (bar.beyond_high) {
+    canvas.polygon({{body.x, body.y}, {middle, body.y - point}, {body.right(), body.y}},
+                   bar.scale(bar.scale.high));
+    rim.push_back({middle, body.y - point});
+  }
+  rim.insert(rim.end(), {{body.right(), body.y}, {body.right(), body.bottom()}});
+  if (bar.beyond_low) {
+    canvas.polygon(
+        {{body.x, body.bottom()}, {middle, body.bottom() + point}, {body.right(), body.bottom()}},
+        bar.scale(bar.scale.low));
+    rim.push_back({middle, body.bottom() + point});
+  }
+  rim.push_back({body.x, body.bottom()});
+  canvas.polyline(rim, {ink, font_size / 14}, true);
+
+  draw_words(canvas, {box.x, body.y, box.width, body.height}, bar, font_size);
+  for (const Tick& tick : bar_ticks(bar.scale, body.height, font_size)) {
+    if (!tick.major) continue;
+    const double t = (tick.value - bar.scale.low) / (bar.scale.high - bar.scale.low);
+    const double y = body.bottom() - t * body.height, x = body.right();
+    canvas.line({x, y}, {x + tick_length(font_size), y}, {ink, font_size / 14});
+    canvas.text(tick.label, {x + tick_length(font_size) + 0.25 * font_size, y},
+                {.size = font_size, .align_y = AlignY::middle});
+  }
+}
+
+bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
+                    double font_size) {
+  const double length = length_mm * units_per_mm, thickness = 0.22 * font_size;
+  const std::string label =
+      (length_mm == std::round(length_mm) ? fixed(length_mm, 0) : scientific(length_mm, 2)) + " mm";
+  const TextStyle style{.size = font_size, .align_x = AlignX::centre, .align_y = AlignY::bottom};
+  const Box text = canvas.measure(label, style);
+  if (!(length > 0) || std::max(length, text.width) > box.width ||
+      text.height + 2 * thickness > box.height)
+    return false;
+  const double x = box.middle().x, y = box.bottom() - thickness;
+  canvas.rectangle({x - length / 2, y, length, thickness}, ink);
+  canvas.text(label, {x, y - thickness}, style);
+  return true;
+}
+
+void draw_colour_keys(Canvas& canvas, const Box& box, const std::vector<ColourKey>& keys,
+                      double font_size) {
+  // in units of the font's size
+  constexpr double dash = 1.6, thickness = 0.22, after_dash = 0.5, between = 1.6;
+  const auto width_of = [&](double size) {
+    double width = -between * size;
+    for (const ColourKey& key : keys)
+      width +=
+          (dash + after_dash + between) * size + canvas.measure(key.name, {.size = size}).width;
+    return width;
+  };
+  const double size = font_size * std::min(1.0, box.width / std::max(1.0, width_of(font_size)));
+  Point at{box.middle().x - width_of(size) / 2, box.middle().y};
+  for (const ColourKey& key : keys) {
+    canvas.rectangle({at.x, at.y - thickness * size / 2, dash * size, thickness * size},
+                     key.colour);
+    at.x += (dash + after_dash) * size;
+    const TextStyle style{.size = size, .align_y = AlignY::middle};
+    canvas.text(key.name, at, style);
+    at.x += canvas.measure(key.name, style).width + between * size;
+  }
+}
+
+void draw_patches(Canvas& canvas, const Box& first, const Patches& patches) {
+  constexpr std::size_t columns = 4;
+  for (std::size_t k = 0; k < patches.names.size(); ++k) {
+    Box box = first;
+    box.x += patches.row_width / columns * double(k % columns);
+    const std::size_t row = k / columns;
+    box.y += patches.row_height * double(row);
+    patches.draw(k, box);
+    canvas.text(patches.names[k], {box.right() + 4, box.middle().y},
+                {.size = patches.font_size, .align_y = AlignY::middle});
+  }
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,53 @@
+// What a picture needs to be read: a colour bar, a scale bar, patches with their names.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/canvas/canvas.h"
+#include "render/canvas/colour_map.h"
+
+namespace gridshell::render {
+
+/// A colour bar: the quantity's sign and unit above, ticks and its name beside it.
+struct ColourBar {
+  std::string label;  ///< marked text with the unit: "*K*_{□} (rad)"
+  ColourScale scale;
+  bool beyond_low = false,
+       beyond_high = false;  ///< values beyond the scale occur: pointed ends say so
+  std::string words = {};    ///< what the sign stands for, upright along the bar; empty: it says it
+};
+
+/// The width that a vertical bar with its labels takes at this font size.
+double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_size);
+
+/// Draws a vertical colour bar into `box`, everything within.
+void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size);
+
+/// A bar `length_mm` long with its length above, centred in `box`; nothing where it does not fit.
+/// Returns whether it was drawn.
+bool draw_scale_bar(Canvas& canvas, const Box& box, double length_mm, double units_per_mm,
+                    double font_size);
+
+/// A colour and what it stands for.
+struct ColourKey {
+  Colour colour;
+  std::string name;  ///< marked text
+};
+
+/// The keys in one row in the middle of `box`, smaller where they would not fit into it.
+void draw_colour_keys(Canvas& canvas, const Box& box, const std::vector<ColourKey>& keys,
+                      double font_size);
+
+/// Patches, four to a row, each with its name beside it.
+struct Patches {
+  std::vector<std::string> names = {};  ///< marked text
+  std::function<void(std::size_t k, const Box&)> draw = {};
+  double row_width = 0, row_height = 0, font_size = 0;
+};
+
+/// `first` is the first of the patches, all of one size.
+void draw_patches(Canvas& canvas, const Box& first, const Patches& patches);
+
+}  // namespace gridshell::render

@@ -1,0 +1,132 @@
+#include "render/canvas/panels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/try.h"
+
+namespace gridshell::render {
+namespace {
+
+// all in pixels of the panels
+struct Grid {
+  int columns, rows;
+  double width, height;  // of a panel
+  double em, gap, head, caption, margin, keys, foot, bar;
+  Point origin = {};  // upper left corner of the whole
+
+  double total_width() const { return 2 * margin + columns * width + (columns - 1) * gap + bar; }
+  double total_height() const {
+    return 2 * margin + head + rows * (height + caption) + (rows - 1) * gap + keys + foot;
+  }
+  Box panel(int index) const {
+    return {origin.x + std::round(margin + (index % columns) * (width + gap)),
+            origin.y + std::round(margin + head + (index / columns) * (height + caption + gap)),
+            width, height};
+  }
+  double left() const { return origin.x + margin; }
+  double top() const { return origin.y + margin; }
+  double bottom() const { return origin.y + total_height() - margin; }
+};
+
+Grid make_grid(const PanelFigure& figure) {
+  const int count = int(figure.panels.size());
+  Grid grid{};
+  grid.columns = std::clamp(figure.columns, 1, count);
+  grid.rows = (count + grid.columns - 1) / grid.columns;
+  grid.width = figure.panels[0].picture.width;
+  grid.height = figure.panels[0].picture.height;
+  // 8.5 pt when the whole is printed width_mm wide; margins and bar add about a tenth
+  const double pixels_per_pt =
+      1.1 * grid.columns * grid.width / (figure.print.width_mm / 25.4 * 72);
+  grid.em = std::max(7.5, 8.5 * pixels_per_pt);
+  grid.gap = grid.margin = std::round(0.6 * grid.em);
+  const bool captions = std::any_of(figure.panels.begin(), figure.panels.end(),
+                                    [](const Panel& p) { return !p.caption.empty(); });
+  grid.caption = captions ? std::round(1.7 * grid.em) : 0;
+  grid.head = figure.title.empty() ? 0 : std::round(1.7 * grid.em);
+  grid.keys = figure.keys.empty() ? 0 : std::round(1.7 * grid.em);
+  grid.foot = figure.scale_bar_mm > 0 ? std::round(1.9 * grid.em) : 0;
+  if (figure.colour_bar)
+    draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
+      grid.bar = grid.gap + std::ceil(colour_bar_width(canvas, *figure.colour_bar, grid.em));
+    });
+  return grid;
+}
+
+void draw(Canvas& canvas, const PanelFigure& figure, const Grid& grid, bool lines) {
+  const double em = grid.em;
+  const double room = grid.total_width() - 2 * grid.margin;
+  canvas.text(plain(figure.title), {grid.left(), grid.top() + grid.head / 2},
+              canvas.fitted(plain(figure.title), room,
+                            {.size = em, .bold = true, .align_y = AlignY::middle}));
+  for (std::size_t k = 0; k < figure.panels.size(); ++k) {
+    const Panel& panel = figure.panels[k];
+    const Box box = grid.panel(int(k));
+    if (lines && panel.lines)
+      panel.lines(canvas, box);
+    else
+      canvas.picture(panel.picture, box);
+    if (!panel.letter.empty())
+      canvas.text(
+          panel.letter, {box.x + 0.4 * em, box.y + 0.2 * em},
+          {.size = 1.2 * em, .bold = true, .align_y = AlignY::top, .halo = {1, 1, 1, 0.8f}});
+    // a caption wider than its panel is set smaller
+    const TextStyle caption{.size = em, .align_x = AlignX::centre, .align_y = AlignY::middle};
+    canvas.text(panel.caption, {box.middle().x, box.bottom() + grid.caption / 2},
+                canvas.fitted(panel.caption, box.width, caption));
+  }
+  const Box last = grid.panel(grid.columns - 1);
+  const double left = grid.left(), bottom = grid.bottom();
+  draw_colour_keys(canvas, {left, bottom - grid.foot - grid.keys, last.right() - left, grid.keys},
+                   figure.keys, em);
+  if (grid.foot > 0) {
+    const Box row{left, bottom - grid.foot, last.right() - left, grid.foot};
+    draw_scale_bar(canvas, row, figure.scale_bar_mm, figure.pixels_per_mm, em);
+  }
+  if (figure.colour_bar) {
+    // beside flat panels it goes on beside their captions
+    const double least = std::min(grid.total_height() - 2 * grid.margin - grid.head, 9 * em);
+    const double height = std::clamp(16 * em, least, std::max(least, grid.rows * grid.height));
+    draw_colour_bar(canvas,
+                    {last.right() + grid.gap, grid.top() + grid.head, grid.bar - grid.gap, height},
+                    *figure.colour_bar, em);
+  }
+}
+
+Result<void> check(const PanelFigure& figure) {
+  if (figure.panels.empty()) return fail(Fault::bad_input, "a figure needs at least one panel");
+  const Image& first = figure.panels[0].picture;
+  for (const Panel& panel : figure.panels)
+    if (panel.picture.width != first.width || panel.picture.height != first.height ||
+        first.width < 1 || first.height < 1)
+      return fail(
+          Fault::bad_input,
+          fmt::format("panels of a figure must be of one size: {} x {} and {} x {}", first.width,
+                      first.height, panel.picture.width, panel.picture.height));
+  return {};
+}
+
+}  // namespace
+
+Result<Image> draw_panels(const PanelFigure& figure) {
+  TRY_DO(check(figure));
+  const Grid grid = make_grid(figure);
+  const double wished = figure.print.dpi * figure.print.width_mm / 25.4;
+  const double scale = wished > 0 ? std::round(wished) / grid.total_width() : 1;
+  return draw_picture(grid.total_width(), grid.total_height(), scale, {1, 1, 1, 1},
+                      [&](Canvas& canvas) { draw(canvas, figure, grid, false); });
+}
+
+void draw_panels_on(Canvas& canvas, const Box& box, const PanelFigure& figure, bool lines) {
+  if (!check(figure)) return;
+  Grid grid = make_grid(figure);
+  const double scale = std::min(box.width / grid.total_width(), box.height / grid.total_height());
+  grid.origin = {box.middle().x / scale - grid.total_width() / 2,
+                 box.middle().y / scale - grid.total_height() / 2};
+  canvas.enlarged(scale, [&] { draw(canvas, figure, grid, lines); });
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,68 @@
+// A key light (a small disc in the sky, to the left of the camera), an even sky and the light that
+// the ground returns. A surface that faces up, unshadowed, receives exactly 1: it shows the colour
+// it was given.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "render/gl/opengl.h"
+#include "render/gl/renderer.h"
+#include "render/gl/scene.h"
+#include "render/gl/shader_program.h"
+
+namespace gridshell::render {
+
+/// What lights one pass. Irradiance on a surface of normal n:
+/// key max(n.l, 0) + sky (1 + n_z) / 2 + bounce (1 - n_z) / 2.
+struct Lighting {
+  Eigen::Vector3d direction;  ///< unit vector l towards the shadow-casting light
+  double key = 0, sky = 0, bounce = 0;
+  double spread = 0;  ///< width of a shadow's edge over the height of what casts it
+  Eigen::Vector2d pixel_shift = Eigen::Vector2d::Zero();  ///< in samples, within +-1/2
+};
+
+/// One pass has the sky without shadow. More passes sample the light's disc and the sky (even over
+/// the half sphere) by a fixed low-discrepancy sequence [Roberts 2018], each pass with one
+/// direction that casts a shadow; their mean tends to the same light, with the sky shadowed too.
+std::vector<Lighting> lighting_passes(const Camera& camera, int passes);
+
+// What the light sees of a scene: the depth of the first solid, for shadows on the shell, and how
+// much light is held back at which height above the ground, for the ground's soft shadow.
+
+class ShadowMap {
+ public:
+  static constexpr int texels = 1024;  ///< along a side
+  static constexpr int levels = 7;     ///< of the cover, each half the size before
+
+  static Result<ShadowMap> create(const Gl& gl);
+
+  /// Draws the scene from the direction of the unit vector `light`. `ribbons` and `sheets` hold the
+  /// scene's meshes, `ribbons` with its casters as list 1. A sheet holds back part of the light
+  /// that its alpha would.
+  Result<void> render(const Scene& scene, const VertexStore& ribbons, const VertexStore& sheets,
+                      const Eigen::Vector3d& light, double ground_z);
+
+  GLuint cover() const { return target_.colour(); }
+  GLuint depth() const { return target_.depth(); }
+  const Eigen::Matrix4f& matrix() const { return matrix_; }   ///< world to the map's [-1, 1]^3
+  float texel_mm() const { return texel_mm_; }                ///< of the finest level
+  float height_range_mm() const { return height_range_mm_; }  ///< ground to the shell's top
+
+ private:
+  ShadowMap(const Gl& gl, Program caster, Program halve);
+  void fit(const Scene& scene, const Eigen::Vector3d& light, double ground_z);
+  void draw_casters(const VertexStore& ribbons, const VertexStore& sheets) const;
+  void blur();
+
+  const Gl* gl_;
+  Program caster_, halve_;
+  Target target_;
+  Framebuffer level_;
+  VertexArray no_vertices_;
+  Eigen::Matrix4f matrix_ = Eigen::Matrix4f::Identity();
+  float texel_mm_ = 1, height_range_mm_ = 1;
+};
+
+}  // namespace gridshell::render

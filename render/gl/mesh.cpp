@@ -1,0 +1,268 @@
+#include "render/gl/mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace gridshell::render {
+std::vector<Eigen::Vector3f> tangents(std::span<const Eigen::Vector3f> points, bool closed) {
+  const std::size_t n = points.size();
+  std::vector<Eigen::Vector3f> result(n, Eigen::Vector3f::Zero());
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < n; ++i) {
+    const std::size_t next = (i + 1) % n;
+    const Eigen::Vector3f direction = (points[next] - points[i]).stableNormalized();
+    result[i] += direction;
+    result[next] += direction;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    // an edge without length, or one that turns back, keeps the direction before it
+    if (result[i].norm() < 1e-6f) result[i] = i ? result[i - 1] : Eigen::Vector3f::UnitX();
+    result[i].normalize();
+  }
+  return result;
+}
+
+void Mesh::clear() {
+  vertices.clear();
+  indices.clear();
+}
+
+PackedColour pack(const Eigen::Vector4f& linear) {
+  PackedColour packed;
+  for (int k = 0; k < 4; ++k)
+    packed[k] = std::uint16_t(65535 * std::clamp(linear[k], 0.f, 1.f) + 0.5f);
+  return packed;
+}
+
+std::uint32_t Mesh::add(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
+                        const PackedColour& colour) {
+  Vertex v{position, {}, colour};
+  // towards zero: rounding would cost a call for each of a hundred thousand
+  for (int k = 0; k < 3; ++k) v.normal[k] = std::int16_t(32767 * std::clamp(normal[k], -1.f, 1.f));
+  vertices.push_back(v);
+  return std::uint32_t(vertices.size() - 1);
+}
+
+void Mesh::triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  indices.insert(indices.end(), {a, b, c});
+}
+
+namespace {
+
+std::int16_t share_of_widest(float radius) {
+  return std::int16_t(std::clamp(std::round(32767 * radius / widest_radius_mm), 1.f, 32767.f));
+}
+
+}  // namespace
+
+std::uint32_t add_ribbon(Mesh& mesh, const Ribbon& ribbon) {
+  const auto first = std::uint32_t(mesh.vertices.size());
+  const auto t = tangents(ribbon.points, ribbon.closed);
+  for (std::size_t k = 0; k < ribbon.points.size(); ++k) {
+    const PackedColour colour = pack(ribbon.colours[k]);
+    const std::int16_t side = share_of_widest(ribbon.radii[std::min(k, ribbon.radii.size() - 1)]);
+    for (const std::int16_t signed_side : {side, std::int16_t(-side)}) {
+      mesh.add(ribbon.points[k], t[k], colour);
+      mesh.vertices.back().normal[3] = signed_side;
+    }
+  }
+  return first;
+}
+
+int longest_straight_piece(const Ribbon& ribbon, int from, int last, float tolerance_mm) {
+  constexpr float colour_step = 0.004f, least_cosine = 0.98f;
+  const auto count = int(ribbon.points.size());
+  // the strip is as wide as its ends are square to it: at a corner it stays short
+  const auto goes_along = [&](int edge, const Eigen::Vector3f& along) {
+    if (!ribbon.closed && (edge < 0 || edge + 1 >= count)) return true;
+    const Eigen::Vector3f step =
+        ribbon.points[(edge + 1) % count] - ribbon.points[(edge + count) % count];
+    return step.dot(along) >= least_cosine * step.norm() * along.norm();
+  };
+  const auto within = [&](int to) {
+    const Eigen::Vector3f &a = ribbon.points[from], &b = ribbon.points[to % count];
+    const Eigen::Vector4f &first = ribbon.colours[from], &second = ribbon.colours[to % count];
+    const Eigen::Vector3f along = b - a;
+    const float length2 = along.squaredNorm();
+    if (length2 == 0 || !goes_along(from - 1, along) || !goes_along(to, along)) return false;
+    for (int k = from + 1; k < to; ++k) {
+      const Eigen::Vector3f off = ribbon.points[k % count] - a;
+      const float part = off.dot(along) / length2;
+      if ((off - part * along).squaredNorm() > tolerance_mm * tolerance_mm) return false;
+      const Eigen::Vector4f mixed = first + part * (second - first);
+      if ((ribbon.colours[k % count] - mixed).cwiseAbs().maxCoeff() > colour_step) return false;
+    }
+    return true;
+  };
+  int to = from + 1;
+  while (to < last && within(to + 1)) ++to;
+  return to;
+}
+
+void add_strip_quad(std::vector<std::uint32_t>& indices, std::uint32_t first, int k, int l) {
+  const std::uint32_t a = first + 2 * std::uint32_t(k), b = first + 2 * std::uint32_t(l);
+  indices.insert(indices.end(), {a, a + 1, b + 1, a, b + 1, b});
+}
+
+std::vector<std::uint32_t> add_bead(Mesh& mesh, const Eigen::Vector3f& centre,
+                                    const Eigen::Vector3f& axis, float radius, BeadShape shape,
+                                    const Eigen::Vector4f& colour) {
+  const auto first = std::uint32_t(mesh.vertices.size());
+  const std::int16_t side = share_of_widest(radius);
+  PackedColour packed = pack(colour);
+  for (const int up : {0, 1})
+    for (const std::int16_t right : {std::int16_t(-side), side}) {
+      // thirds of the alpha: bit 0 the side, bit 1 the shape
+      packed[3] = std::uint16_t(21845 * (up + (shape == BeadShape::ball ? 2 : 0)));
+      mesh.add(centre, axis, packed);
+      mesh.vertices.back().normal[3] = right;
+    }
+  return {first, first + 1, first + 3, first, first + 3, first + 2};
+}
+
+namespace {
+
+constexpr int most_steps = 4;  // along a cell's side
+
+/// Where a node sits: its place `at` along rod `rod`.
+struct Place {
+  int rod = -1, at = 0;
+};
+
+/// The (at most two) rods through every node.
+std::vector<std::array<Place, 2>> places(const record::Layout& layout, std::size_t nodes) {
+  std::vector<std::array<Place, 2>> result(nodes);
+  for (int r = 0; r < int(layout.rods.size()); ++r)
+    for (int k = 0; k < int(layout.rods[r].size()); ++k) {
+      auto& slots = result[layout.rods[r][k]];
+      slots[slots[0].rod < 0 ? 0 : 1] = {r, k};
+    }
+  return result;
+}
+
+/// The nodes from `a` to `b` along the rod they share; the two alone when they share none.
+std::vector<int> side(const record::Layout& layout, const std::vector<std::array<Place, 2>>& where,
+                      int a, int b) {
+  for (const Place& from : where[a])
+    for (const Place& to : where[b]) {
+      if (from.rod < 0 || from.rod != to.rod) continue;
+      const int step = from.at <= to.at ? 1 : -1;
+      std::vector<int> result;
+      for (int k = from.at; k != to.at + step; k += step)
+        result.push_back(layout.rods[from.rod][k]);
+      return result;
+    }
+  return {a, b};
+}
+
+/// `steps` + 1 points along a side, evenly in its index.
+std::vector<Eigen::Vector3f> resample(const Eigen::Matrix3Xd& nodes, const std::vector<int>& side,
+                                      int steps) {
+  std::vector<Eigen::Vector3f> result(steps + 1);
+  const double edges = double(side.size() - 1);
+  for (int k = 0; k <= steps; ++k) {
+    const double at = edges * k / steps;
+    const int before = std::min(int(at), int(side.size()) - 2);
+    const double part = at - before;
+    result[k] =
+        ((1 - part) * nodes.col(side[before]) + part * nodes.col(side[before + 1])).cast<float>();
+  }
+  return result;
+}
+
+/// Points of a cell's patch on a square grid of (steps + 1)^2, u fastest.
+struct Patch {
+  int steps = 1;
+  std::vector<Eigen::Vector3f> points;
+
+  const Eigen::Vector3f& at(int u, int v) const { return points[v * (steps + 1) + u]; }
+  Eigen::Vector3f normal(int u, int v) const {
+    const Eigen::Vector3f along_u = at(std::min(u + 1, steps), v) - at(std::max(u - 1, 0), v);
+    const Eigen::Vector3f along_v = at(u, std::min(v + 1, steps)) - at(u, std::max(v - 1, 0));
+    return along_u.cross(along_v).stableNormalized();
+  }
+};
+
+Patch coons_patch(const record::Layout& layout, const Eigen::Matrix3Xd& nodes,
+                  const std::vector<std::array<Place, 2>>& where, const record::Cell& cell) {
+  std::array<int, 4> corner;
+  for (int k = 0; k < 4; ++k) corner[k] = layout.joints[cell.joints[k]].node;
+  const std::array<std::vector<int>, 4> sides = {
+      side(layout, where, corner[0], corner[1]), side(layout, where, corner[3], corner[2]),
+      side(layout, where, corner[0], corner[3]), side(layout, where, corner[1], corner[2])};
+  std::size_t edges = 1;
+  for (const auto& s : sides) edges = std::max(edges, s.size() - 1);
+
+  Patch patch{int(std::min<std::size_t>(edges, most_steps)), {}};
+  const auto c0 = resample(nodes, sides[0], patch.steps);
+  const auto c1 = resample(nodes, sides[1], patch.steps);
+  const auto d0 = resample(nodes, sides[2], patch.steps);
+  const auto d1 = resample(nodes, sides[3], patch.steps);
+  const int n = patch.steps;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const float u = float(i) / n, v = float(j) / n;
+      const Eigen::Vector3f bilinear =
+          (1 - v) * ((1 - u) * c0[0] + u * c0[n]) + v * ((1 - u) * c1[0] + u * c1[n]);
+      patch.points.push_back((1 - v) * c0[i] + v * c1[i] + (1 - u) * d0[j] + u * d1[j] - bilinear);
+    }
+  return patch;
+}
+
+/// How far the points that a grid of every `stride`-th leaves out lie off it, at most.
+float left_out(const Patch& patch, int stride) {
+  float most = 0;
+  for (int v = 0; v <= patch.steps; ++v)
+    for (int u = 0; u <= patch.steps; ++u) {
+      const int u0 = u - u % stride, v0 = v - v % stride;
+      const int u1 = std::min(u0 + stride, patch.steps), v1 = std::min(v0 + stride, patch.steps);
+      const float a = float(u - u0) / float(stride), b = float(v - v0) / float(stride);
+      const Eigen::Vector3f there = (1 - b) * ((1 - a) * patch.at(u0, v0) + a * patch.at(u1, v0)) +
+                                    b * ((1 - a) * patch.at(u0, v1) + a * patch.at(u1, v1));
+      most = std::max(most, (patch.at(u, v) - there).norm());
+    }
+  return most;
+}
+
+/// The coarsest grid within the tolerance.
+int stride_of(const Patch& patch, float tolerance) {
+  for (int stride = patch.steps; stride > 1; --stride)
+    if (patch.steps % stride == 0 && left_out(patch, stride) <= tolerance) return stride;
+  return 1;
+}
+
+std::vector<std::uint32_t> add_patch(Mesh& mesh, const Patch& patch, const Eigen::Vector4f& colour,
+                                     float tolerance) {
+  const int stride = stride_of(patch, tolerance), n = patch.steps / stride;
+  const auto first = std::uint32_t(mesh.vertices.size());
+  const PackedColour packed = pack(colour);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i)
+      mesh.add(patch.at(i * stride, j * stride), patch.normal(i * stride, j * stride), packed);
+  std::vector<std::uint32_t> indices;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const std::uint32_t a = first + j * (n + 1) + i, b = a + 1, c = b + n + 1, d = a + n + 1;
+      indices.insert(indices.end(), {a, b, c, a, c, d});
+    }
+  return indices;
+}
+
+}  // namespace
+
+std::vector<CellPatch> add_cell_patches(Mesh& mesh, const record::Layout& layout,
+                                        const Eigen::Matrix3Xd& nodes,
+                                        std::span<const Eigen::Vector4f> colours,
+                                        float tolerance_mm) {
+  const auto where = places(layout, nodes.cols());
+  std::vector<CellPatch> patches;
+  for (int c = 0; c < int(layout.cells.size()); ++c)
+    if (colours[c].w() > 0)
+      patches.push_back({c, add_patch(mesh, coons_patch(layout, nodes, where, layout.cells[c]),
+                                      colours[c], tolerance_mm)});
+  return patches;
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,186 @@
+// The OpenGL 3.3 core functions that the renderer calls, looked up in the context that is current.
+// One table serves OSMesa, EGL and GLFW; linking libGL would not (it knows nothing of OSMesa).
+#pragma once
+
+#include <GL/glcorearb.h>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <utility>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "render/gl/mesh.h"
+
+// X(type of the pointer, name without gl)
+#define GRIDSHELL_GL_FUNCTIONS(X)                              \
+  X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                     \
+  X(PFNGLATTACHSHADERPROC, AttachShader)                       \
+  X(PFNGLBINDBUFFERPROC, BindBuffer)                           \
+  X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                 \
+  X(PFNGLBINDTEXTUREPROC, BindTexture)                         \
+  X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                 \
+  X(PFNGLBLENDFUNCPROC, BlendFunc)                             \
+  X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)             \
+  X(PFNGLBUFFERDATAPROC, BufferData)                           \
+  X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
+  X(PFNGLCLEARPROC, Clear)                                     \
+  X(PFNGLCLEARCOLORPROC, ClearColor)                           \
+  X(PFNGLCOLORMASKPROC, ColorMask)                             \
+  X(PFNGLCOMPILESHADERPROC, CompileShader)                     \
+  X(PFNGLCREATEPROGRAMPROC, CreateProgram)                     \
+  X(PFNGLCREATESHADERPROC, CreateShader)                       \
+  X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                     \
+  X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)           \
+  X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                     \
+  X(PFNGLDELETESHADERPROC, DeleteShader)                       \
+  X(PFNGLDELETETEXTURESPROC, DeleteTextures)                   \
+  X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)           \
+  X(PFNGLDEPTHFUNCPROC, DepthFunc)                             \
+  X(PFNGLDEPTHMASKPROC, DepthMask)                             \
+  X(PFNGLDISABLEPROC, Disable)                                 \
+  X(PFNGLDRAWARRAYSPROC, DrawArrays)                           \
+  X(PFNGLDRAWBUFFERPROC, DrawBuffer)                           \
+  X(PFNGLDRAWELEMENTSPROC, DrawElements)                       \
+  X(PFNGLENABLEPROC, Enable)                                   \
+  X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
+  X(PFNGLFINISHPROC, Finish)                                   \
+  X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)       \
+  X(PFNGLGENBUFFERSPROC, GenBuffers)                           \
+  X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                 \
+  X(PFNGLGENTEXTURESPROC, GenTextures)                         \
+  X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                 \
+  X(PFNGLGETERRORPROC, GetError)                               \
+  X(PFNGLGETINTEGERVPROC, GetIntegerv)                         \
+  X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)             \
+  X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                       \
+  X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)               \
+  X(PFNGLGETSHADERIVPROC, GetShaderiv)                         \
+  X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
+  X(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
+  X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \
+  X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                     \
+  X(PFNGLREADBUFFERPROC, ReadBuffer)                           \
+  X(PFNGLREADPIXELSPROC, ReadPixels)                           \
+  X(PFNGLSCISSORPROC, Scissor)                                 \
+  X(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
+  X(PFNGLTEXIMAGE2DPROC, TexImage2D)                           \
+  X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \
+  X(PFNGLUNIFORM1FPROC, Uniform1f)                             \
+  X(PFNGLUNIFORM1IPROC, Uniform1i)                             \
+  X(PFNGLUNIFORM2FPROC, Uniform2f)                             \
+  X(PFNGLUNIFORM3FPROC, Uniform3f)                             \
+  X(PFNGLUNIFORM4FPROC, Uniform4f)                             \
+  X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)               \
+  X(PFNGLUSEPROGRAMPROC, UseProgram)                           \
+  X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
+  X(PFNGLVIEWPORTPROC, Viewport)
+
+namespace gridshell::render {
+
+class Context;
+
+/// gl.DrawArrays(...) is glDrawArrays(...).
+struct Gl {
+#define GRIDSHELL_GL_MEMBER(type, name) type name = nullptr;
+  GRIDSHELL_GL_FUNCTIONS(GRIDSHELL_GL_MEMBER)
+#undef GRIDSHELL_GL_MEMBER
+
+  /// Errors: Fault::io naming the first function that the context lacks.
+  static Result<Gl> load(const Context& context);
+};
+
+// OpenGL objects that delete themselves: textures, framebuffers, vertex arrays, buffers.
+
+/// Owns one name made by `Generate` and freed by `Delete` (members of Gl).
+template <auto Generate, auto Delete>
+class Object {
+ public:
+  explicit Object(const Gl& gl) : gl_(&gl) { (gl.*Generate)(1, &id_); }
+  ~Object() {
+    if (id_) (gl_->*Delete)(1, &id_);
+  }
+  Object(Object&& other) noexcept : gl_(other.gl_), id_(std::exchange(other.id_, 0)) {}
+  Object& operator=(Object&& other) noexcept {
+    std::swap(gl_, other.gl_);
+    std::swap(id_, other.id_);
+    return *this;
+  }
+
+  GLuint id() const { return id_; }
+
+ private:
+  const Gl* gl_;
+  GLuint id_ = 0;
+};
+
+/// Where the shader's input `index` stands in the vertices of the buffer that is bound, `stride`
+/// bytes each: `size` numbers of `type` from byte `at` on; `unit`: integers stand for 0 to 1.
+inline void describe_attribute(const Gl& gl, GLuint index, GLint size, GLenum type, bool unit,
+                               std::size_t stride, std::size_t at) {
+  gl.VertexAttribPointer(index, size, type, unit, GLsizei(stride),
+                         reinterpret_cast<const void*>(at));
+  gl.EnableVertexAttribArray(index);
+}
+
+using Texture = Object<&Gl::GenTextures, &Gl::DeleteTextures>;
+using Framebuffer = Object<&Gl::GenFramebuffers, &Gl::DeleteFramebuffers>;
+using VertexArray = Object<&Gl::GenVertexArrays, &Gl::DeleteVertexArrays>;
+using Buffer = Object<&Gl::GenBuffers, &Gl::DeleteBuffers>;
+
+// A framebuffer with a colour texture and, if wanted, a depth texture.
+
+/// Allocates anew when asked for another size or format, and keeps its storage while they stay.
+class Target {
+ public:
+  enum class Depth { none, plain, compared };  ///< compared: read by a sampler2DShadow
+
+  /// Of the colour's `levels` (each half the size before) the first is drawn into; several levels
+  /// are read with smooth interpolation, a single one texel by texel.
+  Target(const Gl& gl, Depth depth, int levels = 1)
+      : gl_(&gl), depth_kind_(depth), levels_(levels), frame_(gl), colour_(gl), depth_(gl) {}
+
+  /// Binds it for drawing over width x height pixels of the internal format `format`.
+  /// Errors: Fault::io when the context cannot make it.
+  Result<void> bind(int width, int height, GLenum format);
+
+  GLuint frame() const { return frame_.id(); }
+  GLuint colour() const { return colour_.id(); }
+  GLuint depth() const { return depth_.id(); }
+
+ private:
+  void allocate();
+
+  const Gl* gl_;
+  Depth depth_kind_;
+  int levels_;
+  Framebuffer frame_;
+  Texture colour_, depth_;
+  int width_ = 0, height_ = 0;
+  GLenum format_ = 0;
+};
+
+// A Mesh on the graphics side.
+
+class VertexStore {
+ public:
+  using Lists = std::initializer_list<std::reference_wrapper<const std::vector<std::uint32_t>>>;
+
+  explicit VertexStore(const Gl& gl);
+
+  /// The mesh, and more lists of triangles over its vertices.
+  void upload(const Mesh& mesh, Lists more = {});
+  /// List 0 is the mesh's own, then the others in order.
+  void draw(std::size_t list = 0) const;
+  /// Indices `begin` to `end` - 1 of the mesh's own list.
+  void draw_range(std::size_t begin, std::size_t end) const;
+
+ private:
+  const Gl* gl_;
+  VertexArray layout_;
+  Buffer vertices_, indices_;
+  std::vector<std::size_t> starts_;  ///< of each list among the indices, and their end
+};
+
+}  // namespace gridshell::render

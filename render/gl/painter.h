@@ -1,0 +1,67 @@
+// Paints one tile of a picture, pass by pass.
+#pragma once
+
+#include <map>
+
+#include "engine/core/result.h"
+#include "render/gl/ground.h"
+#include "render/gl/lighting.h"
+#include "render/gl/scene.h"
+
+namespace gridshell::render {
+
+/// The ground is drawn first, then the shell over it from far to near; of many passes the shell's
+/// mean over the ground in the mean of their light. With several samples a pixel
+/// the shell's go into a layer of their own (premultiplied, linear light), whose mean over each
+/// pixel is laid over the ground.
+class Painter {
+ public:
+  /// `gl` outlives it.
+  static Result<Painter> create(const Gl& gl);
+
+  /// Makes ready for the shot: sends the scene's triangles over. Before its first tile.
+  Result<void> begin(const RenderJob& shot);
+
+  /// Fills the tile's part of `image`.
+  Result<void> paint(const RenderJob& shot, const Tile& tile, Image& image);
+
+ private:
+  struct Programs {
+    Program sheet, ribbon, bead;
+  };
+  Painter(const Gl& gl, Program mean, Ground ground, ShadowMap shadow);
+
+  Result<Programs> create_programs(int taps) const;
+  Result<void> prepare(const DrawQuality& quality);
+
+  Result<void> cast(const RenderJob& shot, int pass);
+  Result<void> paint_single_pass(const RenderJob& shot, const Tile& tile);
+  Result<void> paint_multi_pass(const RenderJob& shot, const Tile& tile);
+  Result<void> accumulate_shell(const RenderJob& shot, const Tile& part, const Lighting& light,
+                                bool first);
+  Result<void> paint_shell(const RenderJob& shot, const Tile& tile, const Lighting& light,
+                           Target& to);
+  static Eigen::Matrix4d matrix_of(const RenderJob& shot, const Tile& tile, const Lighting& light);
+  void composite_shell(int per_side, const Tile& tile) const;
+  void show(GLuint texture, float share, const Eigen::Vector2i& corner) const;
+  void set_light(const Program& program, const RenderJob& shot, const Lighting& light) const;
+  void set_shadow(const Program& program, const RenderJob& shot, const Lighting& light) const;
+  void draw_meshes(const RenderJob& shot, const Lighting& light, const Eigen::Matrix4f& matrix);
+  void screen_triangle() const;
+  bool multi_pass() const { return passes_.size() > 1; }
+
+  const Gl* gl_;
+  Program mean_;
+  std::map<int, Programs> programs_;  ///< by taps of the shadow that falls on the shell
+  int taps_ = 0;                      ///< of the shot
+  std::map<int, Program> average_;    ///< by samples along a pixel's side
+  Ground ground_;
+  ShadowMap shadow_;
+  VertexStore sheets_, ribbons_, beads_;
+  VertexArray no_vertices_;
+  Target layer_, pass_, sum_, whole_, pixels_;
+  std::vector<Lighting> passes_;
+  int shadow_of_ = -1;  ///< the pass whose shadow the map holds
+};
+
+}  // namespace gridshell::render

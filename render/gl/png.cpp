@@ -1,0 +1,177 @@
+#include "render/gl/image.h"
+
+#include <fmt/format.h>
+#include <libdeflate.h>
+#include <png.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/file_io.h"
+#include "engine/core/try.h"
+
+namespace gridshell::render {
+namespace {
+
+// libpng reports an error by a call that must not return; it is caught where setjmp was called
+struct Failure {
+  char message[160] = "";
+};
+
+void on_error(png_structp png, png_const_charp message) {
+  auto* failure = static_cast<Failure*>(png_get_error_ptr(png));
+  std::snprintf(failure->message, sizeof failure->message, "%s", message);
+  png_longjmp(png, 1);
+}
+
+// 16384 x 16384, the largest that is written, and a text or profile in it
+constexpr std::size_t largest_pixels = std::size_t(1) << 28, largest_chunk = 8000000;
+
+void on_warning(png_structp, png_const_charp) {}
+
+void take(png_structp png, png_bytep data, png_size_t size) {
+  auto* bytes = static_cast<std::string_view*>(png_get_io_ptr(png));
+  if (size > bytes->size()) png_error(png, "the file ends too early");
+  std::copy_n(bytes->data(), size, reinterpret_cast<char*>(data));
+  bytes->remove_prefix(size);
+}
+
+bool opaque(const Image& image) {
+  for (std::size_t k = 3; k < image.rgba.size(); k += 4)
+    if (image.rgba[k] != 255) return false;
+  return true;
+}
+
+void append_number(std::string& bytes, std::uint32_t number) {
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += char(number >> shift & 0xff);
+}
+
+// a PNG is a signature and chunks: length, type, data and a checksum of these two
+void append_chunk(std::string& bytes, std::string_view type, std::string_view data) {
+  append_number(bytes, std::uint32_t(data.size()));
+  const std::size_t begin = bytes.size();
+  bytes.append(type).append(data);
+  append_number(bytes, libdeflate_crc32(0, bytes.data() + begin, bytes.size() - begin));
+}
+
+std::string header(const Image& image, bool with_alpha) {
+  std::string data;
+  append_number(data, std::uint32_t(image.width));
+  append_number(data, std::uint32_t(image.height));
+  const int colour_type = with_alpha ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB;
+  for (const int byte : {8, colour_type, 0, 0, PNG_INTERLACE_NONE}) data += char(byte);
+  return data;
+}
+
+// pixels per metre along both axes
+std::string density(double dpi) {
+  std::string data;
+  for (int axis = 0; axis < 2; ++axis) append_number(data, std::uint32_t(dpi / 0.0254 + 0.5));
+  return data + char(PNG_RESOLUTION_METER);
+}
+
+// every row after the filter it went through: none, after which it compresses as well as any
+template <int channels>
+std::vector<std::uint8_t> rows_of(const Image& image) {
+  const std::size_t width = std::size_t(image.width);
+  std::vector<std::uint8_t> rows((channels * width + 1) * std::size_t(image.height));
+  std::uint8_t* to = rows.data();
+  for (int y = 0; y < image.height; ++y) {
+    *to++ = PNG_FILTER_VALUE_NONE;
+    const std::uint8_t* pixel = image.pixel(0, y);
+    for (std::size_t x = 0; x < width; ++x, to += channels)
+      std::copy_n(pixel + 4 * x, channels, to);
+  }
+  return rows;
+}
+
+struct Free {
+  void operator()(libdeflate_compressor* it) const { libdeflate_free_compressor(it); }
+};
+
+// `image` and `rows` are the caller's; a longjmp must not skip their destructors
+bool decode_rows(std::string_view& bytes, Image& image, std::vector<png_bytep>& rows,
+                 Failure& failure) {
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, on_error, on_warning);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+  if (!info || setjmp(png_jmpbuf(png))) {
+    png_destroy_read_struct(&png, &info, nullptr);
+    return false;
+  }
+  png_set_read_fn(png, &bytes, take);
+  png_set_chunk_malloc_max(png, largest_chunk);
+  png_read_info(png, info);
+  const std::size_t width = png_get_image_width(png, info),
+                    height = png_get_image_height(png, info);
+  if (width * height > largest_pixels) {
+    std::snprintf(failure.message, sizeof failure.message,
+                  "it has %zu x %zu pixels, more than the %zu million that are read", width, height,
+                  largest_pixels / 1000000);
+    png_longjmp(png, 1);
+  }
+  // palettes and grey to RGB, 1-4 bits up and 16 bits down to 8, no alpha to opaque
+  png_set_expand(png);
+  png_set_scale_16(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  image = Image(static_cast<int>(png_get_image_width(png, info)),
+                static_cast<int>(png_get_image_height(png, info)));
+  rows.resize(image.height);
+  for (int y = 0; y < image.height; ++y) rows[y] = image.pixel(0, y);
+  png_read_image(png, rows.data());
+  png_read_end(png, nullptr);
+  png_destroy_read_struct(&png, &info, nullptr);
+  return true;
+}
+
+}  // namespace
+
+Result<std::string> encode_png(const Image& image, double dpi) {
+  if (image.width < 1 || image.height < 1)
+    return fail(Fault::bad_input, fmt::format("a picture of {} x {} pixels cannot be a PNG",
+                                              image.width, image.height));
+  const bool with_alpha = !opaque(image);
+  const std::vector<std::uint8_t> rows = with_alpha ? rows_of<4>(image) : rows_of<3>(image);
+  // a third of zlib's time at the same size
+  const std::unique_ptr<libdeflate_compressor, Free> compressor(libdeflate_alloc_compressor(1));
+  if (!compressor) return fail(Fault::io, "cannot encode a PNG: out of memory");
+  const std::size_t room = libdeflate_zlib_compress_bound(compressor.get(), rows.size());
+  // not filled: few pictures need all of it
+  const std::unique_ptr<char[]> packed(new char[room]);
+  const std::size_t size =
+      libdeflate_zlib_compress(compressor.get(), rows.data(), rows.size(), packed.get(), room);
+  std::string bytes("\x89PNG\r\n\x1a\n");
+  append_chunk(bytes, "IHDR", header(image, with_alpha));
+  if (dpi > 0) append_chunk(bytes, "pHYs", density(dpi));
+  append_chunk(bytes, "IDAT", {packed.get(), size});
+  append_chunk(bytes, "IEND", {});
+  return bytes;
+}
+
+Result<void> write_png(const Image& image, const std::filesystem::path& path, double dpi) {
+  TRY(bytes, encode_png(image, dpi));
+  return write_file(path, *bytes);
+}
+
+Result<Image> decode_png(std::string_view bytes, const std::string& name) {
+  Image image;
+  std::vector<png_bytep> rows;
+  Failure failure;
+  if (!decode_rows(bytes, image, rows, failure))
+    return fail(Fault::bad_input,
+                fmt::format("'{}' is not a readable PNG: {}", name, failure.message));
+  return image;
+}
+
+Result<Image> read_png(const std::filesystem::path& path) {
+  TRY(bytes, read_file(path));
+  return decode_png(*bytes, path.string());
+}
+
+}  // namespace gridshell::render

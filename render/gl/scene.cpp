@@ -1,0 +1,355 @@
+#include "render/gl/scene.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "render/gl/image.h"
+#include "render/gl/mesh.h"
+#include "render/gl/renderer.h"
+
+namespace gridshell::render {
+namespace {
+
+// what pieces longer than the edges of a mesh may miss, in samples: of a rod, whose outline shows
+// it, and of a cell, whose sides are hidden by rods
+constexpr double rod_tolerance_samples = 0.02, cell_tolerance_samples = 0.25;
+
+using Points = std::vector<Eigen::Vector3f>;
+using Colours = std::vector<Eigen::Vector4f>;
+
+/// Rods, rings and joints are never translucent.
+Eigen::Vector4f opaque(const Colour& c) { return to_linear({c.r, c.g, c.b, 1}); }
+
+/// The first mismatch that would make drawing read past an array or draw NaN; empty when sound.
+std::string mismatch(const Drawing& drawing) {
+  if (!drawing.layout) return "has no layout";
+  const auto nodes = std::size_t(drawing.nodes.cols());
+  const auto& layout = *drawing.layout;
+  if (!drawing.nodes.allFinite()) return "has a node that is not finite";
+  if (!drawing.node_colours.empty() && drawing.node_colours.size() != nodes)
+    return fmt::format("has {} node colours for {} nodes", drawing.node_colours.size(), nodes);
+  if (!drawing.cell_colours.empty() && drawing.cell_colours.size() != layout.cells.size())
+    return fmt::format("has {} cell colours for {} cells", drawing.cell_colours.size(),
+                       layout.cells.size());
+  const auto outside = [](const std::vector<std::vector<int>>& rods, std::size_t count) {
+    for (const auto& rod : rods)
+      for (int node : rod)
+        if (node < 0 || std::size_t(node) >= count) return true;
+    return false;
+  };
+  if (outside(layout.rods, nodes)) return fmt::format("has a rod beyond its {} nodes", nodes);
+  for (const auto& joint : layout.joints)
+    if (joint.node < 0 || std::size_t(joint.node) >= nodes)
+      return fmt::format("has joint ({}, {}) beyond its {} nodes", joint.i, joint.j, nodes);
+  for (const auto& ghost : drawing.ghosts)
+    if (!ghost.nodes.allFinite() || outside(ghost.rods, std::size_t(ghost.nodes.cols())))
+      return "has ghost rods with a node that is missing or not finite";
+  for (const auto& ring : drawing.rings)
+    if (!ring.points.allFinite()) return "has a ring with a point that is not finite";
+  return {};
+}
+
+/// A radius as drawn: no thinner than a sample.
+float radius_of(double diameter_mm, double mm_per_sample) {
+  return float(0.5 * std::max(diameter_mm, 1.1 * mm_per_sample));
+}
+
+Points points_of(const Eigen::Matrix3Xd& nodes, const std::vector<int>& rod) {
+  Points points;
+  for (int node : rod) points.push_back(nodes.col(node).cast<float>());
+  return points;
+}
+
+/// Every joint's node, and the cells on either side of two joints' stretch.
+class Neighbours {
+ public:
+  explicit Neighbours(const record::Layout& layout) {
+    for (const record::Joint& joint : layout.joints) joints_.insert(joint.node);
+    for (int c = 0; c < int(layout.cells.size()); ++c)
+      for (int k = 0; k < 4; ++k) {
+        const auto& corners = layout.cells[c].joints;
+        const int a = layout.joints[corners[k]].node, b = layout.joints[corners[(k + 1) % 4]].node;
+        beside_[std::minmax(a, b)].push_back(c);
+      }
+  }
+  bool joint(int node) const { return joints_.contains(node); }
+  const std::vector<int>& cells(int a, int b) const {
+    static const std::vector<int> none;
+    const auto found = beside_.find(std::minmax(a, b));
+    return found == beside_.end() ? none : found->second;
+  }
+
+ private:
+  std::set<int> joints_;
+  std::map<std::pair<int, int>, std::vector<int>> beside_;
+};
+
+/// For every node the cross product of its rods' tangents: the shell's normal at a joint.
+std::vector<Eigen::Vector3f> shell_normals(const Drawing& drawing) {
+  const auto count = std::size_t(drawing.nodes.cols());
+  std::vector<Eigen::Vector3f> tangent(count, Eigen::Vector3f::Zero()), normal = tangent;
+  for (const auto& rod : drawing.layout->rods)
+    for (std::size_t k = 0; k < rod.size(); ++k) {
+      const int before = rod[k ? k - 1 : 0], after = rod[std::min(k + 1, rod.size() - 1)];
+      const Eigen::Vector3f t =
+          (drawing.nodes.col(after) - drawing.nodes.col(before)).cast<float>().stableNormalized();
+      normal[rod[k]] = tangent[rod[k]].cross(t);
+      tangent[rod[k]] = t;
+    }
+  return normal;
+}
+
+/// Collects the pieces, each with its depth along the view, and puts them in order.
+class Weaver {
+ public:
+  Weaver(Scene& scene, const Drawing& drawing, const Camera& camera, double mm_per_sample)
+      : scene_(scene),
+        drawing_(drawing),
+        forward_(camera_axes(camera).forward),
+        mm_per_sample_(mm_per_sample) {}
+
+  void add_cell_patches() {
+    cell_depth_.assign(drawing_.layout->cells.size(), INFINITY);
+    if (drawing_.cell_colours.empty()) return;
+    Colours colours(drawing_.cell_colours.size());
+    std::transform(drawing_.cell_colours.begin(), drawing_.cell_colours.end(), colours.begin(),
+                   [](const Colour& c) { return to_linear(c); });
+    auto patches =
+        render::add_cell_patches(scene_.sheets, *drawing_.layout, drawing_.nodes, colours,
+                                 float(cell_tolerance_samples * mm_per_sample_));
+    for (CellPatch& patch : patches) {
+      double depth = 0;
+      for (int joint : drawing_.layout->cells[patch.cell].joints)
+        depth += 0.25 * forward_.dot(drawing_.nodes.col(drawing_.layout->joints[joint].node));
+      cell_depth_[patch.cell] = depth;
+      sheets_.push_back({depth, std::move(patch.indices)});
+    }
+  }
+
+  /// A stretch between joints comes with the nearer of the cells beside it, so that these do not
+  /// cover half of it, and a joint with the nearest of its stretches.
+  void add_rods() {
+    const Neighbours neighbours(*drawing_.layout);
+    node_depth_.assign(std::size_t(drawing_.nodes.cols()), INFINITY);
+    Colours of_node(drawing_.node_colours.size());
+    std::transform(drawing_.node_colours.begin(), drawing_.node_colours.end(), of_node.begin(),
+                   opaque);
+    const Eigen::Vector4f plain = opaque(drawing_.rod_colour);
+    for (std::size_t r = 0; r < drawing_.layout->rods.size(); ++r) {
+      const auto& rod = drawing_.layout->rods[r];
+      if (rod.size() < 2) continue;
+      const float radius = radius_of(
+          record::thickness_of(*drawing_.layout, r) * drawing_.rod_diameter_mm, mm_per_sample_);
+      Colours colours;
+      for (int node : rod) colours.push_back(of_node.empty() ? plain : of_node[node]);
+      const Points points = points_of(drawing_.nodes, rod);
+      const Ribbon ribbon{points, colours, {&radius, 1}};
+      const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
+      for (std::size_t begin = 0; begin + 1 < rod.size();) {
+        std::size_t end = begin + 1;
+        while (end + 1 < rod.size() && !neighbours.joint(rod[end])) ++end;
+        double depth =
+            0.5 * forward_.dot(drawing_.nodes.col(rod[begin]) + drawing_.nodes.col(rod[end]));
+        for (int cell : neighbours.cells(rod[begin], rod[end]))
+          depth = std::min(depth, cell_depth_[cell]);
+        for (int node : {rod[begin], rod[end]})
+          node_depth_[node] = std::min(node_depth_[node], depth);
+        add_stretch(ribbon, first, int(begin), int(end), depth, true);
+        begin = end;
+      }
+    }
+  }
+
+  void add_joints() {
+    if (drawing_.joint_diameter_mm <= 0) return;
+    const auto normals = shell_normals(drawing_);
+    const float radius = radius_of(drawing_.joint_diameter_mm, mm_per_sample_);
+    const Eigen::Vector4f colour = opaque(drawing_.joint_colour);
+    for (const auto& joint : drawing_.layout->joints) {
+      const float length = normals[joint.node].norm();
+      const Eigen::Vector3f axis =
+          length > 1e-6f ? Eigen::Vector3f(normals[joint.node] / length) : Eigen::Vector3f::UnitZ();
+      const Eigen::Vector3f at = drawing_.nodes.col(joint.node).cast<float>();
+      const double depth =
+          std::min(node_depth_[joint.node], forward_.dot(drawing_.nodes.col(joint.node)));
+      beads_.push_back({depth, add_bead(scene_.beads, at, axis, radius, BeadShape::flat, colour)});
+      add_bead_shadow(at, axis, radius);
+    }
+  }
+
+  void add_rings() {
+    for (const Ring& ring : drawing_.rings) {
+      Points points(ring.points.cols());
+      for (int k = 0; k < int(points.size()); ++k) points[k] = ring.points.col(k).cast<float>();
+      // a last point that repeats the first would be an edge without length
+      while (points.size() > 1 && (points.back() - points.front()).norm() < 1e-6f)
+        points.pop_back();
+      if (points.size() < 3) continue;
+      const Colours colours(points.size(), opaque(ring.colour));
+      const float radius = radius_of(ring.diameter_mm, mm_per_sample_);
+      const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}, true});
+      for (int k = 0, n = int(points.size()); k < n; ++k) {
+        Piece piece{forward_.dot(points[k].cast<double>()), {}};
+        add_strip_quad(piece.indices, first, k, (k + 1) % n);
+        if (ring.shadow) insert(scene_.casters, piece.indices);
+        ribbons_.push_back(std::move(piece));
+      }
+    }
+  }
+
+  void add_ghosts() {
+    constexpr int edges = 4;
+    for (const GhostRods& ghost : drawing_.ghosts) {
+      const float radius = radius_of(ghost.diameter_mm, mm_per_sample_);
+      for (const auto& rod : ghost.rods) {
+        if (rod.size() < 2) continue;
+        const Points points = points_of(ghost.nodes, rod);
+        const Colours colours(points.size(), to_linear(ghost.colour));
+        const Ribbon ribbon{points, colours, {&radius, 1}};
+        const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
+        for (int begin = 0, last = int(rod.size()) - 1; begin < last; begin += edges) {
+          const int end = std::min(begin + edges, last);
+          add_stretch(ribbon, first, begin, end,
+                      0.5 * forward_.dot((points[begin] + points[end]).cast<double>()), false);
+        }
+      }
+    }
+  }
+
+  void add_arrows() {
+    constexpr float head_width = 2.8f, head_length = 9;  // over the shaft's radius
+    for (const Arrow& arrow : drawing_.arrows) {
+      const Eigen::Vector3f from = arrow.from.cast<float>(), to = arrow.to.cast<float>();
+      const float radius = radius_of(arrow.diameter_mm, mm_per_sample_),
+                  length = (to - from).norm();
+      const Eigen::Vector3f along = (to - from).stableNormalized();
+      const Eigen::Vector3f neck = to - std::min(head_length * radius, 0.6f * length) * along;
+      // the head is a strip of its own that narrows to its tip
+      const Points points{from, neck, neck, to};
+      const std::vector<float> radii{radius, radius, head_width * radius, 0.05f * radius};
+      const Colours colours(4, opaque(arrow.colour));
+      const Ribbon ribbon{points, colours, radii};
+      const std::uint32_t first = add_ribbon(scene_.ribbons, ribbon);
+      for (const int begin : {0, 2})
+        add_stretch(ribbon, first, begin, begin + 1, forward_.dot(arrow.to) - radius, true);
+    }
+  }
+
+  void add_marks() {
+    for (const PointMark& mark : drawing_.marks) {
+      const auto radius = float(0.5 * mark.diameter_mm);
+      beads_.push_back({forward_.dot(mark.at) - radius - drawing_.layout->spacing_mm,
+                        add_bead(scene_.beads, mark.at.cast<float>(), Eigen::Vector3f::UnitZ(),
+                                 radius, BeadShape::ball, opaque(mark.colour))});
+    }
+  }
+
+  /// From far to near, cut into layers of equal depth.
+  void finish() {
+    constexpr int most_layers = 32;
+    double near = INFINITY, far = -INFINITY;
+    for (auto* pieces : {&sheets_, &ribbons_, &beads_}) {
+      std::stable_sort(pieces->begin(), pieces->end(),
+                       [](const Piece& a, const Piece& b) { return a.depth > b.depth; });
+      if (pieces->empty()) continue;
+      far = std::max(far, pieces->front().depth);
+      near = std::min(near, pieces->back().depth);
+    }
+    // without sheets nothing hides what is behind it but rods, whose order is their own
+    const int layers = sheets_.empty() && beads_.empty() ? 1 : most_layers;
+    std::size_t sheet = 0, ribbon = 0, bead = 0;
+    for (int k = 1; k <= layers; ++k) {
+      scene_.layers.push_back({scene_.sheets.indices.size(), scene_.ribbons.indices.size(),
+                               scene_.beads.indices.size()});
+      const double until = k == layers ? -INFINITY : far + (near - far) * k / layers;
+      take(sheets_, sheet, until, scene_.sheets.indices);
+      take(ribbons_, ribbon, until, scene_.ribbons.indices);
+      take(beads_, bead, until, scene_.beads.indices);
+    }
+    scene_.layers.push_back(
+        {scene_.sheets.indices.size(), scene_.ribbons.indices.size(), scene_.beads.indices.size()});
+  }
+
+ private:
+  struct Piece {
+    double depth = 0;
+    std::vector<std::uint32_t> indices;
+  };
+  static void insert(std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  }
+  static void take(const std::vector<Piece>& pieces, std::size_t& next, double until,
+                   std::vector<std::uint32_t>& indices) {
+    for (; next < pieces.size() && pieces[next].depth >= until; ++next)
+      insert(indices, pieces[next].indices);
+  }
+  float rod_tolerance() const { return float(rod_tolerance_samples * mm_per_sample_); }
+  void add_stretch(const Ribbon& ribbon, std::uint32_t first, int begin, int end, double depth,
+                   bool casts) {
+    Piece piece{depth, {}};
+    for (int k = begin, next = begin; k < end; k = next) {
+      next = longest_straight_piece(ribbon, k, end, rod_tolerance());
+      add_strip_quad(piece.indices, first, k, next);
+    }
+    // a shadow keeps every edge: where it just touches a rod little decides
+    for (int k = begin; casts && k < end; ++k) add_strip_quad(scene_.casters, first, k, k + 1);
+    ribbons_.push_back(std::move(piece));
+  }
+  /// A bead's shadow is that of a short strip as wide as it.
+  void add_bead_shadow(const Eigen::Vector3f& at, const Eigen::Vector3f& axis, float radius) {
+    const Eigen::Vector3f half = 0.8f * radius * axis.unitOrthogonal();
+    const Points points{at - half, at + half};
+    const Colours colours(2, {0, 0, 0, 1});
+    const std::uint32_t first = add_ribbon(scene_.ribbons, {points, colours, {&radius, 1}});
+    add_strip_quad(scene_.casters, first, 0, 1);
+  }
+
+  Scene& scene_;
+  const Drawing& drawing_;
+  Eigen::Vector3d forward_;
+  double mm_per_sample_;
+  std::vector<double> cell_depth_, node_depth_;
+  std::vector<Piece> sheets_, ribbons_, beads_;
+};
+
+void enclose(Scene& scene) {
+  Eigen::AlignedBox3f box;
+  float widest = 0;
+  for (const Mesh* mesh : {&scene.sheets, &scene.ribbons, &scene.beads})
+    for (const Vertex& v : mesh->vertices) {
+      box.extend(v.position);
+      widest = std::max(widest, std::abs(float(v.normal[3])));
+    }
+  if (box.isEmpty()) box.extend(Eigen::Vector3f::Zero());
+  const double room = 1e-3 + widest / 32767 * widest_radius_mm;
+  scene.low = box.min().cast<double>() - Eigen::Vector3d::Constant(room);
+  scene.high = box.max().cast<double>() + Eigen::Vector3d::Constant(room);
+}
+
+}  // namespace
+
+Result<Scene> make_scene(const Drawing& drawing, const Camera& camera, double mm_per_sample) {
+  if (const std::string fault = mismatch(drawing); !fault.empty())
+    return fail(Fault::bad_input, "the drawing " + fault);
+  Scene scene;
+  Weaver weaver(scene, drawing, camera, mm_per_sample);
+  weaver.add_cell_patches();
+  weaver.add_rods();
+  weaver.add_rings();
+  weaver.add_joints();
+  weaver.add_arrows();
+  weaver.add_marks();
+  weaver.add_ghosts();
+  weaver.finish();
+  enclose(scene);
+  return scene;
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,222 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <array>
+#include <cstdlib>
+#include <utility>
+
+#include "render/gl/context.h"
+#include "render/gl/context_backends.h"
+
+// X(name of a member, its name without glfw)
+#define GRIDSHELL_GLFW_FUNCTIONS(X)         \
+  X(init, Init)                             \
+  X(terminate, Terminate)                   \
+  X(error, GetError)                        \
+  X(hint, WindowHint)                       \
+  X(create, CreateWindow)                   \
+  X(destroy, DestroyWindow)                 \
+  X(make_current, MakeContextCurrent)       \
+  X(proc_address, GetProcAddress)           \
+  X(poll, PollEvents)                       \
+  X(wait, WaitEventsTimeout)                \
+  X(swap, SwapBuffers)                      \
+  X(swap_interval, SwapInterval)            \
+  X(should_close, WindowShouldClose)        \
+  X(framebuffer_size, GetFramebufferSize)   \
+  X(window_size, GetWindowSize)             \
+  X(content_scale, GetWindowContentScale)   \
+  X(set_user_pointer, SetWindowUserPointer) \
+  X(user_pointer, GetWindowUserPointer)     \
+  X(on_cursor, SetCursorPosCallback)        \
+  X(on_button, SetMouseButtonCallback)      \
+  X(on_scroll, SetScrollCallback)           \
+  X(on_key, SetKeyCallback)                 \
+  X(on_char, SetCharCallback)               \
+  X(size_limits, SetWindowSizeLimits)
+
+namespace gridshell::render {
+namespace {
+
+/// The entry points of libglfw.
+struct Glfw {
+#define GRIDSHELL_GLFW_MEMBER(member, name) decltype(&glfw##name) member;  // NOLINT: a name
+  GRIDSHELL_GLFW_FUNCTIONS(GRIDSHELL_GLFW_MEMBER)
+#undef GRIDSHELL_GLFW_MEMBER
+
+  explicit Glfw(const SharedLibrary& library) {
+#define GRIDSHELL_GLFW_LOAD(member, name) \
+  member = library.function<decltype(&glfw##name)>("glfw" #name);
+    GRIDSHELL_GLFW_FUNCTIONS(GRIDSHELL_GLFW_LOAD)
+#undef GRIDSHELL_GLFW_LOAD
+  }
+
+  bool complete() const {
+    bool all = true;
+#define GRIDSHELL_GLFW_THERE(member, name) all = all && (member);
+    GRIDSHELL_GLFW_FUNCTIONS(GRIDSHELL_GLFW_THERE)
+#undef GRIDSHELL_GLFW_THERE
+    return all;
+  }
+  std::string reason() const {
+    const char* text = nullptr;
+    error(&text);
+    return text ? text : "unknown reason";
+  }
+};
+
+/// What is printed on a key; empty for one that nobody asks for.
+std::string name_of_key(int key) {
+  if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z) return {char('A' + key - GLFW_KEY_A)};
+  if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return {char('0' + key - GLFW_KEY_0)};
+  if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) return {char('0' + key - GLFW_KEY_KP_0)};
+  if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12)
+    return std::string("F").append(std::to_string(key - GLFW_KEY_F1 + 1));
+  static constexpr std::array<std::pair<int, const char*>, 28> others{
+      {{GLFW_KEY_SPACE, "Space"},
+       {GLFW_KEY_ENTER, "Enter"},
+       {GLFW_KEY_KP_ENTER, "Enter"},
+       {GLFW_KEY_ESCAPE, "Esc"},
+       {GLFW_KEY_TAB, "Tab"},
+       {GLFW_KEY_BACKSPACE, "Backspace"},
+       {GLFW_KEY_DELETE, "Del"},
+       {GLFW_KEY_LEFT, "Left"},
+       {GLFW_KEY_RIGHT, "Right"},
+       {GLFW_KEY_UP, "Up"},
+       {GLFW_KEY_DOWN, "Down"},
+       {GLFW_KEY_HOME, "Home"},
+       {GLFW_KEY_END, "End"},
+       {GLFW_KEY_PAGE_UP, "PageUp"},
+       {GLFW_KEY_PAGE_DOWN, "PageDown"},
+       {GLFW_KEY_COMMA, "Comma"},
+       {GLFW_KEY_PERIOD, "Period"},
+       {GLFW_KEY_MINUS, "Minus"},
+       {GLFW_KEY_KP_SUBTRACT, "Minus"},
+       {GLFW_KEY_EQUAL, "Plus"},
+       {GLFW_KEY_KP_ADD, "Plus"},
+       {GLFW_KEY_LEFT_CONTROL, "Ctrl"},
+       {GLFW_KEY_RIGHT_CONTROL, "Ctrl"},
+       {GLFW_KEY_LEFT_SHIFT, "Shift"},
+       {GLFW_KEY_RIGHT_SHIFT, "Shift"},
+       {GLFW_KEY_LEFT_ALT, "Alt"},
+       {GLFW_KEY_RIGHT_ALT, "Alt"},
+       {GLFW_KEY_KP_DECIMAL, "Period"}}};
+  for (const auto& [code, name] : others)
+    if (code == key) return name;
+  return "";
+}
+
+class GlfwWindow final : public Window {
+ public:
+  GlfwWindow(const Glfw& glfw, GLFWwindow* window) : glfw_(glfw), window_(window) {
+    glfw_.make_current(window_);
+    glfw_.swap_interval(0);
+    glfw_.set_user_pointer(window_, this);
+    pointer_of = glfw_.user_pointer;
+    glfw_.on_cursor(window_, [](GLFWwindow* w, double x, double y) {
+      GlfwWindow& self = of(w);
+      // screen coordinates are not pixels everywhere
+      const double scale = self.pixels_a_unit();
+      if (self.listener_) self.listener_->mouse(scale * x, scale * y);
+    });
+    glfw_.on_button(window_, [](GLFWwindow* w, int button, int action, int) {
+      if (of(w).listener_ && button <= 2) of(w).listener_->button(button, action == GLFW_PRESS);
+    });
+    glfw_.on_scroll(window_, [](GLFWwindow* w, double, double y) {
+      if (of(w).listener_) of(w).listener_->wheel(y);
+    });
+    glfw_.on_key(window_, [](GLFWwindow* w, int key, int, int action, int) {
+      const std::string name = name_of_key(key);
+      if (of(w).listener_ && !name.empty()) of(w).listener_->key(name, action != GLFW_RELEASE);
+    });
+    glfw_.on_char(window_, [](GLFWwindow* w, unsigned codepoint) {
+      if (of(w).listener_) of(w).listener_->text(codepoint);
+    });
+  }
+  ~GlfwWindow() override {
+    glfw_.make_current(nullptr);
+    glfw_.destroy(window_);
+    glfw_.terminate();
+  }
+  GlfwWindow(const GlfwWindow&) = delete;
+  GlfwWindow& operator=(const GlfwWindow&) = delete;
+
+  const char* kind_name() const override { return "window"; }
+  void* proc_address(const char* function) const override {
+    return reinterpret_cast<void*>(glfw_.proc_address(function));
+  }
+  void listen(const WindowListener& listener, double wait_seconds) override {
+    listener_ = &listener;
+    if (wait_seconds > 0)
+      glfw_.wait(wait_seconds);
+    else
+      glfw_.poll();
+    listener_ = nullptr;
+  }
+  bool wants_to_close() const override { return glfw_.should_close(window_); }
+  int width() const override { return size().first; }
+  int height() const override { return size().second; }
+  double density() const override {
+    float x = 1, y = 1;
+    glfw_.content_scale(window_, &x, &y);
+    return x > 0 ? x : 1;
+  }
+  void present() override { glfw_.swap(window_); }
+
+ private:
+  /// Callbacks of GLFW know a window only by a pointer that the library, loaded late, hands out.
+  static inline decltype(&glfwGetWindowUserPointer) pointer_of = nullptr;
+  static GlfwWindow& of(GLFWwindow* window) {
+    return *static_cast<GlfwWindow*>(pointer_of(window));
+  }
+  std::pair<int, int> size() const {
+    int w = 1, h = 1;
+    glfw_.framebuffer_size(window_, &w, &h);
+    return {w > 0 ? w : 1, h > 0 ? h : 1};
+  }
+  double pixels_a_unit() const {
+    int w = 1, h = 1;
+    glfw_.window_size(window_, &w, &h);
+    return w > 0 ? double(width()) / w : 1;
+  }
+
+  Glfw glfw_;
+  GLFWwindow* window_;
+  const WindowListener* listener_ = nullptr;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Window>> Window::open(const WindowOptions& wish) {
+  auto library = SharedLibrary::open({"libglfw.so.3", "libglfw.so"});
+  if (!library) return fail(Fault::io, "window: " + library.error().message);
+  const Glfw glfw(*library);
+  if (!glfw.complete()) return fail(Fault::io, "window: GLFW is too old; 3.3 is needed");
+  if (!glfw.init()) return fail(Fault::io, "window: " + glfw.reason());
+
+  glfw.hint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfw.hint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfw.hint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfw.hint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfw.hint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfw.hint(GLFW_VISIBLE, wish.visible ? GLFW_TRUE : GLFW_FALSE);
+  GLFWwindow* window = glfw.create(wish.width, wish.height, wish.title.c_str(), nullptr, nullptr);
+  if (!window) {
+    const std::string reason = glfw.reason();
+    glfw.terminate();
+    return fail(Fault::io, "window: no OpenGL 3.3 core context: " + reason);
+  }
+  if (wish.least_width > 0)
+    glfw.size_limits(window, wish.least_width, wish.least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  return std::make_unique<GlfwWindow>(glfw, window);
+}
+
+Result<std::unique_ptr<Context>> create_window_context() {
+  auto window = Window::open({.title = "gridshell", .width = 64, .height = 64, .visible = false});
+  if (!window)
+    return fail(window.error().fault,
+                window.error().message + " (use --context osmesa or egl instead)");
+  return std::move(*window);
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,237 @@
+#include "render/movie/state_charts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace gridshell::render {
+namespace {
+
+using record::BranchEvent;
+using record::BranchPoint;
+
+constexpr double width = 504, panel_height = 190, title_room = 20, legend_room = 20, margin = 4,
+                 gap = 10;
+constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
+constexpr double dash_on = 3.2, dash_off = 2.2;
+
+bool has_radius(const std::vector<BranchPoint>& points) {
+  return std::ranges::any_of(
+      points, [](const BranchPoint& p) { return std::isfinite(p.boundary_radius_mm); });
+}
+
+/// The path is black; branches come in colours, the two sides of a bifurcation in one.
+Colour colour_of(int branch) {
+  return branch == 0 ? ink : series_colour(std::size_t(branch - 1) / 2);
+}
+
+/// Marks of what happens.
+struct EventMark {
+  BranchEvent event;
+  const char* name;
+  Marker marker;
+  bool hollow;
+};
+constexpr EventMark marks[] = {
+    {BranchEvent::bifurcation, "bifurcation", Marker::circle, true},
+    {BranchEvent::turn, "limit point", Marker::square, true},
+    {BranchEvent::joins, "joins another branch", Marker::diamond, true},
+    {BranchEvent::locking, "rods at their length", Marker::triangle, false},
+    {BranchEvent::lost, "followed no further", Marker::cross, false},
+};
+
+/// Where a point stands in the panel.
+class Place {
+ public:
+  Place(const std::vector<BranchPoint>& points, BranchAxis axis)
+      : radius_(has_radius(points)), axis_(axis) {}
+  double x(const BranchPoint& p) const { return radius_ ? p.boundary_radius_mm : p.progress; }
+  double y(const BranchPoint& p) const {
+    return axis_ == BranchAxis::height ? p.height_mm : p.amplitude;
+  }
+
+ private:
+  bool radius_;
+  BranchAxis axis_;
+};
+
+/// Whether the way from a point to the next is stable. Where something happens the state may be
+/// either's, so the other end says it; a branch begins with a state of another one.
+bool stable_between(const std::vector<BranchPoint>& points, std::size_t to) {
+  const BranchPoint &a = points[to - 1], &b = points[to];
+  const bool begins = to == 1 || points[to - 2].branch != a.branch;
+  if (a.event == BranchEvent::none && !(begins && a.branch > 0)) return a.stable();
+  if (b.event == BranchEvent::none) return b.stable();
+  return a.stable() && b.stable();
+}
+
+/// The branches as pieces that are stable or not throughout.
+std::vector<Series> pieces_of(const std::vector<BranchPoint>& points, const Place& place) {
+  std::vector<Series> pieces;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const BranchPoint &from = points[k - 1], &to = points[k];
+    if (from.branch != to.branch) continue;
+    const bool stable = stable_between(points, k);
+    const bool begins = k == 1 || points[k - 2].branch != from.branch;
+    if (begins || pieces.back().dash.empty() != stable) {
+      Series piece;
+      piece.colour = colour_of(to.branch);
+      piece.line_width = to.branch == 0 ? 1.3 : 1.1;
+      if (!stable) piece.dash = {dash_on, dash_off};
+      piece.x.push_back(place.x(from));
+      piece.y.push_back(place.y(from));
+      pieces.push_back(std::move(piece));
+    }
+    pieces.back().x.push_back(place.x(to));
+    pieces.back().y.push_back(place.y(to));
+  }
+  return pieces;
+}
+
+Series marks_of(const std::vector<BranchPoint>& points, const Place& place, const EventMark& mark) {
+  Series series;
+  series.colour = ink;
+  series.line_width = 0;
+  series.marker = mark.marker;
+  series.hollow = mark.hollow;
+  series.marker_size = 4.2;
+  for (const BranchPoint& p : points)
+    if (p.event == mark.event) {
+      series.x.push_back(place.x(p));
+      series.y.push_back(place.y(p));
+    }
+  return series;
+}
+
+/// The part of the x axis in which things happen, where that is a small one.
+std::optional<std::pair<double, double>> close_up(const std::vector<BranchPoint>& points,
+                                                  const Place& place) {
+  double low = INFINITY, high = -INFINITY, least = INFINITY, most = -INFINITY;
+  for (const BranchPoint& p : points) {
+    least = std::min(least, place.x(p));
+    most = std::max(most, place.x(p));
+    if (p.event != BranchEvent::bifurcation && p.event != BranchEvent::turn &&
+        p.event != BranchEvent::joins)
+      continue;
+    low = std::min(low, place.x(p));
+    high = std::max(high, place.x(p));
+  }
+  if (!(high >= low) || high - low > (most - least) / 6) return std::nullopt;
+  const double room = std::max(high - low, 0.01 * (most - least));
+  return std::pair(std::max(least, low - room), std::min(most, high + room));
+}
+
+/// What of a series lies between two x: marks that do, pieces of lines cut there.
+Series cut(const Series& whole, double low, double high) {
+  Series part = whole;
+  part.x.clear();
+  part.y.clear();
+  const auto add = [&](double x, double y) {
+    part.x.push_back(x);
+    part.y.push_back(y);
+  };
+  const bool line = whole.line_width > 0;
+  for (std::size_t k = 0; k < whole.x.size(); ++k) {
+    const double x = whole.x[k];
+    const bool inside = x >= low && x <= high;
+    if (line && k > 0) {
+      // where the way from the point before crosses an end
+      const double x0 = whole.x[k - 1], y0 = whole.y[k - 1];
+      for (const double end : x0 < x ? std::array{low, high} : std::array{high, low})
+        if ((x0 - end) * (x - end) < 0) add(end, y0 + (whole.y[k] - y0) * (end - x0) / (x - x0));
+    }
+    if (inside)
+      add(x, whole.y[k]);
+    else if (line)
+      add(NAN, NAN);
+  }
+  return part;
+}
+
+/// The panel with its x axis cut to a part, and its y axis to what is there.
+Plot part_of(Plot plot, const std::pair<double, double>& x) {
+  double low = INFINITY, high = -INFINITY;
+  for (Series& s : plot.series) {
+    s = cut(s, x.first, x.second);
+    for (const double y : s.y) {
+      // not a number is neither
+      low = std::min(low, std::isnan(y) ? low : y);
+      high = std::max(high, std::isnan(y) ? high : y);
+    }
+  }
+  plot.x.low = x.first;
+  plot.x.high = x.second;
+  // what stays level is no picture of round-off
+  const double room = std::max(0.06 * (high - low), 1e-3);
+  plot.y.low = low - room;
+  plot.y.high = high + room;
+  plot.x.ticks = 4;
+  return plot;
+}
+
+void draw_legend(Canvas& canvas, const std::vector<BranchPoint>& points, Point at) {
+  constexpr double size = 8, line = 20;
+  const auto entry = [&](const std::string& text, double symbol) {
+    const Box box =
+        canvas.text(text, {at.x + symbol + 4, at.y}, {.size = size, .align_y = AlignY::middle});
+    at.x = box.right() + 14;
+  };
+  canvas.line(at, {at.x + line, at.y}, {ink, 1.3});
+  entry("stable", line);
+  if (std::ranges::any_of(points, [](const BranchPoint& p) { return !p.stable(); })) {
+    canvas.line(at, {at.x + line, at.y}, {ink, 1.3, {dash_on, dash_off}});
+    entry("not stable", line);
+  }
+  for (const EventMark& mark : marks) {
+    if (std::ranges::none_of(points, [&](const BranchPoint& p) { return p.event == mark.event; }))
+      continue;
+    canvas.marker(mark.marker, {at.x + 3, at.y}, 5, mark.hollow ? Colour{1, 1, 1, 1} : ink,
+                  {ink, 0.9});
+    entry(mark.name, 6);
+  }
+}
+
+}  // namespace
+
+Plot branches_plot(const std::vector<BranchPoint>& points, BranchAxis axis) {
+  const Place place(points, axis);
+  Plot plot;
+  plot.x.label = has_radius(points) ? "*R*_{a} (mm)" : "progress";
+  plot.y.label = axis == BranchAxis::height ? "height (mm)" : "amplitude of broken symmetry";
+  plot.legend = LegendPlace::none;
+  plot.font_size = 8;
+  plot.series = pieces_of(points, place);
+  // the path itself on top
+  std::ranges::stable_partition(plot.series, [](const Series& s) { return s.line_width < 1.2; });
+  for (const EventMark& mark : marks)
+    if (auto series = marks_of(points, place, mark); !series.x.empty())
+      plot.series.push_back(std::move(series));
+  return plot;
+}
+
+Result<void> write_branches(const std::filesystem::path& stem,
+                            const std::vector<BranchPoint>& points, const std::string& title) {
+  std::vector<Plot> panels{branches_plot(points, BranchAxis::height),
+                           branches_plot(points, BranchAxis::amplitude)};
+  if (const auto part = close_up(points, Place(points, BranchAxis::height)))
+    for (std::size_t k = 0; k < 2; ++k) panels.push_back(part_of(panels[k], *part));
+  const double rows = double(panels.size() / 2);
+  const double height = 2 * margin + title_room + legend_room + rows * (panel_height + gap) - gap;
+  return write_figure(stem, width, height, title, [&](Canvas& canvas) {
+    canvas.text(plain(title), {margin, margin + title_room / 2},
+                {.size = 9, .bold = true, .align_y = AlignY::middle});
+    draw_legend(canvas, points, {margin + 2, margin + title_room + legend_room / 2});
+    const double panel = (width - 2 * margin - gap) / 2;
+    for (std::size_t k = 0; k < panels.size(); ++k)
+      draw_plot(canvas,
+                {margin + double(k % 2) * (panel + gap),
+                 margin + title_room + legend_room + double(k / 2) * (panel_height + gap), panel,
+                 panel_height},
+                panels[k]);
+  });
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,241 @@
+#include "render/movie/run_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+
+#include "render/canvas/panels.h"
+#include "render/movie/run_plots.h"
+#include "render/movie/shell_lines.h"
+#include "render/movie/stage.h"
+
+#include "engine/core/try.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
+
+/// How far each block is moved so that they stand apart, in proportion to its place.
+std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
+                                   Eigen::Matrix3Xd record::Part::*where, double share) {
+  std::vector<Eigen::Vector3d> moves;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const record::Part& part : parts) {
+    moves.emplace_back((part.*where).rowwise().mean());
+    middle += moves.back() / double(parts.size());
+  }
+  for (Eigen::Vector3d& move : moves) {
+    move = share * (move - middle);
+    move.z() = 0;
+  }
+  return moves;
+}
+
+/// All blocks as one net of rods, moved apart; `owner` is the block of each point.
+record::Trajectory blocks_apart(const record::Trajectory& run, std::vector<std::size_t>& owner) {
+  record::Trajectory blocks;
+  blocks.layout.spacing_mm = run.layout.spacing_mm;
+  blocks.layout.rod_diameter_mm = run.layout.rod_diameter_mm;
+  blocks.layout.length_scale_mm = run.layout.length_scale_mm;
+  const auto moves = apart(run.layout.parts, &record::Part::net, 0.3);
+  record::Frame frame;
+  for (std::size_t k = 0; k < run.layout.parts.size(); ++k) {
+    const record::Part& part = run.layout.parts[k];
+    const auto first = frame.nodes.cols();
+    frame.nodes.conservativeResize(3, first + part.net.cols());
+    frame.nodes.rightCols(part.net.cols()) = part.net.colwise() + moves[k];
+    owner.resize(std::size_t(frame.nodes.cols()), k);
+    for (std::vector<int> rod : part.rods) {
+      for (int& point : rod) point += int(first);
+      blocks.layout.rods.push_back(std::move(rod));
+    }
+  }
+  blocks.frames.push_back(std::move(frame));
+  return blocks;
+}
+
+struct Extent {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(INFINITY), high = -low;
+  void take(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& move) {
+    const Eigen::Matrix2Xd flat = (points.colwise() + move).topRows<2>();
+    low = low.cwiseMin(flat.rowwise().minCoeff());
+    high = high.cwiseMax(flat.rowwise().maxCoeff());
+  }
+  Eigen::Vector2d size() const { return high - low; }
+};
+
+/// Places points of the flat plane, mm, to scale, the corner (low x, high y) at `corner`.
+struct ToScale {
+  Point corner;
+  Extent extent;
+  double scale = 1;
+  Point operator()(const Eigen::Vector3d& p) const {
+    return {corner.x + scale * (p.x() - extent.low.x()),
+            corner.y + scale * (extent.high.y() - p.y())};
+  }
+};
+
+void draw_rods(Canvas& canvas, const ToScale& place, const record::Part& part,
+               const Eigen::Vector3d& move, const Stroke& stroke) {
+  for (const auto& rod : part.rods)
+    canvas.line(place(part.flat.col(rod.front()) + move), place(part.flat.col(rod.back()) + move),
+                stroke);
+}
+
+}  // namespace
+
+Colour block_colour(std::size_t index) {
+  constexpr Colour colours[] = {{0.16f, 0.42f, 0.78f, 1},
+                                {0.85f, 0.45f, 0.10f, 1},
+                                {0.10f, 0.55f, 0.40f, 1},
+                                {0.62f, 0.25f, 0.62f, 1}};
+  return colours[index % std::size(colours)];
+}
+
+std::vector<ColourKey> block_keys(const record::Layout& layout) {
+  std::vector<ColourKey> keys;
+  for (std::size_t k = 0; k < layout.parts.size(); ++k)
+    keys.push_back({block_colour(k), plain(layout.parts[k].name)});
+  return keys;
+}
+
+Result<PanelFigure> draw_blocks(const record::Trajectory& run, const MovieStyle& movie_style,
+                                Renderer& renderer, Watch& watch) {
+  if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
+  MovieStyle style = movie_style;
+  style.captions = style.inset = false;
+  style.turn_deg = 0;
+  style.colour_by = ColourBy::none;
+  std::vector<std::size_t> owner;
+  const record::Trajectory blocks = blocks_apart(run, owner);
+  TRY_DO(check_showable(blocks, style));
+  const Stage stage(blocks, style);
+  Drawing drawing = stage.drawing(blocks.frames.front());
+  drawing.ground = false;
+  drawing.joint_diameter_mm = 0;
+  drawing.rod_diameter_mm *= 1.5;
+  for (const std::size_t block : owner) drawing.node_colours.push_back(block_colour(block));
+  TRY(picture,
+      renderer.draw(drawing, stage.camera(0), draw_quality(style), style.width, style.height));
+  PanelFigure figure;
+  if (style.print.width_mm > 0) figure.print = style.print;
+  figure.title = style.title;
+  figure.columns = 1;
+  figure.panels.push_back({std::move(*picture), "", ""});
+  if (style.vector) figure.panels.back().lines = shell_lines(std::move(drawing), stage.camera(0));
+  figure.keys = block_keys(run.layout);
+  figure.scale_bar_mm = style.scale_bar_mm;
+  figure.pixels_per_mm = stage.pixels_per_mm();
+  return figure;
+}
+
+namespace {
+
+/// Blocks apart above, joined below.
+struct BlockSheet {
+  std::vector<Eigen::Vector3d> moves;
+  Extent above, below;
+
+  explicit BlockSheet(const record::Layout& layout)
+      : moves(apart(layout.parts, &record::Part::flat, 0.25)) {
+    for (std::size_t k = 0; k < layout.parts.size(); ++k) {
+      above.take(layout.parts[k].flat, moves[k]);
+      below.take(layout.parts[k].flat, Eigen::Vector3d::Zero());
+    }
+    below.take(layout.original_boundary, Eigen::Vector3d::Zero());
+  }
+  double wide() const { return std::max(above.size().x(), below.size().x()); }
+  double high() const { return above.size().y() + below.size().y(); }
+};
+
+constexpr double between = 14, bar_height = 20;  // points
+
+}  // namespace
+
+void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run) {
+  const record::Layout& layout = run.layout;
+  const BlockSheet sheet(layout);
+  const double scale =
+      std::min(box.width / sheet.wide(), (box.height - between - bar_height) / sheet.high());
+  const auto centred = [&](const Extent& extent, double y) {
+    return ToScale{{box.middle().x - scale * extent.size().x() / 2, y}, extent, scale};
+  };
+  const ToScale up = centred(sheet.above, box.y),
+                down = centred(sheet.below, box.y + scale * sheet.above.size().y() + between);
+  for (std::size_t k = 0; k < layout.parts.size(); ++k) {
+    draw_rods(canvas, up, layout.parts[k], sheet.moves[k], {block_colour(k), 0.8});
+    draw_rods(canvas, down, layout.parts[k], Eigen::Vector3d::Zero(), {block_colour(k), 0.8});
+  }
+  std::vector<Point> ring;
+  for (Eigen::Index k = 0; k < layout.original_boundary.cols(); ++k)
+    ring.push_back(down(layout.original_boundary.col(k)));
+  canvas.polyline(ring, {ink, 1.2}, true);
+  const Point left{box.x, down.corner.y + scale * sheet.below.size().y() + 0.6 * bar_height};
+  canvas.line(left, {left.x + scale * layout.spacing_mm, left.y}, {ink, 1.4});
+  canvas.text(fmt::format("*d* = {:g} mm", layout.spacing_mm),
+              {left.x + scale * layout.spacing_mm + 4, left.y},
+              {.size = 8, .align_y = AlignY::middle});
+}
+
+Result<void> write_block_footprints(const std::filesystem::path& stem,
+                                    const record::Trajectory& run, const std::string& title,
+                                    const Print& print) {
+  // text keeps its size however wide the figure is printed
+  const double width = print.width_pt(340);
+  constexpr double margin = 12;
+  const BlockSheet sheet(run.layout);
+  const double scale = (width - 2 * margin) / sheet.wide();
+  const double height = 2 * margin + scale * sheet.high() + between + bar_height;
+  return write_figure(
+      stem, width, height + figure_title_room, "Footprints of the blocks",
+      [&](Canvas& canvas) {
+        draw_figure_title(canvas, title);
+        draw_block_footprints(canvas, Box{0, figure_title_room, width, height}.inset(margin), run);
+      },
+      print);
+}
+
+Plot seam_plot(const record::Trajectory& run) {
+  constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+  Plot plot;
+  plot.x.label = "place along the seam (mm)";
+  plot.y.label = "gap (mm), kink (°)";
+  plot.y.low = 0;
+  std::map<std::string, std::array<Series, 2>> seams;
+  // a seam runs across both families: its middle has the mean of the lines of each
+  std::map<std::pair<std::string, char>, std::pair<double, int>> lines;
+  for (const record::SeamRod& rod : run.layout.seam_rods) {
+    auto& [sum, count] = lines[{rod.seam, rod.family}];
+    sum += rod.line_mm;
+    ++count;
+  }
+  for (const record::SeamRod& rod : run.layout.seam_rods) {
+    auto& [gap, kink] = seams[rod.seam];
+    const auto& [sum, count] = lines[{rod.seam, rod.family}];
+    const double side = rod.family == 'v' ? std::numbers::sqrt2 : -std::numbers::sqrt2;
+    for (Series* series : {&gap, &kink}) series->x.push_back(side * (rod.line_mm - sum / count));
+    gap.y.push_back(rod.gap_mm);
+    kink.y.push_back(rod.kink_deg);
+  }
+  std::size_t index = 0;
+  for (auto& [name, pair] : seams) {
+    for (int k = 0; k < 2; ++k) {
+      Series& series = pair[std::size_t(k)];
+      series.name = plain(name) + (k == 0 ? ", gap" : ", kink");
+      series.colour = series_colour(index);
+      series.line_width = 0;
+      series.marker = markers[index % std::size(markers)];
+      // seams may be mirror images: the later ones lie inside
+      series.marker_size = std::max(2.2, 5.4 - 2.0 * double(index));
+      series.hollow = k == 1;
+      plot.series.push_back(series);
+    }
+    ++index;
+  }
+  return plot;
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,179 @@
+#include "render/movie/colour_by.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "engine/record/frame_values.h"
+
+namespace gridshell::render {
+namespace {
+
+Eigen::VectorXd change_of_K(const record::Frame& first, const record::Frame& frame) {
+  if (first.cell_K.size() != frame.cell_K.size()) return {};
+  return frame.cell_K - first.cell_K;
+}
+
+Eigen::VectorXd move_over_depth(const ColourOrigin& from, const record::Frame& frame) {
+  if (from.depth_mm <= 0 || from.first.nodes.cols() != frame.nodes.cols())
+    return Eigen::VectorXd::Zero(frame.nodes.cols());
+  return (frame.nodes - from.first.nodes).colwise().norm() / from.depth_mm;
+}
+
+}  // namespace
+
+bool of_cells(ColourBy by) {
+  switch (by) {
+    case ColourBy::K:
+    case ColourBy::K_change:
+    case ColourBy::deviation:
+      return true;
+    case ColourBy::none:
+    case ColourBy::displacement:
+    case ColourBy::energy:
+    case ColourBy::axial_force:
+      return false;
+  }
+  return false;
+}
+
+bool may_be_missing(ColourBy by) {
+  switch (by) {
+    case ColourBy::none:
+    case ColourBy::K:
+    case ColourBy::K_change:
+    case ColourBy::displacement:
+      return false;
+    case ColourBy::deviation:
+    case ColourBy::energy:
+    case ColourBy::axial_force:
+      return true;
+  }
+  return false;
+}
+
+Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
+                                const record::Frame& frame, const ColourOrigin& from) {
+  switch (by) {
+    case ColourBy::none:
+      return {};
+    case ColourBy::K:
+      return frame.cell_K;
+    case ColourBy::K_change:
+      return change_of_K(from.first, frame);
+    case ColourBy::deviation:
+      return record::deviation_of_cells(layout, frame);
+    case ColourBy::displacement:
+      return move_over_depth(from, frame);
+    case ColourBy::energy:
+      return record::bending_of_nodes_mJ_per_m(layout, frame);
+    case ColourBy::axial_force:
+      return record::axial_force_of_nodes_N(layout, frame);
+  }
+  return {};
+}
+
+tl::unexpected<Error> missing_values_error(ColourBy by) {
+  const std::string asked = fmt::format("[movie] colour_by = \"{}\"", word_of(by));
+  if (by == ColourBy::deviation)
+    return fail(Fault::bad_input, asked + ": the run has no net that its shell could lie off");
+  return fail(Fault::bad_input,
+              fmt::format("{}: no frame of the run knows the rods' {}, as runs of an older version "
+                          "and of a net do not; run it again",
+                          asked, by == ColourBy::axial_force ? "axial forces" : "bending energy"));
+}
+
+namespace {
+
+constexpr double quantile = 0.9;   // of the cells or nodes lie within the scale
+constexpr double one_sign = 0.05;  // the other side's share of the larger one that is no sign
+constexpr double paling = 0.2;     // of a map for rods, which are thin lines on white
+
+// what is coloured, as a bar says it
+struct Quantity {
+  const char *label, *words;
+  double least_end;   // below, round-off would have a colour
+  bool size = false;  // never below zero
+};
+
+Quantity quantity_of(ColourBy by) {
+  switch (by) {
+    case ColourBy::none:
+      break;
+    case ColourBy::K:
+      return {"*K*_{□} (rad)", "Gauss curvature of a cell", 0.02};
+    case ColourBy::K_change:
+      return {"Δ*K*_{□} (rad)", "change of Gauss curvature", 0.02};
+    case ColourBy::deviation:
+      return {"Δ/*ρ*", "distance from the net", 1e-6, true};
+    case ColourBy::displacement:
+      return {"|*u*| / *δ*_{0}", "displacement over depth", 0, true};
+    case ColourBy::energy:
+      return {"*e*_{b} (mJ/m)", "bending energy over length", 1e-6, true};
+    case ColourBy::axial_force:
+      return {"*N* (N)", "axial force", 1e-6};
+  }
+  return {};
+}
+
+using Surveys = std::vector<const RunSummary*>;
+
+Interval all_of(const Surveys& runs, ColourBy by) {
+  Interval all;
+  for (const RunSummary* run : runs)
+    if (by != ColourBy::displacement)
+      all.take(run->spread(by).all);
+    else if (run->depth_mm > 0)
+      all.take(run->largest_move_mm / run->depth_mm);
+  return all;
+}
+
+// from zero to where most of the sizes lie, and as far to the other side where both signs occur
+ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
+  std::vector<double> most;
+  for (const RunSummary* run : runs)
+    most.insert(most.end(), run->spread(by).most.begin(), run->spread(by).most.end());
+  const Interval all = all_of(runs, by);
+  ColourBar bar{.label = {}, .scale = symmetric_scale(most, quantile)};
+  const Quantity quantity = quantity_of(by);
+  const double end = std::max(bar.scale.high, quantity.least_end);
+  const bool positive = quantity.size || (all.any() && -all.low < one_sign * all.high);
+  const bool negative = all.any() && all.high < -one_sign * all.low;
+  bar.scale = {positive || negative ? ColourMap::sequential : ColourMap::diverging,
+               positive ? 0 : -end, negative ? 0 : end, of_cells(by) ? 0 : paling};
+  if (all.any()) {
+    bar.beyond_low = all.low < bar.scale.low && !positive;
+    bar.beyond_high = all.high > bar.scale.high && !negative;
+  }
+  return bar;
+}
+
+ColourBar displacement_bar(const Surveys& runs) {
+  ColourBar bar{.label = {}, .scale = {ColourMap::sequential, 0, 1, paling}};
+  for (const RunSummary* run : runs)
+    bar.beyond_high |= run->depth_mm > 0 && run->largest_move_mm > 1.02 * run->depth_mm;
+  return bar;
+}
+
+}  // namespace
+
+std::optional<ColourBar> colour_bar_of(const Surveys& runs, const MovieStyle& style) {
+  const ColourBy by = style.colour_by;
+  const bool any_cell = std::any_of(runs.begin(), runs.end(), [&](const RunSummary* run) {
+    return run->spread(by).most.size() > 0;
+  });
+  if (runs.empty() || by == ColourBy::none) return std::nullopt;
+  if (of_cells(by) && (!any_cell || !style.look.cells)) return std::nullopt;
+  ColourBar bar = by == ColourBy::displacement ? displacement_bar(runs) : bar_of_sizes(runs, by);
+  bar.label = quantity_of(by).label;
+  bar.words = quantity_of(by).words;
+  if (style.look.map) bar.scale.map = *style.look.map;
+  if (!style.look.range) return bar;
+  bar.scale.low = (*style.look.range)[0];
+  bar.scale.high = (*style.look.range)[1];
+  const Interval all = all_of(runs, by);
+  bar.beyond_low = all.any() && all.low < bar.scale.low;
+  bar.beyond_high = all.any() && all.high > bar.scale.high;
+  return bar;
+}
+
+}  // namespace gridshell::render

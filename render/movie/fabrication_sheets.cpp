@@ -1,0 +1,204 @@
+#include "render/movie/fabrication_sheets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/canvas/canvas.h"
+
+namespace gridshell::render {
+namespace {
+
+using exports::CutRod;
+using exports::FabricationPlan;
+using exports::Pin;
+
+constexpr double a4_width = 595.28, a4_height = 841.89, margin = 42;  // points
+constexpr double line_height = 13;
+const Colour ink{0.1f, 0.1f, 0.12f, 1}, blue{0.1f, 0.3f, 0.65f, 1}, red{0.7f, 0.1f, 0.1f, 1};
+
+/// Over the page, smaller where it would not fit.
+void draw_title(Canvas& canvas, const std::string& title, double size) {
+  TextStyle style{size, ink, true};
+  const double wide = canvas.measure(plain(title), style).width;
+  style.size *= std::min(1.0, (a4_width - 2 * margin) / std::max(1.0, wide));
+  canvas.text(plain(title), {margin, margin}, style);
+}
+
+/// Fits points of a plane into a box, y up.
+class Fit {
+ public:
+  Fit(const Eigen::Matrix2Xd& points, const Box& box) {
+    const Eigen::Vector2d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
+    scale_ = std::min(box.width / (high - low).x(), box.height / (high - low).y());
+    middle_ = (low + high) / 2;
+    to_ = box.middle();
+  }
+  Point operator()(const Eigen::Vector2d& at) const {
+    return {to_.x + scale_ * (at - middle_).x(), to_.y - scale_ * (at - middle_).y()};
+  }
+  double scale() const { return scale_; }
+
+ private:
+  double scale_ = 1;
+  Eigen::Vector2d middle_;
+  Point to_;
+};
+
+std::vector<Point> ring(const Eigen::Matrix2Xd& polyline, const Fit& fit) {
+  std::vector<Point> points;
+  for (Eigen::Index k = 0; k < polyline.cols(); ++k) points.push_back(fit(polyline.col(k)));
+  return points;
+}
+
+void draw_footprint(Canvas& canvas, const FabricationPlan& work, const Box& box) {
+  Eigen::Matrix2Xd corners(2, 2 * Eigen::Index(work.rods.size()));
+  for (std::size_t r = 0; r < work.rods.size(); ++r) {
+    corners.col(2 * Eigen::Index(r)) = work.rods[r].begin;
+    corners.col(2 * Eigen::Index(r) + 1) = work.rods[r].end;
+  }
+  const Fit fit(corners, box.inset(18));
+  canvas.polyline(ring(work.original_boundary, fit), {red, 0.8}, true);
+  // names where they do not touch one another
+  const double size = std::clamp(0.6 * work.spacing_mm * fit.scale(), 3.0, 7.0);
+  for (const CutRod& rod : work.rods) {
+    Eigen::Vector2d from = rod.begin;
+    const auto draw_to = [&](const Eigen::Vector2d& to) {
+      canvas.line(fit(from), fit(to), {rod.hard_to_build() ? red : ink, 0.6});
+      from = to;
+    };
+    for (const Eigen::Vector2d& corner : rod.corners) draw_to(corner);
+    draw_to(rod.end);
+    const Point at = fit(work.label_position(rod, 1.3 * size / fit.scale()));
+    canvas.text(rod.name, at, {size, ink, false, AlignX::centre, AlignY::middle});
+  }
+  for (const Eigen::Vector2d& joint : work.joints) canvas.circle(fit(joint), 1.1, blue);
+  canvas.text("footprint, seen from above; u-rods begin at the left, v-rods below",
+              {box.middle().x, box.bottom()}, {7.5, ink, false, AlignX::centre, AlignY::bottom});
+}
+
+void draw_plate(Canvas& canvas, const FabricationPlan& work, const Box& box) {
+  const Eigen::Matrix2Xd boundary = work.actuated_boundary.topRows<2>();
+  const Fit fit(boundary, box.inset(18));
+  canvas.polyline(ring(boundary, fit), {red, 0.8}, true);
+  for (const Pin& pin : work.pins)
+    if (pin.in_ring) canvas.circle(fit(pin.at.head<2>()), 1.3, {1, 1, 1, 1}, {ink, 0.7});
+  canvas.text("actuated boundary with its holes, seen from above", {box.middle().x, box.bottom()},
+              {7.5, ink, false, AlignX::centre, AlignY::bottom});
+}
+
+std::string marks_of(const CutRod& rod) {
+  std::string marks;
+  for (const double mark : rod.joint_marks_mm)
+    marks += fmt::format("{}{:.1f}", marks.empty() ? "" : "  ", mark);
+  return marks;
+}
+
+std::string short_legs(const FabricationPlan& work) {
+  std::string names;
+  for (const CutRod& rod : work.rods)
+    if (rod.hard_to_build())
+      names += fmt::format("{}{} ({:.1f} mm)", names.empty() ? "" : ", ", rod.name,
+                           std::min(rod.leg_begin_mm, rod.leg_end_mm));
+  return names;
+}
+
+std::vector<std::string> steps(const FabricationPlan& work) {
+  const auto ring_pins = std::ranges::count(work.pins, true, &Pin::in_ring);
+  const auto far_pins = long(work.pins.size()) - ring_pins;
+  std::vector<std::string> list{
+      fmt::format("Cut {} rods of {:g} mm diameter, {:.2f} m in all, to the lengths of the cut "
+                  "list; write its name on each.",
+                  work.rods.size(), work.rod_diameter_mm, 1e-3 * work.total_length_mm()),
+      "Mark the joints on each rod at the distances of the cut list, measured from its begin: the "
+      "left of a u-rod, the lower end of a v-rod.",
+      fmt::format("Print the footprint at full size (export --what footprint), lay the u-rods on "
+                  "it, the v-rods over them, and tie them at all {} crossings so that they can "
+                  "turn but not slide.",
+                  work.joints.size()),
+      fmt::format("Drill the {} holes of the actuated boundary (export --what plate).", ring_pins),
+      "Put the ends into their holes, opposite ones in turn from the middle outwards. Hold the "
+      "middle up while the first ones go in: a flat grid may also buckle down."};
+  if (far_pins > 0)
+    list.push_back(
+        fmt::format("Hold the {} far ends at the places of the second ring, which do "
+                    "not lie in the plate (export --what plate --to pins.csv).",
+                    far_pins));
+  return list;
+}
+
+}  // namespace
+
+std::string cut_list_pdf(const FabricationPlan& work) {
+  constexpr double name_x = margin, length_x = margin + 84, marks_x = margin + 100;
+  const TextStyle text{8, ink}, head{8, ink, true}, head_right{8, ink, true, AlignX::right};
+  const auto draw = [&](Canvas& canvas, double& y) {
+    draw_title(canvas, work.title + ": cut list", 13);
+    y = margin + 20;
+    canvas.text(fmt::format("{} rods, {:.1f} mm in all; marks in mm from the begin of each rod. "
+                            "Red: a leg below {:g} mm.",
+                            work.rods.size(), work.total_length_mm(), exports::shortest_leg_mm),
+                {margin, y}, text);
+    y += 1.6 * line_height;
+    canvas.text("rod", {name_x, y}, head);
+    canvas.text("length (mm)", {length_x, y}, head_right);
+    canvas.text("joints (mm)", {marks_x, y}, head);
+    y += 4;
+    canvas.line({margin, y}, {a4_width - margin, y}, {ink, 0.6});
+    for (const CutRod& rod : work.rods) {
+      y += line_height;
+      const Colour colour = rod.hard_to_build() ? red : ink;
+      canvas.text(rod.name, {name_x, y}, {8, colour});
+      canvas.text(fmt::format("{:.1f}", rod.length_mm), {length_x, y},
+                  {8, colour, false, AlignX::right});
+      const auto lines = canvas.wrapped(marks_of(rod), a4_width - margin - marks_x, text);
+      for (std::size_t k = 0; k < lines.size(); ++k) {
+        if (k > 0) y += line_height;
+        canvas.text(lines[k], {marks_x, y}, text);
+      }
+    }
+  };
+  // drawn once to see how long it is
+  double end = 0;
+  draw_picture(a4_width, a4_height, 0.1, {}, [&](Canvas& canvas) { draw(canvas, end); });
+  return draw_pdf(a4_width, std::max(a4_height, end + margin), work.title + ": cut list",
+                  [&](Canvas& canvas) { draw(canvas, end); });
+}
+
+std::string assembly_sheet_pdf(const FabricationPlan& work) {
+  return draw_pdf(a4_width, a4_height, work.title + ": assembly", [&](Canvas& canvas) {
+    const double wide = a4_width - 2 * margin, half = (wide - 16) / 2;
+    const TextStyle text{9, ink};
+    draw_title(canvas, work.title + ": assembly", 14);
+    canvas.text(fmt::format("rods {:g} mm thick, joints {:g} mm apart along them",
+                            work.rod_diameter_mm, work.spacing_mm),
+                {margin, margin + 16}, text);
+    draw_footprint(canvas, work, {margin, margin + 26, half, half + 10});
+    draw_plate(canvas, work, {margin + half + 16, margin + 26, half, half + 10});
+    double y = margin + half + 70;
+    const auto put = [&](const std::string& words, double indent) {
+      for (const std::string& line : canvas.wrapped(words, wide - indent, text)) {
+        canvas.text(plain(line), {margin + indent, y}, text);
+        y += 14;
+      }
+    };
+    int number = 0;
+    for (const std::string& step : steps(work)) {
+      canvas.text(fmt::format("{}.", ++number), {margin, y}, text);
+      put(step, 16);
+      y += 4;
+    }
+    const std::string hard = short_legs(work);
+    if (hard.empty()) return;
+    y += 6;
+    canvas.text("Hard to build", {margin, y}, {9, red, true});
+    y += 14;
+    put(fmt::format("Legs below {:g} mm leave no room between a joint and the boundary: {}. Leave "
+                    "these joints untied, or move the boundary.",
+                    exports::shortest_leg_mm, hard),
+        0);
+  });
+}
+
+}  // namespace gridshell::render

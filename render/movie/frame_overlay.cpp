@@ -1,0 +1,298 @@
+#include "render/movie/frame_overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "render/canvas/text.h"
+#include "render/movie/run_summary.h"
+
+namespace gridshell::render {
+namespace {
+
+double bar_width(const ColourBar& bar, double font_size) {
+  double width = 0;
+  draw_picture(1, 1, 1, {},
+               [&](Canvas& canvas) { width = colour_bar_width(canvas, bar, font_size); });
+  return width;
+}
+
+// the title in at most two lines; what is longer still is shortened
+std::vector<std::string> lines_of_title(const MovieStyle& style, double width, double font_size) {
+  std::vector<std::string> lines;
+  draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
+    const TextStyle font = title_style(style, font_size);
+    lines = canvas.wrapped(style.title, width, font);
+    for (; lines.size() > 2; lines.pop_back()) lines[lines.size() - 2] += " " + lines.back();
+    for (std::string& line : lines) line = canvas.shortened(line, width, font);
+  });
+  return lines;
+}
+
+// cuts a strip off one side of `box` and returns it
+Box cut_top(Box& box, double height) {
+  const Box strip{box.x, box.y, box.width, height};
+  box.y += height;
+  box.height -= height;
+  return strip;
+}
+Box cut_bottom(Box& box, double height) {
+  box.height -= height;
+  return {box.x, box.bottom(), box.width, height};
+}
+Box cut_right(Box& box, double width) {
+  box.width -= width;
+  return {box.right(), box.y, width, box.height};
+}
+
+}  // namespace
+
+TextStyle title_style(const MovieStyle& style, double font_size) {
+  return {.size = (style.captions ? 1.15 : 1) * font_size,
+          .colour = {0.1f, 0.1f, 0.12f, 1},
+          .bold = true};
+}
+
+FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
+  FrameLayout layout;
+  const double w = style.width, h = style.height;
+  // readable down to small pictures, and no wider than a tall one allows
+  const double em = layout.font_size =
+      style.font_scale * std::max(7.5, 0.024 * std::min(h, 0.72 * w));
+  const double margin = std::min(0.9 * em, 0.06 * std::min(w, h)), line = 1.5 * em;
+  Box rest = Box{0, 0, w, h}.inset(margin);
+  const bool captions = style.captions && rest.height > 10 * line && rest.width > 14 * em;
+  const bool wide = w >= 1.15 * h;
+
+  // legends first: a column on the right or a strip below
+  const double side = std::min(0.3 * h, 0.28 * w);
+  const bool inset = style.inset && side > 4 * em;
+  const double bar_wide = bar ? bar_width(*bar, 0.95 * em) : 0;
+  const double bar_tall = wide ? std::min(0.42 * h, 20 * em) : side;
+  bool with_bar = bar && bar_tall > 5 * line && bar_wide < 0.4 * rest.width;
+  if (wide && style.bins && 0.42 * w > 16 * em && rest.height > 16 * em) {
+    // a plot above, the small legends beside one another below it
+    Box column = cut_right(rest, 0.42 * w);
+    cut_right(rest, margin);
+    layout.plot = cut_top(column, 0.62 * column.height);
+    cut_top(column, margin);
+    if (with_bar) {
+      layout.colour_bar = cut_right(column, bar_wide);
+      cut_right(column, 2 * margin);
+    }
+    const double square = std::min({side, column.width, column.height});
+    if (inset) layout.inset = {column.right() - square, column.y, square, square};
+  } else if (wide && (inset || with_bar)) {
+    Box column = cut_right(rest, std::max(inset ? side : 0, with_bar ? bar_wide : 0));
+    cut_right(rest, margin);
+    if (inset) {
+      const Box top = cut_top(column, side);
+      layout.inset = {top.right() - side, top.y, side, side};
+      cut_top(column, margin);
+    }
+    with_bar = with_bar && column.height > 5 * line;
+    if (with_bar) {
+      const double tall = std::min(bar_tall, column.height);
+      layout.colour_bar = {column.right() - bar_wide, column.bottom() - tall, bar_wide, tall};
+    }
+  } else if (inset || with_bar) {
+    const Box strip = cut_bottom(rest, side);
+    cut_bottom(rest, margin / 2);
+    if (inset) layout.inset = {strip.x, strip.y, side, side};
+    if (with_bar) layout.colour_bar = {strip.right() - bar_wide, strip.y, bar_wide, side};
+  }
+
+  if (captions) {
+    layout.title_lines = lines_of_title(style, rest.width, em);
+    const double lines = std::max(1.0, double(layout.title_lines.size()));
+    layout.title = cut_top(rest, 1.15 * line * lines);
+    layout.state = cut_top(rest, line);
+  }
+  if (!captions && style.heading) {
+    // over the colour bar too, but not over a plot
+    const double right = layout.plot.empty() ? w : rest.right(), x = still_margin * em;
+    layout.title_lines = lines_of_title(style, right - 2 * x, em);
+    const double lines = std::max(1.0, double(layout.title_lines.size()));
+    cut_top(rest, (1.2 + lines) * line);
+    layout.heading = {x, x, right - 2 * x, (1 + lines) * line};
+  }
+  const bool scale_bar = style.scale_bar_mm > 0 && rest.height > 6 * line;
+  Box foot = cut_bottom(rest, captions ? 2.8 * line : (scale_bar ? 1.7 * line : 0));
+  if (scale_bar) {
+    Box place = cut_right(foot, 0.4 * foot.width);
+    layout.scale_bar = cut_bottom(place, 1.7 * line);
+  }
+  if (captions) {
+    layout.timeline = cut_bottom(foot, 0.8 * line);
+    layout.progress = cut_bottom(foot, line);
+    layout.event = foot;
+  }
+  layout.view = rest.inset(0.5 * margin);
+  return layout;
+}
+
+std::vector<std::string> state_captions(const record::Frame& frame) {
+  std::vector<std::string> captions;
+  const bool pushed = std::isfinite(frame.depth_mm);
+  if (pushed) captions.push_back("*δ* = " + fixed(frame.depth_mm, 2) + " mm");
+  if (std::isfinite(frame.force_N)) captions.push_back("*F* = " + fixed(frame.force_N, 3) + " N");
+  const bool moved = frame.actuation != 1;
+  if (std::isfinite(frame.boundary_radius_mm) && (!pushed || moved))
+    captions.push_back("*R*_{a} = " + fixed(frame.boundary_radius_mm, 1) + " mm");
+  captions.push_back("height " + fixed(frame.height_mm, 1) + " mm");
+  return captions;
+}
+
+std::string frame_caption(int at, int frames) {
+  return "frame " + std::to_string(at + 1) + " / " + std::to_string(frames);
+}
+
+std::string equilibrium_caption(const record::Frame& frame) {
+  if (std::isfinite(frame.time_s)) return "t = " + fixed(1e3 * frame.time_s, 0) + " ms";
+  if (!std::isfinite(frame.residual_N)) return "";  // a net, nothing was solved for
+  // its order alone, down to a micronewton: below, tolerances and round-off decide
+  const double order = std::ceil(std::log10(std::max(frame.residual_N, 1e-6)) - 1e-9);
+  const std::string text = "residual < " + scientific(std::pow(10, order), 1) + " N";
+  return frame.negative_pivots == 0 ? text + ", stable" : text;
+}
+
+std::string event_caption(const record::Frame& frame) {
+  if (!frame.event.empty() || frame.negative_pivots <= 0) return frame.event;
+  return "unstable: " + std::to_string(frame.negative_pivots) + " negative pivot" +
+         (frame.negative_pivots > 1 ? "s" : "");
+}
+
+namespace {
+
+constexpr Colour way{0.84f, 0.84f, 0.86f, 1}, done{0.45f, 0.47f, 0.5f, 1},
+    ink{0.38f, 0.39f, 0.42f, 1};
+
+struct Sign {
+  MarkKind kind;
+  const char* word;
+  Marker marker;
+  Colour colour;
+};
+constexpr Sign signs[] = {
+    {MarkKind::unstable, "unstable", Marker::square, {0.80f, 0.12f, 0.10f, 1}},
+    {MarkKind::motion, "in motion", Marker::square, {0.93f, 0.60f, 0.15f, 1}},
+    {MarkKind::snap, "snap", Marker::diamond, {0.10f, 0.32f, 0.62f, 1}},
+    {MarkKind::lock, "locked", Marker::triangle, {0.30f, 0.16f, 0.45f, 1}}};
+
+bool reached(const std::vector<Mark>& marks, MarkKind kind, int at) {
+  return std::any_of(marks.begin(), marks.end(),
+                     [&](const Mark& mark) { return mark.kind == kind && mark.at <= at; });
+}
+
+// a coloured length for a state that lasts, a sign for a moment
+void draw_marks(Canvas& canvas, const Box& bar, const std::vector<Mark>& marks, int at, int frames,
+                double size) {
+  const double step = bar.width / std::max(1, frames - 1);
+  const auto place = [&](double frame) {
+    return std::clamp(bar.x + frame * step, bar.x, bar.right());
+  };
+  for (const Sign& sign : signs)
+    for (const Mark& mark : marks) {
+      if (mark.kind != sign.kind || mark.at > at) continue;
+      if (sign.marker == Marker::square) {
+        const double from = place(mark.at - 0.5), to = place(std::min(mark.at + 0.5, double(at)));
+        const double width = std::max(to - from, 0.12 * size);
+        canvas.rectangle({std::min(from, bar.right() - width), bar.y, width, bar.height},
+                         sign.colour);
+      } else {
+        canvas.marker(sign.marker, {place(mark.at), bar.middle().y}, 0.7 * size, sign.colour,
+                      {{1, 1, 1, 1}, 0.08 * size});
+      }
+    }
+}
+
+}  // namespace
+
+void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks, int at,
+                   int frames, double font_size) {
+  // what stands beside the bar over the whole run decides its length, so that it does not move
+  const double size = 0.8 * font_size, gap = 0.5 * size;
+  double words = 0;
+  for (const Sign& sign : signs)
+    if (reached(marks, sign.kind, frames))
+      words += size + gap + canvas.measure(sign.word, {.size = size}).width + 2 * gap;
+  const double length = std::min(box.width - words, std::max(0.3 * box.width, 16 * font_size));
+  if (length < 4 * font_size || frames < 2) return;
+  const Box bar{box.x, box.middle().y - 0.16 * font_size, length, 0.32 * font_size};
+  canvas.rectangle(bar, way);
+  canvas.rectangle({bar.x, bar.y, bar.width * at / (frames - 1), bar.height}, done);
+  draw_marks(canvas, bar, marks, at, frames, font_size);
+  double x = bar.right() + 2 * gap;
+  for (const Sign& sign : signs) {
+    if (!reached(marks, sign.kind, at)) continue;
+    canvas.marker(sign.marker, {x + size / 2, box.middle().y}, 0.8 * size, sign.colour, {{}, 0});
+    x += size + gap;
+    x = canvas
+            .text(sign.word, {x, box.middle().y},
+                  {.size = size, .colour = ink, .align_y = AlignY::middle})
+            .right() +
+        2 * gap;
+  }
+}
+
+namespace {
+
+constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, joint_ink{0.75f, 0.12f, 0.1f, 1},
+    load_ink{0.05f, 0.05f, 0.06f, 1};
+
+struct TopViewTransform {
+  Box box;
+  TopExtent extent;
+  double scale() const { return std::min(box.width, box.height) / (2 * extent.half_mm); }
+  // y grows upwards seen from above
+  Point operator()(const Eigen::Vector3d& p) const {
+    return {box.middle().x + scale() * (p.x() - extent.x_mm),
+            box.middle().y - scale() * (p.y() - extent.y_mm)};
+  }
+};
+
+std::vector<Point> closed_line(const Eigen::Matrix3Xd& points, const TopViewTransform& place) {
+  std::vector<Point> line;
+  for (long k = 0; k < points.cols(); ++k) line.push_back(place(points.col(k)));
+  return line;
+}
+
+}  // namespace
+
+void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
+                   const record::Frame& frame, const TopExtent& extent,
+                   const std::vector<Colour>& cell_colours) {
+  const double hair = std::max(0.6, box.width / 260), radius = std::max(0.7, box.width / 130);
+  const TopViewTransform place{box.inset(radius + hair), extent};
+  if (original_boundary_shown(frame))
+    canvas.polyline(closed_line(layout.original_boundary, place), {{0.6f, 0.6f, 0.62f, 1}, hair},
+                    true);
+  canvas.polyline(closed_line(boundary_at(layout, frame.actuation), place),
+                  {{0.25f, 0.27f, 0.3f, 1}, 1.5 * hair}, true);
+  for (std::size_t c = 0; c < std::min(cell_colours.size(), layout.cells.size()); ++c) {
+    std::vector<Point> corners;
+    for (int joint : layout.cells[c].joints)
+      corners.push_back(place(frame.nodes.col(layout.joints[std::size_t(joint)].node)));
+    canvas.polygon(corners, cell_colours[c]);
+  }
+  for (const std::vector<int>& rod : layout.rods) {
+    // nodes closer than a pixel and a half add nothing but time
+    std::vector<Point> line;
+    for (std::size_t k = 0; k < rod.size(); ++k) {
+      const Point p = place(frame.nodes.col(rod[k]));
+      const bool end = k == 0 || k + 1 == rod.size();
+      if (end || std::hypot(p.x - line.back().x, p.y - line.back().y) > 1.5) line.push_back(p);
+    }
+    canvas.polyline(line, {rod_ink, hair});
+  }
+  for (const record::Joint& joint : layout.joints)
+    canvas.circle(place(frame.nodes.col(joint.node)), radius, joint_ink);
+  for (const record::LoadedJoint& load : layout.loaded_joints) {
+    if (!load_acts(load, layout, frame)) continue;
+    const record::Joint& joint = layout.joints.at(std::size_t(load.joint));
+    canvas.circle(place(frame.nodes.col(joint.node)), 2.6 * radius, {0, 0, 0, 0},
+                  {load_ink, 1.2 * radius});
+  }
+}
+
+}  // namespace gridshell::render

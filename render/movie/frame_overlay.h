@@ -1,0 +1,78 @@
+// Where the parts of a frame stand: picture, captions, legends. They never overlap, at any size;
+// what does not fit is left out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/record/trajectory.h"
+#include "render/canvas/canvas.h"
+#include "render/canvas/legend.h"
+#include "render/movie/movie_style.h"
+#include "render/movie/run_summary.h"
+
+namespace gridshell::render {
+
+/// Boxes in pixels; an empty one is not shown.
+struct FrameLayout {
+  double font_size = 17;          ///< of captions; follows the picture's height
+  Box title, state;               ///< upper left; the title in the lines below
+  Box heading;                    ///< of a still: its title's lines and its caption
+  Box event, progress, timeline;  ///< lower left, a line each
+  Box colour_bar, inset, scale_bar, plot;
+  Box view;                              ///< what is left for the shell
+  std::vector<std::string> title_lines;  ///< of the title, or of a still's heading
+
+  std::vector<Box> parts() const {
+    return {title,      state, heading,   event, progress, timeline,
+            colour_bar, inset, scale_bar, plot,  view};
+  }
+};
+
+/// Of a still's heading from the picture's edge, in ems.
+inline constexpr double still_margin = 0.9;
+
+/// The title's font, at the layout's size of font.
+TextStyle title_style(const MovieStyle& style, double font_size);
+
+/// A wide picture has inset and colour bar in a column on the right, a tall one in a strip below.
+FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar);
+
+// The words of a frame, which speak of that frame alone.
+
+/// What a frame's state is, the most telling first, as marked text: of a pushed shell "*δ* = 3.20
+/// mm" and "*F* = 0.214 N"; "*R*_{a} = 115.9 mm", of a pushed shell where its boundary is not where
+/// the actuation ends; then "height 42.1 mm". What does not apply is not there.
+std::vector<std::string> state_captions(const record::Frame& frame);
+
+/// "frame 120 / 240"; `at` from 0
+std::string frame_caption(int at, int frames);
+
+/// "residual < 1 × 10^{−6} N, stable". An unstable frame says so in its event.
+std::string equilibrium_caption(const record::Frame& frame);
+
+/// What happened in this very frame: its event, or that it is unstable; empty when nothing did.
+std::string event_caption(const record::Frame& frame);
+
+// A thin bar under the shell: how far the run has come, and what happened on the way.
+
+/// Draws the bar of a run of `frames` at frame `at` into `box`. Of the marks those up to now are
+/// shown, unstable frames as red lengths, the others as signs; beside the bar stands what occurred,
+/// each once.
+void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& marks, int at,
+                   int frames, double font_size);
+
+// A small drawing of one frame seen from above: boundaries, cells, rods, joints.
+
+/// What the top view shows of the plane, fixed over a run: a square, mm.
+struct TopExtent {
+  double x_mm = 0, y_mm = 0;  ///< its middle
+  double half_mm = 1;
+};
+
+/// `cell_colours`: one a cell, or empty.
+void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
+                   const record::Frame& frame, const TopExtent& extent,
+                   const std::vector<Colour>& cell_colours);
+
+}  // namespace gridshell::render

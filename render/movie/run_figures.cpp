@@ -1,0 +1,300 @@
+#include "render/movie/run_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "engine/core/try.h"
+#include "engine/record/frame_values.h"
+#include "render/canvas/panels.h"
+#include "render/movie/colour_by.h"
+#include "render/movie/run_plots.h"
+#include "render/movie/run_summary.h"
+#include "render/movie/shell_lines.h"
+#include "render/movie/stage.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr Colour shell_ink{0.10f, 0.10f, 0.12f, 1}, net_ink{0.16f, 0.42f, 0.78f, 1},
+    scan_ink{0.80f, 0.16f, 0.12f, 1};
+
+/// The last frame alone, its boundary where it is held.
+record::Trajectory final_state(const record::Trajectory& run) {
+  record::Trajectory last;
+  last.layout = run.layout;
+  last.layout.original_boundary = run.layout.actuated_boundary;
+  last.frames = {run.frames.back()};
+  return last;
+}
+
+MovieStyle plain_style(MovieStyle style) {
+  style.captions = style.inset = false;
+  style.turn_deg = 0;
+  style.colour_by = ColourBy::none;
+  return style;
+}
+
+using DrawingEdit = std::function<void(const NetRun&, Drawing&)>;
+
+/// One panel a run, the drawing of each changed by `dress`.
+Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
+                              Renderer& renderer, Watch& watch, int columns,
+                              const DrawingEdit& dress) {
+  const MovieStyle style = plain_style(movie_style);
+  PanelFigure figure;
+  if (style.print.width_mm > 0) figure.print = style.print;
+  figure.title = style.title;
+  figure.columns = std::min(columns, int(runs.size()));
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
+    TRY_DO(check_showable(*runs[k].run, style));
+    const record::Trajectory last = final_state(*runs[k].run);
+    const Stage stage(last, style);
+    Drawing drawing = stage.drawing(last.frames.front());
+    drawing.ground = false;
+    dress(runs[k], drawing);
+    TRY(picture,
+        renderer.draw(drawing, stage.camera(0), draw_quality(style), style.width, style.height));
+    const std::string letter =
+        runs.size() > 1 && style.look.letters ? std::string(1, char('a' + k % 26)) : "";
+    figure.panels.push_back({std::move(*picture), letter, runs[k].caption});
+    if (style.vector) figure.panels.back().lines = shell_lines(std::move(drawing), stage.camera(0));
+    if (runs.size() == 1) {
+      figure.scale_bar_mm = style.scale_bar_mm;
+      figure.pixels_per_mm = stage.pixels_per_mm();
+    }
+  }
+  return figure;
+}
+
+/// A round end above `largest`, so that a bar's last label is the scale's end.
+double round_end(double largest) {
+  const double power = std::pow(10.0, std::floor(std::log10(std::max(largest, 1e-9))));
+  for (const double leading : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (largest <= leading * power) return leading * power;
+  return 10 * power;
+}
+
+/// What the colours over nets stand for.
+std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
+  std::vector<ColourKey> keys{{shell_ink, "shell at rest"}};
+  const record::Layout& layout = runs.front().run->layout;
+  if (layout.parts.empty() && layout.net_nodes.cols() > 0) keys.push_back({net_ink, "its net"});
+  for (ColourKey key : block_keys(layout)) {
+    key.name.insert(0, "net of ");
+    keys.push_back(std::move(key));
+  }
+  if (std::any_of(runs.begin(), runs.end(), [](const NetRun& one) { return one.scanned.size(); }))
+    keys.push_back(scan_key());
+  return keys;
+}
+
+}  // namespace
+
+Eigen::VectorXd last_deviation(const record::Trajectory& run) {
+  return record::deviation_of_nodes(run.layout, run.frames.back());
+}
+
+bool on_sphere(const record::Layout& layout) {
+  if (layout.net_nodes.size() == 0) return false;
+  const auto radius = layout.net_nodes.colwise().norm().array();
+  return (radius - layout.length_scale_mm).abs().maxCoeff() < 1e-6 * layout.length_scale_mm;
+}
+
+void show_measured_joints(const Eigen::Matrix3Xd& measured, Drawing& drawing) {
+  for (const auto& joint : measured.colwise())
+    drawing.marks.push_back({joint, std::max(3.0, 3 * drawing.rod_diameter_mm), scan_ink});
+  drawing.rod_colour = shell_ink;
+  drawing.joint_diameter_mm = 0;
+}
+
+ColourKey scan_key() { return {scan_ink, "joints measured"}; }
+
+Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
+                                   Renderer& renderer, Watch& watch, int columns) {
+  const auto dress = [](const NetRun& one, Drawing& drawing) {
+    show_measured_joints(one.scanned, drawing);
+    const record::Layout& layout = one.run->layout;
+    // blocks each on a net of its own
+    for (std::size_t k = 0; k < layout.parts.size(); ++k)
+      drawing.ghosts.push_back(
+          {layout.parts[k].net, layout.parts[k].rods, drawing.rod_diameter_mm, block_colour(k)});
+    if (layout.parts.empty() && layout.net_nodes.cols() > 0)
+      drawing.ghosts.push_back({layout.net_nodes, layout.rods, drawing.rod_diameter_mm, net_ink});
+  };
+  return panels_of(runs, style, renderer, watch, columns, dress).map([&](PanelFigure figure) {
+    figure.keys = over_net_keys(runs);
+    return figure;
+  });
+}
+
+DeviationUnit deviation_unit(const record::Layout& layout) {
+  // blocks have no radius that is theirs alone
+  if (!layout.parts.empty()) return {layout.length_scale_mm, "Δ (mm)"};
+  return {100, "Δ/*ρ* (%)"};
+}
+
+Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
+                                    Renderer& renderer, Watch& watch, int columns) {
+  double largest = 0;
+  const DeviationUnit unit = deviation_unit(runs.front().run->layout);
+  for (const NetRun& one : runs)
+    largest = std::max(largest, unit.factor * last_deviation(*one.run).maxCoeff());
+  const ColourScale scale{ColourMap::sequential, 0, round_end(largest), 0.2};
+  const auto dress = [&](const NetRun& one, Drawing& drawing) {
+    const Eigen::VectorXd deviation = last_deviation(*one.run);
+    for (double share : deviation) drawing.node_colours.push_back(scale(unit.factor * share));
+    drawing.rod_diameter_mm *= 1.8;
+    drawing.sheen = 0.2;
+    drawing.joint_diameter_mm = 0;
+  };
+  TRY(figure, panels_of(runs, style, renderer, watch, columns, dress));
+  figure->colour_bar = ColourBar{unit.label, scale};
+  figure->colour_bar->words = "distance from the net";
+  return figure;
+}
+
+namespace {
+
+MovieStyle panel_style(MovieStyle style) {
+  style.captions = style.inset = style.bins = style.legends = false;
+  style.turn_deg = 0;
+  style.colour_by = ColourBy::displacement;
+  style.look.floor = false;
+  style.look.joint_mm = 0;
+  // round shells, three to a row
+  style.width = style.height;
+  return style;
+}
+
+/// From the last state before each snap to the first after it.
+Series snaps_of(const Series& pushed, const record::Trajectory& run) {
+  Series snaps;
+  snaps.colour = pushed.colour;
+  snaps.dash = {3, 2};
+  for (std::size_t k = 1; k < run.frames.size(); ++k) {
+    if (!run.frames[k].event.starts_with("snap")) continue;
+    // what moved in time in between has no force
+    std::size_t before = k - 1;
+    while (before > 0 && !std::isfinite(pushed.y[before])) --before;
+    for (const std::size_t at : {before, k}) {
+      snaps.x.push_back(pushed.x[at]);
+      snaps.y.push_back(pushed.y[at]);
+    }
+    snaps.x.push_back(NAN);
+    snaps.y.push_back(NAN);
+  }
+  return snaps;
+}
+
+/// A line that goes from state to state has a gap where one snapped to the next.
+void part_at_snaps(Series& pushed, const record::Trajectory& run) {
+  for (std::size_t k = run.frames.size(); k-- > 1;)
+    if (run.frames[k].event.starts_with("snap") && std::isfinite(pushed.y[k - 1])) {
+      pushed.x.insert(pushed.x.begin() + long(k), NAN);
+      pushed.y.insert(pushed.y.begin() + long(k), NAN);
+    }
+}
+
+}  // namespace
+
+Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
+                                Renderer& renderer, Watch& watch) {
+  const MovieStyle style = panel_style(movie_style);
+  std::vector<RunSummary> surveys;
+  std::vector<const RunSummary*> all;
+  for (const NetRun& one : runs) surveys.push_back(summarise_run(*one.run));
+  for (const RunSummary& survey : surveys) all.push_back(&survey);
+  const auto bar = colour_bar_of(all, style);
+  PanelFigure figure;
+  if (style.print.width_mm > 0) figure.print = style.print;
+  figure.title = style.title;
+  figure.columns = std::min(3, int(runs.size()));
+  // one by itself is named by the title
+  const bool several = runs.size() > 1 || style.title.empty();
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
+    TRY_DO(check_showable(*runs[k].run, style));
+    const Stage stage(runs[k].run->layout, std::move(surveys[k]), style, bar);
+    const int last = stage.frames() - 1;
+    Drawing drawing = stage.drawing(runs[k].run->frames.back());
+    // the colours are the rods': nothing hides them
+    drawing.rod_diameter_mm *= 1.5;
+    TRY(picture,
+        renderer.draw(drawing, stage.camera(last), draw_quality(style), style.width, style.height));
+    figure.panels.push_back(
+        {std::move(*picture),
+         several && style.look.letters ? std::string(1, char('a' + k % 26)) : "",
+         several ? runs[k].caption : ""});
+    if (style.vector)
+      figure.panels.back().lines = shell_lines(std::move(drawing), stage.camera(last));
+    figure.colour_bar = bar;
+    watch.report(double(k + 1) / double(runs.size()));
+  }
+  return figure;
+}
+
+Plot force_plot(const std::vector<NamedRun>& runs) {
+  constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+  Plot plot;
+  plot.x = {.label = "depth *δ* (mm)", .low = 0};
+  plot.y = {.label = "force (N)"};
+  bool snap_in_legend = false;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    Series series;
+    if (runs.size() > 1) series.name = runs[k].name;
+    series.colour = series_colour(k);
+    series.marker = markers[k % 4];
+    for (const record::Frame& frame : runs[k].run->frames) {
+      series.x.push_back(frame.depth_mm);
+      series.y.push_back(frame.force_N);
+    }
+    Series snaps = snaps_of(series, *runs[k].run);
+    part_at_snaps(series, *runs[k].run);
+    plot.series.push_back(std::move(series));
+    if (snaps.x.empty()) continue;
+    if (!snap_in_legend) snaps.name = "snap to another state";
+    snap_in_legend = true;
+    plot.series.push_back(std::move(snaps));
+  }
+  return plot;
+}
+
+Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
+                             const std::string& title, const Print& print) {
+  constexpr double font = 7.5, usual = 186, least = 150, height = 190;  // points
+  std::vector<Plot> plots;
+  double low = 0, high = 0;
+  for (const NamedRun& one : runs) {
+    const record::Frame& last = one.run->frames.back();
+    if (last.K_bins.rows() == 0) return {};
+    plots.push_back(
+        bins_plot(summarise_run(*one.run), long(one.run->layout.cells.size()), last, {}, font));
+    plots.back().title = one.name + "\nΣ*K*_{□} = " + fixed(last.total_K, 3) + " rad";
+    low = std::min(low, plots.back().y.low.value_or(0));
+    high = std::max(high, plots.back().y.high.value_or(0));
+  }
+  for (Plot& plot : plots) {
+    plot.y.low = low;
+    plot.y.high = high;
+  }
+  // as many beside one another as stay readable
+  const double width = print.width_pt(usual * double(plots.size()));
+  const std::size_t columns = std::clamp<std::size_t>(std::size_t(width / least), 1, plots.size());
+  const std::size_t rows = (plots.size() + columns - 1) / columns;
+  const double column = width / double(columns), head = title.empty() ? 0 : figure_title_room;
+  return write_figure(
+      stem, width, head + height * double(rows), "K of the cells in bins of x/L",
+      [&](Canvas& canvas) {
+        if (head > 0) draw_figure_title(canvas, title);
+        for (std::size_t k = 0; k < plots.size(); ++k) {
+          const std::size_t row = k / columns;
+          const double x = column * double(k % columns), y = head + height * double(row);
+          draw_plot(canvas, {x + 3, y + 3, column - 6, height - 6}, plots[k]);
+        }
+      },
+      print);
+}
+
+}  // namespace gridshell::render

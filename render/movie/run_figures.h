@@ -1,0 +1,97 @@
+// Shells beside the nets they were designed on, in space [Baek 2018, Figs. 3 and 4A].
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/record/trajectory.h"
+#include "render/canvas/legend.h"
+#include "render/canvas/panels.h"
+#include "render/canvas/plot.h"
+#include "render/gl/renderer.h"
+#include "render/movie/movie_style.h"
+#include "render/movie/run_plots.h"
+
+namespace gridshell::render {
+
+/// A run shown by its last frame, over its net if its layout knows one.
+struct NetRun {
+  const record::Trajectory* run = nullptr;
+  std::string caption;            ///< marked text
+  Eigen::Matrix3Xd scanned = {};  ///< joints measured on a real shell, mm, in the net's frame
+};
+
+/// Distance of every node of the last frame from its place on the net, over rho.
+Eigen::VectorXd last_deviation(const record::Trajectory& run);
+
+/// What deviations over the length scale are multiplied by to be shown, and what they are then:
+/// per cent of rho, or for building blocks millimetres.
+struct DeviationUnit {
+  double factor = 100;
+  std::string label;  ///< marked text
+};
+DeviationUnit deviation_unit(const record::Layout& layout);
+
+/// Whether the net is a part of a sphere about the origin, of radius rho.
+bool on_sphere(const record::Layout& layout);
+
+/// A drawing with the joints measured on it, red, over a dark shell without joints of its own;
+/// `measured` in mm, in the drawing's frame.
+void show_measured_joints(const Eigen::Matrix3Xd& measured, Drawing& drawing);
+
+/// What its red joints stand for.
+ColourKey scan_key();
+
+/// The shells, dark, over their nets, blue, with the joints scanned, red, at most `columns` side by
+/// side. Progress and errors as write_stills.
+Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
+                                   Renderer& renderer, Watch& watch, int columns = 3);
+
+/// The shells coloured by their deviation, side by side with one colour bar.
+Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const MovieStyle& style,
+                                    Renderer& renderer, Watch& watch, int columns = 3);
+
+// Building blocks, apart and joined [Baek 2018, Fig. 5].
+
+/// The colour of a block in all pictures.
+Colour block_colour(std::size_t index);
+
+/// The blocks of a layout by name.
+std::vector<ColourKey> block_keys(const record::Layout& layout);
+
+/// The blocks of a run on their nets, drawn apart in one picture. Errors as write_stills.
+Result<PanelFigure> draw_blocks(const record::Trajectory& run, const MovieStyle& style,
+                                Renderer& renderer, Watch& watch);
+
+/// What write_block_footprints draws, as large as fits into a box.
+void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run);
+
+/// The blocks' footprints apart, and below them the joined footprint with its original boundary, to
+/// scale. Writes `<stem>.png` and `<stem>.svg`.
+Result<void> write_block_footprints(const std::filesystem::path& stem,
+                                    const record::Trajectory& run, const std::string& title = "",
+                                    const Print& print = {});
+
+/// Gap and kink of every rod across a seam against its place along the seam, one marker a seam.
+Plot seam_plot(const record::Trajectory& run);
+
+// Shells under point loads, beside one another [Baek 2018, Fig. 4C-D].
+
+/// The shells at their last frame, seen from the style's camera, rods coloured by |u|/delta_0 under
+/// one colour bar. Progress and errors as write_stills.
+Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& style,
+                                Renderer& renderer, Watch& watch);
+
+/// Force against depth over all frames, N and mm: how each shell resists. Where one snapped, the
+/// states before and after are joined by a dashed line.
+Plot force_plot(const std::vector<NamedRun>& runs);
+
+/// K of the cells in bins of x/L at the last frame over the grey ones of the first, a plot a run on
+/// one scale, `title` (plain text; may be empty) above. Writes `<stem>.png` and `<stem>.svg`.
+Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
+                             const std::string& title, const Print& print = {});
+
+}  // namespace gridshell::render

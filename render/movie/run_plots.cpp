@@ -1,0 +1,360 @@
+#include "render/movie/run_plots.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "render/canvas/text.h"
+#include "render/movie/run_figures.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr Colour rod_ink{0.45f, 0.46f, 0.5f, 1}, ink{0.1f, 0.1f, 0.12f, 1};
+constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+
+Eigen::Matrix3Xd joints_of(const record::Trajectory& run) {
+  Eigen::Matrix3Xd joints(3, run.layout.joints.size());
+  for (std::size_t k = 0; k < run.layout.joints.size(); ++k)
+    joints.col(long(k)) = run.frames.back().nodes.col(run.layout.joints[k].node);
+  return joints;
+}
+
+/// Places points of the flat plane, mm, into a box to scale.
+struct ToScale {
+  Box box;
+  Eigen::Vector2d middle;
+  double scale = 1;
+  Point operator()(const Eigen::Vector2d& p) const {
+    return {box.middle().x + scale * (p.x() - middle.x()),
+            box.middle().y - scale * (p.y() - middle.y())};
+  }
+};
+
+std::vector<Point> placed(const Eigen::Matrix2Xd& points, const ToScale& place) {
+  std::vector<Point> line;
+  for (long k = 0; k < points.cols(); ++k) line.push_back(place(points.col(k)));
+  return line;
+}
+
+bool all_caps(const std::vector<NamedRun>& runs) {
+  return std::all_of(runs.begin(), runs.end(),
+                     [](const NamedRun& one) { return on_sphere(one.run->layout); });
+}
+
+/// The names of the runs in their colours, one after the other.
+void draw_names(Canvas& canvas, Point at, const std::vector<NamedRun>& runs) {
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const TextStyle style{.size = 8, .colour = series_colour(k), .align_y = AlignY::middle};
+    at.x = canvas.text(runs[k].name, at, style).right() + 8;
+  }
+}
+
+void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(INFINITY), high = -low;
+  for (const NamedRun& one : runs) {
+    const auto flat = one.run->layout.original_boundary.topRows<2>();
+    low = low.cwiseMin(flat.rowwise().minCoeff());
+    high = high.cwiseMax(flat.rowwise().maxCoeff());
+  }
+  const Eigen::Vector2d size = high - low;
+  const ToScale place{box, 0.5 * (low + high),
+                      std::min(box.width / size.x(), box.height / size.y())};
+  if (runs.size() == 1) {
+    const record::Layout& layout = runs.front().run->layout;
+    for (const auto& rod : layout.rods)
+      canvas.line(place(layout.flat_nodes.col(rod.front()).head<2>()),
+                  place(layout.flat_nodes.col(rod.back()).head<2>()), {rod_ink, 0.7});
+  }
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    canvas.polyline(placed(runs[k].run->layout.original_boundary.topRows<2>(), place),
+                    {runs.size() == 1 ? ink : series_colour(k), 1.4}, true);
+  // a length to read the drawing by
+  const double bar = runs.front().run->layout.spacing_mm;
+  const Point left{box.x, box.bottom() + 9};
+  canvas.line(left, {left.x + place.scale * bar, left.y}, {ink, 1.4});
+  const Box length =
+      canvas.text(fmt::format("*d* = {:g} mm", bar), {left.x + place.scale * bar + 4, left.y},
+                  {.size = 8, .align_y = AlignY::middle});
+  if (runs.size() == 1)
+    canvas.text("flat footprint", {length.right() + 10, left.y},
+                {.size = 8, .align_y = AlignY::middle});
+  // caps are named beside the planes that cut them
+  if (runs.size() > 1 && !all_caps(runs)) draw_names(canvas, {length.right() + 14, left.y}, runs);
+}
+
+/// A sphere from the side and the planes z = z* of its caps.
+void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
+  const double rho = runs.front().run->layout.length_scale_mm;
+  const double scale = std::min(box.width / 2.95, box.height / 1.35) / rho;
+  const Point centre{box.x + 1.15 * scale * rho, box.middle().y + 0.5 * scale * rho};
+  std::vector<Point> arc;
+  for (int k = 0; k <= 90; ++k) {
+    const double angle = std::numbers::pi * k / 90;
+    arc.push_back(
+        {centre.x + scale * rho * std::cos(angle), centre.y - scale * rho * std::sin(angle)});
+  }
+  canvas.polyline(arc, {{0.55f, 0.56f, 0.6f, 1}, 1});
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const double z = runs[k].run->layout.actuated_boundary.row(2).mean();
+    const double half = 1.1 * scale * rho, y = centre.y - scale * z;
+    const Colour colour = runs.size() == 1 ? ink : series_colour(k);
+    canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4});
+    // to a hundredth, and no minus before a zero
+    const double shown = std::round(100 * z / rho) / 100 + 0.0;
+    // one plane has room below it
+    if (runs.size() == 1) {
+      canvas.text(fmt::format("*z*^{{*}}/*ρ* = {:g}", shown), {centre.x, y + 3},
+                  {.size = 8, .align_x = AlignX::centre, .align_y = AlignY::top});
+      continue;
+    }
+    canvas.text(
+        fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", shown), {centre.x + half + 4, y},
+        {.size = std::min(6.5, 0.085 * scale * rho), .colour = colour, .align_y = AlignY::middle});
+  }
+}
+
+/// Joints by latitude and distance from the centre.
+Series by_latitude(const std::string& name, const Eigen::Matrix3Xd& joints, double rho) {
+  Series series{.name = name};
+  for (long k = 0; k < joints.cols(); ++k) {
+    const double r = joints.col(k).norm();
+    series.x.push_back(std::asin(std::clamp(joints(2, k) / r, -1.0, 1.0)) * 180 / std::numbers::pi);
+    series.y.push_back(r / rho);
+  }
+  series.line_width = 0;
+  return series;
+}
+
+}  // namespace
+
+void draw_figure_title(Canvas& canvas, const std::string& title) {
+  constexpr double margin = 9;
+  TextStyle style{.size = 8.5, .bold = true, .align_y = AlignY::middle};
+  const double wide = canvas.measure(plain(title), style).width;
+  style.size *= std::min(1.0, (canvas.width() - 2 * margin) / std::max(1.0, wide));
+  canvas.text(plain(title), {margin, 0.6 * figure_title_room}, style);
+}
+
+Plot curvature_plot(const std::vector<NamedRun>& runs) {
+  Plot plot;
+  plot.x.label = "*x*/*L*";
+  plot.x.low = -1.05;
+  plot.x.high = 1.05;
+  plot.y.label = "curvature of a cell, *K*_{□} (rad)";
+  plot.references.push_back({.at = 0, .label = ""});
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const record::Trajectory& run = *runs[r].run;
+    // an assemblage need not lie about the origin
+    const auto ends = run.layout.actuated_boundary.row(0);
+    const double middle = 0.5 * (ends.minCoeff() + ends.maxCoeff()), L = ends.maxCoeff() - middle;
+    const Eigen::Matrix3Xd joints = joints_of(run);
+    Series series;
+    series.name = runs[r].name;
+    for (std::size_t k = 0; k < run.layout.cells.size(); ++k) {
+      double x = 0;
+      for (int joint : run.layout.cells[k].joints) x += joints(0, joint) / 4;
+      series.x.push_back((x - middle) / L);
+      series.y.push_back(run.frames.back().cell_K[long(k)]);
+    }
+    series.colour = series_colour(r);
+    series.line_width = 0;
+    series.marker = markers[r % std::size(markers)];
+    series.marker_size = 3.2;
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+Plot quantile_plot(const std::vector<NamedRun>& runs) {
+  Plot plot;
+  plot.x.label = "share of the joints (%)";
+  plot.x.low = 0;
+  plot.x.high = 100;
+  const DeviationUnit unit = deviation_unit(runs.front().run->layout);
+  plot.y.label = "off the net, " + unit.label;
+  plot.y.low = 0;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const record::Trajectory& run = *runs[r].run;
+    Eigen::VectorXd sorted = last_deviation(run).head(long(run.layout.joints.size()));
+    std::sort(sorted.begin(), sorted.end());
+    Series series{.name = runs[r].name, .colour = series_colour(r)};
+    for (long k = 0; k < sorted.size(); ++k) {
+      series.x.push_back(sorted.size() > 1 ? 100.0 * double(k) / double(sorted.size() - 1) : 100);
+      series.y.push_back(unit.factor * sorted[k]);
+    }
+    series.line_width = 1.2;
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
+  const record::Trajectory& run = *named.run;
+  const double rho = run.layout.length_scale_mm;
+  Plot plot;
+  plot.x.label = "latitude (°)";
+  plot.y.label = "radius of a joint, *r*/*ρ*";
+  Series net{.name = "net", .x = {0, 90}, .y = {1, 1}, .colour = {0.16f, 0.42f, 0.78f, 1}};
+  net.line_width = 1.3;
+  const Eigen::Matrix3Xd joints = joints_of(run);
+  const double lowest = run.layout.actuated_boundary.row(2).mean() / rho;
+  net.x.front() = std::asin(std::clamp(lowest, -1.0, 1.0)) * 180 / std::numbers::pi;
+  plot.x.low = net.x.front();
+  plot.x.high = 90;
+  Series shell = by_latitude("joints, computed", joints, rho);
+  shell.colour = ink;
+  shell.marker = Marker::circle;
+  shell.marker_size = 2.6;
+  plot.series = {net};
+  if (scan.cols() > 0) {
+    Series measured = by_latitude("joints, scanned", scan, rho);
+    measured.colour = {0.80f, 0.16f, 0.12f, 1};
+    measured.marker = Marker::circle;
+    // wider and below, so that a computed joint shows inside the one scanned
+    measured.marker_size = 4.2;
+    measured.hollow = true;
+    plot.series.push_back(std::move(measured));
+  }
+  plot.series.push_back(std::move(shell));
+  return plot;
+}
+
+void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
+  const bool caps = all_caps(runs);
+  const double half = caps ? box.width / 2 : box.width;
+  // below the boundaries stands a length to read them by
+  draw_boundaries(canvas, {box.x, box.y, half - 8, box.height - 20}, runs);
+  if (caps) draw_planes(canvas, {box.x + half, box.y, half, box.height - 8}, runs);
+}
+
+Result<void> write_footprints(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
+                              const std::string& title, const Print& print) {
+  // text keeps its size however wide the figure is printed
+  const double usual = all_caps(runs) ? 470 : 250, width = print.width_pt(usual),
+               height = 250 * width / usual;
+  return write_figure(
+      stem, width, height + figure_title_room, "Original boundaries",
+      [&](Canvas& canvas) {
+        draw_figure_title(canvas, title);
+        draw_footprints(canvas, Box{0, figure_title_room, width, height}.inset(9), runs);
+      },
+      print);
+}
+
+namespace {
+
+/// A square about all lines, so that lengths are alike on both axes.
+void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
+  constexpr double wider = 1.08;
+  Eigen::Vector2d low = lines.front().col(0).head<2>(), high = low;
+  for (const auto& line : lines) {
+    low = low.cwiseMin(line.topRows<2>().rowwise().minCoeff());
+    high = high.cwiseMax(line.topRows<2>().rowwise().maxCoeff());
+  }
+  const Eigen::Vector2d middle = (low + high) / 2;
+  const double half = wider * (high - low).maxCoeff() / 2;
+  plot.x.low = middle.x() - half, plot.x.high = middle.x() + half;
+  plot.y.low = middle.y() - half, plot.y.high = middle.y() + half;
+}
+
+}  // namespace
+
+Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matrix3Xd& narrow,
+                  const Eigen::Vector3d& end, const std::string& title) {
+  Series net{"the net as far as it comes, from above"}, close{"rods within 17° of parallel"},
+      place{fmt::format("it ends at *z* = {}{:.1f} mm", end.z() < 0 ? "−" : "", std::abs(end.z()))};
+  for (const auto& line : lines) {
+    for (const auto& p : line.colwise()) {
+      net.x.push_back(p.x());
+      net.y.push_back(p.y());
+    }
+    net.x.push_back(std::numeric_limits<double>::quiet_NaN());
+    net.y.push_back(std::numeric_limits<double>::quiet_NaN());
+  }
+  net.colour = {0.45f, 0.5f, 0.55f, 1};
+  net.line_width = 0.5;
+  for (const auto& p : narrow.colwise()) {
+    close.x.push_back(p.x());
+    close.y.push_back(p.y());
+  }
+  close.colour = {0.93f, 0.6f, 0.2f, 1};
+  close.line_width = 0;
+  close.marker = Marker::circle;
+  close.marker_size = 1.8;
+  place.x = {end.x()};
+  place.y = {end.y()};
+  place.colour = {0.75f, 0.1f, 0.15f, 1};
+  place.line_width = 0;
+  place.marker = Marker::cross;
+  place.marker_size = 8;
+  Plot plot;
+  plot.title = title;
+  plot.x.label = "*x* (mm)";
+  plot.y.label = "*y* (mm)";
+  plot.legend = LegendPlace::above;
+  plot.series = {net};
+  if (!close.x.empty()) plot.series.push_back(close);
+  plot.series.push_back(place);
+  if (!lines.empty()) frame_about(lines, plot);
+  return plot;
+}
+
+namespace {
+
+constexpr Colour reference{0.62f, 0.63f, 0.66f, 0.55f}, reference_ink{0.5f, 0.51f, 0.54f, 1},
+    now_ink{0.13f, 0.33f, 0.60f, 1}, mean_ink{0.70f, 0.10f, 0.08f, 1};
+
+Series bins_of(const record::Frame& frame) {
+  Series series;
+  const long count = frame.K_bins.rows();
+  for (long k = 0; k < count; ++k) {
+    series.x.push_back(-1 + (2.0 * double(k) + 1) / double(count));
+    series.y.push_back(frame.K_bins(k, 0));
+    series.y_error.push_back(frame.K_bins(k, 1));
+  }
+  return series;
+}
+
+// one row of the legend for a line across the plot
+Series line_key(const std::string& name, const Stroke& stroke) {
+  return {.name = name, .colour = stroke.colour, .line_width = stroke.width, .dash = stroke.dash};
+}
+
+}  // namespace
+
+Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
+               const std::optional<std::array<double, 2>>& range, double font_size) {
+  const double low = std::min(0.0, run.bins_rad.low), high = std::max(0.0, run.bins_rad.high);
+  const double margin = 0.06 * std::max(1e-9, high - low);
+  Plot plot;
+  plot.font_size = font_size;
+  plot.x = {.label = "*x* / *L*", .low = -1, .high = 1};
+  plot.y = {.label = "mean Gauss curvature *K*_{□} (rad)",
+            .low = range ? (*range)[0] : low - (low < 0 ? margin : 0),
+            .high = range ? (*range)[1] : high + margin};
+  Series before = bins_of(run.first), now = bins_of(frame);
+  before.name = "unloaded";
+  before.kind = SeriesKind::bars;
+  before.y_error.clear();
+  before.bar_width = 1.9 / double(std::max<std::size_t>(1, before.x.size()));
+  before.colour = reference;
+  now.name = "now ± s.d.";
+  now.colour = now_ink;
+  now.line_width = 0;
+  now.marker = Marker::circle;
+  now.marker_size = 0.6 * font_size;
+  const Stroke dashed{reference_ink, 0.08 * font_size, {0.35 * font_size, 0.25 * font_size}},
+      solid{mean_ink, 0.1 * font_size, {}};
+  plot.series = {before, now, line_key("all cells, unloaded", dashed),
+                 line_key("all cells", solid)};
+  plot.references = {{true, run.first.total_K / double(cells), "", dashed},
+                     {true, frame.total_K / double(cells), "", solid}};
+  plot.title = "Σ*K*_{□} = " + fixed(frame.total_K, 3) + " rad";
+  plot.legend = LegendPlace::above;
+  return plot;
+}
+
+}  // namespace gridshell::render

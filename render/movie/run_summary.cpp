@@ -1,0 +1,224 @@
+#include "render/movie/run_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/movie/colour_by.h"
+
+#include "engine/core/try.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr double gap_mm = 2.5;  // between joint and arrow
+
+}  // namespace
+
+bool load_acts(const record::LoadedJoint& load, const record::Layout& layout,
+               const record::Frame& frame) {
+  if (!load.at_times || frame.reactions_N.cols() != Eigen::Index(layout.supports.size()))
+    return true;
+  const int node = layout.joints.at(std::size_t(load.joint)).node;
+  const auto held = std::ranges::find(layout.supports, node);
+  return held == layout.supports.end() ||
+         !frame.reactions_N.col(held - layout.supports.begin()).isZero(0);
+}
+
+std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::Frame& frame) {
+  std::vector<LoadArrow> arrows;
+  if (layout.loaded_joints.empty() || layout.actuated_boundary.cols() == 0) return arrows;
+  const double length = 0.25 * layout.length_scale_mm;
+  const Eigen::Vector3d middle = layout.actuated_boundary.rowwise().mean();
+  for (const record::LoadedJoint& load : layout.loaded_joints) {
+    const int node = layout.joints.at(std::size_t(load.joint)).node;
+    if (node >= frame.nodes.cols() || !load_acts(load, layout, frame)) continue;
+    const Eigen::Vector3d at = frame.nodes.col(node);
+    // clearly so: in a flat shell round-off must not choose
+    const bool away = load.direction.dot(at - middle) > 0.02 * layout.length_scale_mm;
+    const Eigen::Vector3d near = at + (away ? gap_mm : -gap_mm) * load.direction;
+    const Eigen::Vector3d far = near + (away ? length : -length) * load.direction;
+    arrows.push_back(away ? LoadArrow{node, near, far} : LoadArrow{node, far, near});
+  }
+  return arrows;
+}
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// at most `most` of them, evenly
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
+  const std::size_t stride = std::max<std::size_t>(1, (all.size() + most - 1) / most);
+  std::vector<T> some;
+  for (std::size_t k = 0; k < all.size(); k += stride) some.push_back(all[k]);
+  return some;
+}
+
+// eighths of what lies between two joints of a rod, or a joint and the rod's end, and that end
+void add_rod_points(const std::vector<int>& rod, const std::vector<char>& joint,
+                    std::vector<RodSample>& points) {
+  constexpr std::size_t parts = 8;
+  for (std::size_t from = 0, to = 1; to < rod.size(); ++to) {
+    if (!joint[std::size_t(rod[to])] && to + 1 < rod.size()) continue;
+    for (std::size_t part = 0; part < parts; ++part) {
+      const std::size_t eighths = (to - from) * part, node = from + eighths / parts;
+      points.push_back({rod[node], rod[node + 1], double(eighths % parts) / parts});
+    }
+    from = to;
+  }
+  if (!rod.empty()) points.push_back({rod.back(), rod.back(), 0});
+}
+
+std::vector<RodSample> rod_points(const record::Layout& layout) {
+  std::vector<char> joint(std::size_t(node_count_of(layout)), 0);
+  for (const record::Joint& at : layout.joints) joint[std::size_t(at.node)] = 1;
+  std::vector<RodSample> points;
+  for (const auto& rod : layout.rods) add_rod_points(rod, joint, points);
+  return points;
+}
+
+// what stands for a frame: joints, points of the rods, and the arrows of loads
+Eigen::Matrix3Xd points_of(const record::Layout& layout, const std::vector<RodSample>& rods,
+                           const record::Frame& frame) {
+  std::vector<Eigen::Vector3d> points;
+  const auto add = [&](const Eigen::Vector3d& point) {
+    if (point.allFinite()) points.push_back(point);
+  };
+  for (const RodSample& at : rods)
+    if (std::max(at.from, at.to) < frame.nodes.cols())
+      add((1 - at.part) * frame.nodes.col(at.from) + at.part * frame.nodes.col(at.to));
+  for (const LoadArrow& arrow : load_arrows(layout, frame)) add(arrow.from), add(arrow.to);
+  Eigen::Matrix3Xd all(3, points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) all.col(long(k)) = points[k];
+  return all;
+}
+
+double lowest(const Eigen::Matrix3Xd& points) {
+  return points.cols() > 0 ? points.row(2).minCoeff() : infinity;
+}
+
+MarkKind kind_of(const record::Frame& frame) {
+  if (frame.event.starts_with("snap")) return MarkKind::snap;
+  if (frame.event.starts_with("locking")) return MarkKind::lock;
+  if (std::isfinite(frame.time_s)) return MarkKind::motion;
+  return frame.negative_pivots > 0 ? MarkKind::unstable : MarkKind::other;
+}
+
+}  // namespace
+
+void Interval::take(double value) {
+  if (!std::isfinite(value)) return;
+  low = std::min(low, value);
+  high = std::max(high, value);
+}
+
+void Interval::take(const Interval& other) {
+  take(other.low);
+  take(other.high);
+}
+
+void ColouredRange::take(const Eigen::VectorXd& values, bool counts) {
+  if (values.size() == 0) return;
+  for (const double value : values) all.take(value);
+  if (!counts) return;
+  const Eigen::ArrayXd known = values.array().isFinite().select(values.array(), 0.0);
+  if (most.size() != known.size()) most = Eigen::ArrayXd::Zero(known.size());
+  most = most.max(known.abs());
+}
+
+FrameSource source_of(const record::Trajectory& run) {
+  return {&run.layout, int(run.frames.size()), [&run](int k) -> Result<record::Frame> {
+            const record::Frame& frame = run.frames[std::size_t(k)];
+            if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
+            return frame;
+          }};
+}
+
+long node_count_of(const record::Layout& layout) {
+  int largest = -1;
+  for (const std::vector<int>& rod : layout.rods)
+    for (int node : rod) largest = std::max(largest, node);
+  for (const record::Joint& joint : layout.joints) largest = std::max(largest, joint.node);
+  return long(largest) + 1;
+}
+
+RunSummary::RunSummary(const record::Layout& layout)
+    : lowest_z_mm(std::min(lowest(layout.original_boundary), lowest(layout.actuated_boundary))),
+      layout_(&layout),
+      rod_points_(thinned(rod_points(layout), 600)) {}
+
+void RunSummary::take(const record::Frame& frame) {
+  if (frames == 0) first = frame;
+  sample_points(frame);
+  lowest_z_mm = std::min(lowest_z_mm, lowest(frame.nodes));
+  if (frame.depth_mm > depth_mm) depth_mm = frame.depth_mm;
+  for (long k = 0; k < frame.K_bins.rows(); ++k)
+    for (const double sign : {-1.0, 1.0})
+      bins_rad.take(frame.K_bins(k, 0) + sign * frame.K_bins(k, 1));
+  // a shell lies near its net once its boundary does: what is before does not set the scale
+  if (frame.actuation > largest_actuation_)
+    spreads_[std::size_t(ColourBy::deviation)].most.setZero();
+  largest_actuation_ = std::max(largest_actuation_, frame.actuation);
+  for (const auto& entry : words(ColourBy{})) {
+    const bool counts = entry.value != ColourBy::deviation || frame.actuation == largest_actuation_;
+    if (entry.value != ColourBy::displacement)
+      spreads_[std::size_t(entry.value)].take(
+          coloured_values(entry.value, *layout_, frame, {first}), counts);
+  }
+  if (first.nodes.cols() == frame.nodes.cols())
+    for (const record::Joint& joint : layout_->joints)
+      if (joint.node < frame.nodes.cols())
+        largest_move_mm = std::max(
+            largest_move_mm, (frame.nodes.col(joint.node) - first.nodes.col(joint.node)).norm());
+  if (const MarkKind kind = kind_of(frame); kind != MarkKind::other)
+    marks.push_back({frames, kind});
+  ++frames;
+}
+
+void RunSummary::sample_points(const record::Frame& frame) {
+  last_ = points_of(*layout_, rod_points_, frame);
+  if (frames % sample_stride_ != 0) return;
+  sampled_points_.push_back(last_);
+  constexpr std::size_t most_frames = 32;
+  if (sampled_points_.size() <= most_frames) return;
+  // shells move smoothly: every other one of these bounds them as well
+  for (std::size_t k = 1; 2 * k < sampled_points_.size(); ++k)
+    sampled_points_[k] = std::move(sampled_points_[2 * k]);
+  sampled_points_.resize((sampled_points_.size() + 1) / 2);
+  sample_stride_ *= 2;
+}
+
+Eigen::Matrix3Xd RunSummary::bounds() const {
+  const bool shown = frames == 0 || original_boundary_shown(first);
+  std::vector<const Eigen::Matrix3Xd*> parts{&layout_->actuated_boundary, &last_};
+  if (shown) parts.push_back(&layout_->original_boundary);
+  for (const Eigen::Matrix3Xd& points : sampled_points_) parts.push_back(&points);
+  long count = 0;
+  for (const Eigen::Matrix3Xd* part : parts) count += part->cols();
+  Eigen::Matrix3Xd all(3, count);
+  count = 0;
+  for (const Eigen::Matrix3Xd* part : parts) {
+    all.middleCols(count, part->cols()) = *part;
+    count += part->cols();
+  }
+  return all;
+}
+
+Result<RunSummary> summarise_run(const FrameSource& source) {
+  RunSummary survey(*source.layout);
+  for (int k = 0; k < source.count; ++k) {
+    TRY(frame, source.at(k));
+    survey.take(*frame);
+  }
+  return survey;
+}
+
+RunSummary summarise_run(const record::Trajectory& run) {
+  RunSummary survey(run.layout);
+  for (const record::Frame& frame : run.frames) survey.take(frame);
+  return survey;
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,133 @@
+// The boundary on its way.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/record/trajectory.h"
+#include "render/movie/movie_style.h"
+
+namespace gridshell::render {
+
+/// Every point moves straight and evenly from the original (actuation 0) to the actuated boundary
+/// (1). 3 x n, mm.
+inline Eigen::Matrix3Xd boundary_at(const record::Layout& layout, double actuation) {
+  return layout.original_boundary +
+         actuation * (layout.actuated_boundary - layout.original_boundary);
+}
+
+/// Whether the original boundary says anything: not where an actuated shell is pushed.
+inline bool original_boundary_shown(const record::Frame& frame) {
+  return !std::isfinite(frame.depth_mm);
+}
+
+// Where a shell is pushed or pulled: arrows that stand at the joints and go with them.
+
+/// From tail to tip, mm.
+struct LoadArrow {
+  int node = 0;  ///< of the joint that it acts on
+  Eigen::Vector3d from, to;
+};
+
+/// Whether a load acts in this frame. One that comes and goes acts where its joint is held; where
+/// the frame knows no reactions, always.
+bool load_acts(const record::LoadedJoint& load, const record::Layout& layout,
+               const record::Frame& frame);
+
+/// Of the loads that act. A push has its tip at the joint; a pull away from the shell its tail. As
+/// long as a quarter of the length scale.
+std::vector<LoadArrow> load_arrows(const record::Layout& layout, const record::Frame& frame);
+
+// What the pictures of a run have to know of all its frames before the first is drawn: ranges,
+// bounds and events. Frames are looked at once, one at a time; the first is kept, and of some
+// others some points.
+
+/// Frames one at a time, from memory or from a file.
+struct FrameSource {
+  const record::Layout* layout = nullptr;
+  int count = 0;
+  std::function<Result<record::Frame>(int)> at;  ///< 0 to count - 1, in any order
+};
+
+/// The frames of a run in memory, which outlives the source.
+FrameSource source_of(const record::Trajectory& run);
+
+/// The smallest and the largest of some values; low > high before the first.
+struct Interval {
+  double low = INFINITY, high = -INFINITY;
+  void take(double value);
+  void take(const Interval& other);
+  bool any() const { return low <= high; }
+};
+
+/// A quantity of cells or nodes over all frames. All count for the scale, but for the deviation
+/// from the net: those with the boundary farthest on its way alone, as a flat shell lies off by its
+/// size.
+struct ColouredRange {
+  Eigen::ArrayXd most;  ///< largest size of each one's, of the frames that count for the scale
+  Interval all;         ///< of all that are known
+
+  void take(const Eigen::VectorXd& values, bool counts);
+};
+
+/// Something that happened to the shell, and in which frame.
+enum class MarkKind { unstable, motion, snap, lock, other };
+struct Mark {
+  int at = 0;  ///< position of the frame in the run, from 0
+  MarkKind kind = MarkKind::other;
+};
+
+/// One more than the largest node that rods and joints name.
+long node_count_of(const record::Layout& layout);
+
+/// A point of a rod between two of its nodes, or at one.
+struct RodSample {
+  int from = 0, to = 0;  ///< columns of Frame::nodes
+  double part = 0;       ///< of the way between them
+};
+
+class RunSummary {
+ public:
+  /// The layout outlives the survey.
+  explicit RunSummary(const record::Layout& layout);
+
+  /// The next frame of the run.
+  void take(const record::Frame& frame);
+
+  int frames = 0;
+  record::Frame first;         ///< what later frames are compared with
+  double depth_mm = 0;         ///< of a push, at its deepest; 0 without one
+  double lowest_z_mm = 0;      ///< of all that is drawn
+  Interval bins_rad;           ///< mean K of the bins, with their standard deviations
+  double largest_move_mm = 0;  ///< of a joint, from where it was in the first frame
+  std::vector<Mark> marks;     ///< in order
+
+  /// Of what is coloured (coloured.h), but for displacements, whose depth the end alone knows.
+  const ColouredRange& spread(ColourBy by) const { return spreads_[std::size_t(by)]; }
+
+  /// Points that bound all frames, what is drawn of both boundaries, and the arrows of loads: some
+  /// hundreds of some dozen frames, and the boundaries themselves. They lie at the same places of
+  /// the rods on every mesh, and round-off does not choose them: the whole picture would move with
+  /// them. 3 x n, mm.
+  Eigen::Matrix3Xd bounds() const;
+
+ private:
+  void sample_points(const record::Frame& frame);
+
+  const record::Layout* layout_;
+  std::array<ColouredRange, words(ColourBy{}).size()> spreads_;
+  std::vector<RodSample> rod_points_;             ///< the same places of the rods on every mesh
+  double largest_actuation_ = -1;                 ///< the boundary has come
+  int sample_stride_ = 1;                         ///< frame whose points are kept
+  std::vector<Eigen::Matrix3Xd> sampled_points_;  ///< of every so many frames
+  Eigen::Matrix3Xd last_;                         ///< of the last frame
+};
+
+/// Of all frames of a source; those of a failing source: its error.
+Result<RunSummary> summarise_run(const FrameSource& source);
+RunSummary summarise_run(const record::Trajectory& run);
+
+}  // namespace gridshell::render

@@ -1,0 +1,204 @@
+#include "render/movie/shell_lines.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "render/gl/renderer.h"
+
+namespace gridshell::render {
+namespace {
+
+/// A point as the camera sees it: pixels, and distance along the view.
+struct Seen {
+  Point at;
+  double depth = 0;
+};
+
+class Eye {
+ public:
+  Eye(const Camera& camera, const Box& box)
+      : forward_(camera_axes(camera).forward),
+        matrix_(
+            view_projection(camera, box.width / box.height, camera.target, camera.half_extent_mm)),
+        box_(box) {}
+
+  Seen operator()(const Eigen::Vector3d& point) const {
+    const Eigen::Vector4d clip = matrix_ * point.homogeneous();
+    return {{box_.x + (0.5 + 0.5 * clip.x() / clip.w()) * box_.width,
+             box_.y + (0.5 - 0.5 * clip.y() / clip.w()) * box_.height},
+            forward_.dot(point)};
+  }
+
+ private:
+  Eigen::Vector3d forward_;
+  Eigen::Matrix4d matrix_;
+  Box box_;
+};
+
+/// Two triangles a cell, in pixels with depths.
+class Screen {
+ public:
+  Screen(const Drawing& drawing, const Eye& eye) {
+    for (const record::Cell& cell : drawing.layout->cells) {
+      std::array<Seen, 4> corner;
+      for (int k = 0; k < 4; ++k)
+        corner[k] = eye(drawing.nodes.col(drawing.layout->joints[cell.joints[k]].node));
+      triangles_.push_back({corner[0], corner[1], corner[2]});
+      triangles_.push_back({corner[0], corner[2], corner[3]});
+    }
+  }
+
+  bool hides(const Seen& p, double slack) const {
+    return std::any_of(triangles_.begin(), triangles_.end(), [&](const Triangle& t) {
+      const double area = cross(t[0].at, t[1].at, t[2].at);
+      if (std::abs(area) < 1e-9) return false;
+      const double a = cross(p.at, t[1].at, t[2].at) / area,
+                   b = cross(t[0].at, p.at, t[2].at) / area, c = 1 - a - b;
+      if (std::min({a, b, c}) < -1e-9) return false;
+      return a * t[0].depth + b * t[1].depth + c * t[2].depth < p.depth - slack;
+    });
+  }
+
+ private:
+  using Triangle = std::array<Seen, 3>;
+  static double cross(Point a, Point b, Point c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  }
+  std::vector<Triangle> triangles_;
+};
+
+Colour faded(Colour colour, Colour background, double by) {
+  const auto f = float(by);
+  return {colour.r + f * (background.r - colour.r), colour.g + f * (background.g - colour.g),
+          colour.b + f * (background.b - colour.b), colour.a};
+}
+
+class Lines {
+ public:
+  Lines(Canvas& canvas, const Box& box, const Drawing& drawing, const Camera& camera)
+      : canvas_(canvas),
+        drawing_(drawing),
+        eye_(camera, box),
+        screen_(drawing, eye_),
+        units_per_mm_(box.height / (2 * camera.half_extent_mm)),
+        slack_(0.25 * drawing.layout->spacing_mm) {}
+
+  /// Of the two passes, hidden or visible, the parts that belong to it.
+  void draw(bool hidden) {
+    const double fade = hidden ? std::max(0.55, drawing_.far_fade) : 0;
+    if (hidden && drawing_.far_fade >= 1) return;
+    const auto ink = [&](Colour colour) { return faded(colour, drawing_.background, fade); };
+    for (const Ring& ring : drawing_.rings) {
+      Eigen::Matrix3Xd closed(3, ring.points.cols() + 1);
+      closed << ring.points, ring.points.col(0);
+      polyline(closed, hidden, {ink(ring.colour), width(ring.diameter_mm)}, {});
+    }
+    for (const GhostRods& ghost : drawing_.ghosts)
+      for (const auto& rod : ghost.rods)
+        polyline(ghost.nodes(Eigen::all, rod), hidden,
+                 {ink(ghost.colour), width(ghost.diameter_mm)}, {});
+    for (std::size_t r = 0; r < drawing_.layout->rods.size(); ++r) {
+      const auto& rod = drawing_.layout->rods[r];
+      const double thick = record::thickness_of(*drawing_.layout, r) * drawing_.rod_diameter_mm;
+      Eigen::Matrix3Xd points(3, rod.size());
+      std::vector<Colour> colours;
+      for (std::size_t k = 0; k < rod.size(); ++k) {
+        points.col(long(k)) = drawing_.nodes.col(rod[k]);
+        if (!drawing_.node_colours.empty())
+          colours.push_back(ink(drawing_.node_colours[std::size_t(rod[k])]));
+      }
+      polyline(points, hidden, {ink(drawing_.rod_colour), width(thick)}, colours);
+    }
+    if (drawing_.joint_diameter_mm > 0)
+      for (const record::Joint& joint : drawing_.layout->joints) {
+        const Seen at = eye_(drawing_.nodes.col(joint.node));
+        if (screen_.hides(at, slack_) == hidden)
+          canvas_.circle(at.at, 0.5 * width(drawing_.joint_diameter_mm),
+                         ink(drawing_.joint_colour));
+      }
+    if (!hidden) arrows();
+  }
+
+ private:
+  double width(double diameter_mm) const { return units_per_mm_ * diameter_mm; }
+
+  // pieces of one colour that are all hidden, or all not
+  void polyline(const Eigen::Matrix3Xd& points, bool hidden, const Stroke& stroke,
+                const std::vector<Colour>& colours) {
+    std::vector<Point> line;
+    const auto flush = [&](Colour colour) {
+      canvas_.polyline(line, {colour, stroke.width});
+      line.clear();
+    };
+    for (long k = 0; k + 1 < points.cols(); ++k) {
+      const Eigen::Vector3d a = points.col(k), b = points.col(k + 1);
+      const bool is_hidden = screen_.hides(eye_(0.5 * (a + b)), slack_);
+      const Colour colour = colours.empty() ? stroke.colour : colours[std::size_t(k)];
+      if (is_hidden != hidden) {
+        flush(colour);
+        continue;
+      }
+      if (line.empty()) line.push_back(eye_(a).at);
+      line.push_back(eye_(b).at);
+      if (!colours.empty()) flush(colour);
+    }
+    flush(stroke.colour);
+  }
+
+  void arrows() {
+    for (const PointMark& mark : drawing_.marks)
+      canvas_.circle(eye_(mark.at).at, 0.5 * width(mark.diameter_mm), mark.colour,
+                     {{0, 0, 0, 1}, 0.15 * width(mark.diameter_mm)});
+    for (const Arrow& arrow : drawing_.arrows) {
+      const Point from = eye_(arrow.from).at, to = eye_(arrow.to).at;
+      const double length = std::hypot(to.x - from.x, to.y - from.y),
+                   shaft = width(arrow.diameter_mm);
+      if (length < 1e-9) continue;
+      const double head = std::min(4.5 * shaft, 0.6 * length), half = 1.4 * shaft;
+      const double x = (to.x - from.x) / length, y = (to.y - from.y) / length;
+      const Point neck{to.x - head * x, to.y - head * y};
+      canvas_.line(from, neck, {arrow.colour, shaft});
+      canvas_.polygon(
+          {{neck.x - half * y, neck.y + half * x}, to, {neck.x + half * y, neck.y - half * x}},
+          arrow.colour);
+    }
+  }
+
+  Canvas& canvas_;
+  const Drawing& drawing_;
+  Eye eye_;
+  Screen screen_;
+  double units_per_mm_, slack_;
+};
+
+}  // namespace
+
+std::vector<bool> hidden_points(const Drawing& drawing, const Camera& camera,
+                                const Eigen::Matrix3Xd& points, double slack_mm) {
+  const Eye eye(camera, {0, 0, 1000, 1000});
+  const Screen screen(drawing, eye);
+  std::vector<bool> hidden;
+  for (long k = 0; k < points.cols(); ++k)
+    hidden.push_back(screen.hides(eye(points.col(k)), slack_mm));
+  return hidden;
+}
+
+void draw_shell_lines(Canvas& canvas, const Box& box, const Drawing& drawing,
+                      const Camera& camera) {
+  Lines lines(canvas, box, drawing, camera);
+  for (const bool hidden : {true, false}) lines.draw(hidden);
+}
+
+std::function<void(Canvas&, const Box&)> shell_lines(Drawing drawing, const Camera& camera) {
+  const auto layout = std::make_shared<const record::Layout>(*drawing.layout);
+  drawing.layout = layout.get();
+  return [layout, drawing = std::move(drawing), camera](Canvas& canvas, const Box& box) {
+    draw_shell_lines(canvas, box, drawing, camera);
+  };
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,338 @@
+#include "render/movie/state_charts.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "engine/record/phase_diagram.h"
+#include "render/canvas/text.h"
+
+namespace gridshell::render {
+namespace {
+
+constexpr double half_bar = 0.22;  // of the distance between states
+constexpr int pieces = 40;
+
+/// Half a cosine wave from one height to the other.
+void add_flank(Series& curve, double from_x, double from, double to_x, double to) {
+  for (int k = 0; k <= pieces; ++k) {
+    const double s = double(k) / pieces;
+    curve.x.push_back(from_x + s * (to_x - from_x));
+    curve.y.push_back(from + (to - from) * 0.5 * (1 - std::cos(M_PI * s)));
+  }
+}
+
+}  // namespace
+
+Plot barrier_plot(const record::StateTables& states) {
+  Plot plot;
+  plot.title = "Barriers between states";
+  plot.y = {.label = "energy (mJ)"};
+  plot.legend = LegendPlace::none;
+  std::map<int, double> energy;  // of the states, on the mesh of the passes
+  for (const record::Barrier& one : states.barriers)
+    if (one.to != 0 && one.from != one.to) {
+      energy[one.from] = one.energy_mJ - one.barrier_mJ;
+      energy[one.to] = one.energy_mJ - one.back_mJ;
+    }
+  std::map<int, double> place;
+  for (const auto& [state, level] : energy) place.emplace(state, double(place.size() + 1));
+  std::size_t colour = 0;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  for (const record::Barrier& one : states.barriers) {
+    if (one.to == 0 || one.from == one.to) continue;
+    Series curve;
+    curve.colour = series_colour(colour++);
+    lowest = std::min({lowest, energy.at(one.from), energy.at(one.to)});
+    highest = std::max(highest, one.energy_mJ);
+    const double a = place.at(one.from), b = place.at(one.to), middle = 0.5 * (a + b);
+    const double from = a + std::copysign(half_bar, b - a), to = b - std::copysign(half_bar, b - a);
+    add_flank(curve, from, energy.at(one.from), middle, one.energy_mJ);
+    add_flank(curve, middle, one.energy_mJ, to, energy.at(one.to));
+    plot.series.push_back(std::move(curve));
+    plot.notes.push_back({middle, one.energy_mJ,
+                          scientific(std::max(one.barrier_mJ, one.back_mJ), 3), AlignX::centre,
+                          AlignY::bottom, plot.series.back().colour});
+  }
+  for (const auto& [state, level] : energy) {
+    Series bar;
+    bar.colour = {0.1f, 0.1f, 0.12f, 1};
+    bar.line_width = 2.2;
+    bar.x = {place.at(state) - half_bar, place.at(state) + half_bar};
+    bar.y = {level, level};
+    plot.series.push_back(std::move(bar));
+    const auto& row = states.rows.at(std::size_t(state) - 1);
+    const bool named = row.kind != record::StateClass::other;
+    plot.notes.push_back(
+        {place.at(state), level,
+         fmt::format("state {}{}", state, named ? fmt::format(" (*{}*)", word_of(row.kind)) : ""),
+         AlignX::centre, AlignY::top});
+  }
+  plot.x.label = "place in the order of energy";
+  plot.x.low = 0.5;
+  plot.x.high = double(place.size()) + 0.5;
+  if (lowest <= highest) {
+    // room for what stands above passes and below states
+    plot.y.low = lowest - 0.16 * (highest - lowest);
+    plot.y.high = highest + 0.12 * (highest - lowest);
+  }
+  return plot;
+}
+
+namespace {
+
+using record::PhaseDiagram;
+using record::PhasePoint;
+using record::StateClass;
+using record::StateCount;
+
+constexpr double high = 0.84;  // of the picture, over its width
+constexpr Colour grey{0.42f, 0.42f, 0.45f, 1};
+
+/// How a class is drawn, and where beside the point, in steps between points.
+struct ClassMark {
+  StateClass kind;
+  const char* name;
+  Marker marker;
+  double size, right, up;
+};
+constexpr std::array<ClassMark, 4> marks{{
+    {StateClass::i, "*i*", Marker::circle, 5, -0.2, 0.17},
+    {StateClass::ii, "*ii*", Marker::square, 4.6, 0.02, 0.17},
+    {StateClass::iii, "*iii*", Marker::diamond, 5.6, -0.2, -0.17},
+    {StateClass::iv, "*iv*", Marker::triangle, 5.2, 0.02, -0.17},
+}};
+constexpr double others_right = 0.15;  // of the number beside them
+
+/// The smallest distance between different values.
+double step_of(std::vector<double> values) {
+  std::ranges::sort(values);
+  double step = 0;
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (const double gap = values[k] - values[k - 1]; gap > 0 && (step == 0 || gap < step))
+      step = gap;
+  return step > 0 ? step : 1;
+}
+
+/// What any search of a footprint found.
+StateCount any(const StateCount& a, const StateCount& b) {
+  return {std::max(a.states, b.states), a.met + b.met, a.met_confined + b.met_confined};
+}
+
+PhaseDiagram by_footprint(const PhaseDiagram& diagram) {
+  std::map<std::pair<double, int>, PhasePoint> points;
+  for (const PhasePoint& point : diagram) {
+    auto [at, is_new] = points.try_emplace({point.longest_leg, point.rods}, point);
+    if (is_new) continue;
+    at->second.found |= point.found;
+    for (std::size_t k = 0; k < point.classes.size(); ++k)
+      at->second.classes[k] = any(at->second.classes[k], point.classes[k]);
+  }
+  PhaseDiagram found;
+  for (auto& [key, point] : points) found.push_back(point);
+  return found;
+}
+
+/// The diagram's points on the plot.
+class PhasePlot {
+ public:
+  PhasePlot(const PhaseDiagram& diagram, const std::string& title)
+      : points_(by_footprint(diagram)) {
+    std::vector<double> legs, rods;
+    for (const PhasePoint& point : points_) {
+      legs.push_back(point.longest_leg);
+      rods.push_back(point.rods);
+    }
+    leg_step_ = step_of(legs);
+    rod_step_ = step_of(rods);
+    plot_.title = plain(title);
+    plot_.x = {.label = "longest leg, *L̄*_{d} = *L*/*d*"};
+    plot_.y = {.label = "rods a direction, *n*"};
+    plot_.legend = LegendPlace::above;
+    if (legs.empty()) return;
+    const auto [short_leg, long_leg] = std::ranges::minmax(legs);
+    const auto [few, many] = std::ranges::minmax(rods);
+    plot_.x.low = std::max(0.0, short_leg - 0.6 * leg_step_);
+    plot_.x.high = long_leg + 0.75 * leg_step_;
+    plot_.y.low = few - 0.7 * rod_step_;
+    plot_.y.high = many + 0.7 * rod_step_;
+    plot_.y.ticks = int(std::min(12.0, (many - few) / rod_step_ + 1));
+  }
+
+  Plot take() && {
+    add_places();
+    for (const double leg : {1.0, 0.0, -1.0}) add_line(leg);
+    for (const ClassMark& mark : marks) {
+      add_class(mark, false);
+      add_class(mark, true);
+    }
+    add_key("from symmetric forms alone", Marker::circle, true);
+    add_key("+*n*: *n* other states", Marker::none, false);
+    add_others();
+    add_nothing();
+    return std::move(plot_);
+  }
+
+ private:
+  /// L_d over n at one shortest leg.
+  void add_line(double leg) {
+    constexpr int pieces = 120;
+    Series line{.name = leg == 1 ? "*l̄*_{d} = 1, 0, −1 (from right to left)" : ""};
+    line.colour = grey;
+    line.line_width = 1;
+    line.dash = leg == 1   ? std::vector<double>{}
+                : leg == 0 ? std::vector<double>{5, 2.5}
+                           : std::vector<double>{1.5, 2};
+    for (int k = 0; k <= pieces; ++k) {
+      const double n = *plot_.y.low + (*plot_.y.high - *plot_.y.low) * k / pieces;
+      const double at = record::longest_leg_at(leg, n);
+      const bool inside = leg + 0.5 * (n - 1) >= 0 && at >= *plot_.x.low && at <= *plot_.x.high;
+      line.x.push_back(inside ? at : std::nan(""));
+      line.y.push_back(n);
+    }
+    plot_.series.push_back(std::move(line));
+  }
+
+  void add_class(const ClassMark& mark, bool by_trials) {
+    Series series{.name = by_trials ? fmt::format("state {}", mark.name) : ""};
+    series.colour = series_colour(std::size_t(mark.kind));
+    series.marker = mark.marker;
+    series.marker_size = mark.size;
+    series.line_width = 0;
+    series.hollow = !by_trials;
+    for (const PhasePoint& point : points_) {
+      const StateCount& count = point.of(mark.kind);
+      if (count.states == 0 || (count.met > 0) != by_trials) continue;
+      series.x.push_back(point.longest_leg + mark.right * leg_step_);
+      series.y.push_back(point.rods + mark.up * rod_step_);
+    }
+    plot_.series.push_back(std::move(series));
+  }
+
+  /// A dot where each footprint belongs that its marks stand around.
+  void add_places() {
+    Series dots;
+    dots.colour = grey;
+    dots.marker = Marker::circle;
+    dots.marker_size = 1.6;
+    dots.line_width = 0;
+    for (const PhasePoint& point : points_) {
+      dots.x.push_back(point.longest_leg);
+      dots.y.push_back(point.rods);
+    }
+    plot_.series.push_back(std::move(dots));
+  }
+
+  /// A row of the legend that says how to read a sign.
+  void add_key(const std::string& text, Marker marker, bool hollow) {
+    Series series{.name = text};
+    series.colour = grey;
+    series.marker = marker;
+    series.marker_size = 5;
+    series.hollow = hollow;
+    series.line_width = 0;
+    plot_.series.push_back(std::move(series));
+  }
+
+  void add_others() {
+    for (const PhasePoint& point : points_)
+      if (const int others = point.of(StateClass::other).states; others > 0)
+        plot_.notes.push_back({point.longest_leg + others_right * leg_step_, double(point.rods),
+                               fmt::format("+{}", others), AlignX::left, AlignY::middle, grey});
+  }
+
+  void add_nothing() {
+    Series series{.name = "none found"};
+    series.colour = grey;
+    series.marker = Marker::cross;
+    series.line_width = 0;
+    for (const PhasePoint& point : points_) {
+      if (point.found) continue;
+      series.x.push_back(point.longest_leg);
+      series.y.push_back(point.rods);
+    }
+    if (!series.x.empty()) plot_.series.push_back(std::move(series));
+  }
+
+  PhaseDiagram points_;
+  double leg_step_ = 1, rod_step_ = 1;
+  Plot plot_;
+};
+
+}  // namespace
+
+Plot phase_plot(const PhaseDiagram& diagram, const std::string& title) {
+  return PhasePlot(diagram, title).take();
+}
+
+Result<void> write_phase_chart(const std::filesystem::path& stem, const PhaseDiagram& diagram,
+                               const std::string& title, const Print& print) {
+  return write_plot(stem, phase_plot(diagram, title), print, high);
+}
+
+namespace {
+
+constexpr Colour ring_ink{0.55f, 0.55f, 0.58f, 1};
+constexpr double room = 1.12;  // of the boundary, that mirrors stand out beyond it
+
+/// Directions of the mirrors of a group whose name says where they are, degrees.
+std::vector<double> mirrors_of(const std::string& group) {
+  if (group == "C4v") return {0, 45, 90, 135};
+  if (group == "C2v_axes") return {0, 90};
+  if (group == "C2v_diagonals") return {45, 135};
+  return {};
+}
+
+double radius_of(const record::Layout& layout) {
+  return layout.actuated_boundary.topRows<2>().colwise().norm().maxCoeff();
+}
+
+}  // namespace
+
+std::vector<int> inflections_of(const record::StateRow& row) {
+  std::vector<int> counts;
+  std::istringstream words(row.inflections);
+  for (std::string word; words >> word;)
+    if (word != "|") counts.push_back(std::atoi(word.c_str()));
+  return counts;
+}
+
+double state_map_scale(const Box& box, const record::Layout& layout) {
+  return 0.5 * std::min(box.width, box.height) / (room * radius_of(layout));
+}
+
+void draw_state_map(Canvas& canvas, const Box& box, double units_per_mm,
+                    const record::Layout& layout, const record::Frame& frame,
+                    const record::StateRow& row) {
+  const auto place = [&](const Eigen::Vector3d& p) {
+    return Point{box.middle().x + units_per_mm * p.x(), box.middle().y - units_per_mm * p.y()};
+  };
+  const double beyond = room * radius_of(layout);
+  for (const double degrees : mirrors_of(row.group)) {
+    const double angle = degrees * M_PI / 180;
+    const Eigen::Vector3d end(beyond * std::cos(angle), beyond * std::sin(angle), 0);
+    canvas.line(place(-end), place(end), {mirror_ink, 0.8, {4, 2, 1, 2}});
+  }
+  std::vector<Point> ring;
+  for (const auto& point : layout.actuated_boundary.colwise()) ring.push_back(place(point));
+  canvas.polyline(ring, {ring_ink, 0.8}, true);
+  const std::vector<int> inflections = inflections_of(row);
+  for (std::size_t r = 0; r < layout.rods.size(); ++r) {
+    const bool higher = r < inflections.size() && inflections[r] > 0;
+    std::vector<Point> rod;
+    for (const int node : layout.rods[r]) rod.push_back(place(frame.nodes.col(node)));
+    canvas.polyline(rod, {higher ? higher_order_ink : first_order_ink, 0.6});
+  }
+  if (row.group == "C4") {
+    const double half = 2.6;
+    const Point m = box.middle();
+    canvas.rectangle({m.x - half, m.y - half, 2 * half, 2 * half}, mirror_ink);
+  }
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,341 @@
+#include "render/movie/sweep_chart.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "engine/core/text.h"
+#include "render/canvas/canvas.h"
+#include "render/canvas/text.h"
+
+namespace gridshell::render {
+namespace {
+
+using record::SweepTable;
+
+/// 1.0 reads 1; a string loses its quotes.
+std::string short_text(const std::string& value) {
+  if (value.size() > 1 && value.front() == '"') return value.substr(1, value.size() - 2);
+  if (value.ends_with(".0")) return value.substr(0, value.size() - 2);
+  return value;
+}
+
+const std::string& text_of(const SweepTable& table, const SweepTable::Row& row, std::size_t k,
+                           std::string& seed) {
+  if (!table.axes.empty()) return row.keys.values[k];
+  return seed = std::to_string(row.keys.seed);
+}
+
+}  // namespace
+
+std::string label_of(const std::string& name) {
+  static const std::map<std::string, std::string> known{
+      {"max_deviation", "largest deviation from the net over *ρ*"},
+      {"mean_deviation", "mean deviation from the net over *ρ*"},
+      {"largest_strain", "largest axial strain, by size"},
+      {"stiffness_ratio", "*EA* *d*^{2}/*EI*"},
+      {"total_K", "total *K* (rad)"},
+      {"energy_bend_mJ", "bending energy (mJ)"},
+      {"energy_stretch_mJ", "stretching energy (mJ)"},
+      {"energy_twist_mJ", "torsional energy (mJ)"},
+      {"energy_joint_mJ", "energy in joint springs (mJ)"},
+      {"energy_shear_mJ", "energy of joint shear (mJ)"},
+      {"energy_load_mJ", "energy of loads and ground (mJ)"},
+      {"energy_support_mJ", "energy in springs of supports (mJ)"},
+      {"actuation.ratio", "*R*_{a}/*R*_{o}"},
+      {"footprint.longest_leg", "longest leg *L̄*_{d}, in *d*"},
+      {"footprint.rods", "rods in each direction *n*"},
+      {"rod.young_GPa", "Young's modulus *E* (GPa)"},
+      {"actuation.radius_mm", "*R*_{a} (mm)"},
+      {"footprint.radius_mm", "*R*_{o} (mm)"},
+      {"footprint.spacing_mm", "spacing *d* (mm)"},
+      {"rod.diameter_mm", "rod diameter *D* (mm)"},
+      {"net.cut_height", "height of the cut *z*^{∗}/*ρ*"}};
+  if (const auto at = known.find(name); at != known.end()) return at->second;
+  static const std::vector<std::pair<std::string, std::string>> units{
+      {"_N_per_mm", "N/mm"}, {"_per_mm", "1/mm"}, {"_kg_m3", "kg/m^{3}"},
+      {"_m_s2", "m/s^{2}"},  {"_Nmm", "N mm"},    {"_mm", "mm"},
+      {"_mJ", "mJ"},         {"_GPa", "GPa"},     {"_deg", "degrees"},
+      {"_per_s", "1/s"},     {"_N", "N"},         {"_s", "s"}};
+  const auto dot = name.find('.');
+  std::string word = dot == std::string::npos ? name : name.substr(dot + 1);
+  for (const auto& [ending, unit] : units)
+    if (word.ends_with(ending))
+      return plain(spaced(word.substr(0, word.size() - ending.size()))) + " (" + unit + ")";
+  return plain(spaced(word));
+}
+
+SweepScale scale_of(const SweepTable& table, std::size_t k) {
+  SweepScale scale;
+  scale.label = table.axes.empty() ? "seed" : label_of(table.axes[k]);
+  std::string seed;
+  for (const auto& row : table.rows) {
+    const std::string& text = text_of(table, row, k, seed);
+    if (std::ranges::find(scale.texts, text) != scale.texts.end()) continue;
+    scale.texts.push_back(text);
+    const auto number = parse_number<double>(text);
+    scale.is_number = scale.is_number && number;
+    scale.numbers.push_back(number.value_or(0));
+  }
+  if (scale.is_number) return scale;
+  scale.label += ": ";
+  for (std::size_t n = 0; n < scale.texts.size(); ++n) {
+    scale.numbers[n] = double(n + 1);
+    scale.label +=
+        (n == 0 ? "" : ", ") + std::to_string(n + 1) + " " + plain(short_text(scale.texts[n]));
+  }
+  return scale;
+}
+
+std::size_t place_of(const SweepTable& table, const SweepScale& scale, const SweepTable::Row& row,
+                     std::size_t k) {
+  std::string seed;
+  const auto at = std::ranges::find(scale.texts, text_of(table, row, k, seed));
+  return std::size_t(at - scale.texts.begin());
+}
+
+double number_of(const SweepTable::Row& row, const std::string& figure) {
+  const auto* found = row.result.figure(figure);
+  const double number =
+      found ? record::number_of(*found) : std::numeric_limits<double>::quiet_NaN();
+  // its sign says whether it is tension, which differs from edge to edge
+  return figure == "largest_strain" ? std::abs(number) : number;
+}
+
+std::string limit_of(const SweepTable::Row& row) {
+  const auto* found = row.result.figure("limit");
+  const auto* word = found ? std::get_if<std::string>(found) : nullptr;
+  return !word || *word == "none" ? "" : *word;
+}
+
+std::vector<std::string> cases_of(const SweepTable& table) {
+  std::vector<std::string> cases;
+  for (const auto& row : table.rows)
+    if (std::ranges::find(cases, row.keys.case_name) == cases.end())
+      cases.push_back(row.keys.case_name);
+  return cases;
+}
+
+namespace {
+
+using record::SweepTable;
+
+constexpr Colour grey_ink{0.45f, 0.45f, 0.48f, 1};
+constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+
+/// One run in the picture.
+struct SweepMark {
+  double x = 0, y = 0;
+  std::size_t place = 0;  // of its key on the scale
+  std::string limit;
+  bool stable = true;
+};
+
+/// What a case's runs are in the picture.
+struct Curve {
+  std::vector<SweepMark> spots;
+  std::vector<double> lost;  // x where there is no state
+};
+
+Curve curve_of(const SweepTable& table, const SweepScale& scale, const SweepView& view,
+               const std::string& one) {
+  Curve curve;
+  for (const auto& row : table.rows) {
+    if (row.keys.case_name != one) continue;
+    const std::size_t place = place_of(table, scale, row, 0);
+    const double key = scale.numbers[place];
+    const double x = view.x.empty() ? key : number_of(row, view.x);
+    const double y = number_of(row, view.figure);
+    const auto* stable = row.result.figure("stable");
+    const bool unstable = stable && record::number_of(*stable) == 0;
+    if (std::isfinite(x) && std::isfinite(y))
+      curve.spots.push_back({x, y, place, limit_of(row), !unstable});
+    else if (std::isfinite(x))
+      curve.lost.push_back(x);
+  }
+  return curve;
+}
+
+bool spans_decades(const std::vector<double>& values) {
+  if (values.empty()) return false;
+  const auto [low, high] = std::ranges::minmax(values);
+  return low > 0 && high > 20 * low;
+}
+
+/// The mean over the seeds, from left to right.
+Series mean_of(const Curve& curve) {
+  std::vector<std::size_t> order(curve.spots.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return curve.spots[k].place; });
+  Series mean;
+  for (std::size_t k = 0; k < order.size();) {
+    double x = 0, y = 0;
+    std::size_t n = 0;
+    for (const auto place = curve.spots[order[k]].place;
+         k < order.size() && curve.spots[order[k]].place == place; ++k, ++n) {
+      x += curve.spots[order[k]].x;
+      y += curve.spots[order[k]].y;
+    }
+    mean.x.push_back(x / double(n));
+    mean.y.push_back(y / double(n));
+  }
+  // keys may fall while what is on the axis grows
+  if (!mean.x.empty() && mean.x.front() > mean.x.back()) {
+    std::ranges::reverse(mean.x);
+    std::ranges::reverse(mean.y);
+  }
+  return mean;
+}
+
+template <class Wanted>
+Series marks_of(const Curve& curve, Series style, const Wanted& wanted) {
+  style.x.clear();
+  style.y.clear();
+  style.name.clear();
+  style.line_width = 0;
+  for (const SweepMark& spot : curve.spots)
+    if (wanted(spot)) {
+      style.x.push_back(spot.x);
+      style.y.push_back(spot.y);
+    }
+  return style;
+}
+
+void add_curve(const Curve& curve, const std::string& name, std::size_t index, bool seeds,
+               Plot& plot) {
+  Series line = mean_of(curve);
+  if (line.x.empty()) return;
+  line.name = name;
+  line.colour = series_colour(index);
+  line.marker = markers[index % std::size(markers)];
+  const Series style = line;
+  if (seeds) line.marker = Marker::none;
+  plot.series.push_back(std::move(line));
+  if (seeds) plot.series.push_back(marks_of(curve, style, [](const SweepMark&) { return true; }));
+  Series hollow = marks_of(curve, style, [](const SweepMark& spot) { return !spot.limit.empty(); });
+  hollow.hollow = true;
+  hollow.marker_size += 0.5;
+  Series crossed = marks_of(curve, style, [](const SweepMark& spot) { return !spot.stable; });
+  crossed.marker = Marker::cross;
+  crossed.marker_size += 3;
+  for (Series& more : {std::ref(hollow), std::ref(crossed)})
+    if (!more.x.empty()) plot.series.push_back(std::move(more));
+}
+
+/// Rows of the legend that say what the marks mean.
+void add_mark_legend(const std::vector<Curve>& curves, Plot& plot) {
+  std::vector<std::string> limits;
+  bool unstable = false;
+  for (const Curve& curve : curves)
+    for (const SweepMark& spot : curve.spots) {
+      unstable = unstable || !spot.stable;
+      if (!spot.limit.empty() && std::ranges::find(limits, spot.limit) == limits.end())
+        limits.push_back(spot.limit);
+    }
+  const auto row = [&](const std::string& name, Marker marker, bool hollow) {
+    Series series;
+    series.name = name;
+    series.colour = grey_ink;
+    series.line_width = 0;
+    series.marker = marker;
+    series.hollow = hollow;
+    plot.series.push_back(std::move(series));
+  };
+  std::string which;
+  for (const auto& limit : limits) which += (which.empty() ? "" : ", ") + limit;
+  if (!which.empty()) row("ended early: " + plain(which), Marker::circle, true);
+  if (unstable) row("not stable", Marker::cross, false);
+}
+
+void add_failed(const std::vector<Curve>& curves, Plot& plot) {
+  Series lost;
+  double low = std::numeric_limits<double>::infinity();
+  for (const Curve& curve : curves) {
+    lost.x.insert(lost.x.end(), curve.lost.begin(), curve.lost.end());
+    for (const SweepMark& spot : curve.spots) low = std::min(low, spot.y);
+  }
+  if (lost.x.empty()) return;
+  lost.y.assign(lost.x.size(), std::isfinite(low) ? low : 1);
+  lost.name = "no state found";
+  lost.colour = grey_ink;
+  lost.line_width = 0;
+  lost.marker = Marker::cross;
+  plot.series.push_back(std::move(lost));
+}
+
+void set_axes(const std::vector<Curve>& curves, Plot& plot) {
+  std::vector<double> x, y;
+  for (const Curve& curve : curves) {
+    for (const SweepMark& spot : curve.spots) {
+      x.push_back(spot.x);
+      y.push_back(spot.y);
+    }
+    x.insert(x.end(), curve.lost.begin(), curve.lost.end());
+  }
+  plot.x.logarithmic = spans_decades(x);
+  plot.y.logarithmic = spans_decades(y);
+  plot.x.ticks = 8;
+}
+
+/// A line where the curve has left its value at the right, and a row of the legend that says where.
+void mark_departure(const Series& curve, Colour colour, double share, Plot& plot) {
+  const auto at = deviation_onset(curve.x, curve.y, share);
+  if (!at) return;
+  const Stroke stroke{colour, 0.8, {3, 2}};
+  plot.references.push_back({.horizontal = false, .at = *at, .label = "", .stroke = stroke});
+  Series row;
+  row.name = fmt::format("{:g} % off at {}", 100 * share, scientific(*at, 2));
+  row.colour = colour;
+  row.line_width = stroke.width;
+  row.dash = stroke.dash;
+  plot.series.push_back(std::move(row));
+}
+
+}  // namespace
+
+std::optional<double> deviation_onset(const std::vector<double>& x, const std::vector<double>& y,
+                                      double share) {
+  std::vector<std::pair<double, double>> points;
+  for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k)
+    if (std::isfinite(x[k]) && std::isfinite(y[k])) points.emplace_back(x[k], y[k]);
+  std::ranges::sort(points, std::greater<>());
+  if (points.size() < 2 || !(share > 0)) return std::nullopt;
+  const bool log = points.back().first > 0;
+  const double last = points.front().second, allowed = share * std::abs(last);
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const double off = std::abs(points[k].second - last);
+    if (!(off > allowed)) continue;
+    const double before = std::abs(points[k - 1].second - last);
+    const double part = (allowed - before) / (off - before);
+    const auto [from, to] = std::pair(points[k - 1].first, points[k].first);
+    return log ? from * std::pow(to / from, part) : from + part * (to - from);
+  }
+  return std::nullopt;
+}
+
+Plot sweep_plot(const SweepTable& table, const SweepView& view) {
+  const SweepScale scale = scale_of(table, 0);
+  const auto cases = cases_of(table);
+  Plot plot;
+  plot.title = plain(view.title);
+  plot.x.label = view.x.empty() ? scale.label : label_of(view.x);
+  plot.y.label = label_of(view.figure);
+  std::vector<Curve> curves;
+  for (const auto& one : cases) curves.push_back(curve_of(table, scale, view, one));
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const std::string name = cases.size() > 1 ? plain(cases[k]) : "";
+    add_curve(curves[k], name, k, table.has_seeds && !table.axes.empty(), plot);
+  }
+  set_axes(curves, plot);
+  // what spans decades comes to no limit
+  for (std::size_t k = 0; k < cases.size() && !plot.y.logarithmic; ++k)
+    mark_departure(mean_of(curves[k]), series_colour(k), view.departure, plot);
+  add_mark_legend(curves, plot);
+  add_failed(curves, plot);
+  return plot;
+}
+
+}  // namespace gridshell::render

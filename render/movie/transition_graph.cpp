@@ -1,0 +1,288 @@
+#include "render/movie/state_charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "render/canvas/plot_frame.h"
+#include "render/movie/run_plots.h"
+
+namespace gridshell::render {
+namespace {
+
+using record::StateClass;
+using record::StateRow;
+using record::Transition;
+
+constexpr double width = 400, plot_height = 262, margin = 4, head = figure_title_room,
+                 legend_room = 16, thumb = 50, thumb_text = 31, font = 8;
+constexpr double node_radius = 6.6, dot_radius = 2.6;
+// between two nodes, and between two that arrows leave
+constexpr double apart = 3, far_apart = 20, foot_room = 14;
+constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, grey{0.55f, 0.55f, 0.58f, 1};
+
+bool is_let_out(const Transition& way) { return way.by == "let out"; }
+Colour colour_of(bool let_out) { return series_colour(let_out ? 0 : 1); }
+
+/// A state of the graph on the canvas.
+struct Node {
+  const StateRow* row = nullptr;
+  bool disturbed = false;
+  Point exact = {}, at = {};
+
+  double radius() const { return disturbed ? node_radius : dot_radius; }
+};
+
+double distance(Point a, Point b) { return std::hypot(b.x - a.x, b.y - a.y); }
+
+/// Moves nodes apart until none hides another, inside the frame.
+void move_apart(std::vector<Node>& nodes, const Box& inside) {
+  for (int round = 0; round < 300; ++round) {
+    bool moved = false;
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = a + 1; b < nodes.size(); ++b) {
+        Node &p = nodes[a], &q = nodes[b];
+        const double gap = p.disturbed && q.disturbed ? far_apart : apart;
+        const double least = p.radius() + q.radius() + gap, away = distance(p.at, q.at);
+        if (away >= least) continue;
+        // two in one place part sideways
+        const Point along =
+            away > 1e-9 ? Point{(q.at.x - p.at.x) / away, (q.at.y - p.at.y) / away} : Point{1, 0};
+        const double half = 0.5 * (least - away);
+        p.at = {p.at.x - half * along.x, p.at.y - half * along.y};
+        q.at = {q.at.x + half * along.x, q.at.y + half * along.y};
+        moved = true;
+      }
+    for (Node& node : nodes) {
+      const Box room = inside.inset(node.radius() + 2);
+      node.at = {std::clamp(node.at.x, room.x, room.right()),
+                 std::clamp(node.at.y, room.y, room.bottom())};
+    }
+    if (!moved) return;
+  }
+}
+
+class WaysGraph {
+ public:
+  WaysGraph(const record::StateTables& states, const record::Trajectory& run)
+      : states_(states), run_(run) {
+    std::set<int> disturbed, met;
+    for (const Transition& way : states.transitions) {
+      disturbed.insert(way.from);
+      met.insert({way.from, way.to});
+    }
+    met.erase(0);
+    for (const int state : met)
+      nodes_.push_back({&states.rows.at(std::size_t(state) - 1), disturbed.contains(state)});
+    disturbed_.assign(disturbed.begin(), disturbed.end());
+  }
+
+  double height() const {
+    return 2 * margin + head + legend_room + plot_height + (thumb + thumb_text) * thumb_rows() +
+           foot_room;
+  }
+
+  void draw(Canvas& canvas) {
+    const Box box{margin, margin + head + legend_room, width - 2 * margin, plot_height};
+    const PlotFrame frame = axes(canvas, box);
+    for (Node& node : nodes_)
+      node.at = node.exact = frame.place(node.row->height_mm, node.row->energy_mJ());
+    move_apart(nodes_, frame.inside);
+    draw_legend(canvas);
+    for (const Transition& way : states_.transitions)
+      if (way.to != 0 && way.to != way.from) draw_way(canvas, way);
+    for (const Node& node : nodes_) draw_node(canvas, node);
+    for (std::size_t k = 0; k < disturbed_.size(); ++k) draw_thumb(canvas, k, box.bottom());
+    canvas.text(
+        "of 9 ways each: back to the state itself; new, to one that the search had not met",
+        {0.5 * width, height() - margin},
+        {.size = font - 1, .colour = ink, .align_x = AlignX::centre, .align_y = AlignY::bottom});
+  }
+
+ private:
+  static constexpr std::size_t in_row = 6;
+  double thumb_rows() const { return double((disturbed_.size() + in_row - 1) / in_row); }
+
+  PlotFrame axes(Canvas& canvas, const Box& box) const {
+    Plot plot;
+    plot.font_size = font;
+    plot.legend = LegendPlace::none;
+    plot.x = {.label = "height (mm)"};
+    plot.y = {.label = "energy (mJ)"};
+    Series all;
+    for (const Node& node : nodes_) {
+      all.x.push_back(node.row->height_mm);
+      all.y.push_back(node.row->energy_mJ());
+    }
+    // a margin as wide as a node, and something to show where all are alike
+    for (const auto& [values, axis] : {std::pair(&all.x, &plot.x), {&all.y, &plot.y}}) {
+      const auto [low, high] = std::ranges::minmax(*values);
+      const double room = std::max(0.07 * (high - low), 1e-3 * std::abs(high));
+      axis->low = low - room;
+      axis->high = high + room;
+    }
+    plot.series.push_back(std::move(all));
+    const PlotFrame frame = lay_out_plot(canvas, box, plot);
+    draw_axes(canvas, box, plot, frame);
+    return frame;
+  }
+
+  const Node& node_of(int state) const {
+    return *std::ranges::find_if(nodes_,
+                                 [&](const Node& node) { return node.row->state == state; });
+  }
+
+  void draw_legend(Canvas& canvas) const {
+    double x = margin;
+    const double y = margin + head + 0.5 * legend_room;
+    const auto entry = [&](bool let_out, const std::string& text) {
+      arrow(canvas, {x, y}, {x + 11, y}, {x + 22, y}, let_out);
+      x = canvas.text(text, {x + 27, y}, {.size = font, .align_y = AlignY::middle}).right() + 14;
+    };
+    entry(true, "let out and drawn in again");
+    entry(false, "poked (number: how often of 8)");
+  }
+
+  /// A curve a -> b bent through c, with a head at b.
+  static void arrow(Canvas& canvas, Point a, Point c, Point b, bool let_out) {
+    constexpr int pieces = 24;
+    constexpr double head = 5;
+    std::vector<Point> curve;
+    const auto at = [&](double s) {
+      const double p = (1 - s) * (1 - s), q = 2 * s * (1 - s), r = s * s;
+      return Point{p * a.x + q * c.x + r * b.x, p * a.y + q * c.y + r * b.y};
+    };
+    for (int k = 0; k <= pieces; ++k) curve.push_back(at(double(k) / pieces));
+    const double length = std::max(1e-9, distance(c, b));
+    const Point along{(b.x - c.x) / length, (b.y - c.y) / length};
+    const Colour colour = colour_of(let_out);
+    curve.back() = {b.x - 0.8 * head * along.x, b.y - 0.8 * head * along.y};
+    canvas.polyline(curve, {colour, let_out ? 1.2 : 0.9});
+    const Point back{b.x - head * along.x, b.y - head * along.y};
+    canvas.polygon({b,
+                    {back.x - 0.38 * head * along.y, back.y + 0.38 * head * along.x},
+                    {back.x + 0.38 * head * along.y, back.y - 0.38 * head * along.x}},
+                   colour);
+  }
+
+  void draw_way(Canvas& canvas, const Transition& way) const {
+    const Node &from = node_of(way.from), &to = node_of(way.to);
+    const double length = distance(from.at, to.at);
+    const Point along{(to.at.x - from.at.x) / length, (to.at.y - from.at.y) / length};
+    // ways there and back, and of both hands, bend apart
+    const double bend = (is_let_out(way) ? 0.24 : 0.12) * length;
+    const Point middle{0.5 * (from.at.x + to.at.x) + bend * along.y,
+                       0.5 * (from.at.y + to.at.y) - bend * along.x};
+    const auto off = [&](Point p, double r) {
+      const double d = std::max(1e-9, distance(p, middle));
+      return Point{p.x + r * (middle.x - p.x) / d, p.y + r * (middle.y - p.y) / d};
+    };
+    arrow(canvas, off(from.at, from.radius()), middle, off(to.at, to.radius() + 0.8),
+          is_let_out(way));
+    if (is_let_out(way) || way.count < 2) return;
+    const Point label{0.25 * from.at.x + 0.5 * middle.x + 0.25 * to.at.x,
+                      0.25 * from.at.y + 0.5 * middle.y + 0.25 * to.at.y};
+    canvas.text(fmt::format("{}", way.count), label,
+                {.size = font - 1,
+                 .colour = colour_of(false),
+                 .bold = true,
+                 .align_x = AlignX::centre,
+                 .align_y = AlignY::middle,
+                 .halo = {1, 1, 1, 1}});
+  }
+
+  void draw_node(Canvas& canvas, const Node& node) const {
+    if (distance(node.at, node.exact) > node.radius()) {
+      canvas.line(node.exact, node.at, {grey, 0.6});
+      canvas.circle(node.exact, 0.9, grey);
+    }
+    const StateClass kind = node.row->kind;
+    const Colour colour = kind == StateClass::other ? grey : series_colour(std::size_t(kind) + 2);
+    canvas.circle(node.at, node.radius(), node.disturbed ? Colour{1, 1, 1, 1} : colour,
+                  {colour, node.disturbed ? 1.6 : 0});
+    if (node.disturbed)
+      canvas.text(fmt::format("{}", node.row->state), node.at,
+                  {.size = font - 0.5, .align_x = AlignX::centre, .align_y = AlignY::middle});
+  }
+
+  /// How often of all a state came back, or went to one that was not met.
+  std::string fate_of(int state) const {
+    int back = 0, lost = 0;
+    for (const Transition& way : states_.transitions) {
+      if (way.from != state) continue;
+      back += way.to == state ? way.count : 0;
+      lost += way.to == 0 ? way.count : 0;
+    }
+    std::string text = fmt::format("back {}", back);
+    if (lost > 0) text += fmt::format(", new {}", lost);
+    return text;
+  }
+
+  void draw_thumb(Canvas& canvas, std::size_t k, double top) const {
+    const double step = (width - 2 * margin) / double(std::min(in_row, disturbed_.size()));
+    const StateRow& row = states_.rows.at(std::size_t(disturbed_[k]) - 1);
+    const Point middle{margin + step * (double(k % in_row) + 0.5),
+                       top + 4 + 0.5 * thumb + double(k / in_row) * (thumb + thumb_text)};
+    draw_shell(canvas, row, middle);
+    const auto line = [&](const std::string& text, double below, bool bold) {
+      canvas.text(
+          text, {middle.x, middle.y + 0.5 * thumb + below},
+          {.size = font - 0.5, .bold = bold, .align_x = AlignX::centre, .align_y = AlignY::top});
+    };
+    const bool named = row.kind != StateClass::other;
+    line(
+        fmt::format("{}{}", row.state, named ? fmt::format(": state *{}*", word_of(row.kind)) : ""),
+        2, true);
+    line(fate_of(row.state), 12, false);
+  }
+
+  /// Rods from above, those higher up darker.
+  void draw_shell(Canvas& canvas, const StateRow& row, Point middle) const {
+    const auto frame = run_.frames[std::size_t(row.state) - 1];
+    const Eigen::Matrix3Xd& ring = run_.layout.actuated_boundary;
+    const double reach = ring.topRows(2).colwise().norm().maxCoeff();
+    const double scale = 0.5 * thumb / reach;
+    const double low = frame.nodes.row(2).minCoeff(),
+                 span = std::max(1e-9, frame.nodes.row(2).maxCoeff() - low);
+    const auto place = [&](const Eigen::Vector3d& p) {
+      return Point{middle.x + scale * p.x(), middle.y - scale * p.y()};
+    };
+    for (const auto& rod : run_.layout.rods)
+      for (std::size_t n = 1; n < rod.size(); ++n) {
+        const Eigen::Vector3d a = frame.nodes.col(rod[n - 1]), b = frame.nodes.col(rod[n]);
+        const float pale = float(0.78 - 0.7 * ((a.z() + b.z()) / 2 - low) / span);
+        canvas.line(place(a), place(b), {{pale, pale, pale + 0.03f, 1}, 0.55});
+      }
+    std::vector<Point> boundary;
+    for (Eigen::Index n = 0; n < ring.cols(); ++n) boundary.push_back(place(ring.col(n)));
+    canvas.polyline(boundary, {ink, 0.6}, true);
+  }
+
+  const record::StateTables& states_;
+  const record::Trajectory& run_;
+  std::vector<Node> nodes_;
+  std::vector<int> disturbed_;
+};
+
+}  // namespace
+
+Result<void> write_transition_graph(const std::filesystem::path& stem,
+                                    const record::StateTables& states,
+                                    const record::Trajectory& run, const std::string& title,
+                                    const Print& print) {
+  WaysGraph graph(states, run);
+  const std::string of_what = "which state goes to which when a hand disturbs it";
+  return write_figure(
+      stem, width, graph.height(), title,
+      [&](Canvas& canvas) {
+        draw_figure_title(canvas, title.empty() ? of_what : title + ": " + of_what);
+        graph.draw(canvas);
+      },
+      print);
+}
+
+}  // namespace gridshell::render

@@ -1,0 +1,350 @@
+#include "render/movie/validation_charts.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "render/canvas/legend.h"
+#include "render/canvas/text.h"
+
+namespace gridshell::render {
+namespace {
+
+using record::AccuracyRow;
+using record::RunOutcome;
+
+constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, front_grey{0.72f, 0.74f, 0.78f, 1};
+constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+
+bool is_auto(const std::string& method) { return method.starts_with(auto_prefix); }
+
+/// "10^{−3}" of "auto 1e-03"
+std::string power_of(const std::string& method) {
+  const double tolerance = std::stod(method.substr(std::string(auto_prefix).size()));
+  return fmt::format("10^{{−{}}}", -std::lround(std::log10(tolerance)));
+}
+
+/// In the order in which they first come, `auto` left out.
+template <class Row>
+std::vector<std::string> methods_of(const std::vector<Row>& rows) {
+  std::vector<std::string> names;
+  for (const Row& row : rows)
+    if (!is_auto(row.method) && std::find(names.begin(), names.end(), row.method) == names.end())
+      names.push_back(row.method);
+  return names;
+}
+
+Series style_of(std::size_t index, const std::string& name) {
+  Series series;
+  series.name = name;
+  series.colour = series_colour(index);
+  series.marker = markers[index % std::size(markers)];
+  series.marker_size = 4.2;
+  // more methods than colours: the second round is dashed
+  if (index >= 7) series.dash = {4, 2};
+  return series;
+}
+
+/// The error that a method's mesh would leave.
+double mesh_error(const std::vector<AccuracyRow>& rows, int edges) {
+  for (const AccuracyRow& row : rows)
+    if (row.method == "bend" && row.edges_per_segment == edges) return row.error;
+  return record::unknown;
+}
+
+bool drawn(const AccuracyRow& row) {
+  return row.outcome == RunOutcome::right && row.error > 0 && row.cpu_s > 0;
+}
+
+Plot empty_plot(const std::string& title) {
+  Plot plot;
+  plot.title = title;
+  plot.x.logarithmic = plot.y.logarithmic = true;
+  plot.x.ticks = plot.y.ticks = 9;
+  plot.font_size = 8;
+  plot.legend = LegendPlace::none;
+  return plot;
+}
+
+Series front_of(const std::vector<AccuracyRow>& rows) {
+  std::vector<AccuracyRow> methods;
+  for (const AccuracyRow& row : rows)
+    if (!is_auto(row.method)) methods.push_back(row);
+  Series front;
+  front.name = "Pareto front";
+  front.colour = front_grey;
+  front.line_width = 5;
+  for (std::size_t k : record::pareto_front(methods)) {
+    front.x.push_back(methods[k].cpu_s);
+    front.y.push_back(methods[k].error);
+  }
+  return front;
+}
+
+/// Methods that were stopped: hollow, at the limit.
+void add_stopped(const std::vector<AccuracyRow>& rows, const std::vector<std::string>& names,
+                 Plot& plot) {
+  double limit = 0;
+  for (std::size_t m = 0; m < names.size(); ++m)
+    for (const AccuracyRow& row : rows) {
+      if (row.method != names[m] || row.outcome != RunOutcome::too_slow) continue;
+      Series stopped = style_of(m, "");
+      stopped.hollow = true;
+      stopped.line_width = 0;
+      stopped.marker_size = 5.5;
+      stopped.x = {row.cpu_s};
+      stopped.y = {mesh_error(rows, row.edges_per_segment)};
+      if (!(stopped.y[0] > 0)) continue;
+      limit = std::max(limit, row.cpu_s);
+      plot.series.push_back(std::move(stopped));
+    }
+  if (limit > 0) plot.references.push_back({.horizontal = false, .at = limit, .label = "too slow"});
+}
+
+/// `auto` in one mark for all tolerances that come to the same meshes.
+void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
+  Series marks;
+  marks.name = "auto, by tolerance";
+  marks.colour = ink;
+  marks.marker = Marker::circle;
+  marks.hollow = true;
+  marks.line_width = 0;
+  marks.marker_size = 9;
+  std::vector<Note> notes;
+  for (const AccuracyRow& row : rows) {
+    if (!is_auto(row.method) || !drawn(row)) continue;
+    const std::string label = power_of(row.method);
+    const bool again = !marks.y.empty() && std::abs(std::log(row.error / marks.y.back())) < 0.01;
+    if (again) {
+      notes.back().text += ", " + label;
+      continue;
+    }
+    marks.x.push_back(row.cpu_s);
+    marks.y.push_back(row.error);
+    notes.push_back({.x = row.cpu_s / 1.25,
+                     .y = row.error,
+                     .text = label,
+                     .align_x = AlignX::right,
+                     .align_y = AlignY::middle});
+  }
+  if (marks.x.empty()) return;
+  // beneath the curves, which stay whole inside the rings
+  plot.series.insert(plot.series.begin() + 1, marks);
+  plot.notes.insert(plot.notes.end(), notes.begin(), notes.end());
+}
+
+}  // namespace
+
+Plot accuracy_plot(const std::vector<AccuracyRow>& rows, const std::string& title) {
+  Plot plot = empty_plot(title);
+  plot.x.label = "processor time from the certified start to the end (s)";
+  plot.y.label = "largest joint error over *R*_{o} or *ρ*";
+  plot.legend = LegendPlace::automatic;
+  plot.series.push_back(front_of(rows));
+  const auto names = methods_of(rows);
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    Series series = style_of(m, names[m]);
+    for (const AccuracyRow& row : rows) {
+      if (row.method != names[m] || !drawn(row)) continue;
+      series.x.push_back(row.cpu_s);
+      series.y.push_back(row.error);
+      series.x_span.push_back({row.cpu_min_s, row.cpu_max_s});
+    }
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+  add_stopped(rows, names, plot);
+  add_auto(rows, plot);
+  return plot;
+}
+
+Plot unknowns_plot(const std::vector<AccuracyRow>& rows, const std::string& title) {
+  Plot plot = empty_plot(title);
+  plot.x.label = "unknowns";
+  plot.y.label = "largest joint error over *R*_{o} or *ρ*";
+  plot.legend = LegendPlace::automatic;
+  const auto names = methods_of(rows);
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    Series series = style_of(m, names[m]);
+    for (const AccuracyRow& row : rows)
+      if (row.method == names[m] && drawn(row)) {
+        series.x.push_back(row.dof);
+        series.y.push_back(row.error);
+      }
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+Plot scaling_plot(const std::vector<record::ScalingRow>& rows, const std::string& title) {
+  Plot plot = empty_plot(title);
+  plot.x.label = "rods a direction, *n*";
+  plot.y.label = "processor time (s)";
+  plot.x.ticks = 12;
+  plot.legend = LegendPlace::automatic;
+  std::vector<std::string> names;
+  for (const auto& row : rows)
+    if (std::find(names.begin(), names.end(), row.method) == names.end())
+      names.push_back(row.method);
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    Series series = style_of(m, is_auto(names[m]) ? "auto, " + power_of(names[m]) : names[m]);
+    for (const auto& row : rows)
+      if (row.method == names[m] && row.outcome == RunOutcome::right) {
+        series.x.push_back(row.rods);
+        series.y.push_back(row.cpu_s);
+      }
+    const double power = record::exponent(series.x, series.y);
+    if (std::isfinite(power)) series.name += fmt::format(", *n*^{{{:.1f}}}", power);
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
+std::string failures_of(const std::vector<AccuracyRow>& rows) {
+  std::string text;
+  for (const AccuracyRow& row : rows) {
+    if (row.outcome == RunOutcome::right || row.outcome == RunOutcome::too_slow) continue;
+    // a net rung where there is no net is no failure
+    if (row.edges_per_segment == 0 && row.outcome == RunOutcome::refused) continue;
+    text += fmt::format("{}{} at {} ({})", text.empty() ? "" : "; ", row.method,
+                        row.edges_per_segment, word_of(row.outcome));
+  }
+  return text;
+}
+
+namespace {
+
+using record::TrustClass;
+using record::TrustRow;
+
+constexpr double size = 7.5, bar_height = 13, row_height = 18, label_room = 88, title_room = 22,
+                 legend_line = 14, width = 504, margin = 6;
+
+std::string label(TrustClass found) { return spaced(std::string(word_of(found))); }
+
+std::vector<std::string> kinds_of(const std::vector<TrustRow>& rows) {
+  std::vector<std::string> kinds;
+  for (const TrustRow& row : rows)
+    if (std::find(kinds.begin(), kinds.end(), row.kind) == kinds.end()) kinds.push_back(row.kind);
+  return kinds;
+}
+
+int count(const std::vector<TrustRow>& rows, const std::string& kind, TrustClass found) {
+  return int(std::count_if(rows.begin(), rows.end(), [&](const TrustRow& row) {
+    return row.kind == kind && row.found == found;
+  }));
+}
+
+void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::string& kind,
+              const Box& box) {
+  int all = 0;
+  for (const auto& one : words(TrustClass{})) all += count(rows, kind, one.value);
+  double x = box.x;
+  for (const auto& one : words(TrustClass{})) {
+    const int n = count(rows, kind, one.value);
+    if (n == 0) continue;
+    const double part = box.width * n / all;
+    canvas.rectangle({x, box.y, part, box.height}, trust_colour(one.value), {{1, 1, 1, 1}, 0.8});
+    if (part > 10)
+      canvas.text(fmt::format("{}", n), {x + part / 2, box.y + box.height / 2},
+                  {.size = size - 1, .align_x = AlignX::centre, .align_y = AlignY::middle});
+    x += part;
+  }
+}
+
+void draw_legend(Canvas& canvas, Point at) {
+  Patches patches{.row_width = width - 2 * margin, .row_height = legend_line, .font_size = size};
+  constexpr auto classes = words(TrustClass{});
+  patches.draw = [&](std::size_t k, const Box& box) {
+    canvas.rectangle(box, trust_colour(classes[k].value));
+  };
+  for (const auto& one : classes) patches.names.push_back(label(one.value));
+  draw_patches(canvas, {at.x, at.y, 16, 9}, patches);
+}
+
+}  // namespace
+
+Colour trust_colour(TrustClass found) {
+  switch (found) {
+    case TrustClass::right:
+      return hex_colour(0x8CC7A1);
+    case TrustClass::estimate_small:
+      return hex_colour(0xE08A8D);
+    case TrustClass::other_branch:
+      return hex_colour(0xC0262B);
+    case TrustClass::after_snap:
+      return hex_colour(0xF0E2A8);
+    case TrustClass::doubted:
+      return hex_colour(0xE9BE7C);
+    case TrustClass::limited:
+      return hex_colour(0xC9CDD3);
+    case TrustClass::limited_only_default:
+      return hex_colour(0xA3A9B3);
+    case TrustClass::inner_unphysical:
+      return hex_colour(0xB0417C);
+    case TrustClass::frame_dependent:
+      return hex_colour(0x9A6FB0);
+    case TrustClass::refused:
+      return hex_colour(0xE3E5E8);
+    case TrustClass::too_slow:
+      break;
+  }
+  return hex_colour(0xA9C4E6);
+}
+
+Result<void> write_trust_bars(const std::filesystem::path& stem,
+                              const std::vector<TrustRow>& rows) {
+  const auto kinds = kinds_of(rows);
+  const double height =
+      title_room + row_height * double(kinds.size()) + 3 * legend_line + 3 * margin;
+  const auto title =
+      fmt::format("{} random scenes beside finer meshes of another family", rows.size());
+  return write_figure(stem, width, height, title, [&](Canvas& canvas) {
+    canvas.text(
+        title, {width / 2, margin},
+        {.size = size + 1.5, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::top});
+    double y = title_room;
+    for (const std::string& kind : kinds) {
+      canvas.text(plain(kind), {margin + label_room - 5, y + bar_height / 2},
+                  {.size = size, .align_x = AlignX::right, .align_y = AlignY::middle});
+      draw_bar(canvas, rows, kind,
+               {margin + label_room, y, width - 2 * margin - label_room, bar_height});
+      y += row_height;
+    }
+    draw_legend(canvas, {margin, y + margin});
+  });
+}
+
+Plot trust_plot(const std::vector<TrustRow>& rows) {
+  Plot plot;
+  plot.title = "Errors of joints beside what was estimated";
+  plot.x = {.label = "error estimate over the length scale", .logarithmic = true};
+  plot.y = {.label = "error over the length scale", .logarithmic = true};
+  double low = 1, high = 1e-9;
+  for (const auto& one : words(TrustClass{})) {
+    Series series;
+    series.name = label(one.value);
+    series.colour = trust_colour(one.value);
+    series.line_width = 0;
+    series.marker = Marker::circle;
+    for (const TrustRow& row : rows) {
+      if (row.found != one.value || !(row.error > 0) || !(row.estimate > 0)) continue;
+      series.x.push_back(row.estimate);
+      series.y.push_back(row.error);
+      low = std::min(low, row.estimate);
+      high = std::max(high, row.estimate);
+    }
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+  if (low < high) {
+    Series twice;
+    twice.name = "twice the estimate";
+    twice.x = {low, high};
+    twice.y = {2 * low, 2 * high};
+    twice.colour = {0.3f, 0.3f, 0.3f, 1};
+    twice.dash = {3, 2};
+    plot.series.push_back(std::move(twice));
+  }
+  return plot;
+}
+
+}  // namespace gridshell::render

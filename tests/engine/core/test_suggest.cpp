@@ -1,0 +1,30 @@
+#include <catch2/catch.hpp>
+
+#include "engine/core/suggest.h"
+
+using namespace gridshell::preset;
+
+TEST_CASE("the edit distance counts letters inserted, left out, changed and swapped") {
+  CHECK(edit_distance("", "") == 0);
+  CHECK(edit_distance("rods", "") == 4);
+  CHECK(edit_distance("radius", "radius") == 0);
+  CHECK(edit_distance("radus", "radius") == 1);
+  CHECK(edit_distance("raddius", "radius") == 1);
+  CHECK(edit_distance("redius", "radius") == 1);
+  CHECK(edit_distance("raduis", "radius") == 1);
+  CHECK(edit_distance("Radius", "radius") == 0);
+  CHECK(edit_distance("kitten", "sitting") == 3);
+}
+
+TEST_CASE("only a near name is suggested") {
+  const std::vector<std::string> known{"radius_mm", "rods", "kind"};
+  CHECK(nearest("raduis_mm", known) == "radius_mm");
+  CHECK(nearest("rod", known) == "rods");
+  CHECK(nearest("radius", known) == "radius_mm");
+  CHECK(nearest("elephant", known).empty());
+  CHECK(nearest("x", known).empty());
+  // at once, and in no memory
+  CHECK(nearest(std::string(std::size_t(16) << 20, 'x'), known).empty());
+  CHECK(did_you_mean("rdos", known) == "; did you mean 'rods'?");
+  CHECK(did_you_mean("elephant", known).empty());
+}

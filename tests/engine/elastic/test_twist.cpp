@@ -1,0 +1,149 @@
+// Twist and bending in material axes against automatic differentiation of their definitions.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "engine/elastic/edge_energies.h"
+#include "engine/elastic/element_energies.h"
+#include "engine/elastic/rod_frame.h"
+#include "engine/elastic/rod_material.h"
+#include "tests/engine/elastic/jet.h"
+
+using namespace gridshell;
+
+namespace {
+
+using T = Jet<8>;
+using V = Vec<T>;
+
+V constant(const Eigen::Vector3d& v) { return {T(v.x()), T(v.y()), T(v.z())}; }
+
+V transported(const V& v, const V& a, const V& b) {
+  const T c = dot(a, b);
+  const V axis = cross(a, b);
+  return c * v + cross(axis, v) + (dot(axis, v) / (T(1) + c)) * axis;
+}
+
+/// two edges with their frames, and what the energies are to be
+struct Sample {
+  Eigen::Vector3d e, f, director_e, director_f;
+  double theta_e, theta_f, GJ_l, tau_0;
+  MaterialBend bend;
+
+  Eigen::Vector3d t() const { return e.normalized(); }
+  Eigen::Vector3d s() const { return f.normalized(); }
+  double tau() const {
+    return theta_f - theta_e + reference_twist(director_e, t(), director_f, s());
+  }
+};
+
+Sample random_sample(std::mt19937& random, double turn) {
+  std::normal_distribution<double> normal;
+  const auto any = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
+  Sample sample;
+  sample.e = any();
+  sample.f = sample.e + turn * any();
+  sample.director_e = normal_near(any(), sample.t());
+  sample.director_f = normal_near(any(), sample.s());
+  sample.theta_e = normal(random);
+  sample.theta_f = normal(random);
+  sample.GJ_l = 2.3;
+  sample.tau_0 = 0.4;
+  sample.bend = {{1.7, 5.9}, {0.3, -0.8}};
+  return sample;
+}
+
+/// the definitions, frames carried from the sample's edges to wherever e and f are
+struct Definitions {
+  T bend, twist;
+};
+Definitions definitions(const Sample& at) {
+  const auto unknown = [](double v, int k) { return T::unknown(v, k); };
+  const V e{unknown(at.e.x(), 0), unknown(at.e.y(), 1), unknown(at.e.z(), 2)};
+  const V f{unknown(at.f.x(), 3), unknown(at.f.y(), 4), unknown(at.f.z(), 5)};
+  const T theta_e = unknown(at.theta_e, 6), theta_f = unknown(at.theta_f, 7);
+  const V t = unit(e), s = unit(f);
+  const V d_e = transported(constant(at.director_e), constant(at.t()), t);
+  const V d_f = transported(constant(at.director_f), constant(at.s()), s);
+  const V here = transported(d_e, t, s);
+  const T m = atan2(dot(s, cross(here, d_f)), dot(here, d_f));
+  const T tau = theta_f - theta_e + m;
+  const V kb = (T(2) / (T(1) + dot(t, s))) * cross(t, s);
+  const T phi = theta_e + T(0.5) * tau;
+  const V across = cross(t, d_e);
+  const T w1 = dot(kb, cos(phi) * d_e + sin(phi) * across);
+  const T w2 = dot(kb, cos(phi) * across + (T(-1) * sin(phi)) * d_e);
+  const T x1 = w1 - T(at.bend.rest[0]), x2 = w2 - T(at.bend.rest[1]), y = tau - T(at.tau_0);
+  return {T(0.5 * at.bend.stiffness[0]) * x1 * x1 + T(0.5 * at.bend.stiffness[1]) * x2 * x2,
+          T(0.5 * at.GJ_l) * y * y};
+}
+
+void check(const PairEnergy& found, const T& exact) {
+  CHECK((found.gradient - exact.g).norm() <= 1e-11 * (1 + exact.g.norm()));
+  CHECK((found.hessian - exact.h).norm() <= 1e-11 * (1 + exact.h.norm()));
+}
+
+}  // namespace
+
+TEST_CASE("twist: gradient and Hessian agree with automatic differentiation") {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Sample at = random_sample(random, trial < 30 ? 0.1 : 1);
+    if (at.t().dot(at.s()) < -0.8) continue;
+    PairEnergy out;
+    add_twist(at.GJ_l, at.tau() - at.tau_0, binormal_with_slopes(at.t(), at.s()), out);
+    scale_to_edges(at.e.norm(), at.f.norm(), out);
+    check(out, definitions(at).twist);
+  }
+}
+
+TEST_CASE("material bend: value, gradient and Hessian agree with automatic differentiation") {
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Sample at = random_sample(random, trial < 30 ? 0.1 : 1);
+    if (at.t().dot(at.s()) < -0.8) continue;
+    const HalfwayFrame mu = halfway_frame(at.t(), at.director_e, at.theta_e + at.tau() / 2);
+    PairEnergy out;
+    const double value = add_material_bend(at.bend, mu, binormal_with_slopes(at.t(), at.s()), out);
+    scale_to_edges(at.e.norm(), at.f.norm(), out);
+    const T exact = definitions(at).bend;
+    CHECK(value == Approx(exact.v).epsilon(1e-12));
+    check(out, exact);
+  }
+}
+
+TEST_CASE("material bend: equal stiffness and no curvature at rest is the round rod's bend") {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 20; ++trial) {
+    Sample at = random_sample(random, 0.3);
+    at.bend = {{3.1, 3.1}, {0, 0}};
+    const HalfwayFrame mu = halfway_frame(at.t(), at.director_e, at.theta_e + at.tau() / 2);
+    PairEnergy material, round;
+    const double value =
+        add_material_bend(at.bend, mu, binormal_with_slopes(at.t(), at.s()), material);
+    scale_to_edges(at.e.norm(), at.f.norm(), material);
+    const EdgeGeometry e{at.t(), at.e.norm()}, f{at.s(), at.f.norm()};
+    const double w = 1 / (1 + at.t().dot(at.s()));
+    CHECK(value == Approx(bend_value(6.2, e, f)).epsilon(1e-12));
+    add_cosine(-2 * 6.2 * w * w, 4 * 6.2 * w * w * w, e, f, round);
+    CHECK((material.gradient - round.gradient).norm() <= 1e-12 * (1 + round.gradient.norm()));
+    CHECK((material.hessian - round.hessian).norm() <= 1e-11 * (1 + round.hessian.norm()));
+  }
+}
+
+TEST_CASE("frame: transport keeps lengths and takes one tangent to the other") {
+  const Eigen::Vector3d a = Eigen::Vector3d(1, 2, 3).normalized(),
+                        b = Eigen::Vector3d(-1, 2, 0.5).normalized(), v(0.3, -2, 1);
+  CHECK((transport(a, a, b) - b).norm() < 1e-15);
+  CHECK(transport(v, a, b).norm() == Approx(v.norm()).epsilon(1e-14));
+  CHECK((transport(transport(v, a, b), b, a) - v).norm() < 1e-14);
+  CHECK(unwrapped(0.1, 27.0) == Approx(0.1 + 8 * M_PI));
+}
+
+TEST_CASE("material: torsion of a square and of a thin strip") {
+  // J = 0.1405770 a^4 (square), a b^3/3 (thin)
+  CHECK(rectangular_material(2, 2, 83, 31).GJ == Approx(31e3 * 0.1405770 * 16).epsilon(1e-6));
+  const RodMaterial strip = rectangular_material(1000, 1, 83, 31);
+  CHECK(strip.GJ == Approx(31e3 * 1000.0 / 3).epsilon(1e-3));
+  CHECK(strip.EI2 / strip.EI1 == Approx(1e6));
+  CHECK(circular_material(0.254, 83, 31).GJ == Approx(12.667659).epsilon(1e-6));
+}

@@ -1,0 +1,178 @@
+// Networks of rods in files: three formats, and all that may be wrong.
+#include "engine/formats/network_file.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/preset/preset_file.h"
+
+using namespace gridshell;
+using namespace gridshell::preset;
+
+namespace {
+
+void wrong(const std::string& bytes, const std::string& name, const std::string& reason) {
+  const auto read = read_network(bytes, name);
+  const auto fault = read ? "none" : read.error().message;
+  INFO(fault);
+  CHECK(fault.find(reason) != std::string::npos);
+}
+
+void same(const NetworkData& a, const NetworkData& b) {
+  CHECK(a.points == b.points);
+  CHECK(a.rods == b.rods);
+  CHECK(a.diameters == b.diameters);
+  CHECK(a.supports == b.supports);
+  CHECK(a.springs == b.springs);
+  CHECK(a.free == b.free);
+}
+
+const std::string crossed = R"({
+  "points_mm": [[-10, 0], [10, 0], [0, -10], [0, 10], [0, 0], [0.0005, 0]],
+  "rods": [
+    [0, 4, 1],
+    {"points": [2, 5, [0, 10]], "diameter_mm": 0.5}
+  ],
+  "supports": [
+    {"point": 0, "to_mm": [-8, 0, 1], "spring_N_per_mm": [2, 0.125, 0]},
+    {"point": [10, 0], "spring_N_per_mm": 3},
+    {"point": 3, "to_mm": "free"}
+  ]
+})";
+
+std::string with(const std::string& from, const std::string& to) {
+  auto text = crossed;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("a network in JSON: points by number or place, nearby ones are one") {
+  const auto read = read_network(crossed, "net.json");
+  if (!read) FAIL(read.error().message);
+  CHECK(read->points.size() == 6);
+  CHECK(read->rods == std::vector<std::vector<int>>{{0, 4, 1}, {2, 4, 3}});
+  CHECK(read->diameters == std::vector<double>{0, 0.5});
+  CHECK(read->supports == Points{{0, -8, 0, 1}, {1}});
+  CHECK(read->springs == Points{{0, 2, 0.125, 0}, {1, 3, 3, 3}});
+  CHECK(read->free == std::vector<int>{3});
+  same(*read, read_network(network_json(*read), "again.json").value());
+}
+
+TEST_CASE("a network comes through a preset's text unchanged") {
+  Preset p;
+  p.footprint.kind = FootprintKind::network;
+  p.footprint.file = read_network(crossed, "net.json").value();
+  const auto read = read_preset_text(to_toml(p), "net.toml", "net");
+  if (!read) FAIL(read.error().message);
+  same(read->base.footprint.file, p.footprint.file);
+}
+
+TEST_CASE("drawings: rods are joined where they cross or touch, a ring ends where it begins") {
+  const std::string obj =
+      "# square\nv -10 0 0\nv 10 0 0\nv 0 -10 0\nv 0 10 0\nl 1 2\nl 3 4\nf 1 2 3\n"
+      "v 5 0 0\nv 5 5 0\nl -2 -1\nv 20 0 0\nv 30 0 0\nv 30 9 0\nl 7 8 9 7\n";
+  const auto lines = read_network(obj, "net.obj");
+  if (!lines) FAIL(lines.error().message);
+  CHECK(lines->rods ==
+        std::vector<std::vector<int>>{{0, 9, 4, 1}, {2, 9, 3}, {4, 5}, {6, 7, 8, 6}});
+  CHECK(lines->points.back() == std::vector<double>{0, 0, 0});
+
+  const std::string dxf =
+      "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nrods\n10\n-10\n20\n0\n30\n0\n11\n10\n21\n0\n31\n0\n"
+      "0\nLWPOLYLINE\n8\nrods\n90\n1000000000\n70\n0\n10\n0\n20\n-10\n10\n0\n20\n10\n"
+      "0\nPOLYLINE\n8\nrods\n66\n1\n70\n1\n10\n0\n20\n0\n30\n0\n0\nVERTEX\n8\nrods\n10\n20\n20\n0\n"
+      "0\nVERTEX\n8\nrods\n10\n30\n20\n0\n0\nVERTEX\n8\nrods\n10\n30\n20\n9\n0\nSEQEND\n"
+      "0\nLINE\n8\nlabels\n10\n0\n20\n0\n11\n99\n21\n99\n0\nENDSEC\n0\nEOF\n";
+  const auto drawn = read_network(dxf, "net.dxf");
+  if (!drawn) FAIL(drawn.error().message);
+  CHECK(drawn->rods == std::vector<std::vector<int>>{{0, 7, 1}, {2, 7, 3}, {4, 5, 6, 4}});
+}
+
+TEST_CASE("drawings in space: rods that pass over one another are not joined") {
+  // two lines of an upright plane, one that crosses both, and one that passes them 1 mm off
+  const auto read = read_network(
+      "v 0 0 0\nv 0 4 4\nv 0 0 4\nv 0 4 0\nl 1 2\nl 3 4\nv -5 2 2\nv 5 2 2\nl 5 6\n"
+      "v -5 2 3\nv 5 2 3\nl 7 8\n",
+      "net.obj");
+  if (!read) FAIL(read.error().message);
+  REQUIRE(read->points.size() == 9);
+  CHECK(read->points[8] == std::vector<double>{0, 2, 2});
+  CHECK(read->rods == std::vector<std::vector<int>>{{0, 8, 1}, {2, 8, 3}, {4, 8, 5}, {6, 7}});
+}
+
+TEST_CASE("files of networks that are broken say where") {
+  wrong("", "n.json", "n.json:1: is empty");
+  wrong("{\n\"rods\": [\n[0, 1,]]}", "n.json", "n.json:3: is no JSON");
+  wrong("[1, 2]", "n.json", "must be an object");
+  wrong("{}", "n.json", "holds no rods");
+  wrong(with("\"rods\"", "\"rod\""), "n.json", "did you mean 'rods'");
+  wrong(with("[-10, 0]", "[-10, NaN]"), "n.json", "n.json:2: is no JSON");
+  wrong(with("[-10, 0]", "[-10, 1e999]"), "n.json", "n.json:2: is no JSON");
+  wrong(with("[-10, 0]", "[-10, 1e10]"), "n.json", "n.json:2: points_mm[0]: a coordinate");
+  wrong(with("[-10, 0]", "[-10, \"0\"]"), "n.json", "n.json:2: points_mm[0]: must be a point");
+  wrong(with("[-10, 0]", "[-10]"), "n.json", "a point of 1 coordinates");
+  wrong(with("[0, 4, 1]", "[0, 4, 1000000000]"), "n.json", "n.json:4: rods[0]: names a point");
+  wrong(with("[0, 4, 1]", "[0, 4, 6]"), "n.json",
+        "n.json:4: rods[0]: point 6, must be from 0 to 5");
+  wrong(with("[0, 4, 1]", "[0, -1]"), "n.json", "point -1, must be from 0");
+  wrong(with("[0, 4, 1]", "[0]"), "n.json", "n.json:4: rods[0]: a rod of one point");
+  wrong(with("[0, 4, 1]", "[4, 5]"), "n.json", "a rod of one point");
+  wrong(with("[0, 4, 1]", "[]"), "n.json", "a rod of one point");
+  wrong(with("[0, 4, 1]", "[[[[[[[[[[1]]]]]]]]]]"), "n.json", "rods[0]");
+  wrong(with("0.5}", "-1}"), "n.json", "n.json:5: rods[1]");
+  wrong(with("0.5}", "1e300}"), "n.json", "a diameter of 1e+300");
+  wrong(with("\"point\": 0,", "\"point\": 9,"), "n.json", "n.json:8: supports[0]: names a point");
+  wrong(with("\"point\": 0,", ""), "n.json", "n.json:8: supports[0]: must be");
+  wrong(with("\"point\": [10, 0]", "\"point\": 0"), "n.json",
+        "point 0 is named as a support twice");
+  wrong(with("[-8, 0, 1]", "[-8, 0]"), "n.json", "to_mm must be [x, y, z]");
+  wrong(with("\"free\"", "\"fre\""), "n.json", "to_mm must be");
+  wrong(with("mm\": 3", "mm\": 0"), "n.json", "n.json:9: supports[1]: a spring of 0 N/mm");
+  wrong(with("mm\": 3", "mm\": -3"), "n.json", "a spring of -3 N/mm, must be 0 or from 1e-06 to");
+  wrong(with("mm\": 3", "mm\": 1e7"), "n.json", "a spring of 1e+07 N/mm");
+  wrong(with("mm\": 3", "mm\": [3, 3]"), "n.json", "spring_N_per_mm must be a number, or [kx");
+  wrong(with("mm\": 3", "mm\": \"soft\""), "n.json", "spring_N_per_mm must be a number");
+  wrong(with("\"spring_N_per_mm\": 3", "\"spring\": 3"), "n.json",
+        "n.json:9: supports[1]: must be");
+  wrong(with("\"free\"", "\"free\", \"spring_N_per_mm\": 1"), "n.json",
+        "n.json:10: supports[2]: an end that is free has no spring_N_per_mm");
+  wrong("v 0 0\nl 1 2\n", "n.obj", "n.obj:1: a vertex");
+  wrong("v 0 0 nan\n", "n.obj", "n.obj:1: a vertex");
+  wrong("v 0 0 0\nl 1 2\n", "n.obj", "n.obj:2: point 1, must be from 0 to 0");
+  wrong("v 0 0 0\nv 1 0 0\nl 1 x\n", "n.obj", "n.obj:3: 'x' is no vertex");
+  wrong("v 0 0 0\n", "n.obj", "holds no rods");
+  wrong("hello\nworld\n", "n.dxf", "n.dxf:1: is no DXF");
+  wrong("", "n.dxf", "holds no rods");
+  wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nnan\n", "n.dxf", "n.dxf:8: must be a finite number");
+  wrong("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n0\n20\n0\n42\n1\n", "n.dxf",
+        "n.dxf:12: an arc");
+  wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n20\n1\n11\n1\n21\n1\n", "n.dxf",
+        "n.dxf:6: a rod of one point");
+  wrong("x", "n.txt", "must end in .json");
+}
+
+TEST_CASE("a network is needed, and what names rods of a square grid is refused") {
+  const auto message = [](const std::string& keys) {
+    const auto read = read_preset_text("[footprint]\nkind = \"network\"\n" + keys, "p.toml", "p");
+    return read ? std::string("none") : read.error().message;
+  };
+  const std::string file =
+      "file = {points_mm = [[-9, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 0]], "
+      "rods = [[0, 3, 1], [3, 2]]}\n";
+  CHECK(message(file) == "none");
+  CHECK(message("").find("needs rods") != std::string::npos);
+  CHECK(message("file = \"none.json\"\n").find("none.json") != std::string::npos);
+  const auto sprung = [&](const std::string& rows) {
+    return message(file.substr(0, file.size() - 2) + ", supports_mm = [[0]], springs_N_per_mm = [" +
+                   rows + "]}\n");
+  };
+  CHECK(sprung("[0, 1, 1, 0.5]") == "none");
+  CHECK(sprung("[0, 1, 1]").find("[point, kx, ky, kz]") != std::string::npos);
+  CHECK(sprung("[1, 1, 1, 1]").find("must be one of a support") != std::string::npos);
+  CHECK(sprung("[0, 0, 0, 0]").find("holds nothing") != std::string::npos);
+  CHECK(message(file + "spacing_mm = 30.0\n").find("spacing_mm") != std::string::npos);
+  CHECK(message("file = {points_mm = [[0, 0, 0]], rods = [[0, 1]]}\n")
+            .find("rods[0] names point 1") != std::string::npos);
+  CHECK(message(file + "[rod]\ntable = [[\"u\", 0, 0.3]]\n").find("square grid") !=
+        std::string::npos);
+}

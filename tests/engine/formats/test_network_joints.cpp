@@ -1,0 +1,105 @@
+// Joints that a file of a network lists: what becomes one, where it stands, and what is refused.
+#include <catch2/catch.hpp>
+
+#include "engine/formats/network_file.h"
+
+using namespace gridshell;
+using namespace gridshell::preset;
+
+namespace {
+
+// two rods that cross 1 mm beside one another's points, and one that ends near the first
+const std::string beside = R"({
+  "points_mm": [[-10, 0], [0.6, 0], [10, 0], [0, -10], [0, 0.8], [0, 10], [10, 0.2], [20, 5]],
+  "rods": [
+    [0, 1, 2],
+    [3, 4, 5],
+    [6, 7]
+  ],
+  "joints": [
+    [4, 1],
+    [2, 6]
+  ],
+  "supports": [{"point": [0, -10]}, {"point": 5, "to_mm": [0, 9, 0]}]
+})";
+
+std::string with(const std::string& from, const std::string& to) {
+  auto text = beside;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+NetworkData read(const std::string& text) {
+  const auto network = read_network(text, "n.json");
+  if (!network) FAIL(network.error().message);
+  return *network;
+}
+
+void wrong(const std::string& joints, const std::string& reason) {
+  const auto network = read_network(with("[4, 1],\n    [2, 6]", joints), "n.json");
+  const auto fault = network ? "none" : network.error().message;
+  INFO(fault);
+  CHECK(fault.find("n.json:9: joints[0]: " + reason) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("points of a listed joint are one, at their mean place") {
+  const NetworkData network = read(beside);
+  CHECK(network.rods == std::vector<std::vector<int>>{{0, 4, 2}, {3, 4, 5}, {2, 7}});
+  CHECK(network.points[4] == std::vector<double>{0.3, 0.4, 0});
+  CHECK(network.points[2] == std::vector<double>{10, 0.1, 0});
+  CHECK(network.points[0] == std::vector<double>{-10, 0, 0});
+  // where rods only end a joint is a hinge, and a support where the file says so
+  CHECK(network.free == std::vector<int>{2});
+  const NetworkData held = read(with("{\"point\": 5", "{\"point\": 6}, {\"point\": 5"));
+  CHECK(held.free.empty());
+  CHECK(held.supports == Points{{3}, {2}, {5, 0, 9, 0}});
+  // what it came to reads back as it is
+  const NetworkData again = read(network_json(network));
+  CHECK(again.rods == network.rods);
+  CHECK(again.points == network.points);
+  CHECK(again.free == network.free);
+}
+
+TEST_CASE("a listed joint of three rods, and one that closes a ring") {
+  const std::string star = R"({
+    "points_mm": [[0.3, 0], [0, 0.3], [0, 0]],
+    "rods": [[[-9, 0], 0, [9, 0]], [[0, -9], 1, [0, 9]], [2, [9, 9]]],
+    "joints": [[0, 1, [0, 0]]]})";
+  const NetworkData three = read(star);
+  CHECK(three.rods == std::vector<std::vector<int>>{{3, 0, 4}, {5, 0, 6}, {0, 7}});
+  CHECK(three.points[0][0] == Approx(0.1));
+  CHECK(three.points[0][1] == Approx(0.1));
+  CHECK(three.free.empty());
+
+  const std::string open = R"({
+    "rods": [[[-9, 0], [0, 9], [9, 0], [0, -9], [-9, -0.5]]],
+    "joints": [[[-9, 0], [-9, -0.5]]]})";
+  const NetworkData ring = read(open);
+  CHECK(ring.rods == std::vector<std::vector<int>>{{0, 1, 2, 3, 0}});
+  CHECK(ring.points[0] == std::vector<double>{-9, -0.25, 0});
+  CHECK(ring.free.empty());
+}
+
+TEST_CASE("joints that cannot be are refused, with their line") {
+  wrong("\"x\"", "must be a list of 2 to 100 points");
+  wrong("[4]", "must be a list of 2 to 100 points");
+  wrong("[4, 8]", "point 8, must be from 0 to 7");
+  wrong("[4, -1]", "point -1, must be from 0 to 7");
+  wrong("[4, \"1\"]", "a point must be its number");
+  wrong("[4, 4]", "lists a point twice");
+  wrong("[1, 2]", "rods[0] has both point 1 and point 2");
+  wrong("[0, 2]", "rods[0] has both point 0 and point 2");
+  wrong("[1, [3, 3]]", "no rod has point 8");
+  wrong("[1, 5]",
+        "point 1 lies 5.009 mm from the middle of the joint's points, must be at most 2.3 mm");
+  // the second joint has the point already
+  const auto twice = read_network(with("[4, 1]", "[4, 1, 6]"), "n.json");
+  REQUIRE_FALSE(twice);
+  CHECK(twice.error().message.find("n.json:10: joints[1]: point 6 is of another joint too") !=
+        std::string::npos);
+  const auto held = read_network(
+      with("{\"point\": 5", "{\"point\": 2}, {\"point\": 6}, {\"point\": 5"), "n.json");
+  REQUIRE_FALSE(held);
+  CHECK(held.error().message.find("point 2 is named as a support twice") != std::string::npos);
+}

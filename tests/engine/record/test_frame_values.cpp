@@ -1,0 +1,73 @@
+// Curvature, forces and energies along the rods of a frame.
+#include "engine/record/frame_values.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/engine/record/sample_run.h"
+
+using namespace gridshell;
+using namespace gridshell::record;
+
+namespace {
+
+// a rod 0-1-2, and one that ends on its middle: 1-3
+Layout tee() {
+  Layout layout;
+  layout.rods = {{0, 1, 2}, {1, 3}};
+  return layout;
+}
+
+Frame tee_frame() {
+  Frame frame;
+  frame.nodes = Eigen::Matrix3Xd::Zero(3, 5);
+  frame.axial_force_N = Eigen::Vector3d(1, 2, -9);
+  frame.bending_mJ_per_m.resize(5);
+  frame.bending_mJ_per_m << 0, 6, 4, 0, 0;
+  return frame;
+}
+
+}  // namespace
+
+TEST_CASE("the curvature of points on a circle is one over its radius") {
+  Eigen::Matrix3Xd points(3, 20);
+  for (int k = 0; k < 20; ++k) points.col(k) << 50 * std::cos(0.05 * k), 1, 50 * std::sin(0.05 * k);
+  const auto curvature = curvature_per_mm(points);
+  REQUIRE(curvature.size() == 20);
+  CHECK(curvature.front() == 0);
+  CHECK(curvature.back() == 0);
+  // 2 tan(a/2) over the chord 2 R sin(a/2)
+  for (std::size_t k = 1; k + 1 < curvature.size(); ++k)
+    CHECK(curvature[k] == Approx(1 / (50 * std::cos(0.025))).epsilon(1e-9));
+}
+
+TEST_CASE("forces at points are those of the edges beside them, and unknown where not recorded") {
+  const Trajectory run = sample_trajectory();
+  const Frame& frame = run.frames.back();
+  // the second rod's three edges follow the first one's
+  const auto force = axial_force_N(run.layout, frame, 1);
+  REQUIRE(force.size() == 4);
+  CHECK(force[0] == frame.axial_force_N[3]);
+  CHECK(force[1] == 0.5 * (frame.axial_force_N[3] + frame.axial_force_N[4]));
+  CHECK(force[3] == frame.axial_force_N[5]);
+  CHECK(curvature_per_mm(run.layout, frame, 1)[2] == frame.curvature_per_mm[6]);
+  CHECK(std::isnan(axial_force_N(run.layout, run.frames[1], 0)[1]));
+}
+
+TEST_CASE("a node bears the mean force of its edges, and the energy of what goes through it") {
+  const Eigen::VectorXd force = axial_force_of_nodes_N(tee(), tee_frame());
+  REQUIRE(force.size() == 5);
+  CHECK(force[0] == 1);
+  CHECK(force[1] == Approx((1 + 2 - 9) / 3.0));
+  CHECK(force[3] == -9);
+  CHECK(force[4] == 0);  // on no rod
+  const Eigen::VectorXd bending = bending_of_nodes_mJ_per_m(tee(), tee_frame());
+  CHECK(bending[1] == 6);  // the end on it does not bend
+  CHECK(bending[2] == 4);  // an end that holds its direction does
+  CHECK(bending[3] == 0);
+  Frame old = tee_frame();
+  old.axial_force_N.resize(0);
+  old.bending_mJ_per_m.resize(0);
+  CHECK(axial_force_of_nodes_N(tee(), old).size() == 0);
+  CHECK(bending_of_nodes_mJ_per_m(tee(), old).size() == 0);
+}

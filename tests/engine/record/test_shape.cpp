@@ -1,0 +1,161 @@
+// Tubes and the files of a shape.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <sstream>
+
+#include "engine/core/json.h"
+#include "engine/record/shape_export.h"
+#include "engine/record/viewer_files.h"
+#include "tests/engine/record/sample_run.h"
+
+using namespace gridshell;
+using namespace gridshell::exports;
+using record::sample_trajectory;
+
+namespace {
+
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; at += part.size()) ++found;
+  return found;
+}
+
+std::size_t rod_points_of(const record::Layout& layout) {
+  std::size_t points = 0;
+  for (const auto& rod : layout.rods) points += rod.size();
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("a tube is closed, its triangles look outwards, its volume is that of a prism") {
+  Eigen::Matrix3Xd line(3, 3);
+  line << 0, 1, 3, 0, 2, 6, 0, 2, 6;
+  const double radius = 0.5;
+  const int sides = 8;
+  const Tube tube = tube_around(line, radius, sides);
+  // each edge is met twice, once each way
+  std::map<std::pair<int, int>, int> edges;
+  double volume = 0;
+  for (const auto& triangle : tube.triangles) {
+    const auto& [a, b, c] = triangle;
+    volume +=
+        tube.vertices.col(a).dot(
+            Eigen::Vector3d(tube.vertices.col(b)).cross(Eigen::Vector3d(tube.vertices.col(c)))) /
+        6;
+    for (int k = 0; k < 3; ++k)
+      ++edges[{triangle[std::size_t(k)], triangle[std::size_t((k + 1) % 3)]}];
+  }
+  for (const auto& [edge, times] : edges) {
+    CHECK(times == 1);
+    CHECK(edges.contains({edge.second, edge.first}));
+  }
+  const double area = sides * radius * radius * std::sin(2 * M_PI / sides) / 2;
+  CHECK(volume == Approx(area * 9).epsilon(1e-12));
+}
+
+TEST_CASE("an OBJ lists every node, a line a rod, a point a joint and a face a cell") {
+  const record::Trajectory run = sample_trajectory();
+  const Shape shape{run.layout, run.frames.back(), run.frames.front(), "sample"};
+  const std::string obj = to_obj(shape);
+  CHECK(count(obj, "\nv ") == int(run.frames.back().nodes.cols()) + int(run.layout.joints.size()));
+  CHECK(count(obj, "\nl ") == int(run.layout.rods.size()));
+  CHECK(count(obj, "\np ") == int(run.layout.joints.size()));
+  CHECK(count(obj, "\nf ") == int(run.layout.cells.size()));
+  const std::string tubes = to_obj_tubes(shape);
+  CHECK(count(tubes, "\ng rod_") == int(run.layout.rods.size()));
+}
+
+TEST_CASE("a VTP has as many numbers as it says") {
+  const record::Trajectory run = sample_trajectory();
+  const std::string vtp = to_vtp({run.layout, run.frames.back(), run.frames.front(), "sample"});
+  const std::size_t points = rod_points_of(run.layout) + run.layout.joints.size();
+  CHECK(vtp.find("NumberOfPoints=\"" + std::to_string(points) + "\"") != vtp.npos);
+  const auto numbers = [&](const std::string& name) {
+    std::size_t at = vtp.find("Name=\"" + name + "\"");
+    REQUIRE(at != vtp.npos);
+    at = vtp.find('>', at) + 1;
+    std::istringstream words(vtp.substr(at, vtp.find('<', at) - at));
+    std::size_t found = 0;
+    for (std::string word; words >> word;) ++found;
+    return found;
+  };
+  CHECK(numbers("displacement_mm") == 3 * points);
+  CHECK(numbers("curvature_per_mm") == points);
+  CHECK(numbers("axial_force_N") == points);
+  CHECK(numbers("reaction_N") == 3 * points);
+  CHECK(numbers("K_rad") == run.layout.rods.size() + run.layout.cells.size());
+  CHECK(numbers("Points") == 3 * points);
+}
+
+TEST_CASE("a GLB holds its chunks, as many key shapes as frames, and a way for each joint") {
+  const record::Trajectory run = sample_trajectory();
+  const auto glb = to_glb(run, "sample", 2);
+  REQUIRE(glb);
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, glb->data() + at, 4);
+    return value;
+  };
+  CHECK(glb->substr(0, 4) == "glTF");
+  CHECK(word(4) == 2);
+  CHECK(word(8) == glb->size());
+  const std::size_t json_size = word(12);
+  CHECK(glb->substr(16, 4) == "JSON");
+  const record::Json gltf = record::parsed(glb->substr(20, json_size));
+  REQUIRE(gltf.is_object());
+  CHECK(word(20 + json_size) == glb->size() - 28 - json_size);
+  CHECK(gltf["buffers"][0]["byteLength"] <= word(20 + json_size));
+  const std::size_t shapes = run.frames.size();
+  CHECK(gltf["meshes"][0]["primitives"][0]["targets"].size() == shapes - 1);
+  CHECK(gltf["nodes"].size() ==
+        2 + std::size_t(!run.layout.cells.empty()) + run.layout.joints.size());
+  CHECK(gltf["animations"][0]["channels"].size() ==
+        1 + std::size_t(!run.layout.cells.empty()) + run.layout.joints.size());
+  for (const auto& accessor : gltf["accessors"]) {
+    const auto& view = gltf["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    const std::size_t wide = accessor["type"] == "VEC4" ? 4 : accessor["type"] == "VEC3" ? 3 : 1;
+    CHECK(view["byteLength"] == 4 * wide * accessor["count"].get<std::size_t>());
+    CHECK(view["byteOffset"].get<std::size_t>() + view["byteLength"].get<std::size_t>() <=
+          gltf["buffers"][0]["byteLength"]);
+    if (accessor.contains("min")) CHECK(accessor["min"].size() == wide);
+  }
+}
+
+TEST_CASE("a page holds the run, and a title cannot end its script") {
+  const record::Trajectory run = sample_trajectory();
+  const auto page = to_page(run, "</script><b>bold");
+  REQUIRE(page);
+  CHECK(page->starts_with("<!DOCTYPE html>"));
+  CHECK(count(*page, "</script>") == 2);
+  CHECK(page->find("/*RUN*/") == page->npos);
+  const std::size_t from = page->find("application/json\">") + 18;
+  const record::Json json =
+      record::parsed(page->substr(from, page->find("</script>", from) - from));
+  REQUIRE(json.is_object());
+  CHECK(json["frames"].size() == run.frames.size());
+  CHECK(json["rods"].size() == run.layout.rods.size());
+  // three numbers of two bytes a node, in letters of six bits
+  const std::size_t bytes = 6 * std::size_t(run.frames.front().nodes.cols());
+  CHECK(json["frames"][0]["nodes"].get<std::string>().size() == (bytes + 2) / 3 * 4);
+}
+
+TEST_CASE("reactions are those of the supports, and unknown where not recorded") {
+  const record::Trajectory run = sample_trajectory();
+  CHECK(reactions_N(run.layout, run.frames.back()) == run.frames.back().reactions_N);
+  const record::Frame& between = run.frames[1];
+  CHECK(reactions_N(run.layout, between).array().isNaN().all());
+}
+
+TEST_CASE("XDMF speaks of forces where the run's end has them") {
+  record::Trajectory run = sample_trajectory();
+  const auto xdmf = [&] { return to_xdmf(run.layout, run.frames, "run/trajectory.h5"); };
+  CHECK(count(xdmf(), ":/axial_force_N") == 3);
+  CHECK(count(xdmf(), ":/reactions_N") == 3);
+  for (record::Frame& frame : run.frames) frame.axial_force_N.resize(0);
+  CHECK(count(xdmf(), ":/axial_force_N") == 0);
+  CHECK(count(xdmf(), ":/nodes") == 3);
+}

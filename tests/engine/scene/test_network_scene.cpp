@@ -1,0 +1,180 @@
+// Shells from networks of rods: the circle of Fig. 1 as one, and those that are no square grid.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+
+#include "engine/formats/drawing.h"
+#include "engine/formats/network_file.h"
+#include "engine/preset/preset_file.h"
+#include "engine/record/fabrication.h"
+#include "engine/simulate/fabrication_plan.h"
+#include "engine/simulate/session.h"
+#include "tests/engine/simulate/run.h"
+
+using namespace gridshell;
+
+namespace {
+
+preset::Preset fig1() {
+  preset::Preset p;
+  p.footprint.rods = 12;
+  p.footprint.radius_mm = 126;
+  p.actuation.radius_mm = 0.75 * 126;
+  p.accuracy.edges_per_segment = 8;
+  return p;
+}
+
+/// The same rods as a file has them, turned, in another order, every other one backwards.
+preset::NetworkData as_file(const Scene& scene, double turn, double scale) {
+  const Eigen::Rotation2Dd by(turn);
+  preset::NetworkData file;
+  const auto add = [&](const Eigen::Vector2d& uv) {
+    const Eigen::Vector2d at = by * uv;
+    file.points.push_back({at.x(), at.y(), 0});
+    return int(file.points.size()) - 1;
+  };
+  for (const FootprintJoint& joint : scene.footprint.joints) add({joint.u, joint.v});
+  for (std::size_t k = scene.footprint.rods.size(); k-- > 0;) {
+    const FootprintRod& rod = scene.footprint.rods[k];
+    std::vector<int> numbers{add(rod.at(rod.span.begin))};
+    numbers.insert(numbers.end(), rod.joints.begin(), rod.joints.end());
+    numbers.push_back(add(rod.at(rod.span.end)));
+    for (const int end : {numbers.front(), numbers.back()}) {
+      const auto& at = file.points[std::size_t(end)];
+      file.supports.push_back({double(end), scale * at[0], scale * at[1], 0});
+    }
+    if (k % 2) std::reverse(numbers.begin(), numbers.end());
+    file.rods.push_back(numbers);
+  }
+  return file;
+}
+
+Session open(const preset::Preset& p) {
+  auto scene = scene_of(p);
+  if (!scene) FAIL(scene.error().message);
+  const LevelPlan plan = plan_of_mesh(p.accuracy.edges_per_segment);
+  return Session::open(std::make_shared<const Scene>(std::move(*scene)), plan).value();
+}
+
+/// For every node of `to` the node of `from` at its place of the flat, turned.
+std::vector<int> same_nodes(const RodMesh& from, const RodMesh& to, double turn) {
+  const Eigen::Matrix2Xd turned = Eigen::Rotation2Dd(turn).toRotationMatrix() * from.flat;
+  std::vector<int> nodes;
+  for (int k = 0; k < to.nodes(); ++k) {
+    Eigen::Index nearest = 0;
+    const double off =
+        (turned.colwise() - to.flat.col(k)).colwise().squaredNorm().minCoeff(&nearest);
+    REQUIRE(off < 1e-12);
+    nodes.push_back(int(nearest));
+  }
+  return nodes;
+}
+
+preset::Preset shipped(const std::string& name) {
+  const auto read =
+      preset::read_preset_file(std::string(GRIDSHELL_SOURCE_DIR) + "/presets/" + name + ".toml");
+  if (!read) FAIL(read.error().message);
+  return read->base;
+}
+
+}  // namespace
+
+TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[full]") {
+  const Watch watch;
+  Session circle = open(fig1());
+  for (const double turn : {0.0, 0.3}) {
+    preset::Preset p = fig1();
+    p.footprint = {};
+    p.footprint.kind = preset::FootprintKind::network;
+    p.footprint.file = as_file(circle.scene(), turn, 0.75);
+    Session network = open(p);
+    const Footprint& net = network.scene().footprint;
+    CHECK(net.joints.size() == circle.scene().footprint.joints.size());
+    // turned it is no grid any more, and nothing but its rods counts
+    CHECK((net.rods[0].family == Family::other) == (turn != 0));
+    CHECK(net.cells.size() == (turn == 0 ? circle.scene().footprint.cells.size() : 0));
+    CHECK(net.spacing == Approx(20).epsilon(1e-12));
+
+    const Eigen::Matrix3d by = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    const auto coarse_nodes = same_nodes(circle.shell().mesh(0), network.shell().mesh(0), turn);
+    const auto fine = same_nodes(circle.shell().finest(), network.shell().finest(), turn);
+    for (const double shortening : {0.02, 0.05}) {
+      circle.begin_buckled(shortening, watch).value();
+      REQUIRE(circle.move_to(1, watch).end == Outcome::reached);
+      // both begin at the same state of the coarsest mesh, a little off its rest
+      const State& coarse = circle.shell().state().levels[0];
+      Eigen::Matrix3Xd off = coarse.x;
+      off.row(2) *= 1.01;
+      const auto begun = [&](Session& session, const Eigen::Matrix3Xd& x) {
+        const Model& model = session.shell().model(0);
+        State state = start_state(model, x);
+        session.shell().motion(0).impose(session.shell().system(0), 1, state);
+        const Report report = session.begin_at(1, state, watch);
+        REQUIRE(report.end == Outcome::reached);
+        CHECK(report.certificate.stable());
+        return Eigen::Matrix3Xd(session.nodes());
+      };
+      const Eigen::Matrix3Xd there = by * off(Eigen::all, coarse_nodes);
+      const Eigen::Matrix3Xd x = begun(network, there), expected = begun(circle, off);
+      const double worst = (x - by * expected(Eigen::all, fine)).colwise().norm().maxCoeff();
+      CAPTURE(turn, shortening, worst);
+      CHECK(worst < 1e-9 * 126);
+      CHECK(network.energies().total() == Approx(circle.energies().total()).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("the shipped networks come to certified rest", "[full]") {
+  for (const char* name :
+       {"network_triaxial", "network_cut", "network_ring", "network_kagome", "network_space"}) {
+    const auto outcome = run_stills(shipped(name));
+    CAPTURE(name, outcome.summary.limit_reason);
+    // a branch that is left on the way is told, and the rest is one of its own
+    const auto limit = outcome.summary.limit;
+    CHECK((limit == record::Limit::none || limit == record::Limit::snap));
+    CHECK(outcome.summary.stable);
+    CHECK(outcome.summary.residual_N < 1e-3);
+    CHECK(outcome.summary.height_mm > 10);
+  }
+}
+
+TEST_CASE("a footprint drawn as DXF reads back as the same network") {
+  preset::Preset p = shipped("network_triaxial");
+  const auto scene = scene_of(p);
+  const auto work = experiment::fabrication_plan_of(p);
+  REQUIRE(scene);
+  REQUIRE(work);
+  const auto read =
+      preset::read_network(exports::to_dxf(exports::footprint_drawing(*work)), "triaxial.dxf");
+  if (!read) FAIL(read.error().message);
+  p.footprint.file = *read;
+  const auto again = scene_of(p);
+  if (!again) FAIL(again.error().message);
+  const Footprint &a = scene->footprint, &b = again->footprint;
+  REQUIRE(b.rods.size() == a.rods.size());
+  CHECK(b.joints.size() == a.joints.size());
+  CHECK(b.spacing == Approx(a.spacing).epsilon(1e-6));
+  for (std::size_t r = 0; r < a.rods.size(); ++r) {
+    REQUIRE(b.rods[r].marks.size() == a.rods[r].marks.size());
+    for (std::size_t k = 0; k < a.rods[r].marks.size(); ++k)
+      CHECK(b.rods[r].marks[k] == Approx(a.rods[r].marks[k]).margin(2e-3));
+  }
+  CHECK((again->motion.end - scene->motion.end).cwiseAbs().maxCoeff() < 1e-5);
+}
+
+TEST_CASE("rods with sections of their own, springs and shearing joints work on a network") {
+  preset::Preset p = shipped("network_triaxial");
+  auto& file = p.footprint.file;
+  const auto plain = scene_of(p);
+  REQUIRE(plain);
+  CHECK(plain->footprint.rods.size() == file.rods.size());
+  file.diameters.assign(file.rods.size(), 0);
+  file.diameters[2] = 2 * p.rod.diameter_mm;
+  const auto thick = scene_of(p);
+  REQUIRE(thick);
+  CHECK(thick->rods.material(2).EI1 == Approx(16 * plain->rods.material(2).EI1));
+  CHECK(thick->rods.material(1).EI1 == plain->rods.material(1).EI1);
+  file.diameters[2] = 31;
+  const auto fat = scene_of(p);
+  REQUIRE_FALSE(fat);
+  CHECK(fat.error().message.find("rods[2]: a diameter of 31 mm") != std::string::npos);
+}

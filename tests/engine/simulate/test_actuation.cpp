@@ -1,0 +1,179 @@
+// The shell of Fig. 1 along its whole path: the state it ends in is part of the result.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "engine/simulate/experiment.h"
+#include "tests/engine/simulate/run.h"
+#include "tests/small_shell.h"
+
+using namespace gridshell;
+
+namespace {
+
+preset::Preset fig1(int frames, double tolerance) {
+  preset::Preset p;
+  p.movie.frames = frames;
+  p.imperfection.size = 0;
+  p.accuracy.tolerance = tolerance;
+  return p;
+}
+
+Eigen::Matrix3Xd joints_of(const record::Trajectory& trajectory) {
+  Eigen::Matrix3Xd joints(3, trajectory.layout.joints.size());
+  for (std::size_t k = 0; k < trajectory.layout.joints.size(); ++k)
+    joints.col(Eigen::Index(k)) =
+        trajectory.frames.back().nodes.col(trajectory.layout.joints[k].node);
+  return joints;
+}
+
+/// Largest distance between the shell and its mirror image (x, y) -> (s y, s x).
+double asymmetry(const record::Trajectory& trajectory, double s) {
+  std::map<std::pair<int, int>, int> at;
+  const auto& joints = trajectory.layout.joints;
+  for (int k = 0; k < int(joints.size()); ++k) at[{joints[k].i, joints[k].j}] = k;
+  const Eigen::Matrix3Xd x = joints_of(trajectory);
+  double worst = 0;
+  for (int k = 0; k < int(joints.size()); ++k) {
+    // half placement: -(i + 1/2) = (-1 - i) + 1/2
+    const int i = joints[k].i, j = joints[k].j;
+    const int image = s > 0 ? at.at({j, i}) : at.at({-1 - j, -1 - i});
+    worst = std::max(
+        worst, (Eigen::Vector3d(s * x(1, image), s * x(0, image), x(2, image)) - x.col(k)).norm());
+  }
+  return worst;
+}
+
+/// Height of the outermost joints on the diagonal y = s x.
+double corner_on_diagonal(const record::Trajectory& trajectory, double s) {
+  double farthest = 0, height = 0;
+  const Eigen::Matrix3Xd x = joints_of(trajectory);
+  for (std::size_t k = 0; k < trajectory.layout.joints.size(); ++k) {
+    const auto& joint = trajectory.layout.joints[k];
+    if (std::abs(joint.v_mm - s * joint.u_mm) > 1e-9 || std::abs(joint.u_mm) < farthest) continue;
+    farthest = std::abs(joint.u_mm);
+    height = x(2, Eigen::Index(k));
+  }
+  return height;
+}
+
+}  // namespace
+
+TEST_CASE("actuation of Fig. 1 ends in the state with two diagonal mirrors, at its energy") {
+  const experiment::ExperimentResult outcome = run(fig1(2, 1e-6));
+  const record::Summary& s = outcome.summary;
+  CHECK(s.stable);
+  CHECK(s.negative_pivots == 0);
+  CHECK(s.limit == record::Limit::none);
+  CHECK(s.energies[Term::bend] == Approx(39.979).margin(5e-4));
+  CHECK(s.energies[Term::stretch] == Approx(0.0136).margin(2e-4));
+  CHECK(s.residual_N < 1e-8);
+  CHECK(s.error_estimate_mm <= 1e-6 * 126);
+  const auto& nodes = outcome.trajectory.frames.back().nodes;
+  CHECK(nodes.row(2).maxCoeff() == Approx(49.3).margin(0.05));
+  CHECK(nodes.row(2).minCoeff() == Approx(-4.2).margin(0.05));
+  CHECK(asymmetry(outcome.trajectory, 1) < 1e-6);
+  CHECK(asymmetry(outcome.trajectory, -1) < 1e-6);
+}
+
+TEST_CASE("the seed names the diagonal whose corner joints lie lower, and up or down") {
+  for (const bool down : {false, true})
+    for (const bool other : {false, true}) {
+      preset::Preset p = fig1(2, 1e-3);
+      p.actuation.seed = down ? preset::Seed::down : preset::Seed::up;
+      p.actuation.seed_diagonal =
+          other ? preset::SeedDiagonal::y_eq_minus_x : preset::SeedDiagonal::y_eq_x;
+      const experiment::ExperimentResult outcome = run(p);
+      const double on_seed = corner_on_diagonal(outcome.trajectory, other ? -1 : 1);
+      const double across = corner_on_diagonal(outcome.trajectory, other ? 1 : -1);
+      CHECK(on_seed < across);
+      const auto z = outcome.trajectory.frames.back().nodes.row(2);
+      CHECK((z.maxCoeff() > -z.minCoeff()) == !down);
+    }
+}
+
+TEST_CASE("the last frame does not depend on how many frames are asked for") {
+  const experiment::ExperimentResult few = run(fig1(2, 1e-3)), many = run(fig1(25, 1e-3));
+  CHECK(few.trajectory.frames.back().nodes == many.trajectory.frames.back().nodes);
+  CHECK(few.summary.energies[Term::bend] == many.summary.energies[Term::bend]);
+  REQUIRE(many.trajectory.frames.size() == 25);
+  double previous = -1;
+  for (const record::Frame& frame : many.trajectory.frames) {
+    CHECK(frame.energies[Term::bend] > previous);
+    previous = frame.energies[Term::bend];
+    // a frame that is not stable says so
+    CHECK((frame.negative_pivots == 0) == frame.event.empty());
+    CHECK(frame.boundary_radius_mm == Approx(126 - 31.5 * frame.progress));
+  }
+}
+
+TEST_CASE("joints and energy converge at second order, extrapolated they agree with the estimate") {
+  const auto at = [](int edges) {
+    preset::Preset p = fig1(2, 1e-3);
+    p.accuracy.edges_per_segment = edges;
+    return run(p);
+  };
+  const experiment::ExperimentResult reference = run(fig1(2, 1e-7));
+  const Eigen::Matrix3Xd exact = joints_of(reference.trajectory);
+  double before = 0, energy_before = 0;
+  for (int edges : {4, 8, 16}) {
+    const experiment::ExperimentResult outcome = at(edges);
+    const double error = (joints_of(outcome.trajectory) - exact).colwise().norm().maxCoeff();
+    const double energy =
+        std::abs(outcome.summary.energies[Term::bend] - reference.summary.energies[Term::bend]);
+    if (before > 0) {
+      CHECK(std::log2(before / error) == Approx(2).margin(0.1));
+      CHECK(std::log2(energy_before / energy) == Approx(2).margin(0.15));
+    }
+    if (edges == 4) {
+      CHECK(std::isnan(outcome.summary.error_estimate_mm));  // one mesh alone cannot know
+      CHECK(error / 126 == Approx(2.6e-3).epsilon(0.05));
+    } else {
+      CHECK(error < outcome.summary.error_estimate_mm);
+      CHECK(outcome.summary.error_estimate_mm < 2 * error);
+    }
+    before = error;
+    energy_before = energy;
+  }
+  const experiment::ExperimentResult extrapolated = run(fig1(2, 1e-5));
+  const double error = (joints_of(extrapolated.trajectory) - exact).colwise().norm().maxCoeff();
+  CHECK(error <= 1e-5 * 126);
+  CHECK(error < 2 * extrapolated.summary.error_estimate_mm);
+  CHECK(extrapolated.summary.error_estimate_mm < 5 * error);
+}
+
+TEST_CASE("the flat footprint is the first frame: at rest, stable, without curvature") {
+  const experiment::ExperimentResult outcome = run(fig1(3, 1e-3));
+  const record::Frame& flat = outcome.trajectory.frames.front();
+  CHECK(flat.nodes.row(2).cwiseAbs().maxCoeff() == 0);
+  CHECK(flat.residual_N < 1e-9);
+  CHECK(flat.negative_pivots == 0);
+  CHECK(flat.total_K == 0);
+}
+
+TEST_CASE("the same run twice is the same to the last bit") {
+  const experiment::ExperimentResult a = run(fig1(6, 1e-4)), b = run(fig1(6, 1e-4));
+  for (std::size_t k = 0; k < a.trajectory.frames.size(); ++k) {
+    CHECK(a.trajectory.frames[k].nodes == b.trajectory.frames[k].nodes);
+    CHECK(a.trajectory.frames[k].cell_K == b.trajectory.frames[k].cell_K);
+  }
+}
+
+TEST_CASE("a cancelled run ends as cancelled") {
+  Watch watch;
+  watch.cancel();
+  const auto outcome = experiment::run(fig1(6, 1e-3), false, watch);
+  REQUIRE_FALSE(outcome.has_value());
+  CHECK(outcome.error().fault == Fault::cancelled);
+}
+
+TEST_CASE("a boundary that takes no rod out of the flat is refused before a run") {
+  preset::Preset still = small_shell();
+  still.actuation.radius_mm = still.footprint.radius_mm;
+  const auto plan = experiment::plan(still);
+  REQUIRE_FALSE(plan);
+  CHECK(plan.error().fault == Fault::bad_input);
+  CHECK(plan.error().message ==
+        "the actuated boundary does not shorten the rods: nothing would buckle");
+  CHECK(experiment::plan(small_shell()));
+}

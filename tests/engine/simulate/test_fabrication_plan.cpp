@@ -1,0 +1,114 @@
+// What is built by hand has the model's own lengths and places.
+#include <catch2/catch.hpp>
+
+#include "engine/footprint/mesh.h"
+#include "engine/record/fabrication.h"
+#include "engine/scene/scene.h"
+#include "engine/simulate/fabrication_plan.h"
+
+using namespace gridshell;
+using exports::CutRod;
+using exports::FabricationPlan;
+using exports::Pin;
+
+namespace {
+
+preset::Preset paper_circle() {
+  preset::Preset preset;
+  preset.footprint.rods = 12;
+  preset.footprint.radius_mm = 126;
+  preset.footprint.spacing_mm = 20;
+  preset.actuation.radius_mm = 94.5;
+  return preset;
+}
+
+preset::Preset cap(double second_ring_mm) {
+  preset::Preset preset;
+  preset.footprint.kind = preset::FootprintKind::net;
+  preset.net.kind = preset::NetKind::sphere;
+  preset.net.radius_mm = 120;
+  preset.net.cut_height = 0.3;
+  preset.footprint.spacing_mm = 20;
+  preset.ends.second_ring_mm = second_ring_mm;
+  return preset;
+}
+
+FabricationPlan made(const preset::Preset& preset) {
+  auto work = experiment::fabrication_plan_of(preset);
+  if (!work) FAIL(work.error().message);
+  return std::move(*work);
+}
+
+}  // namespace
+
+TEST_CASE("the cut list's total is the rest length of the model, marks are its joints") {
+  for (const auto& preset : {paper_circle(), cap(0), cap(10)}) {
+    const FabricationPlan work = made(preset);
+    const Scene scene = scene_of(preset).value();
+    const RodMesh mesh = mesh_rods(scene.footprint, 4);
+    double rest = 0;
+    for (const auto& along : mesh.position) rest += along.back() - along.front();
+    CHECK(work.total_length_mm() == Approx(rest).epsilon(1e-12));
+    std::size_t marks = 0;
+    for (const CutRod& rod : work.rods) {
+      marks += rod.joint_marks_mm.size();
+      CHECK((rod.end - rod.begin).norm() == Approx(rod.length_mm).epsilon(1e-12));
+      CHECK(std::is_sorted(rod.joint_marks_mm.begin(), rod.joint_marks_mm.end()));
+      CHECK(rod.leg_begin_mm > 0);
+      CHECK(rod.leg_end_mm > 0);
+      CHECK(rod.joint_marks_mm.back() < rod.length_mm);
+    }
+    // each joint ties two rods
+    CHECK(marks == 2 * work.joints.size());
+  }
+}
+
+TEST_CASE("pins lie on the actuated boundary, those of the second ring do not") {
+  const FabricationPlan circle = made(paper_circle());
+  CHECK(circle.pins.size() == 2 * circle.rods.size());
+  for (const Pin& pin : circle.pins) {
+    CHECK(pin.in_ring);
+    CHECK(pin.at.head<2>().norm() == Approx(94.5).epsilon(1e-9));
+  }
+  const FabricationPlan ring = made(cap(10));
+  CHECK(ring.pins.size() == 4 * ring.rods.size());
+  CHECK(std::ranges::count(ring.pins, false, &Pin::in_ring) == long(2 * ring.rods.size()));
+  for (const CutRod& rod : ring.rods) {
+    REQUIRE(rod.pin_marks_mm.size() == 2);
+    CHECK(rod.pin_marks_mm[0] == 10);
+  }
+}
+
+TEST_CASE("drawings of a circle: lines as long as its rods, true circles, one hole a pin") {
+  const FabricationPlan work = made(paper_circle());
+  const auto drawing = exports::footprint_drawing(work);
+  const auto& rods = drawing.layers[0];
+  REQUIRE(rods.lines.size() == work.rods.size());
+  for (std::size_t r = 0; r < rods.lines.size(); ++r)
+    CHECK((rods.lines[r].points[1] - rods.lines[r].points[0]).norm() ==
+          Approx(work.rods[r].length_mm).epsilon(1e-12));
+  const auto plate = exports::plate_drawing(work);
+  REQUIRE(plate);
+  CHECK(plate->layers[0].circles.at(0).radius_mm == 94.5);
+  CHECK(plate->layers[1].circles.size() == work.pins.size());
+}
+
+TEST_CASE("a plate is refused where the edge points do not lie in a plane") {
+  preset::Preset preset = cap(0);
+  preset.net.kind = preset::NetKind::cylinder;
+  preset.net.radius_mm = 100;
+  preset.net.length_mm = 125;
+  const auto plate = exports::plate_drawing(made(preset));
+  REQUIRE_FALSE(plate);
+  CHECK(plate.error().message.find("no flat plate") != std::string::npos);
+}
+
+TEST_CASE("legs too short to build are named in the cut list") {
+  preset::Preset preset = paper_circle();
+  preset.footprint.radius_mm = 110.5;  // longest leg 0.025 d
+  preset.actuation.radius_mm = 90;
+  const FabricationPlan work = made(preset);
+  const std::string csv = exports::cut_list_csv(work);
+  CHECK(std::ranges::any_of(work.rods, &CutRod::hard_to_build));
+  CHECK(csv.find("a leg below 3 mm: hard to build") != csv.npos);
+}

@@ -1,0 +1,46 @@
+// The first buckled state: the one that the seed asks for, whatever mesh is asked for.
+#include "engine/simulate/first_state.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/simulate/session.h"
+
+using namespace gridshell;
+
+namespace {
+
+/// A superellipse whose dome has several states of rest close to one another: brought to rest on
+/// each mesh by itself, it came to states 0.6 mm apart in height.
+Scene many_states() {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::curve;
+  p.footprint.boundary.kind = preset::CurveKind::superellipse;
+  p.footprint.boundary.half_x_mm = 123.26901689171791;
+  p.footprint.boundary.half_y_mm = 102.08232879638672;
+  p.footprint.boundary.exponent = 3.0916969776153564;
+  p.actuation.scale = 0.8719519721716642;
+  return scene_of(p).value();
+}
+
+Energies first_energies(const std::shared_ptr<const Scene>& scene, int edges) {
+  Session session = Session::open(scene, {.edges_per_segment = {edges}}).value();
+  const Watch watch;
+  const Report report = session.begin_buckled(0.02, watch).value();
+  REQUIRE(report.end == Outcome::reached);
+  CHECK(report.certificate.stable());
+  return session.energies();
+}
+
+}  // namespace
+
+TEST_CASE("the first buckled state is the same one on meshes of every family") {
+  const auto scene = std::make_shared<const Scene>(many_states());
+  // second order: 4 edges are the furthest off
+  const double coarse = first_energies(scene, 4).total(), fine = first_energies(scene, 10).total();
+  for (int edges : {5, 6, 7, 8}) {
+    CAPTURE(edges, coarse, fine);
+    const double expected =
+        fine + (coarse - fine) * (1.0 / (edges * edges) - 0.01) / (1.0 / 16 - 0.01);
+    CHECK(first_energies(scene, edges).total() == Approx(expected).epsilon(2e-3));
+  }
+}

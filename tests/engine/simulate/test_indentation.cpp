@@ -1,0 +1,246 @@
+// The paper's point loads on hemispheres, and pushes to their end.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/footprint/symmetry.h"
+#include "engine/record/gauss_curvature.h"
+#include "engine/scene/scene.h"
+#include "engine/simulate/experiment.h"
+#include "tests/engine/simulate/run.h"
+
+using namespace gridshell;
+
+namespace {
+
+enum class Case { pole_inward, pole_outward, oblique_inward };
+
+preset::Preset hemisphere(Case which, double radius_mm, preset::Placement placement,
+                          double depth = 0.1, int frames = 11) {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::net;
+  p.footprint.placement = placement;
+  p.net.radius_mm = radius_mm;
+  p.actuation.start = preset::Start::net;
+  p.indentation.depth = depth;
+  if (which == Case::pole_outward) p.indentation.direction = preset::Direction::outward;
+  if (which == Case::oblique_inward) p.indentation.latitude_deg = p.indentation.longitude_deg = 45;
+  p.movie.frames = frames;
+  return p;
+}
+
+Eigen::Matrix3Xd joints_of(const record::Trajectory& run, std::size_t frame) {
+  return run.frames[frame].nodes.leftCols(Eigen::Index(run.layout.joints.size()));
+}
+
+double work_of(const record::FrameList& frames) {
+  double work = 0;
+  for (std::size_t k = 1; k < frames.size(); ++k)
+    work += 0.5 * (frames[k].force_N + frames[k - 1].force_N) *
+            (frames[k].depth_mm - frames[k - 1].depth_mm);
+  return work;
+}
+
+double energy_of(const record::Frame& frame) {
+  return frame.energies[Term::bend] + frame.energies[Term::stretch];
+}
+
+}  // namespace
+
+TEST_CASE("three point loads: certified frames, depth as asked, the force does the work") {
+  for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
+    const experiment::ExperimentResult outcome =
+        run(hemisphere(which, 120, preset::Placement::on_axis));
+    const auto& frames = outcome.trajectory.frames;
+    REQUIRE(frames.size() == 11);
+    CHECK(outcome.summary.limit == record::Limit::none);
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      CHECK(frames[k].depth_mm == Approx(1.2 * double(k)).margin(1e-12));
+      CHECK(frames[k].negative_pivots == 0);
+      CHECK(frames[k].residual_N < 1e-6);
+      CHECK(frames[k].event.empty());
+      CHECK(frames[k].K_bins.col(2).sum() == double(outcome.summary.cells));
+    }
+    CHECK(std::abs(frames.front().force_N) < 1e-6);
+    for (std::size_t k = 1; k < frames.size(); ++k)
+      CHECK(frames[k].force_N > frames[k - 1].force_N);
+    // trapezoids over ten steps
+    const double gained = energy_of(frames.back()) - energy_of(frames.front());
+    CHECK(work_of(frames) == Approx(gained).epsilon(5e-3));
+  }
+}
+
+TEST_CASE("total K equals the sum over the corner joints in every frame") {
+  for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
+    for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
+      const preset::Preset p = hemisphere(which, 120, placement, 0.1, 4);
+      const experiment::ExperimentResult outcome = run(p);
+      const Footprint footprint = scene_of(p)->footprint;
+      const RodMesh mesh = mesh_rods(footprint, outcome.summary.edges_per_segment);
+      for (const record::Frame& frame : outcome.trajectory.frames)
+        CHECK(
+            total_curvature_from_corners(footprint, joint_tangents(footprint, mesh, frame.nodes)) ==
+            Approx(frame.total_K).margin(1e-9));
+    }
+}
+
+TEST_CASE("the pushed joint goes straight down its normal, held, it does not go sideways") {
+  for (const auto lateral : {preset::Lateral::free, preset::Lateral::held}) {
+    preset::Preset p = hemisphere(Case::oblique_inward, 120, preset::Placement::on_axis, 0.1, 3);
+    p.indentation.lateral = lateral;
+    const experiment::ExperimentResult outcome = run(p);
+    const Eigen::Matrix3Xd before = joints_of(outcome.trajectory, 0),
+                           after = joints_of(outcome.trajectory, 2);
+    // the joint nearest to latitude and longitude of 45 degrees on the net
+    const Eigen::Vector3d there(0.5, 0.5, std::sqrt(0.5));
+    const Eigen::Matrix3Xd net = outcome.trajectory.layout.net_nodes.leftCols(before.cols());
+    Eigen::Index joint = 0;
+    (there.transpose() * net).maxCoeff(&joint);
+    const Eigen::Vector3d normal = net.col(joint).normalized();
+    const Eigen::Vector3d moved = after.col(joint) - before.col(joint);
+    CHECK(moved.dot(normal) == Approx(-12).margin(1e-9));
+    const double sideways = (moved - moved.dot(normal) * normal).norm();
+    if (lateral == preset::Lateral::held)
+      CHECK(sideways < 1e-9);
+    else
+      CHECK(sideways > 0.1);
+  }
+}
+
+TEST_CASE("pole cases keep four mirror planes, at half placement one diagonal") {
+  const double half = std::sqrt(0.5);
+  for (const Case which : {Case::pole_inward, Case::pole_outward}) {
+    const experiment::ExperimentResult outcome =
+        run(hemisphere(which, 120, preset::Placement::on_axis));
+    const Eigen::Matrix3Xd joints = joints_of(outcome.trajectory, 10);
+    for (const Eigen::Vector2d& normal :
+         {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(half, half),
+          Eigen::Vector2d(half, -half)})
+      CHECK(mirror_defect(joints, normal) < 1e-8 * 120);
+  }
+  const experiment::ExperimentResult outcome =
+      run(hemisphere(Case::pole_inward, 120, preset::Placement::half));
+  const Eigen::Matrix3Xd joints = joints_of(outcome.trajectory, 10);
+  CHECK(mirror_defect(joints, {half, -half}) < 1e-8 * 120);
+  CHECK(mirror_defect(joints, {half, half}) > 1e-2 * 120);
+}
+
+TEST_CASE("force, total K and reach converge at second order over three meshes", "[full]") {
+  for (const double radius : {76.394, 120.0})
+    for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
+      for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
+        double force[4], total[4], most[4];
+        for (int k = 0; k < 4; ++k) {
+          preset::Preset p = hemisphere(which, radius, placement);
+          p.accuracy.edges_per_segment = 4 << k;
+          const experiment::ExperimentResult outcome = run(p);
+          const record::Frame& last = outcome.trajectory.frames.back();
+          REQUIRE(outcome.trajectory.frames.size() == 11);
+          force[k] = last.force_N, total[k] = last.total_K, most[k] = last.cell_K.maxCoeff();
+        }
+        INFO(radius << " " << int(placement) << " " << int(which));
+        const auto order = [](const double* value) {
+          return std::log2(std::abs((value[2] - value[1]) / (value[3] - value[2])));
+        };
+        CHECK(order(force) == Approx(2).margin(0.3));
+        CHECK(order(total) == Approx(2).margin(0.3));
+        CHECK(order(most) == Approx(2).margin(0.3));
+      }
+}
+
+TEST_CASE("outward at the pole the rods run into their length: locking, certified up to there",
+          "[full]") {
+  const experiment::ExperimentResult few =
+      run(hemisphere(Case::pole_outward, 120, preset::Placement::on_axis, 0.4, 3));
+  const experiment::ExperimentResult many =
+      run(hemisphere(Case::pole_outward, 120, preset::Placement::on_axis, 0.4, 21));
+  for (const experiment::ExperimentResult* outcome : {&few, &many}) {
+    CHECK(outcome->summary.limit == record::Limit::locking);
+    const record::Frame& last = outcome->trajectory.frames.back();
+    CHECK(last.event == "locking");
+    CHECK(last.negative_pivots == 0);
+    CHECK(last.residual_N < 1e-6);
+    CHECK(last.depth_mm / 120 == Approx(0.24).margin(0.03));
+    CHECK(last.force_N < 5);
+  }
+  // frames only sample the path
+  CHECK(few.trajectory.frames.back().depth_mm ==
+        Approx(many.trajectory.frames.back().depth_mm).margin(1e-2));
+}
+
+TEST_CASE("deep pushes end certified or at a named limit", "[full]") {
+  for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
+    for (const Case which : {Case::pole_inward, Case::oblique_inward}) {
+      const experiment::ExperimentResult outcome = run(hemisphere(which, 120, placement, 0.6, 31));
+      for (const record::Frame& frame : outcome.trajectory.frames) {
+        // between a loss of stability and the next rest a frame says that it is not stable
+        CHECK((frame.negative_pivots == 0 || frame.event.starts_with("unstable")));
+        CHECK(frame.residual_N < 1e-5);
+      }
+      const bool whole = outcome.trajectory.frames.back().depth_mm == Approx(72);
+      CHECK((whole || outcome.summary.limit != record::Limit::none));
+    }
+}
+
+TEST_CASE("unloading follows the way back, after a snap on another branch", "[full]") {
+  preset::Preset p = hemisphere(Case::pole_inward, 120, preset::Placement::on_axis, 0.1, 9);
+  p.indentation.unload = true;
+  const experiment::ExperimentResult there_and_back = run(p);
+  const auto& frames = there_and_back.trajectory.frames;
+  REQUIRE(frames.size() == 9);
+  for (int k = 0; k < 4; ++k)
+    CHECK((frames[k].nodes - frames[8 - k].nodes).cwiseAbs().maxCoeff() < 1e-6);
+
+  preset::Preset fig1;
+  fig1.imperfection.size = 0;  // the state with two mirrors
+  fig1.indentation.at = preset::IndentationPlace::highest;
+  fig1.indentation.depth = 0.5;
+  fig1.indentation.unload = true;
+  fig1.movie.frames = 21;
+  const experiment::ExperimentResult snapped = run(fig1);
+  CHECK(snapped.summary.limit == record::Limit::snap);
+  CHECK_THAT(snapped.summary.limit_reason,
+             Catch::Contains("on the leading mesh its path turns back at 33.4"));
+  const auto& way = snapped.trajectory.frames;
+  REQUIRE(way.size() == 21);
+  // there and back differ between the snap on the way in and the one on the way out: hysteresis
+  const auto snaps = [&](int from, int to) {
+    int count = 0;
+    for (int k = from; k < to; ++k) count += way[std::size_t(k)].event.starts_with("snap");
+    return count;
+  };
+  CHECK(snaps(0, 11) == 1);
+  CHECK(snaps(11, 21) == 1);
+  CHECK(way[5].depth_mm == Approx(way[15].depth_mm));
+  CHECK(way[5].force_N > way[15].force_N + 0.02);
+  CHECK((way.front().nodes - way.back().nodes).cwiseAbs().maxCoeff() < 1e-6);
+  for (const record::Frame& frame : way) CHECK(frame.negative_pivots == 0);
+}
+
+TEST_CASE("a joint that is not there is refused") {
+  preset::Preset p = hemisphere(Case::pole_inward, 120, preset::Placement::on_axis);
+  p.indentation.joint = {40, 0};
+  Watch watch;
+  const auto outcome = experiment::run(p, false, watch);
+  REQUIRE_FALSE(outcome.has_value());
+  CHECK(outcome.error().fault == Fault::bad_input);
+  CHECK_THAT(outcome.error().message, Catch::Contains("no such joint"));
+}
+
+TEST_CASE("pushes on the twist rung are those of the bend rung, to a millionth of rho") {
+  for (const Case which : {Case::pole_inward, Case::pole_outward}) {
+    preset::Preset p = hemisphere(which, 120, preset::Placement::on_axis, 0.05, 3);
+    p.accuracy.edges_per_segment = 4;
+    p.accuracy.tolerance = 1e-6;
+    const experiment::ExperimentResult bend = run(p);
+    p.accuracy.model = RodModel::twist;
+    p.rod.shear_GPa = 31;
+    const experiment::ExperimentResult twist = run(p);
+    REQUIRE(twist.trajectory.frames.size() == bend.trajectory.frames.size());
+    const record::Frame &a = bend.trajectory.frames.back(), &b = twist.trajectory.frames.back();
+    CHECK(b.force_N == Approx(a.force_N).epsilon(1e-5));
+    CHECK(b.energies[Term::twist] < 1e-10);
+    const Eigen::Index joints = bend.summary.joints;
+    CHECK((a.nodes.leftCols(joints) - b.nodes.leftCols(joints)).colwise().norm().maxCoeff() <
+          1e-6 * 120);
+  }
+}

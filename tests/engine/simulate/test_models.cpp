@@ -1,0 +1,206 @@
+// The rungs from a preset on: each where it is exact, against one another.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/simulate/experiment.h"
+#include "tests/engine/simulate/run.h"
+
+using namespace gridshell;
+
+namespace {
+
+constexpr double shear_GPa = 31;
+
+preset::Preset circle(int rods, int edges) {
+  preset::Preset p;
+  p.footprint.rods = rods;
+  p.footprint.radius_mm = rods * 10.5;
+  p.actuation.radius_mm = 0.85 * p.footprint.radius_mm;
+  p.rod.shear_GPa = shear_GPa;
+  p.movie.frames = 2;
+  p.accuracy.edges_per_segment = edges;
+  return p;
+}
+
+double distance(const experiment::ExperimentResult& a, const experiment::ExperimentResult& b) {
+  const Eigen::Index joints = a.summary.joints;
+  return (a.trajectory.frames.back().nodes.leftCols(joints) -
+          b.trajectory.frames.back().nodes.leftCols(joints))
+      .colwise()
+      .norm()
+      .maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("a circle on the twist rung ends where it does on the bend rung, without twist") {
+  preset::Preset p = circle(4, 4);
+  p.accuracy.tolerance = 1e-6;
+  const experiment::ExperimentResult bend = run(p);
+  p.accuracy.model = RodModel::twist;
+  const experiment::ExperimentResult twist = run(p);
+  CHECK(bend.summary.model == "bend");
+  CHECK(twist.summary.model == "twist");
+  CHECK(twist.summary.stable);
+  CHECK(twist.summary.residual_N < 1e-7);
+  CHECK(twist.summary.energies[Term::twist] < 1e-12);
+  CHECK(twist.summary.energies[Term::bend] ==
+        Approx(bend.summary.energies[Term::bend]).epsilon(1e-8));
+  CHECK(twist.summary.dof > bend.summary.dof);
+  CHECK(distance(bend, twist) < 1e-6 * p.footprint.radius_mm);
+}
+
+TEST_CASE("loads on the bend rung are those of the twist rung, and lower the shell") {
+  preset::Preset p = circle(4, 4);
+  p.accuracy.tolerance = 1e-6;
+  const experiment::ExperimentResult unloaded = run(p);
+  p.rod.density_kg_m3 = 6450;
+  p.loads.gravity_m_s2 = 200;
+  p.loads.points = {{0, 0, 0, 0.01, -0.02}};
+  const experiment::ExperimentResult bend = run(p);
+  CHECK(bend.summary.model == "bend");
+  CHECK(bend.summary.stable);
+  const auto lowered = [](const experiment::ExperimentResult& outcome) {
+    return outcome.trajectory.frames.back().nodes.row(2).leftCols(outcome.summary.joints).sum();
+  };
+  CHECK(lowered(bend) < lowered(unloaded) - 0.5);
+  CHECK(bend.trajectory.frames.front().residual_N < 1e-9);  // no load on the flat
+  p.accuracy.model = RodModel::twist;
+  CHECK(distance(bend, run(p)) < 1e-6 * p.footprint.radius_mm);
+  p.loads.points = {{7, 0, 0, 0, 1}};
+  Watch watch;
+  const auto refused = experiment::run(p, false, watch);
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().fault == Fault::bad_input);
+  CHECK(refused.error().message == "[loads] points: the footprint has no joint [7, 0]");
+}
+
+TEST_CASE("spring joints from a preset come to the shared ones as they stiffen") {
+  preset::Preset p = circle(4, 4);
+  p.accuracy.tolerance = 1e-5;
+  const experiment::ExperimentResult shared = run(p);
+  p.joints.kind = preset::JointKind::spring;
+  double before = 0;
+  for (double stiffness : {1.0, 10.0, 100.0}) {
+    p.joints.stiffness_N_per_mm = stiffness;
+    const experiment::ExperimentResult spring = run(p);
+    CHECK(spring.summary.stable);
+    const double off = distance(shared, spring);
+    CAPTURE(stiffness, off);
+    if (before > 0) CHECK(before / off == Approx(10).epsilon(0.1));
+    before = off;
+  }
+}
+
+TEST_CASE("joints that pass twist twist the rods, the more the stiffer they are") {
+  preset::Preset p = circle(4, 4);
+  double before = 0;
+  for (double stiffness : {0.05, 0.5, 5.0}) {
+    p.joints.twist_Nmm = stiffness;
+    const experiment::ExperimentResult outcome = run(p);
+    CHECK(outcome.summary.stable);
+    CHECK(outcome.summary.energies[Term::twist] > 1.2 * before);
+    CHECK(outcome.summary.energies[Term::twist] > 1e-4);
+    before = outcome.summary.energies[Term::twist];
+  }
+}
+
+TEST_CASE("a cylinder with clamped ends is its net, to second order, with rods that are twisted") {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::net;
+  p.net.kind = preset::NetKind::cylinder;
+  p.net.radius_mm = 60;
+  p.net.length_mm = 280;
+  p.actuation.start = preset::Start::net;
+  p.rod.shear_GPa = shear_GPa;
+  p.ends.kind = preset::EndKind::clamped;
+  p.movie.frames = 2;
+  double before = 0;
+  for (int edges : {4, 8}) {
+    p.accuracy.edges_per_segment = edges;
+    const record::Summary s = run(p).summary;
+    CHECK(s.model == "twist");
+    CHECK(s.stable);
+    CHECK(s.energies[Term::twist] > 0.02);
+    if (before > 0) CHECK(std::log2(before / s.max_deviation) == Approx(2).margin(0.15));
+    before = s.max_deviation;
+  }
+  CHECK(before < 1e-4);
+}
+
+TEST_CASE("a strip lies down or stands up, and an arched rod rises by itself") {
+  preset::Preset p = circle(4, 4);
+  const double round = run(p).summary.height_mm;
+  p.rod.curvature_per_mm = 0.005;
+  const experiment::ExperimentResult arched = run(p);
+  CHECK(arched.summary.stable);
+  // curved as the dome is, it has less to bend; in the flat it is not at rest straight
+  CHECK(arched.trajectory.frames.front().height_mm > 0.01);
+  CHECK(arched.trajectory.frames.front().residual_N < 1e-6);
+  // the other way round its rods roll over, as their ends spin freely, and come to the same
+  p.rod.curvature_per_mm = -0.005;
+  CHECK(run(p).summary.energies[Term::bend] ==
+        Approx(arched.summary.energies[Term::bend]).epsilon(1e-9));
+  p.rod.curvature_per_mm = 0;
+  p.rod.width_mm = 0.5;
+  p.rod.thickness_mm = 0.15;
+  const experiment::ExperimentResult flat = run(p);
+  CHECK(flat.summary.stable);
+  CHECK(flat.summary.energies[Term::twist] > 1e-3);
+  CHECK(flat.summary.height_mm != Approx(round).epsilon(1e-3));
+}
+
+TEST_CASE("the net rung says that nothing was solved for") {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::net;
+  p.accuracy.tolerance = 0.05;
+  p.movie.frames = 3;
+  const experiment::ExperimentResult net = run(p);
+  CHECK(net.summary.model == "net");
+  CHECK_FALSE(net.summary.solved);
+  CHECK(net.summary.limit == record::Limit::none);
+  CHECK(std::isnan(net.summary.residual_N));
+  CHECK(net.summary.max_deviation == 0);
+  REQUIRE(net.trajectory.frames.size() == 2);
+  CHECK(net.trajectory.frames.back().negative_pivots == -1);
+  CHECK(net.trajectory.frames.back().event == "the net itself, no equilibrium");
+  // the shell lies within the tolerance
+  p.accuracy.tolerance = 1e-3;
+  p.actuation.start = preset::Start::net;
+  CHECK(distance(net, run(p)) < 0.05 * p.net.radius_mm);
+}
+
+TEST_CASE("a push that snaps is followed in time to the rest that ends it", "[full]") {
+  preset::Preset p;
+  p.imperfection.size = 0;  // the state with two mirrors
+  p.rod.density_kg_m3 = 6450;
+  p.accuracy.edges_per_segment = 4;
+  p.indentation.at = preset::IndentationPlace::highest;
+  p.indentation.depth_mm = 36;
+  p.dynamics.snap = true;
+  p.movie.frames = 10;
+  const experiment::ExperimentResult outcome = run(p);
+  CHECK(outcome.summary.limit == record::Limit::snap);
+  CHECK(outcome.summary.stable);
+  CHECK(outcome.summary.residual_N < 1e-6);
+  double time = 0;
+  int moving = 0, at = 0;
+  for (const record::Frame& frame : outcome.trajectory.frames) {
+    CHECK(frame.index == at++);
+    if (std::isnan(frame.time_s)) {
+      CHECK(frame.negative_pivots == 0);
+      continue;
+    }
+    ++moving;
+    CHECK(frame.event == "in motion");
+    CHECK(frame.negative_pivots == -1);
+    CHECK(frame.time_s > time);
+    CHECK(frame.residual_N > 1e-6);
+    time = frame.time_s;
+  }
+  CHECK(moving > 5);
+  CHECK(moving <= 24);
+  // without it there is the same rest
+  p.dynamics.snap = false;
+  CHECK(distance(outcome, run(p)) < 1e-3);
+}

@@ -1,0 +1,123 @@
+// Networks that are drawn in space: where they come to rest, however they are turned.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "engine/preset/preset_file.h"
+#include "engine/simulate/actuation.h"
+#include "tests/engine/simulate/run.h"
+
+using namespace gridshell;
+
+namespace {
+
+preset::Preset shipped() {
+  const auto read =
+      preset::read_preset_file(std::string(GRIDSHELL_SOURCE_DIR) + "/presets/network_space.toml");
+  if (!read) FAIL(read.error().message);
+  return read->base;
+}
+
+preset::Preset network(const preset::NetworkData& file, int edges) {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::network;
+  p.footprint.file = file;
+  p.accuracy.edges_per_segment = edges;
+  p.movie.frames = 3;
+  return p;
+}
+
+/// Two crossing rods of length 2 a over a square, feet `foot` from the middle and the joint at
+/// `height`.
+preset::NetworkData cross(double foot, double height) {
+  preset::NetworkData file;
+  file.points = {{-foot, 0, 0}, {foot, 0, 0}, {0, -foot, 0}, {0, foot, 0}, {0, 0, height}};
+  file.rods = {{0, 4, 1}, {2, 4, 3}};
+  return file;
+}
+
+preset::NetworkData turned(preset::NetworkData file, const Eigen::Matrix3d& by) {
+  const auto turn = [&](std::vector<double>& row, std::size_t first) {
+    Eigen::Map<Eigen::Vector3d> at(row.data() + first);
+    at = by * Eigen::Vector3d(at);
+  };
+  for (auto& point : file.points) turn(point, 0);
+  for (auto& row : file.supports)
+    if (row.size() == 4) turn(row, 1);
+  return file;
+}
+
+/// The shipped vault, every foot with the place that it goes to.
+preset::NetworkData vault(double scale) {
+  preset::NetworkData file = shipped().footprint.file;
+  for (std::size_t k = 0; k < file.points.size(); ++k) {
+    const auto& at = file.points[k];
+    if (at[2] == 0) file.supports.push_back({double(k), scale * at[0], scale * at[1], 0});
+  }
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("a tent of two rods drawn in space rests as the arches that a flat cross becomes") {
+  const double a = 50, foot = 0.9 * a, height = std::sqrt(a * a - foot * foot);
+  preset::Preset flat = network(cross(a, 0), 8);
+  flat.actuation.scale = 0.9;
+  const experiment::ExperimentResult actuated = run(flat);
+  const experiment::ExperimentResult relaxed = run(network(cross(foot, height), 8));
+  CHECK(relaxed.summary.stable);
+  CHECK(relaxed.summary.limit == record::Limit::none);
+  CHECK(relaxed.summary.energies[Term::bend] ==
+        Approx(actuated.summary.energies[Term::bend]).epsilon(1e-8));
+  CHECK(relaxed.summary.height_mm == Approx(actuated.summary.height_mm).epsilon(1e-8));
+  // a level one is the flat one, at any height
+  preset::NetworkData raised = cross(a, 0);
+  for (auto& point : raised.points) point[2] = 7;
+  const auto scene = scene_of(network(raised, 8));
+  REQUIRE(scene);
+  CHECK_FALSE(scene->drawn_in_space);
+  CHECK(mesh_rods(scene->footprint, 8).height.size() == 0);
+}
+
+TEST_CASE("a vault drawn in space is the same however it is turned, moved supports and all") {
+  const experiment::ExperimentResult upright = run(network(vault(0.92), 4));
+  CHECK(upright.summary.stable);
+  CHECK(upright.summary.limit == record::Limit::none);
+  // from the rest as drawn on: every frame is certified
+  REQUIRE(upright.trajectory.frames.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const record::Frame& frame = upright.trajectory.frames[k];
+    CHECK(frame.progress == Approx(0.5 * double(k)));
+    CHECK(frame.residual_N < 1e-4);
+    CHECK(frame.negative_pivots == 0);
+  }
+  // the feet moved by keys are those moved by the file
+  preset::Preset scaled = shipped();
+  scaled.accuracy.edges_per_segment = 4;
+  CHECK(run_stills(scaled).summary.energies[Term::bend] ==
+        Approx(upright.summary.energies[Term::bend]).epsilon(1e-9));
+  for (const double degrees : {30.0, 90.0}) {
+    const Eigen::Matrix3d by =
+        Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Eigen::Vector3d(1, 0.3, 0).normalized())
+            .toRotationMatrix();
+    const experiment::ExperimentResult other = run(network(turned(vault(0.92), by), 4));
+    CAPTURE(degrees, other.summary.limit_reason);
+    CHECK(other.summary.stable);
+    CHECK(other.summary.energies[Term::bend] ==
+          Approx(upright.summary.energies[Term::bend]).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("what a network in space cannot have is refused with the reason") {
+  const auto refusal = [](const preset::Preset& p) {
+    const auto scene = scene_of(p);
+    return scene ? "none" : scene.error().message;
+  };
+  preset::Preset p = shipped();
+  p.ends.kind = preset::EndKind::tangent;
+  CHECK_THAT(refusal(p), Catch::Contains("[ends] kind") && Catch::Contains("drawn in space"));
+  p = shipped();
+  p.rod.shear_GPa = 30;
+  p.accuracy.model = RodModel::twist;
+  CHECK_THAT(refusal(p), Catch::Contains("bend rung alone"));
+}

@@ -1,0 +1,97 @@
+// The states of shells that are no square grid: shaken, pushed and judged as those of grids.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "engine/preset/preset_file.h"
+#include "engine/study/state_library.h"
+#include "engine/study/state_measures.h"
+
+using namespace gridshell;
+
+namespace {
+
+preset::Preset shipped(const std::string& name, preset::SearchMode mode, int trials) {
+  const auto read =
+      preset::read_preset_file(std::string(GRIDSHELL_SOURCE_DIR) + "/presets/" + name + ".toml");
+  if (!read) FAIL(read.error().message);
+  preset::Preset p = read->base;
+  p.jitter.mode = mode;
+  p.jitter.trials = trials;
+  return p;
+}
+
+experiment::StateLibrary states_of(const preset::Preset& preset) {
+  const auto scene = std::make_shared<const Scene>(scene_of(preset).value());
+  Watch watch;
+  auto found = experiment::find_states(scene, preset.jitter, {.threads = 2}, watch);
+  if (!found) FAIL(found.error().message);
+  return std::move(*found);
+}
+
+void check(const experiment::StateLibrary& library, int trials) {
+  int met = 0;
+  double before = -1e300;
+  for (const auto& state : library.states) {
+    CAPTURE(state.row.state, state.row.group);
+    CHECK(state.frame.negative_pivots == 0);
+    CHECK(state.frame.residual_N < 1e-6);
+    CHECK(state.row.energy_mJ() >= before);
+    before = state.row.energy_mJ();
+    CHECK(before == state.frame.energies.total());
+    met += state.row.count;
+  }
+  // no trial is lost: each met a state, or says why it met none
+  CHECK(met > 0);
+  CHECK(met <= trials);
+}
+
+}  // namespace
+
+TEST_CASE("states of shipped networks are found, stable and in the order of energy", "[full]") {
+  for (const char* name :
+       {"network_triaxial", "network_cut", "network_ring", "network_kagome", "network_space"})
+    for (const auto mode :
+         {preset::SearchMode::random, preset::SearchMode::gravity, preset::SearchMode::poke}) {
+      CAPTURE(name, int(mode));
+      check(states_of(shipped(name, mode, 6)), 6);
+    }
+}
+
+TEST_CASE("a shell has the symmetries that take rods to rods of their kind") {
+  preset::Preset p = shipped("network_triaxial", preset::SearchMode::random, 1);
+  const RodMesh mesh = [&] {
+    const auto scene = scene_of(p);
+    if (!scene) FAIL(scene.error().message);
+    return mesh_rods(scene->footprint, 4);
+  }();
+  const auto symmetries = [&] {
+    const auto scene = scene_of(p);
+    if (!scene) FAIL(scene.error().message);
+    return experiment::symmetries_of_shell(
+        *scene, mesh, symmetries_of(mesh, pinned_motion(mesh, scene->motion).at(1)));
+  };
+  const auto keeps = [&](const MeshSymmetry& symmetry, std::size_t rod) {
+    std::set<int> there, nodes(mesh.rods[rod].begin(), mesh.rods[rod].end());
+    for (int node : nodes) there.insert(symmetry.image[std::size_t(node)]);
+    return there == nodes;
+  };
+  const std::vector<MeshSymmetry> all = symmetries();
+  const auto keep = [&](std::size_t rod) {
+    return std::size_t(std::ranges::count_if(
+        all, [&](const MeshSymmetry& symmetry) { return keeps(symmetry, rod); }));
+  };
+  auto& file = p.footprint.file;
+  for (std::size_t rod = 0; rod < mesh.rods.size(); ++rod) {
+    CAPTURE(rod);
+    file.diameters.assign(file.rods.size(), 0);
+    file.diameters[rod] = 0.5;
+    const auto left = symmetries();
+    CHECK(left.size() == keep(rod));
+    CHECK(std::ranges::all_of(left, [&](const auto& one) { return keeps(one, rod); }));
+  }
+  CHECK(all.size() > keep(0));
+  // where all the rods are thicker none is lost
+  file.diameters.assign(file.rods.size(), 0.5);
+  CHECK(symmetries().size() == all.size());
+}

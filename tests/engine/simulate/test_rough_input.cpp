@@ -1,0 +1,152 @@
+// What broke earlier solvers: each ends in the right answer or in a reason, never in a wrong state.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/scene/scene.h"
+#include "engine/simulate/actuation.h"
+
+using namespace gridshell;
+
+namespace {
+
+std::shared_ptr<const Scene> fig1(double tolerance = 1e-4) {
+  preset::Preset p;
+  p.imperfection.size = 0;  // the state with two mirrors
+  p.accuracy.tolerance = tolerance;
+  return std::make_shared<const Scene>(scene_of(p).value());
+}
+
+/// A course with the frames that were sampled of it.
+struct Run {
+  experiment::EquilibriumPath course;
+  record::Trajectory trajectory;
+};
+
+Result<Run> run(std::shared_ptr<const Scene> scene, const std::vector<double>& progress) {
+  Watch watch;
+  record::MemorySink sink;
+  auto course = experiment::run_actuation(std::move(scene), progress, sink, watch);
+  if (!course) return tl::unexpected<Error>(course.error());
+  return Run{std::move(*course), std::move(sink.trajectory())};
+}
+
+Result<Run> end_of(std::shared_ptr<const Scene> scene) { return run(std::move(scene), {1.0}); }
+
+/// Certified, or a reason; returns whether it was certified.
+bool certified_or_named(const Result<Run>& outcome, double residual_N = 1e-8) {
+  if (!outcome) {
+    CHECK(outcome.error().fault == Fault::no_equilibrium);
+    CHECK_FALSE(outcome.error().message.empty());
+    return false;
+  }
+  if (outcome->trajectory.frames.empty()) {
+    CHECK(outcome->course.limit != record::Limit::none);
+    CHECK_FALSE(outcome->course.limit_reason.empty());
+    return false;
+  }
+  const record::Frame& frame = outcome->trajectory.frames.back();
+  CHECK(frame.negative_pivots == 0);
+  CHECK(std::isfinite(frame.nodes.sum()));
+  CHECK(frame.energies[Term::bend] > 1);  // no planar saddle
+  CHECK(frame.residual_N < residual_N);
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("one single step asked for, and many, end in one state") {
+  const auto scene = fig1();
+  const auto one = end_of(scene);
+  REQUIRE(certified_or_named(one));
+  std::vector<double> many;
+  for (int k = 1; k <= 50; ++k) many.push_back(k / 50.0);
+  const auto steps = run(scene, many);
+  REQUIRE(steps);
+  CHECK(steps->trajectory.frames.back().nodes == one->trajectory.frames.back().nodes);
+  // no joint jumps between frames
+  for (std::size_t k = 1; k < steps->trajectory.frames.size(); ++k)
+    CHECK((steps->trajectory.frames[k].nodes - steps->trajectory.frames[k - 1].nodes)
+              .colwise()
+              .norm()
+              .maxCoeff() < 15);
+}
+
+TEST_CASE("EA from a hundredth to ten thousand times: the same state, or a reason") {
+  const double reference = end_of(fig1())->trajectory.frames.back().energies[Term::bend];
+  for (double scale : {1e-2, 1e-1, 1e1, 1e2, 1e4}) {
+    Scene scene = *fig1();
+    for (RodMaterial& material : scene.rods.materials) material.EA *= scale;
+    scene.max_strain = 1;
+    INFO("EA x " << scale);
+    const auto outcome = end_of(std::make_shared<const Scene>(scene));
+    // round-off in EA x strain
+    if (!certified_or_named(outcome, std::max(1e-8, 1e-9 * scale))) continue;
+    // stretch shares the work: with N of about 1e-3 EA x scale the energies differ by as much
+    const double softness = std::max(1e-3, 2e-3 / scale);
+    CHECK(outcome->trajectory.frames.back().energies[Term::bend] ==
+          Approx(reference).epsilon(softness));
+  }
+}
+
+TEST_CASE("legs down to a ten-thousandth of a cell: certified, or a reason") {
+  int certified = 0;
+  for (double leg : {1e-1, 5e-2, 1e-2, 1e-3, 1e-4}) {
+    preset::Preset p;
+    p.footprint.radius_mm = std::hypot(110 + 20 * leg, 10);
+    p.actuation.radius_mm = 0.9 * p.footprint.radius_mm;
+    p.accuracy.tolerance = 1e-3;
+    const auto scene = std::make_shared<const Scene>(scene_of(p).value());
+    CHECK(scene->footprint.shortest_leg() < 1.2 * 20 * leg);
+    const auto outcome = end_of(scene);
+    INFO("leg " << leg << " d");
+    certified += certified_or_named(outcome);
+  }
+  CHECK(certified >= 2);
+}
+
+TEST_CASE("tolerances from 1e-2 to 1e-7 give one state") {
+  const auto exact = end_of(fig1(1e-7));
+  REQUIRE(certified_or_named(exact));
+  const auto& reference = exact->trajectory.frames.back();
+  for (double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+    const auto outcome = end_of(fig1(tolerance));
+    INFO("tolerance " << tolerance);
+    REQUIRE(certified_or_named(outcome));
+    const auto& frame = outcome->trajectory.frames.back();
+    double worst = 0;
+    for (int k = 0; k < int(outcome->trajectory.layout.joints.size()); ++k)
+      worst = std::max(worst, (frame.nodes.col(k) - reference.nodes.col(k)).norm());
+    CHECK(worst <= tolerance * 126);
+    CHECK(worst < 2 * frame.error_estimate_mm);
+  }
+}
+
+TEST_CASE("down to half the radius: certified states, each on the one before") {
+  preset::Preset p;
+  p.actuation.radius_mm = 63;
+  p.accuracy.tolerance = 1e-3;
+  const auto scene = std::make_shared<const Scene>(scene_of(p).value());
+  std::vector<double> samples;
+  for (int k = 1; k <= 20; ++k) samples.push_back(k / 20.0);
+  const auto outcome = run(scene, samples);
+  // a path that ends before has converged there to its tolerance of 1e-4 mm, not to round-off
+  certified_or_named(outcome, 1e-4);
+  REQUIRE(outcome);
+  CHECK(outcome->trajectory.frames.size() >= 10);
+  double energy = 0;
+  for (const record::Frame& frame : outcome->trajectory.frames) {
+    if (!frame.event.empty()) continue;
+    CHECK(frame.negative_pivots == 0);
+    CHECK(frame.energies[Term::bend] > energy);
+    energy = frame.energies[Term::bend];
+  }
+}
+
+TEST_CASE("rods that reach their length end as locking, with nothing beyond") {
+  Scene scene = *fig1(1e-3);
+  scene.max_strain = 1e-7;
+  const auto outcome = end_of(std::make_shared<const Scene>(scene));
+  REQUIRE(outcome);
+  CHECK(outcome->course.limit == record::Limit::locking);
+  CHECK(outcome->trajectory.frames.empty());
+}

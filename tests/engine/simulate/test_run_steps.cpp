@@ -1,0 +1,179 @@
+// A hand's steps as a run: what each came to, where the shell stands after them, and what their
+// frames say.
+#include "engine/simulate/steps.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "engine/preset/preset_file.h"
+#include "engine/simulate/experiment.h"
+#include "tests/engine/simulate/run.h"
+#include "tests/small_shell.h"
+
+using namespace gridshell;
+using preset::StepKind;
+
+namespace {
+
+preset::Preset small_shell_on_four_edges() {
+  preset::Preset preset = small_shell();
+  preset.accuracy.edges_per_segment = 4;
+  return preset;
+}
+
+preset::Step of(StepKind deed) {
+  preset::Step step;
+  step.deed = deed;
+  return step;
+}
+
+preset::Step push(int i, int j, double depth_mm) {
+  preset::Step step = of(StepKind::push);
+  step.joint = {i, j};
+  step.depth_mm = depth_mm;
+  return step;
+}
+
+preset::Step move(double progress) {
+  preset::Step step = of(StepKind::move);
+  step.progress = progress;
+  return step;
+}
+
+double difference(const record::Frame& a, const record::Frame& b) {
+  return (a.nodes - b.nodes).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("frames fall to the steps that have a way, one to each of the others") {
+  const std::vector<preset::Step> steps{push(0, 0, 3), of(StepKind::release), move(0.9)};
+  CHECK(experiment::frames_of_steps(steps, 11) == std::vector{5, 1, 4});
+  CHECK(experiment::frames_of_steps(steps, 2) == std::vector{1, 1, 1});
+  CHECK(experiment::frames_of_steps({of(StepKind::rest)}, 20) == std::vector{1});
+  // edge points go straight to their places, and back
+  preset::Step dragged = move(0.9);
+  dragged.edge_points = {{0, 1, 0, 0}};
+  CHECK(experiment::frames_of_steps({dragged, of(StepKind::release), move(0.8), move(0.7)}, 11) ==
+        std::vector{1, 1, 1, 7});
+}
+
+TEST_CASE("a push let go is the shell before, and every step says what it came to") {
+  preset::Preset preset = small_shell_on_four_edges();
+  preset.step = {push(0, 0, 3), of(StepKind::release)};
+  preset.movie.frames = 6;
+  const experiment::ExperimentResult outcome = run(preset);
+  const auto& frames = outcome.trajectory.frames;
+  REQUIRE(frames.size() == 6);
+  CHECK(outcome.summary.limit == record::Limit::none);
+  CHECK(difference(frames.front(), frames.back()) < 1e-5);
+  // four frames on the way of the push, as deep as evenly sampled
+  for (std::size_t k = 1; k <= 4; ++k) {
+    CHECK(frames[k].depth_mm == Approx(0.75 * double(k)).epsilon(1e-6));
+    if (k > 1) CHECK(frames[k].force_N > frames[k - 1].force_N);
+    CHECK(frames[k].residual_N < 1e-6);
+    CHECK(frames[k].event.empty());
+  }
+  CHECK(std::isnan(frames[5].depth_mm));
+  CHECK(frames[5].event == "release");
+  REQUIRE(outcome.summary.steps.size() == 2);
+  CHECK_THAT(outcome.summary.steps[0],
+             Catch::StartsWith("1 push [0, 0]: reached, residual ") && Catch::Contains("stable"));
+  CHECK_THAT(outcome.summary.steps[1], Catch::StartsWith("2 release: reached"));
+  // and is known to act while it holds alone
+  const record::Layout& layout = outcome.trajectory.layout;
+  REQUIRE(layout.loaded_joints.size() == 1);
+  CHECK(layout.loaded_joints[0].at_times);
+  const int node = layout.joints[std::size_t(layout.loaded_joints[0].joint)].node;
+  const auto support = std::ranges::find(layout.supports, node) - layout.supports.begin();
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    CHECK((frames[k].reactions_N.col(support).norm() > 0) == (k >= 1 && k <= 4));
+}
+
+TEST_CASE("a push is as deep as it is asked to be, however many meshes follow") {
+  preset::Preset preset = small_shell();
+  preset.movie.frames = 3;
+  for (const double depth : {0.5, 4.0}) {
+    preset.step = {push(0, 0, depth)};
+    const experiment::ExperimentResult finished = run(preset);
+    CAPTURE(depth, finished.summary.limit_reason);
+    REQUIRE(finished.summary.edges_per_segment > 4);
+    CHECK(finished.trajectory.frames.back().depth_mm == Approx(depth).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("frames only sample the steps, which end where they end") {
+  preset::Preset preset = small_shell_on_four_edges();
+  preset.step = {push(0, 0, 3), move(0.9), push(1, -1, 2)};
+  const experiment::ExperimentResult few = run(preset);
+  preset.movie.frames = 17;
+  const experiment::ExperimentResult many = run(preset);
+  CHECK(few.trajectory.frames.size() == 4);
+  CHECK(many.trajectory.frames.size() == 17);
+  CHECK(difference(few.trajectory.frames.back(), many.trajectory.frames.back()) == 0);
+  CHECK(many.trajectory.frames.back().boundary_radius_mm == Approx(66 - 0.9 * 12));
+}
+
+TEST_CASE("a step to the preset's own radius is that of a run there") {
+  preset::Preset there = small_shell_on_four_edges();
+  there.actuation.radius_mm = 57;
+  preset::Preset moved = small_shell_on_four_edges();
+  moved.step = {of(StepKind::move)};
+  moved.step[0].radius_mm = 57;
+  const auto a = run(there), b = run(moved);
+  CHECK(difference(a.trajectory.frames.back(), b.trajectory.frames.back()) < 1e-6);
+}
+
+TEST_CASE("loads, a held joint, edge points, a jitter and a rest are steps") {
+  preset::Preset preset = small_shell_on_four_edges();
+  preset.rod.density_kg_m3 = 6450;
+  preset.loads.gravity_m_s2 = 9.81;
+  preset::Step light = of(StepKind::load), hold = of(StepKind::hold), edge = of(StepKind::move);
+  light.factor = 0;
+  hold.joint = {0, 0};
+  edge.edge_points = {{3, 1.5, -1, 0}};
+  preset.step = {
+      light, hold, edge, of(StepKind::release), of(StepKind::jitter), of(StepKind::rest)};
+  const experiment::ExperimentResult outcome = run(preset);
+  const auto& frames = outcome.trajectory.frames;
+  REQUIRE(frames.size() == 7);
+  CHECK(frames[0].energies[Term::load] != 0);
+  CHECK(frames[1].energies[Term::load] == 0);
+  CHECK(difference(frames[1], frames[2]) < 1e-6);
+  const int node = outcome.trajectory.layout.edge_points[3];
+  const Eigen::Vector3d moved = frames[3].nodes.col(node) - frames[2].nodes.col(node);
+  CHECK((moved - Eigen::Vector3d(1.5, -1, 0)).norm() < 1e-9);
+  CHECK(frames[6].negative_pivots == 0);
+}
+
+TEST_CASE("a step that ends early ends the run, and both say so") {
+  preset::Preset preset = small_shell_on_four_edges();
+  preset.step = {push(0, 0, -60),
+                 of(StepKind::release)};  // outward, further than the rods are long
+  const experiment::ExperimentResult outcome = run(preset);
+  CHECK(outcome.summary.limit == record::Limit::locking);
+  CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 1 (push [0, 0]): "));
+  REQUIRE(outcome.summary.steps.size() == 1);
+  CHECK_THAT(outcome.summary.steps[0], Catch::Contains("locked"));
+  CHECK(outcome.trajectory.frames.back().event == "locking");
+}
+
+TEST_CASE("steps on what is not there are errors with their number") {
+  preset::Preset preset = small_shell_on_four_edges();
+  const auto refused = [&](const preset::Step& step) {
+    preset.step = {move(0.95), step};
+    Watch watch;
+    const auto outcome = experiment::run(preset, false, watch);
+    return outcome ? std::string() : outcome.error().message;
+  };
+  CHECK_THAT(refused(push(40, 0, 1)), Catch::Contains("[[step]] 2") &&
+                                          Catch::Contains("joint = [40, 0]: the footprint has no"));
+  CHECK_THAT(refused(of(StepKind::release)), Catch::Contains("[[step]] 2: no joint is held"));
+  // which `check` says as well
+  const auto plan = experiment::plan(preset);
+  REQUIRE_FALSE(plan);
+  CHECK_THAT(plan.error().message, Catch::StartsWith("[[step]] 2: no joint is held"));
+  preset::Step edge = of(StepKind::move);
+  edge.edge_points = {{400, 1, 0, 0}};
+  CHECK_THAT(refused(edge), Catch::Contains("there is no edge point 400, they go from 0 to 23"));
+}

@@ -1,0 +1,103 @@
+// Rests from rough states over meshes that grow finer, and how stiff they are.
+#include "engine/solve/multilevel_relaxation.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "engine/record/shape_symmetry.h"
+#include "engine/scene/scene.h"
+#include "engine/solve/newton.h"
+#include "tests/engine/solve/single_rod.h"
+
+using namespace gridshell;
+
+namespace {
+
+MultilevelRelaxation cascade_of(int rods, preset::Preset p = {}) {
+  p.footprint.rods = rods;
+  p.footprint.radius_mm = 20 * (0.5 * (rods - 1) + 0.8);
+  p.actuation.radius_mm = 0.75 * p.footprint.radius_mm;
+  const Scene scene = scene_of(p).value();
+  return MultilevelRelaxation::make(scene.footprint, scene.rods, scene.solved_model(), scene.motion,
+                                    scene.flat, 4)
+      .value();
+}
+
+Eigen::Matrix3Xd thrown(const MultilevelRelaxation& cascade, unsigned seed) {
+  std::mt19937 random{seed};
+  Eigen::Matrix3Xd nodes = cascade.stretched_flat(1);
+  for (double& coordinate : nodes.reshaped())
+    coordinate += 20 * (double(random()) / double(1u << 31) - 1);
+  return nodes;
+}
+
+}  // namespace
+
+TEST_CASE("cascade: nineteen of twenty rough states of eight rods come to a stable rest") {
+  MultilevelRelaxation cascade = cascade_of(8);
+  int at_rest = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const auto rest = cascade.rest(1, thrown(cascade, seed), unwatched);
+    if (!rest) continue;
+    ++at_rest;
+    CHECK(cascade.system().at(*rest, false).positive_definite());
+    CHECK(cascade.system().residual() < 1e-3);
+  }
+  CHECK(at_rest >= 19);
+}
+
+TEST_CASE("cascade: nodes that are no numbers are an error, a cancel is answered") {
+  MultilevelRelaxation cascade = cascade_of(4);
+  Eigen::Matrix3Xd nodes = cascade.stretched_flat(1);
+  Watch cancelled;
+  cancelled.cancel();
+  const auto stopped = cascade.rest(1, nodes, cancelled);
+  REQUIRE(!stopped);
+  CHECK(stopped.error().fault == Fault::cancelled);
+  nodes.setConstant(std::numeric_limits<double>::quiet_NaN());
+  const auto nowhere = cascade.rest(1, nodes, unwatched);
+  REQUIRE(!nowhere);
+  CHECK(nowhere.error().fault == Fault::no_equilibrium);
+}
+
+TEST_CASE("cascade: a confined form keeps its group where it is stable, and rests anyhow") {
+  MultilevelRelaxation cascade = cascade_of(8);
+  int kept = 0;
+  for (const SymmetryGroup& group : subgroups(cascade.symmetries())) {
+    const auto rest = cascade.rest_confined(1, thrown(cascade, 7), group, unwatched);
+    if (!rest) continue;
+    CHECK(cascade.system().at(*rest, false).positive_definite());
+    const auto has = group_of(cascade.symmetries(), rest->x.leftCols(cascade.finest().joints), 0.1);
+    kept += std::includes(has.begin(), has.end(), group.begin(), group.end());
+  }
+  CHECK(kept >= 2);
+}
+
+TEST_CASE("eigenvalue: a straight pinned rod has EI (pi/L)^4, on two meshes at second order") {
+  const double length = 100;
+  const RodSection section = circular_section(0.254, 83);
+  const double exact = section.EI * std::pow(M_PI / length, 4);
+  double before = 0;
+  for (const int edges : {20, 40}) {
+    const RodMesh mesh = single_rod(edges, length);
+    const Model model = build_model(mesh, section).value();
+    Linearisation system(model);
+    Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, model.nodes);
+    x.row(0) = mesh.flat.row(0);
+    const double found =
+        lowest_eigenvalue(system, start_state(model, x), lumped(mesh, {1.0}), unwatched);
+    CHECK(found == Approx(exact).epsilon(5.0 / (edges * edges)));
+    if (before > 0) CHECK((before - exact) / (found - exact) == Approx(4).epsilon(0.1));
+    before = found;
+  }
+}
+
+TEST_CASE("eigenvalue: what is not stable has none") {
+  const RodMesh mesh = single_rod(20, 100);
+  const Model model = build_model(mesh, circular_section(0.254, 83)).value();
+  Linearisation system(model);
+  Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, model.nodes);
+  x.row(0) = 0.98 * mesh.flat.row(0);
+  CHECK(
+      std::isnan(lowest_eigenvalue(system, start_state(model, x), lumped(mesh, {1.0}), unwatched)));
+}

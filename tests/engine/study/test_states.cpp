@@ -1,0 +1,135 @@
+// The states that a shell is found in.
+#include "engine/study/state_library.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+using namespace gridshell;
+using experiment::find_states;
+using experiment::StateLibrary;
+
+namespace {
+
+preset::Preset shell(int rods) {
+  preset::Preset p;
+  p.name = "shell";
+  p.footprint.rods = rods;
+  p.footprint.radius_mm = 20 * (0.5 * (rods - 1) + 0.8);
+  p.actuation.radius_mm = 0.75 * p.footprint.radius_mm;
+  p.accuracy.edges_per_segment = 8;
+  return p;
+}
+
+StateLibrary states_of(const preset::Preset& preset, int threads = 1, bool lives = false) {
+  const auto scene = std::make_shared<const Scene>(scene_of(preset).value());
+  Watch watch;
+  auto found = find_states(scene, preset.jitter, {.threads = threads, .lives = lives}, watch);
+  if (!found) FAIL(found.error().message);
+  return std::move(*found);
+}
+
+const record::StateRow* of_class(const StateLibrary& library, record::StateClass kind) {
+  for (const auto& state : library.states)
+    if (state.row.kind == kind) return &state.row;
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("states: the same whatever the threads, each once, in the order of energy") {
+  preset::Preset p = shell(6);
+  p.jitter.trials = 16;
+  p.jitter.confined = 7;
+  const StateLibrary one = states_of(p), two = states_of(p, 2);
+  REQUIRE(one.states.size() > 1);
+  REQUIRE(one.states.size() == two.states.size());
+  std::vector<record::StateRow> rows, others;
+  for (const auto& state : one.states) rows.push_back(state.row);
+  for (const auto& state : two.states) others.push_back(state.row);
+  CHECK(record::states_csv(rows) == record::states_csv(others));
+  int met = 0, confined = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    CHECK(rows[k].state == int(k) + 1);
+    CHECK(one.states[k].frame.negative_pivots == 0);
+    CHECK(one.states[k].frame.nodes == two.states[k].frame.nodes);
+    if (k > 0) CHECK(rows[k - 1].energy_mJ() <= rows[k].energy_mJ());
+    met += rows[k].count;
+    confined += rows[k].count_confined;
+    // upright, as up and down are alike
+    CHECK(one.states[k].frame.nodes.row(2).mean() > 0);
+  }
+  CHECK(met + confined <= one.search.at_rest + one.search.confined_at_rest);
+  CHECK(one.search.at_rest >= 14);
+}
+
+TEST_CASE("states: other seeds shake otherwise, gravity and pokes end in states too") {
+  preset::Preset p = shell(6);
+  p.jitter.trials = 6;
+  for (const auto mode : {preset::SearchMode::gravity, preset::SearchMode::poke}) {
+    p.jitter.mode = mode;
+    p.jitter.field_N_per_mm = 5e-3;
+    const StateLibrary found = states_of(p);
+    CAPTURE(found.search.mode);
+    CHECK(found.search.at_rest >= 5);
+    for (const auto& state : found.states) CHECK(state.frame.negative_pivots == 0);
+  }
+}
+
+TEST_CASE("states: a search that cannot be is an error with its reason") {
+  preset::Preset p = shell(4);
+  p.jitter.trials = 2;
+  const auto scene = std::make_shared<const Scene>(scene_of(p).value());
+  Watch watch;
+  watch.cancel();
+  const auto stopped = find_states(scene, p.jitter, {}, watch);
+  REQUIRE(!stopped);
+  CHECK(stopped.error().fault == Fault::cancelled);
+  p.limits.max_strain = 1e-12;
+  const auto strained = std::make_shared<const Scene>(scene_of(p).value());
+  Watch other;
+  const auto none = find_states(strained, p.jitter, {}, other);
+  REQUIRE(!none);
+  CHECK(none.error().fault == Fault::no_equilibrium);
+}
+
+TEST_CASE("states tell all that their energy is made of") {
+  preset::Preset p = shell(6);
+  p.accuracy.model = RodModel::twist;
+  p.rod.shear_GPa = 31;
+  p.joints.shear_Nmm = 0.3;
+  p.jitter.trials = 2;
+  const StateLibrary found = states_of(p);
+  REQUIRE_FALSE(found.states.empty());
+  for (const auto& state : found.states) {
+    CHECK(state.row.energies[Term::shear] > 0.01);
+    CHECK(state.row.energy_mJ() == state.frame.energies.total());
+  }
+}
+
+TEST_CASE("states: the three of the paper at twelve rods, in their order", "[full]") {
+  preset::Preset p = shell(12);
+  p.accuracy = {};
+  p.accuracy.tolerance = 1e-4;
+  p.jitter.trials = 10;
+  p.jitter.confined = 42;
+  const StateLibrary found = states_of(p, 2);
+  using record::StateClass;
+  const auto *ii = of_class(found, StateClass::ii), *iii = of_class(found, StateClass::iii),
+             *iv = of_class(found, StateClass::iv);
+  REQUIRE(iv);
+  REQUIRE(ii);
+  REQUIRE(iii);
+  // bend energies on meshes fine enough to be sure of the digits, found independently
+  CHECK(iv->energies[Term::bend] == Approx(39.910).margin(2e-3));
+  CHECK(ii->energies[Term::bend] == Approx(39.979).margin(2e-3));
+  CHECK(iii->energies[Term::bend] == Approx(44.556).margin(2e-3));
+  CHECK(iv->state < ii->state);
+  CHECK(ii->state < iii->state);
+  CHECK(iv->group == "C4v");
+  CHECK(ii->group == "C2v_diagonals");
+  CHECK(iii->group == "C4");
+  CHECK(iv->z_max_mm == Approx(72.8).margin(0.1));
+  CHECK(ii->z_max_mm == Approx(49.3).margin(0.1));
+  CHECK(iii->z_max_mm == Approx(66.4).margin(0.1));
+  CHECK(ii->z_min_mm == Approx(-4.2).margin(0.1));
+}

@@ -1,0 +1,33 @@
+// Where a picture has ink, for tests of what is drawn.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "render/canvas/canvas.h"
+#include "render/gl/image.h"
+
+namespace gridshell::test {
+
+/// The smallest box around all pixels that differ from white by more than `level` in any channel.
+inline render::Box ink_box(const render::Image& image, int level = 24) {
+  int x0 = image.width, y0 = image.height, x1 = -1, y1 = -1;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* p = image.pixel(x, y);
+      if (255 - std::min({p[0], p[1], p[2]}) <= level) continue;
+      x0 = std::min(x0, x), x1 = std::max(x1, x);
+      y0 = std::min(y0, y), y1 = std::max(y1, y);
+    }
+  if (x1 < 0) return {};
+  return {double(x0), double(y0), double(x1 - x0 + 1), double(y1 - y0 + 1)};
+}
+
+/// Whether the outermost pixels are all white: nothing drawn has been cut off.
+inline bool rim_is_white(const render::Image& image) {
+  const render::Box ink = ink_box(image, 0);
+  return ink.empty() ||
+         (ink.x > 0 && ink.y > 0 && ink.right() < image.width && ink.bottom() < image.height);
+}
+
+}  // namespace gridshell::test

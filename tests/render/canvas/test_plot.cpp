@@ -1,0 +1,188 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "render/canvas/plot.h"
+#include "render/canvas/plot_frame.h"
+#include "tests/render/canvas/ink.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+Series line(const std::string& name, double slope, Marker marker = Marker::circle) {
+  Series s{name};
+  s.marker = marker;
+  for (int k = 0; k < 10; ++k) {
+    s.x.push_back(94.5 + 3.5 * k);
+    s.y.push_back(slope * std::sqrt(10.0 - k) - 2);
+    s.y_error.push_back(1.5);
+  }
+  return s;
+}
+
+Plot energies() {
+  Plot plot;
+  plot.title = "Energies";
+  plot.x = {"boundary radius *R*_{a} (mm)"};
+  plot.y = {"bend energy *E*_{b} (mJ)"};
+  plot.series = {line("4 edges", 12), line("8 edges", 9, Marker::square)};
+  plot.references = {{true, 30, "30 mJ"}, {false, 115.9, "B2"}};
+  plot.bands = {{"planar", {120, 126}, {unknown, unknown}, {unknown, unknown}}};
+  plot.notes = {{94.5, 3, "run out?", AlignX::right}};
+  return plot;
+}
+
+Plot errors() {
+  Plot plot;
+  plot.x = {"CPU time (s)", true};
+  plot.y = {"error / *R*_{o}", true};
+  for (int m = 0; m < 3; ++m) {
+    Series s{"method " + std::to_string(m)};
+    for (int k = 0; k < 5; ++k) {
+      s.x.push_back(std::pow(10, -2.0 + m + 0.4 * k));
+      s.y.push_back(0.05 * std::pow(0.25, k));
+      s.y_error.push_back(k == 4 ? 1 : 0.3 * s.y.back());  // reaches below zero
+    }
+    plot.series.push_back(s);
+  }
+  return plot;
+}
+
+Plot bars() {
+  Plot plot;
+  plot.x = {"*x* / *L*"};
+  plot.y = {"*K*_{□} (rad)"};
+  Series s{"mean"};
+  s.kind = SeriesKind::bars;
+  s.bar_width = 0.36;
+  s.x = {-0.8, -0.4, 0, 0.4, 0.8};
+  s.y = {-0.05, 0.01, 0.03, 0.01, -0.05};
+  s.y_error = {0.01, 0.01, 0.01, 0.01, 0.01};
+  plot.series = {s};
+  return plot;
+}
+
+struct Drawn {
+  Image image;
+  std::vector<std::string> texts;
+  std::vector<Box> boxes;
+};
+
+Drawn drawn(const Plot& plot, double width, double height) {
+  Drawn result;
+  result.image = draw_picture(width, height, 2, {1, 1, 1, 1}, [&](Canvas& canvas) {
+    draw_plot(canvas, Box{0, 0, width, height}.inset(2), plot);
+    result.texts = canvas.texts();
+    result.boxes = canvas.text_boxes();
+  });
+  return result;
+}
+
+bool has(const std::vector<std::string>& texts, const std::string& text) {
+  return std::find(texts.begin(), texts.end(), text) != texts.end();
+}
+
+}  // namespace
+
+TEST_CASE("nothing of a plot is cut off and no two texts overlap") {
+  for (const Plot& plot : {energies(), errors(), bars()})
+    for (const auto& [width, height] : {std::pair{250, 176}, {500, 300}, {180, 150}}) {
+      const Drawn d = drawn(plot, width, height);
+      INFO(plot.y.label << " at " << width << " x " << height);
+      CHECK(test::rim_is_white(d.image));
+      for (std::size_t a = 0; a < d.boxes.size(); ++a) {
+        INFO(d.texts[a]);
+        CHECK(Box{0, 0, double(width), double(height)}.contains(d.boxes[a]));
+        for (std::size_t b = a + 1; b < d.boxes.size(); ++b) {
+          INFO(d.texts[b]);
+          CHECK_FALSE(d.boxes[a].overlaps(d.boxes[b]));
+        }
+      }
+    }
+}
+
+TEST_CASE("labels, ticks, legend, references and notes are all there") {
+  const Drawn d = drawn(energies(), 500, 300);
+  for (const std::string text :
+       {"Energies", "boundary radius Ra (mm)", "bend energy Eb (mJ)", "100", "110", "120", "10",
+        "20", "30", "4 edges", "8 edges", "planar", "30 mJ", "B2", "run out?"}) {
+    INFO(text);
+    CHECK(has(d.texts, text));
+  }
+}
+
+TEST_CASE("values stand where the axis says") {
+  const Plot plot = errors();
+  draw_picture(300, 200, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+    const PlotFrame frame = lay_out_plot(canvas, {0, 0, 300, 200}, plot);
+    // on a logarithmic axis equal ratios take equal room
+    const double x1 = frame.x.place(0.01), x2 = frame.x.place(0.1), x3 = frame.x.place(1);
+    CHECK(x2 - x1 == Approx(x3 - x2));
+    CHECK(frame.y.place(0.01) > frame.y.place(0.1));
+    CHECK(std::isnan(frame.x.place(0)));
+    for (const Series& s : plot.series)
+      for (std::size_t k = 0; k < s.x.size(); ++k) {
+        CHECK(frame.inside.x <= frame.x.place(s.x[k]));
+        CHECK(frame.x.place(s.x[k]) <= frame.inside.right());
+      }
+  });
+}
+
+TEST_CASE("a given range is kept") {
+  Plot plot = energies();
+  plot.x.low = 90;
+  plot.x.high = 130;
+  draw_picture(300, 200, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+    const PlotFrame frame = lay_out_plot(canvas, {0, 0, 300, 200}, plot);
+    CHECK(frame.x.low == 90);
+    CHECK(frame.x.high == 130);
+    CHECK(frame.x.place(90) == Approx(frame.inside.x));
+    CHECK(frame.x.place(130) == Approx(frame.inside.right()));
+  });
+}
+
+TEST_CASE("a legend hides no data: it goes to a free corner, else above") {
+  Plot plot;
+  plot.x = {"x"};
+  plot.y = {"y"};
+  plot.series = {{"falling"}};
+  for (int k = 0; k <= 10; ++k) {
+    plot.series[0].x.push_back(k);
+    plot.series[0].y.push_back(10 - k);
+  }
+  draw_picture(300, 200, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+    const PlotFrame frame = lay_out_plot(canvas, {0, 0, 300, 200}, plot);
+    CHECK(Legend(canvas, plot).free_corner(canvas, frame) == LegendPlace::upper_right);
+    Plot crossed = plot;
+    crossed.series.push_back(plot.series[0]);
+    for (double& y : crossed.series[1].y) y = 10 - y;
+    CHECK(Legend(canvas, crossed).free_corner(canvas, frame) == LegendPlace::none);
+  });
+}
+
+TEST_CASE("gaps, empty series and single points are drawn without complaint") {
+  Plot plot;
+  plot.x = {"x"};
+  plot.y = {"y", true};
+  plot.series = {{"nothing"}, {"one"}, {"gap"}};
+  plot.series[1].x = {1};
+  plot.series[1].y = {1};
+  plot.series[2].x = {0, 1, 2, 3};
+  plot.series[2].y = {1, unknown, -5, 10};
+  CHECK(test::rim_is_white(drawn(plot, 250, 180).image));
+  CHECK(test::rim_is_white(drawn(Plot{}, 250, 180).image));
+  // far too small: nothing, rather than something wrong
+  CHECK(drawn(energies(), 20, 12).image.width == 40);
+}
+
+TEST_CASE("a plot is written at the size of a journal's column") {
+  const TemporaryFolder folder;
+  REQUIRE(write_plot(folder.path() / "energies", energies()));
+  CHECK(folder.entries() ==
+        std::vector<std::string>{"energies.pdf", "energies.png", "energies.svg"});
+}

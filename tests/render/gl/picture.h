@@ -1,0 +1,46 @@
+// What the tests of pictures share.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "render/gl/context.h"
+#include "render/gl/renderer.h"
+#include "tests/render/synthetic.h"
+
+namespace gridshell::render::test {
+
+/// A context and a renderer in it, which goes first.
+struct Studio {
+  std::unique_ptr<Context> context;
+  std::unique_ptr<Renderer> renderer;
+};
+
+inline Result<Studio> studio(ContextKind kind = ContextKind::automatic) {
+  auto context = Context::create(kind);
+  if (!context) return tl::unexpected(context.error());
+  auto renderer = Renderer::create(**context);
+  if (!renderer) return tl::unexpected(renderer.error());
+  return Studio{std::move(*context), std::move(*renderer)};
+}
+
+/// The last frame of the made-up actuation, with its ring and cells half opaque.
+inline Drawing dome_drawing(const record::Trajectory& run) {
+  Drawing drawing;
+  drawing.layout = &run.layout;
+  drawing.nodes = run.frames.back().nodes;
+  drawing.rings.push_back({run.layout.actuated_boundary, 1.6, {0.85f, 0.45f, 0.1f}});
+  drawing.cell_colours.assign(run.layout.cells.size(), {0.2f, 0.4f, 0.8f, 0.5f});
+  drawing.ground_z_mm = drawing.nodes.row(2).minCoeff() - 3;
+  return drawing;
+}
+
+/// FNV-1a [Fowler, Noll, Vo] over the pixels.
+inline std::uint64_t hash(const Image& image) {
+  std::uint64_t h = 14695981039346656037u;
+  for (std::uint8_t byte : image.rgba) h = (h ^ byte) * 1099511628211u;
+  return h;
+}
+
+}  // namespace gridshell::render::test

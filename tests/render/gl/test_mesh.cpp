@@ -1,0 +1,78 @@
+#include "render/gl/mesh.h"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace gridshell::render;
+
+TEST_CASE("tangents are unit vectors, also where points coincide or turn back", "[mesh]") {
+  const std::vector<Eigen::Vector3f> points{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 0}};
+  for (const bool closed : {false, true})
+    for (const Eigen::Vector3f& t : tangents(points, closed)) CHECK(t.norm() == Approx(1));
+}
+
+TEST_CASE("a ribbon has two vertices a point, one on either side, and a strip between points",
+          "[mesh]") {
+  const std::vector<Eigen::Vector3f> points{{0, 0, 0}, {10, 0, 0}, {17, 7, 0}};
+  const std::vector<Eigen::Vector4f> colours(3, {0.5f, 0.25f, 1, 1});
+  const float radius = 2;
+  Mesh mesh;
+  mesh.add({9, 9, 9}, {0, 0, 1}, {});
+  const std::uint32_t first = add_ribbon(mesh, {points, colours, {&radius, 1}});
+  CHECK(first == 1);
+  REQUIRE(mesh.vertices.size() == 7);
+  for (int k = 0; k < 3; ++k)
+    for (int side : {0, 1}) {
+      const Vertex& v = mesh.vertices[1 + 2 * k + side];
+      CHECK(v.position == points[k]);
+      CHECK((side == 0 ? 1 : -1) * v.normal[3] * widest_radius_mm / 32767 ==
+            Approx(radius).epsilon(1e-3));
+      CHECK(v.colour[1] == 16384);
+    }
+  std::vector<std::uint32_t> indices;
+  add_strip_quad(indices, first, 1, 2);
+  CHECK(indices == std::vector<std::uint32_t>{3, 4, 6, 3, 6, 5});
+}
+
+TEST_CASE("a bead is a card whose corners tell side and shape apart", "[mesh]") {
+  Mesh mesh;
+  const auto flat = add_bead(mesh, {1, 2, 3}, {0, 0, 1}, 1.5f, BeadShape::flat, {1, 0, 0, 1});
+  const auto ball = add_bead(mesh, {1, 2, 3}, {0, 0, 1}, 1.5f, BeadShape::ball, {1, 0, 0, 1});
+  REQUIRE(mesh.vertices.size() == 8);
+  CHECK(flat.size() == 6);
+  CHECK(ball.front() == 4);
+  const auto code = [&](int k) { return int(3.0 * mesh.vertices[k].colour[3] / 65535 + 0.5); };
+  CHECK(std::vector{code(0), code(1), code(2), code(3)} == std::vector{0, 0, 1, 1});
+  CHECK(std::vector{code(4), code(5), code(6), code(7)} == std::vector{2, 2, 3, 3});
+  CHECK(mesh.vertices[0].normal[3] == -mesh.vertices[1].normal[3]);
+}
+
+TEST_CASE("a straight piece goes as far as it misses nothing", "[mesh]") {
+  // a straight stretch, a corner, and a bow of radius 100
+  std::vector<Eigen::Vector3f> points;
+  for (int k = 0; k <= 4; ++k) points.push_back({float(k), 0, 0});
+  for (int k = 1; k <= 4; ++k) points.push_back({4, float(k), 0});
+  const float radius = 1;
+  std::vector<Eigen::Vector4f> colours(points.size(), {0, 0, 0, 1});
+  const Ribbon bent{points, colours, {&radius, 1}};
+  // at a corner the strip is not square to its end, so the piece before it stays short
+  CHECK(longest_straight_piece(bent, 0, 8, 0.01f) == 3);
+  CHECK(longest_straight_piece(bent, 3, 8, 0.01f) == 4);
+  CHECK(longest_straight_piece(bent, 4, 8, 0.01f) == 5);
+  CHECK(longest_straight_piece(bent, 5, 8, 0.01f) == 8);
+  CHECK(longest_straight_piece(bent, 0, 2, 0.01f) == 2);
+
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const float angle = 0.01f * float(k);
+    points[k] = {100 * std::sin(angle), 0, 100 * std::cos(angle)};
+  }
+  const Ribbon bow{points, colours, {&radius, 1}};
+  // a chord over n edges of 1 mm lies n^2 / 800 mm off
+  CHECK(longest_straight_piece(bow, 0, 8, 0.0005f) == 1);
+  CHECK(longest_straight_piece(bow, 0, 8, 0.02f) == 3);
+  CHECK(longest_straight_piece(bow, 0, 8, 0.1f) == 8);
+  // nor does a piece jump over a colour of its own
+  colours[2] = {1, 0, 0, 1};
+  CHECK(longest_straight_piece(bow, 0, 8, 0.1f) == 1);
+}

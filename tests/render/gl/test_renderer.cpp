@@ -1,0 +1,218 @@
+#include "render/gl/renderer.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/render/gl/picture.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+namespace {
+
+test::Studio open_studio() {
+  auto studio = test::studio();
+  REQUIRE(studio);
+  return std::move(*studio);
+}
+
+Image drawn(test::Studio& studio, const Drawing& drawing, const Camera& camera = {},
+            const DrawQuality& quality = {}, int width = 320, int height = 180) {
+  auto image = studio.renderer->draw(drawing, camera, quality, width, height);
+  REQUIRE(image);
+  return std::move(*image);
+}
+
+/// The largest difference of a channel between a pixel and a colour, of 255.
+double off(const Image& image, const Eigen::Vector2d& at, const Colour& colour) {
+  const std::uint8_t* p = image.pixel(int(at.x()), int(at.y()));
+  return std::max({std::abs(p[0] - 255 * colour.r), std::abs(p[1] - 255 * colour.g),
+                   std::abs(p[2] - 255 * colour.b)});
+}
+
+/// Pixels that differ in any channel.
+int changed(const Image& a, const Image& b) {
+  int count = 0;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      count += !std::equal(a.pixel(x, y), a.pixel(x, y) + 4, b.pixel(x, y));
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a rod that is missing changes the picture", "[draw]") {
+  auto studio = open_studio();
+  auto run = synthetic::dome(2, 4);
+  const Image whole = drawn(studio, test::dome_drawing(run));
+  CHECK(changed(whole, drawn(studio, test::dome_drawing(run))) == 0);
+  run.layout.rods.erase(run.layout.rods.begin() + 5);
+  const Image less = drawn(studio, test::dome_drawing(run));
+  CHECK(changed(whole, less) > 100);
+}
+
+TEST_CASE("background, ground and cells show the colours they were given", "[draw]") {
+  auto studio = open_studio();
+  const auto run = synthetic::dome(2, 4);
+  Drawing drawing = test::dome_drawing(run);
+  drawing.ground = false;
+  drawing.background = {0.8f, 0.9f, 1};
+  const Colour tint{0.25f, 0.45f, 0.8f};
+  drawing.cell_colours.assign(run.layout.cells.size(), tint);
+  Camera above;
+  above.elevation_deg = 90;
+  const Image image = drawn(studio, drawing, above);
+  CHECK(off(image, {2, 2}, drawing.background) <= 1);
+  // shading and rods' shadows stay small beside what the colours tell
+  double mean = 0, worst = 0;
+  for (const auto& cell : run.layout.cells) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (int joint : cell.joints) middle += 0.25 * drawing.nodes.col(run.layout.joints[joint].node);
+    const double difference = off(image, to_pixel(above, 320, 180, middle), tint);
+    mean += difference / double(run.layout.cells.size());
+    worst = std::max(worst, difference);
+  }
+  CAPTURE(mean, worst);
+  CHECK(mean < 12);
+  CHECK(worst < 28);
+
+  drawing.cell_colours.clear();
+  drawing.background = {1, 1, 1};
+  drawing.ground = true;
+  Camera grounded;
+  grounded.target = {0, 0, drawing.ground_z_mm};
+  grounded.elevation_deg = 60;
+  const Image with_ground = drawn(studio, drawing, grounded);
+  CHECK(off(with_ground, {160, 172}, drawing.ground_colour) <= 2);
+}
+
+TEST_CASE("a ring shows its colour, and rods take those of their nodes", "[draw]") {
+  auto studio = open_studio();
+  const auto run = synthetic::dome(2, 4);
+  Drawing drawing = test::dome_drawing(run);
+  drawing.rings[0].diameter_mm = 8;
+  drawing.ground = false;
+  Camera above;
+  above.elevation_deg = 90;
+  above.field_of_view_deg = 0;
+  const DrawQuality fine{4, false, 1};
+  const Image image = drawn(studio, drawing, above, fine);
+  // lighter where it faces the light and darker where not: near the colour all around
+  const auto& points = drawing.rings[0].points;
+  double mean = 0;
+  for (int k = 0; k < points.cols(); ++k)
+    mean += off(image, to_pixel(above, 320, 180, points.col(k)), drawing.rings[0].colour);
+  CHECK(mean / double(points.cols()) < 32);
+
+  drawing.rings.clear();
+  drawing.cell_colours.clear();
+  drawing.joint_diameter_mm = 0;
+  drawing.rod_diameter_mm = 4;
+  drawing.node_colours.assign(std::size_t(drawing.nodes.cols()), {0.1f, 0.7f, 0.2f});
+  const Image green = drawn(studio, drawing, above, fine);
+  const Eigen::Vector3d on_rod = drawing.nodes.col(run.layout.joints[60].node);
+  CHECK(off(green, to_pixel(above, 320, 180, on_rod), {0.1f, 0.7f, 0.2f}) < 60);
+}
+
+TEST_CASE("the shell throws a shadow on the ground, and none when not asked", "[draw]") {
+  auto studio = open_studio();
+  const auto run = synthetic::dome(2, 4);
+  const Drawing drawing = test::dome_drawing(run);
+  const Image with = drawn(studio, drawing, {}, {2, true, 1});
+  const Image without = drawn(studio, drawing, {}, {2, false, 1});
+  CHECK(changed(with, without) > 2000);
+  long darker = 0, lighter = 0;
+  for (std::size_t k = 0; k < with.rgba.size(); ++k) {
+    darker += with.rgba[k] + 2 < without.rgba[k];
+    lighter += with.rgba[k] > without.rgba[k] + 2;
+  }
+  CHECK(darker > 2000);
+  CHECK(lighter == 0);
+}
+
+TEST_CASE("translucent ghosts lie behind nothing but what is nearer", "[draw]") {
+  auto studio = open_studio();
+  const auto run = synthetic::dome(2, 4);
+  Drawing drawing = test::dome_drawing(run);
+  const Image without = drawn(studio, drawing);
+  drawing.ghosts.push_back({run.frames[0].nodes, run.layout.rods, 0.8, {0.2f, 0.4f, 0.9f, 0.4f}});
+  const Image with = drawn(studio, drawing);
+  CHECK(changed(with, without) > 500);
+  CHECK(changed(with, without) < 320 * 180 / 4);
+}
+
+TEST_CASE("odd sizes, a pixel and many passes are drawn", "[draw]") {
+  auto studio = open_studio();
+  const auto run = synthetic::dome(2, 2);
+  const Drawing drawing = test::dome_drawing(run);
+  for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {333, 211}, {64, 640}}) {
+    const Image image = drawn(studio, drawing, {}, {3, true, 1}, width, height);
+    CHECK(image.width == width);
+    CHECK(image.height == height);
+    for (std::size_t k = 3; k < image.rgba.size(); k += 4) REQUIRE(image.rgba[k] == 255);
+  }
+  const Image once = drawn(studio, drawing, {}, {2, true, 1});
+  const Image often = drawn(studio, drawing, {}, {2, true, 12});
+  double mean = 0;
+  for (std::size_t k = 0; k < once.rgba.size(); ++k)
+    mean += std::abs(once.rgba[k] - often.rgba[k]) / double(once.rgba.size());
+  CHECK(mean > 0.05);  // softer shadows
+  CHECK(mean < 4);     // of the same scene in the same light
+}
+
+TEST_CASE("a picture in tiles is the picture in one piece", "[draw]") {
+  auto studio = open_studio();
+  const auto run = synthetic::dome(2, 2);
+  const Drawing drawing = test::dome_drawing(run);
+  // 16 samples a side of 400 x 300 pixels take four tiles of 256
+  const Image tiled = drawn(studio, drawing, {}, {16, true, 1}, 400, 300);
+  const Image whole = drawn(studio, drawing, {}, {8, true, 1}, 400, 300);
+  double worst = 0;
+  for (int y = 0; y < 300; ++y)
+    for (int x : {254, 255, 256, 257})
+      for (int c = 0; c < 3; ++c)
+        worst = std::max(worst, double(std::abs(tiled.pixel(x, y)[c] - whole.pixel(x, y)[c])));
+  CHECK(worst < 24);
+}
+
+TEST_CASE("a still of 3840 x 2160 pixels", "[draw][full]") {
+  auto studio = open_studio();
+  const auto run = synthetic::dome(2, 4);
+  const Drawing drawing = test::dome_drawing(run);
+  const Image large = drawn(studio, drawing, {}, {2, true, 1}, 3840, 2160);
+  const Image small = drawn(studio, drawing, {}, {8, true, 1}, 960, 540);
+  // the means of 4 x 4 pixels are the smaller picture's pixels
+  double mean = 0;
+  for (int y = 0; y < 540; ++y)
+    for (int x = 0; x < 960; ++x) {
+      double sum = 0;
+      for (int k = 0; k < 16; ++k) sum += large.pixel(4 * x + k % 4, 4 * y + k / 4)[1];
+      mean += std::abs(sum / 16 - small.pixel(x, y)[1]) / (960.0 * 540.0);
+    }
+  CHECK(mean < 1);
+}
+
+TEST_CASE("what cannot be drawn is refused with its reason", "[draw]") {
+  auto studio = open_studio();
+  const auto run = synthetic::dome(2, 2);
+  const Drawing drawing = test::dome_drawing(run);
+  const auto message = [&](const Drawing& d, const DrawQuality& quality, int width, int height) {
+    const auto image = studio.renderer->draw(d, {}, quality, width, height);
+    REQUIRE_FALSE(image);
+    CHECK(image.error().fault == Fault::bad_input);
+    return image.error().message;
+  };
+  CHECK(message(drawing, {}, 0, 100) == "a picture of 0 x 100 pixels: each must be 1 to 65536");
+  CHECK(message(drawing, {0, true, 1}, 9, 9) == "supersample = 0: 1 to 16");
+  CHECK(message(drawing, {1, true, 0}, 9, 9) == "jittered_passes = 0: 1 to 4096");
+  CHECK(message(Drawing{}, {}, 9, 9) == "the drawing has no layout");
+  Drawing wrong = drawing;
+  wrong.nodes(1, 3) = std::nan("");
+  CHECK(message(wrong, {}, 9, 9) == "the drawing has a node that is not finite");
+  wrong = drawing;
+  wrong.cell_colours.pop_back();
+  CHECK_THAT(message(wrong, {}, 9, 9), Catch::Matchers::Contains("cell colours for"));
+  wrong = drawing;
+  wrong.nodes.conservativeResize(3, 4);
+  CHECK_THAT(message(wrong, {}, 9, 9), Catch::Matchers::Contains("beyond its 4 nodes"));
+}

@@ -1,0 +1,120 @@
+#include "render/gl/scene.h"
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "render/gl/mesh.h"
+#include "render/gl/renderer.h"
+#include "tests/render/gl/square_shell.h"
+
+using namespace gridshell::render;
+
+namespace {
+
+// position along the view of a triangle's middle
+double depth(const Mesh& mesh, std::size_t index, const Eigen::Vector3d& forward) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (int k = 0; k < 3; ++k) sum += mesh.vertices[mesh.indices[index + k]].position;
+  return forward.dot(sum.cast<double>() / 3);
+}
+
+// a square net seen from so high
+struct View {
+  View(int rods, int edges, double elevation_deg)
+      : shell(test::square_shell(rods, edges)), drawing(test::square_drawing(shell)) {
+    camera.elevation_deg = elevation_deg;
+    auto made = make_scene(drawing, camera, 0.3);
+    REQUIRE(made);
+    scene = std::move(*made);
+  }
+
+  test::SquareShell shell;
+  Drawing drawing;
+  Camera camera;
+  Scene scene;
+};
+
+}  // namespace
+
+TEST_CASE("every piece stands in one layer, and layers go from far to near", "[scene]") {
+  const View view(9, 6, 35);
+  const Scene& scene = view.scene;
+  const Eigen::Vector3d forward = camera_axes(view.camera).forward;
+  const auto& layers = scene.layers;
+  REQUIRE(layers.size() > 8);
+  CHECK(layers.front().sheets + layers.front().ribbons + layers.front().beads == 0);
+  CHECK(layers.back().sheets == scene.sheets.indices.size());
+  CHECK(layers.back().ribbons == scene.ribbons.indices.size());
+  CHECK(layers.back().beads == scene.beads.indices.size());
+  double before = INFINITY;
+  for (std::size_t k = 0; k + 1 < layers.size(); ++k) {
+    double nearest = INFINITY;
+    for (std::size_t i = layers[k].sheets; i < layers[k + 1].sheets; i += 3)
+      nearest = std::min(nearest, depth(scene.sheets, i, forward));
+    // a cell is as deep as it is wide: two neighbours overlap by less than a cell's diagonal
+    if (std::isfinite(nearest)) {
+      CHECK(nearest < before + 1.5 * view.shell.layout.spacing_mm);
+      before = std::min(before, nearest);
+    }
+  }
+}
+
+TEST_CASE("a rod comes after the cells beside it, a joint after its rods", "[scene]") {
+  const View view(6, 4, 25);
+  const Scene& scene = view.scene;
+  // the layer in which a triangle that touches a point is painted, the last one
+  const auto last_layer = [&](const Mesh& mesh, std::size_t Layer::*kind,
+                              const Eigen::Vector3f& at) {
+    int found = -1;
+    for (std::size_t k = 0; k + 1 < scene.layers.size(); ++k)
+      for (std::size_t i = scene.layers[k].*kind; i < scene.layers[k + 1].*kind; ++i)
+        if ((mesh.vertices[mesh.indices[i]].position - at).norm() < 1e-3f) found = int(k);
+    return found;
+  };
+  for (const auto& joint : view.shell.layout.joints) {
+    const Eigen::Vector3f at = view.drawing.nodes.col(joint.node).cast<float>();
+    const int sheet = last_layer(scene.sheets, &Layer::sheets, at);
+    const int ribbon = last_layer(scene.ribbons, &Layer::ribbons, at);
+    const int bead = last_layer(scene.beads, &Layer::beads, at);
+    CHECK(ribbon >= sheet);
+    CHECK(bead >= ribbon);
+  }
+}
+
+TEST_CASE("rods throw shadows, a ring only when asked, ghosts never", "[scene]") {
+  const auto shell = test::square_shell(4, 3);
+  Drawing drawing = test::square_drawing(shell);
+  drawing.rings.clear();
+  const auto count = [&] { return make_scene(drawing, {}, 0.3)->casters.size(); };
+  const std::size_t rods = count();
+  CHECK(rods > 0);
+  Eigen::Matrix3Xd square(3, 4);
+  square << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
+  drawing.rings.push_back({square, 1, {}, false});
+  CHECK(count() == rods);
+  drawing.rings.back().shadow = true;
+  CHECK(count() == rods + 4 * 6);
+  drawing.ghosts.push_back({drawing.nodes, shell.layout.rods, 0.5, {0, 0, 1, 1}});
+  CHECK(count() == rods + 4 * 6);
+}
+
+TEST_CASE("rods of other diameters are drawn thicker and thinner in proportion", "[scene]") {
+  test::SquareShell shell = test::square_shell(3, 2);
+  auto& layout = shell.layout;
+  layout.diameters_mm.assign(layout.rods.size(), layout.rod_diameter_mm);
+  layout.diameters_mm[1] *= 2;
+  Drawing drawing = test::square_drawing(shell);
+  drawing.layout = &layout;
+  drawing.rod_diameter_mm = 3;
+  drawing.rings.clear();
+  const auto scene = make_scene(drawing, Camera{}, 0.3);
+  REQUIRE(scene);
+  std::map<int, int> widths;  // in tenths of a millimetre of the radius
+  for (const Vertex& v : scene->ribbons.vertices)
+    ++widths[int(std::lround(10 * std::abs(v.normal[3]) * widest_radius_mm / 32767.0))];
+  const int points = int(layout.rods[1].size());
+  CHECK(widths[30] == 2 * points);
+  CHECK(widths[15] >= 2 * points * (int(layout.rods.size()) - 1));
+}

@@ -1,0 +1,126 @@
+// Plots of shells on nets show the numbers they are given.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "render/movie/run_figures.h"
+#include "render/movie/run_plots.h"
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+namespace {
+
+/// One cell of four joints at latitude 45 degrees, its net on the unit sphere times 100; the shell
+/// lies 2 % inside.
+record::Trajectory one_cell() {
+  record::Trajectory run;
+  record::Layout& layout = run.layout;
+  layout.spacing_mm = 20;
+  layout.length_scale_mm = 100;
+  layout.net_nodes.resize(3, 4);
+  for (int k = 0; k < 4; ++k) {
+    const double angle = M_PI / 4 + M_PI / 2 * k;
+    layout.net_nodes.col(k) << 100 * M_SQRT1_2 * std::cos(angle), 100 * M_SQRT1_2 * std::sin(angle),
+        100 * M_SQRT1_2;
+    layout.joints.push_back({k % 2, k / 2, 0, 0, k});
+  }
+  layout.cells.push_back({0, 0, 0, 0, {0, 1, 2, 3}});
+  layout.rods = {{0, 1}, {2, 3}};
+  layout.flat_nodes = layout.net_nodes;
+  layout.original_boundary = layout.actuated_boundary = layout.net_nodes;
+  record::Frame frame;
+  frame.nodes = 0.98 * layout.net_nodes;
+  frame.cell_K = Eigen::VectorXd::Constant(1, 0.25);
+  run.frames = {frame};
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("the deviation of a shell two per cent inside its sphere is two per cent") {
+  const record::Trajectory run = one_cell();
+  CHECK(on_sphere(run.layout));
+  for (double one : last_deviation(run)) CHECK(one == Approx(0.02));
+}
+
+TEST_CASE("K is plotted at the centroid of the cell over the half-span") {
+  record::Trajectory run = one_cell();
+  run.frames[0].nodes.row(0).array() += 5;
+  const Plot plot = curvature_plot({{&run, "shell"}});
+  REQUIRE(plot.series.size() == 1);
+  REQUIRE(plot.series[0].x.size() == 1);
+  CHECK(plot.series[0].x[0] == Approx(5 / 50.0));
+  CHECK(plot.series[0].y[0] == 0.25);
+}
+
+TEST_CASE("r over rho is plotted against latitude, the net at one") {
+  const record::Trajectory run = one_cell();
+  const Plot plot = latitude_plot({&run, "shell"});
+  REQUIRE(plot.series.size() == 2);
+  CHECK(plot.series[0].y == std::vector<double>{1, 1});
+  for (double latitude : plot.series[1].x) CHECK(latitude == Approx(45));
+  for (double r : plot.series[1].y) CHECK(r == Approx(0.98));
+}
+
+TEST_CASE("scanned joints are one more series of the latitude plot") {
+  const record::Trajectory run = one_cell();
+  Eigen::Matrix3Xd scan(3, 2);
+  scan << 0, 60, 0, 0, 101, 80;
+  const Plot plot = latitude_plot({&run, "shell"}, scan);
+  REQUIRE(plot.series.size() == 3);
+  CHECK(plot.series[1].x[0] == Approx(90));
+  CHECK(plot.series[1].y == std::vector<double>{1.01, 1.0});
+}
+
+TEST_CASE("quantiles of the deviation run from the nearest joint to the farthest") {
+  record::Trajectory run = one_cell();
+  run.frames[0].nodes.col(2) = 0.95 * run.layout.net_nodes.col(2);
+  const Plot plot = quantile_plot({{&run, "shell"}});
+  REQUIRE(plot.series.size() == 1);
+  const Series& series = plot.series[0];
+  CHECK(series.x == std::vector<double>{0, 100.0 / 3, 200.0 / 3, 100});
+  CHECK(series.y.front() == Approx(2));
+  CHECK(series.y.back() == Approx(5));
+  // blocks are measured in millimetres
+  run.layout.parts.emplace_back();
+  CHECK(quantile_plot({{&run, "shell"}}).series[0].y.back() == Approx(5));
+  CHECK(quantile_plot({{&run, "shell"}}).y.label == "off the net, Δ (mm)");
+}
+
+TEST_CASE("seams are plotted about their middles, gap and kink") {
+  record::Trajectory run = one_cell();
+  run.layout.seam_rods = {{"a.east - b.west", 'u', 30, 1.5, 7},
+                          {"a.east - b.west", 'v', 10, 1.5, 6},
+                          {"a.east - b.west", 'u', 10, 0.5, 3},
+                          {"a.east - b.west", 'v', 30, 0.5, 4}};
+  const Plot plot = seam_plot(run);
+  REQUIRE(plot.series.size() == 2);
+  // rods of one joint stand at one place
+  const double place = 10 * M_SQRT2;
+  CHECK(plot.series[0].x[0] == Approx(-place));
+  CHECK(plot.series[0].x[1] == Approx(-place));
+  CHECK(plot.series[0].x[2] == Approx(place));
+  CHECK(plot.series[0].y == std::vector<double>{1.5, 1.5, 0.5, 0.5});
+  CHECK(plot.series[1].y == std::vector<double>{7, 6, 3, 4});
+}
+
+TEST_CASE("footprints of blocks are written as PNG and SVG") {
+  const TemporaryFolder folder;
+  record::Trajectory run = one_cell();
+  run.layout.parts = {{"a", run.layout.rods, run.layout.net_nodes, run.layout.flat_nodes},
+                      {"b", run.layout.rods, run.layout.net_nodes, run.layout.flat_nodes}};
+  run.layout.parts[1].flat.row(0).array() += 200;
+  REQUIRE(write_block_footprints(folder.path() / "blocks", run).has_value());
+  CHECK(std::filesystem::file_size(folder.path() / "blocks.png") > 1000);
+  CHECK(std::filesystem::file_size(folder.path() / "blocks.svg") > 1000);
+}
+
+TEST_CASE("footprints are written as PNG and SVG") {
+  const TemporaryFolder folder;
+  const record::Trajectory run = one_cell();
+  REQUIRE(write_footprints(folder.path() / "boundaries", {{&run, "a"}, {&run, "b"}}, "Two")
+              .has_value());
+  CHECK(std::filesystem::file_size(folder.path() / "boundaries.png") > 1000);
+  CHECK(std::filesystem::file_size(folder.path() / "boundaries.svg") > 1000);
+}

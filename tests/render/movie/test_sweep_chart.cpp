@@ -1,0 +1,120 @@
+#include "render/movie/sweep_chart.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/temporary_folder.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+using record::SweepTable;
+
+namespace {
+
+/// Two cases over diameters; the thickest of the second has no state, that of the first is locked.
+SweepTable lines() {
+  SweepTable table{{"rod.diameter_mm"}, true, false, {}};
+  for (const char* one : {"cap", "dome"})
+    for (const double diameter : {4.0, 2.0, 0.2}) {
+      record::PointResult result;
+      result.point = table.rows.size();
+      const bool lost = diameter == 4 && std::string(one) == "dome";
+      if (lost)
+        result.outcome = record::PointOutcome::no_equilibrium;
+      else
+        result.figures = {{"max_deviation", 0.1 - 0.01 * diameter},
+                          {"stiffness_ratio", 6400 / diameter / diameter},
+                          {"stable", true},
+                          {"limit", diameter == 4 ? "locking" : "none"}};
+      table.rows.push_back({{one, {std::to_string(diameter)}, 0}, result});
+    }
+  return table;
+}
+
+const Series* find(const Plot& plot, const std::string& name) {
+  for (const Series& series : plot.series)
+    if (series.name == name) return &series;
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("a figure over one key: a curve a case, what ended early, what was not found") {
+  const Plot plot = sweep_plot(lines(), {.figure = "max_deviation"});
+  CHECK(plot.x.label == "rod diameter *D* (mm)");
+  REQUIRE(find(plot, "cap"));
+  CHECK(find(plot, "cap")->x == std::vector<double>{0.2, 2, 4});
+  CHECK(find(plot, "dome")->x == std::vector<double>{0.2, 2});
+  REQUIRE(find(plot, "ended early: locking"));
+  REQUIRE(find(plot, "no state found"));
+  CHECK(find(plot, "no state found")->x == std::vector<double>{4});
+  // 0.2 to 4 is a factor of 20 at most: even axes
+  CHECK_FALSE(plot.x.logarithmic);
+}
+
+TEST_CASE("a figure over a figure, and where it has left its limit") {
+  const Plot plot =
+      sweep_plot(lines(), {.figure = "max_deviation", .x = "stiffness_ratio", .departure = 0.1});
+  CHECK(plot.x.logarithmic);
+  CHECK(plot.x.label == "*EA* *d*^{2}/*EI*");
+  CHECK(find(plot, "cap")->x == std::vector<double>{400, 1600, 160000});
+  // 10 % below 0.098 lies between 0.08 and 0.098
+  REQUIRE(plot.references.size() == 2);
+  CHECK(plot.references[0].at > 1600);
+  CHECK(plot.references[0].at < 160000);
+  CHECK(std::ranges::any_of(plot.series,
+                            [](const Series& s) { return s.name.starts_with("10 % off at "); }));
+}
+
+TEST_CASE("the place of a departure is interpolated, from the right") {
+  CHECK(*deviation_onset({1, 2, 3}, {0, 8, 10}, 0.2) == Approx(2));
+  CHECK(*deviation_onset({-1, 0, 1}, {0, 8, 10}, 0.6) == Approx(-0.5));
+  CHECK(*deviation_onset({1, 10, 100}, {5, 10, 10}, 0.25) == Approx(std::sqrt(10)));
+  CHECK_FALSE(deviation_onset({1, 2}, {10, 10.1}, 0.2));
+  CHECK_FALSE(deviation_onset({1, 2}, {0, 10}, 0));
+  CHECK_FALSE(deviation_onset({}, {}, 0.1));
+}
+
+TEST_CASE("names with their units") {
+  CHECK(label_of("height_mm") == "height (mm)");
+  CHECK(label_of("energy_bend_mJ") == "bending energy (mJ)");
+  CHECK(label_of("rod.young_GPa") == "Young's modulus *E* (GPa)");
+  CHECK(label_of("joints.stiffness_N_per_mm") == "stiffness (N/mm)");
+  CHECK(label_of("newton_iterations") == "newton iterations");
+}
+
+TEST_CASE("words on an axis stand by their numbers") {
+  SweepTable table{{"actuation.seed"}, false, false, {}};
+  for (const char* seed : {"\"up\"", "\"down\""}) {
+    record::PointResult result;
+    result.figures = {{"height_mm", 10.0}};
+    table.rows.push_back({{"", {seed}, 0}, result});
+  }
+  CHECK(scale_of(table, 0).label == "seed: 1 up, 2 down");
+  CHECK(sweep_plot(table, {.figure = "height_mm"}).series[0].x == std::vector<double>{1, 2});
+}
+
+TEST_CASE("a map: all that is written fits, cells without a state are told") {
+  SweepTable table{{"actuation.radius_mm", "rod.diameter_mm"}, true, false, {}};
+  for (const char* one : {"first", "second"})
+    for (int i = 0; i < 12; ++i)
+      for (int j = 0; j < 9; ++j) {
+        record::PointResult result;
+        if (i != 3)
+          result.figures = {{"height_mm", double(i * j)}, {"limit", j == 2 ? "snap" : "none"}};
+        table.rows.push_back(
+            {{one, {std::to_string(100 + 2.5 * i), std::to_string(0.1 + 0.05 * j)}, 0}, result});
+      }
+  const TemporaryFolder folder;
+  int drawn = 0;
+  const CanvasObserver watch([&](const Canvas& canvas) {
+    const Box page{0, 0, canvas.width(), canvas.height()};
+    if (canvas.width() < 2) return;
+    ++drawn;
+    for (const Box& text : canvas.text_boxes()) CHECK(page.contains(text));
+    CHECK(std::ranges::find(canvas.texts(), "no state found") != canvas.texts().end());
+    CHECK(std::ranges::find(canvas.texts(), "ended early") != canvas.texts().end());
+  });
+  REQUIRE(write_sweep_map(folder.path() / "height_mm", table,
+                          {.figure = "height_mm", .title = "A map"}));
+  CHECK(drawn == 3);
+}

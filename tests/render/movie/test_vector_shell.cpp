@@ -1,0 +1,62 @@
+#include "render/movie/shell_lines.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "render/gl/renderer.h"
+#include "tests/render/gl/picture.h"
+
+using namespace gridshell;
+using namespace gridshell::render;
+
+TEST_CASE("what lies behind the shell is hidden, what lies before it is not") {
+  const auto run = synthetic::dome(2, 4);
+  const Drawing drawing = test::dome_drawing(run);
+  Camera above;
+  above.elevation_deg = 90;
+  Eigen::Matrix3Xd points(3, 3);
+  points << 0, 0, 200, 0, 0, 0, 10, 100, 0;  // under the dome, over it, beside it
+  CHECK(hidden_points(drawing, above, points, 5) == std::vector<bool>{true, false, false});
+  // seen from above no joint is hidden, from the side the far ones are
+  Eigen::Matrix3Xd joints(3, run.layout.joints.size());
+  for (std::size_t k = 0; k < run.layout.joints.size(); ++k)
+    joints.col(long(k)) = drawing.nodes.col(run.layout.joints[k].node);
+  const auto count = [&](double elevation) {
+    Camera camera;
+    camera.elevation_deg = elevation;
+    const auto hidden = hidden_points(drawing, camera, joints, 5);
+    return std::count(hidden.begin(), hidden.end(), true);
+  };
+  CHECK(count(90) == 0);
+  CHECK(count(5) > 20);
+}
+
+TEST_CASE("a shell of lines has fewer, or fainter, of them where it hides them") {
+  const auto run = synthetic::dome(2, 4);
+  Drawing drawing = test::dome_drawing(run);
+  drawing.rod_colour = {0, 0, 0, 1};
+  drawing.joint_diameter_mm = 0;
+  drawing.rings.clear();
+  Camera side;
+  side.elevation_deg = 10;
+  const auto ink = [&] {
+    const Image image = draw_picture(400, 300, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+      draw_shell_lines(canvas, {0, 0, 400, 300}, drawing, side);
+    });
+    double dark = 0;
+    for (std::size_t k = 0; k < image.rgba.size(); k += 4) dark += 255 - image.rgba[k];
+    return dark;
+  };
+  drawing.far_fade = 0.25;
+  const double faded = ink();
+  drawing.far_fade = 1;
+  const double removed = ink();
+  CHECK(removed < 0.95 * faded);
+  CHECK(removed > 0.3 * faded);
+  // without cells nothing hides anything
+  record::Layout open = run.layout;
+  open.cells.clear();
+  drawing.layout = &open;
+  drawing.cell_colours.clear();
+  CHECK(ink() > removed);
+}
