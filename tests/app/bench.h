@@ -1,4 +1,5 @@
-// A folder in which the program is run on a small preset.
+// Runs to look at: those that all tests share, and a folder in which the program is run on a small
+// preset.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -8,6 +9,21 @@
 #include "engine/core/atomic_file.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
+
+/// The run of that line of tests/images/list.txt, which ctest makes before the tests tagged
+/// [shared] (and [s1], for s1_actuation alone).
+inline std::filesystem::path shared_run(const std::string& name) {
+  auto run = std::filesystem::path(GRIDSHELL_SHARED_RUNS) / name;
+  INFO("made by: ctest -R 'shared run: " << name << "'");
+  REQUIRE(std::filesystem::exists(run));
+  return run;
+}
+
+/// A copy of it that may be changed.
+inline void copy_shared_run(const std::string& name, const std::filesystem::path& to) {
+  std::filesystem::create_directories(to.parent_path());
+  std::filesystem::copy(shared_run(name), to, std::filesystem::copy_options::recursive);
+}
 
 struct Bench {
   TemporaryFolder folder;

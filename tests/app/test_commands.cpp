@@ -134,7 +134,7 @@ TEST_CASE("pictures do not depend on the number of threads") {
   CHECK(text_of(bench.at / "one/frames.csv") == text_of(bench.at / "three/frames.csv"));
 }
 
-TEST_CASE("figure draws a still a radius and all in one") {
+TEST_CASE("figure draws a still a radius and all in one", "[standard]") {
   const Bench bench(small);
   bench.good({"figure", "small.toml", "-o", "run", "--set", "figure.radii_mm=[45.0, 42.0]"});
   std::vector<std::string> names;
@@ -150,7 +150,7 @@ TEST_CASE("figure draws a still a radius and all in one") {
   CHECK_FALSE(fs::exists(bench.at / "again/frames"));
 }
 
-TEST_CASE("figures of building blocks, drawn again from the run") {
+TEST_CASE("figures of building blocks, drawn again from the run", "[standard]") {
   const Bench bench(small);
   REQUIRE(write_atomically(bench.at / "dome.toml", R"(
 [footprint]
@@ -241,12 +241,8 @@ TEST_CASE("a path that ends early is written as far as it is certified, and exit
   CHECK(json_of(bench.at / "out/small/summary.json")["limit"] == "locking");
 }
 
-TEST_CASE("a run says on the terminal what its path came past") {
-  const TemporaryFolder folder;
-  const Ended ended =
-      gridshell_program({"run", "s1_imperfect", "--frames", "2", "-o", "run"}, folder.path());
-  REQUIRE(ended.code == 0);
-  CHECK_THAT(ended.out,
+TEST_CASE("a run says on the terminal what its path came past", "[shared]") {
+  CHECK_THAT(text_of(shared_run("s1_imperfect") += ".txt"),
              Catch::Contains("on its way: the path lost its stability at progress 0.018"));
 }
 
@@ -258,7 +254,7 @@ TEST_CASE("check explains what would run and writes nothing") {
   CHECK(bench.folder.entries() == std::vector<std::string>{"small.toml"});
 }
 
-TEST_CASE("list has a line a preset, and every one of them is sound") {
+TEST_CASE("list has a line a preset, and every one of them is sound", "[standard]") {
   const TemporaryFolder folder;
   const auto said = gridshell_program({"list"}, folder.path());
   CHECK(said.code == 0);
@@ -273,25 +269,7 @@ TEST_CASE("list has a line a preset, and every one of them is sound") {
   CHECK(presets == int(files_under(fs::path(GRIDSHELL_SOURCE_DIR) / "presets", ".toml").size()));
 }
 
-TEST_CASE("every preset that comes with the program runs to its end", "[full]") {
-  const TemporaryFolder folder;
-  std::istringstream lines(gridshell_program({"list"}, folder.path()).out);
-  for (std::string line; std::getline(lines, line);) {
-    const auto name = line.substr(0, line.find(' '));
-    INFO(name);
-    std::vector<std::string> arguments{"run", name, "--frames", "5", "--quiet"};
-    // a search for states: each kind of trial, some times
-    if (name.starts_with("fig2_"))
-      for (const char* fewer :
-           {"jitter.trials=6", "jitter.confined=7", "jitter.transitions=1", "jitter.drawn=2"})
-        arguments.insert(arguments.end(), {"--set", fewer});
-    const auto ended = gridshell_program(arguments, folder.path());
-    INFO(ended.err);
-    CHECK(ended.code == 0);
-  }
-}
-
-TEST_CASE("chart trust judges random scenes and keeps what was silently wrong") {
+TEST_CASE("chart trust judges random scenes and keeps what was silently wrong", "[standard]") {
   const TemporaryFolder folder;
   const auto said =
       gridshell_program({"chart", "trust", "--scenes", "2", "--seed", "20"}, folder.path());
@@ -335,7 +313,7 @@ TEST_CASE("usage errors exit with 2, help with 0") {
   CHECK(folder.entries().empty());
 }
 
-TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", "[full]") {
+TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", "[standard]") {
   const Bench bench(small);
   const auto said =
       bench.good({"chart", "accuracy", "small.toml", "--limit", "0.05", "--edges", "4"});

@@ -4,6 +4,7 @@
 
 #include "app/exporting.h"
 #include "engine/core/atomic_file.h"
+#include "tests/app/bench.h"
 #include "tests/app/program.h"
 #include "tests/temporary_folder.h"
 
@@ -11,18 +12,10 @@ namespace fs = std::filesystem;
 using Catch::Contains;
 using gridshell::read_whole;
 
-namespace {
-
-const std::vector<std::string> small_run{"run",     "s1_actuation", "--frames",
-                                         "3",       "--set",        "accuracy.edges_per_segment=4",
-                                         "--quiet", "-o",           "run"};
-
-}  // namespace
-
-TEST_CASE("export writes a run in every format, and what is for the workshop") {
+TEST_CASE("export writes a run in every format, and what is for the workshop", "[s1]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
-  REQUIRE(gridshell_program(small_run, at).code == 0);
+  copy_shared_run("s1_actuation", at / "run");
   const auto before = files_under(at / "run", "");
   const std::vector<std::pair<std::string, std::string>> wanted{
       {"", "a.csv"},         {"", "a.dxf"},          {"", "a.glb"},          {"", "a.html"},
@@ -38,7 +31,7 @@ TEST_CASE("export writes a run in every format, and what is for the workshop") {
     CHECK(ended.code == 0);
     CHECK(fs::file_size(at / file) > 200);
   }
-  CHECK(files_under(at / "a_frames", ".vtp").size() == 3);
+  CHECK(files_under(at / "a_frames", ".vtp").size() == 4);
   CHECK_THAT(read_whole(at / "a.pvd").value(), Contains("file=\"a_frames/frame_00002.vtp\""));
   CHECK_THAT(read_whole(at / "a.xdmf").value(), Contains("run/trajectory.h5:/nodes"));
   // the run is as it was
@@ -59,10 +52,10 @@ TEST_CASE("export of a preset needs no run, of cases one is chosen") {
   CHECK_THAT(which.err, Contains("choose one with --case"));
 }
 
-TEST_CASE("what cannot be exported is refused with what would do, and writes nothing") {
+TEST_CASE("what cannot be exported is refused with what would do, and writes nothing", "[s1]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
-  REQUIRE(gridshell_program(small_run, at).code == 0);
+  copy_shared_run("s1_actuation", at / "run");
   const auto refused = [&](std::vector<std::string> arguments, const char* why) {
     arguments.insert(arguments.begin(), "export");
     const auto ended = gridshell_program(arguments, at);
@@ -74,8 +67,8 @@ TEST_CASE("what cannot be exported is refused with what would do, and writes not
   refused({"run", "--to", "a"}, "a shape is written as");
   refused({"run", "--to", "a.obj", "--what", "house"}, "must be one of");
   refused({"run", "--to", "a.obj", "--what", "plate"}, "a plate is written as .csv .dxf .svg");
-  refused({"run", "--to", "a.obj", "--frame", "3"}, "must be a number from 0 to 2");
-  refused({"run", "--to", "a.obj", "--frame", "-1"}, "must be a number from 0 to 2");
+  refused({"run", "--to", "a.obj", "--frame", "4"}, "must be a number from 0 to 3");
+  refused({"run", "--to", "a.obj", "--frame", "-1"}, "must be a number from 0 to 3");
   refused({"run", "--to", "a.obj", "--case", "x"}, "has no cases, so no 'x'");
   refused({"run", "--to", "run/a.obj"}, "would lie in the run folder");
   refused({"run", "--to", "run"}, "is no file");

@@ -6,7 +6,9 @@
 #include "engine/core/atomic_file.h"
 #include "engine/record/journal.h"
 #include "render/image/png.h"
+#include "tests/app/bench.h"
 #include "tests/app/program.h"
+#include "tests/folder_contents.h"
 #include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
@@ -83,19 +85,18 @@ TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
   CHECK(files_under(folder.path(), "").empty());
 }
 
-TEST_CASE("a killed movie leaves no half file, and the run before it stays") {
+TEST_CASE("a killed movie leaves no half file, and the run before it stays", "[s1]") {
   const TemporaryFolder folder;
-  REQUIRE(
-      gridshell_program({"run", "s1_actuation", "--frames", "2", "--quiet"}, folder.path()).code ==
-      0);
-  const auto before = fs::last_write_time(folder.path() / "out/s1_actuation/summary.json");
+  const fs::path run = folder.path() / "out/s1_actuation";
+  copy_shared_run("s1_actuation", run);
+  fs::remove_all(run / "frames");
+  const auto before = contents(run);
   const Running running(movie, folder.path());
   REQUIRE(frames_appear(folder.path()));
   running.signal(SIGKILL);
   CHECK(running.wait().code == 128 + SIGKILL);
   check_all_whole(folder.path());
-  CHECK(fs::last_write_time(folder.path() / "out/s1_actuation/summary.json") == before);
-  CHECK_FALSE(fs::exists(folder.path() / "out/s1_actuation/frames"));
+  CHECK(contents(run) == before);
 }
 
 namespace {
@@ -118,7 +119,7 @@ fs::path killed_with(std::size_t least, const std::vector<std::string>& run,
 
 }  // namespace
 
-TEST_CASE("of a run that is killed near its end nearly all frames are drawn", "[full]") {
+TEST_CASE("of a run that is killed near its end nearly all frames are drawn", "[standard]") {
   const TemporaryFolder folder;
   fs::path partial;
   // where the machine leaves this test no time while the run goes on, it is run again
