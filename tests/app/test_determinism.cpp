@@ -75,31 +75,25 @@ std::string made_with() {
   return std::string("# ") + GRIDSHELL_BUILT_WITH + ", glibc " + gnu_get_libc_version() + "\n";
 }
 
-std::string hashes_now(const fs::path& at) {
-  const PlainLibrary library;
-  std::string lines;
-  for (const Scene& scene : scenes) {
-    const std::string kind = scene.kind;
-    lines += kind + " x86-64 " + hash_of(run(scene, at, kind + "_a", {}, baseline)) + "\n";
-    if (runs_fast_clones())
-      lines += kind + " x86-64-v3 " + hash_of(run(scene, at, kind + "_b")) + "\n";
+// joints and energies of two runs to 1e-9 of themselves
+void check_near(const fs::path& a, const fs::path& b) {
+  const auto one = gridshell::record::read_trajectory(a / "trajectory.h5"),
+             two = gridshell::record::read_trajectory(b / "trajectory.h5");
+  REQUIRE(one);
+  REQUIRE(two);
+  REQUIRE(one->frames.size() == two->frames.size());
+  for (std::size_t k = 0; k < one->frames.size(); ++k) {
+    const gridshell::record::Frame &f = std::as_const(one->frames)[k],
+                                   &g = std::as_const(two->frames)[k];
+    CHECK((f.nodes - g.nodes).cwiseAbs().maxCoeff() < 1e-9 * one->layout.length_scale_mm);
+    CHECK(f.energies.total() == Approx(g.energies.total()).epsilon(1e-9).margin(1e-9));
+    CHECK(f.negative_pivots == g.negative_pivots);
   }
-  return lines;
 }
 
 }  // namespace
 
-TEST_CASE("a run gives the same bits again, on any number of threads", "[full]") {
-  const TemporaryFolder folder;
-  for (const Scene& scene : scenes) {
-    INFO(scene.kind);
-    const auto first = hash_of(run(scene, folder.path(), "first"));
-    CHECK(hash_of(run(scene, folder.path(), "again", {"--threads", "1"})) == first);
-    CHECK(hash_of(run(scene, folder.path(), "again", {"--threads", "3"})) == first);
-  }
-}
-
-TEST_CASE("pictures have the same bits in every context", "[full]") {
+TEST_CASE("pictures have the same bits in every context", "[standard]") {
   const TemporaryFolder folder;
   const auto draw = [&](const std::string& context) {
     return gridshell_program(
@@ -122,33 +116,24 @@ TEST_CASE("pictures have the same bits in every context", "[full]") {
   CHECK(hash_of(folder.path() / "osmesa") == hash_of(folder.path() / "egl"));
 }
 
-TEST_CASE("both clones of the code come to the same states", "[full]") {
-  if (!has_clones || !runs_fast_clones()) return;
+TEST_CASE("golden hashes of all kinds of runs, the same on any number of threads", "[standard]") {
   const TemporaryFolder folder;
+  const fs::path& at = folder.path();
+  const PlainLibrary library;
+  std::string now;
   for (const Scene& scene : scenes) {
     INFO(scene.kind);
-    const auto a = run(scene, folder.path(), "fast"),
-               b = run(scene, folder.path(), "plain", {}, baseline);
+    const auto fast = run(scene, at, "fast"), plain = run(scene, at, "plain", {}, baseline);
+    const std::string first = hash_of(fast), kind = scene.kind;
+    for (const char* threads : {"1", "3"})
+      CHECK(hash_of(run(scene, at, "again", {"--threads", threads})) == first);
+    now += kind + " x86-64 " + hash_of(plain) + "\n";
+    if (!has_clones || !runs_fast_clones()) continue;
+    now += kind + " x86-64-v3 " + first + "\n";
     // else it is one clone that ran twice
-    CHECK(hash_of(a) != hash_of(b));
-    const auto fast = gridshell::record::read_trajectory(a / "trajectory.h5"),
-               plain = gridshell::record::read_trajectory(b / "trajectory.h5");
-    REQUIRE(fast);
-    REQUIRE(plain);
-    REQUIRE(fast->frames.size() == plain->frames.size());
-    for (std::size_t k = 0; k < fast->frames.size(); ++k) {
-      const gridshell::record::Frame &one = std::as_const(fast->frames)[k],
-                                     &two = std::as_const(plain->frames)[k];
-      CHECK((one.nodes - two.nodes).cwiseAbs().maxCoeff() < 1e-9 * fast->layout.length_scale_mm);
-      CHECK(one.energies.total() == Approx(two.energies.total()).epsilon(1e-9).margin(1e-9));
-      CHECK(one.negative_pivots == two.negative_pivots);
-    }
+    CHECK(first != hash_of(plain));
+    check_near(fast, plain);
   }
-}
-
-TEST_CASE("golden hashes of all kinds of runs", "[full]") {
-  const TemporaryFolder folder;
-  const auto now = hashes_now(folder.path());
   if (std::getenv("GRIDSHELL_GOLDEN")) {
     REQUIRE(has_clones);
     REQUIRE(runs_fast_clones());
