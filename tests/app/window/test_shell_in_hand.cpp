@@ -173,7 +173,8 @@ preset::Preset saved(const Sight& sight) {
   return preset;
 }
 
-TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run comes to it") {
+TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run comes to it",
+          "[standard]") {
   preset::Preset shell = small_shell();
   shell.footprint.rods = 8;
   shell.footprint.radius_mm = 88;
@@ -208,7 +209,8 @@ TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run come
   CHECK(elsewhere > 0);
 }
 
-TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same state", "[full]") {
+TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same state",
+          "[standard]") {
   ShellInHand hand = formed();
   const Sight begun = hand.sight();
   const auto place = [&](int joint) -> Eigen::Vector3d {

@@ -1,7 +1,8 @@
-#include "app/window/camera_hand.h"
-
+// What the mouse does to the camera and to what is picked.
 #include <catch2/catch.hpp>
 
+#include "app/window/camera_hand.h"
+#include "app/window/view_hand.h"
 #include "render/draw/camera.h"
 
 using namespace gridshell;
@@ -75,4 +76,52 @@ TEST_CASE("a drag takes a point to where the mouse is") {
   CHECK((moved(level) - Eigen::Vector2d(8, 5)).norm() < 0.3);
   const double up = dragged_along(camera, size, place, Eigen::Vector3d::UnitZ(), 0, -9);
   CHECK(std::abs(moved(up * Eigen::Vector3d::UnitZ()).y() + 9) < 0.3);
+}
+
+namespace {
+
+/// A flat cell of 20 mm with a rod along each side, seen from above; node k at its corner k.
+std::shared_ptr<const Sight> one_cell() {
+  auto layout = std::make_shared<record::Layout>();
+  layout->joints.resize(4);
+  layout->cells.push_back({0, 0, 10, 10, {0, 1, 2, 3}});
+  layout->rods = {{0, 1}, {3, 2}, {0, 3}, {1, 2}};
+  auto sight = std::make_shared<Sight>();
+  sight->layout = layout;
+  sight->frame.nodes.resize(3, 4);
+  sight->frame.nodes << 0, 20, 20, 0, 0, 0, 20, 20, 0, 0, 0, 0;
+  sight->normals = Eigen::Matrix3Xd::Zero(3, 4);
+  return sight;
+}
+
+}  // namespace
+
+TEST_CASE("a click shows a joint, a rod with the nearest of its nodes, or a cell") {
+  Desk desk({});
+  desk.sight = one_cell();
+  desk.view = {800, 800};
+  look_from(desk.camera, view_top);
+  fit(desk.camera, desk.view, desk.sight->frame.nodes);
+  ViewHand hand(desk);
+  const auto click = [&](double x, double y) {
+    const Eigen::Vector2d at = render::to_pixel(desk.camera, 800, 800, {x, y, 0});
+    hand.press(Button::left, false, at.x(), at.y());
+    hand.release(at.x(), at.y());
+  };
+  click(20, 0);
+  CHECK(desk.picked_joint == 1);
+  CHECK(desk.picked_rod.rod == -1);
+  CHECK(desk.picked_cell == -1);
+  click(20, 14);
+  CHECK(desk.picked_joint == -1);
+  CHECK(desk.picked_rod.rod == 3);
+  CHECK(desk.picked_rod.point == 1);
+  CHECK(desk.picked_cell == -1);
+  click(6, 0);
+  CHECK(desk.picked_rod.rod == 0);
+  CHECK(desk.picked_rod.point == 0);
+  click(10, 10);
+  CHECK(desk.picked_joint == -1);
+  CHECK(desk.picked_rod.rod == -1);
+  CHECK(desk.picked_cell == 0);
 }
