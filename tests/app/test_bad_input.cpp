@@ -126,7 +126,7 @@ TEST_CASE("a footprint that cannot be built is refused before anything runs") {
 }
 
 TEST_CASE("a net that ends before its boundary is refused with its place, and drawn by figure",
-          "[full]") {
+          "[standard]") {
   const TemporaryFolder folder;
   const auto ended = gridshell_program(
       {"figure", "surface_ellipsoid", "--set", "net.cut_mm=-50", "-o", "deep"}, folder.path());

@@ -69,7 +69,7 @@ TEST_CASE("the README names every preset, and is short") {
   CHECK(std::count(text.begin(), text.end(), '\n') < 200);
 }
 
-TEST_CASE("the presets shown in the READMEs run") {
+TEST_CASE("the presets shown in the READMEs run", "[standard]") {
   for (const char* document : {"README.md", "presets/README.md"}) {
     const TemporaryFolder folder;
     const auto text = text_of(document);

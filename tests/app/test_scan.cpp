@@ -36,7 +36,8 @@ void form(const std::string& radius_mm, const std::string& name, const fs::path&
 
 }  // namespace
 
-TEST_CASE("a scan of a run shows that run, with its joints, its picture and what overlays take") {
+TEST_CASE("a scan of a run shows that run, with its joints, its picture and what overlays take",
+          "[standard]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
   form("48", "run", at);

@@ -21,7 +21,8 @@ std::string text_of(const fs::path& file) { return read_whole(file).value(); }
 
 }  // namespace
 
-TEST_CASE("a search for states: tables, pictures, and the same pictures again from the run") {
+TEST_CASE("a search for states: tables, pictures, and the same pictures again from the run",
+          "[standard]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
   REQUIRE(write_atomically(at / "shell.toml", search));
@@ -48,7 +49,7 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
     CHECK(text_of(run / name) == text_of(at / "again" / name));
 }
 
-TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[full]") {
+TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[standard]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
   const std::string shell =
@@ -98,7 +99,7 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[ful
   CHECK(refused("out/sweep").find("1 of 2 points are there") != std::string::npos);
 }
 
-TEST_CASE("joints measured lie over a state of a page of states", "[full]") {
+TEST_CASE("joints measured lie over a state of a page of states", "[standard]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
   REQUIRE(write_atomically(

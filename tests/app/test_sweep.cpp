@@ -105,7 +105,8 @@ TEST_CASE("shards merge to the same bytes as the whole") {
   CHECK(lines_in(folder.path() / "parts/sweep.jsonl") == 8);
 }
 
-TEST_CASE("a sweep of searches is the same killed, stopped, in shards and on two jobs", "[full]") {
+TEST_CASE("a sweep of searches is the same killed, stopped, in shards and on two jobs",
+          "[standard]") {
   const TemporaryFolder folder;
   const fs::path at = folder.path();
   REQUIRE(write_atomically(at / "small.toml", R"([footprint]

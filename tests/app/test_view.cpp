@@ -48,7 +48,8 @@ json run_of_kept(const TemporaryFolder& folder, const json& told) {
 
 }  // namespace
 
-TEST_CASE("a slider dragged in the window moves the boundary, in one step that can be undone") {
+TEST_CASE("a slider dragged in the window moves the boundary, in one step that can be undone",
+          "[standard]") {
   const TemporaryFolder folder;
   const std::string drag =
       "mouse @R_a 0.5 0.5\npress left\nmouse @R_a 0.6 0.5\nmouse @R_a 0.7 0.5\nrelease left\n";
@@ -124,7 +125,8 @@ TEST_CASE("keys do nothing to a shell that is hidden") {
   CHECK(still["gravity"] == false);
 }
 
-TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what they say") {
+TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what they say",
+          "[standard]") {
   const TemporaryFolder folder;
   const json dragged = played(folder,
                               "do view_top\nmouse @edge:3 0 0\npress left\nmouse @edge:3 8 6\n"
@@ -179,8 +181,8 @@ TEST_CASE("every panel, light and dark, at twice the density") {
   CHECK(gridshell::render::read_png(folder.path() / "all.png")->width == 2560);
 }
 
-TEST_CASE(
-    "a shell is designed in the window, kept and saved with its tables, and runs as it stood") {
+TEST_CASE("a shell is designed in the window, kept and saved with its tables, and runs as it stood",
+          "[standard]") {
   const std::string cap =
       "title = \"cap\"\n[footprint]\nkind = \"net\"\nplacement = \"on_axis\"\n"
       "[net]\nkind = \"sphere\"\nradius_mm = 80.0\ncut_height = 0.5\n"
@@ -222,7 +224,7 @@ TEST_CASE(
   CHECK(refused["message"].get<std::string>().find("not designed on a net") != std::string::npos);
 }
 
-TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undone", "[full]") {
+TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undone", "[standard]") {
   // more events by GRIDSHELL_TRIALS, others by GRIDSHELL_SEED
   const auto number = [](const char* name, unsigned usual) {
     const char* given = std::getenv(name);
