@@ -9,7 +9,6 @@
 #include "engine/preset/reader.h"
 #include "engine/preset/surface_file.h"
 #include "engine/preset/writer.h"
-#include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 
 namespace gridshell::fuzz {

@@ -8,7 +8,6 @@
 #include "engine/record/states.h"
 #include "engine/record/sweep_log.h"
 #include "render/image/png.h"
-#include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 #include "tests/temporary_folder.h"
 
