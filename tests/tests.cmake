@@ -45,11 +45,11 @@ function(gridshell_tests folder)
   gridshell_tier(full "[full]~[shared]~[s1]" TIMEOUT 1200)
   if(folder STREQUAL app)
     # those that look at a clock
-    gridshell_tier(quick "~[full]~[standard][alone]~[s1]" TIMEOUT ${quick_seconds} RUN_SERIAL ON)
-    gridshell_tier(quick "~[full]~[standard][s1]" TIMEOUT ${quick_seconds}
-      FIXTURES_REQUIRED shared_s1_actuation)
-    gridshell_tier(standard "~[full][shared]" TIMEOUT 600 FIXTURES_REQUIRED shared_runs)
-    gridshell_tier(full "[full][shared]" TIMEOUT 1200 FIXTURES_REQUIRED shared_runs)
+    gridshell_tier(quick "~[full]~[standard][alone]~[shared]~[s1]" TIMEOUT ${quick_seconds}
+      RUN_SERIAL ON)
+    gridshell_tier(quick "[s1]" TIMEOUT ${quick_seconds} FIXTURES_REQUIRED shared_s1_actuation)
+    gridshell_tier(standard "~[full][shared]~[s1]" TIMEOUT 600 FIXTURES_REQUIRED shared_runs)
+    gridshell_tier(full "[full][shared]~[s1]" TIMEOUT 1200 FIXTURES_REQUIRED shared_runs)
   endif()
 endfunction()
 
