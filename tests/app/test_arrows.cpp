@@ -1,13 +1,9 @@
 // Arrows between folders go one way: who may include whom stands in one table.
-#include <catch2/catch.hpp>
 #include <map>
 #include <regex>
 #include <set>
 
-#include "engine/core/atomic_file.h"
-#include "tests/app/program.h"
-
-namespace fs = std::filesystem;
+#include "tests/app/bench.h"
 
 namespace {
 
@@ -125,8 +121,8 @@ TEST_CASE("every include follows the arrows") {
   for (const char* top : {"engine", "render", "app"})
     for (const char* ending : {".h", ".cpp"})
       for (const auto& path : files_under(root / top, ending)) {
-        const auto more = forbidden_arrows(fs::relative(path, root).generic_string(),
-                                           gridshell::read_whole(path).value());
+        const auto more =
+            forbidden_arrows(fs::relative(path, root).generic_string(), text_of(path));
         found.insert(found.end(), more.begin(), more.end());
         ++files;
       }
@@ -142,7 +138,7 @@ TEST_CASE("what the window knows has no OpenGL and no interface library in it") 
   for (const char* ending : {".h", ".cpp"})
     for (const auto& path : files_under(root / "app/window", ending)) {
       INFO(path);
-      CHECK_FALSE(std::regex_search(gridshell::read_whole(path).value(), forbidden));
+      CHECK_FALSE(std::regex_search(text_of(path), forbidden));
       ++files;
     }
   CHECK(files > 10);
@@ -157,6 +153,6 @@ TEST_CASE("the engine knows no OpenGL, no window and does not print") {
   for (const char* ending : {".h", ".cpp"})
     for (const auto& path : files_under(root / "engine", ending)) {
       INFO(path);
-      CHECK_FALSE(std::regex_search(gridshell::read_whole(path).value(), forbidden));
+      CHECK_FALSE(std::regex_search(text_of(path), forbidden));
     }
 }

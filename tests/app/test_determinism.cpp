@@ -1,17 +1,8 @@
 // Which bits of a run are equal over what (engine/README.md, "The same bits").
 #include <gnu/libc-version.h>
 
-#include <catch2/catch.hpp>
-#include <cstdlib>
-#include <sstream>
-
-#include "engine/core/atomic_file.h"
 #include "engine/record/trajectory_file.h"
-#include "tests/app/program.h"
-#include "tests/temporary_folder.h"
-
-namespace fs = std::filesystem;
-using gridshell::read_whole;
+#include "tests/app/bench.h"
 
 namespace {
 
@@ -48,7 +39,7 @@ fs::path run(const Scene& scene, const fs::path& at, const std::string& name,
 
 // of all numbers of all frames, as its trajectory bears it
 std::string hash_of(const fs::path& run) {
-  const auto text = read_whole(run / "trajectory.h5").value();
+  const auto text = text_of(run / "trajectory.h5");
   const std::string before = "FNV-1a ";
   const auto at = text.find(before);
   REQUIRE(at < 200);
@@ -111,7 +102,7 @@ TEST_CASE("pictures have the same bits in every context", "[standard]") {
   for (const auto& picture : pictures) {
     INFO(picture);
     const auto other = folder.path() / "egl/frames" / picture.filename();
-    CHECK(read_whole(picture).value() == read_whole(other).value());
+    CHECK(text_of(picture) == text_of(other));
   }
   CHECK(hash_of(folder.path() / "osmesa") == hash_of(folder.path() / "egl"));
 }
@@ -137,10 +128,10 @@ TEST_CASE("golden hashes of all kinds of runs, the same on any number of threads
   if (std::getenv("GRIDSHELL_GOLDEN")) {
     REQUIRE(has_clones);
     REQUIRE(runs_fast_clones());
-    REQUIRE(gridshell::write_atomically(table, made_with() + now));
+    REQUIRE(write_atomically(table, made_with() + now));
     return;
   }
-  const auto kept = read_whole(table).value();
+  const auto kept = text_of(table);
   if (!has_clones || !kept.starts_with(made_with())) {
     WARN("not compared: the table was made with " << kept.substr(0, kept.find('\n')));
     return;

@@ -1,19 +1,10 @@
 // The program's pictures against those that were looked at and kept in tests/images.
-#include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <string>
 
-#include "engine/core/atomic_file.h"
 #include "render/image/compare.h"
 #include "render/image/png.h"
 #include "tests/app/bench.h"
-#include "tests/app/program.h"
-#include "tests/temporary_folder.h"
 
-namespace fs = std::filesystem;
 using namespace gridshell;
 
 namespace {
@@ -62,7 +53,7 @@ TEST_CASE("every preset is run for kept pictures") {
     all += arguments + " ";
   }
   for (const auto& file : files_under(fs::path(GRIDSHELL_SOURCE_DIR) / "presets", ".toml"))
-    CHECK_THAT(all, Catch::Contains(" " + file.stem().string() + " "));
+    CHECK_THAT(all, Contains(" " + file.stem().string() + " "));
 }
 
 TEST_CASE("every preset, figure and visit of the window looks as its kept pictures do",
@@ -170,5 +161,5 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
   const auto why = read_whole(kept / "WHY.md");
   REQUIRE(why);
   CHECK(why->find("a lighter grey (gone.png, in/other.png, new.png)") != std::string::npos);
-  CHECK(gridshell_program({"compare", "kept", "now/same.png"}, folder.path()).code == 2);
+  CHECK(gridshell_program("compare kept now/same.png", folder.path()).code == 2);
 }

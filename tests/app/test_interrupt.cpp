@@ -1,17 +1,8 @@
 // Ctrl-C, SIGTERM, SIGKILL and a full disk in the middle of a real movie: what is left is whole.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <chrono>
-
-#include "engine/core/atomic_file.h"
 #include "engine/record/journal.h"
 #include "render/image/png.h"
 #include "tests/app/bench.h"
-#include "tests/app/program.h"
 #include "tests/folder_contents.h"
-#include "tests/temporary_folder.h"
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -45,8 +36,8 @@ TEST_CASE("Ctrl-C and SIGTERM stop within a second and leave finished frames who
   CAPTURE(ended.wall_seconds, ended.cpu_seconds);
   CHECK(ended.prompt());
   CHECK(ended.code == 130);
-  CHECK_THAT(ended.err, Catch::Contains("stopped\n1 run and ") &&
-                            Catch::Contains("each whole, are in 'out/s1_actuation.partial-"));
+  CHECK_THAT(ended.err, Contains("stopped\n1 run and ") &&
+                            Contains("each whole, are in 'out/s1_actuation.partial-"));
   CHECK_FALSE(fs::exists(folder.path() / "out/s1_actuation"));
   check_all_whole(folder.path());
   for (const auto& file : files_under(folder.path(), ""))
@@ -55,26 +46,25 @@ TEST_CASE("Ctrl-C and SIGTERM stop within a second and leave finished frames who
 
 TEST_CASE("a picture that takes long does not hold up Ctrl-C", "[alone]") {
   const TemporaryFolder folder;
-  const Running running(
-      {"movie", "s1_actuation", "--frames", "2", "--quality", "figure", "--size", "3840x2160"},
-      folder.path());
+  const Running running("movie s1_actuation --frames 2 --quality figure --size 3840x2160",
+                        folder.path());
   REQUIRE(wait_until([&] { return !files_under(folder.path(), "summary.json").empty(); }));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   const auto ended = running.interrupt(SIGINT);
   CAPTURE(ended.wall_seconds, ended.cpu_seconds);
   CHECK(ended.prompt());
   CHECK(ended.code == 130);
-  CHECK_THAT(ended.err, Catch::Contains("stopped\n1 run and 0 pictures, each whole, are in "));
+  CHECK_THAT(ended.err, Contains("stopped\n1 run and 0 pictures, each whole, are in "));
   CHECK(files_under(folder.path(), "trajectory.h5").size() == 1);
 }
 
 TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
   const TemporaryFolder folder;
   // its path alone, before the first frame, takes a second and more
-  const Running running({"run", "s1_actuation", "--set", "accuracy.edges_per_segment=64", "--set",
-                         "footprint.rods=20", "--set", "footprint.radius_mm=206", "--set",
-                         "actuation.radius_mm=155", "--frames", "5000"},
-                        folder.path());
+  const Running running(
+      "run s1_actuation --set accuracy.edges_per_segment=64 --set footprint.rods=20 --set "
+      "footprint.radius_mm=206 --set actuation.radius_mm=155 --frames 5000",
+      folder.path());
   REQUIRE(wait_until([&] { return fs::exists(folder.path() / "out"); }));
   const auto ended = running.interrupt(SIGINT);
   CAPTURE(ended.wall_seconds, ended.cpu_seconds);
@@ -139,10 +129,9 @@ TEST_CASE("of a run that is killed near its end nearly all frames are drawn", "[
                                         "64x48", "--quality", "draft", "--quiet"},
                                        folder.path());
   CHECK(drawn.code == 0);
-  CHECK_THAT(drawn.err, Catch::Contains("is not finished: " + std::to_string(frames) + " frames"));
+  CHECK_THAT(drawn.err, Contains("is not finished: " + std::to_string(frames) + " frames"));
   CHECK(files_under(folder.path() / "drawn/frames", ".png").size() == frames);
-  CHECK_THAT(gridshell::read_whole(folder.path() / "drawn/summary.json").value(),
-             Catch::Contains("\"finished\": false"));
+  CHECK_THAT(text_of(folder.path() / "drawn/summary.json"), Contains("\"finished\": false"));
 }
 
 TEST_CASE("a full disk fails with 1 and leaves nothing half-written under a final name") {
@@ -151,11 +140,11 @@ TEST_CASE("a full disk fails with 1 and leaves nothing half-written under a fina
   {
     // the program inherits it: not one frame fits
     const FileSizeLimit disk(100000);
-    ended = gridshell_program({"run", "s1_actuation"}, folder.path());
+    ended = gridshell_program("run s1_actuation", folder.path());
   }
   CHECK(ended.code == 1);
-  CHECK_THAT(ended.err, Catch::Contains("cannot write '") &&
-                            Catch::Contains("frames.journal': File too large\n") &&
+  CHECK_THAT(ended.err, Contains("cannot write '") &&
+                            Contains("frames.journal': File too large\n") &&
                             Catch::EndsWith("nothing was finished, so nothing is left behind\n"));
   CHECK(files_under(folder.path(), "").empty());
 }
@@ -165,10 +154,10 @@ TEST_CASE("a disk that fills up late leaves the frames found before") {
   Ended ended;
   {
     const FileSizeLimit disk(2000000);
-    ended = gridshell_program({"run", "s1_actuation", "--frames", "40"}, folder.path());
+    ended = gridshell_program("run s1_actuation --frames 40", folder.path());
   }
   CHECK(ended.code == 1);
-  CHECK_THAT(ended.err, Catch::Contains(" frames of an unfinished run, each whole, are in '") &&
-                            Catch::Contains("\n  gridshell render out/s1_actuation.partial-"));
+  CHECK_THAT(ended.err, Contains(" frames of an unfinished run, each whole, are in '") &&
+                            Contains("\n  gridshell render out/s1_actuation.partial-"));
   CHECK(files_under(folder.path(), "frames.journal").size() == 1);
 }

@@ -1,16 +1,13 @@
 // Every key of the field table is read by something: a key that does nothing is a lie to its user.
-#include <catch2/catch.hpp>
 #include <map>
 #include <regex>
 #include <set>
 
 #include "app/pictures.h"
-#include "engine/core/atomic_file.h"
 #include "engine/preset/field_table.h"
 #include "engine/preset/rung.h"
-#include "tests/app/program.h"
+#include "tests/app/bench.h"
 
-namespace fs = std::filesystem;
 using namespace gridshell;
 using namespace gridshell::preset;
 
@@ -32,7 +29,7 @@ std::set<std::string> members_read() {
   std::set<std::string> found;
   for (const char* folder : {"engine", "app"})
     for (const auto& file : files_under(fs::path(GRIDSHELL_SOURCE_DIR) / folder, ".cpp")) {
-      const auto text = read_whole(file).value();
+      const auto text = text_of(file);
       if (file.string().find("/engine/preset/") != std::string::npos ||
           text.find("preset::") == std::string::npos)
         continue;
@@ -92,15 +89,14 @@ TEST_CASE("every key of [movie] and [style] changes how a movie looks, those of 
 
 TEST_CASE("every member of a preset has a key") {
   const fs::path folder = fs::path(GRIDSHELL_SOURCE_DIR) / "engine/preset";
-  const std::string header =
-      read_whole(folder / "preset.h").value() + read_whole(folder / "pictures.h").value();
+  const std::string header = text_of(folder / "preset.h") + text_of(folder / "pictures.h");
   // what stands behind :: or . in the tables
   std::set<std::string> named;
   const std::regex member("(?:::|\\.)(\\w+)");
   for (const char* ending : {".cpp", ".h"})
     for (const auto& file : files_under(folder, ending)) {
       if (file.filename() == "preset.h" || file.filename() == "pictures.h") continue;
-      const std::string text = read_whole(file).value();
+      const std::string text = text_of(file);
       for (std::sregex_iterator at(text.begin(), text.end(), member), end; at != end; ++at)
         named.insert((*at)[1]);
     }
