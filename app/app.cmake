@@ -22,7 +22,7 @@ add_custom_command(OUTPUT ${embedded_cards}
   DEPENDS ${card_files} ${PROJECT_SOURCE_DIR}/app/cli/embed_cards.cmake VERBATIM)
 
 file(GLOB_RECURSE APP_SOURCES CONFIGURE_DEPENDS app/*.cpp app/*.h)
-list(FILTER APP_SOURCES EXCLUDE REGEX "/app/(main\\.cpp$|examples/|python/)")
+list(FILTER APP_SOURCES EXCLUDE REGEX "/app/(cli/main\\.cpp$|examples/|python/)")
 add_library(gridshell_app STATIC ${APP_SOURCES} ${embedded_presets} ${embedded_cards})
 target_link_libraries(gridshell_app PUBLIC gridshell_engine gridshell_render
   PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json Threads::Threads

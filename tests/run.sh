@@ -1,9 +1,10 @@
 #!/bin/sh
-# tests/run.sh [CTEST ARGUMENTS]: installs what is missing, builds everything, and runs the tests,
-# quick, full and those of style; `tests/run.sh -L quick` runs the quick ones.
+# tests/run.sh [CTEST ARGUMENTS]: installs what is missing, builds everything, and runs the tests, all but
+# those that only a release needs (label full). Arguments choose others: -L quick, -L full, -R words.
 set -e
 cd "$(dirname "$0")/.."
 . app/setup.sh
 install_missing_packages
 build all
+[ $# -gt 0 ] || set -- -LE full
 exec ctest --test-dir build --output-on-failure --no-tests=error -j "$(nproc)" "$@"

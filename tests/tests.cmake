@@ -1,5 +1,7 @@
 # Tests mirror the source: tests/engine -> test_engine, tests/render -> test_render, tests/app -> test_app.
-# A test tagged [full] carries the CTest label `full`, every other one `quick`.
+# Their tags are CTest labels: untagged tests are `quick`, [standard] those that take over a second,
+# [full] what a release needs besides. tests/run.sh runs all but `full`.
+# [shared] reads all of build/shared_runs, [s1] that of s1_actuation; both are made before.
 find_package(Catch2 2.13 REQUIRED)
 include(Catch)
 find_package(nlohmann_json REQUIRED)
@@ -9,6 +11,13 @@ set(quick_seconds 60)
 if(CMAKE_BUILD_TYPE STREQUAL "Debug")
   set(quick_seconds 900)
 endif()
+
+# gridshell_tier(LABEL SPEC PROPERTIES...): those tests of `target` under that label
+function(gridshell_tier label spec)
+  string(MAKE_C_IDENTIFIER "${target}_${label}${spec}" list)
+  catch_discover_tests(${target} TEST_SPEC ${spec} TEST_LIST ${list} EXTRA_ARGS --warn NoTests
+    PROPERTIES LABELS ${label} ${ARGN})
+endfunction()
 
 # gridshell_tests(NAME LIBRARIES...): one test program of tests/NAME/**/test_*.cpp, if there are any
 function(gridshell_tests folder)
@@ -23,25 +32,42 @@ function(gridshell_tests folder)
     Catch2::Catch2WithMain)
   target_include_directories(${target} SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
   target_compile_definitions(${target} PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gridshell_read_once(${target} <catch2/catch.hpp>)
-  # those of engine and renderer compute with templates, which are slow at -O0
-  if(folder MATCHES "^(app|attack|faults)$")
-    gridshell_compile_lightly(${target} -O0)
+  # the first test program makes the precompiled header of all
+  if(folder STREQUAL engine)
+    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <fmt/format.h>
+      <tl/expected.hpp> <catch2/catch.hpp> <filesystem> <functional> <map> <set>)
   else()
-    gridshell_compile_lightly(${target} -O1)
+    target_precompile_headers(${target} REUSE_FROM test_engine)
   endif()
+  gridshell_compile_lightly(${target} -O1)
   # a name that CMake tears apart (at a semicolon) must fail instead of matching no test
-  set(strict EXTRA_ARGS --warn NoTests)
-  catch_discover_tests(${target} TEST_SPEC "~[full]~[alone]" TEST_LIST ${target}_quick ${strict}
-    PROPERTIES LABELS quick TIMEOUT ${quick_seconds})
+  gridshell_tier(quick "~[full]~[standard]~[alone]~[shared]~[s1]" TIMEOUT ${quick_seconds})
+  gridshell_tier(standard "[standard]~[shared]~[s1]" TIMEOUT 600)
+  gridshell_tier(full "[full]~[shared]~[s1]" TIMEOUT 1200)
   if(folder STREQUAL app)
     # those that look at a clock
-    catch_discover_tests(${target} TEST_SPEC "~[full][alone]" TEST_LIST ${target}_alone ${strict}
-      PROPERTIES LABELS quick TIMEOUT ${quick_seconds} RUN_SERIAL ON)
+    gridshell_tier(quick "~[full]~[standard][alone]~[shared]~[s1]" TIMEOUT ${quick_seconds}
+      RUN_SERIAL ON)
+    gridshell_tier(quick "[s1]" TIMEOUT ${quick_seconds} FIXTURES_REQUIRED shared_s1_actuation)
+    gridshell_tier(standard "~[full][shared]~[s1]" TIMEOUT 600 FIXTURES_REQUIRED shared_runs)
+    gridshell_tier(full "[full][shared]~[s1]" TIMEOUT 1200 FIXTURES_REQUIRED shared_runs)
   endif()
-  catch_discover_tests(${target} TEST_SPEC "[full]" TEST_LIST ${target}_full ${strict}
-    PROPERTIES LABELS full TIMEOUT 600)
 endfunction()
+
+# What many tests look at is run once: each line of tests/images/list.txt, and the recorded visits of
+# the window, into build/shared_runs.
+if(GRIDSHELL_PICTURES)
+  set(list ${PROJECT_SOURCE_DIR}/tests/images/list.txt)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
+  file(STRINGS ${list} names REGEX "^[a-z].*:")
+  list(TRANSFORM names REPLACE ":.*" "")
+  foreach(name IN LISTS names ITEMS window)
+    add_test(NAME "shared run: ${name}" COMMAND ${PROJECT_SOURCE_DIR}/tests/images/draw.sh
+      $<TARGET_FILE:gridshell> ${PROJECT_BINARY_DIR}/shared_runs ${name})
+    set_tests_properties("shared run: ${name}" PROPERTIES LABELS standard TIMEOUT ${quick_seconds}
+      FIXTURES_SETUP "shared_runs;shared_${name}")
+  endforeach()
+endif()
 
 gridshell_tests(engine gridshell_engine)
 # where methods hold and fail: tests/stability -> test_stability
@@ -60,6 +86,7 @@ if(GRIDSHELL_PICTURES)
   if(TARGET test_app)
     add_dependencies(test_app gridshell)
     target_compile_definitions(test_app PRIVATE GRIDSHELL_PROGRAM="$<TARGET_FILE:gridshell>"
+      GRIDSHELL_SHARED_RUNS="${PROJECT_BINARY_DIR}/shared_runs"
       GRIDSHELL_BUILT_WITH="${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_BUILD_TYPE}")
     # the program with the plain one of all clones, which no processor of today would choose
     if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -70,12 +97,18 @@ if(GRIDSHELL_PICTURES)
         GRIDSHELL_BASELINE_PROGRAM="$<TARGET_FILE:gridshell_baseline>")
     endif()
   endif()
-  # hostile inputs, damaged folders and signals, drawn: tests/attack -> test_attack. A few in these
-  # tests; GRIDSHELL_TRIALS=1000 build/test_attack "[damage]" draws more, GRIDSHELL_SEED others.
+  # hostile inputs, damaged folders and signals, drawn: tests/attack -> test_attack; by hand
+  # GRIDSHELL_TRIALS=1000 build/test_attack "[damage]" draws more, GRIDSHELL_SEED others.
   gridshell_tests(attack gridshell_app gridshell_render gridshell_engine)
   if(TARGET test_attack)
     target_sources(test_attack PRIVATE tests/attack/hostile_preset.cpp)
     add_dependencies(test_attack gridshell)
+    # the few of every run of the tests, and more
+    foreach(kind damage presets signals)
+      add_test(NAME "attacks: ${kind}" COMMAND test_attack "[${kind}]")
+      set_tests_properties("attacks: ${kind}" PROPERTIES LABELS full TIMEOUT 1200
+        ENVIRONMENT GRIDSHELL_TRIALS=60)
+    endforeach()
     target_compile_definitions(test_attack PRIVATE GRIDSHELL_PROGRAM="$<TARGET_FILE:gridshell>")
   endif()
 endif()
@@ -95,8 +128,8 @@ foreach(check format tidy warnings equal)
   set_tests_properties("style: ${check}" PROPERTIES LABELS style TIMEOUT 600 SKIP_RETURN_CODE 77
     ENVIRONMENT BUILD=${PROJECT_BINARY_DIR})
 endforeach()
-# it keeps all cores busy
-set_tests_properties("style: tidy" PROPERTIES RUN_SERIAL ON)
+# it keeps all cores busy for minutes
+set_tests_properties("style: tidy" PROPERTIES LABELS "style;full" RUN_SERIAL ON)
 
 # The programs of app/examples, 30 lines each over the library, run as tests.
 file(GLOB examples CONFIGURE_DEPENDS app/examples/*.cpp)
@@ -112,7 +145,7 @@ endforeach()
 add_test(NAME "an installed library is found by CMake and pkg-config"
   COMMAND ${PROJECT_SOURCE_DIR}/tests/install.sh ${PROJECT_BINARY_DIR} ${CMAKE_CXX_COMPILER})
 set_tests_properties("an installed library is found by CMake and pkg-config"
-  PROPERTIES LABELS full TIMEOUT 600)
+  PROPERTIES LABELS standard TIMEOUT 600)
 
 # The Python module: tests/app/python, by pytest where it is there.
 if(TARGET gridshell_python)

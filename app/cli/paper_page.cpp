@@ -107,7 +107,7 @@ class PageMaker {
     for (int k = 0; k < count; ++k) {
       const record::Frame& frame = run.frames[std::size_t(k)];
       TRY(picture, stage.draw_views(renderer_, {frame, k}));
-      render::Panel panel{std::move(*picture), "B" + std::to_string(k + 1), ""};
+      render::Panel panel{std::move(*picture), fmt::format("B{}", k + 1), ""};
       if (style.vector) panel.lines = render::shell_lines(stage.drawing(frame), stage.camera(k));
       page.add_panel(render::frame_state_caption(frame), {97, 2 + k * height, width, height},
                      std::move(panel));

@@ -194,7 +194,7 @@ std::vector<std::string> captions_of(const preset::Preset& preset, const record:
     const preset::Step& step = preset.step[k];
     const record::Frame& frame = run.frames[k + 1];
     // a depth belongs to the push that made it, not to what was done while it holds
-    const bool pushes = step.deed == preset::StepKind::push;
+    const bool pushes = step.kind == preset::StepKind::push;
     captions.push_back(
         experiment::text_of(step) + ": " +
         (pushes ? render::frame_state_caption(frame) : render::unpushed_caption(frame)));

@@ -88,8 +88,8 @@ std::vector<preset::Override> overrides_of(const py::dict& changes) {
   return overrides;
 }
 
-preset::Step step_of(const preset::Preset& preset, const char* deed, const py::dict& keys) {
-  std::string text = std::string("step = [{do = \"").append(deed).append("\"");
+preset::Step step_of(const preset::Preset& preset, const char* kind, const py::dict& keys) {
+  std::string text = std::string("step = [{do = \"").append(kind).append("\"");
   for (const auto& [key, value] : keys)
     if (!value.is_none())
       text.append(", ").append(key.cast<std::string>()).append(" = ").append(toml_of(value));
@@ -99,7 +99,7 @@ preset::Step step_of(const preset::Preset& preset, const char* deed, const py::d
   alone.indentation = {};
   alone.jitter = {};
   text.append("}]\n").append(preset::to_toml(alone));
-  auto read = value_of(preset::read_preset_text(text, std::string(deed) + "()", preset.name));
+  auto read = value_of(preset::read_preset_text(text, std::string(kind) + "()", preset.name));
   return std::move(read.base.step.at(0));
 }
 

@@ -69,7 +69,7 @@ std::vector<preset::Override> overrides_of(const py::dict& changes);
 
 /// A step of a hand with the keys of [[step]], those that are None left out, judged together with
 /// the preset. Raises BadInput, TypeError.
-preset::Step step_of(const preset::Preset& preset, const char* deed, const py::dict& keys);
+preset::Step step_of(const preset::Preset& preset, const char* kind, const py::dict& keys);
 
 // Numbers as numpy arrays that look into them: nothing is copied, and nothing can be written.
 

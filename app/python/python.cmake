@@ -17,7 +17,6 @@ target_link_options(gridshell_python PRIVATE LINKER:--exclude-libs,ALL)
 target_link_libraries(gridshell_python PRIVATE gridshell_app gridshell_render gridshell_engine)
 set_target_properties(gridshell_python PROPERTIES OUTPUT_NAME gridshell
   LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/python)
-gridshell_read_once(gridshell_python <pybind11/numpy.h> <pybind11/stl.h>
-  <pybind11/stl/filesystem.h>)
-gridshell_compile_lightly(gridshell_python -O0)
+gridshell_read_once(gridshell_python)
+gridshell_compile_lightly(gridshell_python -O1)
 configure_file(app/python/gridshell.pyi ${PROJECT_BINARY_DIR}/python/gridshell.pyi COPYONLY)

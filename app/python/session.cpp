@@ -58,10 +58,10 @@ class Session {
     return work(*shell_);
   }
 
-  Done step(const char* deed, const py::dict& keys) {
-    const auto step = in_hand([&](Shell& shell) { return step_of(shell.preset(), deed, keys); });
+  Done step(const char* kind, const py::dict& keys) {
+    const auto step = in_hand([&](Shell& shell) { return step_of(shell.preset(), kind, keys); });
     return at_work([&](Shell& shell, const Watch& watch) {
-      return step.deed == preset::StepKind::move ? shell.move(step, watch)
+      return step.kind == preset::StepKind::move ? shell.move(step, watch)
                                                  : shell.take(step, watch);
     });
   }

@@ -30,18 +30,18 @@ preset::Points rows_of(const Eigen::Matrix3Xd& dragged) {
   return rows;
 }
 
-preset::Step step_of(preset::StepKind deed) {
+preset::Step step_of(preset::StepKind kind) {
   preset::Step step;
-  step.deed = deed;
+  step.kind = kind;
   return step;
 }
 
 /// Whether a step goes on along the way of the one before, so that its end alone counts.
 bool goes_on(const preset::Step& before, const preset::Step& step) {
-  if (before.deed != step.deed) return false;
-  if (step.deed == preset::StepKind::move)
+  if (before.kind != step.kind) return false;
+  if (step.kind == preset::StepKind::move)
     return before.edge_points.empty() && step.edge_points.empty();
-  return step.deed == preset::StepKind::push && before.joint == step.joint && !step.along.empty() &&
+  return step.kind == preset::StepKind::push && before.joint == step.joint && !step.along.empty() &&
          before.along == step.along;
 }
 
@@ -50,7 +50,7 @@ bool goes_on(const preset::Step& before, const preset::Step& step) {
 /// One step, as a preset would have it done.
 Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   if (!session_) return fail(Fault::bad_input, "there is no shell yet");
-  const bool holds = step.deed == preset::StepKind::push || step.deed == preset::StepKind::hold;
+  const bool holds = step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold;
   if (holds)
     if (const auto joint = experiment::joint_of(step, scene_->footprint))
       // as it was seen, which the coarse mesh of a drag does not change
@@ -58,8 +58,8 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
                                         ? Eigen::Vector3d(shell_view_.frame.nodes.col(*joint))
                                         : Eigen::Vector3d(session_->nodes().col(*joint)));
   // a leap is taken from a state at rest on all meshes, as a run takes it
-  const bool leaps = step.deed == preset::StepKind::jitter || step.deed == preset::StepKind::rest ||
-                     step.deed == preset::StepKind::release;
+  const bool leaps = step.kind == preset::StepKind::jitter || step.kind == preset::StepKind::rest ||
+                     step.kind == preset::StepKind::release;
   if (leaps && session_->shell().levels() == 1)
     session_->remesh(experiment::initial_levels(*scene_), watch);
   TRY(report, experiment::apply_step(*session_, boundary_, step, watch));
@@ -74,13 +74,13 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
 /// Notes a step as far as it came.
 void EditSession::keep(preset::Step step, const Report& report) {
   if (report.end != Outcome::reached) {
-    if (step.deed != preset::StepKind::move && step.deed != preset::StepKind::push) return;
+    if (step.kind != preset::StepKind::move && step.kind != preset::StepKind::push) return;
     step.progress = boundary_.progress;
-    if (step.deed == preset::StepKind::push)
+    if (step.kind == preset::StepKind::push)
       if (const auto joint = experiment::joint_of(step, scene_->footprint))
         step.to_mm = xyz_of(session_->nodes().col(*joint));
   }
-  if (step.deed == preset::StepKind::move) step.edge_points = rows_of(boundary_.dragged);
+  if (step.kind == preset::StepKind::move) step.edge_points = rows_of(boundary_.dragged);
   const bool eventful = !report.events.empty();
   const bool same = now_stroke_ != 0 && now_stroke_ == kept_stroke_ && !steps_.empty() &&
                     !eventful && !kept_eventful_ && goes_on(steps_.last(), step);

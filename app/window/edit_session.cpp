@@ -97,7 +97,7 @@ void EditSession::execute(const Command& command, const Watch& watch) {
   const bool remembered = remember(command);
   accept_design(command);
   if (session_ && command.passing && session_->shell().levels() > 1) coarsen(watch);
-  const auto done = std::visit([&](const auto& deed) { return act(deed, watch); }, command.edit);
+  const auto done = std::visit([&](const auto& edit) { return act(edit, watch); }, command.edit);
   if (!done)
     shell_view_.trouble = done.error().fault == Fault::cancelled ? "stopped" : done.error().message;
   // what moved nothing is no step
@@ -280,7 +280,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
     return fail(Fault::bad_input, "the rung 'net' is geometry alone: there is nothing to push");
   TRY(course, experiment::follow_actuation(scene, coarse_plan(*scene), false, 1, watch));
   begin_again(preset, scene, std::move(course->session));
-  snapped_ = course->eventful();
+  snapped_ = course->has_events();
   design_.reset();
   target_.reset();
   shell_view_.told = course->limit_reason;

@@ -31,7 +31,7 @@ std::string left_out(const ShellView& sight) {
 bool jumped(const ShellView& sight) {
   const std::vector<preset::Step> steps = sight.steps.all();
   return sight.snapped || std::ranges::any_of(steps, [](const preset::Step& step) {
-           return step.deed == preset::StepKind::jitter;
+           return step.kind == preset::StepKind::jitter;
          });
 }
 
@@ -86,7 +86,7 @@ preset::Preset ViewerState::preset_to_save() const {
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
   const std::vector<preset::Step> steps = sight->steps.all();
   const bool moves = std::ranges::all_of(steps, [](const preset::Step& step) {
-    return step.deed == preset::StepKind::move && step.edge_points.empty();
+    return step.kind == preset::StepKind::move && step.edge_points.empty();
   });
   if (jumped(*sight) && preset.accuracy.edges_per_segment == 0)
     preset.accuracy.leading_edges = sight->leader;

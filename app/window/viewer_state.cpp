@@ -27,7 +27,7 @@ void ViewerState::say(const std::string& text, bool bad) {
 
 void ViewerState::post(Edit edit, bool passing) {
   if (sight->designing()) {
-    if (!std::holds_alternative<RefineAfterDrag>(deed))
+    if (!std::holds_alternative<RefineAfterDrag>(edit))
       say("the shell is being designed; Esc stops that, and it can be moved", true);
     return;
   }

@@ -85,7 +85,7 @@ void EngineThread::post(Command command) {
     if (commands_.empty() && !working_) busy_since_ = seconds_now();
     const bool newer = !commands_.empty() && command.stroke != 0 && commands_.back().passing &&
                        commands_.back().stroke == command.stroke &&
-                       commands_.back().deed.index() == command.edit.index();
+                       commands_.back().edit.index() == command.edit.index();
     if (newer)
       commands_.back() = std::move(command);
     else

@@ -228,10 +228,10 @@ struct Indentation {
   bool wanted() const { return depth > 0 || depth_mm > 0; }
 };
 
-/// One step of a hand, in a list that is done in order; numbers that its deed does not use count
+/// One step of a hand, in a list that is done in order; numbers that its kind does not use count
 /// for nothing.
 struct Step {
-  StepKind deed = StepKind::move;
+  StepKind kind = StepKind::move;
   double progress = 1;        ///< of the boundary, beyond 1 further than its motion
   double radius_mm = 0;       ///< of a circle's boundary; 0: `progress` says it
   Points edge_points;         ///< (k, x, y, z): by how much edge points lie off the motion

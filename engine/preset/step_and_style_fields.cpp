@@ -8,7 +8,7 @@ namespace gridshell::preset {
 std::vector<Field> step_fields() {
   using P = Preset;
   return {
-      {"step", "do", "", word<&P::step, &Step::deed>(),
+      {"step", "do", "", word<&P::step, &Step::kind>(),
        "\"move\" the boundary; \"push\" a joint, which is held from then on; \"hold\" one where it "
        "is; \"release\" one; \"load\": more or less of what [loads] says; \"rest\": down the "
        "energy; \"jitter\": random forces on all joints come on and go away again"},
@@ -70,7 +70,7 @@ void check_step(const Preset& preset, int item, std::vector<Conflict>& found) {
   const auto wrong = [&](const char* key, std::string what) {
     found.push_back({"step", key, {}, std::move(what), item});
   };
-  const bool names_joint = step.deed == StepKind::push || step.deed == StepKind::hold;
+  const bool names_joint = step.kind == StepKind::push || step.kind == StepKind::hold;
   if (step.joint.size() != 2 && (names_joint || !step.joint.empty()))
     wrong("joint", names_joint ? "must be [i, j]" : "must be [i, j], or empty for all");
   for (const auto& [key, list] : {std::pair("to_mm", &step.to_mm), {"along", &step.along}})
@@ -78,9 +78,9 @@ void check_step(const Preset& preset, int item, std::vector<Conflict>& found) {
       wrong(key, fmt::format("a list of {}, must be [x, y, z] or empty", list->size()));
   if (step.along.size() == 3 && step.along == std::vector<double>{0, 0, 0})
     wrong("along", "is no direction, must have a length");
-  if (step.deed == StepKind::push && step.to_mm.empty() == (step.depth_mm == 0))
+  if (step.kind == StepKind::push && step.to_mm.empty() == (step.depth_mm == 0))
     wrong("depth_mm", "a push goes to `to_mm` or by `depth_mm`, must be one of the two");
-  if (step.deed == StepKind::push && step.lateral == Lateral::held && !step.along.empty())
+  if (step.kind == StepKind::push && step.lateral == Lateral::held && !step.along.empty())
     wrong("along",
           "a joint that is held across the push has no direction of its own, must be "
           "empty, or lateral = \"free\"");

@@ -241,13 +241,13 @@ class UnusedKeyFinder {
       for (const Field& field : field_table()) {
         if (field.table != "step") continue;
         const auto deeds = step_kinds_of_key(field.key);
-        if (!deeds.empty() && std::ranges::find(deeds, step.deed) == deeds.end())
+        if (!deeds.empty() && std::ranges::find(deeds, step.kind) == deeds.end())
           add("step", field.key.c_str(), {name},
-              fmt::format("{} = \"{}\" does not use it, only {}", name, word_of(step.deed),
+              fmt::format("{} = \"{}\" does not use it, only {}", name, word_of(step.kind),
                           names_of(deeds)),
               k);
       }
-      if (step.deed == StepKind::move && step.radius_mm > 0)
+      if (step.kind == StepKind::move && step.radius_mm > 0)
         add("step", "progress", {key_label("step", "radius_mm", k)}, "radius_mm takes its place",
             k);
     }

@@ -225,9 +225,9 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
       if (auto joint = joint_of(step, footprint); !joint)
         return fail(joint.error().fault,
                     fmt::format("[[step]] {} {}", k + 1, joint.error().message));
-    if (step.deed == preset::StepKind::push || step.deed == preset::StepKind::hold)
+    if (step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold)
       held.insert(step.joint);
-    if (step.deed != preset::StepKind::release) continue;
+    if (step.kind != preset::StepKind::release) continue;
     if (one ? !held.contains(step.joint) : held.empty())
       return fail(
           Fault::bad_input,

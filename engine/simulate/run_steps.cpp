@@ -33,9 +33,9 @@ struct Work {
 /// Whether frames are taken on the way of a step, which a leg then knows: of a push, and of a move
 /// of the whole boundary, before and after which no edge point lies off it.
 bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
-  if (steps[k].deed != StepKind::move) return steps[k].deed == StepKind::push;
+  if (steps[k].kind != StepKind::move) return steps[k].kind == StepKind::push;
   const auto before = std::find_if(steps.rend() - std::ptrdiff_t(k), steps.rend(),
-                                   [](const auto& step) { return step.deed == StepKind::move; });
+                                   [](const auto& step) { return step.kind == StepKind::move; });
   return steps[k].edge_points.empty() && (before == steps.rend() || before->edge_points.empty());
 }
 
@@ -72,8 +72,8 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   for (std::size_t k = 0; k < steps.size(); ++k) {
     Done done{.before = boundary, .after = {}, .taken = {}, .way_end = {}, .end = {}};
     grips.note(session);
-    const StepKind deed = steps[k].deed;
-    const double to = deed == StepKind::move ? parameter_at(progress_of(steps[k], *scene)) : 1;
+    const StepKind kind = steps[k].kind;
+    const double to = kind == StepKind::move ? parameter_at(progress_of(steps[k], *scene)) : 1;
     PathSegment& leg = work.course.legs.emplace_back(PathSegment{0, to, {}, {}});
     StepPath way;
     auto report = apply_step(session, boundary, steps[k], watch, &way);
@@ -144,7 +144,7 @@ class Show {
     boundary_ = {done.before.progress, done.after.progress};
     for (int k = 1; k < share; ++k) {
       const double part = double(k) / share;
-      const bool moves = steps_[step_].deed == StepKind::move;
+      const bool moves = steps_[step_].kind == StepKind::move;
       const double t = moves ? parameter_at(boundary_[0] + part * (boundary_[1] - boundary_[0]))
                              : leg.from + part * (leg.end() - leg.from);
       if (auto taken = between(done, sample(t)); !taken) return taken;
@@ -189,7 +189,7 @@ class Show {
   }
 
   void put_boundary(record::Frame& frame, double t) const {
-    const bool on_way = step_ < steps_.size() && steps_[step_].deed == StepKind::move &&
+    const bool on_way = step_ < steps_.size() && steps_[step_].kind == StepKind::move &&
                         has_way(steps_, step_) && boundary_[0] != boundary_[1];
     frame.actuation = on_way ? progress_at(t) : boundary_[1];
     frame.boundary_radius_mm = work_.course.session.scene().radius_at(frame.actuation);
@@ -241,7 +241,7 @@ void tell(Work& work, const std::vector<preset::Step>& steps) {
 
 void put_loads(const Work& work, const std::vector<preset::Step>& steps, record::Layout& layout) {
   for (std::size_t k = 0; k < work.done.size(); ++k) {
-    if (steps[k].deed != StepKind::push) continue;
+    if (steps[k].kind != StepKind::push) continue;
     const Done& done = work.done[k];
     const Eigen::Vector3d moved = done.end.state.x.col(done.taken.joint) - done.taken.at;
     const bool there = std::ranges::any_of(

@@ -70,7 +70,7 @@ Result<Goal> goal_of(const Session& session, const preset::Step& step) {
   TRY(joint, joint_of(step, session.scene().footprint));
   TRY_DO(not_on_boundary(session.scene().footprint, *joint));
   const Eigen::Vector3d at = session.nodes().col(*joint);
-  const bool holds = step.deed == preset::StepKind::hold;
+  const bool holds = step.kind == preset::StepKind::hold;
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
   if (!holds && !step.to_mm.empty()) way = vector_of(step.to_mm) - at;
   if (!holds && step.to_mm.empty()) {
@@ -115,17 +115,18 @@ std::optional<LevelPlan> with_next_leader(const Scene& scene, const LevelPlan& p
   return edges.empty() ? std::nullopt : std::optional(next);
 }
 
-/// Does a deed on the coarsest mesh of a plan alone, then brings the finer ones there; what they do
-/// not have is Outcome::meshes_disagree.
+/// Takes a step on the coarsest mesh of a plan alone, then brings the finer ones there; what they
+/// do not have is Outcome::meshes_disagree.
 template <class Do>
-Result<Report> do_led(Session& session, const LevelPlan& plan, const Watch& watch, const Do& deed) {
+Result<Report> do_led(Session& session, const LevelPlan& plan, const Watch& watch,
+                      const Do& take_step) {
   const auto refused = [&] {
     return watch.cancelled() ? Outcome::cancelled : Outcome::meshes_disagree;
   };
   auto coarse = session.remesh({{plan.edges_per_segment.front()}, false}, watch);
   if (!coarse) return coarse;
   if (coarse->end != Outcome::reached) return coarse->end = refused(), coarse;
-  auto report = deed();
+  auto report = take_step();
   if (!report) return report;
   const auto fine = session.remesh(plan, watch);
   if (!fine) return fine;
@@ -134,18 +135,18 @@ Result<Report> do_led(Session& session, const LevelPlan& plan, const Watch& watc
   return report;
 }
 
-/// A deed led by the coarsest mesh alone, which finer ones follow: where a shell snaps or is shaken
+/// A step led by the coarsest mesh alone, which finer ones follow: where a shell snaps or is shaken
 /// to then hangs on no other mesh, and each holds a joint where that one has it. Where they cannot
 /// follow, a finer one leads; last of all the shell stands where it was.
 template <class Do>
-Result<Report> led_by_coarsest(Session& session, const Watch& watch, const Do& deed) {
+Result<Report> led_by_coarsest(Session& session, const Watch& watch, const Do& take_step) {
   constexpr int most_leaders = 3;
   std::optional<LevelPlan> plan = session.shell().plan();
-  if (plan->edges_per_segment.size() == 1) return deed();
+  if (plan->edges_per_segment.size() == 1) return take_step();
   const Checkpoint before = session.save();
   Result<Report> report;
   for (int tried = 0; plan && tried < most_leaders; ++tried) {
-    report = do_led(session, *plan, watch, deed);
+    report = do_led(session, *plan, watch, take_step);
     if (report && report->end != Outcome::meshes_disagree && report->end != Outcome::cancelled)
       return report;
     session.restore(before);
@@ -210,7 +211,7 @@ Result<Report> jitter(Session& session, const preset::Step& step, const Watch& w
 }  // namespace
 
 std::string text_of(const preset::Step& step) {
-  std::string text(word_of(step.deed));
+  std::string text(word_of(step.kind));
   if (!step.joint.empty()) text += fmt::format(" [{}]", fmt::join(step.joint, ", "));
   return text;
 }
@@ -232,7 +233,7 @@ double progress_of(const preset::Step& step, const Scene& scene) {
 
 Result<Report> apply_step(Session& session, BoundaryPosition& boundary, const preset::Step& step,
                           const Watch& watch, StepPath* way) {
-  switch (step.deed) {
+  switch (step.kind) {
     case preset::StepKind::move:
       return move(session, boundary, step, watch, way);
     case preset::StepKind::push:

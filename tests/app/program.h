@@ -27,10 +27,20 @@ struct Ended {
   bool prompt() const { return wall_seconds < 1 || (cpu_seconds < 1 && wall_seconds < 10); }
 };
 
+/// What the program is given: a list, or a line that is cut at its blanks.
+struct Arguments : std::vector<std::string> {
+  using std::vector<std::string>::vector;
+  Arguments(const std::vector<std::string>& words) : std::vector<std::string>(words) {}
+  Arguments(const char* line) {
+    std::istringstream words(line);
+    for (std::string word; words >> word;) push_back(word);
+  }
+};
+
 /// A run of `gridshell ARGUMENTS` that has begun, with `folder` as its working directory.
 class Running {
  public:
-  Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+  Running(const Arguments& arguments, const std::filesystem::path& folder,
           const char* program = GRIDSHELL_PROGRAM)
       : folder_(folder) {
     pid_ = fork();
@@ -139,8 +149,7 @@ class Running {
 };
 
 /// Runs `gridshell ARGUMENTS` to its end.
-inline Ended gridshell_program(const std::vector<std::string>& arguments,
-                               const std::filesystem::path& folder) {
+inline Ended gridshell_program(const Arguments& arguments, const std::filesystem::path& folder) {
   return Running(arguments, folder).wait();
 }
 

@@ -1,18 +1,9 @@
 // The commands from end to end on a shell small enough for seconds.
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/file_io.h"
 #include "engine/record/trajectory_file.h"
 #include "render/gl/image.h"
 #include "tests/app/bench.h"
-#include "tests/app/program.h"
-#include "tests/small_preset.h"
-#include "tests/temporary_folder.h"
-
-namespace fs = std::filesystem;
-using gridshell::read_file;
-using gridshell::write_file;
 
 namespace {
 
@@ -38,8 +29,6 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-std::string text_of(const fs::path& file) { return read_file(file).value(); }
-
 nlohmann::json json_of(const fs::path& file) { return nlohmann::json::parse(text_of(file)); }
 
 // the frames of a run, read back
@@ -60,7 +49,7 @@ int width_of(const fs::path& file) {
 
 TEST_CASE("run writes a whole run folder and replaces the one before") {
   const Bench bench(small);
-  bench.good({"run", "small.toml"});
+  bench.good("run small.toml");
   const auto run = bench.at / "out/small";
   CHECK(names_in(run) == listed(data_files));
   CHECK(names_in(bench.at / "out") == std::vector<std::string>{"small"});
@@ -69,10 +58,10 @@ TEST_CASE("run writes a whole run folder and replaces the one before") {
   CHECK(json_of(run / "summary.json")["kind"] == "run");
   CHECK(json_of(run / "summary.json")["finished"] == true);
   // what is not of the new run does not stay
-  bench.good({"movie", "small.toml"});
+  bench.good("movie small.toml");
   CHECK(json_of(run / "summary.json")["kind"] == "movie");
   CHECK(fs::exists(run / "frames"));
-  bench.good({"run", "small.toml", "--frames", "4"});
+  bench.good("run small.toml --frames 4");
   CHECK(names_in(run) == listed(data_files));
   CHECK(frames_of(run).size() == 4);
   CHECK(names_in(bench.at / "out") == std::vector<std::string>{"small"});
@@ -80,28 +69,28 @@ TEST_CASE("run writes a whole run folder and replaces the one before") {
 
 TEST_CASE("the same preset gives the same frames, from the run's own preset.toml too") {
   const Bench bench(small);
-  bench.good({"run", "small.toml", "-o", "a", "--set", "rod.diameter_mm=0.3"});
-  bench.good({"run", "a/preset.toml", "-o", "b"});
+  bench.good("run small.toml -o a --set rod.diameter_mm=0.3");
+  bench.good("run a/preset.toml -o b");
   CHECK(text_of(bench.at / "a/frames.csv") == text_of(bench.at / "b/frames.csv"));
   CHECK(text_of(bench.at / "a/preset.toml") == text_of(bench.at / "b/preset.toml"));
-  bench.good({"run", "small.toml", "-o", "c"});
+  bench.good("run small.toml -o c");
   CHECK(text_of(bench.at / "a/frames.csv") != text_of(bench.at / "c/frames.csv"));
 }
 
 TEST_CASE("a printed config (--print-config) comes to the same, and nothing runs") {
   const Bench bench(small);
-  const auto first = bench.good({"movie", "small.toml", "--set", "actuation.seed=down", "--size",
-                                 "320x200", "--frames", "9", "--print-config"});
-  CHECK_THAT(first.out, Catch::Contains("seed = \"down\"") &&
-                            Catch::Contains("size = [320, 200]") && Catch::Contains("frames = 9"));
+  const auto first = bench.good(
+      "movie small.toml --set actuation.seed=down --size 320x200 --frames 9 --print-config");
+  CHECK_THAT(first.out, Contains("seed = \"down\"") && Contains("size = [320, 200]") &&
+                            Contains("frames = 9"));
   REQUIRE(write_file(bench.at / "again.toml", first.out));
-  CHECK(bench.good({"movie", "again.toml", "--print-config"}).out == first.out);
+  CHECK(bench.good("movie again.toml --print-config").out == first.out);
   CHECK_FALSE(fs::exists(bench.at / "out"));
 }
 
 TEST_CASE("movie draws a frame each, and render draws them again without simulating") {
   const Bench bench(small);
-  const auto said = bench.good({"movie", "small.toml", "-o", "run"});
+  const auto said = bench.good("movie small.toml -o run");
   CHECK_THAT(said.out, Catch::StartsWith("run: "));
   const auto frames = files_under(bench.at / "run/frames", ".png");
   REQUIRE(frames.size() == 3);
@@ -113,12 +102,12 @@ TEST_CASE("movie draws a frame each, and render draws them again without simulat
   CHECK(json_of(bench.at / "run/summary.json")["seconds_render"] > 0.0);
 
   const auto bytes = text_of(frames[2]), states = text_of(bench.at / "run/frames.csv");
-  bench.good({"render", "run", "-o", "same"});
+  bench.good("render run -o same");
   CHECK(text_of(bench.at / "same/frames/frame_00002.png") == bytes);
   CHECK(text_of(bench.at / "same/frames.csv") == states);
-  bench.good({"render", "run", "--size", "80x60", "--quiet"});
+  bench.good("render run --size 80x60 --quiet");
   CHECK(width_of(frames[2]) == 80);
-  const auto refused = bench.run({"render", "run", "--set", "rod.diameter_mm=0.3"});
+  const auto refused = bench.run("render run --set rod.diameter_mm=0.3");
   CHECK(refused.code == 2);
   CHECK(refused.err ==
         "--set: rod.diameter_mm cannot change once a run is finished; what can are keys of "
@@ -127,14 +116,14 @@ TEST_CASE("movie draws a frame each, and render draws them again without simulat
 
 TEST_CASE("pictures do not depend on the number of threads") {
   const Bench bench(small);
-  bench.good({"movie", "small.toml", "-o", "one", "--threads", "1"});
-  bench.good({"movie", "small.toml", "-o", "three", "--threads", "3"});
+  bench.good("movie small.toml -o one --threads 1");
+  bench.good("movie small.toml -o three --threads 3");
   for (const char* frame : {"frames/frame_00000.png", "frames/frame_00002.png"})
     CHECK(text_of(bench.at / "one" / frame) == text_of(bench.at / "three" / frame));
   CHECK(text_of(bench.at / "one/frames.csv") == text_of(bench.at / "three/frames.csv"));
 }
 
-TEST_CASE("figure draws a still a radius and all in one") {
+TEST_CASE("figure draws a still a radius and all in one", "[standard]") {
   const Bench bench(small);
   bench.good({"figure", "small.toml", "-o", "run", "--set", "figure.radii_mm=[45.0, 42.0]"});
   std::vector<std::string> names;
@@ -145,12 +134,12 @@ TEST_CASE("figure draws a still a radius and all in one") {
   REQUIRE(states.size() == 2);
   CHECK(states[1].boundary_radius_mm == Approx(42.0));
   // its stills are drawn again as stills
-  bench.good({"render", "run", "-o", "again"});
+  bench.good("render run -o again");
   CHECK(fs::exists(bench.at / "again/small_2.png"));
   CHECK_FALSE(fs::exists(bench.at / "again/frames"));
 }
 
-TEST_CASE("figures of building blocks, drawn again from the run") {
+TEST_CASE("figures of building blocks, drawn again from the run", "[standard]") {
   const Bench bench(small);
   REQUIRE(write_file(bench.at / "dome.toml", R"(
 [footprint]
@@ -172,14 +161,14 @@ start = "net"
 size = [160, 120]
 quality = "draft"
 )"));
-  const auto said = bench.good({"figure", "dome.toml", "-o", "run"});
-  CHECK_THAT(said.out, Catch::Contains("mm from its blocks at most; seams: gap 0.00 mm"));
+  const auto said = bench.good("figure dome.toml -o run");
+  CHECK_THAT(said.out, Contains("mm from its blocks at most; seams: gap 0.00 mm"));
   CHECK(text_of(bench.at / "run/seams.csv").starts_with("seam,family,line_mm,gap_mm,kink_deg\n"));
   const std::vector<std::string> pictures{
       "dome.png",        "dome_1.png",         "dome_K.png",
       "dome_blocks.png", "dome_deviation.png", "dome_footprint.png",
       "dome_net.png",    "dome_quantiles.png", "dome_seams.png"};
-  bench.good({"render", "run", "-o", "again"});
+  bench.good("render run -o again");
   for (const auto& name : pictures) {
     INFO(name);
     REQUIRE(fs::exists(bench.at / "run" / name));
@@ -194,7 +183,7 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
   const std::string cases =
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_file(bench.at / "small.toml", small + cases));
-  bench.good({"movie", "small.toml", "-o", "run", "--set", "movie.beside=false"});
+  bench.good("movie small.toml -o run --set movie.beside=false");
   CHECK(names_in(bench.at / "run") == listed({"far", "near", "preset.toml", "summary.json"}));
   auto movie_files = data_files;
   movie_files.push_back("frames");
@@ -209,7 +198,7 @@ TEST_CASE("every case is a whole run folder, and summary.json on top lists them"
   CHECK(top["cases"][0]["name"] == "near");
   CHECK(top["cases"][0]["height_mm"] < top["cases"][1]["height_mm"]);
   CHECK(top["cases"][1]["height_mm"] == json_of(bench.at / "run/far/summary.json")["height_mm"]);
-  bench.good({"render", "run", "--size", "80x60"});
+  bench.good("render run --size 80x60");
   CHECK(width_of(bench.at / "run/near/frames/frame_00000.png") == 80);
 }
 
@@ -222,12 +211,12 @@ TEST_CASE("cases are shown beside one another in one movie, drawn again by rende
   CHECK(names_in(bench.at / "run") ==
         listed({"far", "frames", "near", "preset.toml", "summary.json"}));
   // the title over all of them too
-  bench.good({"render", "run", "-o", "again"});
-  CHECK(read_file(bench.at / "run/frames/frame_00002.png").value() ==
-        read_file(bench.at / "again/frames/frame_00002.png").value());
+  bench.good("render run -o again");
+  CHECK(text_of(bench.at / "run/frames/frame_00002.png") ==
+        text_of(bench.at / "again/frames/frame_00002.png"));
   CHECK(names_in(bench.at / "run/near") == data_files);
   CHECK(files_under(bench.at / "run/frames", ".png").size() == 3);
-  bench.good({"render", "run", "--size", "120x90"});
+  bench.good("render run --size 120x90");
   CHECK(files_under(bench.at / "run/frames", ".png").size() == 3);
   CHECK(width_of(bench.at / "run/frames/frame_00000.png") == 120);
   CHECK(names_in(bench.at / "run/near") == data_files);
@@ -235,34 +224,30 @@ TEST_CASE("cases are shown beside one another in one movie, drawn again by rende
 
 TEST_CASE("a path that ends early is written as far as it is certified, and exits with 1") {
   const Bench bench(small);
-  const auto ended = bench.run({"run", "small.toml", "--set", "limits.max_strain=1e-7"});
+  const auto ended = bench.run("run small.toml --set limits.max_strain=1e-7");
   CHECK(ended.code == 1);
-  CHECK_THAT(ended.err, Catch::Contains("the path ended early, limit \"locking\": "));
+  CHECK_THAT(ended.err, Contains("the path ended early, limit \"locking\": "));
   CHECK(json_of(bench.at / "out/small/summary.json")["limit"] == "locking");
 }
 
-TEST_CASE("a run says on the terminal what its path came past") {
-  const TemporaryFolder folder;
-  const Ended ended =
-      gridshell_program({"run", "s1_imperfect", "--frames", "2", "-o", "run"}, folder.path());
-  REQUIRE(ended.code == 0);
-  CHECK_THAT(ended.out,
-             Catch::Contains("on its way: the path lost its stability at progress 0.018"));
+TEST_CASE("a run says on the terminal what its path came past", "[shared]") {
+  CHECK_THAT(text_of(shared_run("s1_imperfect") += ".txt"),
+             Contains("on its way: the path lost its stability at progress 0.018"));
 }
 
 TEST_CASE("check explains what would run and writes nothing") {
   const Bench bench(small);
-  const auto said = bench.good({"check", "small.toml"});
-  CHECK_THAT(said.out, Catch::Contains("small: small") && Catch::Contains("model") &&
-                           Catch::Contains("unknowns") && Catch::Contains("8 rods"));
+  const auto said = bench.good("check small.toml");
+  CHECK_THAT(said.out, Contains("small: small") && Contains("model") && Contains("unknowns") &&
+                           Contains("8 rods"));
   CHECK(bench.folder.entries() == std::vector<std::string>{"small.toml"});
 }
 
-TEST_CASE("list has a line a preset, and every one of them is sound") {
+TEST_CASE("list has a line a preset, and every one of them is sound", "[standard]") {
   const TemporaryFolder folder;
-  const auto said = gridshell_program({"list"}, folder.path());
+  const auto said = gridshell_program("list", folder.path());
   CHECK(said.code == 0);
-  CHECK_THAT(said.out, Catch::Contains("s1_actuation") && Catch::Contains("fig1_actuation"));
+  CHECK_THAT(said.out, Contains("s1_actuation") && Contains("fig1_actuation"));
   std::istringstream lines(said.out);
   int presets = 0;
   for (std::string line; std::getline(lines, line); ++presets) {
@@ -273,36 +258,17 @@ TEST_CASE("list has a line a preset, and every one of them is sound") {
   CHECK(presets == int(files_under(fs::path(GRIDSHELL_SOURCE_DIR) / "presets", ".toml").size()));
 }
 
-TEST_CASE("every preset that comes with the program runs to its end", "[full]") {
+TEST_CASE("chart trust judges random scenes and keeps what was silently wrong", "[standard]") {
   const TemporaryFolder folder;
-  std::istringstream lines(gridshell_program({"list"}, folder.path()).out);
-  for (std::string line; std::getline(lines, line);) {
-    const auto name = line.substr(0, line.find(' '));
-    INFO(name);
-    std::vector<std::string> arguments{"run", name, "--frames", "5", "--quiet"};
-    // a search for states: each kind of trial, some times
-    if (name.starts_with("fig2_"))
-      for (const char* fewer :
-           {"jitter.trials=6", "jitter.confined=7", "jitter.transitions=1", "jitter.drawn=2"})
-        arguments.insert(arguments.end(), {"--set", fewer});
-    const auto ended = gridshell_program(arguments, folder.path());
-    INFO(ended.err);
-    CHECK(ended.code == 0);
-  }
-}
-
-TEST_CASE("chart trust judges random scenes and keeps what was silently wrong") {
-  const TemporaryFolder folder;
-  const auto said =
-      gridshell_program({"chart", "trust", "--scenes", "2", "--seed", "20"}, folder.path());
+  const auto said = gridshell_program("chart trust --scenes 2 --seed 20", folder.path());
   INFO(said.err);
   CHECK(said.code == 0);
-  CHECK_THAT(said.out, Catch::Contains("2 scenes, 0 silently wrong"));
+  CHECK_THAT(said.out, Contains("2 scenes, 0 silently wrong"));
   const auto trust = folder.path() / "out/trust";
   CHECK(names_in(trust) == listed({"errors.pdf", "errors.png", "errors.svg", "summary.json",
                                    "trust.csv", "trust.pdf", "trust.png", "trust.svg"}));
-  CHECK(gridshell_program({"chart", "trust", "s1_actuation"}, folder.path()).code == 2);
-  CHECK(gridshell_program({"chart", "accuracy"}, folder.path()).code == 2);
+  CHECK(gridshell_program("chart trust s1_actuation", folder.path()).code == 2);
+  CHECK(gridshell_program("chart accuracy", folder.path()).code == 2);
 }
 
 TEST_CASE("compare tells the same from the different by its exit code") {
@@ -312,34 +278,31 @@ TEST_CASE("compare tells the same from the different by its exit code") {
   for (int x = 0; x < 64; ++x) rod.pixel(x, 30)[0] = 200;
   REQUIRE(gridshell::render::write_png(plain, folder.path() / "a.png"));
   REQUIRE(gridshell::render::write_png(rod, folder.path() / "b.png"));
-  CHECK(gridshell_program({"compare", "a.png", "a.png"}, folder.path()).code == 0);
-  const auto said =
-      gridshell_program({"compare", "a.png", "b.png", "--difference", "d.png"}, folder.path());
+  CHECK(gridshell_program("compare a.png a.png", folder.path()).code == 0);
+  const auto said = gridshell_program("compare a.png b.png --difference d.png", folder.path());
   CHECK(said.code == 3);
   // one row of eight differs by 200
-  CHECK_THAT(said.out, Catch::StartsWith("different: ") && Catch::Contains("differs by 25.00"));
+  CHECK_THAT(said.out, Catch::StartsWith("different: ") && Contains("differs by 25.00"));
   CHECK(gridshell::render::read_png(folder.path() / "d.png"));
-  CHECK(gridshell_program({"compare", "a.png", "b.png", "--threshold", "26"}, folder.path()).code ==
-        0);
+  CHECK(gridshell_program("compare a.png b.png --threshold 26", folder.path()).code == 0);
 }
 
 TEST_CASE("usage errors exit with 2, help with 0") {
   const TemporaryFolder folder;
-  CHECK(gridshell_program({}, folder.path()).code == 2);
-  CHECK(gridshell_program({"movie"}, folder.path()).code == 2);
-  CHECK(gridshell_program({"run", "s1_actuation", "--treads", "2"}, folder.path()).code == 2);
-  CHECK(gridshell_program({"run", "s1_actuation", "--threads", "0"}, folder.path()).code == 2);
-  CHECK(gridshell_program({"movie", "s1_actuation", "--context", "x"}, folder.path()).code == 2);
-  CHECK(gridshell_program({"--help"}, folder.path()).code == 0);
-  CHECK(gridshell_program({"movie", "--help"}, folder.path()).code == 0);
+  CHECK(gridshell_program("", folder.path()).code == 2);
+  CHECK(gridshell_program("movie", folder.path()).code == 2);
+  CHECK(gridshell_program("run s1_actuation --treads 2", folder.path()).code == 2);
+  CHECK(gridshell_program("run s1_actuation --threads 0", folder.path()).code == 2);
+  CHECK(gridshell_program("movie s1_actuation --context x", folder.path()).code == 2);
+  CHECK(gridshell_program("--help", folder.path()).code == 0);
+  CHECK(gridshell_program("movie --help", folder.path()).code == 0);
   CHECK(folder.entries().empty());
 }
 
-TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", "[full]") {
+TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", "[standard]") {
   const Bench bench(small);
-  const auto said =
-      bench.good({"chart", "accuracy", "small.toml", "--limit", "0.05", "--edges", "4"});
-  CHECK_THAT(said.out, Catch::Contains("auto at 1e-06: error"));
+  const auto said = bench.good("chart accuracy small.toml --limit 0.05 --edges 4");
+  CHECK_THAT(said.out, Contains("auto at 1e-06: error"));
   const auto folder = bench.at / "out/small_accuracy";
   CHECK(names_in(folder) ==
         listed({"accuracy.csv", "accuracy.pdf", "accuracy.png", "accuracy.svg", "preset.toml",
@@ -347,12 +310,12 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
                 "unknowns.pdf", "unknowns.png", "unknowns.svg"}));
   CHECK(json_of(folder / "summary.json")["chart"] == "accuracy");
   // maps go beside it, and the next chart takes their place
-  const auto maps = bench.good({"chart", "stability", "small.toml", "--limit", "0.05"});
-  CHECK_THAT(maps.out, Catch::Contains("default: ") && Catch::Contains(" 0 silently wrong"));
+  const auto maps = bench.good("chart stability small.toml --limit 0.05");
+  CHECK_THAT(maps.out, Contains("default: ") && Contains(" 0 silently wrong"));
   CHECK(names_in(bench.at / "out/small_stability") ==
         listed({"preset.toml", "stability.csv", "stability.pdf", "stability.png", "stability.svg",
                 "summary.json"}));
-  bench.good({"chart", "stability", "small.toml", "--limit", "0.01", "--quiet"});
-  CHECK(bench.run({"chart", "accuracy", "small.toml", "--limit", "0"}).code == 2);
-  CHECK(bench.run({"chart", "speed", "small.toml"}).code == 2);
+  bench.good("chart stability small.toml --limit 0.01 --quiet");
+  CHECK(bench.run("chart accuracy small.toml --limit 0").code == 2);
+  CHECK(bench.run("chart speed small.toml").code == 2);
 }

@@ -1,17 +1,8 @@
 // Which bits of a run are equal over what (engine/README.md, "The same bits").
 #include <gnu/libc-version.h>
 
-#include <catch2/catch.hpp>
-#include <cstdlib>
-#include <sstream>
-
-#include "engine/core/file_io.h"
 #include "engine/record/trajectory_file.h"
-#include "tests/app/program.h"
-#include "tests/temporary_folder.h"
-
-namespace fs = std::filesystem;
-using gridshell::read_file;
+#include "tests/app/bench.h"
 
 namespace {
 
@@ -48,7 +39,7 @@ fs::path run(const Scene& scene, const fs::path& at, const std::string& name,
 
 // of all numbers of all frames, as its trajectory bears it
 std::string hash_of(const fs::path& run) {
-  const auto text = read_file(run / "trajectory.h5").value();
+  const auto text = text_of(run / "trajectory.h5");
   const std::string before = "FNV-1a ";
   const auto at = text.find(before);
   REQUIRE(at < 200);
@@ -72,34 +63,28 @@ const fs::path table = fs::path(GRIDSHELL_SOURCE_DIR) / "tests/app/golden_hashes
 
 // what the hashes hang on besides the sources
 std::string made_with() {
-  return std::string("# ") + GRIDSHELL_BUILT_WITH + ", glibc " + gnu_get_libc_version() + "\n";
+  return fmt::format("# {}, glibc {}\n", GRIDSHELL_BUILT_WITH, gnu_get_libc_version());
 }
 
-std::string hashes_now(const fs::path& at) {
-  const PlainLibrary library;
-  std::string lines;
-  for (const Scene& scene : scenes) {
-    const std::string kind = scene.kind;
-    lines += kind + " x86-64 " + hash_of(run(scene, at, kind + "_a", {}, baseline)) + "\n";
-    if (runs_fast_clones())
-      lines += kind + " x86-64-v3 " + hash_of(run(scene, at, kind + "_b")) + "\n";
+// joints and energies of two runs to 1e-9 of themselves
+void check_near(const fs::path& a, const fs::path& b) {
+  const auto one = gridshell::record::read_trajectory(a / "trajectory.h5"),
+             two = gridshell::record::read_trajectory(b / "trajectory.h5");
+  REQUIRE(one);
+  REQUIRE(two);
+  REQUIRE(one->frames.size() == two->frames.size());
+  for (std::size_t k = 0; k < one->frames.size(); ++k) {
+    const gridshell::record::Frame &f = std::as_const(one->frames)[k],
+                                   &g = std::as_const(two->frames)[k];
+    CHECK((f.nodes - g.nodes).cwiseAbs().maxCoeff() < 1e-9 * one->layout.length_scale_mm);
+    CHECK(f.energies.total() == Approx(g.energies.total()).epsilon(1e-9).margin(1e-9));
+    CHECK(f.negative_pivots == g.negative_pivots);
   }
-  return lines;
 }
 
 }  // namespace
 
-TEST_CASE("a run gives the same bits again, on any number of threads", "[full]") {
-  const TemporaryFolder folder;
-  for (const Scene& scene : scenes) {
-    INFO(scene.kind);
-    const auto first = hash_of(run(scene, folder.path(), "first"));
-    CHECK(hash_of(run(scene, folder.path(), "again", {"--threads", "1"})) == first);
-    CHECK(hash_of(run(scene, folder.path(), "again", {"--threads", "3"})) == first);
-  }
-}
-
-TEST_CASE("pictures have the same bits in every context", "[full]") {
+TEST_CASE("pictures have the same bits in every context", "[standard]") {
   const TemporaryFolder folder;
   const auto draw = [&](const std::string& context) {
     return gridshell_program(
@@ -117,45 +102,36 @@ TEST_CASE("pictures have the same bits in every context", "[full]") {
   for (const auto& picture : pictures) {
     INFO(picture);
     const auto other = folder.path() / "egl/frames" / picture.filename();
-    CHECK(read_file(picture).value() == read_file(other).value());
+    CHECK(text_of(picture) == text_of(other));
   }
   CHECK(hash_of(folder.path() / "osmesa") == hash_of(folder.path() / "egl"));
 }
 
-TEST_CASE("both clones of the code come to the same states", "[full]") {
-  if (!has_clones || !runs_fast_clones()) return;
+TEST_CASE("golden hashes of all kinds of runs, the same on any number of threads", "[standard]") {
   const TemporaryFolder folder;
+  const fs::path& at = folder.path();
+  const PlainLibrary library;
+  std::string now;
   for (const Scene& scene : scenes) {
     INFO(scene.kind);
-    const auto a = run(scene, folder.path(), "fast"),
-               b = run(scene, folder.path(), "plain", {}, baseline);
+    const auto fast = run(scene, at, "fast"), plain = run(scene, at, "plain", {}, baseline);
+    const std::string first = hash_of(fast), kind = scene.kind;
+    for (const char* threads : {"1", "3"})
+      CHECK(hash_of(run(scene, at, "again", {"--threads", threads})) == first);
+    now += kind + " x86-64 " + hash_of(plain) + "\n";
+    if (!has_clones || !runs_fast_clones()) continue;
+    now += kind + " x86-64-v3 " + first + "\n";
     // else it is one clone that ran twice
-    CHECK(hash_of(a) != hash_of(b));
-    const auto fast = gridshell::record::read_trajectory(a / "trajectory.h5"),
-               plain = gridshell::record::read_trajectory(b / "trajectory.h5");
-    REQUIRE(fast);
-    REQUIRE(plain);
-    REQUIRE(fast->frames.size() == plain->frames.size());
-    for (std::size_t k = 0; k < fast->frames.size(); ++k) {
-      const gridshell::record::Frame &one = std::as_const(fast->frames)[k],
-                                     &two = std::as_const(plain->frames)[k];
-      CHECK((one.nodes - two.nodes).cwiseAbs().maxCoeff() < 1e-9 * fast->layout.length_scale_mm);
-      CHECK(one.energies.total() == Approx(two.energies.total()).epsilon(1e-9).margin(1e-9));
-      CHECK(one.negative_pivots == two.negative_pivots);
-    }
+    CHECK(first != hash_of(plain));
+    check_near(fast, plain);
   }
-}
-
-TEST_CASE("golden hashes of all kinds of runs", "[full]") {
-  const TemporaryFolder folder;
-  const auto now = hashes_now(folder.path());
   if (std::getenv("GRIDSHELL_GOLDEN")) {
     REQUIRE(has_clones);
     REQUIRE(runs_fast_clones());
-    REQUIRE(gridshell::write_file(table, made_with() + now));
+    REQUIRE(write_file(table, made_with() + now));
     return;
   }
-  const auto kept = read_file(table).value();
+  const auto kept = text_of(table);
   if (!has_clones || !kept.starts_with(made_with())) {
     WARN("not compared: the table was made with " << kept.substr(0, kept.find('\n')));
     return;

@@ -1,28 +1,11 @@
 // `gridshell export`: every format of every thing, and what is refused.
-#include <catch2/catch.hpp>
-#include <filesystem>
-
 #include "app/cli/produce.h"
-#include "engine/core/file_io.h"
-#include "tests/app/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/app/bench.h"
 
-namespace fs = std::filesystem;
-using Catch::Contains;
-using gridshell::read_file;
-
-namespace {
-
-const std::vector<std::string> small_run{"run",     "s1_actuation", "--frames",
-                                         "3",       "--set",        "accuracy.edges_per_segment=4",
-                                         "--quiet", "-o",           "run"};
-
-}  // namespace
-
-TEST_CASE("export writes a run in every format, and what is for the workshop") {
+TEST_CASE("export writes a run in every format, and what is for the workshop", "[s1]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
-  REQUIRE(gridshell_program(small_run, at).code == 0);
+  copy_shared_run("s1_actuation", at / "run");
   const auto before = files_under(at / "run", "");
   const std::vector<std::pair<std::string, std::string>> wanted{
       {"", "a.csv"},         {"", "a.dxf"},          {"", "a.glb"},          {"", "a.html"},
@@ -38,44 +21,37 @@ TEST_CASE("export writes a run in every format, and what is for the workshop") {
     CHECK(ended.code == 0);
     CHECK(fs::file_size(at / file) > 200);
   }
-  CHECK(files_under(at / "a_frames", ".vtp").size() == 3);
-  CHECK_THAT(read_file(at / "a.pvd").value(), Contains("file=\"a_frames/frame_00002.vtp\""));
-  CHECK_THAT(read_file(at / "a.xdmf").value(), Contains("run/trajectory.h5:/nodes"));
+  CHECK(files_under(at / "a_frames", ".vtp").size() == 4);
+  CHECK_THAT(text_of(at / "a.pvd"), Contains("file=\"a_frames/frame_00002.vtp\""));
+  CHECK_THAT(text_of(at / "a.xdmf"), Contains("run/trajectory.h5:/nodes"));
   // the run is as it was
   CHECK(files_under(at / "run", "") == before);
-  CHECK(gridshell_program({"render", "run", "--size", "64x48", "--quality", "draft", "--quiet"}, at)
-            .code == 0);
+  CHECK(gridshell_program("render run --size 64x48 --quality draft --quiet", at).code == 0);
 }
 
 TEST_CASE("export of a preset needs no run, of cases one is chosen") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
-  CHECK(gridshell_program({"export", "ring_hemisphere", "--what", "plate", "--to", "pins.csv"}, at)
-            .code == 0);
-  CHECK_THAT(read_file(at / "pins.csv").value(), Contains("far") && Contains(",second,"));
-  const auto which =
-      gridshell_program({"export", "fig3_caps", "--what", "cutlist", "--to", "a.csv"}, at);
-  CHECK(which.code == 2);
-  CHECK_THAT(which.err, Contains("choose one with --case"));
+  CHECK(gridshell_program("export ring_hemisphere --what plate --to pins.csv", at).code == 0);
+  CHECK_THAT(text_of(at / "pins.csv"), Contains("far") && Contains(",second,"));
+  check_refused("export fig3_caps --what cutlist --to a.csv", at,
+                Contains("choose one with --case"));
 }
 
-TEST_CASE("what cannot be exported is refused with what would do, and writes nothing") {
+TEST_CASE("what cannot be exported is refused with what would do, and writes nothing", "[s1]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
-  REQUIRE(gridshell_program(small_run, at).code == 0);
+  copy_shared_run("s1_actuation", at / "run");
   const auto refused = [&](std::vector<std::string> arguments, const char* why) {
     arguments.insert(arguments.begin(), "export");
-    const auto ended = gridshell_program(arguments, at);
-    INFO(ended.err);
-    CHECK(ended.code == 2);
-    CHECK_THAT(ended.err, Contains(why));
+    check_refused(arguments, at, Contains(why));
   };
   refused({"run", "--to", "a.stl"}, "a shape is written as .csv .dxf .glb");
   refused({"run", "--to", "a"}, "a shape is written as");
   refused({"run", "--to", "a.obj", "--what", "house"}, "must be one of");
   refused({"run", "--to", "a.obj", "--what", "plate"}, "a plate is written as .csv .dxf .svg");
-  refused({"run", "--to", "a.obj", "--frame", "3"}, "must be a number from 0 to 2");
-  refused({"run", "--to", "a.obj", "--frame", "-1"}, "must be a number from 0 to 2");
+  refused({"run", "--to", "a.obj", "--frame", "4"}, "must be a number from 0 to 3");
+  refused({"run", "--to", "a.obj", "--frame", "-1"}, "must be a number from 0 to 3");
   refused({"run", "--to", "a.obj", "--case", "x"}, "has no cases, so no 'x'");
   refused({"run", "--to", "run/a.obj"}, "would lie in the run folder");
   refused({"run", "--to", "run"}, "is no file");

@@ -1,20 +1,11 @@
 // What a user would lose: folders that are no runs, links, closed streams, runs cut short.
 #include <sys/stat.h>
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/file_io.h"
 #include "render/gl/image.h"
 #include "tests/app/bench.h"
-#include "tests/app/program.h"
 #include "tests/app/unfinished_run.h"
-#include "tests/small_preset.h"
-
-namespace fs = std::filesystem;
-using Catch::Contains;
-using gridshell::read_file;
-using gridshell::write_file;
 
 namespace {
 
@@ -30,24 +21,9 @@ int shell(const Bench& bench, const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("a folder with somebody's summary.json is not replaced") {
-  const Bench bench(small);
-  fs::create_directory(bench.at / "proj");
-  REQUIRE(write_file(bench.at / "proj/summary.json", "{\"webpack\":1}"));
-  REQUIRE(write_file(bench.at / "proj/thesis.tex", "thesis"));
-  const auto ended = bench.run({"run", "small.toml", "-o", "proj"});
-  CHECK(ended.code == 2);
-  CHECK(ended.err ==
-        "cannot write the folder 'proj': it exists and is no run (its summary.json is not one of a "
-        "run); choose another folder with -o\n");
-  CHECK(read_file(bench.at / "proj/thesis.tex").value() == "thesis");
-  // and `check` says the same beforehand
-  CHECK(bench.run({"check", "small.toml", "-o", "proj"}).code == 2);
-}
-
 TEST_CASE("a file put into a run keeps it from being replaced or drawn over") {
   const Bench bench(small);
-  bench.good({"run", "small.toml", "-o", "r"});
+  bench.good("run small.toml -o r");
   REQUIRE(write_file(bench.at / "r/notes.txt", "mine"));
   for (const auto& arguments :
        {std::vector<std::string>{"run", "small.toml", "-o", "r"}, {"render", "r"}}) {
@@ -57,39 +33,37 @@ TEST_CASE("a file put into a run keeps it from being replaced or drawn over") {
           "cannot write the folder 'r': it holds what no run wrote there: 'notes.txt'; choose "
           "another folder with -o\n");
   }
-  CHECK(read_file(bench.at / "r/notes.txt").value() == "mine");
+  CHECK(text_of(bench.at / "r/notes.txt") == "mine");
 }
 
 TEST_CASE("a run is written through a link, which stays") {
   const Bench bench(small);
   fs::create_directories(bench.at / "disk/real");
   fs::create_directory_symlink("disk/real", bench.at / "link");
-  bench.good({"run", "small.toml", "-o", "link"});
-  bench.good({"run", "small.toml", "-o", "link/"});
+  bench.good("run small.toml -o link");
+  bench.good("run small.toml -o link/");
   CHECK(fs::is_symlink(bench.at / "link"));
   CHECK(fs::exists(bench.at / "disk/real/summary.json"));
   CHECK(files_under(bench.at / "disk", "").size() > 5);
   fs::create_directory_symlink("nowhere", bench.at / "broken");
-  CHECK(bench.run({"run", "small.toml", "-o", "broken"}).code == 2);
+  CHECK(bench.run("run small.toml -o broken").code == 2);
 }
 
 TEST_CASE("closed streams do not become files of results") {
   const Bench bench(small);
-  bench.good({"run", "small.toml", "-o", "open"});
+  bench.good("run small.toml -o open");
   for (const std::string closed : {"2>&-", ">&-", "<&- >&- 2>&-"}) {
     INFO(closed);
     CHECK(shell(bench, "gridshell run small.toml -o closed " + closed) == 0);
     for (const char* name : {"preset.toml", "frames.csv", "joints.csv", "trajectory.h5"})
-      CHECK(read_file(bench.at / "open" / name).value() ==
-            read_file(bench.at / "closed" / name).value());
+      CHECK(text_of(bench.at / "open" / name) == text_of(bench.at / "closed" / name));
   }
 }
 
 TEST_CASE("what stdout does not take is noticed") {
   const Bench bench(small);
   CHECK(shell(bench, "gridshell list > /dev/full 2> err") == 1);
-  CHECK(read_file(bench.at / "err").value() ==
-        "cannot write to standard output: No space left on device\n");
+  CHECK(text_of(bench.at / "err") == "cannot write to standard output: No space left on device\n");
   CHECK(shell(bench, "gridshell check small.toml > /dev/full 2> err") == 1);
   CHECK(shell(bench, "gridshell list --keys markdown > /dev/full 2> err") == 1);
 }
@@ -113,35 +87,32 @@ TEST_CASE("inputs that are no regular files, or too large, are refused at once")
            {{"compare", "/dev/zero", "fifo"}, pipe},
        }) {
     INFO(arguments[1]);
-    const auto ended = bench.run(arguments);
-    CHECK(ended.code == 2);
-    CHECK_THAT(ended.err, Contains(sentence));
+    check_refused(arguments, bench.at, Contains(sentence));
   }
 }
 
 TEST_CASE("frames of a run that was cut short are drawn, and it says that it is unfinished") {
   const Bench bench(small);
-  bench.good({"movie", "small.toml", "-o", "whole"});
+  bench.good("movie small.toml -o whole");
   cut_short(bench.at / "whole", bench.at / "r.partial-7", 3);
-  const auto drawn = bench.good({"render", "r.partial-7"});
+  const auto drawn = bench.good("render r.partial-7");
   CHECK(drawn.err.starts_with("'r.partial-7' is not finished: 3 frames, up to progress 0.667\n"));
   const auto pictures = files_under(bench.at / "r.partial-7/frames", ".png");
   REQUIRE(pictures.size() == 3);
-  const auto summary =
-      nlohmann::json::parse(read_file(bench.at / "r.partial-7/summary.json").value());
+  const auto summary = nlohmann::json::parse(text_of(bench.at / "r.partial-7/summary.json"));
   CHECK(summary["finished"] == false);
   CHECK(summary["kind"] == "movie");
   CHECK(summary["preset"] == "small");
   CHECK(summary["energy_bend_mJ"] > 0);
   // all of a run's files are there now, of the frames found
-  const auto frames = read_file(bench.at / "r.partial-7/frames.csv").value();
+  const auto frames = text_of(bench.at / "r.partial-7/frames.csv");
   CHECK(std::count(frames.begin(), frames.end(), '\n') == 4);
   CHECK_FALSE(fs::exists(bench.at / "r.partial-7/frames.journal"));
-  const auto again = bench.good({"render", "r.partial-7", "-o", "elsewhere"});
+  const auto again = bench.good("render r.partial-7 -o elsewhere");
   CHECK_THAT(again.err, Contains("'r.partial-7' is not finished"));
   CHECK(files_under(bench.at / "elsewhere/frames", ".png").size() == 3);
   // a whole one is not told so
-  CHECK_THAT(bench.good({"render", "whole"}).err, !Contains("finished"));
+  CHECK_THAT(bench.good("render whole").err, !Contains("finished"));
 }
 
 TEST_CASE("cases of a run that was cut short are drawn as far as they came") {
@@ -149,13 +120,13 @@ TEST_CASE("cases of a run that was cut short are drawn as far as they came") {
   const std::string cases =
       "[[case]]\nname = \"near\"\nactuation.radius_mm = 43.0\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_file(bench.at / "cases.toml", small + cases));
-  bench.good({"run", "cases.toml", "-o", "whole"});
+  bench.good("run cases.toml -o whole");
   const auto partial = bench.at / "r.partial-7";
   fs::create_directories(partial);
   fs::copy(bench.at / "whole/near", partial / "near");
   fs::copy_file(bench.at / "whole/preset.toml", partial / "preset.toml");
   cut_short(bench.at / "whole/far", partial / "far", 2);
-  const auto drawn = bench.good({"render", "r.partial-7", "--set", "movie.beside=false"});
+  const auto drawn = bench.good("render r.partial-7 --set movie.beside=false");
   CHECK_THAT(drawn.err, Contains("'r.partial-7/far' is not finished: 2 frames"));
   CHECK(files_under(partial / "near/frames", ".png").size() == 4);
   CHECK(files_under(partial / "far/frames", ".png").size() == 2);
@@ -163,27 +134,27 @@ TEST_CASE("cases of a run that was cut short are drawn as far as they came") {
 
 TEST_CASE("an interrupted run says how to draw what it found, and the next run names it") {
   const Bench bench(small);
-  bench.good({"run", "small.toml", "-o", "whole"});
+  bench.good("run small.toml -o whole");
   cut_short(bench.at / "whole", bench.at / "out/small.partial-7", 3);
-  const auto next = bench.good({"run", "small.toml"});
+  const auto next = bench.good("run small.toml");
   CHECK_THAT(next.err,
              Contains("'out/small.partial-7' is left of a run that was not finished:\n  gridshell "
                       "render out/small.partial-7    draws it\n  rm -r out/small.partial-7    "
                       "removes it\n"));
   CHECK(fs::exists(bench.at / "out/small.partial-7/frames.journal"));
-  CHECK_THAT(bench.good({"run", "small.toml", "--quiet"}).err, !Contains("left of"));
+  CHECK_THAT(bench.good("run small.toml --quiet").err, !Contains("left of"));
 }
 
 TEST_CASE("a run folder of somebody else cannot write outside of -o") {
   const Bench bench(small);
   const std::string cases = "[[case]]\nname = \"near\"\n[[case]]\nname = \"far\"\n";
   REQUIRE(write_file(bench.at / "small.toml", small + cases));
-  bench.good({"run", "small.toml", "-o", "r"});
+  bench.good("run small.toml -o r");
   for (const std::string name : {"../victim/r", "/tmp/victim", "..", ".", "frames", ""}) {
-    auto json = nlohmann::json::parse(read_file(bench.at / "r/summary.json").value());
+    auto json = nlohmann::json::parse(text_of(bench.at / "r/summary.json"));
     json["cases"][1]["name"] = name;
     REQUIRE(write_file(bench.at / "r/summary.json", json.dump()));
-    const auto ended = bench.run({"render", "r", "-o", "drawn"});
+    const auto ended = bench.run("render r -o drawn");
     INFO(name);
     CHECK(ended.code == 2);
     CHECK_THAT(ended.err, Contains("'r/summary.json': case "));
@@ -202,9 +173,7 @@ TEST_CASE("names of cases that would meet a run's files are refused") {
            {std::string(300, 'x'), "is 300 letters long, must be at most 100"},
        }) {
     REQUIRE(write_file(bench.at / "bad.toml", small + "[[case]]\nname = \"" + name + "\"\n"));
-    const auto ended = bench.run({"check", "bad.toml"});
-    CHECK(ended.code == 2);
-    CHECK_THAT(ended.err, Contains(sentence));
+    check_refused("check bad.toml", bench.at, Contains(sentence));
   }
 }
 
@@ -224,13 +193,12 @@ TEST_CASE("values whose products leave the numbers are refused by their key") {
 TEST_CASE("meshes that do not fit into memory are refused with what they would take") {
   const Bench bench(small);
   for (const char* command : {"check", "run"}) {
-    const auto ended = bench.run({command, "small.toml", "--set", "accuracy.memory_GB=0.0001"});
-    CHECK(ended.code == 2);
-    CHECK_THAT(ended.err, Contains("2 edges a segment") && Contains("unknowns, take about") &&
-                              Contains("more than the 0.0001 GB of [accuracy] memory_GB"));
+    check_refused({command, "small.toml", "--set", "accuracy.memory_GB=0.0001"}, bench.at,
+                  Contains("2 edges a segment") && Contains("unknowns, take about") &&
+                      Contains("more than the 0.0001 GB of [accuracy] memory_GB"));
   }
-  const auto fine = bench.run({"check", "small.toml", "--set", "accuracy.edges_per_segment=0",
-                               "--set", "accuracy.tolerance=1e-300"});
+  const auto fine = bench.run(
+      "check small.toml --set accuracy.edges_per_segment=0 --set accuracy.tolerance=1e-300");
   CHECK(fine.code == 2);
 }
 
@@ -251,18 +219,17 @@ TEST_CASE("a picture larger than any of ours is not read") {
   // and the beginning of its pixels, at which a header ends
   bytes += std::string("\0\0\0\4IDAT", 8);
   REQUIRE(write_file(bench.at / "bomb.png", bytes));
-  const auto ended = bench.run({"compare", "bomb.png", "bomb.png"});
-  CHECK(ended.code == 2);
-  CHECK_THAT(ended.err, Contains("it has 1000000 x 1000000 pixels, more than the 268 million"));
+  check_refused("compare bomb.png bomb.png", bench.at,
+                Contains("it has 1000000 x 1000000 pixels, more than the 268 million"));
 }
 
 TEST_CASE("a signal ends commands that draw no progress, at once") {
   const Bench bench(small);
   const int number = GENERATE(SIGINT, SIGTERM, SIGHUP);
   // a net of a thousand rods takes seconds to plan
-  const Running running({"check", "fig3_hemisphere", "--set", "footprint.spacing_mm=0.3", "--set",
-                         "accuracy.memory_GB=1000"},
-                        bench.at);
+  const Running running(
+      "check fig3_hemisphere --set footprint.spacing_mm=0.3 --set accuracy.memory_GB=1000",
+      bench.at);
   running.until_it_listens();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const auto ended = running.interrupt(number);
@@ -277,17 +244,16 @@ TEST_CASE("a signal ends commands that draw no progress, at once") {
 TEST_CASE("a run folder of version 0.1 is drawn, and replaced as a run") {
   const Bench bench(small);
   fs::copy(fs::path(GRIDSHELL_SOURCE_DIR) / "tests/app/version_0_1", bench.at / "old");
-  const auto drawn = bench.good({"render", "old", "-o", "drawn"});
+  const auto drawn = bench.good("render old -o drawn");
   CHECK_THAT(drawn.err, !Contains("not finished"));
   CHECK(files_under(bench.at / "drawn/frames", ".png").size() == 2);
-  const auto summary = nlohmann::json::parse(read_file(bench.at / "drawn/summary.json").value());
+  const auto summary = nlohmann::json::parse(text_of(bench.at / "drawn/summary.json"));
   CHECK(summary["energy_bend_mJ"] > 1.8);
   // what it did not say is unknown
   CHECK(summary["energy_load_mJ"].is_null());
   CHECK(summary["finished"] == true);
-  const auto forces = bench.run({"render", "old", "--set", "movie.colour_by=axial_force"});
-  CHECK(forces.code == 2);
-  CHECK_THAT(forces.err, Contains("no frame of the run knows the rods' axial forces"));
-  bench.good({"run", "small.toml", "-o", "old"});
+  check_refused("render old --set movie.colour_by=axial_force", bench.at,
+                Contains("no frame of the run knows the rods' axial forces"));
+  bench.good("run small.toml -o old");
   CHECK(fs::exists(bench.at / "old/manifest.txt"));
 }

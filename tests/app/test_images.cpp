@@ -1,17 +1,9 @@
 // The program's pictures against those that were looked at and kept in tests/images.
-#include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
+#include <map>
 
-#include "engine/core/file_io.h"
 #include "render/gl/image.h"
-#include "tests/app/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/app/bench.h"
 
-namespace fs = std::filesystem;
 using namespace gridshell;
 
 namespace {
@@ -32,65 +24,67 @@ double worst(const render::Image& a, const render::Image& b) {
   return comparison->difference;
 }
 
-/// The arguments of the list's line of that name, and where to write.
-std::vector<std::string> arguments_of(const std::string& name, const fs::path& to) {
-  std::ifstream list(images / "list.txt");
-  for (std::string line; std::getline(list, line);) {
-    if (!line.starts_with(name + ": ")) continue;
-    std::istringstream words(line.substr(name.size() + 2));
-    std::vector<std::string> arguments;
-    for (std::string word; words >> word;) arguments.push_back(word);
-    for (const std::string& word : {std::string("-o"), to.string(), std::string("--quiet")})
-      arguments.push_back(word);
-    return arguments;
-  }
-  FAIL("no line of that name");
-  return {};
+/// The lines of the list: a name, and the program's arguments.
+std::map<std::string, std::string> list() {
+  std::map<std::string, std::string> lines;
+  std::ifstream file(images / "list.txt");
+  for (std::string line; std::getline(file, line);)
+    if (const auto end = line.find(": "); !line.starts_with('#') && end != line.npos)
+      lines[line.substr(0, end)] = line.substr(end + 2);
+  return lines;
+}
+
+void check_kept(const std::string& name, const fs::path& drawn) {
+  const TemporaryFolder folder;
+  const Ended ended =
+      gridshell_program({"compare", (images / name).string(), drawn.string()}, folder.path());
+  INFO(drawn << "\n" << ended.out << ended.err);
+  CHECK(ended.code == 0);
 }
 
 }  // namespace
 
-TEST_CASE("movie S1 looks as its kept pictures do") {
-  TemporaryFolder folder;
-  const Ended ended = gridshell_program(arguments_of("s1_actuation", "s1"), folder.path());
-  REQUIRE(ended.code == 0);
-  const fs::path kept = images / "s1_actuation/frames";
-  for (int frame = 0; frame < 4; ++frame) {
-    INFO("frame " << frame);
-    const render::Image drawn = picture(folder.path() / "s1/frames" / frame_name(frame));
-    CHECK(worst(drawn, picture(kept / frame_name(frame))) <= render::default_difference_threshold);
-    // the threshold tells a frame from its neighbour
-    CHECK(worst(drawn, picture(kept / frame_name((frame + 1) % 4))) >
-          render::default_difference_threshold);
+TEST_CASE("every preset is run for kept pictures") {
+  std::string all;
+  for (const auto& [name, arguments] : list()) {
+    INFO(name);
+    CHECK(fs::exists(images / name));
+    all += arguments + " ";
   }
+  for (const auto& file : files_under(fs::path(GRIDSHELL_SOURCE_DIR) / "presets", ".toml"))
+    CHECK_THAT(all, Contains(" " + file.stem().string() + " "));
 }
 
-TEST_CASE("every preset and figure looks as its kept pictures do, in either context", "[full]") {
+TEST_CASE("every preset, figure and visit of the window looks as its kept pictures do",
+          "[shared]") {
+  for (const auto& [name, arguments] : list()) check_kept(name, shared_run(name));
+  check_kept("window", shared_run("window"));
+  // the threshold tells a frame from its neighbour
+  const fs::path kept = images / "s1_actuation/frames";
+  for (int frame = 0; frame < 4; ++frame)
+    CHECK(worst(picture(kept / frame_name(frame)), picture(kept / frame_name((frame + 1) % 4))) >
+          render::default_difference_threshold);
+}
+
+TEST_CASE("every picture is the same in either context", "[full][shared]") {
   const TemporaryFolder folder;
-  const fs::path at = folder.path();
-  const auto check_kept = [&](const char* drawn) {
-    const Ended ended = gridshell_program({"compare", images.string(), drawn}, at);
-    INFO(drawn << "\n" << ended.out << ended.err);
-    CHECK(ended.code == 0);
-  };
-  const std::string command = "cd '" + at.string() + "' && RUNS=runs '" +
-                              (images / "draw.sh").string() + "' '" + GRIDSHELL_PROGRAM +
-                              "' osmesa --context osmesa";
-  REQUIRE(std::system(command.c_str()) == 0);
-  check_kept("osmesa");
-  // the other context draws the same runs again, by the processor too
+  const fs::path& at = folder.path();
+  // by the processor too
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-  for (const auto& run : fs::directory_iterator(at / "runs")) {
-    const auto name = run.path().filename().string();
-    const Ended ended = gridshell_program(
-        {"render", "runs/" + name, "-o", "egl/" + name, "--context", "egl", "--quiet"}, at);
-    INFO(name << "\n" << ended.err);
-    CHECK(ended.code == 0);
+  for (const std::string context : {"osmesa", "egl"}) {
+    for (const auto& [name, arguments] : list()) {
+      const Ended ended = gridshell_program(
+          {"render", shared_run(name).string(), "-o", name, "--context", context, "--quiet"}, at);
+      INFO(name << "\n" << ended.err);
+      CHECK(ended.code == 0);
+      check_kept(name, at / name);
+    }
+    const std::string visits = "OPTIONS='--context " + context + "' '" +
+                               (images / "draw.sh").string() + "' '" + GRIDSHELL_PROGRAM + "' '" +
+                               at.string() + "' window";
+    REQUIRE(std::system(visits.c_str()) == 0);
+    check_kept("window", at / "window");
   }
-  const std::string visits = "cd '" + at.string() + "' && '" + (images / "visits.sh").string() +
-                             "' '" + GRIDSHELL_PROGRAM + "' egl --context egl";
-  REQUIRE(std::system(visits.c_str()) == 0);
-  check_kept("egl");
 }
 
 TEST_CASE("another rasteriser's width, another processor, a finer tolerance look the same",
@@ -103,15 +97,25 @@ TEST_CASE("another rasteriser's width, another processor, a finer tolerance look
     TemporaryFolder folder;
     const bool finer = std::string(variation) == "finer";
     std::string command = "cd '" + folder.path().string() + "' && " + (finer ? "" : variation) +
-                          " '" + GRIDSHELL_PROGRAM + "'";
-    for (const std::string& word : arguments_of("s1_actuation", "s1")) command += " " + word;
+                          " '" + GRIDSHELL_PROGRAM + "' " + list()["s1_actuation"] +
+                          " -o s1 --quiet";
     if (finer) command += " --set accuracy.tolerance=1e-6";
     REQUIRE(std::system(command.c_str()) == 0);
     INFO(variation);
-    for (int frame = 0; frame < 4; ++frame)
-      CHECK(worst(picture(folder.path() / "s1/frames" / frame_name(frame)),
-                  picture(images / "s1_actuation/frames" / frame_name(frame))) <=
-            render::default_difference_threshold);
+    check_kept("s1_actuation", folder.path() / "s1");
+  }
+}
+
+TEST_CASE("presets that are drawn on one coarse mesh run at their own accuracy", "[full]") {
+  const TemporaryFolder folder;
+  for (const auto& [name, arguments] : list()) {
+    const std::string coarse = " --set accuracy.edges_per_segment=4";
+    const auto at = arguments.find(coarse);
+    if (at == arguments.npos) continue;
+    std::string run = "cd '" + folder.path().string() + "' && '" + GRIDSHELL_PROGRAM + "' run " +
+                      name + arguments.substr(at + coarse.size()) + " --frames 5 --quiet";
+    INFO(run);
+    CHECK(std::system(run.c_str()) == 0);
   }
 }
 
@@ -156,5 +160,5 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
   const auto why = read_file(kept / "WHY.md");
   REQUIRE(why);
   CHECK(why->find("a lighter grey (gone.png, in/other.png, new.png)") != std::string::npos);
-  CHECK(gridshell_program({"compare", "kept", "now/same.png"}, folder.path()).code == 2);
+  CHECK(gridshell_program("compare kept now/same.png", folder.path()).code == 2);
 }

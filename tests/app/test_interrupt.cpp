@@ -1,15 +1,8 @@
 // Ctrl-C, SIGTERM, SIGKILL and a full disk in the middle of a real movie: what is left is whole.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <chrono>
-
-#include "engine/core/file_io.h"
 #include "engine/record/journal.h"
 #include "render/gl/image.h"
-#include "tests/app/program.h"
-#include "tests/temporary_folder.h"
-
-namespace fs = std::filesystem;
+#include "tests/app/bench.h"
+#include "tests/folder_contents.h"
 
 namespace {
 
@@ -43,8 +36,8 @@ TEST_CASE("Ctrl-C and SIGTERM stop within a second and leave finished frames who
   CAPTURE(ended.wall_seconds, ended.cpu_seconds);
   CHECK(ended.prompt());
   CHECK(ended.code == 130);
-  CHECK_THAT(ended.err, Catch::Contains("stopped\n1 run and ") &&
-                            Catch::Contains("each whole, are in 'out/s1_actuation.partial-"));
+  CHECK_THAT(ended.err, Contains("stopped\n1 run and ") &&
+                            Contains("each whole, are in 'out/s1_actuation.partial-"));
   CHECK_FALSE(fs::exists(folder.path() / "out/s1_actuation"));
   check_all_whole(folder.path());
   for (const auto& file : files_under(folder.path(), ""))
@@ -53,26 +46,25 @@ TEST_CASE("Ctrl-C and SIGTERM stop within a second and leave finished frames who
 
 TEST_CASE("a picture that takes long does not hold up Ctrl-C", "[alone]") {
   const TemporaryFolder folder;
-  const Running running(
-      {"movie", "s1_actuation", "--frames", "2", "--quality", "figure", "--size", "3840x2160"},
-      folder.path());
+  const Running running("movie s1_actuation --frames 2 --quality figure --size 3840x2160",
+                        folder.path());
   REQUIRE(wait_until([&] { return !files_under(folder.path(), "summary.json").empty(); }));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   const auto ended = running.interrupt(SIGINT);
   CAPTURE(ended.wall_seconds, ended.cpu_seconds);
   CHECK(ended.prompt());
   CHECK(ended.code == 130);
-  CHECK_THAT(ended.err, Catch::Contains("stopped\n1 run and 0 pictures, each whole, are in "));
+  CHECK_THAT(ended.err, Contains("stopped\n1 run and 0 pictures, each whole, are in "));
   CHECK(files_under(folder.path(), "trajectory.h5").size() == 1);
 }
 
 TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
   const TemporaryFolder folder;
   // its path alone, before the first frame, takes a second and more
-  const Running running({"run", "s1_actuation", "--set", "accuracy.edges_per_segment=64", "--set",
-                         "footprint.rods=20", "--set", "footprint.radius_mm=206", "--set",
-                         "actuation.radius_mm=155", "--frames", "5000"},
-                        folder.path());
+  const Running running(
+      "run s1_actuation --set accuracy.edges_per_segment=64 --set footprint.rods=20 --set "
+      "footprint.radius_mm=206 --set actuation.radius_mm=155 --frames 5000",
+      folder.path());
   REQUIRE(wait_until([&] { return fs::exists(folder.path() / "out"); }));
   const auto ended = running.interrupt(SIGINT);
   CAPTURE(ended.wall_seconds, ended.cpu_seconds);
@@ -83,19 +75,18 @@ TEST_CASE("Ctrl-C before anything is finished leaves nothing", "[alone]") {
   CHECK(files_under(folder.path(), "").empty());
 }
 
-TEST_CASE("a killed movie leaves no half file, and the run before it stays") {
+TEST_CASE("a killed movie leaves no half file, and the run before it stays", "[s1]") {
   const TemporaryFolder folder;
-  REQUIRE(
-      gridshell_program({"run", "s1_actuation", "--frames", "2", "--quiet"}, folder.path()).code ==
-      0);
-  const auto before = fs::last_write_time(folder.path() / "out/s1_actuation/summary.json");
+  const fs::path run = folder.path() / "out/s1_actuation";
+  copy_shared_run("s1_actuation", run);
+  fs::remove_all(run / "frames");
+  const auto before = contents(run);
   const Running running(movie, folder.path());
   REQUIRE(frames_appear(folder.path()));
   running.signal(SIGKILL);
   CHECK(running.wait().code == 128 + SIGKILL);
   check_all_whole(folder.path());
-  CHECK(fs::last_write_time(folder.path() / "out/s1_actuation/summary.json") == before);
-  CHECK_FALSE(fs::exists(folder.path() / "out/s1_actuation/frames"));
+  CHECK(contents(run) == before);
 }
 
 namespace {
@@ -118,7 +109,7 @@ fs::path killed_with(std::size_t least, const std::vector<std::string>& run,
 
 }  // namespace
 
-TEST_CASE("of a run that is killed near its end nearly all frames are drawn", "[full]") {
+TEST_CASE("of a run that is killed near its end nearly all frames are drawn", "[standard]") {
   const TemporaryFolder folder;
   fs::path partial;
   // where the machine leaves this test no time while the run goes on, it is run again
@@ -138,10 +129,9 @@ TEST_CASE("of a run that is killed near its end nearly all frames are drawn", "[
                                         "64x48", "--quality", "draft", "--quiet"},
                                        folder.path());
   CHECK(drawn.code == 0);
-  CHECK_THAT(drawn.err, Catch::Contains("is not finished: " + std::to_string(frames) + " frames"));
+  CHECK_THAT(drawn.err, Contains("is not finished: " + std::to_string(frames) + " frames"));
   CHECK(files_under(folder.path() / "drawn/frames", ".png").size() == frames);
-  CHECK_THAT(gridshell::read_file(folder.path() / "drawn/summary.json").value(),
-             Catch::Contains("\"finished\": false"));
+  CHECK_THAT(text_of(folder.path() / "drawn/summary.json"), Contains("\"finished\": false"));
 }
 
 TEST_CASE("a full disk fails with 1 and leaves nothing half-written under a final name") {
@@ -150,11 +140,11 @@ TEST_CASE("a full disk fails with 1 and leaves nothing half-written under a fina
   {
     // the program inherits it: not one frame fits
     const FileSizeLimit disk(100000);
-    ended = gridshell_program({"run", "s1_actuation"}, folder.path());
+    ended = gridshell_program("run s1_actuation", folder.path());
   }
   CHECK(ended.code == 1);
-  CHECK_THAT(ended.err, Catch::Contains("cannot write '") &&
-                            Catch::Contains("frames.journal': File too large\n") &&
+  CHECK_THAT(ended.err, Contains("cannot write '") &&
+                            Contains("frames.journal': File too large\n") &&
                             Catch::EndsWith("nothing was finished, so nothing is left behind\n"));
   CHECK(files_under(folder.path(), "").empty());
 }
@@ -164,10 +154,10 @@ TEST_CASE("a disk that fills up late leaves the frames found before") {
   Ended ended;
   {
     const FileSizeLimit disk(2000000);
-    ended = gridshell_program({"run", "s1_actuation", "--frames", "40"}, folder.path());
+    ended = gridshell_program("run s1_actuation --frames 40", folder.path());
   }
   CHECK(ended.code == 1);
-  CHECK_THAT(ended.err, Catch::Contains(" frames of an unfinished run, each whole, are in '") &&
-                            Catch::Contains("\n  gridshell render out/s1_actuation.partial-"));
+  CHECK_THAT(ended.err, Contains(" frames of an unfinished run, each whole, are in '") &&
+                            Contains("\n  gridshell render out/s1_actuation.partial-"));
   CHECK(files_under(folder.path(), "frames.journal").size() == 1);
 }

@@ -67,7 +67,8 @@ void check_apart(const Words& words, const Box& panel) {
 
 }  // namespace
 
-TEST_CASE("in every preset's frames and stills no text leaves the picture or meets another") {
+TEST_CASE("in every preset's frames and stills no text leaves the picture or meets another",
+          "[standard]") {
   for (const auto& embedded : app::embedded_presets()) {
     const auto presets = app::load_preset(embedded.name, {});
     REQUIRE(presets);

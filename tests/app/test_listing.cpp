@@ -1,23 +1,16 @@
-// What is made of the program's own tables: JSON, completion, manual page.
-#include <algorithm>
-#include <catch2/catch.hpp>
-#include <cstdlib>
-#include <fstream>
+// What the program says of itself: JSON, completion, manual page, the bar of its progress.
+#include <cmath>
 #include <set>
-#include <sstream>
 
 #include "app/cli/commands.h"
+#include "app/cli/delivery.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/reference.h"
-#include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/preset/preset_file.h"
-#include "tests/app/program.h"
-#include "tests/temporary_folder.h"
+#include "tests/app/bench.h"
 
 using namespace gridshell;
-using Catch::Contains;
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -42,7 +35,7 @@ std::set<std::string> offered(const std::vector<std::string>& words, const fs::p
 
 TEST_CASE("list --json has every command, preset and key") {
   const TemporaryFolder folder;
-  const auto printed = gridshell_program({"list", "--json"}, folder.path());
+  const auto printed = gridshell_program("list --json", folder.path());
   REQUIRE(printed.code == 0);
   CHECK(printed.out == app::listing_json().value());
   const auto json = record::parsed(printed.out);
@@ -100,5 +93,33 @@ TEST_CASE("the manual page names all commands, options, presets and keys, and ro
   REQUIRE(std::system(("cd '" + folder.path().string() +
                        "' && groff -man -Kutf8 -Tutf8 -ww gridshell.1 > out 2> faults")
                           .c_str()) == 0);
-  CHECK(read_file(folder.path() / "faults").value().empty());
+  CHECK(text_of(folder.path() / "faults").empty());
+}
+
+TEST_CASE("the bar counts evenly over phases by their expected time") {
+  const std::vector<app::Phase> phases{{"simulating", 10}, {"drawing", 90}};
+  CHECK(app::standing(phases, 0, 0.0, 0).fraction == 0.0);
+  CHECK(app::standing(phases, 0, 0.5, 5).fraction == Approx(0.05));
+  CHECK(app::standing(phases, 1, 0.0, 0).fraction == Approx(0.10));
+  CHECK(app::standing(phases, 1, 0.5, 45).fraction == Approx(0.55));
+  CHECK(app::standing(phases, 1, 1.0, 90).fraction == Approx(1.0));
+}
+
+TEST_CASE("the time left follows how fast the work turns out") {
+  const std::vector<app::Phase> phases{{"simulating", 10}, {"drawing", 90}};
+  // as expected: 5 s of this phase and 90 s of the next
+  CHECK(app::standing(phases, 0, 0.5, 5).seconds_left == Approx(95));
+  // twice as slow
+  CHECK(app::standing(phases, 0, 0.5, 10).seconds_left == Approx(190));
+  CHECK(app::standing(phases, 1, 0.25, 20).seconds_left == Approx(60));
+  // too early to tell
+  CHECK(std::isnan(app::standing(phases, 1, 0.01, 1).seconds_left));
+  CHECK(std::isnan(app::standing(phases, 1, 0.5, 0.1).seconds_left));
+}
+
+TEST_CASE("the bar shows share, work and time left") {
+  CHECK(app::bar_text({0.5, 125}, "drawing", 10) == "[=====>    ]  50 %  drawing, 2:05 left");
+  CHECK(app::bar_text({0, NAN}, "simulating", 4) == "[>   ]   0 %  simulating");
+  CHECK(app::bar_text({1, 0}, "drawing", 4) == "[====] 100 %  drawing");
+  CHECK(app::bar_text({0.25, 4000}, "drawing", 4) == "[=>  ]  25 %  drawing, 1:06:40 left");
 }

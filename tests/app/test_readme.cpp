@@ -1,20 +1,12 @@
 // What the READMEs say is what the program does.
-#include <algorithm>
-#include <catch2/catch.hpp>
 #include <set>
 
-#include "engine/core/file_io.h"
 #include "engine/preset/preset_file.h"
-#include "tests/app/program.h"
-#include "tests/temporary_folder.h"
-
-namespace fs = std::filesystem;
+#include "tests/app/bench.h"
 
 namespace {
 
 const fs::path root = GRIDSHELL_SOURCE_DIR;
-
-std::string text_of(const fs::path& file) { return gridshell::read_file(root / file).value(); }
 
 // those at the top and one a folder that has one
 std::vector<fs::path> documents() {
@@ -40,46 +32,46 @@ std::set<std::string> commands_in(const std::string& text) {
 
 TEST_CASE("presets/README.md holds the reference of all keys, word for word") {
   const TemporaryFolder folder;
-  const auto printed = gridshell_program({"list", "--keys", "markdown"}, folder.path()).out;
+  const auto printed = gridshell_program("list --keys markdown", folder.path()).out;
   CHECK(printed == gridshell::preset::reference_markdown());
   // to mend it: paste what 'gridshell list --keys markdown' prints
-  CHECK_THAT(text_of("presets/README.md"), Catch::Contains(printed));
+  CHECK_THAT(text_of(root / "presets/README.md"), Contains(printed));
 }
 
 TEST_CASE("the READMEs name every command of the program, and no other") {
   const TemporaryFolder folder;
-  const auto help = gridshell_program({"--help"}, folder.path()).out;
+  const auto help = gridshell_program("--help", folder.path()).out;
   std::set<std::string> in_help;
   std::istringstream lines(help.substr(help.find("Subcommands:") + 13));
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("  ") && line[2] != ' ')
       in_help.insert(line.substr(2, line.find(' ', 2) - 2));
   CHECK(in_help.size() >= 7);
-  CHECK(commands_in(text_of("README.md")) == in_help);
-  CHECK(commands_in(text_of("app/README.md")) == in_help);
+  CHECK(commands_in(text_of(root / "README.md")) == in_help);
+  CHECK(commands_in(text_of(root / "app/README.md")) == in_help);
 }
 
 TEST_CASE("the README names every preset, and is short") {
-  const auto text = text_of("README.md");
+  const auto text = text_of(root / "README.md");
   for (const auto& file : files_under(root / "presets", ".toml")) {
     std::string quoted = "`";
     quoted.append(file.stem().string()).append("`");
-    CHECK_THAT(text, Catch::Contains(quoted));
+    CHECK_THAT(text, Contains(quoted));
   }
   CHECK(std::count(text.begin(), text.end(), '\n') < 200);
 }
 
-TEST_CASE("the presets shown in the READMEs run") {
+TEST_CASE("the presets shown in the READMEs run", "[standard]") {
   for (const char* document : {"README.md", "presets/README.md"}) {
     const TemporaryFolder folder;
-    const auto text = text_of(document);
+    const auto text = text_of(root / document);
     // an indented block from its title to the first line that is not indented
     std::istringstream lines(text.substr(text.find("    title = ")));
     std::string preset;
     for (std::string line; std::getline(lines, line) && (line.empty() || line[0] == ' ');)
       preset += line.empty() ? "\n" : line.substr(4) + "\n";
-    REQUIRE(gridshell::write_file(folder.path() / "shown.toml", preset));
-    const auto ended = gridshell_program({"run", "shown.toml", "--quiet"}, folder.path());
+    REQUIRE(write_file(folder.path() / "shown.toml", preset));
+    const auto ended = gridshell_program("run shown.toml --quiet", folder.path());
     INFO(document << ":\n" << preset << ended.err);
     CHECK(ended.code == 0);
   }
@@ -87,7 +79,7 @@ TEST_CASE("the presets shown in the READMEs run") {
 
 TEST_CASE("pictures and pages that the READMEs point to exist") {
   for (const auto& document : documents()) {
-    const auto text = text_of(document);
+    const auto text = text_of(root / document);
     for (auto at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
       const auto target = text.substr(at + 2, text.find_first_of(")#", at) - at - 2);
       if (target.starts_with("http")) continue;

@@ -1,17 +1,10 @@
 // The command `scan`, on clouds made of a run.
-#include <catch2/catch.hpp>
-#include <fstream>
-
-#include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/record/trajectory_file.h"
-#include "tests/app/program.h"
+#include "tests/app/bench.h"
 #include "tests/engine/study/synthetic_scan.h"
-#include "tests/temporary_folder.h"
 
 using namespace gridshell;
-using Catch::Contains;
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -36,7 +29,8 @@ void form(const std::string& radius_mm, const std::string& name, const fs::path&
 
 }  // namespace
 
-TEST_CASE("a scan of a run shows that run, with its joints, its picture and what overlays take") {
+TEST_CASE("a scan of a run shows that run, with its joints, its picture and what overlays take",
+          "[standard]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
   form("48", "run", at);
@@ -48,33 +42,29 @@ TEST_CASE("a scan of a run shows that run, with its joints, its picture and what
   how.missing = 0.1;
   how.spurious = 3;
   write_cloud(make_scan(shell, how).cloud, at / "cloud.csv");
-  const auto scan =
-      gridshell_program({"scan", "cloud.csv", "wide", "run", "--size", "320x240"}, at);
+  const auto scan = gridshell_program("scan cloud.csv wide run --size 320x240", at);
   INFO(scan.out << scan.err);
   REQUIRE(scan.code == 0);
   CHECK_THAT(scan.out, Contains("out/cloud_scan: shows run\n"));
   const fs::path out = at / "out" / "cloud_scan";
-  const auto json = record::parsed(read_file(out / "scan.json").value());
+  const auto json = record::parsed(text_of(out / "scan.json"));
   CHECK(json["state"] == "run");
   CHECK(json["states"].size() == 2);
   CHECK(json["joints_found"].get<int>() + json["joints_missing"].get<int>() ==
         int(shell.joints.cols()));
   CHECK(json["joints_missing"].get<int>() == int(0.1 * double(shell.joints.cols())));
   CHECK(json["rms_mm"].get<double>() < 0.15);
-  const std::string csv = read_file(out / "scan.csv").value();
+  const std::string csv = text_of(out / "scan.csv");
   CHECK(csv.starts_with("i,j,x_mm,y_mm,z_mm,distance_mm,distance_radii\n"));
   CHECK(std::ranges::count(csv, '\n') == 1 + shell.joints.cols());
   for (const char* name : {"scan.png", "measured.csv", "manifest.txt"})
     CHECK(fs::exists(out / name));
   // once more into the same folder, which is one of ours
-  CHECK(gridshell_program({"scan", "cloud.csv", "run", "--quiet", "--size", "320x240"}, at).code ==
-        0);
-  CHECK(gridshell_program(
-            {"check", "s1_actuation", "--set", "figure.scan=out/cloud_scan/measured.csv"}, at)
+  CHECK(gridshell_program("scan cloud.csv run --quiet --size 320x240", at).code == 0);
+  CHECK(gridshell_program("check s1_actuation --set figure.scan=out/cloud_scan/measured.csv", at)
             .code == 0);
   // another state alone is none
-  const auto other =
-      gridshell_program({"scan", "cloud.csv", "wide", "--size", "320x240", "-o", "other"}, at);
+  const auto other = gridshell_program("scan cloud.csv wide --size 320x240 -o other", at);
   CHECK(other.code == 3);
   CHECK_THAT(other.out, Contains("other: does not show wide\n"));
 }
@@ -96,8 +86,8 @@ TEST_CASE("clouds and runs that are none leave a sentence and no folder") {
   CHECK_THAT(refused("a.xyz", "1 2 3\n9 5 6\n"),
              Contains("they lie like the joints of no shell given"));
   CHECK_THAT(refused("a.xyz", "1 2 3\n1e9 5 6\n"), Contains("the points reach over 1e+09 mm"));
-  CHECK_THAT(gridshell_program({"scan", "none.xyz", "run"}, at).err, Contains("none.xyz"));
-  CHECK_THAT(gridshell_program({"scan", "a.xyz", "."}, at).err, Contains("is no run"));
-  CHECK_THAT(gridshell_program({"scan", "a.xyz", "run", "--set", "rod.young_GPa=70"}, at).err,
+  CHECK_THAT(gridshell_program("scan none.xyz run", at).err, Contains("none.xyz"));
+  CHECK_THAT(gridshell_program("scan a.xyz .", at).err, Contains("is no run"));
+  CHECK_THAT(gridshell_program("scan a.xyz run --set rod.young_GPa=70", at).err,
              Contains("cannot change once a run is finished"));
 }

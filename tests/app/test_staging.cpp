@@ -86,65 +86,54 @@ TEST_CASE("what is kept stays under its partial name, without half-written files
   CHECK_FALSE(fs::exists(folder.path() / "run"));
 }
 
-TEST_CASE("only a run or an empty folder may be replaced") {
+TEST_CASE("only a run or an empty folder may be replaced, and what stands in the way is named") {
+  // what lies in the folder, over a run where `whole`; a name that ends in / is a folder
+  struct Standing {
+    bool whole;
+    std::vector<std::pair<std::string, std::string>> files;
+    std::string why;  // empty: it may be replaced
+  };
+  const std::string run = R"({"preset": "x", "negative_pivots": 0})", mine = "mine";
+  const auto standing = GENERATE_COPY(values<Standing>({
+      {false, {}, ""},
+      {true, {}, ""},
+      {false, {{"notes.txt", mine}}, "it exists and is no run (it has no summary.json)"},
+      {false, {{"summary.json", R"({"webpack": 1})"}}, "it exists and is no run"},
+      {false, {{"summary.json/", ""}}, "it exists and is no run"},
+      {false, {{"summary.json", run}, {"thesis.tex", mine}}, "'thesis.tex'"},
+      {false, {{"summary.json", run}, {"holiday.png", "sun"}}, "'holiday.png'"},
+      {true, {{"notes.txt", mine}}, "it holds what no run wrote there: 'notes.txt'"},
+      {true, {{"old.png", mine}}, "it holds what no run wrote there: 'old.png'"},
+      {true, {{"frames/mine.png", mine}}, "it holds what no run wrote there: 'frames/mine.png'"},
+      {true, {{".hidden", mine}}, "it holds what no run wrote there: '.hidden'"},
+      {true, {{"deep/er/thesis.tex", mine}}, "no run wrote there: 'deep/er/thesis.tex'"},
+      {true, {{"empty/", ""}}, "it holds what no run wrote there: 'empty'"},
+  }));
   const TemporaryFolder folder;
-  const auto target = folder.path() / "target";
-  SECTION("an empty folder may") {
-    REQUIRE(make_folder(target));
-    CHECK(StagedFolder::create(target));
+  const auto at = folder.path() / "run";
+  REQUIRE(make_folder(at));
+  if (standing.whole) make_run(at);
+  for (const auto& [name, text] : standing.files) {
+    INFO(name);
+    REQUIRE(make_folder((at / name).parent_path()));
+    if (!name.ends_with('/')) REQUIRE(write_file(at / name, text));
   }
-  SECTION("a folder with something else may not") {
-    REQUIRE(make_folder(target));
-    REQUIRE(write_file(target / "notes.txt", "mine"));
-    const auto staged = StagedFolder::create(target);
-    REQUIRE_FALSE(staged);
-    CHECK(staged.error().fault == Fault::bad_input);
-    CHECK(staged.error().message ==
-          "cannot write the folder '" + target.string() +
-              "': it exists and is no run (it has no summary.json); choose another folder with -o");
-  }
-  SECTION("a file may not") {
-    REQUIRE(write_file(target, "mine"));
-    CHECK_FALSE(StagedFolder::create(target));
-  }
-}
-
-TEST_CASE("a run with a foreign file in it is not replaced, and the file is named") {
-  const TemporaryFolder folder;
-  const auto run = folder.path() / "run";
-  make_run(run);
-  const auto foreign = GENERATE(as<std::string>{}, "notes.txt", "old.png", "frames/mine.png",
-                                ".hidden", "deep/er/thesis.tex", "empty/");
-  if (foreign.back() == '/') {
-    REQUIRE(make_folder(run / foreign));
-  } else {
-    REQUIRE(make_folder((run / foreign).parent_path()));
-    REQUIRE(write_file(run / foreign, "mine"));
-  }
-  const auto staged = StagedFolder::create(run);
-  REQUIRE_FALSE(staged);
+  const auto staged = StagedFolder::create(at);
+  INFO(standing.why);
+  REQUIRE(bool(staged) == standing.why.empty());
+  if (staged) return;
   CHECK(staged.error().fault == Fault::bad_input);
-  const auto name = foreign.back() == '/' ? foreign.substr(0, foreign.size() - 1) : foreign;
   CHECK_THAT(staged.error().message,
-             Catch::Contains("it holds what no run wrote there: '" + name + "'"));
+             Catch::StartsWith("cannot write the folder '" + at.string() + "': ") &&
+                 Catch::Contains(standing.why) &&
+                 Catch::EndsWith("; choose another folder with -o"));
   CHECK(beside(folder).empty());
 }
 
-TEST_CASE("something called summary.json makes no run") {
+TEST_CASE("a file is not replaced by a run") {
   const TemporaryFolder folder;
-  const auto run = folder.path() / "run";
-  REQUIRE(make_folder(run));
-  SECTION("of another program") { REQUIRE(write_file(run / "summary.json", R"({"webpack": 1})")); }
-  SECTION("a folder") { REQUIRE(make_folder(run / "summary.json")); }
-  SECTION("of a run, beside a thesis") {
-    REQUIRE(write_file(run / "summary.json", R"({"preset": "x", "negative_pivots": 0})"));
-    REQUIRE(write_file(run / "thesis.tex", "years of work"));
-  }
-  SECTION("of a run, beside pictures of something else") {
-    REQUIRE(write_file(run / "summary.json", R"({"preset": "x", "negative_pivots": 0})"));
-    REQUIRE(write_file(run / "holiday.png", "sun"));
-  }
-  CHECK_FALSE(StagedFolder::create(run));
+  REQUIRE(write_file(folder.path() / "run", "mine"));
+  CHECK_FALSE(StagedFolder::create(folder.path() / "run"));
 }
 
 TEST_CASE("whether a folder is a run is seen from its top, whatever lies below") {

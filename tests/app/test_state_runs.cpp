@@ -1,15 +1,6 @@
 // A search for states from end to end, on a shell small enough for seconds.
-#include <catch2/catch.hpp>
-
-#include "engine/core/file_io.h"
 #include "engine/record/states.h"
-#include "tests/app/program.h"
-#include "tests/small_preset.h"
-#include "tests/temporary_folder.h"
-
-namespace fs = std::filesystem;
-using gridshell::read_file;
-using gridshell::write_file;
+#include "tests/app/bench.h"
 
 namespace {
 
@@ -17,15 +8,14 @@ const std::string search =
     small_preset({.rods = 4, .radius_mm = 46, .actuated_mm = 34, .edges = 4}) +
     "[jitter]\ntrials = 8\nconfined = 4\ntransitions = 2\nbarriers = true\ndepth = 0.5\n";
 
-std::string text_of(const fs::path& file) { return read_file(file).value(); }
-
 }  // namespace
 
-TEST_CASE("a search for states: tables, pictures, and the same pictures again from the run") {
+TEST_CASE("a search for states: tables, pictures, and the same pictures again from the run",
+          "[standard]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
   REQUIRE(write_file(at / "shell.toml", search));
-  const Ended one = gridshell_program({"figure", "shell.toml", "--threads", "1"}, at);
+  const Ended one = gridshell_program("figure shell.toml --threads 1", at);
   CAPTURE(one.err);
   REQUIRE(one.code == 0);
   const fs::path run = at / "out" / "shell";
@@ -36,19 +26,19 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
   CHECK(tables->search.at_rest >= 7);
   for (const char* name : {"shell.png", "shell_1.png", "shell_energies.svg", "shell_lives.png"})
     CHECK(fs::exists(run / name));
-  const Ended two = gridshell_program({"figure", "shell.toml", "--threads", "2", "-o", "two"}, at);
+  const Ended two = gridshell_program("figure shell.toml --threads 2 -o two", at);
   REQUIRE(two.code == 0);
   for (const char* name : {"states.csv", "transitions.csv", "barriers.csv", "frames.csv",
                            "shell.png", "shell_ways.svg", "shell_barriers.svg"})
     if (fs::exists(run / name)) CHECK(text_of(run / name) == text_of(at / "two" / name));
-  const Ended again = gridshell_program({"render", "out/shell", "-o", "again"}, at);
+  const Ended again = gridshell_program("render out/shell -o again", at);
   CAPTURE(again.err);
   REQUIRE(again.code == 0);
   for (const char* name : {"shell.png", "shell_energies.png", "states.csv", "states.json"})
     CHECK(text_of(run / name) == text_of(at / "again" / name));
 }
 
-TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[full]") {
+TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[standard]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
   const std::string shell =
@@ -65,17 +55,16 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[ful
                                                    "[sweep.over]\nfootprint.rods = [4]\n"
                                                    "footprint.longest_leg = [0.8, 2.0]\n"));
   // without a sweep its place is an empty frame that says so
-  const Ended bare = gridshell_program({"figure", "page.toml", "--quiet"}, at);
+  const Ended bare = gridshell_program("figure page.toml --quiet", at);
   CAPTURE(bare.err);
   REQUIRE(bare.code == 0);
   const std::string empty = text_of(at / "out/page/page_page.svg");
   CHECK(empty.find("names no sweep") != std::string::npos);
   CHECK(empty.find("longest leg") == std::string::npos);
-  REQUIRE(gridshell_program({"sweep", "sweep.toml", "--quiet"}, at).code == 0);
+  REQUIRE(gridshell_program("sweep sweep.toml --quiet", at).code == 0);
   // drawn again with the sweep, shells as lines too
-  const Ended drawn = gridshell_program({"render", "out/page", "-o", "again", "--quiet", "--set",
-                                         "page.sweep=out/sweep", "--set", "figure.vector=true"},
-                                        at);
+  const Ended drawn = gridshell_program(
+      "render out/page -o again --quiet --set page.sweep=out/sweep --set figure.vector=true", at);
   CAPTURE(drawn.err);
   REQUIRE(drawn.code == 0);
   const std::string page = text_of(at / "again/page_page.svg");
@@ -98,7 +87,7 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[ful
   CHECK(refused("out/sweep").find("1 of 2 points are there") != std::string::npos);
 }
 
-TEST_CASE("joints measured lie over a state of a page of states", "[full]") {
+TEST_CASE("joints measured lie over a state of a page of states", "[standard]") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
   REQUIRE(write_file(
@@ -106,7 +95,7 @@ TEST_CASE("joints measured lie over a state of a page of states", "[full]") {
       "[footprint]\nkind = \"circle\"\nrods = 6\nlongest_leg = 0.4\n[actuation]\nratio = 0.75\n"
       "[accuracy]\nedges_per_segment = 4\n[jitter]\ntrials = 2\nconfined = 7\n"
       "[page]\nkind = \"fig2\"\n[movie]\nsize = [320, 240]\n[figure]\nquality = \"draft\"\n"));
-  REQUIRE(gridshell_program({"figure", "page.toml", "--quiet"}, at).code == 0);
+  REQUIRE(gridshell_program("figure page.toml --quiet", at).code == 0);
   CHECK(text_of(at / "out/page/page_page.svg").find("joints measured") == std::string::npos);
   const Ended drawn = gridshell_program({"render", "out/page", "-o", "again", "--quiet", "--set",
                                          "figure.scan=[[0, 0, 20], [10, 10, 18]]"},
@@ -120,12 +109,12 @@ TEST_CASE("a search for states has no movie, and damaged tables are refused") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
   REQUIRE(write_file(at / "shell.toml", search));
-  const Ended movie = gridshell_program({"movie", "shell.toml"}, at);
+  const Ended movie = gridshell_program("movie shell.toml", at);
   CHECK(movie.code == 2);
   CHECK(movie.err.find("gridshell figure") != std::string::npos);
-  REQUIRE(gridshell_program({"run", "shell.toml"}, at).code == 0);
+  REQUIRE(gridshell_program("run shell.toml", at).code == 0);
   REQUIRE(write_file(at / "out/shell/states.csv", "state\n"));
-  const Ended damaged = gridshell_program({"render", "out/shell", "-o", "again"}, at);
+  const Ended damaged = gridshell_program("render out/shell -o again", at);
   CHECK(damaged.code == 2);
   CHECK(damaged.err.find("states.csv") != std::string::npos);
 }
@@ -133,7 +122,7 @@ TEST_CASE("a search for states has no movie, and damaged tables are refused") {
 TEST_CASE("keys of a search that its mode does not use are refused with the reason") {
   const TemporaryFolder folder;
   REQUIRE(write_file(folder.path() / "shell.toml", search + "field_N_per_mm = 0.5\n"));
-  const Ended idle = gridshell_program({"check", "shell.toml"}, folder.path());
+  const Ended idle = gridshell_program("check shell.toml", folder.path());
   CHECK(idle.code == 2);
   CHECK(idle.err.find("gravity") != std::string::npos);
 }

@@ -1,16 +1,9 @@
 // `gridshell sweep` as a user runs it: killed, spread, gathered, attacked.
-#include <catch2/catch.hpp>
-#include <cstdlib>
 #include <random>
 
-#include "engine/core/file_io.h"
-#include "tests/app/program.h"
-#include "tests/small_preset.h"
-#include "tests/temporary_folder.h"
+#include "tests/app/bench.h"
 
-namespace fs = std::filesystem;
 using namespace gridshell;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -24,10 +17,10 @@ void write_sweep(const fs::path& folder, int count, const std::string& more = ""
   REQUIRE(write_file(folder / "small.toml", text));
 }
 
-std::string text_of(const fs::path& file) { return read_file(file).value_or(""); }
+std::string text_if_any(const fs::path& file) { return read_file(file).value_or(""); }
 
 std::size_t lines_in(const fs::path& file) {
-  const auto text = text_of(file);
+  const auto text = text_if_any(file);
   return std::size_t(std::count(text.begin(), text.end(), '\n'));
 }
 
@@ -35,7 +28,7 @@ std::size_t lines_in(const fs::path& file) {
 std::vector<std::string> products(const fs::path& folder) {
   std::vector<std::string> texts;
   for (const char* name : {"sweep.csv", "preset.toml", "height_mm.png", "height_mm.svg"})
-    texts.push_back(text_of(folder / name));
+    texts.push_back(text_if_any(folder / name));
   return texts;
 }
 
@@ -71,19 +64,18 @@ TEST_CASE("killing a sweep at any moment loses nothing that was logged") {
   std::mt19937 random(15);
   std::string before;
   for (int kill = 0; kill < 20; ++kill) {
-    const Running running({"sweep", "small.toml", "-o", "cut", "--jobs", "2", "--quiet"},
-                          folder.path());
+    const Running running("sweep small.toml -o cut --jobs 2 --quiet", folder.path());
     std::this_thread::sleep_for(std::chrono::milliseconds(random() % 60));
     running.signal(SIGKILL);
     running.wait();
     // whole lines of before stand where they stood
-    const auto now = text_of(log);
+    const auto now = text_if_any(log);
     const auto whole = before.substr(0, before.rfind('\n') + 1);
     REQUIRE(now.starts_with(whole));
     before = now;
   }
   REQUIRE(sweep(folder, {"-o", "cut"}).code == 0);
-  CHECK(text_of(log).starts_with(before.substr(0, before.rfind('\n') + 1)));
+  CHECK(text_if_any(log).starts_with(before.substr(0, before.rfind('\n') + 1)));
   CHECK(products(folder.path() / "cut") == products(folder.path() / "whole"));
 }
 
@@ -105,7 +97,8 @@ TEST_CASE("shards merge to the same bytes as the whole") {
   CHECK(lines_in(folder.path() / "parts/sweep.jsonl") == 8);
 }
 
-TEST_CASE("a sweep of searches is the same killed, stopped, in shards and on two jobs", "[full]") {
+TEST_CASE("a sweep of searches is the same killed, stopped, in shards and on two jobs",
+          "[standard]") {
   const TemporaryFolder folder;
   const fs::path at = folder.path();
   REQUIRE(write_file(at / "small.toml", R"([footprint]
@@ -127,7 +120,7 @@ footprint.rods = [4, 6]
     std::vector<std::string> texts;
     for (const char* name : {"sweep.csv", "preset.toml", "classes.png", "classes.svg",
                              "classes.pdf", "classes_by_leg.csv", "states.png"})
-      texts.push_back(text_of(at / run / name));
+      texts.push_back(text_if_any(at / run / name));
     return texts;
   };
   REQUIRE(sweep(folder, {"-o", "whole", "--jobs", "1"}).code == 0);
@@ -137,17 +130,17 @@ footprint.rods = [4, 6]
   const auto log = at / "cut/sweep.jsonl";
   std::string before;
   for (int kill = 0; kill < 4; ++kill) {
-    const Running running({"sweep", "small.toml", "-o", "cut", "--jobs", "2", "--quiet"}, at);
+    const Running running("sweep small.toml -o cut --jobs 2 --quiet", at);
     std::this_thread::sleep_for(std::chrono::milliseconds(50 + random() % 200));
     running.signal(SIGKILL);
     running.wait();
     const auto whole = before.substr(0, before.rfind('\n') + 1);
-    REQUIRE(text_of(log).starts_with(whole));
-    before = text_of(log);
+    REQUIRE(text_if_any(log).starts_with(whole));
+    before = text_if_any(log);
   }
   const std::size_t there = std::max<std::size_t>(1, lines_in(log));
   if (there < 5) {
-    const Running running({"sweep", "small.toml", "-o", "cut", "--jobs", "1", "--quiet"}, at);
+    const Running running("sweep small.toml -o cut --jobs 1 --quiet", at);
     REQUIRE(wait_until([&] { return lines_in(log) > there; }));
     running.signal(SIGINT);
     const int code = running.wait().code;
@@ -187,9 +180,8 @@ TEST_CASE("two sweeps into one folder do not meet, another preset is refused") {
   fs::create_directories(folder.path() / "second");
   const auto preset = (folder.path() / "small.toml").string();
   const auto out = (folder.path() / "out").string();
-  const auto second = gridshell_program({"sweep", preset, "-o", out}, folder.path() / "second");
-  CHECK(second.code == 2);
-  CHECK_THAT(second.err, Contains("another sweep is writing it"));
+  check_refused({"sweep", preset, "-o", out}, folder.path() / "second",
+                Contains("another sweep is writing it"));
   first.signal(SIGINT);
   const auto stopped = first.wait();
   CHECK(stopped.code == 130);
@@ -217,7 +209,6 @@ TEST_CASE("what a sweep is asked for in vain is told") {
   refused({"-o", "small.toml"}, "it is a file");
   CHECK(fs::exists(folder.path() / "small.toml"));
   REQUIRE(write_file(folder.path() / "bad.toml", "[sweep.over]\nrod.diameter_mm = []\n"));
-  const auto bad = gridshell_program({"sweep", "bad.toml"}, folder.path());
-  CHECK(bad.code == 2);
-  CHECK_THAT(bad.err, Contains("bad.toml:2:") && Contains("rod.diameter_mm"));
+  check_refused("sweep bad.toml", folder.path(),
+                Contains("bad.toml:2:") && Contains("rod.diameter_mm"));
 }

@@ -2,19 +2,13 @@
 // drawn.
 #include <fmt/format.h>
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <utility>
 
-#include "engine/core/file_io.h"
 #include "render/gl/image.h"
-#include "tests/app/program.h"
-#include "tests/small_preset.h"
-#include "tests/temporary_folder.h"
+#include "tests/app/bench.h"
 
-namespace fs = std::filesystem;
-using gridshell::write_file;
 using nlohmann::json;
 
 namespace {
@@ -37,10 +31,10 @@ json played(const TemporaryFolder& folder, const std::string& input,
 
 /// What `run` makes of the preset that was kept, which has the energy that was told of the shell.
 json run_of_kept(const TemporaryFolder& folder, const json& told) {
-  const Ended ran = gridshell_program({"run", "kept/small_1.toml", "-o", "ran"}, folder.path());
+  const Ended ran = gridshell_program("run kept/small_1.toml -o ran", folder.path());
   INFO(ran.err);
   REQUIRE(ran.code == 0);
-  json summary = json::parse(gridshell::read_file(folder.path() / "ran/summary.json").value());
+  json summary = json::parse(text_of(folder.path() / "ran/summary.json"));
   CHECK(summary["energy_bend_mJ"].get<double>() ==
         Approx(told["energy_bend_mJ"].get<double>()).epsilon(1e-9));
   return summary;
@@ -48,7 +42,8 @@ json run_of_kept(const TemporaryFolder& folder, const json& told) {
 
 }  // namespace
 
-TEST_CASE("a slider dragged in the window moves the boundary, in one step that can be undone") {
+TEST_CASE("a slider dragged in the window moves the boundary, in one step that can be undone",
+          "[standard]") {
   const TemporaryFolder folder;
   const std::string drag =
       "mouse @R_a 0.5 0.5\npress left\nmouse @R_a 0.6 0.5\nmouse @R_a 0.7 0.5\nrelease left\n";
@@ -124,7 +119,8 @@ TEST_CASE("keys do nothing to a shell that is hidden") {
   CHECK(still["gravity"] == false);
 }
 
-TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what they say") {
+TEST_CASE("an edge point dragged by the mouse, a key and a menu's action do what they say",
+          "[standard]") {
   const TemporaryFolder folder;
   const json dragged = played(folder,
                               "do view_top\nmouse @edge:3 0 0\npress left\nmouse @edge:3 8 6\n"
@@ -150,19 +146,17 @@ TEST_CASE("what cannot be done is said in the window, and by the recording's lin
             "nothing_of_the_kind") != std::string::npos);
   const auto refused = [&](const std::string& input) {
     REQUIRE(write_file(folder.path() / "visit.txt", input));
-    return gridshell_program({"view", "small.toml", "--play", "visit.txt"}, folder.path());
+    return gridshell_program("view small.toml --play visit.txt", folder.path());
   };
   CHECK(refused("mouse @nothing 0 0\n").code == 2);
   CHECK(refused("do nothing\n").code == 2);
-  CHECK_THAT(refused("mouse 1 2\npress thumb\n").err, Catch::Contains("visit.txt:2:"));
+  CHECK_THAT(refused("mouse 1 2\npress thumb\n").err, Contains("visit.txt:2:"));
 }
 
 TEST_CASE("camera, colours and panels come back on the next visit, where they are kept") {
   const TemporaryFolder folder;
   played(folder, "do view_top\ndo dark\ndo colour_energy\n", {"--workspace", "kept/desk.json"});
-  const auto kept = [&] {
-    return json::parse(gridshell::read_file(folder.path() / "kept/desk.json").value());
-  };
+  const auto kept = [&] { return json::parse(text_of(folder.path() / "kept/desk.json")); };
   const json first = kept();
   CHECK(first["camera"]["elevation_deg"] == 90);
   CHECK(first["shown"]["dark"] == true);
@@ -179,8 +173,8 @@ TEST_CASE("every panel, light and dark, at twice the density") {
   CHECK(gridshell::render::read_png(folder.path() / "all.png")->width == 2560);
 }
 
-TEST_CASE(
-    "a shell is designed in the window, kept and saved with its tables, and runs as it stood") {
+TEST_CASE("a shell is designed in the window, kept and saved with its tables, and runs as it stood",
+          "[standard]") {
   const std::string cap =
       "title = \"cap\"\n[footprint]\nkind = \"net\"\nplacement = \"on_axis\"\n"
       "[net]\nkind = \"sphere\"\nradius_mm = 80.0\ncut_height = 0.5\n"
@@ -205,11 +199,10 @@ TEST_CASE(
   CHECK(kept["design"]["kept"] == true);
   CHECK(fs::exists(folder.path() / "kept/small_1_ends.csv"));
   CHECK(fs::exists(folder.path() / "kept/small_1_rods.csv"));
-  const Ended ran = gridshell_program({"run", "kept/small_1.toml", "-o", "ran"}, folder.path());
+  const Ended ran = gridshell_program("run kept/small_1.toml -o ran", folder.path());
   INFO(ran.err);
   REQUIRE(ran.code == 0);
-  const json summary =
-      json::parse(gridshell::read_file(folder.path() / "ran/summary.json").value());
+  const json summary = json::parse(text_of(folder.path() / "ran/summary.json"));
   CHECK(summary["energy_bend_mJ"].get<double>() ==
         Approx(kept["energy_bend_mJ"].get<double>()).epsilon(1e-7));
   CHECK(summary["height_mm"].get<double>() ==
@@ -222,7 +215,7 @@ TEST_CASE(
   CHECK(refused["message"].get<std::string>().find("not designed on a net") != std::string::npos);
 }
 
-TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undone", "[full]") {
+TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undone", "[standard]") {
   // more events by GRIDSHELL_TRIALS, others by GRIDSHELL_SEED
   const auto number = [](const char* name, unsigned usual) {
     const char* given = std::getenv(name);
@@ -277,12 +270,11 @@ TEST_CASE("a movie of what was done is made beside the window, and a picture of 
   REQUIRE(picture);
   CHECK((picture->width == 320 && picture->height == 180));
   CHECK(fs::exists(folder.path() / "kept/small_1/frames/frame_00001.png"));
-  const json made =
-      json::parse(gridshell::read_file(folder.path() / "kept/small_1/summary.json").value());
+  const json made = json::parse(text_of(folder.path() / "kept/small_1/summary.json"));
   CHECK(made["energy_bend_mJ"].get<double>() ==
         Approx(told["energy_bend_mJ"].get<double>()).epsilon(1e-9));
   // the preset that it is of runs by itself
-  CHECK(gridshell_program({"check", "kept/small_1.toml"}, folder.path()).code == 0);
+  CHECK(gridshell_program("check kept/small_1.toml", folder.path()).code == 0);
 }
 
 TEST_CASE("the shell alone is drawn off-screen, with its legend or bare") {
@@ -316,20 +308,20 @@ TEST_CASE("without a display the window says what to do instead") {
   const char* display = std::getenv("DISPLAY");
   const std::string before = display ? display : "";
   setenv("DISPLAY", ":nowhere", 1);
-  const Ended ended = gridshell_program({"view"}, folder.path());
+  const Ended ended = gridshell_program("view", folder.path());
   if (display)
     setenv("DISPLAY", before.c_str(), 1);
   else
     unsetenv("DISPLAY");
   CHECK(ended.code == 1);
-  CHECK_THAT(ended.err, Catch::Contains("--play"));
+  CHECK_THAT(ended.err, Contains("--play"));
   CHECK(std::count(ended.err.begin(), ended.err.end(), '\n') == 1);
 }
 
 TEST_CASE("a bench drags by itself and prints its four figures") {
   const TemporaryFolder folder;
   REQUIRE(write_file(folder.path() / "small.toml", shell));
-  const Ended ended = gridshell_program({"view", "small.toml", "--bench", "0.5"}, folder.path());
+  const Ended ended = gridshell_program("view small.toml --bench 0.5", folder.path());
   REQUIRE(ended.code == 0);
   const json line = json::parse(ended.out);
   CHECK(line["interface_fps"].get<double>() > 0);

@@ -48,12 +48,12 @@ constexpr double allowed_MB = 500;
 
 }  // namespace
 
-TEST_CASE("hostile presets are answered", "[full][presets]") {
+TEST_CASE("hostile presets are answered", "[standard][presets]") {
   const TemporaryFolder folder;
   const auto& at = folder.path();
   REQUIRE(mkfifo((at / "fifo").c_str(), 0600) == 0);
   std::map<int, int> checked, ran;
-  for (int trial = 0; trial < trials(80); ++trial) {
+  for (int trial = 0; trial < trials(20); ++trial) {
     Draw draw(trial);
     const auto preset = hostile_preset(draw);
     INFO("trial " << trial);

@@ -35,7 +35,7 @@ void check_left(const fs::path& folder, bool killed) {
 
 }  // namespace
 
-TEST_CASE("signals at any moment are answered, and nothing is lost", "[full][signals]") {
+TEST_CASE("signals at any moment are answered, and nothing is lost", "[standard][signals]") {
   const TemporaryFolder folder;
   const auto& at = folder.path();
   REQUIRE(write_file(at / "small.toml", small));
@@ -48,7 +48,7 @@ TEST_CASE("signals at any moment are answered, and nothing is lost", "[full][sig
       {"run", "s3_pole_inward", "-o", "new"},    {"render", "old", "-o", "new"}};
   std::map<int, int> codes;
   double slowest = 0;
-  for (int trial = 0; trial < trials(30); ++trial) {
+  for (int trial = 0; trial < trials(8); ++trial) {
     Draw draw(trial);
     const auto command = draw.of(commands);
     const int number = draw.of(std::vector<int>{SIGINT, SIGTERM, SIGHUP, SIGINT, SIGKILL});

@@ -8,6 +8,16 @@
 #include <string>
 #include <vector>
 
+/// The words between " | ".
+inline std::vector<std::string> listed(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0, end = 0; end != text.npos; at = end + 3) {
+    end = text.find(" | ", at);
+    words.push_back(text.substr(at, end - at));
+  }
+  return words;
+}
+
 /// GRIDSHELL_TRIALS, or `few`.
 inline int trials(int few) {
   const char* asked = std::getenv("GRIDSHELL_TRIALS");

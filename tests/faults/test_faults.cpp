@@ -161,7 +161,7 @@ class Bench {
 
 }  // namespace
 
-TEST_CASE("every write, rename and mkdir of a run fails once, and nothing is lost", "[full]") {
+TEST_CASE("every write, rename and mkdir of a run fails once, and nothing is lost", "[standard]") {
   const Bench bench(app::Pictures::none);
   for (const Call kind : {Call::write, Call::rename, Call::mkdir}) {
     const long calls = bench.count(kind);
@@ -183,12 +183,12 @@ TEST_CASE("every solve of a movie fails once, and nothing false is written", "[f
   Bench(app::Pictures::movie).try_out_solves();
 }
 
-TEST_CASE("every solve of a push fails once, and nothing false is written", "[full]") {
+TEST_CASE("every solve of a push fails once, and nothing false is written", "[standard]") {
   Bench(app::Pictures::none, small + "[indentation]\nat = \"highest\"\ndepth_mm = 0.5\n")
       .try_out_solves();
 }
 
-TEST_CASE("every solve on the twist rung fails once, and nothing false is written", "[full]") {
+TEST_CASE("every solve on the twist rung fails once, and nothing false is written", "[standard]") {
   Bench(app::Pictures::none, small + "[ends]\nkind = \"clamped\"\n[rod]\nshear_GPa = 31.0\n")
       .try_out_solves();
 }

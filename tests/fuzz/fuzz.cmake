@@ -34,6 +34,6 @@ elseif(GRIDSHELL_TESTS AND GRIDSHELL_PICTURES)
   target_link_libraries(test_fuzz PRIVATE gridshell_render gridshell_engine PkgConfig::HDF5
     Catch2::Catch2WithMain)
   target_compile_definitions(test_fuzz PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  catch_discover_tests(test_fuzz TEST_SPEC "[full]" EXTRA_ARGS --warn NoTests
-    PROPERTIES LABELS full TIMEOUT 600)
+  catch_discover_tests(test_fuzz EXTRA_ARGS --warn NoTests
+    PROPERTIES LABELS quick TIMEOUT ${quick_seconds})
 endif()

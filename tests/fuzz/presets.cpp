@@ -7,7 +7,6 @@
 #include "engine/formats/surface_file.h"
 #include "engine/geometry/surface.h"
 #include "engine/preset/preset_file.h"
-#include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 
 namespace gridshell::fuzz {

@@ -11,7 +11,6 @@
 #include "engine/record/summary.h"
 #include "engine/record/trajectory_file.h"
 #include "tests/engine/record/sample_run.h"
-#include "tests/fuzz/input_file.h"
 #include "tests/fuzz/targets.h"
 #include "tests/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-// The tables of searches and the logs of sweeps.
+// The tables of searches, the logs of sweeps, and pictures.
 #include <fmt/format.h>
 
 #include <array>
@@ -7,7 +7,7 @@
 #include "engine/core/file_io.h"
 #include "engine/record/states.h"
 #include "engine/record/sweep_results.h"
-#include "tests/fuzz/input_file.h"
+#include "render/gl/image.h"
 #include "tests/fuzz/targets.h"
 #include "tests/temporary_folder.h"
 
@@ -54,6 +54,11 @@ void sweep_log(std::string_view bytes) {
   }
   const InputFile file(text);
   (void)read_sweep_log(file.path());
+}
+
+void png(std::string_view bytes) {
+  const InputFile file(bytes);
+  (void)render::read_png(file.path());
 }
 
 }  // namespace gridshell::fuzz

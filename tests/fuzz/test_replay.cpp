@@ -8,7 +8,7 @@
 
 namespace fs = std::filesystem;
 
-TEST_CASE("the kept inputs of all fuzzers are read without harm", "[full]") {
+TEST_CASE("the kept inputs of all fuzzers are read without harm") {
   for (const auto& target : gridshell::fuzz::targets) {
     const auto folder = fs::path(GRIDSHELL_SOURCE_DIR) / "tests/fuzz/corpus" / target.name;
     int inputs = 0;

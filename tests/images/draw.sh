@@ -1,24 +1,26 @@
 #!/bin/sh
-# tests/images/draw.sh PROGRAM FOLDER [OPTIONS]: draws all that list.txt names into FOLDER, and what
-# the window shows after each of visits; pictures alone. To keep them: PROGRAM compare tests/images FOLDER --update --why "..."
-# RUNS=FOLDER keeps the runs that they are of.
+# tests/images/draw.sh PROGRAM FOLDER [NAME...]: makes what list.txt says of each NAME anew, a whole run with
+# its pictures in FOLDER/NAME and what the program says of it in FOLDER/NAME.txt. The name `window` stands for
+# what the window shows at the end of each visit that is recorded in visits: FOLDER/window/VISIT.png. Without
+# names all of them, with $OPTIONS for the program. To keep the pictures:
+#   PROGRAM compare tests/images FOLDER --update --why "..."
 set -e
 program=$1 folder=$2 here=$(dirname "$0")
 shift 2
 mkdir -p "$folder"
-if [ -n "$RUNS" ]; then
-  work=$RUNS
-  mkdir -p "$work"
-else
-  work=$(mktemp -d)
-  trap 'rm -rf "$work"' EXIT
-fi
-grep -v '^#' "$here/list.txt" | while IFS=: read -r name arguments; do
-  # shellcheck disable=SC2086
-  "$program" $arguments -o "$work/$name" --quiet "$@" || echo "$name: exit code $?" >&2
-  (cd "$work" && find "$name" -name '*.png') | while read -r kept; do
-    mkdir -p "$folder/$(dirname "$kept")"
-    cp "$work/$kept" "$folder/$kept"
-  done
+# shellcheck disable=SC2046
+[ $# -gt 0 ] || set -- $(sed -n 's/^\([a-z][^:]*\):.*/\1/p' "$here/list.txt") window
+for name in "$@"; do
+  rm -rf "${folder:?}/$name" "$folder/$name.txt"
+  if [ "$name" = window ]; then
+    mkdir "$folder/window"
+    for visit in "$here"/visits/*.txt; do
+      # shellcheck disable=SC2086
+      "$program" view --play "$visit" --shot "$folder/window/$(basename "$visit" .txt).png" $OPTIONS >/dev/null
+    done
+  else
+    arguments=$(sed -n "s/^$name: //p" "$here/list.txt")
+    # shellcheck disable=SC2086
+    "$program" ${arguments:?no line of that name in list.txt} -o "$folder/$name" $OPTIONS >"$folder/$name.txt"
+  fi
 done
-"$here/visits.sh" "$program" "$folder" "$@"

@@ -63,7 +63,8 @@ TEST_CASE("stability: dynamic relaxation holds to its limit step") {
   CHECK(at(rows, "dynamic relaxation", 1.2, 2) == RunOutcome::blow_up);
 }
 
-TEST_CASE("stability: Newton's full steps need many load steps, a shift fewer, the default none") {
+TEST_CASE("stability: Newton's full steps need many load steps, a shift fewer, the default none",
+          "[standard]") {
   // on 2 edges a segment it hangs on round-off whether three full steps arrive
   const auto rows = outcomes_of(newton_map(small_case(), {1, 3, 30}, {4, 8}));
   for (double edges : {4.0, 8.0}) {

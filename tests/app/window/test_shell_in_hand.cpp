@@ -121,8 +121,8 @@ TEST_CASE("steps that are put aside into a file are undone and done again to the
   hand.execute({Open{small_shell()}}, unwatched);
   hand.refine(unwatched);
   std::vector<ShellView> seen{hand.sight()};
-  const auto act = [&](const Edit& deed) {
-    hand.execute({deed}, unwatched);
+  const auto act = [&](const Edit& edit) {
+    hand.execute({edit}, unwatched);
     hand.refine(unwatched);
     REQUIRE(hand.sight().trouble == "");
     seen.push_back(hand.sight());
@@ -173,7 +173,8 @@ preset::Preset saved(const ShellView& sight) {
   return preset;
 }
 
-TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run comes to it") {
+TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run comes to it",
+          "[standard]") {
   preset::Preset shell = small_shell();
   shell.footprint.rods = 8;
   shell.footprint.radius_mm = 88;
@@ -208,7 +209,8 @@ TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run come
   CHECK(elsewhere > 0);
 }
 
-TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same state", "[full]") {
+TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same state",
+          "[standard]") {
   EditSession hand = formed();
   const ShellView begun = hand.sight();
   const auto place = [&](int joint) -> Eigen::Vector3d {
@@ -324,7 +326,9 @@ TEST_CASE("a wish that cannot be met leaves the last good shell and says why") {
   hand.execute({Change{wrong}}, unwatched);
   CHECK(hand.sight().trouble != "");
   CHECK(difference(hand.sight(), before) == 0);
-  hand.execute({Push{-3, {}, {}}}, unwatched);
+  Push no_joint;
+  no_joint.joint = -3;
+  hand.execute({no_joint}, unwatched);
   CHECK(hand.sight().trouble != "");
   hand.execute({Redo{}}, unwatched);
   CHECK(hand.sight().trouble == "there is nothing to do again");
@@ -333,9 +337,10 @@ TEST_CASE("a wish that cannot be met leaves the last good shell and says why") {
 
 TEST_CASE("without a shell there is nothing to do") {
   EditSession hand;
-  for (const Edit& deed : {Edit{Move{0.5}}, Edit{Push{}}, Edit{Release{}}, Edit{DragEdge{}},
-                           Edit{Rest{}}, Edit{Jitter{}}, Edit{Undo{}}, Edit{Redo{}}}) {
-    hand.execute({deed}, unwatched);
+  const std::vector<Edit> edits{Move{0.5}, Push{},   Release{}, DragEdge{},
+                                Rest{},    Jitter{}, Undo{},    Redo{}};
+  for (const Edit& edit : edits) {
+    hand.execute({edit}, unwatched);
     CHECK(hand.sight().trouble != "");
     CHECK_FALSE(hand.sight().any());
   }

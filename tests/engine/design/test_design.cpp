@@ -119,7 +119,7 @@ TEST_CASE("joints and leg forces follow pins, legs and directions as states solv
   check_sensitivity(ring, {Vary::pins_3d, Vary::legs}, 8);
 }
 
-TEST_CASE("the same on the meshes that are designed on and certified", "[full]") {
+TEST_CASE("the same on the meshes that are designed on and certified", "[standard]") {
   for (const int edges : {16, 32}) {
     check_sensitivity(cap(0), {Vary::pins}, edges);
     check_sensitivity(cap(0), {Vary::legs}, edges);
@@ -274,7 +274,7 @@ TEST_CASE("what cannot be designed is refused") {
   CHECK(twisted.error().message.find("bend rung") != std::string::npos);
 }
 
-TEST_CASE("a hemisphere meets its sphere by its pins in the plane", "[full]") {
+TEST_CASE("a hemisphere meets its sphere by its pins in the plane", "[standard]") {
   check_met(designed(cap(0), {Vary::pins}), 0.28, 0.14);
 }
 

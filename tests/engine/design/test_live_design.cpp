@@ -50,7 +50,7 @@ Result<LiveDesignResult> live(const preset::Preset& preset, const Watch& watch, 
 
 }  // namespace
 
-TEST_CASE("a design that is watched hands over every step that both meshes hold") {
+TEST_CASE("a design that is watched hands over every step that both meshes hold", "[standard]") {
   Handed handed;
   const auto end = live(low_cap(), unwatched, handed);
   REQUIRE(end.has_value());

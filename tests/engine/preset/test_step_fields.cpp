@@ -34,7 +34,7 @@ TEST_CASE("steps are read in their order, each with defaults of its own") {
   REQUIRE(presets);
   const auto& steps = presets->base.step;
   REQUIRE(steps.size() == 2);
-  CHECK(steps[0].deed == StepKind::push);
+  CHECK(steps[0].kind == StepKind::push);
   CHECK(steps[0].joint == std::vector{1, -2});
   CHECK(steps[0].to_mm == std::vector{10.5, -3.0, 40.25});
   CHECK(steps[1].progress == 0.5);

@@ -143,7 +143,7 @@ Preset pushed(bool joint) {
 std::vector<Preset> stepped() {
   std::vector<Step> steps;
   const auto add = [&](StepKind deed) -> Step& {
-    steps.emplace_back().deed = deed;
+    steps.emplace_back().kind = deed;
     if (deed != StepKind::move) steps.back().joint = {3, -2};
     return steps.back();
   };
@@ -162,7 +162,7 @@ std::vector<Preset> stepped() {
   steps.back().force_N = 0.11;
   std::vector<Preset> all;
   for (Step& step : steps) {
-    if (step.deed > StepKind::release) step.joint.clear();
+    if (step.kind > StepKind::release) step.joint.clear();
     all.emplace_back().step = {step};
   }
   return all;

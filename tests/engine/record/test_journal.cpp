@@ -81,7 +81,7 @@ TEST_CASE("frames come back from a journal in order of their index, bit for bit"
   CHECK(frames[2].event == run.frames[2].event);
 }
 
-TEST_CASE("a journal cut anywhere reads up to its last whole frame") {
+TEST_CASE("a journal cut anywhere reads up to its last whole frame", "[standard]") {
   const std::string whole = journal_of(4), three = journal_of(3), none = journal_of(0);
   const std::size_t a_frame = whole.size() - three.size();
   REQUIRE(three.size() == none.size() + 3 * a_frame);

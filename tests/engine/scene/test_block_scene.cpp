@@ -52,7 +52,8 @@ TEST_CASE("two quarter-spheres come to rest as the hemisphere does") {
   CHECK(joined.max_seam_kink_deg < 1e-6);
 }
 
-TEST_CASE("a cylinder between quarter-spheres: certified, near its blocks, all of it recorded") {
+TEST_CASE("a cylinder between quarter-spheres: certified, near its blocks, all of it recorded",
+          "[standard]") {
   const std::string text = R"(
 [blocks]
 max_gap_mm = 7.0

@@ -78,7 +78,7 @@ preset::Preset shipped(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[full]") {
+TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[standard]") {
   const Watch watch;
   Session circle = open(fig1());
   for (const double turn : {0.0, 0.3}) {
@@ -123,7 +123,7 @@ TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[fu
   }
 }
 
-TEST_CASE("the shipped networks come to certified rest", "[full]") {
+TEST_CASE("the shipped networks come to certified rest", "[standard]") {
   for (const char* name :
        {"network_triaxial", "network_cut", "network_ring", "network_kagome", "network_space"}) {
     const auto outcome = run_stills(shipped(name));

@@ -73,7 +73,7 @@ TEST_CASE("rods on a sphere curve towards its centre, in the middle of the net a
       }
 }
 
-TEST_CASE("a second ring of 10 mm keeps the hemisphere on its sphere", "[full]") {
+TEST_CASE("a second ring of 10 mm keeps the hemisphere on its sphere", "[standard]") {
   const Eigen::Vector2d without = at_rest(0, plan_of_mesh(32)),
                         with = at_rest(10, plan_of_mesh(32));
   CHECK(without[0] == Approx(3.10).margin(0.01));
@@ -102,7 +102,8 @@ TEST_CASE("on the way from the flat far ends turn about their edge points at the
   }
 }
 
-TEST_CASE("a cap with a second ring comes to one state from the flat and from the net", "[full]") {
+TEST_CASE("a cap with a second ring comes to one state from the flat and from the net",
+          "[standard]") {
   auto preset = cap(0.6, 10);
   const LevelPlan plan = plan_of_mesh(8);
   auto from_net = Session::open(scene_with(preset), plan);
@@ -116,7 +117,7 @@ TEST_CASE("a cap with a second ring comes to one state from the flat and from th
   CHECK((from_net->nodes() - from_flat->nodes()).colwise().norm().maxCoeff() < 1e-5);
 }
 
-TEST_CASE("a second ring of rods that may twist gives the same shell", "[full]") {
+TEST_CASE("a second ring of rods that may twist gives the same shell", "[standard]") {
   auto twisted = cap(0.6, 8);
   twisted.rod.shear_GPa = 31;
   twisted.accuracy.model = RodModel::twist;

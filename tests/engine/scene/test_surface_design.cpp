@@ -101,7 +101,8 @@ TEST_CASE("a surface that makes no net is refused with what is wrong") {
       "crossed more than once");
 }
 
-TEST_CASE("heights and meshes of a cap have the sphere's own footprint and boundary", "[full]") {
+TEST_CASE("heights and meshes of a cap have the sphere's own footprint and boundary",
+          "[standard]") {
   const auto there = scene_of(on_net());
   REQUIRE(there.has_value());
   auto p = on_surface();

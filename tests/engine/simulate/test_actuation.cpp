@@ -59,7 +59,8 @@ double corner_on_diagonal(const record::Trajectory& trajectory, double s) {
 
 }  // namespace
 
-TEST_CASE("actuation of Fig. 1 ends in the state with two diagonal mirrors, at its energy") {
+TEST_CASE("actuation of Fig. 1 ends in the state with two diagonal mirrors, at its energy",
+          "[standard]") {
   const experiment::ExperimentResult outcome = run(fig1(2, 1e-6));
   const record::Summary& s = outcome.summary;
   CHECK(s.stable);
@@ -107,7 +108,8 @@ TEST_CASE("the last frame does not depend on how many frames are asked for") {
   }
 }
 
-TEST_CASE("joints and energy converge at second order, extrapolated they agree with the estimate") {
+TEST_CASE("joints and energy converge at second order, extrapolated they agree with the estimate",
+          "[standard]") {
   const auto at = [](int edges) {
     preset::Preset p = fig1(2, 1e-3);
     p.accuracy.edges_per_segment = edges;
@@ -151,7 +153,7 @@ TEST_CASE("the flat footprint is the first frame: at rest, stable, without curva
   CHECK(flat.total_K == 0);
 }
 
-TEST_CASE("the same run twice is the same to the last bit") {
+TEST_CASE("the same run twice is the same to the last bit", "[standard]") {
   const experiment::ExperimentResult a = run(fig1(6, 1e-4)), b = run(fig1(6, 1e-4));
   for (std::size_t k = 0; k < a.trajectory.frames.size(); ++k) {
     CHECK(a.trajectory.frames[k].nodes == b.trajectory.frames[k].nodes);

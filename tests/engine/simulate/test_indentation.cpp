@@ -124,7 +124,7 @@ TEST_CASE("pole cases keep four mirror planes, at half placement one diagonal") 
   CHECK(mirror_defect(joints, {half, half}) > 1e-2 * 120);
 }
 
-TEST_CASE("force, total K and reach converge at second order over three meshes", "[full]") {
+TEST_CASE("force, total K and reach converge at second order over three meshes", "[standard]") {
   for (const double radius : {76.394, 120.0})
     for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
       for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
@@ -148,7 +148,7 @@ TEST_CASE("force, total K and reach converge at second order over three meshes",
 }
 
 TEST_CASE("outward at the pole the rods run into their length: locking, certified up to there",
-          "[full]") {
+          "[standard]") {
   const experiment::ExperimentResult few =
       run(hemisphere(Case::pole_outward, 120, preset::Placement::on_axis, 0.4, 3));
   const experiment::ExperimentResult many =
@@ -167,7 +167,7 @@ TEST_CASE("outward at the pole the rods run into their length: locking, certifie
         Approx(many.trajectory.frames.back().depth_mm).margin(1e-2));
 }
 
-TEST_CASE("deep pushes end certified or at a named limit", "[full]") {
+TEST_CASE("deep pushes end certified or at a named limit", "[standard]") {
   for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
     for (const Case which : {Case::pole_inward, Case::oblique_inward}) {
       const experiment::ExperimentResult outcome = run(hemisphere(which, 120, placement, 0.6, 31));
@@ -181,7 +181,7 @@ TEST_CASE("deep pushes end certified or at a named limit", "[full]") {
     }
 }
 
-TEST_CASE("unloading follows the way back, after a snap on another branch", "[full]") {
+TEST_CASE("unloading follows the way back, after a snap on another branch", "[standard]") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, preset::Placement::on_axis, 0.1, 9);
   p.indentation.unload = true;
   const experiment::ExperimentResult there_and_back = run(p);

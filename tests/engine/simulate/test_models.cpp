@@ -170,7 +170,7 @@ TEST_CASE("the net rung says that nothing was solved for") {
   CHECK(distance(net, run(p)) < 0.05 * p.net.radius_mm);
 }
 
-TEST_CASE("a push that snaps is followed in time to the rest that ends it", "[full]") {
+TEST_CASE("a push that snaps is followed in time to the rest that ends it", "[standard]") {
   preset::Preset p;
   p.imperfection.size = 0;  // the state with two mirrors
   p.rod.density_kg_m3 = 6450;

@@ -50,7 +50,8 @@ Eigen::Matrix3Xd joints_of(const Session& session) {
 
 }  // namespace
 
-TEST_CASE("stiff springs come to what held supports have, the distance falling as 1/k", "[full]") {
+TEST_CASE("stiff springs come to what held supports have, the distance falling as 1/k",
+          "[standard]") {
   // so little that no branch is left on the way
   constexpr double scale = 0.99, shortening = 0.005;
   for (const auto rung : {RodModel::bend, RodModel::twist}) {

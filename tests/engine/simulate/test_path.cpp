@@ -140,7 +140,7 @@ TEST_CASE("a snap that only the coarsest mesh sees is none of the shell") {
 }
 
 TEST_CASE("a loss of stability that two leading meshes see and the finest does not is none",
-          "[full]") {
+          "[standard]") {
   // the smallest eigenvalue comes within a tenth of its size to zero: 4, 5 and 10 edges cross it,
   // 16 and 20 do not
   preset::Preset p = circle(9, 109.05474771559238, 90.57544489549078);
@@ -167,7 +167,7 @@ TEST_CASE("stability lost and regained within one load step is not stepped over"
 }
 
 TEST_CASE("the path from flat enters a branch by the imperfection, not by where it was begun",
-          "[full]") {
+          "[standard]") {
   // at 2 % the dome of 4 edges already lies on one of the two branches that leave at progress 0.02
   const preset::Preset p =
       drawn_ellipse(79.2370704561472, 114.96512576937675, 0.7743109990656376, 1.47e-3);
@@ -194,7 +194,8 @@ TEST_CASE("a frame lies on the path's own branch on every mesh") {
   }
 }
 
-TEST_CASE("frames change nothing: the same events, the same end, with 2, 5 and 9 of them") {
+TEST_CASE("frames change nothing: the same events, the same end, with 2, 5 and 9 of them",
+          "[standard]") {
   const auto first = run(ellipse(2));
   for (int frames : {5, 9}) {
     const auto outcome = run(ellipse(frames));
@@ -205,7 +206,7 @@ TEST_CASE("frames change nothing: the same events, the same end, with 2, 5 and 9
   }
 }
 
-TEST_CASE("frames change nothing of a push: 5 and 11 of them end in one state", "[full]") {
+TEST_CASE("frames change nothing of a push: 5 and 11 of them end in one state", "[standard]") {
   const auto pushed = [](int frames) {
     preset::Preset p = fig1(frames);
     p.indentation.at = preset::IndentationPlace::highest;
@@ -258,7 +259,7 @@ TEST_CASE(
   CHECK(run(p).summary.stable);
 }
 
-TEST_CASE("a saddle from flat loses its branch where two leading meshes say") {
+TEST_CASE("a saddle from flat loses its branch where two leading meshes say", "[standard]") {
   Watch watch;
   const auto scene =
       std::make_shared<const Scene>(scene_of(saddle(preset::Start::flat, 2)).value());
@@ -273,7 +274,7 @@ TEST_CASE("a saddle from flat loses its branch where two leading meshes say") {
 }
 
 TEST_CASE("the frame after a jump is the one that tells it, and it jumps where that is told",
-          "[full]") {
+          "[standard]") {
   // of two jumps the second is a turn of the path, which a leader of twice the edges sees later
   preset::Preset p = ellipse(60);
   p.footprint.placement = preset::Placement::on_axis;
@@ -348,7 +349,7 @@ TEST_CASE(
   CHECK(last.energies[Term::bend] == Approx(43.24).margin(0.02));
 }
 
-TEST_CASE("a lost branch is left to the side of the imperfection on every mesh", "[full]") {
+TEST_CASE("a lost branch is left to the side of the imperfection on every mesh", "[standard]") {
   // pushed off a state that is no equilibrium, meshes of 5, 6 and 7 edges went to the mirror image
   preset::Preset p = on_net({});
   p.net.kind = preset::NetKind::sphere;

@@ -71,7 +71,7 @@ TEST_CASE("one single step asked for, and many, end in one state") {
               .maxCoeff() < 15);
 }
 
-TEST_CASE("EA from a hundredth to ten thousand times: the same state, or a reason") {
+TEST_CASE("EA from a hundredth to ten thousand times: the same state, or a reason", "[standard]") {
   const double reference = end_of(fig1())->trajectory.frames.back().energies[Term::bend];
   for (double scale : {1e-2, 1e-1, 1e1, 1e2, 1e4}) {
     Scene scene = *fig1();
@@ -104,7 +104,7 @@ TEST_CASE("legs down to a ten-thousandth of a cell: certified, or a reason") {
   CHECK(certified >= 2);
 }
 
-TEST_CASE("tolerances from 1e-2 to 1e-7 give one state") {
+TEST_CASE("tolerances from 1e-2 to 1e-7 give one state", "[standard]") {
   const auto exact = end_of(fig1(1e-7));
   REQUIRE(certified_or_named(exact));
   const auto& reference = exact->trajectory.frames.back();

@@ -23,7 +23,7 @@ preset::Preset small_shell_on_four_edges() {
 
 preset::Step of(StepKind deed) {
   preset::Step step;
-  step.deed = deed;
+  step.kind = deed;
   return step;
 }
 

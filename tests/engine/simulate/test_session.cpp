@@ -216,7 +216,7 @@ TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and
   CHECK(max_column_norm(session.nodes().leftCols(joints) - plain.leftCols(joints)) < 2 * estimate);
 }
 
-TEST_CASE("a session of 24 rods answers a wish to stop within 0.2 s on both rungs", "[full]") {
+TEST_CASE("a session of 24 rods answers a wish to stop within 0.2 s on both rungs", "[standard]") {
   const auto model = GENERATE(RodModel::bend, RodModel::twist);
   preset::Preset p = six_rods(1e-3, model);
   p.footprint.rods = 24;

@@ -124,7 +124,7 @@ TEST_CASE("twist rung: a rod curved and twisted at rest is the exact helix witho
   }
 }
 
-TEST_CASE("twist rung: the localised helix of a long twisted rod", "[full]") {
+TEST_CASE("twist rung: the localised helix of a long twisted rod", "[standard]") {
   // [Bergou 2008, section 8]; the envelope's closed form is [van der Heijden, Thompson 2000]
   const double L = 100, bending = 1.345, torsion = 0.789, slack = 3, turns = 27;
   const int edges = 400;

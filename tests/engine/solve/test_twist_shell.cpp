@@ -70,7 +70,7 @@ TEST_CASE("twist rung: the shell of Fig. 1 from random angles is the bend rung's
 }
 
 TEST_CASE("twist rung: the shell of Fig. 1 from random angles is the bend rung's, 16 edges",
-          "[full]") {
+          "[standard]") {
   double twist = 0, seconds = 0;
   const double off = distance_of_rungs(16, twist, seconds);
   CAPTURE(off, twist, seconds);

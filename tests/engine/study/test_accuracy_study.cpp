@@ -41,7 +41,7 @@ TEST_CASE("a case starts and ends every mesh on the branch of its reference") {
 }
 
 TEST_CASE("every method comes to the same state of its mesh, the error falls with the edges",
-          "[full]") {
+          "[standard]") {
   Watch watch;
   AccuracyOptions options;
   options.seconds = 20;

@@ -23,7 +23,7 @@ double ratio(const BranchPoint& point) { return point.boundary_radius_mm / 126; 
 
 }  // namespace
 
-TEST_CASE("the shell of Fig. 1 loses its two mirrors near the flat", "[full]") {
+TEST_CASE("the shell of Fig. 1 loses its two mirrors near the flat", "[standard]") {
   const auto found = diagram_of("[accuracy]\nedges_per_segment = 4\n");
   REQUIRE(found);
   CHECK(found->symmetry_order == 4);

@@ -106,7 +106,7 @@ TEST_CASE("states tell all that their energy is made of") {
   }
 }
 
-TEST_CASE("states: the three of the paper at twelve rods, in their order", "[full]") {
+TEST_CASE("states: the three of the paper at twelve rods, in their order", "[standard]") {
   preset::Preset p = shell(12);
   p.accuracy = {};
   p.accuracy.tolerance = 1e-4;

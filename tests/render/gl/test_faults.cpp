@@ -135,7 +135,7 @@ Change shaken(double size_mm, int seed) {
 
 }  // namespace
 
-TEST_CASE("the metric catches every injected fault", "[image]") {
+TEST_CASE("the metric catches every injected fault", "[image][image][standard]") {
   Easel paint;
   const Image good = paint(Subject());
   CHECK(faults().size() >= 20);
@@ -169,7 +169,7 @@ TEST_CASE("the metric catches a single lost joint", "[image]") {
   CHECK_FALSE(worst->same());
 }
 
-TEST_CASE("the metric passes every harmless variation", "[image]") {
+TEST_CASE("the metric passes every harmless variation", "[image][image][standard]") {
   Easel paint;
   const Image good = paint(Subject());
   int variations = 0, changed = 0;

@@ -41,7 +41,7 @@ int changed(const Image& a, const Image& b) {
 
 }  // namespace
 
-TEST_CASE("a rod that is missing changes the picture", "[draw]") {
+TEST_CASE("a rod that is missing changes the picture", "[draw][draw][standard]") {
   auto studio = open_studio();
   auto run = synthetic::dome(2, 4);
   const Image whole = drawn(studio, test::dome_drawing(run));
@@ -141,7 +141,7 @@ TEST_CASE("translucent ghosts lie behind nothing but what is nearer", "[draw]") 
   CHECK(changed(with, without) < 320 * 180 / 4);
 }
 
-TEST_CASE("odd sizes, a pixel and many passes are drawn", "[draw]") {
+TEST_CASE("odd sizes, a pixel and many passes are drawn", "[draw][draw][standard]") {
   auto studio = open_studio();
   const auto run = synthetic::dome(2, 2);
   const Drawing drawing = test::dome_drawing(run);
@@ -175,7 +175,7 @@ TEST_CASE("a picture in tiles is the picture in one piece", "[draw]") {
   CHECK(worst < 24);
 }
 
-TEST_CASE("a still of 3840 x 2160 pixels", "[draw][full]") {
+TEST_CASE("a still of 3840 x 2160 pixels", "[draw][draw][standard]") {
   auto studio = open_studio();
   const auto run = synthetic::dome(2, 4);
   const Drawing drawing = test::dome_drawing(run);

@@ -56,7 +56,8 @@ TEST_CASE("draws for another process", "[.picture]") {
   std::cout << std::endl;
 }
 
-TEST_CASE("a picture does not depend on the run or the number of threads", "[draw]") {
+TEST_CASE("a picture does not depend on the run or the number of threads",
+          "[draw][draw][standard]") {
   const std::string first = drawn_with("LP_NUM_THREADS=2");
   CAPTURE(first);
   REQUIRE(first.rfind("failed", 0) != 0);
@@ -71,7 +72,7 @@ TEST_CASE("a picture does not depend on the run or the number of threads", "[dra
   CHECK(drawn_with("LP_NUM_THREADS=5") == first);
 }
 
-TEST_CASE("EGL draws the same picture as OSMesa", "[draw]") {
+TEST_CASE("EGL draws the same picture as OSMesa", "[draw][draw][standard]") {
   const std::string osmesa = drawn_with("GRIDSHELL_TEST_CONTEXT=osmesa");
   // on the same software rasteriser: a graphics card rounds in its own way
   const std::string egl = drawn_with("LIBGL_ALWAYS_SOFTWARE=1 GRIDSHELL_TEST_CONTEXT=egl");

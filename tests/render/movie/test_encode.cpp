@@ -122,7 +122,7 @@ TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
   CHECK(has(line({}, "m.gif"), "paletteuse"));
 }
 
-TEST_CASE("a real ffmpeg makes movies of the length asked for") {
+TEST_CASE("a real ffmpeg makes movies of the length asked for", "[standard]") {
   if (find_program("ffmpeg").empty() || find_program("ffprobe").empty()) {
     WARN("no ffmpeg, skipped");
     return;

@@ -1,0 +1,143 @@
+// What stands on the viewer: actions, recorded input, and what is kept until the next visit.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <set>
+
+#include "app/window/actions.h"
+#include "app/window/input_event.h"
+#include "app/window/viewer_state.h"
+
+using namespace gridshell;
+using namespace gridshell::window;
+
+TEST_CASE("no two actions share a name or a key") {
+  std::set<std::string> names, keys;
+  for (const Action& action : actions()) {
+    CHECK(names.insert(action.name).second);
+    if (action.key.key) CHECK(keys.insert(name_of(action.key)).second);
+    CHECK(find_action(action.name) == &action);
+    CHECK(std::string(action.help).size() > 3);
+  }
+  CHECK(action_of({Key::z, true, false}) == find_action("undo"));
+  CHECK(action_of({Key::z, false, false}) == nullptr);
+}
+
+TEST_CASE("every colouring has an action") {
+  for (const std::string& word : all_words<ColourBy>()) CHECK(find_action("colour_" + word));
+}
+
+TEST_CASE("the colours' range is of a state, of all states, or stays as the hand set it") {
+  for (const std::string& word : all_words<RangeOf>()) CHECK(find_action("range_" + word));
+  const render::ColourScale before{render::ColourMap::diverging, -2, 1},
+      now{render::ColourMap::diverging, -1, 3};
+  CHECK(next_scale(before, now, RangeOf::state) == now);
+  const render::ColourScale all = next_scale(before, now, RangeOf::run);
+  CHECK((all.low == -2 && all.high == 3));
+  const render::ColourScale kept = next_scale(before, now, RangeOf::hand);
+  CHECK((kept.low == -2 && kept.high == 1));
+  ViewerState viewer({});
+  viewer.set_range(2, 1);
+  CHECK(viewer.range_of == RangeOf::state);
+  viewer.set_range(-0.5, 0.25);
+  CHECK(viewer.range_of == RangeOf::hand);
+  CHECK(viewer.show.scale.high == 0.25);
+}
+
+TEST_CASE("every press of the mouse means something") {
+  CHECK(gesture_of(Button::left, Over::joint, false) == Gesture::push);
+  CHECK(gesture_of(Button::left, Over::joint, true) == Gesture::pull_freely);
+  CHECK(gesture_of(Button::left, Over::edge_point, false) == Gesture::drag_edge);
+  CHECK(gesture_of(Button::left, Over::nothing, false) == Gesture::orbit);
+  CHECK(gesture_of(Button::right, Over::joint, false) == Gesture::let_go_joint);
+  CHECK(gesture_of(Button::right, Over::edge_point, false) == Gesture::pan);
+}
+
+TEST_CASE("switches switch, and back") {
+  ViewerState viewer({});
+  for (const Action& action : actions()) {
+    const std::string name = action.name;
+    // those need a shell
+    if (!action.on || name == "play" || name == "gravity" || name.starts_with("colour_") ||
+        name.starts_with("range_"))
+      continue;
+    const bool before = action.on(viewer);
+    action.act(viewer);
+    CHECK(action.on(viewer) != before);
+    action.act(viewer);
+    CHECK(action.on(viewer) == before);
+  }
+}
+
+TEST_CASE("an event reads back as it was written") {
+  for (const char* line :
+       {"size 1280 720 1.5", "mouse 12.5 300", "mouse @R_a 0.25 0.5", "mouse @joint:3,-4 0 -20",
+        "press left", "release middle", "wheel -2", "down Ctrl", "up F1", "type R a", "do undo",
+        "open s1_actuation", "wait 0.25"}) {
+    const auto event = read_event(line);
+    REQUIRE(event);
+    CHECK(write_event(*event) == line);
+  }
+}
+
+TEST_CASE("a line that is no event is refused with what would be right") {
+  for (const char* line : {"", "click 1 2", "mouse 1", "mouse nan 2", "press", "press thumb",
+                           "down Hyper", "size 10 10 1", "wait 1e9", "wait -1", "press left now"})
+    CHECK_FALSE(read_event(line));
+  CHECK(read_event("press thumb").error().message.find("left") != std::string::npos);
+}
+
+TEST_CASE("a recording's fault names its line") {
+  const auto events = read_events("# a comment\n\nmouse 1 2\r\nmouse one two\n", "visit.txt");
+  REQUIRE_FALSE(events);
+  CHECK(events.error().message.find("visit.txt:4:") == 0);
+  CHECK(read_events("# nothing\n", "visit.txt")->empty());
+}
+
+TEST_CASE("a workspace kept and taken again is the same") {
+  ViewerState viewer({});
+  viewer.show.dark = viewer.numbers = true;
+  viewer.plots = false;
+  viewer.show.colour_by = ColourBy::energy;
+  viewer.set_range(0, 3.5);
+  viewer.camera.azimuth_deg = 12.25;
+  viewer.camera.target = {1, 2, 3};
+  const std::string text = workspace_text(viewer);
+  ViewerState again({});
+  REQUIRE(take_workspace(again, text));
+  CHECK(again.show == viewer.show);
+  CHECK(again.range_of == RangeOf::hand);
+  CHECK((again.numbers && !again.plots));
+  REQUIRE(again.saved_camera);
+  CHECK(again.saved_camera->camera == viewer.camera);
+  CHECK(again.saved_camera->colour_by == ColourBy::energy);
+}
+
+TEST_CASE("what a workspace says wrongly stays as it is") {
+  ViewerState viewer({});
+  const window::Show before = viewer.show;
+  CHECK_FALSE(take_workspace(viewer, "not JSON"));
+  CHECK_FALSE(take_workspace(viewer, "[1]"));
+  for (const char* text :
+       {"{}", R"({"shown": 3, "colour": [], "camera": null})",
+        R"({"shown": {"dark": "yes"}, "colour": {"by": "taste", "range": 7}})",
+        R"({"preset": "a", "camera": {"azimuth_deg": 1e300, "elevation_deg": 2}})",
+        R"({"colour": {"range": "hand", "low": 2, "high": 1}})"}) {
+    INFO(text);
+    CHECK(take_workspace(viewer, text));
+    CHECK(viewer.show == before);
+    CHECK_FALSE(viewer.saved_camera);
+  }
+}
+
+TEST_CASE("the workspace's file is below the folder of states") {
+  const char* old = std::getenv("XDG_STATE_HOME");
+  const std::string kept = old ? old : "";
+  setenv("XDG_STATE_HOME", "/tmp/states", 1);
+  CHECK(workspace_file() == "/tmp/states/gridshell/workspace.json");
+  setenv("XDG_STATE_HOME", "relative", 1);
+  CHECK(workspace_file() != "relative/gridshell/workspace.json");
+  if (old)
+    setenv("XDG_STATE_HOME", kept.c_str(), 1);
+  else
+    unsetenv("XDG_STATE_HOME");
+}

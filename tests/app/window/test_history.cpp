@@ -1,0 +1,108 @@
+// Steps that can be undone, numbers put aside for them, and work beside the window.
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+
+#include "app/window/command.h"
+#include "app/window/edit_session.h"
+#include "app/window/worker_threads.h"
+
+using namespace gridshell;
+using namespace gridshell::window;
+
+namespace {
+
+preset::Step numbered(int seed) {
+  preset::Step step;
+  step.kind = preset::StepKind::jitter;
+  step.seed = seed;
+  return step;
+}
+
+}  // namespace
+
+TEST_CASE("a chain of steps and its copies go on apart, sharing what came before") {
+  StepHistory chain;
+  CHECK(chain.empty());
+  for (int k : {1, 2, 3}) chain.add(numbered(k));
+  StepHistory copy = chain;
+  copy.replace_last(numbered(30));
+  copy.add(numbered(40));
+  const auto seeds = [](const StepHistory& of) {
+    std::vector<int> all;
+    for (const preset::Step& step : of.all()) all.push_back(step.seed);
+    return all;
+  };
+  CHECK(seeds(chain) == std::vector<int>{1, 2, 3});
+  CHECK(seeds(copy) == std::vector<int>{1, 2, 30, 40});
+  CHECK(copy.size() == 4);
+  CHECK(copy.last().seed == 40);
+  chain.clear();
+  CHECK(seeds(copy).size() == 4);
+}
+
+TEST_CASE("a very long chain of steps is freed") {
+  StepHistory chain;
+  for (int k = 0; k < 200000; ++k) chain.add(numbered(k));
+  const StepHistory copy = chain;
+  CHECK(copy.size() == 200000);
+}
+
+TEST_CASE("numbers put aside come back to the bit, in any order") {
+  ScratchFile file;
+  Eigen::Matrix3Xd places = Eigen::Matrix3Xd::Random(3, 5);
+  places(1, 2) = std::nextafter(1.0, 2.0);
+  Eigen::VectorXd none, forces = Eigen::VectorXd::Random(7);
+  const Eigen::Matrix3Xd places_before = places;
+  const Eigen::VectorXd forces_before = forces;
+  SavedArray a, b, c;
+  REQUIRE((file.put(places, a) && file.put(none, b) && file.put(forces, c)));
+  CHECK(places.size() + forces.size() == 0);
+  CHECK(file.bytes() == 8 * (15 + 7));
+  REQUIRE((file.take(c, forces) && file.take(b, none) && file.take(a, places)));
+  CHECK(places == places_before);
+  CHECK(forces == forces_before);
+  CHECK(none.size() == 0);
+  // and once more
+  REQUIRE(file.take(c, forces));
+  CHECK(forces == forces_before);
+}
+
+TEST_CASE("work beside the window tells how far it is, and how it ended, once") {
+  BackgroundTask work;
+  CHECK(work.idle());
+  work.begin(
+      [](const ProgressListener& heard, const Watch&) -> Result<void> {
+        heard("50 %  drawing");
+        return {};
+      },
+      "out/shell.png");
+  work.wait();
+  CHECK_FALSE(work.under_way());
+  CHECK_FALSE(work.idle());
+  CHECK(work.standing() == "50 %  drawing");
+  const auto end = work.take_end();
+  REQUIRE(end);
+  CHECK(end->made);
+  CHECK(end->target == "out/shell.png");
+  CHECK_FALSE(work.take_end());
+  CHECK(work.idle());
+}
+
+TEST_CASE("work beside the window stops when it is asked to, and when the window goes") {
+  const auto endless = [](const ProgressListener& heard, const Watch& watch) -> Result<void> {
+    while (!watch.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    heard("the frames so far are kept");
+    return stopped();
+  };
+  BackgroundTask work;
+  work.begin(endless, "out/shell");
+  CHECK(work.under_way());
+  work.stop();
+  work.wait();
+  const auto end = work.take_end();
+  REQUIRE(end);
+  CHECK(end->made.error().fault == Fault::cancelled);
+  CHECK(end->last_words == "the frames so far are kept");
+  work.begin(endless, "out/shell");
+}
