@@ -49,7 +49,7 @@ std::vector<render::Series> by_class(const std::vector<StateRow>& rows, const Va
                                         render::Marker::diamond, render::Marker::square,
                                         render::Marker::circle};
   std::vector<render::Series> all;
-  for (const auto& [kind, word] : words(StateClass{})) {
+  for (const auto& [kind, word] : words_of<StateClass>()) {
     render::Series series;
     series.name = class_text(kind);
     series.colour = render::series_colour(std::size_t(kind));

@@ -15,7 +15,7 @@ enum class Key { a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, 
                  f1, f5, f9, f11, space, enter, escape, tab, backspace, del, left, right, up, down,
                  home, end, page_up, page_down, comma, period, minus, plus, ctrl, shift, alt };
 constexpr auto words(Key) {
-  return word_table<Key>(
+  return names_except<Key>(
       {{Key::a, "A"}, {Key::b, "B"}, {Key::c, "C"}, {Key::d, "D"}, {Key::e, "E"}, {Key::f, "F"},
        {Key::g, "G"}, {Key::h, "H"}, {Key::i, "I"}, {Key::j, "J"}, {Key::k, "K"}, {Key::l, "L"},
        {Key::m, "M"}, {Key::n, "N"}, {Key::o, "O"}, {Key::p, "P"}, {Key::q, "Q"}, {Key::r, "R"},
@@ -32,28 +32,12 @@ constexpr auto words(Key) {
        {Key::ctrl, "Ctrl"}, {Key::shift, "Shift"}, {Key::alt, "Alt"}});
 }
 // clang-format on
-inline constexpr int key_count = int(words(Key{}).size());
+inline constexpr int key_count = int(words_of<Key>().size());
 
 enum class Button { left, right, middle };
-constexpr auto words(Button) {
-  return word_table<Button>(
-      {{Button::left, "left"}, {Button::right, "right"}, {Button::middle, "middle"}});
-}
 
 enum class InputKind { size, mouse, press, release, wheel, down, up, type, act, open, wait };
-constexpr auto words(InputKind) {
-  return word_table<InputKind>({{InputKind::size, "size"},
-                                {InputKind::mouse, "mouse"},
-                                {InputKind::press, "press"},
-                                {InputKind::release, "release"},
-                                {InputKind::wheel, "wheel"},
-                                {InputKind::down, "down"},
-                                {InputKind::up, "up"},
-                                {InputKind::type, "type"},
-                                {InputKind::act, "do"},
-                                {InputKind::open, "open"},
-                                {InputKind::wait, "wait"}});
-}
+constexpr auto words(InputKind) { return names_except<InputKind>({{InputKind::act, "do"}}); }
 
 /// One event, a line of a recording:
 ///   size WIDTH HEIGHT DENSITY     the window, pixels, and pixels a point of text

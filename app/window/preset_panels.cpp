@@ -289,7 +289,7 @@ void choices(const Panel& panel) {
   preset::Inverse& inverse = panel.viewer.design.inverse;
   label(panel, "target");
   if (ImGui::BeginCombo("##target", std::string(word_of(inverse.target)).c_str())) {
-    for (const auto& entry : words(preset::Target{}))
+    for (const auto& entry : words_of<preset::Target>())
       if (ImGui::Selectable(std::string(entry.word).c_str(), entry.value == inverse.target))
         inverse.target = entry.value;
     ImGui::EndCombo();

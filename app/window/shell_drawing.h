@@ -13,23 +13,10 @@
 namespace gridshell::window {
 
 enum class ColourBy { none, K, K_change, deviation, energy, axial_force, displacement };
-constexpr auto words(ColourBy) {
-  return word_table<ColourBy>({{ColourBy::none, "none"},
-                               {ColourBy::K, "K"},
-                               {ColourBy::K_change, "K_change"},
-                               {ColourBy::deviation, "deviation"},
-                               {ColourBy::energy, "energy"},
-                               {ColourBy::axial_force, "axial_force"},
-                               {ColourBy::displacement, "displacement"}});
-}
 
 /// What the colours' range is of: the state in sight, all since it was chosen, or as it was set by
 /// hand.
 enum class RangeOf { state, run, hand };
-constexpr auto words(RangeOf) {
-  return word_table<RangeOf>(
-      {{RangeOf::state, "state"}, {RangeOf::run, "run"}, {RangeOf::hand, "hand"}});
-}
 
 /// As the interface names it of a sight, with its unit: "bending energy (mJ/m)".
 const char* label_of(const ShellView& sight, ColourBy by);

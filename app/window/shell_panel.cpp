@@ -189,7 +189,7 @@ void colour_range(const Panel& panel) {
   };
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##range", action_of(viewer.range_of)->label)) {
-    for (const auto& entry : words(window::RangeOf{}))
+    for (const auto& entry : words_of<window::RangeOf>())
       if (ImGui::Selectable(action_of(entry.value)->label, entry.value == viewer.range_of))
         action_of(entry.value)->act(viewer);
     ImGui::EndCombo();
@@ -217,7 +217,7 @@ void colours(const Panel& panel) {
   };
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##colour", action_of(viewer.show.colour_by)->label)) {
-    for (const auto& entry : words(window::ColourBy{}))
+    for (const auto& entry : words_of<window::ColourBy>())
       if (ImGui::Selectable(action_of(entry.value)->label, entry.value == viewer.show.colour_by))
         action_of(entry.value)->act(viewer);
     ImGui::EndCombo();
@@ -258,7 +258,7 @@ void keep(const Panel& panel) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##quality", std::string(word_of(picture.quality)).c_str())) {
-    for (const auto& entry : words(render::Quality{}))
+    for (const auto& entry : words_of<render::Quality>())
       if (ImGui::Selectable(std::string(entry.word).c_str(), entry.value == picture.quality))
         picture.quality = entry.value;
     ImGui::EndCombo();

@@ -1,4 +1,4 @@
-// An enum and its words, side by side in one table that cannot fall out of step.
+// The words of an enum: its enumerators' own names, but for exceptions.
 #pragma once
 
 #include <array>
@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gridshell {
@@ -17,47 +18,74 @@ struct EnumWord {
   std::string_view word;
 };
 
-/// Whether `value` is an enumerator: the compiler writes others as a cast number, "(Enum)7".
+/// How the compiler spells an enumerator, "gridshell::Seed::up"; what is none it writes as a cast
+/// number, "(gridshell::Seed)7".
 template <auto value>
-consteval bool is_enumerator() {
-  constexpr std::string_view text = __PRETTY_FUNCTION__;
-  constexpr std::string_view name = text.substr(text.find("value = "));
-  constexpr auto cast = name.rfind(')');
-  return cast == name.npos ||
-         !(name[cast + 1] == '-' || (name[cast + 1] >= '0' && name[cast + 1] <= '9'));
+consteval std::string_view enumerator_text() {
+  std::string_view text = __PRETTY_FUNCTION__;
+  text.remove_prefix(text.find("value = ") + 8);
+  return text.substr(0, text.find_first_of(";]"));
 }
 
-/// The table of an enum, for a function `words(Enum)` beside the enum itself:
-///   enum class Seed { up, down };
-///   constexpr auto words(Seed) {
-///     return word_table<Seed>({{Seed::up, "up"}, {Seed::down, "down"}});
-///   }
-/// Enumerators count from 0. One that is forgotten, named twice or out of order does not compile;
-/// nor does a word used twice.
-template <class Enum, std::size_t size>
-consteval std::array<EnumWord<Enum>, size> word_table(const EnumWord<Enum> (&table)[size]) {
-  static_assert(!is_enumerator<Enum(size)>(), "an enumerator has no word");
-  std::array<EnumWord<Enum>, size> words{};
-  for (std::size_t k = 0; k < size; ++k) {
-    if (std::size_t(table[k].value) != k) throw "enumerators stand in their order, each once";
-    for (std::size_t j = 0; j < k; ++j)
-      if (table[j].word == table[k].word) throw "two enumerators have the same word";
-    words[k] = table[k];
+/// Whether `value` is an enumerator.
+template <auto value>
+consteval bool is_enumerator() {
+  constexpr auto text = enumerator_text<value>();
+  constexpr auto cast = text.rfind(')');
+  return cast == text.npos ||
+         !(text[cast + 1] == '-' || (text[cast + 1] >= '0' && text[cast + 1] <= '9'));
+}
+
+/// All enumerators, which count from 0, with their own names as words. These names stand in files
+/// and on command lines: another name is another format.
+template <class Enum, std::size_t size = 0>
+consteval auto enumerator_names() {
+  if constexpr (is_enumerator<Enum(size)>()) {
+    return enumerator_names<Enum, size + 1>();
+  } else {
+    return []<std::size_t... k>(std::index_sequence<k...>) {
+      const auto name = [](std::string_view text) { return text.substr(text.rfind(':') + 1); };
+      return std::array<EnumWord<Enum>, size>{{{Enum(k), name(enumerator_text<Enum(k)>())}...}};
+    }
+    (std::make_index_sequence<size>());
   }
+}
+
+/// The same with other words for some, for a function `words(Enum)` beside the enum itself, which
+/// an enum without exceptions does not need:
+///   enum class Choice { automatic, none };
+///   constexpr auto words(Choice) { return names_except<Choice>({{Choice::automatic, "auto"}}); }
+/// A word used twice does not compile.
+template <class Enum, std::size_t size>
+consteval auto names_except(const EnumWord<Enum> (&exceptions)[size]) {
+  auto words = enumerator_names<Enum>();
+  for (const auto& one : exceptions) words[std::size_t(one.value)].word = one.word;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j)
+      if (words[j].word == words[k].word) throw "two enumerators have the same word";
   return words;
+}
+
+/// Every enumerator with its word, in their order.
+template <class Enum>
+constexpr auto words_of() {
+  if constexpr (requires { words(Enum{}); })
+    return words(Enum{});
+  else
+    return enumerator_names<Enum>();
 }
 
 /// The word of an enumerator.
 template <class Enum>
 constexpr std::string_view word_of(Enum value) {
-  constexpr auto table = words(Enum{});
+  constexpr auto table = words_of<Enum>();
   return table[std::size_t(value)].word;
 }
 
 /// The enumerator that a word stands for, if any.
 template <class Enum>
 constexpr std::optional<Enum> find_word(std::string_view word) {
-  for (const auto& entry : words(Enum{}))
+  for (const auto& entry : words_of<Enum>())
     if (entry.word == word) return entry.value;
   return std::nullopt;
 }
@@ -66,7 +94,7 @@ constexpr std::optional<Enum> find_word(std::string_view word) {
 template <class Enum>
 std::vector<std::string> all_words() {
   std::vector<std::string> all;
-  for (const auto& entry : words(Enum{})) all.emplace_back(entry.word);
+  for (const auto& entry : words_of<Enum>()) all.emplace_back(entry.word);
   return all;
 }
 
@@ -74,8 +102,8 @@ std::vector<std::string> all_words() {
 /// keeps its own; that they are the same is checked when it compiles.
 template <class To, class From>
 constexpr To same_word(From value) {
-  constexpr auto to = words(To{});
-  constexpr auto from = words(From{});
+  constexpr auto to = words_of<To>();
+  constexpr auto from = words_of<From>();
   static_assert(to.size() == from.size(), "the two enums have different words");
   static_assert(
       [&] {

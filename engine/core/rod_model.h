@@ -10,11 +10,6 @@ namespace gridshell {
 /// energy, three unknowns a node. `twist`: torsion too, full discrete elastic rods, one angle an
 /// edge more and frames carried in time [Bergou 2008, 2010]. `automatic`: the lowest that is exact.
 enum class RodModel { automatic, net, bend, twist };
-constexpr auto words(RodModel) {
-  return word_table<RodModel>({{RodModel::automatic, "auto"},
-                               {RodModel::net, "net"},
-                               {RodModel::bend, "bend"},
-                               {RodModel::twist, "twist"}});
-}
+constexpr auto words(RodModel) { return names_except<RodModel>({{RodModel::automatic, "auto"}}); }
 
 }  // namespace gridshell

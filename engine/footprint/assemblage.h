@@ -20,11 +20,6 @@ namespace gridshell {
 /// south along v - u.
 enum class Side { east, west, north, south };
 
-constexpr auto words(Side) {
-  return word_table<Side>(
-      {{Side::east, "east"}, {Side::west, "west"}, {Side::north, "north"}, {Side::south, "south"}});
-}
-
 /// A net, the part of its (u, v) plane that is wanted, and the rows of joints at which it is cut.
 /// Cut at row m on its east side it is kept where u + v <= m d, on its west side where
 /// u + v >= m d; on its north and south side likewise with v - u.

@@ -81,9 +81,6 @@ class Disk final : public Domain {
 
 /// Where the grid lines lie: at (i + 1/2) d, or at i d so that one rod of each family is an axis.
 enum class Placement { half, on_axis };
-constexpr auto words(Placement) {
-  return word_table<Placement>({{Placement::half, "half"}, {Placement::on_axis, "on_axis"}});
-}
 
 /// A joint: of a square grid the crossing of the u-rod with index j and the v-rod with index i, of
 /// another network point i of its file.

@@ -57,10 +57,6 @@ enum class Correspondence {
   arc_length,  ///< the same fraction of the length, both counted from the positive x-axis
   angle,       ///< the same polar angle about the origin
 };
-constexpr auto words(Correspondence) {
-  return word_table<Correspondence>(
-      {{Correspondence::arc_length, "arc_length"}, {Correspondence::angle, "angle"}});
-}
 
 /// Maps points of the original boundary to the actuated one.
 class BoundaryMap {

@@ -11,32 +11,9 @@
 namespace gridshell::preset {
 
 enum class Quality { draft, movie, figure };
-constexpr auto words(Quality) {
-  return word_table<Quality>(
-      {{Quality::draft, "draft"}, {Quality::movie, "movie"}, {Quality::figure, "figure"}});
-}
 enum class ColourBy { none, K, displacement, K_change, deviation, energy, axial_force };
-constexpr auto words(ColourBy) {
-  return word_table<ColourBy>({{ColourBy::none, "none"},
-                               {ColourBy::K, "K"},
-                               {ColourBy::displacement, "displacement"},
-                               {ColourBy::K_change, "K_change"},
-                               {ColourBy::deviation, "deviation"},
-                               {ColourBy::energy, "energy"},
-                               {ColourBy::axial_force, "axial_force"}});
-}
 enum class View { free, front, side, top, corner };
-constexpr auto words(View) {
-  return word_table<View>({{View::free, "free"},
-                           {View::front, "front"},
-                           {View::side, "side"},
-                           {View::top, "top"},
-                           {View::corner, "corner"}});
-}
 enum class Pace { even, eased };
-constexpr auto words(Pace) {
-  return word_table<Pace>({{Pace::even, "even"}, {Pace::eased, "eased"}});
-}
 struct Movie {
   int frames = 240;
   std::array<int, 2> size{1280, 720};
@@ -64,20 +41,13 @@ struct Movie {
 };
 
 enum class Theme { screen, paper };
-constexpr auto words(Theme) {
-  return word_table<Theme>({{Theme::screen, "screen"}, {Theme::paper, "paper"}});
-}
 enum class ColourMap { automatic, diverging, sequential, grey };
 constexpr auto words(ColourMap) {
-  return word_table<ColourMap>({{ColourMap::automatic, "auto"},
-                                {ColourMap::diverging, "diverging"},
-                                {ColourMap::sequential, "sequential"},
-                                {ColourMap::grey, "grey"}});
+  return names_except<ColourMap>({{ColourMap::automatic, "auto"}});
 }
 enum class Visibility { automatic, on, off };  ///< automatic: as the theme has it
 constexpr auto words(Visibility) {
-  return word_table<Visibility>(
-      {{Visibility::automatic, "auto"}, {Visibility::on, "on"}, {Visibility::off, "off"}});
+  return names_except<Visibility>({{Visibility::automatic, "auto"}});
 }
 /// How pictures look. An empty colour and a width of 0 are the theme's.
 struct Style {
@@ -96,14 +66,6 @@ struct Style {
 };
 
 enum class PageKind { none, fig1, fig2, fig3, fig4, fig5 };
-constexpr auto words(PageKind) {
-  return word_table<PageKind>({{PageKind::none, "none"},
-                               {PageKind::fig1, "fig1"},
-                               {PageKind::fig2, "fig2"},
-                               {PageKind::fig3, "fig3"},
-                               {PageKind::fig4, "fig4"},
-                               {PageKind::fig5, "fig5"}});
-}
 /// A page that shows a figure of the paper.
 struct Page {
   PageKind kind = PageKind::none;

@@ -13,22 +13,9 @@
 namespace gridshell::preset {
 
 enum class StepKind { move, push, hold, release, load, rest, jitter };
-constexpr auto words(StepKind) {
-  return word_table<StepKind>({{StepKind::move, "move"},
-                               {StepKind::push, "push"},
-                               {StepKind::hold, "hold"},
-                               {StepKind::release, "release"},
-                               {StepKind::load, "load"},
-                               {StepKind::rest, "rest"},
-                               {StepKind::jitter, "jitter"}});
-}
 
 /// On which side of an unstable state a shell goes to rest.
 enum class RestSide { lower, along, against };
-constexpr auto words(RestSide) {
-  return word_table<RestSide>(
-      {{RestSide::lower, "lower"}, {RestSide::along, "along"}, {RestSide::against, "against"}});
-}
 
 // A preset: everything an experiment and its pictures need, as plain values with defaults. The
 // names are those of the TOML keys: `[rod] diameter_mm` is `preset.rod.diameter_mm`. What each key
@@ -54,9 +41,6 @@ struct RodV : Rod {
 };
 
 enum class JointKind { shared, spring };
-constexpr auto words(JointKind) {
-  return word_table<JointKind>({{JointKind::shared, "shared"}, {JointKind::spring, "spring"}});
-}
 struct Joints {
   JointKind kind = JointKind::shared;
   double stiffness_N_per_mm = 0;  ///< of springs
@@ -67,14 +51,7 @@ struct Joints {
 };
 
 enum class EndKind { pinned, tangent, clamped };
-constexpr auto words(EndKind) {
-  return word_table<EndKind>(
-      {{EndKind::pinned, "pinned"}, {EndKind::tangent, "tangent"}, {EndKind::clamped, "clamped"}});
-}
 enum class Rings { pinned, free };
-constexpr auto words(Rings) {
-  return word_table<Rings>({{Rings::pinned, "pinned"}, {Rings::free, "free"}});
-}
 /// Points of a curve, each of as many coordinates as its key says, mm; a coordinate that is a word
 /// is the number of that word among those of its key.
 using Points = std::vector<std::vector<double>>;
@@ -87,13 +64,6 @@ struct Ends {
 };
 
 enum class CurveKind { circle, ellipse, superellipse, polygon, spline };
-constexpr auto words(CurveKind) {
-  return word_table<CurveKind>({{CurveKind::circle, "circle"},
-                                {CurveKind::ellipse, "ellipse"},
-                                {CurveKind::superellipse, "superellipse"},
-                                {CurveKind::polygon, "polygon"},
-                                {CurveKind::spline, "spline"}});
-}
 /// A closed curve in the plane; the radius of a circle stands beside it.
 struct Curve {
   CurveKind kind = CurveKind::circle;
@@ -103,17 +73,7 @@ struct Curve {
 };
 
 enum class FootprintKind { circle, net, curve, blocks, network };
-constexpr auto words(FootprintKind) {
-  return word_table<FootprintKind>({{FootprintKind::circle, "circle"},
-                                    {FootprintKind::net, "net"},
-                                    {FootprintKind::curve, "curve"},
-                                    {FootprintKind::blocks, "blocks"},
-                                    {FootprintKind::network, "network"}});
-}
 enum class Placement { half, on_axis };
-constexpr auto words(Placement) {
-  return word_table<Placement>({{Placement::half, "half"}, {Placement::on_axis, "on_axis"}});
-}
 struct Footprint {
   FootprintKind kind = FootprintKind::circle;
   Curve boundary;
@@ -126,20 +86,8 @@ struct Footprint {
 };
 
 enum class NetKind { sphere, cylinder, spool, beltrami, profile, translation, surface };
-constexpr auto words(NetKind) {
-  return word_table<NetKind>({{NetKind::sphere, "sphere"},
-                              {NetKind::cylinder, "cylinder"},
-                              {NetKind::spool, "spool"},
-                              {NetKind::beltrami, "beltrami"},
-                              {NetKind::profile, "profile"},
-                              {NetKind::translation, "translation"},
-                              {NetKind::surface, "surface"}});
-}
 /// What the first rod of a net on a surface sets out along, or turned from it by axis_deg.
 enum class NetAxis { principal, x };
-constexpr auto words(NetAxis) {
-  return word_table<NetAxis>({{NetAxis::principal, "principal"}, {NetAxis::x, "x"}});
-}
 struct Net {
   NetKind kind = NetKind::sphere;
   double radius_mm = 120.0;  ///< rho, the deviation's scale
@@ -176,19 +124,11 @@ struct Blocks {
 };
 
 enum class Correspondence { arc_length, angle };
-constexpr auto words(Correspondence) {
-  return word_table<Correspondence>(
-      {{Correspondence::arc_length, "arc_length"}, {Correspondence::angle, "angle"}});
-}
 enum class Start { flat, net };
-constexpr auto words(Start) {
-  return word_table<Start>({{Start::flat, "flat"}, {Start::net, "net"}});
-}
 enum class Seed { up, down };
-constexpr auto words(Seed) { return word_table<Seed>({{Seed::up, "up"}, {Seed::down, "down"}}); }
 enum class SeedDiagonal { y_eq_x, y_eq_minus_x };
 constexpr auto words(SeedDiagonal) {
-  return word_table<SeedDiagonal>(
+  return names_except<SeedDiagonal>(
       {{SeedDiagonal::y_eq_x, "y=x"}, {SeedDiagonal::y_eq_minus_x, "y=-x"}});
 }
 struct Actuation {
@@ -203,18 +143,8 @@ struct Actuation {
 };
 
 enum class IndentationPlace { pole, highest };
-constexpr auto words(IndentationPlace) {
-  return word_table<IndentationPlace>(
-      {{IndentationPlace::pole, "pole"}, {IndentationPlace::highest, "highest"}});
-}
 enum class Direction { inward, outward };
-constexpr auto words(Direction) {
-  return word_table<Direction>({{Direction::inward, "inward"}, {Direction::outward, "outward"}});
-}
 enum class Lateral { free, held };
-constexpr auto words(Lateral) {
-  return word_table<Lateral>({{Lateral::free, "free"}, {Lateral::held, "held"}});
-}
 struct Indentation {
   IndentationPlace at = IndentationPlace::pole;
   double latitude_deg = 90, longitude_deg = 0;
@@ -263,10 +193,6 @@ struct Dynamics {
 
 /// What chooses where a path that loses its stability goes.
 enum class ImperfectionForm { random, soft_mode };
-constexpr auto words(ImperfectionForm) {
-  return word_table<ImperfectionForm>(
-      {{ImperfectionForm::random, "random"}, {ImperfectionForm::soft_mode, "soft_mode"}});
-}
 struct Imperfection {
   double size = 1e-4;  ///< of d; 0: the symmetric branch
   int seed = 1;
@@ -275,18 +201,7 @@ struct Imperfection {
 
 /// What an inverse design may change.
 enum class Vary { pins_radial, pins, pins_3d, legs, directions, diameters };
-constexpr auto words(Vary) {
-  return word_table<Vary>({{Vary::pins_radial, "pins_radial"},
-                           {Vary::pins, "pins"},
-                           {Vary::pins_3d, "pins_3d"},
-                           {Vary::legs, "legs"},
-                           {Vary::directions, "directions"},
-                           {Vary::diameters, "diameters"}});
-}
 enum class Target { surface, net };
-constexpr auto words(Target) {
-  return word_table<Target>({{Target::surface, "surface"}, {Target::net, "net"}});
-}
 struct Inverse {
   std::vector<Vary> vary;  ///< empty: nothing is designed
   Target target = Target::surface;
@@ -304,11 +219,6 @@ struct Limits {
 
 /// How a shell is shaken out of the state it would rest in.
 enum class SearchMode { gravity, random, poke };
-constexpr auto words(SearchMode) {
-  return word_table<SearchMode>({{SearchMode::gravity, "gravity"},
-                                 {SearchMode::random, "random"},
-                                 {SearchMode::poke, "poke"}});
-}
 /// The search for all states of a shell.
 struct SearchSettings {
   SearchMode mode = SearchMode::random;

@@ -59,7 +59,7 @@ std::optional<JournalHead> unpacked_head(std::string_view bytes) {
   JournalHead found;
   found.name.preset = in.text();
   const int kind = in.number<std::int32_t>();
-  if (kind >= 0 && kind < int(words(Kind{}).size())) found.name.kind = static_cast<Kind>(kind);
+  if (kind >= 0 && kind < int(words_of<Kind>().size())) found.name.kind = static_cast<Kind>(kind);
   const auto count = in.number<std::uint64_t>();
   for (std::uint64_t k = 0; k < count && in.good(); ++k) found.columns.push_back(in.text());
   found.layout = in.text();

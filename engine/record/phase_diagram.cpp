@@ -39,7 +39,7 @@ Figures search_figures(const StateSearch& search, const std::vector<StateRow>& r
                   {"states", double(rows.size())},
                   {"seen", double(search.completeness.seen)},
                   {"chao1", search.completeness.chao1}};
-  for (const auto& [kind, word] : words(StateClass{})) {
+  for (const auto& [kind, word] : words_of<StateClass>()) {
     StateCount count;
     for (const StateRow& row : rows)
       if (row.kind == kind) add(count, row);
@@ -90,7 +90,7 @@ PhasePoint point_of(const SweepTable::Row& row, bool legs_first) {
   point.first_order = *first_order;
   point.states = whole_figure(row.result, "states");
   point.at_rest = whole_figure(row.result, "at_rest");
-  for (const auto& [kind, word] : words(StateClass{}))
+  for (const auto& [kind, word] : words_of<StateClass>())
     point.classes[std::size_t(kind)] =
         state_count(row.result, std::string(word)).value_or(StateCount{});
   return point;
@@ -113,7 +113,7 @@ void count(const PhasePoint& point, PhaseRegion& region) {
 
 int PhasePoint::beyond_paper() const {
   int more = 0;
-  for (const auto& [kind, word] : words(StateClass{}))
+  for (const auto& [kind, word] : words_of<StateClass>())
     more += kind == StateClass::other ? of(kind).states : std::max(0, of(kind).states - 1);
   return more;
 }
@@ -154,7 +154,7 @@ std::string regions_csv(const std::vector<PhaseRegion>& regions) {
   for (const char* name :
        {"shortest_leg", "points", "first_order_alone", "symmetry_broken", "several_states"})
     csv.cell(name);
-  for (const auto& [kind, word] : words(StateClass{})) csv.cell("with_" + std::string(word));
+  for (const auto& [kind, word] : words_of<StateClass>()) csv.cell("with_" + std::string(word));
   for (const char* name : {"at_rest", "met_first_order", "with_more_than_paper", "states_more"})
     csv.cell(name);
   csv.end_line();

@@ -35,13 +35,6 @@ namespace gridshell::record {
 /// with rods of higher modes ii, two mirrors, iii, turns by 90 degrees alone, and iv, full
 /// symmetry; none of these.
 enum class StateClass { i, ii, iii, iv, other };
-constexpr auto words(StateClass) {
-  return word_table<StateClass>({{StateClass::i, "i"},
-                                 {StateClass::ii, "ii"},
-                                 {StateClass::iii, "iii"},
-                                 {StateClass::iv, "iv"},
-                                 {StateClass::other, "other"}});
-}
 
 /// One state.
 struct StateRow {

@@ -24,17 +24,6 @@ enum class RunOutcome {
   silent_wrong,   ///< neither: off by more than ten times the tolerance, or with negative pivots
 };
 
-constexpr auto words(RunOutcome) {
-  return word_table<RunOutcome>({{RunOutcome::right, "right"},
-                                 {RunOutcome::refused, "refused"},
-                                 {RunOutcome::not_converged, "not_converged"},
-                                 {RunOutcome::blow_up, "blow_up"},
-                                 {RunOutcome::too_slow, "too_slow"},
-                                 {RunOutcome::planar_saddle, "planar_saddle"},
-                                 {RunOutcome::other_state, "other_state"},
-                                 {RunOutcome::silent_wrong, "silent_wrong"}});
-}
-
 /// Whether a user would have been told a wrong result.
 bool silently_wrong(RunOutcome outcome);
 
@@ -98,19 +87,6 @@ enum class TrustClass {
   refused,               ///< the scene was refused with a reason
   too_slow,              ///< stopped at the time limit
 };
-constexpr auto words(TrustClass) {
-  return word_table<TrustClass>({{TrustClass::right, "right"},
-                                 {TrustClass::estimate_small, "estimate_small"},
-                                 {TrustClass::other_branch, "other_branch"},
-                                 {TrustClass::after_snap, "after_snap"},
-                                 {TrustClass::doubted, "doubted"},
-                                 {TrustClass::limited, "limited"},
-                                 {TrustClass::limited_only_default, "limited_only_default"},
-                                 {TrustClass::inner_unphysical, "inner_unphysical"},
-                                 {TrustClass::frame_dependent, "frame_dependent"},
-                                 {TrustClass::refused, "refused"},
-                                 {TrustClass::too_slow, "too_slow"}});
-}
 
 /// Whether a user would have been told something wrong without a word.
 bool silently_wrong(TrustClass found);
@@ -147,14 +123,7 @@ enum class BranchEvent {
   locking,      ///< the rods are at their length: it ends there
   lost,         ///< it could not be followed further
 };
-constexpr auto words(BranchEvent) {
-  return word_table<BranchEvent>({{BranchEvent::none, ""},
-                                  {BranchEvent::bifurcation, "bifurcation"},
-                                  {BranchEvent::turn, "turn"},
-                                  {BranchEvent::joins, "joins"},
-                                  {BranchEvent::locking, "locking"},
-                                  {BranchEvent::lost, "lost"}});
-}
+constexpr auto words(BranchEvent) { return names_except<BranchEvent>({{BranchEvent::none, ""}}); }
 
 /// One equilibrium of a branch; points of a branch stand in the order of its arc length.
 struct BranchPoint {

@@ -105,7 +105,7 @@ bool take(const Json& json, std::vector<std::string>& value, std::string& expect
 template <class Enum>
 std::string one_of() {
   std::string text;
-  for (const auto& [value, word] : words(Enum{}))
+  for (const auto& [value, word] : words_of<Enum>())
     if (!word.empty()) text += fmt::format("{} \"{}\"", text.empty() ? "one of" : ",", word);
   return text;
 }

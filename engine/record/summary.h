@@ -15,22 +15,11 @@ namespace gridshell::record {
 /// How a run ended.
 enum class Limit { none, locking, snap, branch_lost, no_equilibrium };
 
-constexpr auto words(Limit) {
-  return word_table<Limit>({{Limit::none, "none"},
-                            {Limit::locking, "locking"},
-                            {Limit::snap, "snap"},
-                            {Limit::branch_lost, "branch_lost"},
-                            {Limit::no_equilibrium, "no_equilibrium"}});
-}
-
 /// What a folder was made for, and so what its frames sample: a movie, or the stills of a figure.
 enum class Kind { unknown, run, figure, movie };
 
 /// Version 0.1 did not say.
-constexpr auto words(Kind) {
-  return word_table<Kind>(
-      {{Kind::unknown, ""}, {Kind::run, "run"}, {Kind::figure, "figure"}, {Kind::movie, "movie"}});
-}
+constexpr auto words(Kind) { return names_except<Kind>({{Kind::unknown, ""}}); }
 
 /// What a run came to, in its last frame unless said otherwise.
 struct Summary {

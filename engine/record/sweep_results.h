@@ -17,11 +17,6 @@ namespace gridshell::record {
 
 /// How a point of a sweep ended. A path that met a limit is done too: its figures say so.
 enum class PointOutcome { done, no_equilibrium, refused };
-constexpr auto words(PointOutcome) {
-  return word_table<PointOutcome>({{PointOutcome::done, "done"},
-                                   {PointOutcome::no_equilibrium, "no_equilibrium"},
-                                   {PointOutcome::refused, "refused"}});
-}
 
 /// One figure of a run; nothing where it is not known.
 using Figure = std::variant<std::monostate, bool, double, std::string>;

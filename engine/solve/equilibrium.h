@@ -47,11 +47,6 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
 /// On which side of an unstable state to leave it: where the energy ends lower, along a mode, or
 /// against it.
 enum class BranchSide { lower, along, against };
-constexpr auto words(BranchSide) {
-  return word_table<BranchSide>({{BranchSide::lower, "lower"},
-                                 {BranchSide::along, "along"},
-                                 {BranchSide::against, "against"}});
-}
 
 /// How an unstable state is left.
 struct BranchSwitch {

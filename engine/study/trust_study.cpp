@@ -299,7 +299,7 @@ TrustClass judge(const Trial& asked, const Trial& fine, const Trial& other, reco
 }
 
 TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
-  constexpr int kinds = int(words(SceneKind{}).size());
+  constexpr int kinds = int(words_of<SceneKind>().size());
   const auto kind = SceneKind(index % kinds);
   // a generator a scene, so that any scene can be drawn by itself
   std::mt19937 random{std::uint32_t(options.seed) * 100003u + std::uint32_t(index)};

@@ -43,16 +43,8 @@ enum class SceneKind {
   rods
 };
 constexpr auto words(SceneKind) {
-  return word_table<SceneKind>({{SceneKind::circle, "circle"},
-                                {SceneKind::curve, "curve"},
-                                {SceneKind::cap, "cap"},
-                                {SceneKind::revolution, "cylinder and saddle"},
-                                {SceneKind::profile, "profile"},
-                                {SceneKind::translation, "translation"},
-                                {SceneKind::blocks, "blocks"},
-                                {SceneKind::push, "push"},
-                                {SceneKind::load, "load"},
-                                {SceneKind::rods, "rods and ends"}});
+  return names_except<SceneKind>(
+      {{SceneKind::revolution, "cylinder and saddle"}, {SceneKind::rods, "rods and ends"}});
 }
 
 /// A preset of that kind, of 4 to 14 rods a direction, with a tolerance of 1e-2 to 1e-4; the same

@@ -14,10 +14,7 @@ namespace gridshell::render {
 
 enum class ContextKind { automatic, osmesa, egl, window };
 constexpr auto words(ContextKind) {
-  return word_table<ContextKind>({{ContextKind::automatic, "auto"},
-                                  {ContextKind::osmesa, "osmesa"},
-                                  {ContextKind::egl, "egl"},
-                                  {ContextKind::window, "window"}});
+  return names_except<ContextKind>({{ContextKind::automatic, "auto"}});
 }
 
 /// Current from creation to destruction, on the thread that made it.

@@ -15,26 +15,10 @@
 namespace gridshell::render {
 
 enum class Quality { draft, movie, figure };
-constexpr auto words(Quality) {
-  return word_table<Quality>(
-      {{Quality::draft, "draft"}, {Quality::movie, "movie"}, {Quality::figure, "figure"}});
-}
 /// Cells by K, its change since the first frame or their distance from the net over rho; or rods by
 /// how far they moved over the depth, their bending energy over length or their axial force.
 enum class ColourBy { none, K, displacement, K_change, deviation, energy, axial_force };
-constexpr auto words(ColourBy) {
-  return word_table<ColourBy>({{ColourBy::none, "none"},
-                               {ColourBy::K, "K"},
-                               {ColourBy::displacement, "displacement"},
-                               {ColourBy::K_change, "K_change"},
-                               {ColourBy::deviation, "deviation"},
-                               {ColourBy::energy, "energy"},
-                               {ColourBy::axial_force, "axial_force"}});
-}
 enum class Pace { even, eased };
-constexpr auto words(Pace) {
-  return word_table<Pace>({{Pace::even, "even"}, {Pace::eased, "eased"}});
-}
 
 /// What things look like, the theme's choices and the user's in one.
 struct Appearance {

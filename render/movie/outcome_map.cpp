@@ -145,7 +145,7 @@ void draw_legend(Canvas& canvas, Point at, double width) {
   // what a user would notice above, what not below
   Patches patches{.row_width = width, .row_height = 15, .font_size = size};
   patches.draw = [&](std::size_t k, const Box& box) { draw_cell(canvas, box, RunOutcome(k)); };
-  for (const auto& [outcome, word] : words(RunOutcome{}))
+  for (const auto& [outcome, word] : words_of<RunOutcome>())
     patches.names.push_back(outcome_label(outcome));
   draw_patches(canvas, {at.x, at.y, 18, 10}, patches);
 }

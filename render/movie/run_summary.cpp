@@ -161,7 +161,7 @@ void RunSummary::take(const record::Frame& frame) {
   if (frame.actuation > largest_actuation_)
     spreads_[std::size_t(ColourBy::deviation)].most.setZero();
   largest_actuation_ = std::max(largest_actuation_, frame.actuation);
-  for (const auto& entry : words(ColourBy{})) {
+  for (const auto& entry : words_of<ColourBy>()) {
     const bool counts = entry.value != ColourBy::deviation || frame.actuation == largest_actuation_;
     if (entry.value != ColourBy::displacement)
       spreads_[std::size_t(entry.value)].take(

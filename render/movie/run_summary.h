@@ -118,7 +118,7 @@ class RunSummary {
   void sample_points(const record::Frame& frame);
 
   const record::Layout* layout_;
-  std::array<ColouredRange, words(ColourBy{}).size()> spreads_;
+  std::array<ColouredRange, words_of<ColourBy>().size()> spreads_;
   std::vector<RodSample> rod_points_;             ///< the same places of the rods on every mesh
   double largest_actuation_ = -1;                 ///< the boundary has come
   int sample_stride_ = 1;                         ///< frame whose points are kept

@@ -237,9 +237,9 @@ int count(const std::vector<TrustRow>& rows, const std::string& kind, TrustClass
 void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::string& kind,
               const Box& box) {
   int all = 0;
-  for (const auto& one : words(TrustClass{})) all += count(rows, kind, one.value);
+  for (const auto& one : words_of<TrustClass>()) all += count(rows, kind, one.value);
   double x = box.x;
-  for (const auto& one : words(TrustClass{})) {
+  for (const auto& one : words_of<TrustClass>()) {
     const int n = count(rows, kind, one.value);
     if (n == 0) continue;
     const double part = box.width * n / all;
@@ -253,7 +253,7 @@ void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::stri
 
 void draw_legend(Canvas& canvas, Point at) {
   Patches patches{.row_width = width - 2 * margin, .row_height = legend_line, .font_size = size};
-  constexpr auto classes = words(TrustClass{});
+  constexpr auto classes = words_of<TrustClass>();
   patches.draw = [&](std::size_t k, const Box& box) {
     canvas.rectangle(box, trust_colour(classes[k].value));
   };
@@ -320,7 +320,7 @@ Plot trust_plot(const std::vector<TrustRow>& rows) {
   plot.x = {.label = "error estimate over the length scale", .logarithmic = true};
   plot.y = {.label = "error over the length scale", .logarithmic = true};
   double low = 1, high = 1e-9;
-  for (const auto& one : words(TrustClass{})) {
+  for (const auto& one : words_of<TrustClass>()) {
     Series series;
     series.name = label(one.value);
     series.colour = trust_colour(one.value);

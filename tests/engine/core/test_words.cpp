@@ -7,13 +7,9 @@ using namespace gridshell;
 namespace {
 
 enum class Fruit { apple, pear_tree };
-constexpr auto words(Fruit) {
-  return word_table<Fruit>({{Fruit::apple, "apple"}, {Fruit::pear_tree, "pear tree"}});
-}
+constexpr auto words(Fruit) { return names_except<Fruit>({{Fruit::pear_tree, "pear tree"}}); }
 enum class Tree { apple, pear };
-constexpr auto words(Tree) {
-  return word_table<Tree>({{Tree::apple, "apple"}, {Tree::pear, "pear tree"}});
-}
+constexpr auto words(Tree) { return names_except<Tree>({{Tree::pear, "pear tree"}}); }
 
 }  // namespace
 

@@ -180,8 +180,8 @@ std::vector<Preset> samples() {
                           at_highest, by_leg,       of_curve(CurveKind::ellipse, 0.77)};
   all.push_back(of_net(NetKind::sphere));
   all.back().ends = {.second_ring_mm = 7.5, .table = {}};
-  for (const auto& [kind, word] : words(CurveKind{})) all.push_back(of_curve(kind, 0));
-  for (const auto& [kind, word] : words(NetKind{})) {
+  for (const auto& [kind, word] : words_of<CurveKind>()) all.push_back(of_curve(kind, 0));
+  for (const auto& [kind, word] : words_of<NetKind>()) {
     if (kind == NetKind::surface) continue;  // below, and no block
     all.push_back(of_net(kind));
     all.push_back(of_blocks(kind));

@@ -9,7 +9,7 @@
 using namespace gridshell;
 
 TEST_CASE("random presets are the same from the same seed, of every kind, and read as written") {
-  for (const auto& kind : words(study::SceneKind{})) {
+  for (const auto& kind : words_of<study::SceneKind>()) {
     std::mt19937 first(7), second(7), third(8);
     const auto text = preset::to_toml(study::random_preset(kind.value, first));
     CAPTURE(kind.word);
@@ -34,6 +34,6 @@ TEST_CASE("sixty random scenes: none is silently wrong", "[full]") {
             scene.row.estimate, scene.preset.description);
     CHECK_FALSE(record::silently_wrong(scene.row.found));
   }
-  CHECK(kinds.size() == words(study::SceneKind{}).size());
+  CHECK(kinds.size() == words_of<study::SceneKind>().size());
   CHECK(judged > 30);
 }
