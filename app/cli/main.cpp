@@ -18,7 +18,7 @@ std::string no_such_command(const CLI::App& program, const std::string& word) {
   std::vector<std::string> names;
   for (const auto* command : program.get_subcommands({})) names.push_back(command->get_name());
   if (std::ranges::find(names, word) != names.end()) return "";
-  return "no command '" + word + "'" + preset::did_you_mean(word, names) +
+  return "no command '" + word + "'" + did_you_mean(word, names) +
          " ('gridshell --help' lists them)";
 }
 

@@ -25,7 +25,7 @@ Result<preset::Presets> load_preset(const std::string& argument,
     return preset::read_preset_file(path, overrides);
   return fail(Fault::bad_input, fmt::format("no preset '{}': neither a file nor a listed name{} "
                                             "('gridshell list' lists them)",
-                                            argument, preset::did_you_mean(argument, names)));
+                                            argument, did_you_mean(argument, names)));
 }
 
 Result<preset::Presets> load_preset_or_run(const std::string& argument) {

@@ -93,7 +93,7 @@ Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid
                               presets.base.name, name,
                               name == classes ? ", only of searches for states over "
                                                 "footprint.longest_leg and footprint.rods alone"
-                                              : preset::did_you_mean(name, names)));
+                                              : did_you_mean(name, names)));
   return {};
 }
 

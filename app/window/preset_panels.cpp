@@ -88,36 +88,34 @@ constexpr const char* shown_tables[] = {"rod",          "rod_v",  "joints",    "
 
 float bound(double value) { return float(std::clamp(value, -1e9, 1e9)); }
 
-/// A control for one kind of value; whether it was changed.
+/// A control for the member of a key; whether it was changed.
 struct Control {
-  preset::Preset& preset;
+  const Field& field;
   const char* id;
 
-  bool operator()(const preset::Real& kind) const {
-    double& value = kind.in(preset);
-    float shown = float(value);
+  bool operator()(double* value) const {
+    float shown = float(*value);
     const float step = std::max(1e-6f, 0.005f * std::abs(shown));
-    if (!ImGui::DragFloat(id, &shown, step, bound(kind.range.low), bound(kind.range.high), "%.6g",
+    const auto& range = field.range;
+    if (!ImGui::DragFloat(id, &shown, step, bound(range.low), bound(range.high), "%.6g",
                           ImGuiSliderFlags_AlwaysClamp) ||
-        !kind.range.holds(double(shown)))
+        !range.holds(double(shown)))
       return false;
-    value = double(shown);
+    *value = double(shown);
     return true;
   }
-  bool operator()(const preset::Integer& kind) const {
-    int& value = kind.in(preset);
-    const auto limit = [](double v) { return int(std::clamp(v, -1e9, 1e9)); };
-    return ImGui::DragInt(id, &value, 0.1f, limit(kind.range.low), limit(kind.range.high), "%d",
-                          ImGuiSliderFlags_AlwaysClamp);
+  bool operator()(int* value) const {
+    return ImGui::DragInt(id, value, 0.1f, int(bound(field.range.low)),
+                          int(bound(field.range.high)), "%d", ImGuiSliderFlags_AlwaysClamp);
   }
-  bool operator()(const preset::Flag& kind) const { return ImGui::Checkbox(id, &kind.in(preset)); }
-  bool operator()(const preset::Word& kind) const {
-    const int now = kind.get(preset);
+  bool operator()(bool* value) const { return ImGui::Checkbox(id, value); }
+  bool operator()(const preset::OneWord& word) const {
+    const int now = word.get(word.member);
     bool changed = false;
-    if (!ImGui::BeginCombo(id, kind.words[std::size_t(now)].c_str())) return false;
-    for (int k = 0; k < int(kind.words.size()); ++k)
-      if (ImGui::Selectable(kind.words[std::size_t(k)].c_str(), k == now) && k != now)
-        kind.set(preset, k), changed = true;
+    if (!ImGui::BeginCombo(id, field.words[std::size_t(now)].c_str())) return false;
+    for (int k = 0; k < int(field.words.size()); ++k)
+      if (ImGui::Selectable(field.words[std::size_t(k)].c_str(), k == now) && k != now)
+        word.set(word.member, k), changed = true;
     ImGui::EndCombo();
     return changed;
   }
@@ -128,11 +126,9 @@ struct Control {
 };
 
 /// Whether a control can change it.
-bool has_control(const Field& field) {
-  return std::holds_alternative<preset::Real>(field.kind) ||
-         std::holds_alternative<preset::Integer>(field.kind) ||
-         std::holds_alternative<preset::Flag>(field.kind) ||
-         std::holds_alternative<preset::Word>(field.kind);
+bool has_control(const Field& field, preset::Preset& preset) {
+  return field.as<double>(preset) || field.as<int>(preset) || field.as<bool>(preset) ||
+         field.as_word(preset);
 }
 
 }  // namespace
@@ -144,7 +140,7 @@ bool NumbersPanel::edit(const Panel& panel, const Field& field) {
   const float label = ImGui::CalcTextSize(field.key.c_str()).x;
   ImGui::SameLine(std::max(panel.px(150), label + panel.px(16)));
   ImGui::SetNextItemWidth(-1);
-  const bool changed = std::visit(Control{edited_, id.c_str()}, field.kind);
+  const bool changed = std::visit(Control{field, id.c_str()}, field.in(edited_, -1));
   panel.named(field.table + "." + field.key,
               fmt::format("{}{}; {}", field.meaning, field.unit.empty() ? "" : ", in " + field.unit,
                           allowed(field)));
@@ -190,7 +186,7 @@ void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
     look(panel.viewer);
     // an edit may take a number away or bring one
     const auto shown = [this](const Field& field, const char* table) {
-      return field.table == table && has_control(field) &&
+      return field.table == table && has_control(field, edited_) &&
              !idle_.contains(field.table + "." + field.key);
     };
     for (const char* table : shown_tables) {

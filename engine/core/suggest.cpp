@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace gridshell::preset {
+namespace gridshell {
 namespace {
 
 bool same(char a, char b) {
@@ -53,4 +53,4 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return name.empty() ? "" : "; did you mean '" + name + "'?";
 }
 
-}  // namespace gridshell::preset
+}  // namespace gridshell

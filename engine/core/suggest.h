@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gridshell::preset {
+namespace gridshell {
 
 /// Letters inserted, left out, changed, or swapped with a neighbour, at least how many
 /// (optimal string alignment distance); upper and lower case count as the same letter.
@@ -18,4 +18,4 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
 /// "; did you mean 'x'?", or empty when nothing is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
-}  // namespace gridshell::preset
+}  // namespace gridshell

@@ -1,8 +1,10 @@
-// One key of a preset as data: where it stands, what it may hold, what it means, and which member
-// of Preset it fills. Everything that speaks of keys (reader, writer, reference) works from these.
+// Every key of a preset as data: where it stands, which member it fills, what that may hold and
+// means, and what it needs of other keys. The reader, `--set`, the writer, the reference and the
+// window work from these; the type of the member chooses how it is read and written.
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -28,111 +30,86 @@ inline Range above(double low) { return {.low = low, .low_open = true}; }
 inline Range at_least(double low) { return {.low = low}; }
 inline Range between(double low, double high) { return {.low = low, .high = high}; }
 
-// The kinds of value a key can have; each reaches its member through `in`.
-struct Real {
-  double& (*in)(Preset&);
-  Range range;
+/// A member of some enum as the place of its word among all words, or a list of these.
+template <class Places>
+struct WordMember {
+  void* member;
+  Places (*get)(const void* member);
+  void (*set)(void* member, const Places& places);
 };
-struct Integer {
-  int& (*in)(Preset&);
-  Range range;
-};
-struct Flag {
-  bool& (*in)(Preset&);
-};
-struct Text {
-  std::string& (*in)(Preset&);
-};
-/// A colour: "#rrggbb", "transparent", or empty for the usual one.
-struct ColourText {
-  std::string& (*in)(Preset&);
-};
-/// One word of a few, those of an enum; the index of a word is the enumerator's value.
-struct Word {
-  int (*get)(const Preset&);
-  void (*set)(Preset&, int);
-  std::vector<std::string> words;
-};
-struct IntegerPair {
-  std::array<int, 2>& (*in)(Preset&);
-  Range range;
-};
-struct RealList {
-  std::vector<double>& (*in)(Preset&);
-  Range range;
-};
+using OneWord = WordMember<int>;
+using SomeWords = WordMember<std::vector<int>>;
 
-struct IntegerList {
-  std::vector<int>& (*in)(Preset&);
-  Range range;
-};
+/// The member of a preset that a key fills.
+using Member =
+    std::variant<bool*, int*, double*, std::string*, std::optional<int>*, std::array<int, 2>*,
+                 std::vector<int>*, std::vector<double>*, std::vector<std::string>*,
+                 std::vector<SweepAxis>*, Points*, SurfaceData*, NetworkData*, OneWord, SomeWords>;
 
-/// A number, or nothing where the key is "none".
-struct OptionalInteger {
-  std::optional<int>& (*in)(Preset&);
-  Range range;
+/// What a key has to do with other keys.
+enum class RuleKind {
+  unused,             ///< it counts for nothing
+  refused,            ///< its value does not go with theirs
+  needs_twist,        ///< the model `bend` is not exact
+  needs_equilibrium,  ///< the smooth net itself, the model `net`, is not enough
 };
-/// Texts of any number.
-struct TextList {
-  std::vector<std::string>& (*in)(Preset&);
-};
-/// The keys of a sweep with their values (sweep_axes.h).
-struct AxisList {
-  std::vector<SweepAxis>& (*in)(Preset&);
-};
-/// Points of two or three coordinates, in the preset or in a file beside it.
-struct PointList {
-  Points& (*in)(Preset&);
-  std::vector<std::string> coordinates;  ///< their names
-  /// of coordinates that are words: which, the number of one being its place; empty: no words
-  std::vector<std::vector<std::string>> words = {};
-
-  /// The words of a coordinate; none: it is a number.
-  std::vector<std::string> words_of(std::size_t coordinate) const {
-    return coordinate < words.size() ? words[coordinate] : std::vector<std::string>();
-  }
-};
-
-/// A surface: the name of a file that holds it, or what was in the file.
-struct SurfaceText {
-  SurfaceData& (*in)(Preset&);
-};
-
-/// A network of rods: the name of a file that holds it, or what was in the file.
-struct NetworkText {
-  NetworkData& (*in)(Preset&);
-};
-
-/// Several words of a few, those of an enum.
-struct WordList {
-  std::vector<int> (*get)(const Preset&);
-  void (*set)(Preset&, const std::vector<int>&);
-  std::vector<std::string> words;
+struct Rule {
+  RuleKind kind;
+  std::vector<std::string> others;  ///< keys that decide: "[net] kind", of its own table "kind"
+  /// what is wrong, of an item of a list of tables; empty: nothing
+  std::function<std::string(const Preset& preset, int item)> fault;
 };
 
 /// One key.
 struct Field {
   std::string table;  ///< empty at the top of the file
   std::string key;
-  std::string unit;  ///< empty: a pure number or not a number
-  std::variant<Real, Integer, Flag, Text, ColourText, Word, IntegerPair, RealList, IntegerList,
-               OptionalInteger, TextList, AxisList, PointList, SurfaceText, NetworkText, WordList>
-      kind;
+  std::string unit;     ///< empty: a pure number or not a number
   std::string meaning;  ///< one sentence without a full stop
+  /// the member, of an item of a list of tables or, below 0, of the last
+  std::function<Member(Preset& preset, int item)> in;
+  Range range = {};                                             ///< of numbers
+  std::string shape = {};                                       ///< of a list: "[x, y, z]"
+  bool colour = false;                                          ///< of a text
+  std::vector<std::string> words = {};                          ///< of an enum
+  std::vector<std::string> coordinates = {};                    ///< of points: their names
+  std::vector<std::vector<std::string>> coordinate_words = {};  ///< of those that are no numbers
+  std::vector<Rule> rules = {};
+
+  /// The member where it is of that type, else null.
+  template <class T>
+  T* as(Preset& preset, int item = -1) const {
+    const Member member = in(preset, item);
+    const auto* found = std::get_if<T*>(&member);
+    return found ? *found : nullptr;
+  }
+  /// The same of an enum.
+  std::optional<OneWord> as_word(Preset& preset, int item = -1) const {
+    const Member member = in(preset, item);
+    const auto* found = std::get_if<OneWord>(&member);
+    return found ? std::optional(*found) : std::nullopt;
+  }
+  /// The words of one of its coordinates; none: that is a number.
+  std::vector<std::string> words_of(std::size_t coordinate) const {
+    return coordinate < coordinate_words.size() ? coordinate_words[coordinate]
+                                                : std::vector<std::string>();
+  }
 };
 
-/// "[footprint] radius_mm", or "title" at the top.
+/// How a fault calls a key: "[footprint] radius_mm", "[[step]] 1 joint" (item 0), "title" at the
+/// top.
+std::string key_label(const std::string& table, const std::string& key, int item = -1);
 std::string name_of(const Field& field);
+/// The same of a key that may stand in another table: "[net] kind" as it is.
+std::string full_label(const std::string& table, const std::string& key, int item = -1);
 
 /// What it may hold: "a number > 0", "an integer from 2 to 100000", "\"up\" or \"down\"".
 std::string allowed(const Field& field);
+/// "\"up\", \"down\" or \"flat\"".
+std::string words_text(const std::vector<std::string>& words);
 
 /// Its value in `preset` as TOML.
-std::string value_text(const Field& field, const Preset& preset);
-
-// The field table: every key a preset may hold, once. The reader, `--set`, `--print-config`,
-// `check` and the README's reference are made from it; defaults are those of a default-built
-// Preset.
+std::string value_text(const Field& field, const Preset& preset, int item = -1);
 
 /// A table of the file, in the order of the reference.
 struct Table {
@@ -143,7 +120,8 @@ struct Table {
 
 const std::vector<Table>& tables();
 
-/// All keys, table by table in the order of tables().
+/// All keys; those of a table stand in the order of the reference. Defaults are those of a
+/// default-built Preset.
 const std::vector<Field>& field_table();
 
 /// The key `key` of `table`, or null.

@@ -1,7 +1,7 @@
 // What a preset is called where people read it.
 #pragma once
 
-#include <algorithm>
+#include <optional>
 #include <string>
 
 #include "engine/preset/preset.h"
@@ -38,15 +38,13 @@ inline Preset default_items() {
   return preset;
 }
 
-/// The preset with its lists ending at an item (from 0), which a field then speaks of; below 0: as
-/// it is.
-inline Preset lists_up_to(Preset preset, int item) {
-  if (item < 0) return preset;
-  each_list([&](const char*, auto member) {
-    auto& list = preset.*member;
-    list.resize(std::min(list.size(), std::size_t(item) + 1));
+/// How many items that list has; empty: the table is none of these.
+inline std::optional<int> items_of(const Preset& preset, const std::string& table) {
+  std::optional<int> items;
+  each_list([&](const char* name, auto member) {
+    if (table == name) items = int((preset.*member).size());
   });
-  return preset;
+  return items;
 }
 
 }  // namespace gridshell::preset

@@ -43,60 +43,64 @@ bool overridden_above(const PresetBuilder& draft, const std::vector<std::string>
   });
 }
 
-// a key that says its default asks for nothing
-void refuse_unused(const PresetBuilder& draft, const UnusedKey& idle, LocatedFaults& faults) {
-  const auto name = key_label(idle.table, idle.key, idle.item);
-  const auto& field = *find_field(idle.table, idle.key);
-  const Preset defaults = default_items();
-  const auto value = value_text(field, lists_up_to(draft.preset, idle.item));
-  if (value == value_text(field, defaults)) return;
-  const auto refused = [&](const std::string& key) { return draft.faulty.contains(key); };
-  if (std::ranges::any_of(idle.deciders, refused)) return;
-  faults.add(
-      draft.set_at.at(name),
-      fmt::format("{} = {}: counts for nothing here, must be left out: {}", name, value, idle.why));
+std::string label_of(const KeyFault& fault) {
+  return key_label(fault.table, fault.key, fault.item);
+}
+
+/// "[rod] diameter_mm = 20.0: neighbouring rods would touch, ..."
+std::string fault_text(const Preset& preset, const KeyFault& fault, const std::string& more = "") {
+  const Field& field = *find_field(fault.table, fault.key);
+  return fmt::format("{} = {}: {}{}", label_of(fault), value_text(field, preset, fault.item), more,
+                     fault.what);
+}
+
+// a refused value left its default behind, with which nothing that the user wrote is at odds
+bool any_refused(const PresetBuilder& draft, const std::vector<std::string>& keys) {
+  return std::ranges::any_of(keys, [&](const auto& key) { return draft.faulty.contains(key); });
+}
+
+bool is_default(const PresetBuilder& draft, const KeyFault& fault) {
+  static const Preset defaults = default_items();
+  const Field& field = *find_field(fault.table, fault.key);
+  return value_text(field, draft.preset, fault.item) == value_text(field, defaults);
 }
 
 }  // namespace
 
-std::string key_label(const std::string& table, const std::string& key, int item) {
-  if (item >= 0) return fmt::format("[[{}]] {} {}", table, item + 1, key);
-  return table.empty() ? key : fmt::format("[{}] {}", table, key);
-}
-
 void check_conflicts(const PresetBuilder& draft, const std::string& source, LocatedFaults& faults) {
-  for (const auto& conflict : conflicts(draft.preset)) {
-    const auto name = key_label(conflict.table, conflict.key, conflict.item);
-    // a refused value left its default behind, which conflicts with nothing the user wrote
-    const auto refused = [&](const std::string& key) { return draft.faulty.contains(key); };
-    if (refused(name) || std::ranges::any_of(conflict.others, refused)) continue;
-    const auto* field = find_field(conflict.table, conflict.key);
-    auto keys = conflict.others;
-    keys.insert(keys.begin(), name);
-    if (conflict.item >= 0) keys.push_back(key_label(conflict.table, "", conflict.item));
+  for (const KeyFault& fault : conflicts(draft.preset)) {
+    auto keys = fault.others;
+    keys.insert(keys.begin(), label_of(fault));
+    if (any_refused(draft, keys)) continue;
+    if (fault.item >= 0) keys.push_back(key_label(fault.table, "", fault.item));
     const auto set = std::ranges::find_if(
         keys, [&](const std::string& key) { return draft.set_at.contains(key); });
-    faults.add(
-        set == keys.end() ? SourceLocation{source} : draft.set_at.at(*set),
-        fmt::format("{} = {}: {}", name,
-                    value_text(*field, lists_up_to(draft.preset, conflict.item)), conflict.what));
+    faults.add(set == keys.end() ? SourceLocation{source} : draft.set_at.at(*set),
+               fault_text(draft.preset, fault));
   }
 }
 
 void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedFaults& faults) {
-  std::map<std::string, std::size_t> idle_in;
+  std::map<std::string, std::size_t> unused_in;
+  std::vector<std::vector<KeyFault>> unused;
   for (const PresetBuilder& draft : runs)
-    for (const UnusedKey& idle : unused_keys(draft.preset))
-      ++idle_in[key_label(idle.table, idle.key, idle.item)];
-  for (const PresetBuilder& draft : runs)
-    for (const UnusedKey& idle : unused_keys(draft.preset)) {
-      const auto name = key_label(idle.table, idle.key, idle.item);
+    for (const KeyFault& one : unused.emplace_back(unused_keys(draft.preset)))
+      ++unused_in[label_of(one)];
+  for (std::size_t run = 0; run < runs.size(); ++run)
+    for (const KeyFault& one : unused[run]) {
+      const PresetBuilder& draft = runs[run];
+      const auto name = label_of(one);
       const auto set = draft.set_at.find(name);
       if (set == draft.set_at.end() || draft.faulty.contains(name)) continue;
+      const ValueLayer layer = set->second.layer;
       // what the base says may be for another case
-      if (set->second.layer != ValueLayer::one_case && idle_in[name] < runs.size()) continue;
-      if (!overridden_above(draft, idle.deciders, set->second.layer))
-        refuse_unused(draft, idle, faults);
+      if (layer != ValueLayer::one_case && unused_in[name] < runs.size()) continue;
+      // a key that says its default asks for nothing
+      if (overridden_above(draft, one.others, layer) || any_refused(draft, one.others) ||
+          is_default(draft, one))
+        continue;
+      faults.add(set->second,
+                 fault_text(draft.preset, one, "counts for nothing here, must be left out: "));
     }
 }
 

@@ -50,9 +50,6 @@ struct PresetBuilder {
   std::set<std::string> faulty;                  ///< keys whose value was refused
 };
 
-/// How a fault calls a key; `item` counts the tables of a list from 0.
-std::string key_label(const std::string& table, const std::string& key, int item = -1);
-
 /// Values that do not agree with each other; where none of them was set the fault is in `source`.
 void check_conflicts(const PresetBuilder& draft, const std::string& source, LocatedFaults& faults);
 

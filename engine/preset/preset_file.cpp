@@ -154,7 +154,7 @@ std::string cell(std::string text) {
 class Used {
  public:
   explicit Used(const Preset& preset) {
-    for (const UnusedKey& idle : unused_keys(preset))
+    for (const KeyFault& idle : unused_keys(preset))
       idle_.insert({idle.table, idle.key, idle.item});
   }
   bool operator()(const Field& field, int item = -1) const {
@@ -169,11 +169,10 @@ class Used {
 // left out
 std::string item_text(const std::string& table, const Preset& preset, const Used& used, int item) {
   static const Preset defaults = default_items();
-  const Preset one = lists_up_to(preset, item);
   auto text = fmt::format("\n[[{}]]\n", table);
   for (const auto& field : field_table()) {
     if (field.table != table || !used(field, item)) continue;
-    const auto value = value_text(field, one);
+    const auto value = value_text(field, preset, item);
     if (table == "step" && field.key != "do" && value == value_text(field, defaults)) continue;
     text += fmt::format("{} = {}\n", field.key, value);
   }

@@ -97,12 +97,12 @@ class SweepCheck {
     const SweepGrid grid({draft_.preset, {}});
     for (std::size_t k = 0; k < grid.size(); ++k) {
       const SweepPoint point = grid.at(k);
-      for (const Conflict& conflict : conflicts(point.preset)) {
-        const Field* field = find_field(conflict.table, conflict.key);
+      for (const KeyFault& conflict : conflicts(point.preset)) {
+        const Field& field = *find_field(conflict.table, conflict.key);
         faults_.add(place("over"),
                     fmt::format("[sweep] over: at {}: {} = {}: {}", setting(sweep_, point),
                                 key_label(conflict.table, conflict.key, conflict.item),
-                                field ? value_text(*field, point.preset) : "", conflict.what));
+                                value_text(field, point.preset, conflict.item), conflict.what));
         return;  // the first says enough
       }
       forget_used(point, idle);
@@ -119,9 +119,9 @@ class SweepCheck {
   static void forget_used(const SweepPoint& point, std::map<std::string, std::string>& idle) {
     if (idle.empty()) return;
     std::map<std::string, std::string> still;
-    for (const UnusedKey& key : unused_keys(point.preset))
+    for (const KeyFault& key : unused_keys(point.preset))
       if (const auto name = key_label(key.table, key.key, key.item); idle.contains(name))
-        still[name] = key.why;
+        still[name] = key.what;
     idle = std::move(still);
   }
 

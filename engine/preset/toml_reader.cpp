@@ -132,10 +132,9 @@ void TomlReader::read_table(const toml::key& key, const toml::node& value, Prese
   }
 }
 
-void TomlReader::read_sweep_axes(const AxisList& list, const toml::table& over,
-                                 PresetBuilder& draft) {
+void TomlReader::read_sweep_axes(const toml::table& over, PresetBuilder& draft) {
   std::vector<AxisFault> wrong;
-  list.in(draft.preset) = read_axes(over, wrong);
+  draft.preset.sweep.over = read_axes(over, wrong);
   for (auto& fault : wrong) faults_.add(place_of(fault.place), std::move(fault.text));
   if (!wrong.empty()) draft.faulty.insert("[sweep] over");
 }
@@ -156,9 +155,9 @@ void TomlReader::assign_key(const std::string& table, const toml::key& key, cons
                                    full, toml_text(value)));
     return;
   }
-  if (const auto* axes = std::get_if<AxisList>(&field->kind); axes && value.is_table()) {
+  if (value.is_table() && field->as<std::vector<SweepAxis>>(draft.preset)) {
     draft.set_at[full] = place_of(key.source());
-    read_sweep_axes(*axes, *value.as_table(), draft);
+    read_sweep_axes(*value.as_table(), draft);
     return;
   }
   const auto wrong =
@@ -275,7 +274,8 @@ class AxisReader {
   void take_number(double value, const toml::table& range) {
     // steps of 0.1 shall read 0.3, not 0.30000000000000004
     value = std::stod(fmt::format("{:.12g}", value));
-    if (!std::holds_alternative<Integer>(field_->kind)) return take(toml::value<double>(value));
+    Preset any = default_items();
+    if (!field_->as<int>(any)) return take(toml::value<double>(value));
     if (value != std::round(value) || std::abs(value) > 1e9)
       return refuse(range, fmt::format("comes to {}, must be {}", value, allowed(*field_)));
     take(toml::value<std::int64_t>(std::int64_t(value)));

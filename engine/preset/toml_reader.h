@@ -70,7 +70,7 @@ class TomlReader {
   void assign_key(const std::string& table, const toml::key& key, const toml::node& value,
                   PresetBuilder& draft, int item = -1);
 
-  void read_sweep_axes(const AxisList& list, const toml::table& over, PresetBuilder& draft);
+  void read_sweep_axes(const toml::table& over, PresetBuilder& draft);
 
   std::string source_;
   FileContext beside_;                   // the file

@@ -41,18 +41,16 @@ std::set<std::string> members_read() {
 
 // another value than the default
 void change(const Field& field, Preset& preset) {
-  auto kind = field.kind;
-  if (auto* k = std::get_if<Real>(&kind)) k->in(preset) += 1;
-  if (auto* k = std::get_if<Integer>(&kind)) k->in(preset) += 1;
-  if (auto* k = std::get_if<Flag>(&kind)) k->in(preset) = !k->in(preset);
-  if (auto* k = std::get_if<Word>(&kind)) {
-    // the last word: the first after "auto" is often what "auto" comes to
-    k->set(preset, k->get(preset) == 0 ? int(k->words.size()) - 1 : 0);
-  }
-  if (auto* k = std::get_if<IntegerPair>(&kind)) k->in(preset)[1] += 1;
-  if (auto* k = std::get_if<RealList>(&kind)) k->in(preset) = {1, 2, 3};
-  if (auto* k = std::get_if<PointList>(&kind)) k->in(preset) = {{1, 2, 3}};
-  if (auto* k = std::get_if<ColourText>(&kind)) k->in(preset) = "#010203";
+  if (auto* real = field.as<double>(preset)) *real += 1;
+  if (auto* number = field.as<int>(preset)) *number += 1;
+  if (auto* flag = field.as<bool>(preset)) *flag = !*flag;
+  // the last word: the first after "auto" is often what "auto" comes to
+  if (const auto word = field.as_word(preset))
+    word->set(word->member, word->get(word->member) == 0 ? int(field.words.size()) - 1 : 0);
+  if (auto* pair = field.as<std::array<int, 2>>(preset)) (*pair)[1] += 1;
+  if (auto* list = field.as<std::vector<double>>(preset)) *list = {1, 2, 3};
+  if (auto* points = field.as<Points>(preset)) *points = {{1, 2, 3}};
+  if (auto* text = field.as<std::string>(preset); text && field.colour) *text = "#010203";
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "engine/core/file_io.h"
 #include "engine/preset/field_table.h"
+#include "engine/preset/preset_access.h"
 
 namespace fs = std::filesystem;
 using gridshell::preset::Field;
@@ -63,14 +64,12 @@ std::string hostile_value(Draw& draw) {
 
 // a value of the key's own type, anywhere in its range or at the edge of it
 std::string fitting_value(const Field& field, Draw& draw) {
-  if (const auto* word = std::get_if<gridshell::preset::Word>(&field.kind))
-    return fmt::format("\"{}\"", draw.of(word->words));
-  if (std::holds_alternative<gridshell::preset::Flag>(field.kind))
-    return draw.one_in(2) ? "true" : "false";
+  gridshell::preset::Preset any = gridshell::preset::default_items();
+  if (field.as_word(any)) return fmt::format("\"{}\"", draw.of(field.words));
+  if (field.as<bool>(any)) return draw.one_in(2) ? "true" : "false";
   static const std::vector<double> sizes{1e-9, 1e-4, 0.01, 0.1, 0.5, 0.9, 1, 1.5, 3, 10, 40, 200};
   const double size = draw.of(sizes);
-  if (std::holds_alternative<gridshell::preset::Integer>(field.kind))
-    return fmt::format("{}", int(size));
+  if (field.as<int>(any)) return fmt::format("{}", int(size));
   return fmt::format("{:g}", size);
 }
 

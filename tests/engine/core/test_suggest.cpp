@@ -2,7 +2,7 @@
 
 #include "engine/core/suggest.h"
 
-using namespace gridshell::preset;
+using namespace gridshell;
 
 TEST_CASE("the edit distance counts letters inserted, left out, changed and swapped") {
   CHECK(edit_distance("", "") == 0);

@@ -1,6 +1,4 @@
 // [[step]]: read, refused with file, line and key, and written as it reads.
-#include "engine/preset/field_groups.h"
-
 #include <catch2/catch.hpp>
 
 #include "engine/preset/preset_file.h"

@@ -41,26 +41,25 @@ Presets read_back(const std::string& text) {
 Preset all_changed() {
   Preset preset = with_items();
   for (const auto& field : field_table()) {
-    auto kind = field.kind;
-    if (auto* k = std::get_if<Real>(&kind)) k->in(preset) = k->in(preset)*0.7 + 0.01;
-    if (auto* k = std::get_if<Integer>(&kind)) k->in(preset) += 1;
-    if (auto* k = std::get_if<Flag>(&kind)) k->in(preset) = !k->in(preset);
-    if (auto* k = std::get_if<Text>(&kind)) k->in(preset) = "a \"b\" \\ \n\tc = # 'd' □";
-    if (auto* k = std::get_if<Word>(&kind))
-      k->set(preset, k->get(preset) == 0 ? int(k->words.size()) - 1 : 0);
-    if (auto* k = std::get_if<IntegerPair>(&kind)) k->in(preset) = {333, 222};
-    if (auto* k = std::get_if<IntegerList>(&kind)) k->in(preset) = {3, 2};
-    if (auto* k = std::get_if<RealList>(&kind)) k->in(preset) = {87.1, 1e2 / 1.5};
-    if (auto* k = std::get_if<OptionalInteger>(&kind)) k->in(preset) = -3;
-    if (auto* k = std::get_if<ColourText>(&kind)) k->in(preset) = "#0a1B2c";
-    if (auto* k = std::get_if<PointList>(&kind))
+    if (auto* real = field.as<double>(preset)) *real = *real * 0.7 + 0.01;
+    if (auto* number = field.as<int>(preset)) *number += 1;
+    if (auto* flag = field.as<bool>(preset)) *flag = !*flag;
+    if (auto* text = field.as<std::string>(preset))
+      *text = field.colour ? "#0a1B2c" : "a \"b\" \\ \n\tc = # 'd' □";
+    if (const auto word = field.as_word(preset))
+      word->set(word->member, word->get(word->member) == 0 ? int(field.words.size()) - 1 : 0);
+    if (auto* pair = field.as<std::array<int, 2>>(preset)) *pair = {333, 222};
+    if (auto* list = field.as<std::vector<int>>(preset)) *list = {3, 2};
+    if (auto* list = field.as<std::vector<double>>(preset)) *list = {87.1, 1e2 / 1.5};
+    if (auto* number = field.as<std::optional<int>>(preset)) *number = -3;
+    if (auto* points = field.as<Points>(preset))
       for (int n = 0; n < 4; ++n) {
-        k->in(preset).emplace_back(k->coordinates.size(), 0.1 - 1e-7 * n);
-        for (std::size_t c = 0; c < k->words.size(); ++c)
-          if (!k->words[c].empty()) k->in(preset).back()[c] = 1;
+        auto& point = points->emplace_back(field.coordinates.size(), 0.1 - 1e-7 * n);
+        for (std::size_t c = 0; c < point.size(); ++c)
+          if (!field.words_of(c).empty()) point[c] = 1;
       }
-    if (auto* k = std::get_if<WordList>(&kind)) k->set(preset, {1, 3});
   }
+  preset.inverse.vary = {Vary::pins, Vary::legs};
   preset.jitter.levels = {0.25, 1e0 / 3};
   preset.movie.target_mm = {1.5, -2, 1e2 / 3};
   preset.movie.bins_range = preset.style.range = {-0.02, 0.07};
@@ -261,10 +260,8 @@ TEST_CASE("the field table is sound") {
     CHECK(names.insert(name_of(field)).second);
     CHECK_FALSE(field.meaning.empty());
     CHECK(field.meaning.back() != '.');
-    if (const auto* k = std::get_if<Real>(&field.kind)) {
-      Preset preset = defaults;
-      CHECK(k->range.holds(k->in(preset)));
-    }
+    Preset preset = defaults;
+    if (const auto* real = field.as<double>(preset)) CHECK(field.range.holds(*real));
     // units stand in the key
     if (field.unit == "mm") CHECK_THAT(field.key, Catch::EndsWith("_mm"));
     if (field.unit == "deg") CHECK_THAT(field.key, Catch::EndsWith("_deg"));

@@ -1,0 +1,413 @@
+#include "engine/preset/field_list.h"
+
+namespace gridshell::preset {
+namespace {
+
+bool by_net_alone(const Preset& preset) { return preset.accuracy.model == RodModel::net; }
+constexpr const char* nothing_solved = "nothing is solved with [accuracy] model = \"net\"";
+
+/// What asks for a mass that a family of rods lacks.
+template <class Struct>
+void needs_mass(FieldList<Struct>& list, const char* what, bool (*asks)(const Struct&)) {
+  for (const char* table : {"rod", "rod_v"})
+    list.refused({fmt::format("[{}] density_kg_m3", table)},
+                 fmt::format("{} needs a mass, [{}] density_kg_m3 must be above 0", what, table),
+                 [=, v = std::string(table) == "rod_v"](const Preset& preset, const Struct& of) {
+                   const bool lacks = v ? preset.rod_v.differs && preset.rod_v.density_kg_m3 == 0
+                                        : preset.rod.density_kg_m3 == 0;
+                   return asks(of) && lacks;
+                 });
+}
+
+void add_imperfection(FieldList<Imperfection> list) {
+  list.unused({"[accuracy] model"}, nothing_solved, by_net_alone);
+  const auto perfect = [](const Imperfection& of) { return of.size == 0; };
+  const char* why =
+      "with [imperfection] size = 0 nothing is chosen: the path stays on the symmetric branch";
+  list.add<&Imperfection::size>(
+      between(0, 0.05),
+      "with which a branch is entered that leaves a path where it loses its stability, of d; it "
+      "only chooses, each state being one of the perfect shell; 0: the symmetric branch, whose "
+      "frames say where it is not stable");
+  list.add<&Imperfection::seed>(between(0, 1e9), "of what is drawn by chance")
+      .unused({"size"}, why, perfect);
+  list.add<&Imperfection::form>(
+          "\"random\": to the side on which a direction a joint points; \"soft_mode\": along the "
+          "mode that went soft, to one side with odd seeds and to the other with even ones")
+      .unused({"size"}, why, perfect);
+}
+
+void add_indentation(FieldList<Indentation> list) {
+  using I = Indentation;
+  const auto pushed = [&list]() -> FieldList<I>& {
+    return list.unused({"depth", "depth_mm"},
+                       "nothing is pushed: [indentation] depth and depth_mm "
+                       "are 0",
+                       [](const I& of) { return !of.wanted(); });
+  };
+  const auto by_place = [&]() -> FieldList<I>& {
+    return pushed().unused({"joint"}, "[indentation] joint names the joint that is pushed",
+                           [](const I& of) { return !of.joint.empty(); });
+  };
+  list.add<&I::at>("joint that is pushed: the one nearest to the pole, or the highest");
+  by_place().unused({"latitude_deg"}, "[indentation] latitude_deg takes its place",
+                    [](const I& of) { return of.latitude_deg < 90; });
+  list.add<&I::latitude_deg>(
+      between(-90, 90),
+      "of the place pushed, as seen from the net's origin; below 90 in the place of `at`");
+  by_place();
+  list.add<&I::longitude_deg>(between(-360, 360), "from +x towards +y");
+  by_place().unused({"latitude_deg"}, "at a latitude of 90 degrees there is no longitude",
+                    [](const I& of) { return of.latitude_deg >= 90; });
+  list.add<&I::joint>(
+          between(-500, 500),
+          "of the joint pushed, in the place of all of these; empty: not by its indices")
+      .shape("[i, j]");
+  pushed();
+  list.add<&I::direction>(
+      "against or along the normal of the net, or of the unloaded shell, at the joint; fixed in "
+      "space");
+  pushed();
+  list.add<&I::depth>(between(0, 10),
+                      "depth of the push over rho of a net or R_o of a circle; 0: nothing is "
+                      "pushed")
+      .unused({"depth_mm"}, "[indentation] depth_mm takes its place",
+              [](const I& of) { return of.depth_mm > 0; })
+      .needs_equilibrium("a net does not answer a push", [](const I& of) { return of.wanted(); });
+  list.add<&I::depth_mm>(at_least(0), "the same in millimetres, in the place of `depth`");
+  list.add<&I::lateral>("whether the joint pushed may move across the push");
+  pushed();
+  list.add<&I::unload>(
+      "whether the push is taken back at the end, in the second half of the frames");
+  pushed();
+}
+
+/// What the steps of a preset cannot stand beside, said of the first.
+void step_rules(FieldList<Step>& list) {
+  const auto first = [](const Preset& preset, const Step& of) { return &of == preset.step.data(); };
+  list.refused({"[indentation] depth", "[indentation] depth_mm"},
+               "[indentation] pushes already, must be a step \"push\" in its place",
+               [=](const Preset& preset, const Step& of) {
+                 return first(preset, of) && preset.indentation.wanted();
+               })
+      .refused({"[jitter] trials", "[jitter] confined"},
+               "states are looked for of a shell that no hand touches, must be without [[step]], "
+               "or [jitter] trials and confined 0",
+               [=](const Preset& preset, const Step& of) {
+                 return first(preset, of) && preset.jitter.wanted();
+               })
+      .needs_equilibrium("a net does not answer a hand", first);
+}
+
+void add_steps(FieldList<Step> list) {
+  using K = StepKind;
+  const auto only = [&list](std::vector<StepKind> kinds) -> FieldList<Step>& {
+    return list.used_by(&Step::kind, std::move(kinds));
+  };
+  list.add<&Step::kind>(
+          "\"move\" the boundary; \"push\" a joint, which is held from then on; \"hold\" one where "
+          "it is; \"release\" one; \"load\": more or less of what [loads] says; \"rest\": down the "
+          "energy; \"jitter\": random forces on all joints come on and go away again")
+      .named("do");
+  step_rules(list);
+  list.add<&Step::progress>(
+      between(0, 10),
+      "of a move: 0 the original boundary, 1 the actuated one, beyond it further on");
+  only({K::move}).unused({"radius_mm"}, "radius_mm takes its place",
+                         [](const Step& of) { return of.radius_mm > 0; });
+  list.add<&Step::radius_mm>(at_least(0),
+                             "of a move of a circle, in the place of `progress`; 0: not given");
+  only({K::move})
+      .refused({}, "only a circle's boundary has a radius, must be 0: `progress` serves all",
+               [](const Preset& preset, const Step& of) {
+                 return of.radius_mm > 0 && preset.footprint.kind != FootprintKind::circle;
+               })
+      .refused({}, [](const Preset& preset, const Step& of) {
+        return of.radius_mm > preset.original_radius_mm()
+                   ? fmt::format("larger than the footprint, must be at most R_o = {}",
+                                 preset.original_radius_mm())
+                   : "";
+      });
+  list.add<&Step::edge_points>(
+          "of a move: by how much edge points, counted from 0, lie off the boundary's motion; "
+          "others lie on it")
+      .points({"edge_point", "x_mm", "y_mm", "z_mm"});
+  only({K::move}).refused({},
+                          "names an edge point that is no number, must be a whole number from 0 on",
+                          [](const Step& of) {
+                            return std::ranges::any_of(of.edge_points, [](const auto& row) {
+                              return row[0] < 0 || row[0] != double(int(row[0]));
+                            });
+                          });
+  list.add<&Step::joint>(between(-500, 500),
+                         "of the joint; of a release that names none: all that are held")
+      .shape("[i, j]");
+  only({K::push, K::hold, K::release}).refused({}, "must be [i, j]", [](const Step& of) {
+    return of.joint.empty() && (of.kind == K::push || of.kind == K::hold);
+  });
+  list.add<&Step::to_mm>("place to which a push brings the joint; empty: `depth_mm` says how far")
+      .shape("[x, y, z]");
+  only({K::push});
+  list.add<&Step::depth_mm>(
+      "by how much a push moves the joint against the shell's normal, inward, from where it is; "
+      "below 0 outward");
+  only({K::push}).refused(
+      {}, "a push goes to `to_mm` or by `depth_mm`, must be one of the two",
+      [](const Step& of) { return of.kind == K::push && of.to_mm.empty() == (of.depth_mm == 0); });
+  list.add<&Step::along>(
+          "direction in which a joint is held that may move across it; empty: the way of the push, "
+          "of a hold all directions")
+      .shape("[x, y, z]");
+  only({K::push, K::hold})
+      .refused({}, "is no direction, must have a length",
+               [](const Step& of) {
+                 return of.along == std::vector<double>{0, 0, 0};
+               })
+      .refused(
+          {},
+          "a joint that is held across the push has no direction of its own, must be empty, or "
+          "lateral = \"free\"",
+          [](const Step& of) {
+            return of.kind == K::push && of.lateral == Lateral::held && !of.along.empty();
+          });
+  list.add<&Step::lateral>("whether the joint pushed may move across the push");
+  only({K::push});
+  list.add<&Step::factor>(between(-1000, 1000),
+                          "how many times what [loads] says counts from then on; 0: not at all");
+  only({K::load});
+  list.add<&Step::side>(
+      "of a rest from a state that is not stable: where the energy ends lower, or along or against "
+      "its soft mode");
+  only({K::rest});
+  list.add<&Step::seed>(between(0, 1 << 30), "of a jitter: another one shakes otherwise");
+  only({K::jitter});
+  list.add<&Step::force_N>(above(0), "of a jitter: largest force on a joint along each axis");
+  only({K::jitter});
+}
+
+void add_loads(FieldList<Loads> list) {
+  list.add<&Loads::gravity_m_s2>(
+      "gravity, downwards; loads come on with the actuation, in full at its end");
+  needs_mass<Loads>(list, "gravity", [](const Loads& of) { return of.gravity_m_s2 != 0; });
+  list.add<&Loads::field_N_per_mm>(
+      "artificial gravity: force on every millimetre of rod, downwards");
+  list.add<&Loads::points>("forces in N on joints")
+      .points({"i", "j", "F_x", "F_y", "F_z"})
+      .needs_equilibrium("a net does not answer loads", &Loads::any);
+}
+
+void add_dynamics(FieldList<Dynamics> list) {
+  list.unused({"[accuracy] model"}, nothing_solved, by_net_alone);
+  const auto still = [](const Dynamics& of) { return !of.snap; };
+  const char* why = "no snap is followed in time without it";
+  list.add<&Dynamics::snap>(
+      "whether a loss of stability is followed in time to the next rest, with frames of its own");
+  needs_mass<Dynamics>(list, "motion", [](const Dynamics& of) { return of.snap; });
+  list.add<&Dynamics::step_s>(above(0), "time step").unused({"snap"}, why, still);
+  list.add<&Dynamics::damping_per_s>(
+          above(0),
+          "damping, in proportion to the mass: a velocity falls to 1/e in the inverse of it")
+      .unused({"snap"}, why, still);
+}
+
+void add_inverse(FieldList<Inverse> list) {
+  using I = Inverse;
+  const auto varies = [](const I& of, Vary one) {
+    return std::ranges::find(of.vary, one) != of.vary.end();
+  };
+  list.add<&I::vary>(
+          "what may change so that the shell meets its target: \"pins_radial\": where ends are "
+          "held, along the radius; \"pins\": in the boundary's plane; \"pins_3d\": in space; "
+          "\"legs\": their lengths; \"directions\": along which tangent ends are held; "
+          "\"diameters\": of every rod; empty: nothing is designed")
+      .refused({"[ends] kind"},
+               "directions are held alone only with [ends] kind = \"tangent\", must not name "
+               "\"directions\"",
+               [=](const Preset& preset, const I& of) {
+                 return varies(of, Vary::directions) && preset.ends.kind != EndKind::tangent;
+               })
+      .refused({"[rod] width_mm", "[rod_v] width_mm"},
+               "rectangular rods have no diameters, must not name \"diameters\"",
+               [=](const Preset& preset, const I& of) {
+                 return varies(of, Vary::diameters) &&
+                        (preset.rod.rectangular() || preset.rod_v.rectangular());
+               })
+      .refused(
+          {"[footprint] kind"},
+          "the footprint has no net, so there is no surface to meet, must be empty, or "
+          "[footprint] kind = \"net\"",
+          [](const Preset& preset, const I& of) { return !of.vary.empty() && !preset.on_net(); });
+  const auto designed = [&list]() {
+    list.unused({"vary"}, "nothing is designed: [inverse] vary is empty",
+                [](const I& of) { return of.vary.empty(); });
+  };
+  list.add<&I::target>(
+      "\"surface\": the joints on the net's surface; \"net\": each in its place on the net");
+  designed();
+  list.add<&I::norm>(
+      between(2, 32),
+      "p of the mean of |distance|^p that is made small in the last stage; the first has 2");
+  designed();
+  list.add<&I::mu>(
+      at_least(0),
+      "weight of the mean square of all moves (mm; rad of a direction; a tenth of a rod's "
+      "diameter) beside that of the distances (mm)");
+  designed();
+  list.add<&I::move_limit_mm>(above(0),
+                              "furthest that a pin is moved or a leg's length is changed");
+  designed();
+  list.add<&I::round_mm>(
+      at_least(0),
+      "to which a builder measures: the shell must be stable after rounding to it; 0: exact");
+  designed();
+  list.add<&I::min_stability>(between(0, 1),
+                              "of the smallest eigenvalue, over that of the shell before");
+  designed();
+  list.add<&I::max_leg_force_N>(at_least(0),
+                                "largest force in a leg, unless it is larger before; 0: any");
+  designed();
+}
+
+void add_accuracy(FieldList<Accuracy> list) {
+  constexpr double net_tolerance = 0.05;
+  constexpr int least_leader = 4;
+  const char* meshed = "a mesh is asked for";
+  list.add<&Accuracy::tolerance>(
+          between(1e-9, 1), "largest joint error allowed, over R_o of a circle or rho of a net")
+      .needs_equilibrium(
+          fmt::format("a net is a few hundredths of its radius off, the tolerance must be {} or "
+                      "more",
+                      net_tolerance),
+          [=](const Accuracy& of) { return of.tolerance < net_tolerance; });
+  list.add<&Accuracy::edges_per_segment>(
+          between(0, 64), "edges between two joints of a rod; 0 chooses them from the tolerance")
+      .needs_equilibrium(meshed, [](const Accuracy& of) { return of.edges_per_segment > 0; });
+  list.add<&Accuracy::leading_edges>(
+          between(0, 32),
+          "of the coarsest mesh, which leads over bifurcations and snaps, and finer ones follow: "
+          "its path is kept where a finer leader would go another, which is said; 0: 4, and the "
+          "finer leader's path then. The window writes it where a shell was shaken or snapped by "
+          "hand")
+      .needs_equilibrium(meshed, [](const Accuracy& of) { return of.leading_edges > 0; })
+      .refused({},
+               [=](const Accuracy& of) {
+                 return of.leading_edges > 0 && of.leading_edges < least_leader
+                            ? fmt::format(
+                                  "{} edges know bifurcations that the shell does not have, must "
+                                  "be 0 or at least {}",
+                                  of.leading_edges, least_leader)
+                            : "";
+               })
+      .refused({"edges_per_segment"}, "the mesh asked for says which one leads, must be 0",
+               [](const Accuracy& of) { return of.leading_edges > 0 && of.edges_per_segment > 0; });
+  list.add<&Accuracy::model>(
+      "\"net\": the smooth net itself, nothing solved; \"bend\": stretching and bending, 3 "
+      "unknowns a node; \"twist\": torsion too, 1 more an edge; \"auto\" takes the least that is "
+      "exact");
+  list.add<&Accuracy::memory_GB>(between(0, 1e6),
+                                 "memory that the meshes may take; 0: half of the machine's")
+      .unused({"model"}, nothing_solved, by_net_alone);
+}
+
+void add_jitter(FieldList<SearchSettings> list) {
+  using S = SearchSettings;
+  constexpr int most_trials = 1000000;
+  const auto wanted = [&list]() -> FieldList<S>& {
+    return list.unused({"trials", "confined"},
+                       "no states are looked for: [jitter] trials and confined are 0",
+                       [](const S& of) { return !of.wanted(); });
+  };
+  const auto of_mode = [&](SearchMode mode, const char* other, int S::*others) {
+    wanted().unused({"mode", other}, [=](const S& of) {
+      return of.mode == mode || (others && of.*others > 0)
+                 ? ""
+                 : fmt::format("[jitter] mode = \"{}\" does not use it, only \"{}\"",
+                               word_of(of.mode), word_of(mode));
+    });
+  };
+  list.add<&S::mode>(
+      "\"gravity\": a partly actuated shell is put into a field of random direction and size, the "
+      "field is taken away and the actuation finished; \"random\": every joint is thrown by a "
+      "random vector; \"poke\": random joints are pushed and let go");
+  wanted();
+  list.add<&S::trials>(
+          between(0, most_trials),
+          "times that the shell is shaken; above 0 the run looks for states and makes no movie")
+      .refused({"[indentation] depth", "[indentation] depth_mm", "confined"},
+               "states are looked for of a shell that nothing pushes, must be 0, or the depth of "
+               "[indentation]",
+               [](const Preset& preset) {
+                 return preset.jitter.wanted() && preset.indentation.wanted();
+               });
+  list.add<&S::seed>(between(0, 1 << 30), "another seed shakes otherwise; the same finds the same");
+  wanted();
+  list.add<&S::levels>(
+      {0, 1, true},
+      "progress of the actuation at which the shell is shaken, taken in turn; empty: from 0.02 to "
+      "0.5 for \"gravity\", at the end for the others");
+  wanted();
+  list.add<&S::field_N_per_mm>(above(0), "largest force of the field on a millimetre of rod");
+  of_mode(SearchMode::gravity, "mode", nullptr);
+  list.add<&S::amplitude>({0, 10, true},
+                          "how far a random field throws a joint at most along each axis, of d");
+  of_mode(SearchMode::random, "confined", &S::confined);
+  list.add<&S::depth>({0, 50, true}, "how far a joint is pushed at most, of d");
+  of_mode(SearchMode::poke, "transitions", &S::transitions);
+  list.add<&S::confined>(between(0, most_trials),
+                         "trials more that begin in forms confined to each group of symmetries in "
+                         "turn, then released; counted apart");
+  list.add<&S::tolerance>({0, 1, true},
+                          "states whose joints lie nearer to one another are one, of d");
+  wanted();
+  list.add<&S::drawn>(between(1, 24), "states in the picture");
+  wanted();
+  list.add<&S::transitions>(
+      between(0, 1000),
+      "states, from the lowest in energy on, of which is found out where they go when the boundary "
+      "is let out and drawn in again and when they are poked");
+  wanted();
+  list.add<&S::barriers>(
+      "whether the heights of the barriers between the states in the picture are looked for, on a "
+      "mesh of 4 edges");
+  wanted();
+}
+
+void add_sweep(FieldList<Sweep> list) {
+  // a preset that sweeps nothing needs no line about it
+  list.unused({"over", "seeds"}, "nothing is swept: [sweep] over is empty and seeds is 1",
+              [](const Sweep& of) { return !of.wanted(); });
+  list.add<&Sweep::over>(
+      "keys that change from run to run, all combinations; `count` values from `from` to `to`, "
+      "both among them, even steps or with `log = true` even factors");
+  list.add<&Sweep::seeds>(between(1, 100000),
+                          "runs of each combination: with imperfection.seed and those after it");
+  list.add<&Sweep::plot>(
+      "figures of summary.json that are drawn over the keys, a picture each; empty: height_mm");
+  list.add<&Sweep::x>("figure that is the x axis of line charts; empty: the key that is swept");
+  list.add<&Sweep::departure>(
+      between(0, 10),
+      "share by which a figure has left its value at the right end of a line chart where that is "
+      "marked; 0: nowhere");
+}
+
+}  // namespace
+
+void add_experiment_fields(std::vector<Field>& all) {
+  add_imperfection({all, "imperfection", &Preset::imperfection});
+  add_indentation({all, "indentation", &Preset::indentation});
+  add_steps({all, "step", [](Preset& preset, int item) -> Step& {
+               return item < 0 ? preset.step.back() : preset.step[std::size_t(item)];
+             }});
+  add_loads({all, "loads", &Preset::loads});
+  add_dynamics({all, "dynamics", &Preset::dynamics});
+  FieldList<Limits>(all, "limits", &Preset::limits)
+      .unused({"[accuracy] model"}, nothing_solved, by_net_alone)
+      .add<&Limits::max_strain>(
+          above(0), "axial strain of an edge at which the run stops with limit \"locking\"");
+  add_inverse({all, "inverse", &Preset::inverse});
+  add_accuracy({all, "accuracy", &Preset::accuracy});
+  add_jitter({all, "jitter", &Preset::jitter});
+  add_sweep({all, "sweep", &Preset::sweep});
+}
+
+}  // namespace gridshell::preset

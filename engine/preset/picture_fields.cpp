@@ -1,0 +1,173 @@
+#include "engine/preset/field_list.h"
+
+namespace gridshell::preset {
+namespace {
+
+/// A list that is [low, high] where it is not empty.
+template <class Struct>
+void rises(FieldList<Struct>& list, std::vector<double> Struct::*range) {
+  list.shape("[low, high]")
+      .refused({}, "must be [low, high] with low < high, or empty", [=](const Struct& of) {
+        const auto& pair = of.*range;
+        return pair.size() == 2 && pair[0] >= pair[1];
+      });
+}
+
+void add_movie(FieldList<Movie> list) {
+  using M = Movie;
+  list.add<&M::frames>(between(2, 100000),
+                       "frames from the original to the final state; they only sample the path");
+  list.add<&M::size>(between(16, 16384), "width and height of a frame").unit("px");
+  list.add<&M::fps>(between(1, 240), "frames a second of movie.mp4").unit("1/s");
+  list.add<&M::quality>(
+      "draft: no shadow; movie: a soft shadow; figure: many passes with jittered light");
+  list.add<&M::colour_by>(
+          "none; the cells by their integrated Gauss curvature K, by how much it changed since the "
+          "first frame, or by how far their joints lie off the net, over rho; or the rods by how "
+          "far they moved over the depth of the push, by their bending energy over length or by "
+          "their axial force")
+      .refused(
+          {"[footprint] kind"},
+          "\"deviation\" is from the net that a footprint was designed on, must be another, or "
+          "[footprint] kind = \"net\" or \"blocks\"",
+          [](const Preset& preset, const M& of) {
+            return of.colour_by == ColourBy::deviation && !preset.on_net();
+          })
+      .needs_equilibrium("a net's rods bear no forces", [](const M& of) {
+        return of.colour_by == ColourBy::energy || of.colour_by == ColourBy::axial_force;
+      });
+  const auto free_view = [&list] {
+    list.unused({"view"}, "[movie] view takes its place",
+                [](const M& of) { return of.view != View::free; });
+  };
+  list.add<&M::azimuth_deg>(between(-360, 360),
+                            "direction of the camera at the first frame, from +x towards +y");
+  free_view();
+  list.add<&M::elevation_deg>(between(-90, 90), "height of the camera above the boundary's plane");
+  free_view();
+  list.add<&M::turn_deg>(between(-3600, 3600), "turn of the camera over the whole movie");
+  list.add<&M::zoom>({0, 100, true}, "1 fits the whole run into the picture");
+  list.add<&M::inset>("whether to draw the small top view");
+  list.add<&M::bins>(
+      "whether to plot K of the cells in bins along x beside the shell, in wide "
+      "pictures");
+  list.add<&M::captions>("whether to write radius, height and frame");
+  list.add<&M::beside>(
+      "whether a movie shows the cases of a preset beside one another; else each has its own");
+  list.add<&M::view>("a standard view, in the place of azimuth_deg and elevation_deg");
+  list.add<&M::target_mm>(
+          "what stands in the middle of the shell's panel; empty: the middle of all that moves")
+      .shape("[x, y, z]");
+  list.add<&M::orthographic>("whether what is far is as large as what is near");
+  list.add<&M::bins_range>(
+          "of the axis of the plot of bins, so that movies compare; empty: the "
+          "run's own")
+      .unit("rad")
+      .unused({"bins"}, "no bins are drawn: [movie] bins is false",
+              [](const M& of) { return !of.bins; });
+  rises(list, &M::bins_range);
+  list.add<&M::views>("more views in each frame, beside one another, degrees")
+      .points({"azimuth", "elevation"});
+  list.add<&M::seconds>(at_least(0),
+                        "how long the movie is without hold and title card; 0: frames / fps")
+      .unit("s");
+  list.add<&M::hold_s>(between(0, 60), "how long the last frame stands");
+  list.add<&M::title_s>(between(0, 60),
+                        "how long a card with title and source stands at the begin; 0: none");
+  list.add<&M::pace>("eased: slow at both ends");
+  list.add<&M::webm>("whether movie.webm is made too");
+  list.add<&M::gif>("whether movie.gif is made too");
+  list.add<&M::poster>("whether the last frame is kept as poster.png");
+}
+
+void add_style(FieldList<Style> list) {
+  using S = Style;
+  list.add<&S::theme>(
+      "screen: coloured cells, floor and shadow; paper: black rods on white, as in the paper's "
+      "figures");
+  list.add<&S::rod_width_mm>(at_least(0),
+                             "width of rods as drawn, no less than a pixel; 0: the theme's");
+  list.add<&S::joint_width_mm>(at_least(0), "of joints; 0: the theme's");
+  list.add<&S::ring_width_mm>(at_least(0), "of the boundary; 0: the theme's");
+  list.add<&S::rod_colour>("of rods; empty: the theme's").colour();
+  list.add<&S::joint_colour>("of joints").colour();
+  list.add<&S::ring_colour>("of the boundary").colour();
+  list.add<&S::background>("behind the shell; \"transparent\" leaves it out of the PNG").colour();
+  list.add<&S::colour_map>(
+      "auto: sequential where the values have one sign, else diverging about zero");
+  list.add<&S::range>(
+      "of the colours, in the unit of the colour bar; empty: of all cases together");
+  rises(list, &S::range);
+  list.add<&S::cells>("whether cells are shown");
+  list.add<&S::joints>("whether joints are shown");
+  list.add<&S::rings>("whether the boundary is shown");
+  list.add<&S::floor>("whether there is a floor");
+  list.add<&S::shadow>("whether shadows are cast");
+  list.add<&S::far_fade>(between(0, 1), "by how much the far side pales into the background");
+  list.add<&S::letters>("whether the panels of a figure bear letters");
+  list.add<&S::font>("family of all text, in all cases; empty: DejaVu Sans, which has every sign");
+  list.add<&S::font_size>(between(0.5, 2), "of all text, over its usual size");
+}
+
+/// Why the radii of a circle's stills do not fall from R_o to R_a; empty: they do.
+std::string radii_fault(const Preset& preset) {
+  if (preset.figure.radii_mm.empty()) return "";
+  if (preset.footprint.kind != FootprintKind::circle)
+    return "only a circle's boundary has a radius all the way, must be empty for any other "
+           "[footprint] kind";
+  const double from = preset.original_radius_mm(), to = preset.actuated_radius_mm();
+  double last = from;
+  for (const double radius : preset.figure.radii_mm) {
+    if (radius > last || radius < to)
+      return fmt::format(
+          "{} is not on the way, must fall from at most R_o = {} to at least R_a = "
+          "{}",
+          radius, from, to);
+    last = radius;
+  }
+  return "";
+}
+
+void add_figure(FieldList<Figure> list) {
+  list.add<&Figure::radii_mm>(
+          above(0),
+          "boundary radii of the stills, falling from R_o to R_a; empty: the final state alone")
+      .refused({"[footprint] kind", "[footprint] radius_mm", "[footprint] longest_leg",
+                "[actuation] radius_mm", "[actuation] ratio"},
+               radii_fault);
+  list.add<&Figure::scale_bar_mm>(at_least(0), "length of the scale bar; 0: none");
+  list.add<&Figure::scan>(
+          "joints measured by others, mm, in the frame of the net: red over shells on their nets, "
+          "and in the latitude plot")
+      .points({"x", "y", "z"});
+  list.add<&Figure::quality>("of stills, as [movie] quality");
+  list.add<&Figure::width_mm>(
+      at_least(0), "width of a whole figure as printed; 0: as many pixels as [movie] size says");
+  list.add<&Figure::dpi>(between(30, 2400), "pixels of an inch, where a width is given")
+      .unit("1/inch");
+  list.add<&Figure::vector>(
+      "whether stills are also drawn as lines, as SVG and PDF, hidden ones faded");
+}
+
+void add_page(FieldList<Page> list) {
+  list.unused({"kind"}, "no page is made: [page] kind is \"none\"",
+              [](const Page& of) { return of.kind == PageKind::none; });
+  list.add<&Page::kind>("figure of the paper that `figure` lays out on one page");
+  list.add<&Page::photo>("a PNG in the photograph's place; empty: an empty frame");
+  list.add<&Page::sweep>(
+          "folder of a finished sweep over legs and rods in the phase diagram's place; empty: an "
+          "empty frame")
+      .unused({"kind"}, "[page] kind is not \"fig2\"",
+              [](const Page& of) { return of.kind != PageKind::fig2; });
+}
+
+}  // namespace
+
+void add_picture_fields(std::vector<Field>& all) {
+  add_movie({all, "movie", &Preset::movie});
+  add_style({all, "style", &Preset::style});
+  add_figure({all, "figure", &Preset::figure});
+  add_page({all, "page", &Preset::page});
+}
+
+}  // namespace gridshell::preset

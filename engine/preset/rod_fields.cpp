@@ -1,0 +1,173 @@
+#include "engine/preset/field_list.h"
+
+namespace gridshell::preset {
+namespace {
+
+/// The rods of a table: all, or those of one family.
+void add_rods(FieldList<Rod> rods, const std::string& table) {
+  rods.add<&Rod::diameter_mm>(above(0), "diameter of round rods")
+      .unused({"width_mm", "thickness_mm"},
+              fmt::format("[{}] width_mm and thickness_mm make the rods rectangular", table),
+              &Rod::rectangular);
+  if (table == "rod")
+    rods.refused({"[footprint] spacing_mm"}, [](const Preset& preset) {
+      const double spacing = preset.footprint.spacing_mm;
+      const bool grid = preset.footprint.kind != FootprintKind::network;
+      return grid && preset.rod.diameter_mm >= spacing
+                 ? fmt::format(
+                       "neighbouring rods would touch, must be less than [footprint] "
+                       "spacing_mm = {}",
+                       spacing)
+                 : "";
+    });
+  rods.add<&Rod::young_GPa>(above(0), "Young's modulus E");
+  rods.add<&Rod::shear_GPa>(
+      at_least(0), "shear modulus G; 0: not given, which is enough where no rod is twisted");
+  rods.add<&Rod::density_kg_m3>(
+      at_least(0), "density; 0: not given, which is enough without gravity and motion");
+  const std::string half = "a rectangular section has both, [{}] {} must be above 0 too";
+  const auto two_axes = [](const Rod& rod) {
+    return rod.rectangular() && rod.width_mm != rod.thickness_mm;
+  };
+  rods.add<&Rod::width_mm>(at_least(0),
+                           "of a rectangular section, in the flat; 0: the rods are round")
+      .needs_twist("rods that are not alike in all directions spin as they bend", two_axes)
+      .refused({}, fmt::format(fmt::runtime(half), table, "thickness_mm"),
+               [](const Rod& rod) { return rod.width_mm > 0 && rod.thickness_mm == 0; });
+  rods.add<&Rod::thickness_mm>(at_least(0),
+                               "of a rectangular section, upright; 0: the rods are round")
+      .refused({}, fmt::format(fmt::runtime(half), table, "width_mm"),
+               [](const Rod& rod) { return rod.thickness_mm > 0 && rod.width_mm == 0; });
+  const char* curved = "rods curved at rest spin to keep their curve";
+  rods.add<&Rod::curvature_per_mm>("curvature at rest in the upright plane; above 0 arches up")
+      .needs_twist(curved, [](const Rod& rod) { return rod.curvature_per_mm != 0; });
+  rods.add<&Rod::curvature_sideways_per_mm>(
+          "curvature at rest in the flat; above 0 turns left, seen from above")
+      .needs_twist(curved, [](const Rod& rod) { return rod.curvature_sideways_per_mm != 0; });
+  // a round straight rod whose ends spin freely untwists by itself
+  rods.add<&Rod::twist_rad_per_mm>("twist at rest")
+      .needs_twist(
+          "rods twisted at rest turn their axes", [=](const Preset& preset, const Rod& rod) {
+            const bool curved = rod.curvature_per_mm != 0 || rod.curvature_sideways_per_mm != 0;
+            return rod.twist_rad_per_mm != 0 &&
+                   (two_axes(rod) || curved || preset.ends.kind == EndKind::clamped);
+          });
+}
+
+/// Whether a net ends in two rings.
+bool has_rings(const Preset& preset) {
+  const NetKind kind = preset.net.kind;
+  return preset.footprint.kind == FootprintKind::net && kind != NetKind::sphere &&
+         kind != NetKind::translation && kind != NetKind::surface;
+}
+
+bool is_network(const Preset& preset) { return preset.footprint.kind == FootprintKind::network; }
+
+constexpr const char* in_the_file = "it names rods of a square grid, a network's file says it";
+
+void add_joints(FieldList<Joints> joints) {
+  joints
+      .add<&Joints::kind>(
+          "\"shared\": crossing rods share the joint's node; \"spring\": each has its own, held "
+          "together by a spring")
+      .needs_twist("spring joints give each rod a node of its own",
+                   [](const Joints& of) { return of.kind == JointKind::spring; })
+      .refused({"stiffness_N_per_mm"},
+               "springs without stiffness hold nothing, [joints] stiffness_N_per_mm must be above "
+               "0",
+               [](const Joints& of) {
+                 return of.kind == JointKind::spring && of.stiffness_N_per_mm == 0;
+               });
+  joints.add<&Joints::stiffness_N_per_mm>(at_least(0), "of spring joints")
+      .refused({"kind"},
+               "shared joints have no stiffness, must be 0, or [joints] kind = \"spring\"",
+               [](const Joints& of) {
+                 return of.kind == JointKind::shared && of.stiffness_N_per_mm > 0;
+               });
+  joints
+      .add<&Joints::shear_Nmm>(
+          at_least(0), "resistance to the change of the crossing angle; 0: joints shear freely")
+      .needs_twist("the joints resist shear", [](const Joints& of) { return of.shear_Nmm > 0; });
+  joints
+      .add<&Joints::twist_Nmm>(
+          at_least(0),
+          "resistance to a rod's spin beside the joint's normal; 0: joints pass no "
+          "twist")
+      .needs_twist("the joints pass twist", [](const Joints& of) { return of.twist_Nmm > 0; });
+  joints.add<&Joints::diameter_mm>(above(0),
+                                   "of the joint's cylinder, of which a scan sees the top");
+  joints.add<&Joints::height_mm>(
+      at_least(0),
+      "how far the top of that cylinder lies above the rods' crossing, along the shell's normal");
+}
+
+void add_ends(FieldList<Ends> ends) {
+  ends.add<&Ends::kind>(
+          "\"pinned\": position held, direction and spin free; \"tangent\": direction held too, "
+          "along the net's tangents or, in a circle, as in the flat; \"clamped\": spin held too")
+      .needs_twist("clamped ends hold the rods' spin",
+                   [](const Ends& of) { return of.kind == EndKind::clamped; });
+  const char* no_net = "a network has no net whose end rings it could be";
+  ends.add<&Ends::rings>(
+          "whether the ends on the rings of a surface of revolution are held like the others or "
+          "free")
+      .unused({"[footprint] kind"}, no_net, is_network)
+      .refused({"[footprint] kind", "[net] kind"},
+               "only a surface of revolution has end rings, must be \"pinned\"",
+               [](const Preset& preset, const Ends& of) {
+                 return of.rings == Rings::free && !has_rings(preset);
+               });
+  ends.add<&Ends::second_ring_mm>(
+          at_least(0),
+          "length of tails without joints beyond the boundary, their far ends pinned so that the "
+          "rods keep the net's tangents at it; 0: none")
+      .unused({"[footprint] kind"}, no_net, is_network)
+      .refused({"[footprint] kind"},
+               "the far ends are pinned along the tangents of a net, and this footprint has none, "
+               "must be 0, or [footprint] kind = \"net\"",
+               [](const Preset& preset, const Ends& of) {
+                 return of.second_ring_mm > 0 && !preset.on_net();
+               })
+      .refused({"kind"},
+               "a tail holds the direction of its end, which is held already, must be 0, or [ends] "
+               "kind = \"pinned\"",
+               [](const Ends& of) { return of.second_ring_mm > 0 && of.kind != EndKind::pinned; })
+      .needs_equilibrium("a net has no tails",
+                         [](const Ends& of) { return of.second_ring_mm > 0; });
+  ends.add<&Ends::table>(
+          "of a designed shell, in the place of the boundary: where ends are held, how long their "
+          "legs are, and along which direction of the rod where one is held")
+      .points({"family", "rod", "end", "x_mm", "y_mm", "z_mm", "leg_mm", "tx", "ty", "tz"},
+              {{"u", "v"}, {}, {"begin", "end"}})
+      .unused({"[footprint] kind"}, in_the_file, is_network)
+      .needs_equilibrium("a net's ends lie where the net has them",
+                         [](const Ends& of) { return !of.table.empty(); });
+}
+
+}  // namespace
+
+void add_rod_fields(std::vector<Field>& all) {
+  add_rods({all, "rod", &Preset::rod}, "rod");
+  FieldList<Preset>(all, "rod", [](Preset& preset) -> Preset& { return preset; })
+      .add<&Preset::rod_table>("rods that have diameters of their own, by family and number")
+      .named("table")
+      .points({"family", "rod", "diameter_mm"}, {{"u", "v"}})
+      .unused({"[footprint] kind"}, in_the_file, is_network);
+  const char* one_kind = "a network's rods are of one kind, with diameters in its file";
+  FieldList<RodV>(all, "rod_v", &Preset::rod_v)
+      .unused({"[footprint] kind"}, one_kind, is_network)
+      .add<&RodV::differs>(
+          "whether the v rods are others than those of [rod]; the keys below then count")
+      .refused(
+          {}, "the other keys of [rod_v] would count for nothing, must be true",
+          [](const RodV& rod) { return !rod.differs && static_cast<const Rod&>(rod) != Rod(); });
+  FieldList<Rod> v_rods(all, "rod_v", [](Preset& preset) -> Rod& { return preset.rod_v; });
+  v_rods.unused({"[footprint] kind"}, one_kind, is_network).where([](const Preset& preset) {
+    return preset.rod_v.differs;
+  });
+  add_rods(v_rods, "rod_v");
+  add_joints({all, "joints", &Preset::joints});
+  add_ends({all, "ends", &Preset::ends});
+}
+
+}  // namespace gridshell::preset

@@ -1,0 +1,340 @@
+#include <set>
+
+#include "engine/core/suggest.h"
+#include "engine/preset/consistency.h"
+#include "engine/preset/field_list.h"
+
+namespace gridshell::preset {
+namespace {
+
+using Kinds = FootprintKind;
+
+bool is_circle(const Preset& preset) { return preset.footprint.kind == Kinds::circle; }
+bool is_curve(const Preset& preset) { return preset.footprint.kind == Kinds::curve; }
+
+/// A radius of a circle as a fault shows it, that another key may give.
+std::string radius_text(const char* key, const char* name, double radius) {
+  return std::string(key).ends_with("radius_mm") ? fmt::format("{} = {}", key, radius)
+                                                 : fmt::format("{} = {} by {}", name, radius, key);
+}
+
+std::string original_text(const Preset& preset) {
+  return radius_text(
+      preset.footprint.longest_leg > 0 ? "[footprint] longest_leg" : "[footprint] radius_mm", "R_o",
+      preset.original_radius_mm());
+}
+
+/// A closed curve, where a footprint is one.
+void add_curve(FieldList<Curve> curve, const std::string& meaning) {
+  curve.add<&Curve::kind>(meaning).named("boundary");
+  const auto ellipses = {CurveKind::ellipse, CurveKind::superellipse};
+  curve.add<&Curve::half_x_mm>(above(0), "half axis of an ellipse or superellipse along x")
+      .used_by(&Curve::kind, ellipses);
+  curve.add<&Curve::half_y_mm>(above(0), "and along y").used_by(&Curve::kind, ellipses);
+  curve.add<&Curve::exponent>(between(1, 100), "n of a superellipse, |x/a|^n + |y/b|^n = 1")
+      .used_by(&Curve::kind, {CurveKind::superellipse});
+  curve.add<&Curve::points>("corners of a polygon, or points that a closed spline goes through")
+      .named("points_mm")
+      .unit("mm")
+      .points({"x", "y"})
+      .used_by(&Curve::kind, {CurveKind::polygon, CurveKind::spline})
+      .refused({"boundary"}, [](const Curve& of) {
+        const bool pointed = of.kind == CurveKind::polygon || of.kind == CurveKind::spline;
+        return pointed && of.points.size() < 3
+                   ? fmt::format("{} points, must be at least 3 for a polygon or spline",
+                                 of.points.size())
+                   : "";
+      });
+}
+
+/// The key of a circle's radius stands beside the curve and serves it too.
+template <class Struct>
+void radius_rules(FieldList<Struct>& list, Curve Struct::*boundary, double Struct::*other,
+                  const std::string& label) {
+  list.used_by_footprint({Kinds::circle, Kinds::curve})
+      .unused({label}, label + " takes its place",
+              [=](const Preset& preset, const Struct& of) {
+                return is_circle(preset) && of.*other > 0;
+              })
+      .unused({"boundary"}, [=](const Preset& preset, const Struct& of) {
+        const CurveKind kind = (of.*boundary).kind;
+        return !is_curve(preset) || kind == CurveKind::circle
+                   ? ""
+                   : fmt::format("{} boundary = \"{}\" does not use it, only \"circle\"",
+                                 label.substr(0, label.find(' ')), word_of(kind));
+      });
+}
+
+void add_footprint(std::vector<Field>& all) {
+  FieldList<Footprint> list(all, "footprint", &Preset::footprint);
+  list.add<&Footprint::kind>(
+          "boundary that cuts the flat square grid: a circle, the one that a net maps to the "
+          "boundary wanted, a curve of your own, or that of blocks joined; or \"network\": any "
+          "rods of a file")
+      .refused({}, "there is no block, must have at least one [[block]]",
+               [](const Preset& preset) {
+                 return preset.footprint.kind == Kinds::blocks && preset.block.empty();
+               })
+      .needs_equilibrium("a footprint that was not designed on a net has none",
+                         [](const Preset& preset) { return !preset.on_net(); });
+  const auto network = [](const Footprint& of) { return of.kind == Kinds::network; };
+  list.add<&Footprint::file>(
+          "of a footprint of kind \"network\": its points, rods, supports and where these go "
+          "(.json), or its rods alone (.obj, .dxf); mm")
+      .used_by(&Footprint::kind, {Kinds::network})
+      .refused({"kind"}, "kind = \"network\" needs rods, must be the name of a file",
+               [=](const Footprint& of) { return network(of) && of.file.empty(); })
+      .refused({"[rod] width_mm"},
+               "gives diameters, and rectangular rods have none, [rod] width_mm must be 0",
+               [=](const Preset& preset, const Footprint& of) {
+                 return network(of) && preset.rod.rectangular() && !of.file.diameters.empty();
+               });
+  list.add<&Footprint::rods>(between(1, 500), "rods a direction in a circle, n")
+      .used_by(&Footprint::kind, {Kinds::circle});
+  list.add<&Footprint::radius_mm>(above(0), "radius of a circle, R_o");
+  radius_rules(list, &Footprint::boundary, &Footprint::longest_leg, "[footprint] longest_leg");
+  list.add<&Footprint::longest_leg>(
+          between(0, 1000),
+          "L_d of a circle, in the place of `radius_mm`: R_o = d (L_d + (n - 1)/2); 0: not given")
+      .used_by(&Footprint::kind, {Kinds::circle});
+  const char* in_the_file =
+      "of a footprint of kind \"network\" the file says where rods and joints lie";
+  list.add<&Footprint::spacing_mm>(above(0), "distance between neighbouring rods, d")
+      .unused({"kind"}, in_the_file, network);
+  list.add<&Footprint::placement>("rods at u = (i + 1/2) d, or at u = i d with one on each axis")
+      .unused({"kind"}, in_the_file, network);
+  FieldList<Curve> boundary(all, "footprint",
+                            [](Preset& preset) -> Curve& { return preset.footprint.boundary; });
+  boundary.used_by_footprint({Kinds::curve}).where(is_curve);
+  add_curve(boundary, "boundary of a footprint of kind \"curve\", about the origin");
+}
+
+void add_actuation(std::vector<Field>& all) {
+  FieldList<Actuation> list(all, "actuation", &Preset::actuation);
+  const char* scaled = "the actuated boundary is the original one times [actuation] scale";
+  const auto by_scale = [](const Preset& preset) {
+    return is_curve(preset) && preset.actuation.scale > 0;
+  };
+  list.add<&Actuation::radius_mm>(above(0),
+                                  "radius of the actuated boundary of a circle, R_a, at most R_o")
+      .unused({"scale"}, scaled, by_scale)
+      .refused({"[footprint] radius_mm", "[footprint] longest_leg"}, [](const Preset& preset) {
+        return is_circle(preset) && preset.actuated_radius_mm() > preset.original_radius_mm()
+                   ? "larger than the footprint, must be at most " + original_text(preset)
+                   : "";
+      });
+  radius_rules(list, &Actuation::boundary, &Actuation::ratio, "[actuation] ratio");
+  list.add<&Actuation::ratio>(between(0, 1),
+                              "R_a/R_o of a circle, in the place of `radius_mm`; 0: not given")
+      .used_by_footprint({Kinds::circle});
+  list.add<&Actuation::start>(
+          "\"flat\": patiently from the flat footprint; \"net\": at once to the equilibrium next "
+          "to the net")
+      .refused({"[footprint] kind"}, [](const Preset& preset) {
+        return preset.on_net() || preset.actuation.start == Start::flat
+                   ? ""
+                   : fmt::format(
+                         "a {} has no net to start from, must be \"flat\", or [footprint] "
+                         "kind = \"net\"",
+                         word_of(preset.footprint.kind));
+      });
+  const char* at_net = "only a path from the flat buckles: [actuation] start is \"net\"";
+  const auto from_net = [](const Preset& preset) {
+    return preset.on_net() && preset.actuation.start == Start::net;
+  };
+  list.add<&Actuation::seed>("side to which the flat shell buckles")
+      .unused({"start"}, at_net, from_net);
+  list.add<&Actuation::seed_diagonal>(
+          "of the corner pairs on the two diagonals, the one whose joints lie lower")
+      .unused({"start"}, at_net, from_net);
+  list.add<&Actuation::scale>(
+          between(0, 1),
+          "of a footprint of kind \"curve\": the actuated boundary is the original one times "
+          "this; 0: it is given by `boundary`. Of kind \"network\": ends of which the file says "
+          "nothing move to this times their place from the middle of the box around the rods; 0: "
+          "they stay")
+      .used_by_footprint({Kinds::curve, Kinds::network});
+  FieldList<Curve> boundary(all, "actuation",
+                            [](Preset& preset) -> Curve& { return preset.actuation.boundary; });
+  boundary.used_by_footprint({Kinds::curve}).unused({"scale"}, scaled, by_scale);
+  boundary.where(
+      [=](const Preset& preset) { return is_curve(preset) && preset.actuation.scale == 0; });
+  add_curve(boundary, "actuated boundary of a footprint of kind \"curve\"");
+  list.add<&Actuation::correspondence>(
+          "which point of it an edge point moves to: the one at the same fraction of the length "
+          "from +x, or at the same polar angle")
+      .used_by_footprint({Kinds::curve});
+}
+
+/// A list of points that a kind of net is made of.
+void made_of(FieldList<Net>& net, NetKind kind, Points Net::*points) {
+  net.used_by(&Net::kind, {kind}).refused({"kind"}, [=](const Net& of) {
+    return of.kind == kind && (of.*points).size() < 4
+               ? fmt::format("{} points, must be at least 4 for kind = \"{}\"", (of.*points).size(),
+                             word_of(kind))
+               : "";
+  });
+}
+
+FieldList<Net> add_net(FieldList<Net> net, bool block) {
+  using K = NetKind;
+  net.add<&Net::kind>(
+      "\"sphere\": a cap of Chebyshev's net; \"translation\": the sum of two curves; \"surface\": "
+      "any surface by an expression or a file ([net] alone); the others: the upper half of a "
+      "surface of revolution about the x-axis, \"spool\" and \"beltrami\" of constant K = "
+      "-1/rho^2");
+  if (block)
+    net.refused({},
+                "blocks are parts of spheres, translation nets and surfaces of revolution, must be "
+                "one of these",
+                [](const Net& of) { return of.kind == K::surface; });
+  net.add<&Net::radius_mm>(
+         above(0), "radius rho of the sphere or cylinder; K = -1/rho^2 of spool and beltrami")
+      .used_by(&Net::kind, {K::sphere, K::cylinder, K::spool, K::beltrami});
+  net.add<&Net::cut_height>(between(0, 0.999),
+                            "height of a cap's boundary over rho, z*/rho; 0: the hemisphere")
+      .used_by(&Net::kind, {K::sphere});
+  const auto revolution = {K::cylinder, K::spool, K::beltrami, K::profile};
+  net.add<&Net::length_mm>(
+         at_least(0),
+         "distance between the end rings of a surface of revolution; 0: all of a profile")
+      .used_by(&Net::kind, revolution);
+  net.add<&Net::waist>(
+         {0, 100, true},
+         "radius over rho in the middle of a spool (its smallest) or beltrami surface (below 1)")
+      .used_by(&Net::kind, {K::spool, K::beltrami});
+  net.add<&Net::crossing_deg>(
+         between(1, 179),
+         "angle between the rods, seen along the axis, in the middle of a surface of revolution")
+      .used_by(&Net::kind, revolution);
+  net.add<&Net::profile>("points of a profile, mm: radius and place along the axis")
+      .points({"r", "z"});
+  made_of(net, K::profile, &Net::profile);
+  net.add<&Net::curve_u>("points of the curve X of a translation net X(u) + Y(v), mm")
+      .points({"x", "y", "z"});
+  made_of(net, K::translation, &Net::curve_u);
+  net.add<&Net::curve_v>("and of Y").points({"x", "y", "z"});
+  made_of(net, K::translation, &Net::curve_v);
+  return net;
+}
+
+/// Of a net on any surface.
+void add_surface(FieldList<Net> net) {
+  const auto given = [](const Net& of) {
+    return of.kind != NetKind::surface
+               ? 1
+               : int(!of.implicit.empty()) + int(!of.height.empty()) + int(!of.file.empty());
+  };
+  const char* twice = "the surface is given twice, must be empty";
+  const auto surface = [&net]() -> FieldList<Net>& {
+    return net.used_by(&Net::kind, {NetKind::surface});
+  };
+  net.add<&Net::implicit>("F(x, y, z) of a surface F = 0, mm: \"x^2 + y^2 + z^2 - 120^2\"");
+  surface().refused({"height", "file"},
+                    "kind = \"surface\" needs an expression, must be F(x, y, z), or height must "
+                    "be h(x, y), or file a surface",
+                    [=](const Net& of) { return given(of) == 0; });
+  net.add<&Net::height>("h(x, y) of a surface z = h, mm, in the place of `implicit`");
+  surface().refused({"implicit"}, twice,
+                    [=](const Net& of) { return given(of) > 1 && of.file.empty(); });
+  net.add<&Net::file>(
+      "in their place: heights x, y, z over a rectangular grid (.csv, .txt), which a spline goes "
+      "through, or triangles (.obj, .ply, .stl), to which a smooth surface is fitted; mm");
+  surface().refused({"implicit", "height"}, twice,
+                    [=](const Net& of) { return given(of) > 1 && !of.file.empty(); });
+  net.add<&Net::apex_mm>(
+      "[x, y, z], a point of the surface where the net's axes cross at right angles; of a height "
+      "or a file [x, y]");
+  surface().refused({"implicit", "height"}, [](const Net& of) {
+    const std::size_t size = of.apex_mm.size();
+    const bool implicit = !of.implicit.empty();
+    if (of.kind != NetKind::surface || size == 3 || (size == 2 && !implicit)) return "";
+    return implicit ? "must be [x, y, z], a point of the surface where the net begins"
+                    : "must be [x, y]";
+  });
+  net.add<&Net::axis>(
+      "what the u-axis leaves the apex along: the direction in which the surface curves most "
+      "(where it curves alike in all, x), or x");
+  surface();
+  net.add<&Net::axis_deg>(between(-180, 180),
+                          "how far it is turned from there, to the left as seen from above");
+  surface();
+  net.add<&Net::cut_mm>("height of the plane that cuts the surface: the net is kept above it");
+  surface().unused({"within"}, "[net] within is the boundary in the plane's place",
+                   [](const Net& of) { return !of.within.empty(); });
+  net.add<&Net::within>(
+      "G(x, y, z), below zero where the net is kept, in the place of the plane; empty: the plane");
+  surface();
+}
+
+void name_rule(FieldList<Block>& list) {
+  list.refused({}, [](const Preset& preset, const Block& block) {
+    if (block.name.empty() || block.name.find('.') != std::string::npos)
+      return "must be a name without a dot";
+    for (const Block* other = preset.block.data(); other != &block; ++other)
+      if (other->name == block.name) return "used twice, must be unique";
+    return "";
+  });
+}
+
+/// A side of a block in a join.
+void side_rule(FieldList<Join>& list, std::string Join::*side) {
+  list.refused({}, [=](const Preset& preset, const Join& join) -> std::string {
+    if (side_named(preset, join.*side)) return "";
+    std::vector<std::string> known;
+    for (const Block& block : preset.block)
+      for (const char* name : side_names) known.push_back(block.name + "." + name);
+    return "no side of a block, must be a block's name and east, west, north or south with a dot "
+           "between" +
+           did_you_mean(join.*side, known);
+  });
+}
+
+void add_blocks(std::vector<Field>& all) {
+  const auto joined = [](const Preset& preset) { return preset.footprint.kind == Kinds::blocks; };
+  FieldList<Blocks> blocks(all, "blocks", &Preset::blocks);
+  blocks.used_by_footprint({Kinds::blocks})
+      .add<&Blocks::max_gap_mm>(
+          at_least(0), "largest distance in space between two blocks at a joint of their seam");
+  const auto at = [](auto& list, int item) -> auto& {
+    return item < 0 ? list.back() : list[std::size_t(item)];
+  };
+  FieldList<Block> block(
+      all, "block", [=](Preset& preset, int item) -> Block& { return at(preset.block, item); });
+  block.used_by_footprint({Kinds::blocks}).where(joined);
+  block.add<&Block::name>("of the block, its own");
+  name_rule(block);
+  FieldList<Net> net(all, "block",
+                     [=](Preset& preset, int item) -> Net& { return at(preset.block, item).net; });
+  net.used_by_footprint({Kinds::blocks}).where(joined);
+  add_net(net, true);
+  const Range cuts = between(-500, 500);
+  block.add<&Block::east>(cuts,
+                          "row m of joints at which it is cut: kept where u + v <= m d, u and v "
+                          "its net's own");
+  block.add<&Block::west>(cuts, "kept where u + v >= m d");
+  block.add<&Block::north>(cuts, "kept where v - u <= m d");
+  block.add<&Block::south>(cuts, "kept where v - u >= m d");
+  FieldList<Join> join(all, "join",
+                       [=](Preset& preset, int item) -> Join& { return at(preset.join, item); });
+  join.used_by_footprint({Kinds::blocks}).where(joined);
+  join.add<&Join::first>("side of a block, as \"name.east\"");
+  side_rule(join, &Join::first);
+  join.add<&Join::second>("side that faces it, as \"other.west\"");
+  side_rule(join, &Join::second);
+}
+
+}  // namespace
+
+void add_shape_fields(std::vector<Field>& all) {
+  add_footprint(all);
+  add_actuation(all);
+  FieldList<Net> net(all, "net", &Preset::net);
+  net.used_by_footprint({Kinds::net}).where([](const Preset& preset) {
+    return preset.footprint.kind == Kinds::net;
+  });
+  add_surface(add_net(net, false));
+  add_blocks(all);
+}
+
+}  // namespace gridshell::preset
