@@ -264,8 +264,9 @@ std::string read_parts(const toml::table& table, Data& data) {
   each_part(data, table.contains("triangles"), [&](const char* key, auto& part, bool needed) {
     if (!wrong.empty() || (!needed && !table.contains(key))) return;
     const auto* value = table.get(key);
-    wrong = value && value->is_array() ? read_part(*value, part) : "must be a list";
-    if (!wrong.empty()) wrong = fmt::format("{} {}", key, wrong);
+    const bool list = value && value->is_array();
+    wrong = list ? read_part(*value, part) : fmt::format("has no list {}", key);
+    if (list && !wrong.empty()) wrong = fmt::format("{} {}", key, wrong);
   });
   return wrong;
 }

@@ -123,7 +123,7 @@ TEST_CASE("a fault names its place, key, value, what is wrong and what is right"
        "be 0"},
       {"[figure]\nradii_mm = [126.0, 80.0]",
        "bad.toml:2:12: [figure] radii_mm = [126.0, 80.0]: 80 is not on the way, must fall from at "
-       "most [footprint] radius_mm = 126 to at least [actuation] radius_mm = 94.5"},
+       "most R_o = 126 to at least R_a = 94.5"},
   }));
   CHECK(faults_of(text) == sentence);
 }
