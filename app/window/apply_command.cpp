@@ -222,9 +222,8 @@ std::string why_not_designed(const ShellView& sight) {
   if (!sight.any()) return "there is no shell yet";
   if (sight.layout->net_nodes.cols() == 0)
     return "this shell was not designed on a net, so there is no surface that it could meet";
-  if (!preset::twist_requirements(sight.preset).empty())
-    return "only rods that stretch and bend can be designed: " +
-           preset::twist_requirements(sight.preset).front().what;
+  if (const auto needs = key_faults(sight.preset, preset::RuleKind::needs_twist); !needs.empty())
+    return "only rods that stretch and bend can be designed: " + needs.front().what;
   if (!sight.held.empty()) return "a joint is held: let go of all joints first";
   if (!sight.steps.empty() || sight.rods_changed_late)
     return "a hand has moved this shell: take that back first (Undo)";
