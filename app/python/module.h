@@ -58,7 +58,29 @@ auto interruptible(const Work& work) {
 
 // What Python passes as a value of a preset, as TOML: the preset's reader then judges it.
 
-namespace py = pybind11;
+/// Any object, which signatures call by the tag's name: its reader judges what it is.
+template <class Tag>
+struct Judged {
+  py::object value = py::none();
+};
+struct ArrayTag {
+  static constexpr auto name = py::detail::const_name("ArrayLike");
+};
+struct OptionalArrayTag {
+  static constexpr auto name = py::detail::const_name("Optional[ArrayLike]");
+};
+struct OptionalNumberTag {
+  static constexpr auto name = py::detail::const_name("Optional[float]");
+};
+struct EnergiesTag {
+  static constexpr auto name = py::detail::const_name("dict[str, float]");
+};
+struct ColumnsTag {
+  static constexpr auto name = py::detail::const_name("dict[str, numpy.ndarray[numpy.float64]]");
+};
+struct JsonTag {
+  static constexpr auto name = py::detail::const_name("dict[str, Any]");
+};
 
 /// A number, string, path, bool, sequence of these or numpy array as TOML. Raises TypeError for
 /// anything else.
@@ -72,8 +94,6 @@ std::vector<preset::Override> overrides_of(const py::dict& changes);
 preset::Step step_of(const preset::Preset& preset, const char* kind, const py::dict& keys);
 
 // Numbers as numpy arrays that look into them: nothing is copied, and nothing can be written.
-
-namespace py = pybind11;
 
 /// An array over memory that `owner` keeps for as long as the array lives.
 template <class Number>
@@ -99,8 +119,6 @@ inline py::array_t<int> view(const std::vector<int>& numbers, const py::object& 
 
 // What the module is made of.
 
-namespace py = pybind11;
-
 /// Adds the classes Session and Checkpoint to the module.
 void add_session(py::module_& module);
 
@@ -111,3 +129,15 @@ void add_run(py::module_& module);
 preset::Preset chosen(const preset::Presets& presets, const std::optional<std::string>& name);
 
 }  // namespace gridshell::python
+
+template <class Tag>
+struct pybind11::detail::type_caster<gridshell::python::Judged<Tag>> {
+  PYBIND11_TYPE_CASTER(gridshell::python::Judged<Tag>, Tag::name);
+  bool load(handle source, bool) {
+    value.value = reinterpret_borrow<object>(source);
+    return true;
+  }
+  static handle cast(const gridshell::python::Judged<Tag>& judged, return_value_policy, handle) {
+    return judged.value.inc_ref();
+  }
+};

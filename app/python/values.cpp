@@ -100,8 +100,8 @@ void add_layout(py::module_& module) {
       .def_property_readonly(
           "rods",
           [](const py::object& self) {
-            py::list rods;
-            for (const auto& rod : self.cast<Layout&>().rods) rods.append(view(rod, self));
+            std::vector<py::array_t<int>> rods;
+            for (const auto& rod : self.cast<Layout&>().rods) rods.push_back(view(rod, self));
             return rods;
           },
           "Of each rod its nodes, from edge point to edge point.")
@@ -172,7 +172,13 @@ void add_state(py::module_& module) {
           "The net that it is a state of.")
       .def_readonly("certificate", &State::certificate, "Residual, stability and error.")
       .def_property_readonly(
-          "energies", [](const State& of) { return dict_of(of.frame.energies); },
+          "energies",
+          [](const State& of) {
+            py::dict terms;
+            for (const TermName& term : energy_terms)
+              terms[term.name] = of.frame.energies[term.term];
+            return Judged<EnergiesTag>{terms};
+          },
           "By term, mJ: bend, stretch, twist, joint, shear, load.")
       .def_property_readonly(
           "energy_mJ", [](const State& of) { return of.frame.energies.total(); },
@@ -183,8 +189,8 @@ void add_state(py::module_& module) {
       .def_property_readonly(
           "held",
           [](const State& of) {
-            py::list held;
-            for (const auto& [i, j] : of.held) held.append(py::make_tuple(i, j));
+            std::vector<std::pair<int, int>> held;
+            for (const auto& [i, j] : of.held) held.emplace_back(i, j);
             return held;
           },
           "Of a session: (i, j) of the joints that are held.")
@@ -193,12 +199,6 @@ void add_state(py::module_& module) {
 }
 
 }  // namespace
-
-py::dict dict_of(const Energies& energies) {
-  py::dict terms;
-  for (const TermName& term : energy_terms) terms[term.name] = energies[term.term];
-  return terms;
-}
 
 void add_values(py::module_& module) {
   add_certificate(module);

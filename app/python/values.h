@@ -46,9 +46,6 @@ namespace py = pybind11;
 /// Adds the classes State, Layout, Certificate, Report and Event to the module.
 void add_values(py::module_& module);
 
-/// {"bend": ..., "stretch": ...}, mJ.
-py::dict dict_of(const Energies& energies);
-
 /// Draws a state into a PNG as the program draws a frame of a movie, in the size (width, height)
 /// or its preset's. Raises IOFailure, BadInput.
 void draw(const State& state, const std::filesystem::path& path,

@@ -37,7 +37,7 @@ class StepHistory {
   std::shared_ptr<const Link> last_;
 };
 
-// What a hand can command of the shell. The engine's thread fulfils one command after the other.
+// What a hand can command of the shell. The engine's thread executes one command after the other.
 
 /// Another shell, formed along its path.
 struct Open {
@@ -93,17 +93,23 @@ struct Design {
 struct AcceptDesign {};
 /// The shell before the design, to the bit.
 struct DiscardDesign {};
-/// Nothing but the finer meshes that follow a stroke.
+/// Nothing but the finer meshes that follow a drag.
 struct RefineAfterDrag {};
 
 using Edit = std::variant<Open, Change, Move, Push, Release, DragEdge, ResetEdgePoint, Rest, Jitter,
                           Undo, Redo, Design, AcceptDesign, DiscardDesign, RefineAfterDrag>;
 
-/// Wishes of one stroke (a drag) are one step to undo. While a stroke passes, the shell is followed
-/// on its coarsest mesh, and a newer command of the stroke takes the place of one not yet begun.
+/// Whether it is one of some kinds.
+template <class... Kinds>
+bool is_any(const Edit& edit) {
+  return (std::holds_alternative<Kinds>(edit) || ...);
+}
+
+/// Commands of one drag (a drag) are one step to undo. While a drag passes, the shell is followed
+/// on its coarsest mesh, and a newer command of the drag takes the place of one not yet begun.
 struct Command {
   Edit edit;
-  int stroke = 0;  ///< 0: a step of its own
+  int drag = 0;  ///< 0: a step of its own
   bool passing = false;
 };
 

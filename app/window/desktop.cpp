@@ -7,11 +7,8 @@
 #include "engine/core/try.h"
 #include "render/gl/context.h"
 
-namespace gridshell::ui {
+namespace gridshell::window {
 namespace {
-
-using window::InputEvent;
-using window::InputKind;
 
 constexpr double still_wait_s = 0.05;  // for something to happen, where nothing moves
 
@@ -30,11 +27,11 @@ render::WindowListener listener_to(const std::function<void(const InputEvent&)>&
     take({.kind = InputKind::mouse, .x = std::round(x), .y = std::round(y)});
   };
   listener.button = [take](int button, bool down) {
-    take({.kind = down ? InputKind::press : InputKind::release, .button = window::Button(button)});
+    take({.kind = down ? InputKind::press : InputKind::release, .button = Button(button)});
   };
   listener.wheel = [take](double steps) { take({.kind = InputKind::wheel, .y = steps}); };
   listener.key = [take](const std::string& name, bool down) {
-    if (const auto key = find_word<window::Key>(name))
+    if (const auto key = find_word<Key>(name))
       take({.kind = down ? InputKind::down : InputKind::up, .key = *key});
   };
   listener.text = [take](unsigned code) {
@@ -45,8 +42,7 @@ render::WindowListener listener_to(const std::function<void(const InputEvent&)>&
 
 }  // namespace
 
-Result<void> run_desktop(window::ViewerState& viewer,
-                         const std::function<void(const InputEvent&)>& seen,
+Result<void> run_desktop(ViewerState& viewer, const std::function<void(const InputEvent&)>& seen,
                          const std::function<bool()>& stopped) {
   auto window = render::Window::open({.least_width = 720, .least_height = 480});
   if (!window)
@@ -82,4 +78,4 @@ Result<void> run_desktop(window::ViewerState& viewer,
   return fault;
 }
 
-}  // namespace gridshell::ui
+}  // namespace gridshell::window

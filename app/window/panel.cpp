@@ -7,12 +7,12 @@
 #include <memory>
 #include <string>
 
-namespace gridshell::ui {
+namespace gridshell::window {
 namespace {
 
 constexpr float tip_after_s = 0.6f;
 
-std::string help_of(const window::Action& action) {
+std::string help_of(const Action& action) {
   const std::string key = name_of(action.key);
   return action.help + (key.empty() ? "" : " (" + key + ")");
 }
@@ -34,22 +34,16 @@ void Panel::named(const std::string& name, const std::string& tip) const {
   ImGui::EndTooltip();
 }
 
-void Panel::button(const char* name) const {
-  const window::Action& action = *window::find_action(name);
-  if (ImGui::Button(action.label)) action.act(viewer);
-  named(name, help_of(action));
-}
-
 void Panel::button(const char* name, const char* text, bool able) const {
-  const window::Action& action = *window::find_action(name);
+  const Action& action = *find_action(name);
   ImGui::BeginDisabled(!able);
-  if (ImGui::Button(text)) action.act(viewer);
+  if (ImGui::Button(text ? text : action.label)) action.act(viewer);
   ImGui::EndDisabled();
   named(name, help_of(action));
 }
 
 void Panel::tick(const char* name) const {
-  const window::Action& action = *window::find_action(name);
+  const Action& action = *find_action(name);
   bool on = action.on(viewer);
   if (ImGui::Checkbox(action.label, &on)) action.act(viewer);
   named(name, help_of(action));
@@ -65,6 +59,21 @@ void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more
 }
 
 bool is_typed_into() { return ImGui::IsItemActive() && ImGui::GetIO().WantTextInput; }
+
+std::optional<std::size_t> choose(const std::string& id, const std::string& shown,
+                                  const std::vector<std::string>& texts) {
+  std::optional<std::size_t> chosen;
+  if (!ImGui::BeginCombo(id.c_str(), shown.c_str())) return chosen;
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    if (ImGui::Selectable(texts[k].c_str(), texts[k] == shown)) chosen = k;
+  ImGui::EndCombo();
+  return chosen;
+}
+
+std::string help_of(const preset::Field& field) {
+  return fmt::format("{}{}; {}", field.meaning, field.unit.empty() ? "" : ", in " + field.unit,
+                     allowed(field));
+}
 
 void heading(const Panel& panel, const char* text) {
   ImGui::Dummy({0, panel.px(2)});
@@ -172,7 +181,7 @@ void menu_bar(const Panel& panel) {
   if (!ImGui::BeginMainMenuBar()) return;
   const char* open_menu = nullptr;
   bool open = false;
-  for (const window::Action& action : window::actions()) {
+  for (const Action& action : actions()) {
     if (!open_menu || std::string(open_menu) != action.menu) {
       if (open) ImGui::EndMenu();
       open_menu = action.menu;
@@ -199,19 +208,19 @@ std::string meshes_of(const std::vector<int>& meshes) {
   return text;
 }
 
-std::string certificate_of(const window::ShellView& sight, bool timed) {
-  const Certificate& c = sight.certificate;
+std::string certificate_of(const ShellView& shell, bool timed) {
+  const Certificate& c = shell.certificate;
   const std::string error = std::isfinite(c.error_estimate_mm)
                                 ? fmt::format("error {:.1e} mm", c.error_estimate_mm)
                                 : "error not known";
-  const std::string took = timed ? fmt::format("   {:.0f} ms", 1000 * sight.seconds) : "";
+  const std::string took = timed ? fmt::format("   {:.0f} ms", 1000 * shell.seconds) : "";
   return fmt::format("residual {:.1e} N   pivots {}   {}   {} edges{}", c.residual_N,
-                     c.negative_pivots, error, meshes_of(sight.meshes), took);
+                     c.negative_pivots, error, meshes_of(shell.meshes), took);
 }
 
-std::string standing_of(const window::DesignProgress& course) {
+std::string standing_of(const DesignProgress& course) {
   const double percent = 100 / course.length_scale_mm;
-  const window::DesignPoint& now = course.points.back();
+  const DesignPoint& now = course.points.back();
   return fmt::format("designing: iteration {}, largest {:.3f} %, mean {:.3f} % (Esc stops)",
                      course.iterations, percent * now.max_mm, percent * now.mean_mm);
 }
@@ -220,7 +229,7 @@ std::string standing_of(const window::DesignProgress& course) {
 void movie_standing(const Panel& panel) {
   const std::string said = panel.viewer.movie_task.standing();
   const std::string line = "movie " + (said.empty() ? "0 %" : said);
-  const char* stop = window::find_action("stop_movie")->label;
+  const char* stop = find_action("stop_movie")->label;
   const float width = ImGui::CalcTextSize(line.c_str()).x + ImGui::CalcTextSize(stop).x +
                       3 * ImGui::GetStyle().FramePadding.x + panel.px(18);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
@@ -234,26 +243,26 @@ void movie_standing(const Panel& panel) {
 }  // namespace
 
 void status_line(const Panel& panel, const render::Box& box) {
-  const window::ViewerState& viewer = panel.viewer;
-  const window::ShellView& sight = *viewer.sight;
+  const ViewerState& viewer = panel.viewer;
+  const ShellView& shell = *viewer.shell;
   const bool dark = viewer.show.dark;
   begin_fixed("status", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  if (sight.any()) {
-    const ImU32 ink = !sight.stable()                  ? error_colour(dark)
-                      : sight.accuracy_warning.empty() ? ok_colour(dark)
+  if (shell.any()) {
+    const ImU32 ink = !shell.stable()                  ? error_colour(dark)
+                      : shell.accuracy_warning.empty() ? ok_colour(dark)
                                                        : warning_colour(dark);
-    const std::string lacks = sight.accuracy_warning.empty() ? "" : ", " + sight.accuracy_warning;
+    const std::string lacks = shell.accuracy_warning.empty() ? "" : ", " + shell.accuracy_warning;
     ImGui::PushStyleColor(ImGuiCol_Text, ink);
-    ImGui::TextUnformatted(((sight.stable() ? "● stable" : "● not stable") + lacks).c_str());
+    ImGui::TextUnformatted(((shell.stable() ? "● stable" : "● not stable") + lacks).c_str());
     ImGui::PopStyleColor();
     panel.named("stability", "whether the Hessian is positive definite with what is held held");
-    if (!sight.symmetry.empty()) {
+    if (!shell.symmetry.empty()) {
       ImGui::SameLine(0, panel.px(14));
-      ImGui::TextUnformatted(sight.symmetry.c_str());
+      ImGui::TextUnformatted(shell.symmetry.c_str());
       panel.named("symmetry", "symmetries of the square that leave this shape as it is");
     }
     ImGui::SameLine(0, panel.px(14));
-    ImGui::TextUnformatted(certificate_of(sight, viewer.timed).c_str());
+    ImGui::TextUnformatted(certificate_of(shell, viewer.timed).c_str());
     panel.named("certificate",
                 "largest force that nothing holds; negative pivots of the Hessian; estimated error "
                 "of the joints; meshes, edges a segment; time of the last equilibrium");
@@ -262,8 +271,8 @@ void status_line(const Panel& panel, const render::Box& box) {
   const double busy = viewer.engine.busy_seconds();
   std::string said =
       busy > 0.3 ? fmt::format("solving for {:.1f} s (Esc stops)", busy) : viewer.message;
-  if (sight.designing()) said = standing_of(*sight.design);
-  const bool bad = busy <= 0.3 && viewer.message_bad && !sight.designing();
+  if (shell.designing()) said = standing_of(*shell.design);
+  const bool bad = busy <= 0.3 && viewer.message_bad && !shell.designing();
   ImGui::PushStyleColor(ImGuiCol_Text,
                         bad ? error_colour(dark) : ImGui::GetColorU32(ImGuiCol_TextDisabled));
   // one line, however much was said: the tooltip has all of it
@@ -299,7 +308,7 @@ bool begin_table(const Panel& panel, const char* name, double left) {
 /// The keys of some menus.
 void keys(const Panel& panel, const std::string& menus) {
   if (!begin_table(panel, menus.c_str(), 62)) return;
-  for (const window::Action& action : window::actions())
+  for (const Action& action : actions())
     if (action.key.key && menus.find(action.menu) != std::string::npos)
       row(name_of(action.key), std::string(action.label) + ": " + action.help);
   ImGui::EndTable();
@@ -318,8 +327,7 @@ void help_sheet(const Panel& panel, const render::Box& box) {
     keys(panel, "File Edit Shell");
     ImGui::TableNextColumn();
     if (begin_table(panel, "mouse", 240)) {
-      for (const window::MouseAction& action : window::mouse_actions())
-        row(action.how, action.help);
+      for (const MouseAction& action : mouse_actions()) row(action.how, action.help);
       row("Ctrl + click on a number", "types it");
       ImGui::EndTable();
     }
@@ -329,4 +337,4 @@ void help_sheet(const Panel& panel, const render::Box& box) {
   ImGui::End();
 }
 
-}  // namespace gridshell::ui
+}  // namespace gridshell::window

@@ -72,8 +72,8 @@ TEST_CASE("work beside the window tells how far it is, and how it ended, once") 
   BackgroundTask work;
   CHECK(work.idle());
   work.begin(
-      [](const ProgressListener& heard, const Watch&) -> Result<void> {
-        heard("50 %  drawing");
+      [](const ProgressListener& listener, const Watch&) -> Result<void> {
+        listener("50 %  drawing");
         return {};
       },
       "out/shell.png");
@@ -90,9 +90,9 @@ TEST_CASE("work beside the window tells how far it is, and how it ended, once") 
 }
 
 TEST_CASE("work beside the window stops when it is asked to, and when the window goes") {
-  const auto endless = [](const ProgressListener& heard, const Watch& watch) -> Result<void> {
+  const auto endless = [](const ProgressListener& listener, const Watch& watch) -> Result<void> {
     while (!watch.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    heard("the frames so far are kept");
+    listener("the frames so far are kept");
     return stopped();
   };
   BackgroundTask work;
