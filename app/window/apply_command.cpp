@@ -1,4 +1,4 @@
-// The edits of a hand as steps of a preset: done, and kept so that a preset can do them again.
+// Edits as steps of a preset: done, and kept so that a preset can do them again.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -36,6 +36,12 @@ preset::Step step_of(preset::StepKind kind) {
   return step;
 }
 
+preset::Step step_of(preset::StepKind kind, const FootprintJoint& joint) {
+  preset::Step step = step_of(kind);
+  step.joint = {joint.i, joint.j};
+  return step;
+}
+
 /// Whether a step goes on along the way of the one before, so that its end alone counts.
 bool goes_on(const preset::Step& before, const preset::Step& step) {
   if (before.kind != step.kind) return false;
@@ -49,7 +55,6 @@ bool goes_on(const preset::Step& before, const preset::Step& step) {
 
 /// One step, as a preset would have it done.
 Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
   const bool holds = step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold;
   if (holds)
     if (const auto joint = experiment::joint_of(step, now_.scene->footprint))
@@ -92,94 +97,85 @@ void EditSession::add_step(preset::Step step, const Report& report) {
   last_eventful_ = eventful;
 }
 
-Result<void> EditSession::act(const Move& command, const Watch& watch) {
+Result<void> EditSession::move_boundary(double progress, const Eigen::Matrix3Xd& dragged,
+                                        const Watch& watch) {
   preset::Step step = step_of(preset::StepKind::move);
-  step.progress = std::max(command.progress, view_.least_progress);
-  step.edge_points = rows_of(now_.boundary.dragged);
-  return do_step(step, watch);
+  step.progress = progress;
+  step.edge_points = rows_of(dragged);
+  return do_step(std::move(step), watch);
+}
+
+Result<void> EditSession::act(const Move& command, const Watch& watch) {
+  return move_boundary(std::max(command.progress, view_.least_progress), now_.boundary.dragged,
+                       watch);
 }
 
 Result<void> EditSession::act(const DragEdge& command, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
   Eigen::Matrix3Xd dragged = now_.boundary.dragged;
-  if (command.edge_point < 0 || command.edge_point >= dragged.cols())
-    return fail(Fault::bad_input, "no such edge point");
   const Eigen::Index k = command.edge_point;
+  if (k < 0 || k >= dragged.cols()) return fail(Fault::bad_input, "no such edge point");
   const BoundaryMotion& motion = now_.scene->motion;
-  dragged.col(k) = command.to - motion.begin.col(k) -
-                   now_.boundary.progress * (motion.end - motion.begin).col(k);
+  const double progress = now_.boundary.progress;
+  dragged.col(k) = command.to - motion.begin.col(k) - progress * (motion.end - motion.begin).col(k);
   if ((dragged - now_.boundary.dragged).norm() < experiment::nearest_mm) return {};
-  preset::Step step = step_of(preset::StepKind::move);
-  step.progress = now_.boundary.progress;
-  step.edge_points = rows_of(dragged);
-  return do_step(step, watch);
+  return move_boundary(progress, dragged, watch);
 }
 
 Result<void> EditSession::act(const ResetEdgePoint& command, const Watch& watch) {
-  const bool all = command.edge_point < 0;
   Eigen::Matrix3Xd dragged = now_.boundary.dragged;
-  if (all)
+  if (command.edge_point < 0)
     dragged.setZero();
   else if (command.edge_point < dragged.cols())
     dragged.col(command.edge_point).setZero();
-  if (!session_ || (dragged - now_.boundary.dragged).isZero(0))
+  if (dragged == now_.boundary.dragged)
     return fail(Fault::bad_input, "no such edge point was dragged");
-  preset::Step step = step_of(preset::StepKind::move);
-  step.progress = now_.boundary.progress;
-  step.edge_points = rows_of(dragged);
-  return do_step(step, watch);
+  return move_boundary(now_.boundary.progress, dragged, watch);
 }
 
 Result<void> EditSession::act(const Push& command, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
-  if (command.joint < 0 || command.joint >= int(now_.scene->footprint.joints.size()))
+  const auto& joints = now_.scene->footprint.joints;
+  if (command.joint < 0 || command.joint >= int(joints.size()))
     return fail(Fault::bad_input, "no such joint");
-  const FootprintJoint& joint = now_.scene->footprint.joints[std::size_t(command.joint)];
-  preset::Step step = step_of(preset::StepKind::push);
-  step.joint = {joint.i, joint.j};
+  preset::Step step = step_of(preset::StepKind::push, joints[std::size_t(command.joint)]);
   step.to_mm = xyz_of(command.to);
   const bool free = !command.along.isZero(0);
   if (free) step.along = xyz_of(command.along);
   step.lateral = free ? preset::Lateral::free : preset::Lateral::held;
-  // a hand that holds it already and does not move does nothing
+  // a joint that is held already and does not move makes no step
   const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
   const bool still =
       (free ? std::abs(way.dot(command.along)) : way.norm()) < experiment::nearest_mm;
   if (still && now_.grip_origins.contains(command.joint)) return {};
-  return do_step(step, watch);
+  return do_step(std::move(step), watch);
 }
 
 Result<void> EditSession::act(const Release& command, const Watch& watch) {
-  if (!session_ || session_->holds().empty()) return fail(Fault::bad_input, "no joint is held");
+  if (session_->holds().empty()) return fail(Fault::bad_input, "no joint is held");
   std::vector<int> joints{command.joint};
   if (command.joint < 0) {
     joints.clear();
     for (const Constraint& hold : session_->holds()) joints.push_back(hold.node);
   }
-  for (const int k : joints) {
-    const FootprintJoint& joint = now_.scene->footprint.joints[std::size_t(k)];
-    preset::Step step = step_of(preset::StepKind::release);
-    step.joint = {joint.i, joint.j};
-    if (auto done = do_step(step, watch); !done) return done;
-  }
+  for (const int k : joints)
+    TRY_DO(do_step(step_of(preset::StepKind::release, now_.scene->footprint.joints[std::size_t(k)]),
+                   watch));
   return {};
 }
 
 Result<void> EditSession::act(const Rest& command, const Watch& watch) {
   preset::Step step = step_of(preset::StepKind::rest);
   step.side = same_word<preset::RestSide>(command.side);
-  return do_step(step, watch);
+  return do_step(std::move(step), watch);
 }
 
 Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
   preset::Step step = step_of(preset::StepKind::jitter);
   step.seed = command.seed;
   step.force_N = 20 * now_.preset.jitter.field_N_per_mm * now_.scene->footprint.spacing;
-  return do_step(step, watch);
+  return do_step(std::move(step), watch);
 }
 
-// A shell in hand that is designed: its steps are seen as they come, the last certified one stays.
+// The shell is designed: its steps are seen as they come, the last certified one stays.
 
 namespace {
 
@@ -276,7 +272,7 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
   return {};
 }
 
-/// The designed shell in hand, as a preset of it has it, in the state that was designed.
+/// The designed shell, as a preset of it has it, in the state that was designed.
 Result<void> EditSession::show_designed(const preset::Preset& designed, const State& state) {
   TRY(made, shared_scene_of(designed));
   const std::shared_ptr<const Scene>& scene = *made;

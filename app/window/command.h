@@ -1,4 +1,4 @@
-// What a hand did to a shell, step by step, in the order it did it.
+// What was done to a shell, step by step.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 
 namespace gridshell::window {
 
-/// A copy costs nothing: it shares all steps, and what is done to it the other does not see. Copies
-/// may be read on other threads.
+/// A copy costs nothing: it shares all steps, and what is done to one the other does not see.
+/// Copies may be read on other threads.
 class StepHistory {
  public:
   bool empty() const { return !last_; }
@@ -37,7 +37,7 @@ class StepHistory {
   std::shared_ptr<const Link> last_;
 };
 
-// What a hand can command of the shell. The engine's thread executes one command after the other.
+// What can be done to the shell. The engine's thread executes one command after the other.
 
 /// Another shell, formed along its path.
 struct Open {
@@ -113,7 +113,7 @@ struct Command {
   bool passing = false;
 };
 
-// What a change of a preset's keys means for the shell in hand.
+// What a change of a preset's keys means for the edited shell.
 
 /// How much of the shell a change touches: pictures alone, its meshes, where the boundary is, the
 /// rods and what they carry, or the whole shape, which is formed anew.

@@ -87,7 +87,7 @@ LevelPlan coarse_plan(const Scene& scene) {
 
 void EditSession::execute(const Command& command, const Watch& watch) {
   const double begin = seconds_now();
-  // what a drag came past stays said when the hand lets go
+  // what a drag came past stays said at its end
   const bool settles = is_any<RefineAfterDrag>(command.edit);
   const bool travels = is_any<Undo, Redo, AcceptDesign, DiscardDesign>(command.edit);
   if (!settles) {
@@ -98,7 +98,12 @@ void EditSession::execute(const Command& command, const Watch& watch) {
   const bool remembered = !travels && !settles && remember(command);
   if (!settles && !is_any<Undo, Redo, DiscardDesign>(command.edit)) accept_design();
   if (session_ && command.passing && session_->shell().levels() > 1) coarsen(watch);
-  const auto done = std::visit([&](const auto& edit) { return act(edit, watch); }, command.edit);
+  const bool moves =
+      is_any<Move, Push, Release, DragEdge, ResetEdgePoint, Rest, Jitter>(command.edit);
+  const Result<void> done =
+      moves && !session_
+          ? fail(Fault::bad_input, "there is no shell yet")
+          : std::visit([&](const auto& edit) { return act(edit, watch); }, command.edit);
   if (!done)
     view_.error = done.error().fault == Fault::cancelled ? "stopped" : done.error().message;
   // what moved nothing is no step
@@ -121,8 +126,7 @@ void EditSession::refine(const Watch& watch) {
   if (!session_ || now_.refined) return;
   const double begin = seconds_now();
   // a shell that nothing happened to since it was formed
-  const bool untouched = now_.first && now_.first->nodes.cols() == view_.frame.nodes.cols() &&
-                         now_.first->nodes == view_.frame.nodes;
+  const bool untouched = now_.first && same_nodes(now_.first->nodes, view_.frame.nodes);
   const LevelPlan plan = experiment::initial_levels(*now_.scene);
   const std::vector<int>& now = session_->shell().plan().edges_per_segment;
   const bool fine_enough = now_.scene->edges_per_segment == 0 && now.size() > 1 &&
@@ -323,7 +327,7 @@ Result<void> EditSession::act(const Change& command, const Watch& watch) {
   return {};
 }
 
-/// A shell of other numbers, to which nothing that the hand did is done again.
+/// A shell of another preset, to which nothing that was done before is done again.
 Result<void> EditSession::rebuild_shell(const preset::Preset& preset, const Watch& watch) {
   const bool untouched = now_.steps.empty() && now_.grip_origins.empty();
   return form(preset, watch).map([&] {

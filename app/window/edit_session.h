@@ -1,4 +1,4 @@
-// Numbers that need not be in memory now.
+// The shell that a window holds, with all that can be undone.
 #pragma once
 
 #include <Eigen/Core>
@@ -121,6 +121,7 @@ class EditSession {
   Result<void> change_rods(const preset::Preset& preset, const Watch& watch);
   void take_over_keys(const preset::Preset& preset);
   Result<void> do_step(preset::Step step, const Watch& watch);
+  Result<void> move_boundary(double progress, const Eigen::Matrix3Xd& dragged, const Watch& watch);
   void add_step(preset::Step step, const Report& report);
   Result<void> note_events(const Report& report);
   void coarsen(const Watch& watch);

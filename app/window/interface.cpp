@@ -66,7 +66,7 @@ Interface::Interface(const render::Gl& gl, render::Renderer& renderer, ViewerSta
     : gl_(gl),
       imgui_(ImGui::CreateContext()),
       viewer_(viewer),
-      hand_(viewer),
+      mouse_(viewer),
       picture_(gl_, renderer),
       picker_(gl_),
       target_(gl_, render::Target::Depth::none) {}
@@ -230,16 +230,16 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
   panel.controls["view"] = box;
   const ImGuiIO& io = ImGui::GetIO();
   const double x = io.MousePos.x - low.x, y = io.MousePos.y - low.y;
-  if (hand_.holds()) {
-    hand_.drag(x, y);
-    if (!ImGui::IsItemActive()) hand_.release(x, y);
+  if (mouse_.holds()) {
+    mouse_.drag(x, y);
+    if (!ImGui::IsItemActive()) mouse_.release(x, y);
   } else if (ImGui::IsItemHovered()) {
-    hand_.hover(x, y);
-    if (io.MouseWheel != 0) hand_.wheel(io.MouseWheel, x, y);
+    mouse_.hover(x, y);
+    if (io.MouseWheel != 0) mouse_.wheel(io.MouseWheel, x, y);
     for (int button = 0; button < 3; ++button)
-      if (ImGui::IsMouseClicked(button)) hand_.press(Button(button), io.KeyShift, x, y);
+      if (ImGui::IsMouseClicked(button)) mouse_.press(Button(button), io.KeyShift, x, y);
   } else {
-    hand_.leave();
+    mouse_.leave();
   }
   mark_picked();
   mark_under();

@@ -76,7 +76,7 @@ class Interface {
   ImGuiContext* imgui_;
   std::optional<InterfacePainter> painter_;
   ViewerState& viewer_;
-  Picker hand_;
+  Picker mouse_;
   ShellPicture picture_;
   NumbersPanel numbers_;
   PresetPicker picker_;
@@ -98,7 +98,7 @@ class Interface {
 Result<void> run_desktop(ViewerState& viewer, const std::function<void(const InputEvent&)>& seen,
                          const std::function<bool()>& stopped);
 
-// The interface without a hand: a recording played off-screen, and the bench that drags by itself.
+// The interface without a user: a recording played off-screen, and the bench that drags by itself.
 
 /// Plays events one by one, each with the equilibrium that it asks for awaited: the same states on
 /// every machine. Ends with the view sharp. Errors: those of the events and the renderer, naming

@@ -23,7 +23,7 @@ void Panel::named(const std::string& name, const std::string& tip) const {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   controls[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
   if (tip.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  // not over what a hand is about to use
+  // not over what is about to be used
   const ImGuiContext& imgui = *ImGui::GetCurrentContext();
   const bool rests = imgui.HoveredId == 0 || imgui.HoveredIdTimer > tip_after_s;
   if (!rests || ImGui::IsAnyMouseDown()) return;
@@ -198,7 +198,7 @@ void menu_bar(const Panel& panel) {
   ImGui::EndMainMenuBar();
 }
 
-// The certificate of the state in sight, what the engine is at, what was said last.
+// The certificate of the state shown, what the engine is at, what was said last.
 
 namespace {
 

@@ -80,7 +80,7 @@ class NumbersPanel {
   std::shared_ptr<const ShellView> seen_;  // that the numbers are of
   preset::Preset edited_;
   std::set<std::string> idle_;  // keys that count for nothing in it
-  std::string active_;          // the key under the hand
+  std::string active_;          // the key under the mouse
   bool typed_ = false;          // digits that are not meant yet
 };
 

@@ -43,7 +43,7 @@ void Picker::find(double x, double y) {
     const double depth = forward.dot(viewer_.shell->frame.nodes.col(node));
     return off + 0.05 * depth / mm_per_pixel(viewer_.camera, viewer_.view);
   };
-  // from above a shell that bulges hides its boundary, which a hand may want all the same
+  // from above a shell that bulges hides its boundary, which may be wanted all the same
   const double under_mm = bulge_spacings * layout.spacing_mm;
   for (int k = 0; k < int(layout.joints.size()); ++k)
     if (const double s = score(k, 0); s < best) best = s, joint_ = k;

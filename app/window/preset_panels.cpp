@@ -170,7 +170,7 @@ void NumbersPanel::find_idle() {
       idle_.insert(field.table + "." + field.key);
 }
 
-/// While a hand is at a number, the engine's answer may be older than its command.
+/// While a number is being changed, the engine's answer may be older than its command.
 void NumbersPanel::look(const ViewerState& viewer) {
   if (!active_.empty() || seen_ == viewer.shell) return;
   seen_ = viewer.shell;

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int least_px = 16, most_px = 16384;
-constexpr double shift_seen_px = 2;  // of the view, that a hand gave it
+constexpr double shift_seen_px = 2;  // of the view, that the user gave it
 
 double rounded(double value, double step) { return step * std::round(value / step); }
 

@@ -123,13 +123,22 @@ namespace {
 
 using render::Colour;
 
-constexpr Colour light_paper{1, 1, 1, 1}, light_ground{0.93f, 0.93f, 0.94f, 1},
-    light_rod{0.16f, 0.17f, 0.20f, 1}, light_ring{0.3f, 0.33f, 0.38f, 1};
-constexpr Colour dark_paper{0.105f, 0.11f, 0.125f, 1}, dark_ground{0.16f, 0.165f, 0.185f, 1},
-    dark_rod{0.80f, 0.82f, 0.86f, 1}, dark_ring{0.55f, 0.58f, 0.64f, 1};
-constexpr Colour joint_red{0.75f, 0.12f, 0.10f, 1}, joint_light{0.92f, 0.36f, 0.30f, 1},
-    ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1},
-    arrow_ink{0.05f, 0.05f, 0.06f, 1}, arrow_light{0.95f, 0.95f, 0.95f, 1};
+/// What is drawn on light paper, and on dark.
+struct Palette {
+  Colour paper, ground, rod, ring, joint, arrow;
+};
+constexpr Palette light{{1, 1, 1, 1},
+                        {0.93f, 0.93f, 0.94f, 1},
+                        {0.16f, 0.17f, 0.20f, 1},
+                        {0.3f, 0.33f, 0.38f, 1},
+                        {0.75f, 0.12f, 0.10f, 1},
+                        {0.05f, 0.05f, 0.06f, 1}};
+constexpr Palette dark{{0.105f, 0.11f, 0.125f, 1}, {0.16f, 0.165f, 0.185f, 1},
+                       {0.80f, 0.82f, 0.86f, 1},   {0.55f, 0.58f, 0.64f, 1},
+                       {0.92f, 0.36f, 0.30f, 1},   {0.95f, 0.95f, 0.95f, 1}};
+constexpr Colour ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1};
+
+const Palette& palette_of(const Show& show) { return show.dark ? dark : light; }
 
 void put_colours(const ShellView& shell, const Show& show, render::Drawing& drawing) {
   const Values values = values_of(shell, show.colour_by);
@@ -155,12 +164,9 @@ void put_forces(const ShellView& shell, const Show& show, double thin_mm,
     const double length = 0.35 * shell.layout->length_scale_mm * held.force_N.norm() / most;
     if (!(length > 3 * thin_mm)) continue;
     const Eigen::Vector3d way = length * held.force_N.normalized();
-    drawing.arrows.push_back(
-        {at - way, at, std::max(1.4, 1.6 * thin_mm), show.dark ? arrow_light : arrow_ink});
+    drawing.arrows.push_back({at - way, at, std::max(1.4, 1.6 * thin_mm), palette_of(show).arrow});
   }
 }
-
-double lowest(const Eigen::Matrix3Xd& nodes) { return nodes.row(2).minCoeff(); }
 
 }  // namespace
 
@@ -173,21 +179,21 @@ Eigen::Vector3d place_of(const ShellView& shell, const Show& show, int node) {
 
 render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin_mm) {
   const record::Layout& layout = *shell.layout;
+  const Palette& palette = palette_of(show);
   render::Drawing drawing;
   drawing.layout = &layout;
   drawing.nodes = shell.frame.nodes;
   if (show.mode_mm != 0 && shell.soft_mode.cols() == drawing.nodes.cols())
     drawing.nodes += show.mode_mm * shell.soft_mode;
-  drawing.rod_colour = show.dark ? dark_rod : light_rod;
+  drawing.rod_colour = palette.rod;
   drawing.rod_diameter_mm = std::max(layout.rod_diameter_mm, thin_mm);
-  drawing.joint_colour = show.dark ? joint_light : joint_red;
+  drawing.joint_colour = palette.joint;
   drawing.joint_diameter_mm = show.joints ? std::max(3.0, 1.5 * drawing.rod_diameter_mm) : 0;
   put_colours(shell, show, drawing);
   if (show.rings) {
-    const Colour ink = show.dark ? dark_ring : light_ring;
     drawing.rings.push_back({layout.original_boundary, std::max(0.6, thin_mm), ghost_grey, false});
-    drawing.rings.push_back(
-        {render::boundary_at(layout, shell.frame.actuation), std::max(1.4, 1.6 * thin_mm), ink});
+    drawing.rings.push_back({render::boundary_at(layout, shell.frame.actuation),
+                             std::max(1.4, 1.6 * thin_mm), palette.ring});
   }
   const auto ghosts = [&](const Eigen::Matrix3Xd& nodes) {
     if (nodes.cols() == drawing.nodes.cols())
@@ -196,11 +202,12 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   if (show.net) ghosts(layout.net_nodes);
   if (show.footprint) ghosts(layout.flat_nodes);
   put_forces(shell, show, thin_mm, drawing);
-  drawing.ground_z_mm = std::min(0.0, lowest(drawing.nodes)) - 2.5;
-  if (shell.layout->net_nodes.cols() > 0) drawing.ground_z_mm = lowest(drawing.nodes) - 2.5;
+  // what starts flat stands on its boundary's plane
+  const double lowest_mm = drawing.nodes.row(2).minCoeff();
+  drawing.ground_z_mm = (layout.net_nodes.cols() > 0 ? lowest_mm : std::min(0.0, lowest_mm)) - 2.5;
   drawing.ground = show.ground;
-  drawing.ground_colour = show.dark ? dark_ground : light_ground;
-  drawing.background = show.dark ? dark_paper : light_paper;
+  drawing.ground_colour = palette.ground;
+  drawing.background = palette.paper;
   drawing.far_fade = 0.25;
   return drawing;
 }

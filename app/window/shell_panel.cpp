@@ -1,4 +1,4 @@
-// What is done to the shell: path, boundary, hand, rest, accuracy, colours; what was picked.
+// What is done to the shell: path, boundary, joints held, rest, accuracy, colours; what was picked.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace gridshell::window {
 namespace {
 
-/// A slider over the panel's width; true while the hand changes its value, and once what was typed
+/// A slider over the panel's width; true while the mouse changes its value, and once what was typed
 /// is done.
 bool slider(const Panel& panel, const char* name, float& value, float low, float high,
             const char* format, const std::string& tip) {

@@ -1,4 +1,4 @@
-// What is seen of the shell in hand: the view is made anew after every command.
+// The view of the edited shell, made anew after every command.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What the engine's thread shows of the shell in hand: a copy that the window draws from.
+// What the engine's thread shows of the edited shell: a copy that the window draws from.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace gridshell::window {
 
-/// A joint that a hand holds.
+/// A joint that is held.
 struct HeldJoint {
   int joint = 0;
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();   ///< that holds it
@@ -21,7 +21,7 @@ struct HeldJoint {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();     ///< unit; zero: held in every direction
 };
 
-/// An edge point that a hand dragged off the boundary's motion.
+/// An edge point that was dragged off the boundary's motion.
 struct DraggedEdge {
   int edge_point = 0;
   double off_mm = 0;
@@ -96,7 +96,7 @@ struct ShellView : ViewedState {
   bool designing() const { return design && design->under_way; }
 };
 
-/// Why the shell in sight cannot be designed, a sentence; empty: it can.
+/// Why the shell cannot be designed, a sentence; empty: it can.
 std::string why_not_designed(const ShellView& shell);
 
 }  // namespace gridshell::window

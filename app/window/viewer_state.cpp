@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <type_traits>
 
 #include "engine/core/json.h"
 
@@ -12,8 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_readings = 4000;
+constexpr std::size_t most_points = 4000;
 constexpr double look_every_s = 0.5;  // at the preset's file
+constexpr double most_number = 1e9;   // in a workspace
 constexpr double earth_m_s2 = 9.81, nitinol_kg_m3 = 6450;
 
 }  // namespace
@@ -203,16 +205,15 @@ void ViewerState::reset_view() {
 }
 
 void ViewerState::add_plot_point() {
-  PlotPoint now;
   const record::Frame& frame = shell->frame;
-  now.radius_mm = frame.boundary_radius_mm;
-  now.progress = shell->progress;
-  now.height_mm = frame.height_mm;
-  now.energy_mJ = frame.energies.total();
-  now.total_K = frame.total_K;
-  now.stable = shell->stable();
-  now.steps = shell->steps.size();
-  now.refined = shell->refined;
+  PlotPoint now{.radius_mm = frame.boundary_radius_mm,
+                .progress = shell->progress,
+                .height_mm = frame.height_mm,
+                .energy_mJ = frame.energies.total(),
+                .total_K = frame.total_K,
+                .steps = shell->steps.size(),
+                .stable = shell->stable(),
+                .refined = shell->refined};
   if (!shell->held.empty()) {
     const HeldJoint& held = shell->held.back();
     now.joint = held.joint;
@@ -225,8 +226,8 @@ void ViewerState::add_plot_point() {
       plot_points.back().steps == now.steps)
     plot_points.pop_back();
   plot_points.push_back(now);
-  if (plot_points.size() > most_readings)
-    plot_points.erase(plot_points.begin(), plot_points.begin() + most_readings / 4);
+  if (plot_points.size() > most_points)
+    plot_points.erase(plot_points.begin(), plot_points.begin() + most_points / 4);
 }
 
 /// A preset that was changed in its file is taken anew; a broken one says so, and the last good one
@@ -275,27 +276,24 @@ void each_number(AnyCamera& camera, const Visit& visit) {
   visit("target_z_mm", camera.target.z());
 }
 
-/// The member of an object, or null.
-const Json* member(const Json& object, const char* key) {
-  if (!object.is_object()) return nullptr;
-  const auto found = object.find(key);
-  return found == object.end() ? nullptr : &*found;
-}
-
-bool take(const Json& object, const char* key, double& value, double low, double high) {
-  const Json* number = member(object, key);
-  if (!number || !number->is_number()) return false;
-  const double asked = number->get<double>();
-  if (!(asked >= low && asked <= high)) return false;
-  value = asked;
+/// Takes a member of an object where it has one that such a value can be.
+template <class Value>
+bool take(const Json& object, const char* key, Value& value) {
+  if (!object.is_object() || !object.contains(key)) return false;
+  const Json& member = object[key];
+  if constexpr (std::is_enum_v<Value>) {
+    const auto found = find_word<Value>(member.is_string() ? member.get<std::string>() : "");
+    if (found) value = *found;
+    return found.has_value();
+  } else if constexpr (std::is_same_v<Value, double>) {
+    if (!member.is_number() || std::abs(member.get<double>()) > most_number) return false;
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    if (!member.is_boolean()) return false;
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    if (!member.is_string()) return false;
+  }
+  value = member.get<Value>();
   return true;
-}
-
-template <class Enum>
-void take_word(const Json& object, const char* key, Enum& value) {
-  const Json* word = member(object, key);
-  if (!word || !word->is_string()) return;
-  if (const auto found = find_word<Enum>(word->get<std::string>())) value = *found;
 }
 
 }  // namespace
@@ -321,26 +319,21 @@ std::string workspace_text(const ViewerState& viewer) {
 Result<void> take_workspace(ViewerState& viewer, const std::string& text) {
   const Json json = record::parsed(text);
   if (!json.is_object()) return fail(Fault::bad_input, "the workspace is no JSON object");
-  if (const Json* shown = member(json, "shown"))
-    each_switch(viewer, [&](const char* key, bool& on) {
-      if (const Json* flag = member(*shown, key); flag && flag->is_boolean())
-        on = flag->get<bool>();
-    });
-  if (const Json* colour = member(json, "colour")) {
-    take_word(*colour, "by", viewer.show.colour_by);
-    take_word(*colour, "range", viewer.range_of);
-    double low = 0, high = 0;
-    if (viewer.range_of == RangeOf::hand && take(*colour, "low", low, -1e9, 1e9) &&
-        take(*colour, "high", high, -1e9, 1e9))
+  Json shown, colour, camera;
+  if (take(json, "shown", shown))
+    each_switch(viewer, [&](const char* key, bool& on) { take(shown, key, on); });
+  double low = 0, high = 0;
+  if (take(json, "colour", colour)) {
+    take(colour, "by", viewer.show.colour_by);
+    take(colour, "range", viewer.range_of);
+    if (viewer.range_of == RangeOf::hand && take(colour, "low", low) && take(colour, "high", high))
       viewer.set_range(low, high);
   }
-  const Json *camera = member(json, "camera"), *preset = member(json, "preset");
-  if (!camera || !preset || !preset->is_string()) return {};
-  SavedCamera kept{preset->get<std::string>(), viewer.camera, viewer.show.colour_by};
+  SavedCamera kept{"", viewer.camera, viewer.show.colour_by};
+  if (!take(json, "camera", camera) || !take(json, "preset", kept.preset)) return {};
   bool whole = true;
-  each_number(kept.camera, [&](const char* key, double& value) {
-    whole = take(*camera, key, value, -1e6, 1e6) && whole;
-  });
+  each_number(kept.camera,
+              [&](const char* key, double& value) { whole = take(camera, key, value) && whole; });
   const render::Camera& seen = kept.camera;
   if (whole && seen.half_extent_mm > 0 && std::abs(seen.elevation_deg) <= 90 &&
       seen.field_of_view_deg >= 0 && seen.field_of_view_deg < 120)

@@ -1,4 +1,4 @@
-// Everything that the window knows: the shell in sight, how it is shown, what the hand holds, what
+// Everything that the window knows: the shell, how it is shown, what is picked, what
 // plays. It has no OpenGL and no interface library; panels show it, actions and the view change it.
 #pragma once
 
@@ -69,7 +69,7 @@ struct PlotPoint {
   double radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0, force_N = 0,
          total_K = 0;
   int joint = -1;  ///< that is held and was taken last; none
-  int steps = 0;   ///< that the hand had done
+  int steps = 0;   ///< that were done
   bool stable = true, refined = true;
 };
 
@@ -135,7 +135,7 @@ class ViewerState {
   /// The boundary to a progress; of a preset with a push, the push to a share of its depth.
   void go(double part, bool passing);
   void play(bool on);
-  /// Stops what the engine is at; of a design the last step stays in hand.
+  /// Stops what the engine is at; of a design the last step stays.
   void stop();
   /// Designs the shell by what was chosen, coloured by its deviation.
   void start_design();
@@ -151,7 +151,7 @@ class ViewerState {
 
   // ---- what is kept ----
 
-  /// The preset as the shell stands now: radius, or what the hand did step by step; camera,
+  /// The preset as the shell stands now: radius, or what was done step by step; camera,
   /// colours.
   preset::Preset preset_to_save() const;
   void save_preset();

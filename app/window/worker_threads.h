@@ -1,4 +1,4 @@
-// Work beside the window, on a thread of its own: the shell in hand and its picture stay free.
+// Work beside the window, on a thread of its own: the shell and its picture stay free.
 #pragma once
 
 #include <condition_variable>
