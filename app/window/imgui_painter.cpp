@@ -139,7 +139,7 @@ Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& 
                           height, least_px * std::max(1.0, height / 720.0));
   const ColourBy by = request.show.colour_by;
   if (!image || !request.kept.legend || by == ColourBy::none ||
-      !values_of(*request.shell, by).any())
+      values_of(*request.shell, by).size() == 0)
     return image;
   const double font = std::max(9.0, height / 45.0);
   const render::ColourBar bar{label_of(*request.shell, by), request.show.scale};

@@ -109,6 +109,11 @@ Eigen::Vector2d Interface::in_view(int node) const {
          Eigen::Vector2d(view_.x, view_.y);
 }
 
+ImVec2 Interface::point_of(int node) const {
+  const Eigen::Vector2d at = in_view(node);
+  return {float(at.x()), float(at.y())};
+}
+
 Result<Eigen::Vector2d> Interface::place_of(const InputEvent& event) const {
   if (event.text.empty()) return Eigen::Vector2d(event.x, event.y);
   const Eigen::Vector2d beside(event.x, event.y);
@@ -257,15 +262,11 @@ void Interface::mark_picked() {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto wide = float(2.2 * density_);
   const auto line = [&](const auto& nodes, bool closed) {
-    for (const int node : nodes) {
-      const Eigen::Vector2d at = in_view(node);
-      list.PathLineTo({float(at.x()), float(at.y())});
-    }
+    for (const int node : nodes) list.PathLineTo(point_of(node));
     list.PathStroke(mark_colour, closed, wide);
   };
   const auto ring = [&](int node, double radius) {
-    const Eigen::Vector2d at = in_view(node);
-    list.AddCircle({float(at.x()), float(at.y())}, float(radius * density_), mark_colour, 0, wide);
+    list.AddCircle(point_of(node), float(radius * density_), mark_colour, 0, wide);
   };
   if (viewer_.picked_joint >= 0 && viewer_.picked_joint < int(layout.joints.size()))
     ring(viewer_.picked_joint, 9);
@@ -289,9 +290,8 @@ void Interface::mark_under() {
   if (edge >= 0 && edge < int(layout.edge_points.size()))
     node = layout.edge_points[std::size_t(edge)];
   if (node < 0) return;
-  const Eigen::Vector2d at = in_view(node);
-  ImGui::GetWindowDrawList()->AddCircle({float(at.x()), float(at.y())}, float(7 * density_),
-                                        mark_colour, 0, float(2.2 * density_));
+  ImGui::GetWindowDrawList()->AddCircle(point_of(node), float(7 * density_), mark_colour, 0,
+                                        float(2.2 * density_));
 }
 
 /// Force and way beside each joint that is held.

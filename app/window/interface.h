@@ -63,6 +63,7 @@ class Interface {
   void feed(const InputEvent& event);
   Result<Eigen::Vector2d> place_of(const InputEvent& event) const;
   Eigen::Vector2d in_view(int node) const;
+  ImVec2 point_of(int node) const;
   void mark_picked();
   void mark_under();
   void write_forces();

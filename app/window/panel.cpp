@@ -162,6 +162,12 @@ void choose_colours(bool dark, double density) {
   ImGui::GetStyle() = style;
 }
 
+void coloured_text(ImU32 colour, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+
 ImU32 error_colour(bool dark) {
   return dark ? IM_COL32(255, 120, 110, 255) : IM_COL32(186, 28, 20, 255);
 }
@@ -252,9 +258,7 @@ void status_line(const Panel& panel, const render::Box& box) {
                       : shell.accuracy_warning.empty() ? ok_colour(dark)
                                                        : warning_colour(dark);
     const std::string lacks = shell.accuracy_warning.empty() ? "" : ", " + shell.accuracy_warning;
-    ImGui::PushStyleColor(ImGuiCol_Text, ink);
-    ImGui::TextUnformatted(((shell.stable() ? "● stable" : "● not stable") + lacks).c_str());
-    ImGui::PopStyleColor();
+    coloured_text(ink, (shell.stable() ? "● stable" : "● not stable") + lacks);
     panel.named("stability", "whether the Hessian is positive definite with what is held held");
     if (!shell.symmetry.empty()) {
       ImGui::SameLine(0, panel.px(14));
@@ -273,12 +277,9 @@ void status_line(const Panel& panel, const render::Box& box) {
       busy > 0.3 ? fmt::format("solving for {:.1f} s (Esc stops)", busy) : viewer.message;
   if (shell.designing()) said = standing_of(*shell.design);
   const bool bad = busy <= 0.3 && viewer.message_bad && !shell.designing();
-  ImGui::PushStyleColor(ImGuiCol_Text,
-                        bad ? error_colour(dark) : ImGui::GetColorU32(ImGuiCol_TextDisabled));
   // one line, however much was said: the tooltip has all of it
-  const std::string line = said.substr(0, said.find('\n'));
-  ImGui::TextUnformatted(line.c_str());
-  ImGui::PopStyleColor();
+  coloured_text(bad ? error_colour(dark) : ImGui::GetColorU32(ImGuiCol_TextDisabled),
+                said.substr(0, said.find('\n')));
   panel.named("message", said);
   if (viewer.movie_task.under_way()) movie_standing(panel);
   ImGui::End();
@@ -293,9 +294,7 @@ void row(const std::string& left, const std::string& right) {
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(left.c_str());
   ImGui::TableNextColumn();
-  ImGui::PushTextWrapPos();
-  ImGui::TextUnformatted(right.c_str());
-  ImGui::PopTextWrapPos();
+  ImGui::TextWrapped("%s", right.c_str());
 }
 
 bool begin_table(const Panel& panel, const char* name, double left) {

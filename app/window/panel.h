@@ -99,6 +99,7 @@ ImU32 error_colour(bool dark);
 ImU32 ok_colour(bool dark);
 ImU32 warning_colour(bool dark);
 ImU32 muted_colour(bool dark);
+void coloured_text(ImU32 colour, const std::string& text);
 
 // A small plot within a panel.
 

@@ -274,8 +274,8 @@ void colour_legend(const Panel& panel, const render::Box& view) {
   const float right = float(view.right()) - panel.px(14), top = float(view.y) + panel.px(14);
   Ground ground(panel, *ImGui::GetWindowDrawList(), {right, top});
   ground.text(label_of(*viewer.shell, viewer.show.colour_by), right, top);
-  const Values values = values_of(*viewer.shell, viewer.show.colour_by);
-  if (!values.any()) return ground.text("not known for this shell", right, top + 1.3f * line);
+  const Eigen::VectorXd values = values_of(*viewer.shell, viewer.show.colour_by);
+  if (values.size() == 0) return ground.text("not known for this shell", right, top + 1.3f * line);
   const render::ColourScale& scale = viewer.show.scale;
   const float low = top + 1.6f * line, left = right - width;
   bar(scale, {left, low}, {right, low + height});
@@ -287,15 +287,14 @@ void colour_legend(const Panel& panel, const render::Box& view) {
                 low + height * down - 0.5f * line);
   }
   // the end colours stand for all that lies beyond them
-  const Eigen::VectorXd& all = values.of_cells.size() > 0 ? values.of_cells : values.of_nodes;
   const double slack = 1e-9 * (scale.high - scale.low);
   float note = low + height + 0.8f * line;
-  if (all.maxCoeff() > scale.high + slack) {
-    ground.text(fmt::format("up to {:.3g}", all.maxCoeff()), right, note);
+  if (values.maxCoeff() > scale.high + slack) {
+    ground.text(fmt::format("up to {:.3g}", values.maxCoeff()), right, note);
     note += 1.2f * line;
   }
-  if (all.minCoeff() < scale.low - slack)
-    ground.text(fmt::format("down to {:.3g}", all.minCoeff()), right, note);
+  if (values.minCoeff() < scale.low - slack)
+    ground.text(fmt::format("down to {:.3g}", values.minCoeff()), right, note);
 }
 
 }  // namespace gridshell::window

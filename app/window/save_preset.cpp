@@ -72,7 +72,7 @@ void ViewerState::put_view(preset::Preset& preset) const {
   const double shift_mm = shift_seen_px * mm_per_pixel(camera, view);
   if ((camera.target - fitted.target).norm() > shift_mm)
     for (const double value : camera.target) movie.target_mm.push_back(rounded(value, 0.1));
-  if (show.colour_by == ColourBy::none || values_of(*shell, show.colour_by).any())
+  if (show.colour_by == ColourBy::none || values_of(*shell, show.colour_by).size() > 0)
     movie.colour_by = show.colour_by;
   if (range_of == RangeOf::hand) preset.style.range = {show.scale.low, show.scale.high};
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/canvas/text.h"
-#include "render/movie/run_summary.h"
+#include "render/movie/colour_by.h"
 
 namespace gridshell::window {
 namespace {
@@ -60,45 +60,45 @@ const char* label_of(const ShellView& shell, ColourBy by) {
 }
 const char* meaning_of(ColourBy by) { return colour_texts[std::size_t(by)].meaning; }
 
-Values values_of(const ShellView& shell, ColourBy by) {
+Eigen::VectorXd values_of(const ShellView& shell, ColourBy by) {
   if (!shell.any()) return {};
   switch (by) {
     case ColourBy::none:
       return {};
     case ColourBy::K:
-      return {shell.frame.cell_K, {}};
+      return shell.frame.cell_K;
     case ColourBy::K_change:
       if (shell.first->cell_K.size() != shell.frame.cell_K.size()) return {};
-      return {shell.frame.cell_K - shell.first->cell_K, {}};
+      return shell.frame.cell_K - shell.first->cell_K;
     case ColourBy::deviation:
-      return {shell.deviation, {}};
+      return shell.deviation;
     case ColourBy::energy:
-      return {{}, shell.bending_mJ_m};
+      return shell.bending_mJ_m;
     case ColourBy::axial_force:
-      return {{}, shell.axial_N};
+      return shell.axial_N;
     case ColourBy::displacement:
-      return {{}, displacement(shell)};
+      return displacement(shell);
   }
   return {};
 }
 
 render::ColourScale scale_of(const ShellView& shell, ColourBy by) {
-  const Values values = values_of(shell, by);
-  const Eigen::VectorXd& all = values.of_cells.size() > 0 ? values.of_cells : values.of_nodes;
+  const Eigen::VectorXd all = values_of(shell, by);
+  const double start = render::of_cells(by) ? 0 : paling;
   render::ColourScale scale =
       render::symmetric_scale(std::vector<double>(all.begin(), all.end()), 0.9);
   if (by == ColourBy::K || by == ColourBy::K_change || by == ColourBy::axial_force) {
     // round-off has no colour
     const double least = by == ColourBy::axial_force ? 1e-6 : 0.02;
     if (scale.high < least) scale.low = -least, scale.high = least;
-    if (values.of_nodes.size() > 0) scale.start = paling;
+    scale.start = start;
     return scale;
   }
   const bool any = all.size() > 0 && all.maxCoeff() > 1e-9;
   // of these the farthest is what is asked for
   const bool whole = by == ColourBy::displacement || by == ColourBy::deviation;
   const double end = !any ? 1 : whole ? render::nice_ceiling(all.maxCoeff()) : scale.high;
-  return {render::ColourMap::sequential, 0, end, values.of_nodes.size() > 0 ? paling : 0};
+  return {render::ColourMap::sequential, 0, end, start};
 }
 
 render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,
@@ -141,12 +141,12 @@ constexpr Colour ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0
 const Palette& palette_of(const Show& show) { return show.dark ? dark : light; }
 
 void put_colours(const ShellView& shell, const Show& show, render::Drawing& drawing) {
-  const Values values = values_of(shell, show.colour_by);
-  for (double value : values.of_cells) {
-    drawing.cell_colours.push_back(show.scale(value));
-    drawing.cell_colours.back().a = 0.93f;
+  const bool cells = render::of_cells(show.colour_by);
+  for (const double value : values_of(shell, show.colour_by)) {
+    auto& colours = cells ? drawing.cell_colours : drawing.node_colours;
+    colours.push_back(show.scale(value));
+    if (cells) colours.back().a = 0.93f;
   }
-  for (double value : values.of_nodes) drawing.node_colours.push_back(show.scale(value));
   if (drawing.node_colours.empty()) return;
   // colours need some width to be seen, and no shine
   drawing.rod_diameter_mm *= 1.8;

@@ -28,13 +28,8 @@ const char* label_of(const ShellView& shell, ColourBy by);
 /// What it is, in a sentence.
 const char* meaning_of(ColourBy by);
 
-/// The values that are coloured: of the cells or of the nodes; none where the shell has none.
-struct Values {
-  Eigen::VectorXd of_cells, of_nodes;
-
-  bool any() const { return of_cells.size() + of_nodes.size() > 0; }
-};
-Values values_of(const ShellView& shell, ColourBy by);
+/// The values that are coloured, of the cells or of the nodes; empty where the shell has none.
+Eigen::VectorXd values_of(const ShellView& shell, ColourBy by);
 
 /// The scale of these values, with nice ends.
 render::ColourScale scale_of(const ShellView& shell, ColourBy by);

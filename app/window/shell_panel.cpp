@@ -134,11 +134,9 @@ void stability(const Panel& panel) {
   if (viewer.shell->stable()) return;
   heading(panel, "Not stable");
   ImGui::PushStyleColor(ImGuiCol_Text, error_colour(viewer.show.dark));
-  ImGui::PushTextWrapPos();
-  ImGui::Text("%d negative pivot%s: the shell would leave this state.",
-              viewer.shell->certificate.negative_pivots,
-              viewer.shell->certificate.negative_pivots == 1 ? "" : "s");
-  ImGui::PopTextWrapPos();
+  ImGui::TextWrapped("%d negative pivot%s: the shell would leave this state.",
+                     viewer.shell->certificate.negative_pivots,
+                     viewer.shell->certificate.negative_pivots == 1 ? "" : "s");
   ImGui::PopStyleColor();
   panel.button("rest_along");
   ImGui::SameLine();
@@ -311,10 +309,8 @@ void picked(const Panel& panel) {
 void shell_panel(const Panel& panel, const render::Box& box) {
   ViewerState& viewer = panel.viewer;
   begin_fixed("shell", box);
-  ImGui::PushTextWrapPos();
-  ImGui::TextUnformatted(viewer.shell->any() ? viewer.shell->preset.title.c_str()
-                                             : "No shell yet: pick a preset.");
-  ImGui::PopTextWrapPos();
+  ImGui::TextWrapped("%s", viewer.shell->any() ? viewer.shell->preset.title.c_str()
+                                               : "No shell yet: pick a preset.");
   // all four in one row
   const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
   panel.button("pick_preset");
