@@ -88,11 +88,9 @@ void EditSession::add_step(preset::Step step, const Report& report) {
   if (step.kind == preset::StepKind::move) step.edge_points = rows_of(now_.boundary.dragged);
   const bool eventful = !report.events.empty();
   const bool same = this_drag_ != 0 && this_drag_ == steps_drag_ && !now_.steps.empty() &&
-                    !eventful && !last_eventful_ && goes_on(now_.steps.last(), step);
-  if (same)
-    now_.steps.replace_last(std::move(step));
-  else
-    now_.steps.add(std::move(step));
+                    !eventful && !last_eventful_ && goes_on(*now_.steps.back(), step);
+  if (same) now_.steps.pop_back();
+  now_.steps.push_back(std::make_shared<const preset::Step>(std::move(step)));
   steps_drag_ = this_drag_;
   last_eventful_ = eventful;
 }

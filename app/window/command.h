@@ -11,31 +11,11 @@
 
 namespace gridshell::window {
 
-/// A copy costs nothing: it shares all steps, and what is done to one the other does not see.
-/// Copies may be read on other threads.
-class StepHistory {
- public:
-  bool empty() const { return !last_; }
-  int size() const { return last_ ? last_->count : 0; }
-  /// Of a chain that is not empty.
-  const preset::Step& last() const { return last_->step; }
-  void add(preset::Step step);
-  /// Of a chain that is not empty.
-  void replace_last(preset::Step step);
-  void clear() { last_.reset(); }
-  /// The first one first.
-  std::vector<preset::Step> all() const;
+/// In order; copies share the steps.
+using StepHistory = std::vector<std::shared_ptr<const preset::Step>>;
 
- private:
-  struct Link {
-    preset::Step step;
-    mutable std::shared_ptr<const Link> before;
-    int count = 1;
-    ~Link();
-  };
-
-  std::shared_ptr<const Link> last_;
-};
+/// As a preset has them.
+std::vector<preset::Step> steps_of(const StepHistory& history);
 
 // What can be done to the shell. The engine's thread executes one command after the other.
 

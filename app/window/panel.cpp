@@ -162,23 +162,18 @@ void choose_colours(bool dark, double density) {
   ImGui::GetStyle() = style;
 }
 
+const TextColours& text_colours(bool dark) {
+  static constexpr TextColours on_dark{IM_COL32(255, 120, 110, 255), IM_COL32(110, 210, 130, 255),
+                                       IM_COL32(240, 185, 80, 255), IM_COL32(139, 145, 156, 255)};
+  static constexpr TextColours on_light{IM_COL32(186, 28, 20, 255), IM_COL32(24, 122, 52, 255),
+                                        IM_COL32(168, 98, 0, 255), IM_COL32(107, 114, 128, 255)};
+  return dark ? on_dark : on_light;
+}
+
 void coloured_text(ImU32 colour, const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopStyleColor();
-}
-
-ImU32 error_colour(bool dark) {
-  return dark ? IM_COL32(255, 120, 110, 255) : IM_COL32(186, 28, 20, 255);
-}
-ImU32 ok_colour(bool dark) {
-  return dark ? IM_COL32(110, 210, 130, 255) : IM_COL32(24, 122, 52, 255);
-}
-ImU32 warning_colour(bool dark) {
-  return dark ? IM_COL32(240, 185, 80, 255) : IM_COL32(168, 98, 0, 255);
-}
-ImU32 muted_colour(bool dark) {
-  return dark ? IM_COL32(139, 145, 156, 255) : IM_COL32(107, 114, 128, 255);
 }
 
 // The menus, filled from the table of actions.
@@ -251,14 +246,14 @@ void movie_standing(const Panel& panel) {
 void status_line(const Panel& panel, const render::Box& box) {
   const ViewerState& viewer = panel.viewer;
   const ShellView& shell = *viewer.shell;
-  const bool dark = viewer.show.dark;
+  const TextColours& colours = text_colours(viewer.show.dark);
   begin_fixed("status", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   if (shell.any()) {
-    const ImU32 ink = !shell.stable()                  ? error_colour(dark)
-                      : shell.accuracy_warning.empty() ? ok_colour(dark)
-                                                       : warning_colour(dark);
+    const ImU32 colour = !shell.stable()                  ? colours.error
+                         : shell.accuracy_warning.empty() ? colours.ok
+                                                          : colours.warning;
     const std::string lacks = shell.accuracy_warning.empty() ? "" : ", " + shell.accuracy_warning;
-    coloured_text(ink, (shell.stable() ? "● stable" : "● not stable") + lacks);
+    coloured_text(colour, (shell.stable() ? "● stable" : "● not stable") + lacks);
     panel.named("stability", "whether the Hessian is positive definite with what is held held");
     if (!shell.symmetry.empty()) {
       ImGui::SameLine(0, panel.px(14));
@@ -278,7 +273,7 @@ void status_line(const Panel& panel, const render::Box& box) {
   if (shell.designing()) said = standing_of(*shell.design);
   const bool bad = busy <= 0.3 && viewer.message_bad && !shell.designing();
   // one line, however much was said: the tooltip has all of it
-  coloured_text(bad ? error_colour(dark) : ImGui::GetColorU32(ImGuiCol_TextDisabled),
+  coloured_text(bad ? colours.error : ImGui::GetColorU32(ImGuiCol_TextDisabled),
                 said.substr(0, said.find('\n')));
   panel.named("message", said);
   if (viewer.movie_task.under_way()) movie_standing(panel);

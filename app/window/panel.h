@@ -93,12 +93,11 @@ Result<void> load_fonts(double density);
 /// Light or dark.
 void choose_colours(bool dark, double density);
 
-/// Red of what is wrong or not stable, green of what holds, amber of what lacks something, grey of
-/// what is said beside.
-ImU32 error_colour(bool dark);
-ImU32 ok_colour(bool dark);
-ImU32 warning_colour(bool dark);
-ImU32 muted_colour(bool dark);
+/// Of what is wrong or not stable, what holds, what lacks something, and what is said beside.
+struct TextColours {
+  ImU32 error, ok, warning, muted;
+};
+const TextColours& text_colours(bool dark);
 void coloured_text(ImU32 colour, const std::string& text);
 
 // A small plot within a panel.

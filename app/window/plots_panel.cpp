@@ -74,7 +74,7 @@ class PlotBox {
   float height_of(const Span& y, float value) const {
     return to_.y - std::clamp(y.at(value), 0.f, 1.f) * (to_.y - from_.y);
   }
-  ImU32 pale() const { return muted_colour(panel_.viewer.show.dark); }
+  ImU32 pale() const { return text_colours(panel_.viewer.show.dark).muted; }
   static ImU32 ink() { return ImGui::GetColorU32(ImGuiCol_PlotLines); }
 
   void title(const char* text) {

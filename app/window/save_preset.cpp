@@ -29,9 +29,8 @@ std::string left_out(const ShellView& shell) {
 
 /// Whether meshes decided which state it came to.
 bool jumped(const ShellView& shell) {
-  const std::vector<preset::Step> steps = shell.steps.all();
-  return shell.snapped || std::ranges::any_of(steps, [](const preset::Step& step) {
-           return step.kind == preset::StepKind::jitter;
+  return shell.snapped || std::ranges::any_of(shell.steps, [](const auto& step) {
+           return step->kind == preset::StepKind::jitter;
          });
 }
 
@@ -83,14 +82,13 @@ preset::Preset ViewerState::preset_to_save() const {
   preset.indentation = {};
   // a boundary that was moved and nothing else is a preset of that radius
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
-  const std::vector<preset::Step> steps = shell->steps.all();
-  const bool moves = std::ranges::all_of(steps, [](const preset::Step& step) {
-    return step.kind == preset::StepKind::move && step.edge_points.empty();
+  const bool moves = std::ranges::all_of(shell->steps, [](const auto& step) {
+    return step->kind == preset::StepKind::move && step->edge_points.empty();
   });
   if (jumped(*shell) && preset.accuracy.edges_per_segment == 0)
     preset.accuracy.leading_edges = shell->leader;
   if (circle && moves && !shell->snapped) return preset;
-  preset.step = steps;
+  preset.step = steps_of(shell->steps);
   if (circle) preset.actuation.radius_mm = shell->radius_end_mm;
   return preset;
 }

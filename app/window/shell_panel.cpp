@@ -133,7 +133,7 @@ void stability(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
   if (viewer.shell->stable()) return;
   heading(panel, "Not stable");
-  ImGui::PushStyleColor(ImGuiCol_Text, error_colour(viewer.show.dark));
+  ImGui::PushStyleColor(ImGuiCol_Text, text_colours(viewer.show.dark).error);
   ImGui::TextWrapped("%d negative pivot%s: the shell would leave this state.",
                      viewer.shell->certificate.negative_pivots,
                      viewer.shell->certificate.negative_pivots == 1 ? "" : "s");

@@ -211,7 +211,7 @@ void ViewerState::add_plot_point() {
                 .height_mm = frame.height_mm,
                 .energy_mJ = frame.energies.total(),
                 .total_K = frame.total_K,
-                .steps = shell->steps.size(),
+                .steps = int(shell->steps.size()),
                 .stable = shell->stable(),
                 .refined = shell->refined};
   if (!shell->held.empty()) {

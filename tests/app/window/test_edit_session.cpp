@@ -185,7 +185,7 @@ TEST_CASE("what was done is kept as steps, and a run of them ends in the same st
   CHECK(shell.view().steps.size() == 7);
 
   preset::Preset preset = shell.view().preset;
-  preset.step = shell.view().steps.all();
+  preset.step = steps_of(shell.view().steps);
   preset.actuation.radius_mm = shell.view().radius_end_mm;
   REQUIRE(check_preset(preset));
   Watch watch;
