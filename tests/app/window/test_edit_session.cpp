@@ -9,14 +9,31 @@
 using namespace gridshell;
 using namespace gridshell::window;
 
+namespace {
+
+/// What a run of a preset ends in.
+record::Frame end_of_run(const preset::Preset& preset) {
+  REQUIRE(check_preset(preset));
+  Watch watch;
+  auto run = experiment::run(preset, false, watch);
+  REQUIRE(run);
+  return run->trajectory.frames.back();
+}
+
+/// How far the joints of two states are apart, on whatever meshes they stand.
+double apart(const EditedShell& shell, const record::Frame& other) {
+  const auto joints = Eigen::Index(shell.view().layout->joints.size());
+  return (other.nodes.leftCols(joints) - shell.nodes().leftCols(joints))
+      .colwise()
+      .norm()
+      .maxCoeff();
+}
+
+}  // namespace
+
 TEST_CASE("the edited shell is the one that a run ends in") {
   const EditedShell shell;
-  Watch watch;
-  const auto run = experiment::run(small_shell(), true, watch);
-  REQUIRE(run);
-  const Eigen::Matrix3Xd& nodes = run->trajectory.frames.back().nodes;
-  const auto joints = Eigen::Index(shell.view().layout->joints.size());
-  CHECK((shell.nodes() - nodes).leftCols(joints).cwiseAbs().maxCoeff() < 1e-4);
+  CHECK(apart(shell, end_of_run(small_shell())) < 1e-4);
   CHECK(shell.view().refined);
   CHECK(shell.view().stable());
   CHECK(shell.view().certificate.error_estimate_mm < 1e-3 * 66);
@@ -69,19 +86,6 @@ TEST_CASE("a joint pushed along its normal resists, and lets go to where it was"
   shell.refine();
   CHECK(shell.view().held.empty());
   CHECK(difference(shell, before) < 1e-4);
-}
-
-TEST_CASE("an edge point goes where it is dragged, and the radius still moves") {
-  EditedShell shell;
-  const int node = shell.view().layout->edge_points[3];
-  const Eigen::Vector3d to = shell.node(node) + Eigen::Vector3d(1.5, -1, 0);
-  shell.act(DragEdge{3, to});
-  CHECK((shell.node(node) - to).norm() < 1e-9);
-  shell.act(Move{0.9});
-  CHECK(shell.view().progress == Approx(0.9));
-  shell.act(Undo{});
-  shell.act(Undo{});
-  CHECK(shell.view().progress == Approx(1));
 }
 
 TEST_CASE("steps that are put aside into a file are undone and done again to the bit") {
@@ -145,18 +149,11 @@ TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run come
     viewer.shell = std::make_shared<const ShellView>(shell.view());
     const preset::Preset kept = viewer.preset_to_save();
     CHECK(kept.accuracy.leading_edges == 4);
-    REQUIRE(check_preset(kept));
-    Watch watch;
-    const auto run = experiment::run(kept, false, watch);
-    REQUIRE(run);
     const double energy = shell.bending_mJ();
     elsewhere += std::abs(energy - unshaken) > 1e-2 * unshaken;
     // each on the meshes that it took to meet the tolerance
-    const record::Frame& ran = run->trajectory.frames.back();
-    const auto joints = Eigen::Index(shell.view().layout->joints.size());
-    const double apart =
-        (ran.nodes.leftCols(joints) - shell.nodes().leftCols(joints)).colwise().norm().maxCoeff();
-    CHECK(apart < ran.error_estimate_mm + shell.view().certificate.error_estimate_mm);
+    const record::Frame ran = end_of_run(kept);
+    CHECK(apart(shell, ran) < ran.error_estimate_mm + shell.view().certificate.error_estimate_mm);
     shell.act(Undo{});
   }
   CHECK(elsewhere > 0);
@@ -210,18 +207,25 @@ TEST_CASE("what was done is kept as steps, and a run of them ends in the same st
   CHECK(shell.view().steps.size() == 6);
 }
 
-TEST_CASE("edge points dragged off the boundary are told, and put back the shell is as before") {
+TEST_CASE("edge points go where they are dragged, and put back the shell is as before") {
   EditedShell shell;
   const ShellView before = shell.view();
   CHECK(before.edges_dragged.empty());
   for (const int k : {3, 5}) {
     const int node = before.layout->edge_points[std::size_t(k)];
-    shell.act(DragEdge{k, before.frame.nodes.col(node) + Eigen::Vector3d(1.5, -1, 0)});
+    const Eigen::Vector3d to = before.frame.nodes.col(node) + Eigen::Vector3d(1.5, -1, 0);
+    shell.act(DragEdge{k, to});
+    CHECK((shell.node(node) - to).norm() < 1e-9);
   }
   REQUIRE(shell.view().edges_dragged.size() == 2);
   CHECK(shell.view().edges_dragged[1].edge_point == 5);
   CHECK(shell.view().edges_dragged[1].off_mm == Approx(std::hypot(1.5, 1)));
   CHECK(difference(shell, before) > 0.1);
+  // the radius still moves
+  shell.act(Move{0.9});
+  CHECK(shell.view().progress == Approx(0.9));
+  shell.act(Undo{});
+  CHECK(shell.view().progress == Approx(1));
   shell.act(ResetEdgePoint{3});
   CHECK(shell.view().edges_dragged.size() == 1);
   shell.act(ResetEdgePoint{});
@@ -230,7 +234,9 @@ TEST_CASE("edge points dragged off the boundary are told, and put back the shell
   CHECK(shell.attempt(ResetEdgePoint{}) == "no such edge point was dragged");
 }
 
-TEST_CASE("a number of the rods changes the shell as it stands, one of its shape forms another") {
+TEST_CASE(
+    "a number of the rods or loads changes the shell as it stands, one of its shape forms "
+    "another") {
   EditedShell shell;
   const double energy = shell.bending_mJ();
   preset::Preset stiffer = shell.view().preset;
@@ -238,6 +244,13 @@ TEST_CASE("a number of the rods changes the shell as it stands, one of its shape
   CHECK(kind_of_change(shell.view().preset, stiffer) == ChangeKind::rods);
   shell.act(Change{stiffer});
   CHECK(shell.bending_mJ() == Approx(2 * energy).epsilon(1e-3));
+  // gravity pulls all nodes, which lie evenly along the rods
+  const double height = shell.nodes().row(2).mean();
+  preset::Preset heavy = shell.view().preset;
+  heavy.rod.density_kg_m3 = 6450;
+  heavy.loads.gravity_m_s2 = 9.81;
+  shell.act(Change{heavy});
+  CHECK(shell.nodes().row(2).mean() < height);
   preset::Preset larger = shell.view().preset;
   larger.footprint.rods = 4;
   larger.footprint.radius_mm = 46;
@@ -245,21 +258,9 @@ TEST_CASE("a number of the rods changes the shell as it stands, one of its shape
   shell.act(Change{larger});
   CHECK(shell.view().layout->rods.size() == 8);
   // undone, the first shell stands again, on the rods that it had
-  shell.act(Undo{});
-  shell.act(Undo{});
+  shell.act(Undo{true});
   CHECK(shell.view().layout->rods.size() == 12);
   CHECK(shell.bending_mJ() == Approx(energy));
-}
-
-TEST_CASE("gravity is a number of the preset, and pulls") {
-  EditedShell shell;
-  // of all nodes, which lie evenly along the rods
-  const double height = shell.nodes().row(2).mean();
-  preset::Preset heavy = shell.view().preset;
-  heavy.rod.density_kg_m3 = 6450;
-  heavy.loads.gravity_m_s2 = 9.81;
-  shell.act(Change{heavy});
-  CHECK(shell.nodes().row(2).mean() < height);
 }
 
 TEST_CASE("a command that cannot be met leaves the last good shell and says why") {
