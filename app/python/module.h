@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <Eigen/Core>
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <optional>
@@ -58,28 +59,17 @@ auto interruptible(const Work& work) {
 
 // What Python passes as a value of a preset, as TOML: the preset's reader then judges it.
 
-/// Any object, which signatures call by the tag's name: its reader judges what it is.
-template <class Tag>
+/// The name of a type in Python.
+template <std::size_t size>
+struct TypeName {
+  char text[size];
+  constexpr TypeName(const char (&from)[size]) { std::copy_n(from, size, text); }
+};
+
+/// Any object, which signatures call by that name: its reader judges what it is.
+template <TypeName name>
 struct Judged {
   py::object value = py::none();
-};
-struct ArrayTag {
-  static constexpr auto name = py::detail::const_name("ArrayLike");
-};
-struct OptionalArrayTag {
-  static constexpr auto name = py::detail::const_name("Optional[ArrayLike]");
-};
-struct OptionalNumberTag {
-  static constexpr auto name = py::detail::const_name("Optional[float]");
-};
-struct EnergiesTag {
-  static constexpr auto name = py::detail::const_name("dict[str, float]");
-};
-struct ColumnsTag {
-  static constexpr auto name = py::detail::const_name("dict[str, numpy.ndarray[numpy.float64]]");
-};
-struct JsonTag {
-  static constexpr auto name = py::detail::const_name("dict[str, Any]");
 };
 
 /// A number, string, path, bool, sequence of these or numpy array as TOML. Raises TypeError for
@@ -89,7 +79,7 @@ std::string toml_of(const py::handle& value);
 /// {"footprint.rods": 14} as changes to a preset. Raises TypeError.
 std::vector<preset::Override> overrides_of(const py::dict& changes);
 
-/// A step of a hand with the keys of [[step]], those that are None left out, judged together with
+/// A step with the keys of [[step]], those that are None left out, judged together with
 /// the preset. Raises BadInput, TypeError.
 preset::Step step_of(const preset::Preset& preset, const char* kind, const py::dict& keys);
 
@@ -130,14 +120,14 @@ preset::Preset chosen(const preset::Presets& presets, const std::optional<std::s
 
 }  // namespace gridshell::python
 
-template <class Tag>
-struct pybind11::detail::type_caster<gridshell::python::Judged<Tag>> {
-  PYBIND11_TYPE_CASTER(gridshell::python::Judged<Tag>, Tag::name);
+template <gridshell::python::TypeName type>
+struct pybind11::detail::type_caster<gridshell::python::Judged<type>> {
+  PYBIND11_TYPE_CASTER(gridshell::python::Judged<type>, const_name(type.text));
   bool load(handle source, bool) {
     value.value = reinterpret_borrow<object>(source);
     return true;
   }
-  static handle cast(const gridshell::python::Judged<Tag>& judged, return_value_policy, handle) {
+  static handle cast(const gridshell::python::Judged<type>& judged, return_value_policy, handle) {
     return judged.value.inc_ref();
   }
 };

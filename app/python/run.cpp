@@ -118,7 +118,7 @@ void add_columns(py::class_<Run>& type) {
             for (const TermName& term : energy_terms)
               terms[term.name] =
                   column<double>(run, [&](const auto& frame) { return frame.energies[term.term]; });
-            return Judged<ColumnsTag>{terms};
+            return Judged<"dict[str, numpy.ndarray[numpy.float64]]">{terms};
           },
           "By term, of each frame, mJ.")
       .def_property_readonly(
@@ -151,7 +151,7 @@ void add_run(py::module_& module) {
       .def_property_readonly(
           "summary",
           [](const Run& run) {
-            return Judged<JsonTag>{
+            return Judged<"dict[str, Any]">{
                 py::module_::import("json").attr("loads")(record::to_json(run.read().summary))};
           },
           "summary.json as a dict.")

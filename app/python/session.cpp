@@ -1,4 +1,4 @@
-// gridshell.Session: a shell in a Python program's hand.
+// gridshell.Session: a shell that a Python program moves step by step.
 #include "app/python/module.h"
 
 #include <pybind11/stl.h>
@@ -99,9 +99,9 @@ class Session {
 };
 
 void add_steps(py::class_<Session>& type) {
-  using Array = Judged<ArrayTag>;
-  using OptionalArray = Judged<OptionalArrayTag>;
-  using OptionalNumber = Judged<OptionalNumberTag>;
+  using Array = Judged<"ArrayLike">;
+  using OptionalArray = Judged<"Optional[ArrayLike]">;
+  using OptionalNumber = Judged<"Optional[float]">;
   const auto none = py::none();
   type.def(
           "actuate",

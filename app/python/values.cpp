@@ -171,7 +171,7 @@ void add_state(py::module_& module) {
             py::dict terms;
             for (const TermName& term : energy_terms)
               terms[term.name] = of.frame.energies[term.term];
-            return Judged<EnergiesTag>{terms};
+            return Judged<"dict[str, float]">{terms};
           },
           "By term, mJ: bend, stretch, twist, joint, shear, load.")
       .def_property_readonly(

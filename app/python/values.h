@@ -41,8 +41,6 @@ inline constexpr std::array numbers{
 
 // What sessions and runs hand out: states, layouts, certificates and reports.
 
-namespace py = pybind11;
-
 /// Adds the classes State, Layout, Certificate, Report and Event to the module.
 void add_values(py::module_& module);
 
