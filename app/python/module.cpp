@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "app/cli/preset_library.h"
-#include "app/python/values.h"
 #include "engine/core/system_info.h"
 #include "engine/gridshell.h"
 

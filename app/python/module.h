@@ -1,17 +1,20 @@
-// Faults as exceptions, one class each.
+// What the module is made of: exceptions, arguments, arrays, classes.
 #pragma once
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <filesystem>
 #include <future>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/python/shell.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/gridshell.h"
@@ -107,8 +110,6 @@ inline py::array_t<int> view(const std::vector<int>& numbers, const py::object& 
   return view(numbers.data(), {py::ssize_t(numbers.size())}, {sizeof(int)}, owner);
 }
 
-// What the module is made of.
-
 /// Adds the classes Session and Checkpoint to the module.
 void add_session(py::module_& module);
 
@@ -117,6 +118,48 @@ void add_run(py::module_& module);
 
 /// The case of a name, or the preset itself where it has none. Raises BadInput, naming the cases.
 preset::Preset chosen(const preset::Presets& presets, const std::optional<std::string>& name);
+
+/// A number of a state: a property of State, and a column of Run.
+struct Number {
+  const char* name;
+  double record::Frame::*member;
+  const char* doc;
+};
+
+inline constexpr std::array numbers{
+    Number{"progress", &record::Frame::progress,
+           "Of a session: of the boundary, 0 the original and 1 the actuated one. Of a run: of the "
+           "experiment, 0 its begin and 1 its end."},
+    Number{"boundary_radius_mm", &record::Frame::boundary_radius_mm,
+           "Of a circular boundary, mm; else nan."},
+    Number{"depth_mm", &record::Frame::depth_mm,
+           "How far the joint held last was moved the way it is held, mm; nan: none is held."},
+    Number{"force_N", &record::Frame::force_N,
+           "With what force the shell resists that move, N; nan: no joint is held."},
+    Number{"height_mm", &record::Frame::height_mm,
+           "Of the highest joint above the original boundary's plane, mm."},
+    Number{"total_K", &record::Frame::total_K, "Sum of cell_K, rad."},
+    Number{"residual_N", &record::Frame::residual_N, "Largest force that nothing holds, N."},
+    Number{"error_estimate_mm", &record::Frame::error_estimate_mm,
+           "Of the joints' positions, mm; nan: not known."},
+    Number{"time_s", &record::Frame::time_s,
+           "Since the begin of a snap that was followed in time, s; else nan."},
+};
+
+/// Adds the classes State, Layout, Certificate, Report and Event to the module.
+void add_values(py::module_& module);
+
+/// Draws a state into a PNG as the program draws a frame of a movie, in the size (width, height)
+/// or its preset's. Raises IOFailure, BadInput.
+void draw(const State& state, const std::filesystem::path& path,
+          const std::optional<std::pair<int, int>>& size, const std::string& context);
+
+/// What `picture` takes and does, for the methods of that name.
+inline constexpr const char* picture_doc =
+    "Draws the shell into a PNG, as the program draws a frame of a movie: colours, camera and look "
+    "are those of [movie] and [style] of the preset.\n\n"
+    "size: (width, height) in pixels, else the preset's. context: how OpenGL is had, \"auto\", "
+    "\"osmesa\", \"egl\" or \"window\".";
 
 }  // namespace gridshell::python
 

@@ -7,7 +7,6 @@
 
 #include "app/cli/finished_run.h"
 #include "app/python/module.h"
-#include "app/python/values.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::python {

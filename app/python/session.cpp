@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "app/cli/preset_library.h"
-#include "app/python/values.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::python {

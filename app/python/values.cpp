@@ -1,5 +1,3 @@
-#include "app/python/values.h"
-
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
