@@ -48,7 +48,7 @@ if(TARGET gridshell_python)
       \${CMAKE_INSTALL_PREFIX} OUTPUT_VARIABLE python_folder OUTPUT_STRIP_TRAILING_WHITESPACE
       COMMAND_ERROR_IS_FATAL ANY)")
   install(TARGETS gridshell_python DESTINATION "\${python_folder}")
-  install(FILES app/python/gridshell.pyi DESTINATION "\${python_folder}")
+  install(FILES ${PROJECT_BINARY_DIR}/python/gridshell.pyi DESTINATION "\${python_folder}")
 endif()
 
 # cpack --config build/CPackConfig.cmake: a Debian package of all this.

@@ -55,20 +55,20 @@ Result<preset::Preset> first_preset_of(const std::string& name) {
 
 /// The program itself makes it, in a process of its own that can be stopped.
 Result<void> make_movie(const fs::path& preset, const fs::path& folder,
-                        const window::ProgressListener& heard, const Watch& watch) {
+                        const window::ProgressListener& listener, const Watch& watch) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) return fail(Fault::io, "cannot find this program's file: " + error.message());
   return render::run_subprocess({program.string(), "movie", preset.string(), "-o", folder.string()},
-                                watch, heard);
+                                watch, listener);
 }
 
 /// In a context of its own, which does not hold up the window's.
-Result<void> draw_picture(const window::PictureRequest& order, const fs::path& file,
+Result<void> draw_picture(const window::PictureRequest& request, const fs::path& file,
                           const std::string& context) {
   TRY(made, make_context(context));
   TRY(renderer, render::Renderer::create(**made));
-  return ui::picture_of(order, **renderer).and_then([&](const render::Image& image) {
+  return window::picture_of(request, **renderer).and_then([&](const render::Image& image) {
     return render::write_png(image, file);
   });
 }
@@ -80,9 +80,9 @@ window::Library library_of(const ViewOptions& options) {
       library.cards.push_back({embedded.name, presets->base.title, embedded_card(embedded.name)});
   library.load = first_preset_of;
   library.make_movie = make_movie;
-  library.draw_picture = [context = options.context](const window::PictureRequest& order,
+  library.draw_picture = [context = options.context](const window::PictureRequest& request,
                                                      const fs::path& file) {
-    return draw_picture(order, file, context);
+    return draw_picture(request, file, context);
   };
   library.write_preset = write_preset_with_tables;
   library.save_to = options.output;
@@ -93,7 +93,7 @@ window::Library library_of(const ViewOptions& options) {
 struct OffscreenInterface {
   std::unique_ptr<render::Context> context;
   std::unique_ptr<render::Renderer> renderer;
-  std::unique_ptr<ui::Interface> interface;
+  std::unique_ptr<window::Interface> interface;
 };
 
 /// The software rasteriser leaves a processor to the engine.
@@ -105,11 +105,11 @@ void share_processors() {
 Result<OffscreenInterface> open_aside(const ViewOptions& options, window::ViewerState& viewer) {
   TRY(context, make_context(options.context));
   TRY(renderer, render::Renderer::create(**context));
-  TRY(interface, ui::Interface::create(**context, **renderer, viewer));
+  TRY(interface, window::Interface::create(**context, **renderer, viewer));
   return OffscreenInterface{std::move(*context), std::move(*renderer), std::move(*interface)};
 }
 
-int print_bench(const ui::BenchFigures& figures) {
+int print_bench(const window::BenchFigures& figures) {
   record::Json line = record::Json::object();
   const auto rounded = [](double value) { return std::round(10 * value) / 10; };
   line["interface_fps"] = rounded(figures.interface_fps);
@@ -123,25 +123,25 @@ int print_bench(const ui::BenchFigures& figures) {
 
 /// What the engine came to, as a line of JSON: the same for the same recording on every machine.
 void print_state(const window::ViewerState& viewer) {
-  const window::ShellView& sight = *viewer.sight;
+  const window::ShellView& shell = *viewer.shell;
   record::Json line = record::Json::object();
-  line["preset"] = sight.preset.name;
-  line["progress"] = sight.progress;
-  line["boundary_radius_mm"] = sight.frame.boundary_radius_mm;
-  line["height_mm"] = sight.frame.height_mm;
-  line["energy_bend_mJ"] = sight.frame.energies[Term::bend];
-  line["total_K"] = sight.frame.total_K;
-  line["residual_N"] = sight.certificate.residual_N;
-  line["negative_pivots"] = sight.certificate.negative_pivots;
-  line["error_estimate_mm"] = sight.certificate.error_estimate_mm;
-  line["held"] = sight.held.size();
-  line["force_N"] = sight.held.empty() ? 0 : sight.held.back().force_N.norm();
-  line["depth_mm"] = sight.held.empty() ? 0 : sight.held.back().moved_mm.norm();
+  line["preset"] = shell.preset.name;
+  line["progress"] = shell.progress;
+  line["boundary_radius_mm"] = shell.frame.boundary_radius_mm;
+  line["height_mm"] = shell.frame.height_mm;
+  line["energy_bend_mJ"] = shell.frame.energies[Term::bend];
+  line["total_K"] = shell.frame.total_K;
+  line["residual_N"] = shell.certificate.residual_N;
+  line["negative_pivots"] = shell.certificate.negative_pivots;
+  line["error_estimate_mm"] = shell.certificate.error_estimate_mm;
+  line["held"] = shell.held.size();
+  line["force_N"] = shell.held.empty() ? 0 : shell.held.back().force_N.norm();
+  line["depth_mm"] = shell.held.empty() ? 0 : shell.held.back().moved_mm.norm();
   line["gravity"] = viewer.gravity();
-  line["undo_steps"] = sight.undo_steps;
-  line["redo_steps"] = sight.redo_steps;
-  if (sight.design) {
-    const window::DesignProgress& course = *sight.design;
+  line["undo_steps"] = shell.undo_steps;
+  line["redo_steps"] = shell.redo_steps;
+  if (shell.design) {
+    const window::DesignProgress& course = *shell.design;
     line["design"] = {
         {"steps", int(course.points.size()) - 1},        {"iterations", course.iterations},
         {"max_before_mm", course.points.front().max_mm}, {"max_mm", course.points.back().max_mm},
@@ -153,12 +153,12 @@ void print_state(const window::ViewerState& viewer) {
 
 /// The shell alone, as the view has it; of a preset that nobody turned all of it.
 Result<void> draw_alone(const ViewOptions& options, window::ViewerState& viewer) {
-  if (!viewer.sight->any()) return fail(Fault::no_equilibrium, viewer.message);
+  if (!viewer.shell->any()) return fail(Fault::no_equilibrium, viewer.message);
   if (options.play.empty() && viewer.picture.width > 0) {
     viewer.view = {double(viewer.picture.width), double(viewer.picture.height)};
     viewer.fit_view();
   }
-  return draw_picture(viewer.picture_order(), options.picture, options.context);
+  return draw_picture(viewer.picture_request(), options.picture, options.context);
 }
 
 int play_aside(const ViewOptions& options, window::ViewerState& viewer) {
@@ -176,10 +176,10 @@ int play_aside(const ViewOptions& options, window::ViewerState& viewer) {
   auto aside = open_aside(options, viewer);
   if (!aside) return report(aside.error());
   if (options.bench > 0) {
-    const auto figures = ui::bench(*aside->interface, viewer, options.bench);
+    const auto figures = window::bench(*aside->interface, viewer, options.bench);
     return figures ? print_bench(*figures) : report(figures.error());
   }
-  if (auto played = ui::play(*aside->interface, viewer, events); !played)
+  if (auto played = window::play(*aside->interface, viewer, events); !played)
     return report(played.error());
   if (!options.shot.empty())
     if (auto kept = render::write_png(aside->interface->read(), options.shot); !kept)
@@ -210,7 +210,7 @@ void restore(const ViewOptions& options, window::ViewerState& viewer) {
 
 /// Kept for the next visit.
 void keep(const ViewOptions& options, const window::ViewerState& viewer) {
-  if (options.workspace.empty() || !viewer.sight->any()) return;
+  if (options.workspace.empty() || !viewer.shell->any()) return;
   const fs::path folder = options.workspace.parent_path();
   const auto kept = (folder.empty() ? Result<void>{} : make_folder(folder)).and_then([&] {
     return write_file(options.workspace, window::workspace_text(viewer));
@@ -226,7 +226,7 @@ int show(const ViewOptions& options, window::ViewerState& viewer) {
     if (!options.input.empty()) record << "open " << options.input << "\n";
   }
   const InterruptGuard guarded;
-  const auto done = ui::run_desktop(
+  const auto done = window::run_desktop(
       viewer,
       [&](const window::InputEvent& event) {
         if (record.is_open()) record << write_event(event) << "\n" << std::flush;

@@ -1,62 +1,62 @@
 #include "app/python/module.h"
 
-#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 #include <utility>
 
 #include "app/cli/preset_library.h"
-#include "app/python/values.h"
 #include "engine/core/system_info.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::python {
 namespace {
 
-/// A class of the module, below others.
-void add(py::module_& module, const char* name, const py::tuple& bases, const char* doc) {
+/// What the program's faults are in Python: a class below Error and what Python itself has.
+struct FaultClass {
+  Fault fault;
+  const char* name;
+  PyObject* also;
+  const char* doc;
+};
+
+const std::vector<FaultClass>& fault_classes() {
+  static const std::vector<FaultClass> all{
+      {Fault::bad_input, "BadInput", PyExc_ValueError,
+       "A preset, a key, a value, a folder or a joint that is not right: names it, and what would "
+       "be."},
+      {Fault::no_equilibrium, "NoEquilibrium", nullptr,
+       "No certified state was found, or the path ended before its end. The session stands in its "
+       "last certified state."},
+      {Fault::io, "IOFailure", PyExc_OSError,
+       "A file could not be written, or no OpenGL context be had."}};
+  return all;
+}
+
+void add_error(py::module_& module, const char* name, const char* doc, PyObject* base,
+               PyObject* also = nullptr) {
+  const auto of = [](PyObject* one) { return py::reinterpret_borrow<py::object>(one); };
+  const py::tuple bases = also ? py::make_tuple(of(base), of(also)) : py::make_tuple(of(base));
   const std::string full = std::string("gridshell.").append(name);
   PyObject* made = PyErr_NewExceptionWithDoc(full.c_str(), doc, bases.ptr(), nullptr);
   if (!made) throw py::error_already_set();
   module.attr(name) = py::reinterpret_steal<py::object>(made);
 }
 
-const char* name_of(Fault fault) {
-  switch (fault) {
-    case Fault::bad_input:
-      return "BadInput";
-    case Fault::no_equilibrium:
-      return "NoEquilibrium";
-    case Fault::io:
-      return "IOFailure";
-    case Fault::cancelled:
-      break;
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 void add_errors(py::module_& module) {
-  const auto of = [](PyObject* base) { return py::reinterpret_borrow<py::object>(base); };
-  add(module, "Error", py::make_tuple(of(PyExc_Exception)),
-      "What went wrong, in the words of the program. Every other error of gridshell is one.");
+  add_error(module, "Error",
+            "What went wrong, in the words of the program. Every other error of gridshell is one.",
+            PyExc_Exception);
   const py::object error = module.attr("Error");
-  add(module, "BadInput", py::make_tuple(error, of(PyExc_ValueError)),
-      "A preset, a key, a value, a folder or a joint that is not right: names it, and what would "
-      "be.");
-  add(module, "NoEquilibrium", py::make_tuple(error),
-      "No certified state was found, or the path ended before its end. The session stands in its "
-      "last certified state.");
-  add(module, "IOFailure", py::make_tuple(error, of(PyExc_OSError)),
-      "A file could not be written, or no OpenGL context be had.");
+  for (const FaultClass& one : fault_classes())
+    add_error(module, one.name, one.doc, error.ptr(), one.also);
 }
 
 void raise(const Error& error) {
-  if (const char* name = name_of(error.fault)) {
-    const py::object type = py::module_::import("gridshell").attr(name);
-    PyErr_SetString(type.ptr(), error.message.c_str());
-  } else {
-    PyErr_SetString(PyExc_KeyboardInterrupt, error.message.c_str());
-  }
+  py::object type = py::reinterpret_borrow<py::object>(PyExc_KeyboardInterrupt);
+  for (const FaultClass& one : fault_classes())
+    if (one.fault == error.fault) type = py::module_::import("gridshell").attr(one.name);
+  PyErr_SetString(type.ptr(), error.message.c_str());
   throw py::error_already_set();
 }
 
@@ -120,8 +120,8 @@ PYBIND11_MODULE(gridshell, module) {
   module.def(
       "presets",
       [] {
-        pybind11::list names;
-        for (const auto& one : app::embedded_presets()) names.append(one.name);
+        std::vector<std::string> names;
+        for (const auto& one : app::embedded_presets()) names.push_back(one.name);
         return names;
       },
       "Names of the presets that come with the program.");

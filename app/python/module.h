@@ -1,16 +1,20 @@
-// Faults as exceptions, one class each.
+// What the module is made of: exceptions, arguments, arrays, classes.
 #pragma once
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <filesystem>
 #include <future>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/python/shell.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/gridshell.h"
@@ -58,7 +62,18 @@ auto interruptible(const Work& work) {
 
 // What Python passes as a value of a preset, as TOML: the preset's reader then judges it.
 
-namespace py = pybind11;
+/// The name of a type in Python.
+template <std::size_t size>
+struct TypeName {
+  char text[size];
+  constexpr TypeName(const char (&from)[size]) { std::copy_n(from, size, text); }
+};
+
+/// Any object, which signatures call by that name: its reader judges what it is.
+template <TypeName name>
+struct Judged {
+  py::object value = py::none();
+};
 
 /// A number, string, path, bool, sequence of these or numpy array as TOML. Raises TypeError for
 /// anything else.
@@ -67,13 +82,11 @@ std::string toml_of(const py::handle& value);
 /// {"footprint.rods": 14} as changes to a preset. Raises TypeError.
 std::vector<preset::Override> overrides_of(const py::dict& changes);
 
-/// A step of a hand with the keys of [[step]], those that are None left out, judged together with
+/// A step with the keys of [[step]], those that are None left out, judged together with
 /// the preset. Raises BadInput, TypeError.
 preset::Step step_of(const preset::Preset& preset, const char* kind, const py::dict& keys);
 
 // Numbers as numpy arrays that look into them: nothing is copied, and nothing can be written.
-
-namespace py = pybind11;
 
 /// An array over memory that `owner` keeps for as long as the array lives.
 template <class Number>
@@ -97,10 +110,6 @@ inline py::array_t<int> view(const std::vector<int>& numbers, const py::object& 
   return view(numbers.data(), {py::ssize_t(numbers.size())}, {sizeof(int)}, owner);
 }
 
-// What the module is made of.
-
-namespace py = pybind11;
-
 /// Adds the classes Session and Checkpoint to the module.
 void add_session(py::module_& module);
 
@@ -110,4 +119,58 @@ void add_run(py::module_& module);
 /// The case of a name, or the preset itself where it has none. Raises BadInput, naming the cases.
 preset::Preset chosen(const preset::Presets& presets, const std::optional<std::string>& name);
 
+/// A number of a state: a property of State, and a column of Run.
+struct Number {
+  const char* name;
+  double record::Frame::*member;
+  const char* doc;
+};
+
+inline constexpr std::array numbers{
+    Number{"progress", &record::Frame::progress,
+           "Of a session: of the boundary, 0 the original and 1 the actuated one. Of a run: of the "
+           "experiment, 0 its begin and 1 its end."},
+    Number{"boundary_radius_mm", &record::Frame::boundary_radius_mm,
+           "Of a circular boundary, mm; else nan."},
+    Number{"depth_mm", &record::Frame::depth_mm,
+           "How far the joint held last was moved the way it is held, mm; nan: none is held."},
+    Number{"force_N", &record::Frame::force_N,
+           "With what force the shell resists that move, N; nan: no joint is held."},
+    Number{"height_mm", &record::Frame::height_mm,
+           "Of the highest joint above the original boundary's plane, mm."},
+    Number{"total_K", &record::Frame::total_K, "Sum of cell_K, rad."},
+    Number{"residual_N", &record::Frame::residual_N, "Largest force that nothing holds, N."},
+    Number{"error_estimate_mm", &record::Frame::error_estimate_mm,
+           "Of the joints' positions, mm; nan: not known."},
+    Number{"time_s", &record::Frame::time_s,
+           "Since the begin of a snap that was followed in time, s; else nan."},
+};
+
+/// Adds the classes State, Layout, Certificate, Report and Event to the module.
+void add_values(py::module_& module);
+
+/// Draws a state into a PNG as the program draws a frame of a movie, in the size (width, height)
+/// or its preset's. Raises IOFailure, BadInput.
+void draw(const State& state, const std::filesystem::path& path,
+          const std::optional<std::pair<int, int>>& size, const std::string& context);
+
+/// What `picture` takes and does, for the methods of that name.
+inline constexpr const char* picture_doc =
+    "Draws the shell into a PNG, as the program draws a frame of a movie: colours, camera and look "
+    "are those of [movie] and [style] of the preset.\n\n"
+    "size: (width, height) in pixels, else the preset's. context: how OpenGL is had, \"auto\", "
+    "\"osmesa\", \"egl\" or \"window\".";
+
 }  // namespace gridshell::python
+
+template <gridshell::python::TypeName type>
+struct pybind11::detail::type_caster<gridshell::python::Judged<type>> {
+  PYBIND11_TYPE_CASTER(gridshell::python::Judged<type>, const_name(type.text));
+  bool load(handle source, bool) {
+    value.value = reinterpret_borrow<object>(source);
+    return true;
+  }
+  static handle cast(const gridshell::python::Judged<type>& judged, return_value_policy, handle) {
+    return judged.value.inc_ref();
+  }
+};

@@ -19,4 +19,7 @@ set_target_properties(gridshell_python PROPERTIES OUTPUT_NAME gridshell
   LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/python)
 gridshell_read_once(gridshell_python)
 gridshell_compile_lightly(gridshell_python -O1)
-configure_file(app/python/gridshell.pyi ${PROJECT_BINARY_DIR}/python/gridshell.pyi COPYONLY)
+# the module's own signatures, for editors and type checkers
+add_custom_command(TARGET gridshell_python POST_BUILD
+  COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/app/python/stubs.py ${PROJECT_BINARY_DIR}/python
+  BYPRODUCTS ${PROJECT_BINARY_DIR}/python/gridshell.pyi VERBATIM)

@@ -7,10 +7,10 @@
 
 #include "app/cli/finished_run.h"
 #include "app/python/module.h"
-#include "app/python/values.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::python {
+using namespace py::literals;
 namespace {
 
 /// A run read back; frames come from its file as they are asked for.
@@ -46,7 +46,7 @@ class Run {
   }
 
   /// Positions in all frames, read once.
-  const py::array& nodes() {
+  const py::array_t<double>& nodes() {
     if (nodes_) return *nodes_;
     const auto count = frame(0).nodes.cols();
     py::array_t<double> all({py::ssize_t(size()), py::ssize_t(count), py::ssize_t(3)});
@@ -61,7 +61,7 @@ class Run {
   std::shared_ptr<const preset::Preset> preset_;
   std::shared_ptr<const record::Layout> layout_;
   std::vector<record::Frame> heads_;
-  std::optional<py::array> nodes_;
+  std::optional<py::array_t<double>> nodes_;
 };
 
 /// A number of each frame.
@@ -117,7 +117,7 @@ void add_columns(py::class_<Run>& type) {
             for (const TermName& term : energy_terms)
               terms[term.name] =
                   column<double>(run, [&](const auto& frame) { return frame.energies[term.term]; });
-            return terms;
+            return Judged<"dict[str, numpy.ndarray[numpy.float64]]">{terms};
           },
           "By term, of each frame, mJ.")
       .def_property_readonly(
@@ -129,8 +129,8 @@ void add_columns(py::class_<Run>& type) {
       .def_property_readonly(
           "events",
           [](const Run& run) {
-            py::list events;
-            for (const record::Frame& frame : run.heads()) events.append(frame.event);
+            std::vector<std::string> events;
+            for (const record::Frame& frame : run.heads()) events.push_back(frame.event);
             return events;
           },
           "Of each frame: a snap, a limit, a recovery; empty: nothing.")
@@ -143,14 +143,15 @@ void add_run(py::module_& module) {
   py::class_<Run> type(module, "Run",
                        "A run read back from its folder; run[k] is the State of its k-th frame.");
   type.def("__len__", &Run::size)
-      .def("__getitem__", &Run::state, py::arg("k"))
+      .def("__getitem__", &Run::state, "k"_a)
       .def_property_readonly(
           "preset", [](const Run& run) { return preset::to_toml(run.read().preset); },
           "The preset that it came from, as TOML.")
       .def_property_readonly(
           "summary",
           [](const Run& run) {
-            return py::module_::import("json").attr("loads")(record::to_json(run.read().summary));
+            return Judged<"dict[str, Any]">{
+                py::module_::import("json").attr("loads")(record::to_json(run.read().summary))};
           },
           "summary.json as a dict.")
       .def_property_readonly(
@@ -162,8 +163,8 @@ void add_run(py::module_& module) {
                            app::progress_text(run.read()));
       });
   add_columns(type);
-  module.def("load", &load, py::arg("folder"), py::kw_only(), py::arg("case") = py::none(),
-             py::arg("unfinished") = false,
+  module.def("load", &load, "folder"_a, py::kw_only(), "case"_a = py::none(),
+             "unfinished"_a = false,
              "Reads a run's folder. Raises BadInput with the reason where it is no run, damaged, "
              "or was cut short and unfinished is not set.\n\ncase: which of its cases.");
 }

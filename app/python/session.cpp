@@ -1,4 +1,4 @@
-// gridshell.Session: a shell in a Python program's hand.
+// gridshell.Session: a shell that a Python program moves step by step.
 #include "app/python/module.h"
 
 #include <pybind11/stl.h>
@@ -7,10 +7,10 @@
 #include <algorithm>
 
 #include "app/cli/preset_library.h"
-#include "app/python/values.h"
 #include "engine/gridshell.h"
 
 namespace gridshell::python {
+using namespace py::literals;
 
 preset::Preset chosen(const preset::Presets& presets, const std::optional<std::string>& name) {
   std::string names;
@@ -98,16 +98,18 @@ class Session {
 };
 
 void add_steps(py::class_<Session>& type) {
+  using Array = Judged<"ArrayLike">;
+  using OptionalArray = Judged<"Optional[ArrayLike]">;
+  using OptionalNumber = Judged<"Optional[float]">;
   const auto none = py::none();
   type.def(
           "actuate",
-          [](Session& self, double progress, const py::object& radius, const py::object& edges) {
-            return self.step("move",
-                             py::dict(py::arg("progress") = progress, py::arg("radius_mm") = radius,
-                                      py::arg("edge_points") = edges));
+          [](Session& self, double progress, const OptionalNumber& radius,
+             const OptionalArray& edges) {
+            return self.step("move", py::dict("progress"_a = progress, "radius_mm"_a = radius,
+                                              "edge_points"_a = edges));
           },
-          py::arg("progress") = 1.0, py::kw_only(), py::arg("radius_mm") = none,
-          py::arg("edge_points") = none,
+          "progress"_a = 1.0, py::kw_only(), "radius_mm"_a = none, "edge_points"_a = none,
           "Moves the boundary: progress 0 is the original, 1 the actuated one, beyond it further "
           "on. The first time this forms the shell as a run of the preset does, on meshes that its "
           "tolerance asks for.\n\n"
@@ -116,52 +118,51 @@ void add_steps(py::class_<Session>& type) {
           "on it.")
       .def(
           "push",
-          [](Session& self, const py::object& joint, const py::object& depth, const py::object& to,
-             const py::object& along, const std::string& lateral) {
-            return self.step("push", py::dict(py::arg("joint") = joint, py::arg("depth_mm") = depth,
-                                              py::arg("to_mm") = to, py::arg("along") = along,
-                                              py::arg("lateral") = lateral));
+          [](Session& self, const Array& joint, const OptionalNumber& depth,
+             const OptionalArray& to, const OptionalArray& along, const std::string& lateral) {
+            return self.step("push",
+                             py::dict("joint"_a = joint, "depth_mm"_a = depth, "to_mm"_a = to,
+                                      "along"_a = along, "lateral"_a = lateral));
           },
-          py::arg("joint"), py::arg("depth_mm") = none, py::kw_only(), py::arg("to_mm") = none,
-          py::arg("along") = none, py::arg("lateral") = "free",
+          "joint"_a, "depth_mm"_a = none, py::kw_only(), "to_mm"_a = none, "along"_a = none,
+          "lateral"_a = "free",
           "Moves the joint (i, j), which is held from then on: by depth_mm against the shell's "
           "normal, inward (below 0 outward), or to the position to_mm, mm.\n\n"
           "along: direction in which it is held, else that of the push. lateral: \"free\" or "
           "\"held\": whether it may move across the push.")
       .def(
           "hold",
-          [](Session& self, const py::object& joint, const py::object& along) {
-            return self.step("hold", py::dict(py::arg("joint") = joint, py::arg("along") = along));
+          [](Session& self, const Array& joint, const OptionalArray& along) {
+            return self.step("hold", py::dict("joint"_a = joint, "along"_a = along));
           },
-          py::arg("joint"), py::kw_only(), py::arg("along") = none,
+          "joint"_a, py::kw_only(), "along"_a = none,
           "Holds the joint (i, j) where it is, along a direction or in all.")
       .def(
           "release",
-          [](Session& self, const py::object& joint) {
-            return self.step("release", py::dict(py::arg("joint") = joint));
+          [](Session& self, const OptionalArray& joint) {
+            return self.step("release", py::dict("joint"_a = joint));
           },
-          py::arg("joint") = none, "Lets the joint (i, j) go, or all that are held.")
+          "joint"_a = none, "Lets the joint (i, j) go, or all that are held.")
       .def(
           "load",
           [](Session& self, double factor) {
-            return self.step("load", py::dict(py::arg("factor") = factor));
+            return self.step("load", py::dict("factor"_a = factor));
           },
-          py::arg("factor"), "From now on what [loads] says counts `factor` times.")
+          "factor"_a, "From now on what [loads] says counts `factor` times.")
       .def(
           "rest",
           [](Session& self, const std::string& side) {
-            return self.step("rest", py::dict(py::arg("side") = side));
+            return self.step("rest", py::dict("side"_a = side));
           },
-          py::arg("side") = "lower",
+          "side"_a = "lower",
           "Down the energy to rest. side: from a state that is not stable \"lower\", or \"plus\" "
           "or \"minus\" its soft mode.")
       .def(
           "jitter",
           [](Session& self, int seed, double force) {
-            return self.step("jitter",
-                             py::dict(py::arg("seed") = seed, py::arg("force_N") = force));
+            return self.step("jitter", py::dict("seed"_a = seed, "force_N"_a = force));
           },
-          py::arg("seed") = 1, py::arg("force_N") = 0.4,
+          "seed"_a = 1, "force_N"_a = 0.4,
           "Random forces on all joints come on and go away again; force_N: the largest along each "
           "axis, N.")
       .def(
@@ -171,7 +172,7 @@ void add_steps(py::class_<Session>& type) {
               return shell.refine(tolerance_mm, watch);
             });
           },
-          py::arg("tolerance_mm") = std::numeric_limits<double>::quiet_NaN(),
+          "tolerance_mm"_a = std::numeric_limits<double>::quiet_NaN(),
           "Finer meshes until the error estimate is below tolerance_mm, else the preset's.");
 }
 
@@ -192,8 +193,7 @@ void add_looks(const py::module_& module, py::class_<Session>& type) {
           "save",
           [](Session& self) { return self.in_hand([](Shell& shell) { return shell.save(); }); },
           "A state to go back to with restore().")
-      .def("restore", &Session::restore, py::arg("kept"),
-           "Back to a state that this session saved.")
+      .def("restore", &Session::restore, "kept"_a, "Back to a state that this session saved.")
       .def("__repr__",
            [](const Session& self) {
              const State& now = *self.state();
@@ -207,8 +207,7 @@ void add_looks(const py::module_& module, py::class_<Session>& type) {
             const auto state = self.state();
             draw(*state, path, size, context);
           },
-          py::arg("path"), py::kw_only(), py::arg("size") = py::none(), py::arg("context") = "auto",
-          picture_doc);
+          "path"_a, py::kw_only(), "size"_a = py::none(), "context"_a = "auto", picture_doc);
   // what the state knows, without the detour
   const py::object state = module.attr("State");
   for (const char* name :
@@ -232,8 +231,7 @@ void add_session(py::module_& module) {
       "is laid over it, {\"footprint.rods\": 14}. case: which of its cases.");
   type.def(
       py::init<const std::filesystem::path&, const py::dict&, const std::optional<std::string>&>(),
-      py::arg("preset"), py::arg("changes") = py::dict(), py::kw_only(),
-      py::arg("case") = py::none());
+      "preset"_a, "changes"_a = py::dict(), py::kw_only(), "case"_a = py::none());
   add_steps(type);
   add_looks(module, type);
 }

@@ -48,7 +48,7 @@ class Shell {
   /// no_equilibrium (also where the path ends early), cancelled; the shell stands in the last
   /// certified state.
   Result<Done> move(const preset::Step& step, const Watch& watch);
-  /// Does a step of a hand. Errors as move().
+  /// Does a step. Errors as move().
   Result<Done> take(const preset::Step& step, const Watch& watch);
   /// Finer meshes until the error estimate is below `tolerance_mm`; not a number: as the preset has
   /// it. Errors: bad_input, no_equilibrium (the tolerance is not met), cancelled.

@@ -1,5 +1,3 @@
-#include "app/python/values.h"
-
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -15,12 +13,21 @@
 namespace gridshell::python {
 namespace {
 
+using record::Layout;
+
+const Layout& arrays_of(const Layout& layout) { return layout; }
+const record::Frame& arrays_of(const State& state) { return state.frame; }
+
 /// A property whose array looks into the object that it is read from.
-template <class Class, class Find>
-void add_view(py::class_<Class, std::shared_ptr<Class>>& type, const char* name, const char* doc,
-              Find find) {
+template <class Class, class Member>
+void add_view(py::class_<Class, std::shared_ptr<Class>>& type, const char* name, Member member,
+              const char* doc) {
   type.def_property_readonly(
-      name, [find](const py::object& self) { return view(find(self.cast<Class&>()), self); }, doc);
+      name,
+      [member](const py::object& self) {
+        return view(arrays_of(self.cast<Class&>()).*member, self);
+      },
+      doc);
 }
 
 void add_certificate(py::module_& module) {
@@ -89,7 +96,6 @@ void add_report(py::module_& module) {
 }
 
 void add_layout(py::module_& module) {
-  using record::Layout;
   py::class_<Layout, std::shared_ptr<Layout>> type(module, "Layout",
                                                    "The net, which no step changes.");
   type.def_readonly("spacing_mm", &Layout::spacing_mm, "Between rods in the flat, d, mm.")
@@ -100,8 +106,8 @@ void add_layout(py::module_& module) {
       .def_property_readonly(
           "rods",
           [](const py::object& self) {
-            py::list rods;
-            for (const auto& rod : self.cast<Layout&>().rods) rods.append(view(rod, self));
+            std::vector<py::array_t<int>> rods;
+            for (const auto& rod : self.cast<Layout&>().rods) rods.push_back(view(rod, self));
             return rods;
           },
           "Of each rod its nodes, from edge point to edge point.")
@@ -121,21 +127,15 @@ void add_layout(py::module_& module) {
                         {py::ssize_t(of.size()), 4}, {sizeof(of[0]), sizeof(int)}, self);
           },
           "Of each complete cell its four joints around, cells x 4.");
-  add_view(
-      type, "edge_points", "Nodes on the boundary.",
-      [](const Layout& of) -> auto& { return of.edge_points; });
-  add_view(
-      type, "supports", "Nodes that something may hold: those of reactions_N.",
-      [](const Layout& of) -> auto& { return of.supports; });
-  add_view(
-      type, "original_boundary", "Points of a closed polyline x 3, mm.",
-      [](const Layout& of) -> auto& { return of.original_boundary; });
-  add_view(
-      type, "actuated_boundary", "As many points, in correspondence, mm.",
-      [](const Layout& of) -> auto& { return of.actuated_boundary; });
-  add_view(
-      type, "net_nodes", "Where the nodes lie on the net designed on, mm; 0 x 3: none.",
-      [](const Layout& of) -> auto& { return of.net_nodes; });
+  add_view(type, "edge_points", &Layout::edge_points, "Nodes on the boundary.");
+  add_view(type, "supports", &Layout::supports,
+           "Nodes that something may hold: those of reactions_N.");
+  add_view(type, "original_boundary", &Layout::original_boundary,
+           "Points of a closed polyline x 3, mm.");
+  add_view(type, "actuated_boundary", &Layout::actuated_boundary,
+           "As many points, in correspondence, mm.");
+  add_view(type, "net_nodes", &Layout::net_nodes,
+           "Where the nodes lie on the net designed on, mm; 0 x 3: none.");
 }
 
 void add_state(py::module_& module) {
@@ -143,26 +143,18 @@ void add_state(py::module_& module) {
       module, "State",
       "One state. It never changes: a session that moves on has another. Its arrays look into it "
       "without a copy, are read-only and keep it alive.");
-  add_view(
-      type, "nodes", "Positions, nodes x 3, mm; joints come first, z is up.",
-      [](const State& of) -> auto& { return of.frame.nodes; });
-  add_view(
-      type, "cell_K", "Integrated Gauss curvature of each cell, rad.",
-      [](const State& of) -> auto& { return of.frame.cell_K; });
-  add_view(
-      type, "axial_force_N",
-      "Of each edge, rod after rod, N; below 0 compressed. Of the finest mesh itself, as the "
-      "curvature and the reactions are.",
-      [](const State& of) -> auto& { return of.frame.axial_force_N; });
-  add_view(
-      type, "curvature_per_mm", "At each point of each rod, rod after rod, 1/mm.",
-      [](const State& of) -> auto& { return of.frame.curvature_per_mm; });
-  add_view(
-      type, "bending_mJ_per_m", "Bending energy over length at the same points, mJ/m.",
-      [](const State& of) -> auto& { return of.frame.bending_mJ_per_m; });
-  add_view(
-      type, "reactions_N", "What holds each of layout.supports, supports x 3, N.",
-      [](const State& of) -> auto& { return of.frame.reactions_N; });
+  add_view(type, "nodes", &record::Frame::nodes,
+           "Positions, nodes x 3, mm; joints come first, z is up.");
+  add_view(type, "cell_K", &record::Frame::cell_K, "Integrated Gauss curvature of each cell, rad.");
+  add_view(type, "axial_force_N", &record::Frame::axial_force_N,
+           "Of each edge, rod after rod, N; below 0 compressed. Of the finest mesh itself, as the "
+           "curvature and the reactions are.");
+  add_view(type, "curvature_per_mm", &record::Frame::curvature_per_mm,
+           "At each point of each rod, rod after rod, 1/mm.");
+  add_view(type, "bending_mJ_per_m", &record::Frame::bending_mJ_per_m,
+           "Bending energy over length at the same points, mJ/m.");
+  add_view(type, "reactions_N", &record::Frame::reactions_N,
+           "What holds each of layout.supports, supports x 3, N.");
   for (const Number& number : numbers)
     type.def_property_readonly(
         number.name, [=](const State& of) { return of.frame.*number.member; }, number.doc);
@@ -172,7 +164,13 @@ void add_state(py::module_& module) {
           "The net that it is a state of.")
       .def_readonly("certificate", &State::certificate, "Residual, stability and error.")
       .def_property_readonly(
-          "energies", [](const State& of) { return dict_of(of.frame.energies); },
+          "energies",
+          [](const State& of) {
+            py::dict terms;
+            for (const TermName& term : energy_terms)
+              terms[term.name] = of.frame.energies[term.term];
+            return Judged<"dict[str, float]">{terms};
+          },
           "By term, mJ: bend, stretch, twist, joint, shear, load.")
       .def_property_readonly(
           "energy_mJ", [](const State& of) { return of.frame.energies.total(); },
@@ -183,8 +181,8 @@ void add_state(py::module_& module) {
       .def_property_readonly(
           "held",
           [](const State& of) {
-            py::list held;
-            for (const auto& [i, j] : of.held) held.append(py::make_tuple(i, j));
+            std::vector<std::pair<int, int>> held;
+            for (const auto& [i, j] : of.held) held.emplace_back(i, j);
             return held;
           },
           "Of a session: (i, j) of the joints that are held.")
@@ -193,12 +191,6 @@ void add_state(py::module_& module) {
 }
 
 }  // namespace
-
-py::dict dict_of(const Energies& energies) {
-  py::dict terms;
-  for (const TermName& term : energy_terms) terms[term.name] = energies[term.term];
-  return terms;
-}
 
 void add_values(py::module_& module) {
   add_certificate(module);

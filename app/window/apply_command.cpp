@@ -1,4 +1,4 @@
-// The deeds of a hand as steps of a preset: done, and kept so that a preset can do them again.
+// Edits as steps of a preset: done, and kept so that a preset can do them again.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -36,6 +36,12 @@ preset::Step step_of(preset::StepKind kind) {
   return step;
 }
 
+preset::Step step_of(preset::StepKind kind, const FootprintJoint& joint) {
+  preset::Step step = step_of(kind);
+  step.joint = {joint.i, joint.j};
+  return step;
+}
+
 /// Whether a step goes on along the way of the one before, so that its end alone counts.
 bool goes_on(const preset::Step& before, const preset::Step& step) {
   if (before.kind != step.kind) return false;
@@ -49,153 +55,141 @@ bool goes_on(const preset::Step& before, const preset::Step& step) {
 
 /// One step, as a preset would have it done.
 Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
   const bool holds = step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold;
   if (holds)
-    if (const auto joint = experiment::joint_of(step, scene_->footprint))
+    if (const auto joint = experiment::joint_of(step, now_.scene->footprint))
       // as it was seen, which the coarse mesh of a drag does not change
-      grip_origins_.emplace(*joint, shell_view_.frame.nodes.cols() > *joint
-                                        ? Eigen::Vector3d(shell_view_.frame.nodes.col(*joint))
-                                        : Eigen::Vector3d(session_->nodes().col(*joint)));
+      now_.grip_origins.emplace(*joint, view_.frame.nodes.cols() > *joint
+                                            ? Eigen::Vector3d(view_.frame.nodes.col(*joint))
+                                            : Eigen::Vector3d(session_->nodes().col(*joint)));
   // a leap is taken from a state at rest on all meshes, as a run takes it
   const bool leaps = step.kind == preset::StepKind::jitter || step.kind == preset::StepKind::rest ||
                      step.kind == preset::StepKind::release;
   if (leaps && session_->shell().levels() == 1)
-    session_->remesh(experiment::initial_levels(*scene_), watch);
-  TRY(report, experiment::apply_step(*session_, boundary_, step, watch));
-  std::erase_if(grip_origins_, [&](const auto& taken) {
+    session_->remesh(experiment::initial_levels(*now_.scene), watch);
+  TRY(report, experiment::apply_step(*session_, now_.boundary, step, watch));
+  std::erase_if(now_.grip_origins, [&](const auto& taken) {
     return std::ranges::none_of(session_->holds(),
                                 [&](const Constraint& hold) { return hold.node == taken.first; });
   });
-  keep(std::move(step), *report);
-  return ended(*report);
+  add_step(std::move(step), *report);
+  return note_events(*report);
 }
 
 /// Notes a step as far as it came.
-void EditSession::keep(preset::Step step, const Report& report) {
+void EditSession::add_step(preset::Step step, const Report& report) {
   if (report.end != Outcome::reached) {
     if (step.kind != preset::StepKind::move && step.kind != preset::StepKind::push) return;
-    step.progress = boundary_.progress;
+    step.progress = now_.boundary.progress;
     if (step.kind == preset::StepKind::push)
-      if (const auto joint = experiment::joint_of(step, scene_->footprint))
+      if (const auto joint = experiment::joint_of(step, now_.scene->footprint))
         step.to_mm = xyz_of(session_->nodes().col(*joint));
   }
-  if (step.kind == preset::StepKind::move) step.edge_points = rows_of(boundary_.dragged);
+  if (step.kind == preset::StepKind::move) step.edge_points = rows_of(now_.boundary.dragged);
   const bool eventful = !report.events.empty();
-  const bool same = now_stroke_ != 0 && now_stroke_ == kept_stroke_ && !steps_.empty() &&
-                    !eventful && !kept_eventful_ && goes_on(steps_.last(), step);
-  if (same)
-    steps_.replace_last(std::move(step));
-  else
-    steps_.add(std::move(step));
-  kept_stroke_ = now_stroke_;
-  kept_eventful_ = eventful;
+  const bool same = this_drag_ != 0 && this_drag_ == steps_drag_ && !now_.steps.empty() &&
+                    !eventful && !last_eventful_ && goes_on(*now_.steps.back(), step);
+  if (same) now_.steps.pop_back();
+  now_.steps.push_back(std::make_shared<const preset::Step>(std::move(step)));
+  steps_drag_ = this_drag_;
+  last_eventful_ = eventful;
+}
+
+Result<void> EditSession::move_boundary(double progress, const Eigen::Matrix3Xd& dragged,
+                                        const Watch& watch) {
+  preset::Step step = step_of(preset::StepKind::move);
+  step.progress = progress;
+  step.edge_points = rows_of(dragged);
+  return do_step(std::move(step), watch);
 }
 
 Result<void> EditSession::act(const Move& command, const Watch& watch) {
-  preset::Step step = step_of(preset::StepKind::move);
-  step.progress = std::max(command.progress, shell_view_.least_progress);
-  step.edge_points = rows_of(boundary_.dragged);
-  return do_step(step, watch);
+  return move_boundary(std::max(command.progress, view_.least_progress), now_.boundary.dragged,
+                       watch);
 }
 
 Result<void> EditSession::act(const DragEdge& command, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
-  Eigen::Matrix3Xd dragged = boundary_.dragged;
-  if (command.edge_point < 0 || command.edge_point >= dragged.cols())
-    return fail(Fault::bad_input, "no such edge point");
+  Eigen::Matrix3Xd dragged = now_.boundary.dragged;
   const Eigen::Index k = command.edge_point;
-  const BoundaryMotion& motion = scene_->motion;
-  dragged.col(k) =
-      command.to - motion.begin.col(k) - boundary_.progress * (motion.end - motion.begin).col(k);
-  if ((dragged - boundary_.dragged).norm() < experiment::nearest_mm) return {};
-  preset::Step step = step_of(preset::StepKind::move);
-  step.progress = boundary_.progress;
-  step.edge_points = rows_of(dragged);
-  return do_step(step, watch);
+  if (k < 0 || k >= dragged.cols()) return fail(Fault::bad_input, "no such edge point");
+  const BoundaryMotion& motion = now_.scene->motion;
+  const double progress = now_.boundary.progress;
+  dragged.col(k) = command.to - motion.begin.col(k) - progress * (motion.end - motion.begin).col(k);
+  if ((dragged - now_.boundary.dragged).norm() < experiment::nearest_mm) return {};
+  return move_boundary(progress, dragged, watch);
 }
 
 Result<void> EditSession::act(const ResetEdgePoint& command, const Watch& watch) {
-  const bool all = command.edge_point < 0;
-  Eigen::Matrix3Xd dragged = boundary_.dragged;
-  if (all)
+  Eigen::Matrix3Xd dragged = now_.boundary.dragged;
+  if (command.edge_point < 0)
     dragged.setZero();
   else if (command.edge_point < dragged.cols())
     dragged.col(command.edge_point).setZero();
-  if (!session_ || (dragged - boundary_.dragged).isZero(0))
+  if (dragged == now_.boundary.dragged)
     return fail(Fault::bad_input, "no such edge point was dragged");
-  preset::Step step = step_of(preset::StepKind::move);
-  step.progress = boundary_.progress;
-  step.edge_points = rows_of(dragged);
-  return do_step(step, watch);
+  return move_boundary(now_.boundary.progress, dragged, watch);
 }
 
 Result<void> EditSession::act(const Push& command, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
-  if (command.joint < 0 || command.joint >= int(scene_->footprint.joints.size()))
+  const auto& joints = now_.scene->footprint.joints;
+  if (command.joint < 0 || command.joint >= int(joints.size()))
     return fail(Fault::bad_input, "no such joint");
-  const FootprintJoint& joint = scene_->footprint.joints[std::size_t(command.joint)];
-  preset::Step step = step_of(preset::StepKind::push);
-  step.joint = {joint.i, joint.j};
+  preset::Step step = step_of(preset::StepKind::push, joints[std::size_t(command.joint)]);
   step.to_mm = xyz_of(command.to);
   const bool free = !command.along.isZero(0);
   if (free) step.along = xyz_of(command.along);
   step.lateral = free ? preset::Lateral::free : preset::Lateral::held;
-  // a hand that holds it already and does not move does nothing
+  // a joint that is held already and does not move makes no step
   const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
   const bool still =
       (free ? std::abs(way.dot(command.along)) : way.norm()) < experiment::nearest_mm;
-  if (still && grip_origins_.contains(command.joint)) return {};
-  return do_step(step, watch);
+  if (still && now_.grip_origins.contains(command.joint)) return {};
+  return do_step(std::move(step), watch);
 }
 
 Result<void> EditSession::act(const Release& command, const Watch& watch) {
-  if (!session_ || session_->holds().empty()) return fail(Fault::bad_input, "no joint is held");
+  if (session_->holds().empty()) return fail(Fault::bad_input, "no joint is held");
   std::vector<int> joints{command.joint};
   if (command.joint < 0) {
     joints.clear();
     for (const Constraint& hold : session_->holds()) joints.push_back(hold.node);
   }
-  for (const int k : joints) {
-    const FootprintJoint& joint = scene_->footprint.joints[std::size_t(k)];
-    preset::Step step = step_of(preset::StepKind::release);
-    step.joint = {joint.i, joint.j};
-    if (auto done = do_step(step, watch); !done) return done;
-  }
+  for (const int k : joints)
+    TRY_DO(do_step(step_of(preset::StepKind::release, now_.scene->footprint.joints[std::size_t(k)]),
+                   watch));
   return {};
 }
 
 Result<void> EditSession::act(const Rest& command, const Watch& watch) {
   preset::Step step = step_of(preset::StepKind::rest);
   step.side = same_word<preset::RestSide>(command.side);
-  return do_step(step, watch);
+  return do_step(std::move(step), watch);
 }
 
 Result<void> EditSession::act(const Jitter& command, const Watch& watch) {
-  if (!session_) return fail(Fault::bad_input, "there is no shell yet");
   preset::Step step = step_of(preset::StepKind::jitter);
   step.seed = command.seed;
-  step.force_N = 20 * preset_.jitter.field_N_per_mm * scene_->footprint.spacing;
-  return do_step(step, watch);
+  step.force_N = 20 * now_.preset.jitter.field_N_per_mm * now_.scene->footprint.spacing;
+  return do_step(std::move(step), watch);
 }
 
-// A shell in hand that is designed: its steps are seen as they come, the last certified one stays.
+// The shell is designed: its steps are seen as they come, the last certified one stays.
 
 namespace {
 
-std::string told_of_design(const DesignProgress& course) {
+std::string text_of_design(const DesignProgress& course) {
   const double percent = 100 / course.length_scale_mm;
   const DesignPoint &first = course.points.front(), &last = course.points.back();
-  std::string told =
+  std::string message =
       fmt::format("{} after {} iteration{}: largest {:.3f} %, before {:.3f} %",
                   course.stopped ? "stopped" : "designed", course.iterations,
                   course.iterations == 1 ? "" : "s", percent * last.max_mm, percent * first.max_mm);
   if (course.inverse.round_mm > 0 && !course.stopped)
-    told += course.rounded_max_mm
-                ? fmt::format(", rounded to {:g} mm {:.3f} %", course.inverse.round_mm,
-                              percent * *course.rounded_max_mm)
-                : fmt::format("; rounded to {:g} mm it is lost", course.inverse.round_mm);
-  return told;
+    message += course.rounded_max_mm
+                   ? fmt::format(", rounded to {:g} mm {:.3f} %", course.inverse.round_mm,
+                                 percent * *course.rounded_max_mm)
+                   : fmt::format("; rounded to {:g} mm it is lost", course.inverse.round_mm);
+  return message;
 }
 
 bool varies_rods(const preset::Inverse& inverse) {
@@ -218,22 +212,22 @@ DesignPoint point_of(const CertifiedStep& now) {
 
 }  // namespace
 
-std::string why_not_designed(const ShellView& sight) {
-  if (!sight.any()) return "there is no shell yet";
-  if (sight.layout->net_nodes.cols() == 0)
+std::string why_not_designed(const ShellView& shell) {
+  if (!shell.any()) return "there is no shell yet";
+  if (shell.layout->net_nodes.cols() == 0)
     return "this shell was not designed on a net, so there is no surface that it could meet";
-  if (const auto needs = key_faults(sight.preset, preset::RuleKind::needs_twist); !needs.empty())
+  if (const auto needs = key_faults(shell.preset, preset::RuleKind::needs_twist); !needs.empty())
     return "only rods that stretch and bend can be designed: " + needs.front().what;
-  if (!sight.held.empty()) return "a joint is held: let go of all joints first";
-  if (!sight.steps.empty() || sight.rods_changed_late)
+  if (!shell.held.empty()) return "a joint is held: let go of all joints first";
+  if (!shell.steps.empty() || shell.rods_changed_late)
     return "a hand has moved this shell: take that back first (Undo)";
   return "";
 }
 
 Result<void> EditSession::act(const Design& command, const Watch& watch) {
-  if (const std::string why = why_not_designed(shell_view_); !why.empty())
+  if (const std::string why = why_not_designed(view_); !why.empty())
     return fail(Fault::bad_input, why);
-  preset::Preset preset = preset_;
+  preset::Preset preset = now_.preset;
   preset.inverse = command.inverse;
   if (auto agrees = check_preset(preset); !agrees) return agrees;
   TRY(made, shared_scene_of(preset));
@@ -250,7 +244,7 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
   const DesignStart from{scene, shell.mesh(last), shell.model(last),
                          shell.state().levels[std::size_t(last)]};
   // the steps are seen on a mesh of their own
-  shell_view_.layout.reset();
+  view_.layout.reset();
   const auto ended =
       design_live(preset, from, command.most_iterations, watch, [&](const CertifiedStep& now) {
         state = now.shell.state();
@@ -258,7 +252,7 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
         if (varies_rods(preset.inverse)) designed.rod_table = now.rods;
         show_design_step(*scene, now, course);
       });
-  shell_view_.layout.reset();
+  view_.layout.reset();
   if (!ended) return tl::unexpected<Error>(ended.error());
   course.under_way = false;
   course.stopped = ended->stopped;
@@ -269,13 +263,13 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
     return fail(Fault::no_equilibrium, "no step brings the shell nearer to its surface");
   }
   if (auto stands = show_designed(designed, state); !stands) return stands;
-  shell_view_.told = told_of_design(course);
-  design_ = std::make_shared<const DesignProgress>(std::move(course));
-  target_ = std::make_shared<DesignTarget>(std::move(*target));
+  view_.message = text_of_design(course);
+  now_.design = std::make_shared<const DesignProgress>(std::move(course));
+  now_.target = std::make_shared<DesignTarget>(std::move(*target));
   return {};
 }
 
-/// The designed shell in hand, as a preset of it has it, in the state that was designed.
+/// The designed shell, as a preset of it has it, in the state that was designed.
 Result<void> EditSession::show_designed(const preset::Preset& designed, const State& state) {
   TRY(made, shared_scene_of(designed));
   const std::shared_ptr<const Scene>& scene = *made;
@@ -283,14 +277,14 @@ Result<void> EditSession::show_designed(const preset::Preset& designed, const St
   if (const Report report = session->begin_at(1, state, unwatched); report.end != Outcome::reached)
     return fail(Fault::no_equilibrium,
                 std::string("the designed shell is lost: ") + words_of(report.end).what);
-  begin_again(designed, scene, std::move(*session));
-  return take_push();
+  set_shell(designed, scene, std::move(*session));
+  return set_preset_push();
 }
 
 /// Shows a step while the next one is looked for.
 void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
                                    DesignProgress& course) {
-  ShellView& s = shell_view_;
+  ShellView& s = view_;
   const DesignShell& shell = now.shell;
   course.iterations = now.step.iteration;
   course.points.push_back(point_of(now));
@@ -319,34 +313,31 @@ void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
   s.soft_mode.resize(3, 0);
   s.axial_N = record::axial_force_of_nodes_N(*s.layout, s.frame);
   s.bending_mJ_m = record::bending_of_nodes_mJ_per_m(*s.layout, s.frame);
-  look_at_deviation(now.distances_mm);
+  update_deviation(now.distances_mm);
   s.design = std::make_shared<const DesignProgress>(course);
   ++s.equilibria;
   if (listener_) listener_(s);
 }
 
-/// A hand that goes on with a designed shell has kept it.
-void EditSession::accept_design(const Command& command) {
-  const bool leaves = std::holds_alternative<Undo>(command.edit) ||
-                      std::holds_alternative<Redo>(command.edit) ||
-                      std::holds_alternative<DiscardDesign>(command.edit) ||
-                      std::holds_alternative<RefineAfterDrag>(command.edit);
-  if (leaves || !design_ || design_->kept) return;
-  auto kept = std::make_shared<DesignProgress>(*design_);
+/// A designed shell that something else is done to is kept.
+void EditSession::accept_design() {
+  if (!now_.design || now_.design->kept) return;
+  auto kept = std::make_shared<DesignProgress>(*now_.design);
   kept->kept = true;
-  design_ = std::move(kept);
+  now_.design = std::move(kept);
 }
 
 Result<void> EditSession::act(const AcceptDesign&, const Watch&) {
-  if (!design_) return fail(Fault::bad_input, "nothing was designed that could be kept");
-  shell_view_.told = "the designed shell is kept; Ctrl+S saves it with its tables";
+  if (!now_.design) return fail(Fault::bad_input, "nothing was designed that could be kept");
+  view_.message = "the designed shell is kept; Ctrl+S saves it with its tables";
   return {};
 }
 
 Result<void> EditSession::act(const DiscardDesign&, const Watch&) {
   if (undo_.empty() || !undo_.back().before_design)
-    return fail(Fault::bad_input, design_ ? "what was done since the design is to be undone first"
-                                          : "nothing was designed that could be put back");
+    return fail(Fault::bad_input, now_.design
+                                      ? "what was done since the design is to be undone first"
+                                      : "nothing was designed that could be put back");
   return travel(undo_, redo_, "");
 }
 

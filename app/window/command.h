@@ -1,4 +1,4 @@
-// What a hand did to a shell, step by step, in the order it did it.
+// What was done to a shell, step by step.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,33 +11,13 @@
 
 namespace gridshell::window {
 
-/// A copy costs nothing: it shares all steps, and what is done to it the other does not see. Copies
-/// may be read on other threads.
-class StepHistory {
- public:
-  bool empty() const { return !last_; }
-  int size() const { return last_ ? last_->count : 0; }
-  /// Of a chain that is not empty.
-  const preset::Step& last() const { return last_->step; }
-  void add(preset::Step step);
-  /// Of a chain that is not empty.
-  void replace_last(preset::Step step);
-  void clear() { last_.reset(); }
-  /// The first one first.
-  std::vector<preset::Step> all() const;
+/// In order; copies share the steps.
+using StepHistory = std::vector<std::shared_ptr<const preset::Step>>;
 
- private:
-  struct Link {
-    preset::Step step;
-    mutable std::shared_ptr<const Link> before;
-    int count = 1;
-    ~Link();
-  };
+/// As a preset has them.
+std::vector<preset::Step> steps_of(const StepHistory& history);
 
-  std::shared_ptr<const Link> last_;
-};
-
-// What a hand can command of the shell. The engine's thread fulfils one command after the other.
+// What can be done to the shell. The engine's thread executes one command after the other.
 
 /// Another shell, formed along its path.
 struct Open {
@@ -93,21 +73,27 @@ struct Design {
 struct AcceptDesign {};
 /// The shell before the design, to the bit.
 struct DiscardDesign {};
-/// Nothing but the finer meshes that follow a stroke.
+/// Nothing but the finer meshes that follow a drag.
 struct RefineAfterDrag {};
 
 using Edit = std::variant<Open, Change, Move, Push, Release, DragEdge, ResetEdgePoint, Rest, Jitter,
                           Undo, Redo, Design, AcceptDesign, DiscardDesign, RefineAfterDrag>;
 
-/// Wishes of one stroke (a drag) are one step to undo. While a stroke passes, the shell is followed
-/// on its coarsest mesh, and a newer command of the stroke takes the place of one not yet begun.
+/// Whether it is one of some kinds.
+template <class... Kinds>
+bool is_any(const Edit& edit) {
+  return (std::holds_alternative<Kinds>(edit) || ...);
+}
+
+/// Commands of one drag (a drag) are one step to undo. While a drag passes, the shell is followed
+/// on its coarsest mesh, and a newer command of the drag takes the place of one not yet begun.
 struct Command {
   Edit edit;
-  int stroke = 0;  ///< 0: a step of its own
+  int drag = 0;  ///< 0: a step of its own
   bool passing = false;
 };
 
-// What a change of a preset's keys means for the shell in hand.
+// What a change of a preset's keys means for the edited shell.
 
 /// How much of the shell a change touches: pictures alone, its meshes, where the boundary is, the
 /// rods and what they carry, or the whole shape, which is formed anew.

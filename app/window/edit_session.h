@@ -1,4 +1,4 @@
-// Numbers that need not be in memory now.
+// The shell that a window holds, with all that can be undone.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,17 +34,17 @@ class ScratchFile {
 
   /// Writes an array and empties it; false, and the array as it was, where there is no room.
   template <class Array>
-  bool put(Array& array, SavedArray& aside) {
-    aside = {end_, array.rows(), array.cols()};
+  bool put(Array& array, SavedArray& saved) {
+    saved = {end_, array.rows(), array.cols()};
     if (!write(array.data(), std::size_t(array.size()))) return false;
     array = Array();
     return true;
   }
   /// Reads it again, to the bit; false where the file does not give it.
   template <class Array>
-  bool take(const SavedArray& aside, Array& array) const {
-    array.resize(aside.rows, aside.columns);
-    return read(aside.at, array.data(), std::size_t(array.size()));
+  bool take(const SavedArray& saved, Array& array) const {
+    array.resize(saved.rows, saved.columns);
+    return read(saved.at, array.data(), std::size_t(array.size()));
   }
 
  private:
@@ -58,41 +58,41 @@ class ScratchFile {
   std::int64_t end_ = 0;
 };
 
-// The shell that a window holds: fulfils wishes on a session and remembers the steps, one thread.
+// The shell that a window holds: executes commands on a session and remembers the steps, one
+// thread.
 
-/// A failed command leaves the shell in its last certified state and says why in the sight.
+/// A failed command leaves the shell in its last certified state and says why in the view.
 class EditSession {
  public:
   /// Steps to undo take that much memory; older ones stand in a file.
   explicit EditSession(std::int64_t most_bytes = std::int64_t(100) << 20)
       : most_bytes_(most_bytes) {}
 
-  /// Fulfils a command as far as it can.
+  /// Executes a command as far as it can.
   void execute(const Command& command, const Watch& watch);
   /// Onto the meshes that the preset's accuracy asks for, where the shell stands on coarser ones.
   void refine(const Watch& watch);
 
   /// The state that it stands in.
-  const ShellView& sight() const { return shell_view_; }
+  const ShellView& shell() const { return view_; }
   /// Calls it while a command is at work, each time that there is something to see.
-  void tell(std::function<void(const ShellView&)> told) { listener_ = std::move(told); }
+  void tell(std::function<void(const ShellView&)> message) { listener_ = std::move(message); }
 
  private:
-  /// All that a command can change, to go back to.
-  struct Step {
-    preset::Preset preset;
+  /// All that a command can change but the state of the rods.
+  struct EditState : ViewedState {
     std::shared_ptr<const Scene> scene;
-    Checkpoint checkpoint;
     experiment::BoundaryPosition boundary;
-    std::map<int, Eigen::Vector3d> taken_at;
-    PresetPush push;
-    std::shared_ptr<const record::Frame> first;
-    StepHistory steps;
-    bool refined = true, rods_changed_late = false, snapped = false;
-    std::shared_ptr<const DesignProgress> design = {};
-    std::shared_ptr<DesignTarget> target = {};
-    bool before_design = false;          ///< a design was wished for then
-    std::vector<SavedArray> aside = {};  ///< the checkpoint's arrays, where they are not in it
+    std::map<int, Eigen::Vector3d> grip_origins;  ///< where joints were taken hold of
+    std::shared_ptr<DesignTarget> target;         ///< that the design aims at
+  };
+
+  /// To go back to.
+  struct UndoStep {
+    EditState state;
+    Checkpoint checkpoint;
+    bool before_design = false;          ///< a design was asked for then
+    std::vector<SavedArray> saved = {};  ///< the checkpoint's arrays, where they are not in it
   };
 
   Result<void> act(const Open& command, const Watch& watch);
@@ -113,55 +113,48 @@ class EditSession {
 
   Result<void> form(const preset::Preset& preset, const Watch& watch);
   Result<void> rebuild_shell(const preset::Preset& preset, const Watch& watch);
-  void begin_again(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
-                   Session session);
-  Result<void> take_push();
+  void set_shell(const preset::Preset& preset, std::shared_ptr<const Scene> scene, Session session);
+  Result<void> set_preset_push();
   Result<void> show_designed(const preset::Preset& designed, const State& state);
   void show_design_step(const Scene& scene, const CertifiedStep& step, DesignProgress& course);
-  void accept_design(const Command& command);
+  void accept_design();
   Result<void> change_rods(const preset::Preset& preset, const Watch& watch);
-  void take_numbers(const preset::Preset& preset);
+  void take_over_keys(const preset::Preset& preset);
   Result<void> do_step(preset::Step step, const Watch& watch);
-  void keep(preset::Step step, const Report& report);
-  Result<void> ended(const Report& report);
+  Result<void> move_boundary(double progress, const Eigen::Matrix3Xd& dragged, const Watch& watch);
+  void add_step(preset::Step step, const Report& report);
+  Result<void> note_events(const Report& report);
   void coarsen(const Watch& watch);
   bool remember(const Command& command);
-  Result<void> travel(std::deque<Step>& from, std::deque<Step>& to, const char* none);
-  Step step() const;
-  void keep_within_memory(std::deque<Step>& steps);
+  Result<void> travel(std::deque<UndoStep>& from, std::deque<UndoStep>& to, const char* none);
+  UndoStep undo_step() const;
+  void keep_within_memory(std::deque<UndoStep>& steps);
   void clear_scratch();
-  bool save_to_scratch(Step& step);
-  bool load_from_scratch(Step& step) const;
-  Result<void> stand(const Step& step);
-  void look();
+  bool save_to_scratch(UndoStep& step);
+  bool load_from_scratch(UndoStep& step) const;
+  Result<void> restore(const UndoStep& step);
+  void update_view();
   std::string accuracy_warning() const;
-  void look_at_layout();
-  void look_at_normals();
-  void look_at_symmetry();
-  void look_at_rods();
-  void look_at_soft_mode();
-  void look_at_deviation(const Eigen::VectorXd& of_joints_mm);
+  void update_layout();
+  void update_normals();
+  void update_symmetry();
+  void update_rods();
+  void update_soft_mode();
+  void update_deviation(const Eigen::VectorXd& of_joints_mm);
 
-  preset::Preset preset_;
-  std::shared_ptr<const Scene> scene_;
+  EditState now_;
   std::optional<Session> session_;
-  experiment::BoundaryPosition boundary_;
-  std::map<int, Eigen::Vector3d> grip_origins_;  // where joints were taken hold of
-  std::deque<Step> undo_, redo_;
-  ScratchFile aside_;  // the arrays of older ones
+  std::deque<UndoStep> undo_, redo_;
+  ScratchFile scratch_;  // the arrays of older ones
   std::int64_t most_bytes_;
-  int stroke_ = 0;                        // that the last step to undo belongs to
-  StepHistory steps_;                     // what the hand did since the shell was formed
-  int now_stroke_ = 0, kept_stroke_ = 0;  // of the command at hand, and of the last of steps_
-  bool kept_eventful_ = false;            // whether that came past something
-  bool refined_ = false, changed_late_ = false, snapped_ = false;
-  bool only_coarse_mesh_ = false;                 // finer meshes do not have the state in hand
-  int nodes_shown_ = 0;                           // of the layout in sight
-  std::vector<MeshSymmetry> symmetries_;          // that a state of this shell may have
-  std::shared_ptr<const DesignProgress> design_;  // that the shell is of
-  std::shared_ptr<DesignTarget> target_;          // and what it aims at
+  int drag_ = 0;                          // that the last step to undo belongs to
+  int this_drag_ = 0, steps_drag_ = 0;    // of the command at hand, and of the last of the steps
+  bool last_eventful_ = false;            // whether that came past something
+  bool only_coarse_mesh_ = false;         // finer meshes do not have this state
+  int nodes_shown_ = 0;                   // of the layout in the view
+  std::vector<MeshSymmetry> symmetries_;  // that a state of this shell may have
   std::function<void(const ShellView&)> listener_;
-  ShellView shell_view_;
+  ShellView view_;
 };
 
 /// The meshes that follow a drag: the coarsest of those that the scene asks for.

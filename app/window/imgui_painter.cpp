@@ -9,7 +9,7 @@
 
 #include "engine/core/try.h"
 
-namespace gridshell::ui {
+namespace gridshell::window {
 
 void fill_texture(const render::Gl& gl, GLuint texture, int width, int height,
                   const std::uint8_t* rgba) {
@@ -102,49 +102,47 @@ void InterfacePainter::draw(const ImDrawData& data, bool upwards) {
 
 namespace {
 
-using window::ColourBy;
-
 constexpr double least_px = 1.5;  // width of a rod
 
-Result<render::Image> draw_shell(render::Renderer& renderer, const window::PictureRequest& order,
+Result<render::Image> draw_shell(render::Renderer& renderer, const PictureRequest& request,
                                  const render::DrawQuality& quality, int width, int height,
                                  double rod_px) {
-  const double thin = rod_px * window::mm_per_pixel(order.camera, {double(width), double(height)});
-  return renderer.draw(drawing_of(*order.sight, order.show, thin), order.camera, quality, width,
-                       height);
+  const double thin = rod_px * mm_per_pixel(request.camera, {double(width), double(height)});
+  return renderer.draw(drawing_of(*request.shell, request.show, thin), request.camera, quality,
+                       width, height);
 }
 
 }  // namespace
 
-Result<void> ShellPicture::draw(const window::ViewerState& viewer, window::Resolution sharpness) {
-  const bool moving = sharpness == window::Resolution::moving;
+Result<void> ShellPicture::draw(const ViewerState& viewer, Resolution sharpness) {
+  const bool moving = sharpness == Resolution::moving;
   const double scale = moving ? 0.5 : 1;
   const int width = std::max(16, int(scale * viewer.view.width)),
             height = std::max(16, int(scale * viewer.view.height));
   const render::DrawQuality quality{.supersample = 1, .shadow = !moving, .jittered_passes = 1};
-  TRY(image, draw_shell(*renderer_, viewer.picture_order(), quality, width, height,
+  TRY(image, draw_shell(*renderer_, viewer.picture_request(), quality, width, height,
                         moving ? 0.75 * least_px : least_px * std::max(1.0, height / 720.0)));
   fill_texture(*gl_, texture_.id(), width, height, image->rgba.data());
   return {};
 }
 
-Result<render::Image> picture_of(const window::PictureRequest& asked, render::Renderer& renderer) {
-  window::PictureRequest order = asked;
-  order.show.dark = false;
-  const bool sized = order.kept.width > 0;
-  const int width = sized ? order.kept.width : 2 * int(order.view.width),
-            height = sized ? order.kept.height : 2 * int(order.view.height);
+Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& renderer) {
+  PictureRequest request = asked;
+  request.show.dark = false;
+  const bool sized = request.kept.width > 0;
+  const int width = sized ? request.kept.width : 2 * int(request.view.width),
+            height = sized ? request.kept.height : 2 * int(request.view.height);
   // what the view shows from side to side is in the picture too
-  const double wide = order.view.width / order.view.height, now = double(width) / height;
-  order.camera.half_extent_mm *= std::max(1.0, wide / now);
-  auto image = draw_shell(renderer, order, render::draw_quality(order.kept.quality), width, height,
-                          least_px * std::max(1.0, height / 720.0));
-  const ColourBy by = order.show.colour_by;
-  if (!image || !order.kept.legend || by == ColourBy::none ||
-      !window::values_of(*order.sight, by).any())
+  const double wide = request.view.width / request.view.height, now = double(width) / height;
+  request.camera.half_extent_mm *= std::max(1.0, wide / now);
+  auto image = draw_shell(renderer, request, render::draw_quality(request.kept.quality), width,
+                          height, least_px * std::max(1.0, height / 720.0));
+  const ColourBy by = request.show.colour_by;
+  if (!image || !request.kept.legend || by == ColourBy::none ||
+      values_of(*request.shell, by).size() == 0)
     return image;
   const double font = std::max(9.0, height / 45.0);
-  const render::ColourBar bar{window::label_of(*order.sight, by), order.show.scale};
+  const render::ColourBar bar{label_of(*request.shell, by), request.show.scale};
   render::draw_over(*image, [&](render::Canvas& canvas) {
     const double room = render::colour_bar_width(canvas, bar, font);
     draw_colour_bar(canvas, {width - room - 1.5 * font, 1.5 * font, room, 0.4 * height}, bar, font);
@@ -152,4 +150,4 @@ Result<render::Image> picture_of(const window::PictureRequest& asked, render::Re
   return image;
 }
 
-}  // namespace gridshell::ui
+}  // namespace gridshell::window

@@ -12,7 +12,7 @@
 #include "render/gl/renderer.h"
 #include "render/gl/shader_program.h"
 
-namespace gridshell::ui {
+namespace gridshell::window {
 
 /// A texture that the interface shows, by its number.
 inline ImTextureID texture_id(GLuint id) { return reinterpret_cast<ImTextureID>(intptr_t(id)); }
@@ -50,7 +50,7 @@ class ShellPicture {
 
   /// Draws what the viewer shows, in its view's size, at half the resolution while it moves.
   /// Errors: those of the renderer.
-  Result<void> draw(const window::ViewerState& viewer, window::Resolution sharpness);
+  Result<void> draw(const ViewerState& viewer, Resolution sharpness);
   GLuint texture() const { return texture_.id(); }
 
  private:
@@ -60,6 +60,6 @@ class ShellPicture {
 };
 
 /// The picture for a file, with the colours' legend where it is wanted.
-Result<render::Image> picture_of(const window::PictureRequest& order, render::Renderer& renderer);
+Result<render::Image> picture_of(const PictureRequest& request, render::Renderer& renderer);
 
-}  // namespace gridshell::ui
+}  // namespace gridshell::window

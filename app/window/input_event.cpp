@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <type_traits>
 
 namespace gridshell::window {
 namespace {
@@ -15,116 +16,114 @@ std::string one_of() {
   return all;
 }
 
-template <class Enum>
-bool read_word(std::istringstream& words, Enum& value) {
-  std::string word;
-  words >> word;
-  const auto found = find_word<Enum>(word);
-  if (found) value = *found;
-  return found.has_value();
-}
-
-bool read_number(std::istringstream& words, double& value) {
-  return bool(words >> value) && std::isfinite(value);
-}
-
-std::string rest_of(std::istringstream& words) {
-  std::string rest;
-  std::getline(words >> std::ws, rest);
-  return rest;
-}
-
-/// Whether the rest of a line is what its kind asks for.
-bool read_rest(std::istringstream& words, InputEvent& event) {
+/// Calls visit(member) for each member that a line of the event's kind has, in order.
+template <class Event, class Visit>
+void each_member(Event& event, const Visit& visit) {
   switch (event.kind) {
     case InputKind::size:
-      return read_number(words, event.x) && read_number(words, event.y) &&
-             read_number(words, event.density) && event.x >= 320 && event.y >= 240 &&
-             event.x <= 8192 && event.y <= 8192 && event.density >= 0.5 && event.density <= 4;
+      return visit(event.x), visit(event.y), visit(event.density);
     case InputKind::mouse:
-      if ((words >> std::ws).peek() == '@') words.get(), words >> event.text;
-      return read_number(words, event.x) && read_number(words, event.y);
+      return visit(event.text), visit(event.x), visit(event.y);
     case InputKind::press:
     case InputKind::release:
-      return read_word(words, event.button);
+      return visit(event.button);
     case InputKind::wheel:
-      return read_number(words, event.y);
+      return visit(event.y);
     case InputKind::wait:
-      return read_number(words, event.x) && event.x >= 0 && event.x <= 60;
+      return visit(event.x);
     case InputKind::down:
     case InputKind::up:
-      return read_word(words, event.key);
+      return visit(event.key);
     case InputKind::type:
     case InputKind::act:
     case InputKind::open:
-      event.text = rest_of(words);
-      return !event.text.empty();
+      return visit(event.text);
   }
-  return false;
 }
 
-const char* form_of(InputKind kind) {
-  switch (kind) {
-    case InputKind::size:
-      return "size WIDTH HEIGHT DENSITY, as 'size 1280 720 1'";
-    case InputKind::mouse:
-      return "mouse X Y, or mouse @NAME X Y";
-    case InputKind::press:
-    case InputKind::release:
-      return "press or release left, right or middle";
-    case InputKind::wheel:
-      return "wheel STEPS";
-    case InputKind::down:
-    case InputKind::up:
-      return "down or up and the name of a key as 'F1', 'A', 'Ctrl'";
-    case InputKind::type:
-      return "type TEXT";
-    case InputKind::act:
-      return "do ACTION";
-    case InputKind::open:
-      return "open PRESET";
-    case InputKind::wait:
-      return "wait SECONDS, at most 60";
+/// Reads a line's members one by one, as long as each is right.
+struct Reader {
+  std::istringstream words;
+  bool right = true;
+
+  template <class Enum>
+  void operator()(Enum& value) {
+    std::string word;
+    words >> word;
+    const auto found = find_word<Enum>(word);
+    if (found) value = *found;
+    right = right && found;
   }
-  return "";
+  void operator()(double& value) { right = right && words >> value && std::isfinite(value); }
+  std::string rest() {
+    std::string rest;
+    std::getline(words >> std::ws, rest);
+    return rest;
+  }
+};
+
+bool in_range(const InputEvent& event) {
+  const auto within = [](double value, double low, double high) {
+    return value >= low && value <= high;
+  };
+  if (event.kind == InputKind::size)
+    return within(event.x, 320, 8192) && within(event.y, 240, 8192) &&
+           within(event.density, 0.5, 4);
+  return event.kind != InputKind::wait || within(event.x, 0, 60);
 }
+
+/// What a line must be, in the order of its kinds.
+constexpr const char* forms[] = {
+    "size WIDTH HEIGHT DENSITY, as 'size 1280 720 1'",
+    "mouse X Y, or mouse @NAME X Y",
+    "press or release left, right or middle",
+    "press or release left, right or middle",
+    "wheel STEPS",
+    "down or up and the name of a key as 'F1', 'A', 'Ctrl'",
+    "down or up and the name of a key as 'F1', 'A', 'Ctrl'",
+    "type TEXT",
+    "do ACTION",
+    "open PRESET",
+    "wait SECONDS, at most 60",
+};
+static_assert(std::size(forms) == words(InputKind{}).size());
 
 }  // namespace
 
 Result<InputEvent> read_event(const std::string& line) {
-  std::istringstream words(line);
+  Reader reader{std::istringstream(line)};
   InputEvent event;
-  if (!read_word(words, event.kind))
+  reader(event.kind);
+  if (!reader.right)
     return fail(Fault::bad_input,
                 fmt::format("'{}': a line begins with one of {}", line, one_of<InputKind>()));
-  if (!read_rest(words, event) || !rest_of(words).empty())
-    return fail(Fault::bad_input, fmt::format("'{}': expected {}", line, form_of(event.kind)));
+  each_member(event, [&](auto& member) {
+    if constexpr (!std::is_same_v<decltype(member), std::string&>) {
+      reader(member);
+    } else if (event.kind != InputKind::mouse) {
+      reader.right = !(member = reader.rest()).empty();
+    } else if ((reader.words >> std::ws).peek() == '@') {
+      reader.words.get();
+      reader.words >> member;
+    }
+  });
+  if (!reader.right || !in_range(event) || !reader.rest().empty())
+    return fail(Fault::bad_input,
+                fmt::format("'{}': expected {}", line, forms[std::size_t(event.kind)]));
   return event;
 }
 
 std::string write_event(const InputEvent& event) {
   std::string line{word_of(event.kind)};
-  switch (event.kind) {
-    case InputKind::size:
-      return line + fmt::format(" {:g} {:g} {:g}", event.x, event.y, event.density);
-    case InputKind::mouse:
-      if (!event.text.empty()) line += " @" + event.text;
-      return line + fmt::format(" {:.6g} {:.6g}", event.x, event.y);
-    case InputKind::press:
-    case InputKind::release:
-      return line.append(" ").append(word_of(event.button));
-    case InputKind::wheel:
-      return line + fmt::format(" {:g}", event.y);
-    case InputKind::wait:
-      return line + fmt::format(" {:g}", event.x);
-    case InputKind::down:
-    case InputKind::up:
-      return line.append(" ").append(word_of(event.key));
-    case InputKind::type:
-    case InputKind::act:
-    case InputKind::open:
-      return line.append(" ").append(event.text);
-  }
+  each_member(event, [&](const auto& member) {
+    using Member = std::decay_t<decltype(member)>;
+    if constexpr (std::is_same_v<Member, double>)
+      line += fmt::format(" {:g}", member);
+    else if constexpr (std::is_enum_v<Member>)
+      line.append(" ").append(word_of(member));
+    else if (!member.empty())
+      line.append(event.kind == InputKind::mouse ? " @" : " ").append(member);
+  });
   return line;
 }
 

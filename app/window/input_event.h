@@ -1,4 +1,5 @@
-// What a hand does with mouse and keys, as plain data: from a window, or from the lines of a file.
+// What the user does with mouse and keys, as plain data: from a window, or from the lines of a
+// file.
 #pragma once
 
 #include <string>
@@ -45,7 +46,7 @@ constexpr auto words(InputKind) { return names_except<InputKind>({{InputKind::ac
 ///   mouse @NAME X Y               to a share of a control, "mouse @R_a 0.5 0.5"; or to so many
 ///                                 pixels beside "@joint:I,J" or "@edge:K"
 ///   press|release left|right|middle
-///   wheel STEPS                   above 0: away from the hand
+///   wheel STEPS                   above 0: away from the user
 ///   down|up KEY                   a key as F1 names it
 ///   type TEXT
 ///   do ACTION                     by its name

@@ -12,12 +12,8 @@
 
 #include "engine/core/try.h"
 
-namespace gridshell::ui {
+namespace gridshell::window {
 namespace {
-
-using window::InputEvent;
-using window::InputKind;
-using window::Key;
 
 constexpr ImU32 mark_colour = IM_COL32(50, 140, 240, 255);
 constexpr double least_view = 400;  // px of a view beside plots
@@ -46,7 +42,7 @@ struct Column {
 
 /// The design has a plot of its own; beside it the others are there where they have room. In a
 /// small window the shell has the room of the plots.
-Column column_of(const window::ViewerState& viewer, double height, bool small, double density) {
+Column column_of(const ViewerState& viewer, double height, bool small, double density) {
   const double least = 300 * density;
   Column column;
   double rest = height;
@@ -66,18 +62,18 @@ bool is_modifier(Key key) { return key == Key::ctrl || key == Key::shift || key 
 
 }  // namespace
 
-Interface::Interface(const render::Gl& gl, render::Renderer& renderer, window::ViewerState& viewer)
+Interface::Interface(const render::Gl& gl, render::Renderer& renderer, ViewerState& viewer)
     : gl_(gl),
       imgui_(ImGui::CreateContext()),
-      desk_(viewer),
-      hand_(viewer),
+      viewer_(viewer),
+      mouse_(viewer),
       picture_(gl_, renderer),
       picker_(gl_),
       target_(gl_, render::Target::Depth::none) {}
 
 Result<std::unique_ptr<Interface>> Interface::create(const render::Context& context,
                                                      render::Renderer& renderer,
-                                                     window::ViewerState& viewer) {
+                                                     ViewerState& viewer) {
   TRY(gl, render::Gl::load(context));
   std::unique_ptr<Interface> made(new Interface(*gl, renderer, viewer));
   TRY(painter, InterfacePainter::create(made->gl_));
@@ -100,7 +96,7 @@ Result<void> Interface::resize(int width, int height, double density) {
   if (!denser) return {};
   if (auto loaded = load_fonts(density); !loaded) return loaded;
   painter_->take_fonts(*ImGui::GetIO().Fonts);
-  choose_colours(desk_.show.dark, density);
+  choose_colours(viewer_.show.dark, density);
   return {};
 }
 
@@ -108,21 +104,26 @@ Result<void> Interface::resize(int width, int height, double density) {
 
 /// Where a node is drawn, pixels of the window.
 Eigen::Vector2d Interface::in_view(int node) const {
-  return render::to_pixel(desk_.camera, int(view_.width), int(view_.height),
-                          window::place_of(*desk_.sight, desk_.show, node)) +
+  return render::to_pixel(viewer_.camera, int(view_.width), int(view_.height),
+                          window::place_of(*viewer_.shell, viewer_.show, node)) +
          Eigen::Vector2d(view_.x, view_.y);
+}
+
+ImVec2 Interface::point_of(int node) const {
+  const Eigen::Vector2d at = in_view(node);
+  return {float(at.x()), float(at.y())};
 }
 
 Result<Eigen::Vector2d> Interface::place_of(const InputEvent& event) const {
   if (event.text.empty()) return Eigen::Vector2d(event.x, event.y);
   const Eigen::Vector2d beside(event.x, event.y);
   int i = 0, j = 0;
-  if (desk_.sight->any() && std::sscanf(event.text.c_str(), "joint:%d,%d", &i, &j) == 2)
-    for (const record::Joint& joint : desk_.sight->layout->joints)
+  if (viewer_.shell->any() && std::sscanf(event.text.c_str(), "joint:%d,%d", &i, &j) == 2)
+    for (const record::Joint& joint : viewer_.shell->layout->joints)
       if (joint.i == i && joint.j == j) return Eigen::Vector2d(in_view(joint.node) + beside);
-  if (desk_.sight->any() && std::sscanf(event.text.c_str(), "edge:%d", &i) == 1 && i >= 0 &&
-      i < int(desk_.sight->layout->edge_points.size()))
-    return Eigen::Vector2d(in_view(desk_.sight->layout->edge_points[std::size_t(i)]) + beside);
+  if (viewer_.shell->any() && std::sscanf(event.text.c_str(), "edge:%d", &i) == 1 && i >= 0 &&
+      i < int(viewer_.shell->layout->edge_points.size()))
+    return Eigen::Vector2d(in_view(viewer_.shell->layout->edge_points[std::size_t(i)]) + beside);
   std::string name = event.text;
   std::replace(name.begin(), name.end(), '_', ' ');
   for (const std::string& asked : {event.text, name})
@@ -142,7 +143,7 @@ Result<void> Interface::take(const InputEvent& event) {
     taken.y = place->y();
     taken.text.clear();
   }
-  if (event.kind == InputKind::act && !window::find_action(event.text))
+  if (event.kind == InputKind::act && !find_action(event.text))
     return fail(Fault::bad_input, fmt::format("'{}' is no action", event.text));
   events_.push_back(std::move(taken));
   return {};
@@ -192,10 +193,10 @@ void Interface::feed(const InputEvent& event) {
       io.AddInputCharactersUTF8(event.text.c_str());
       break;
     case InputKind::act:
-      window::find_action(event.text)->act(desk_);
+      find_action(event.text)->act(viewer_);
       break;
     case InputKind::open:
-      desk_.open(event.text);
+      viewer_.open(event.text);
       break;
     case InputKind::size:
     case InputKind::wait:
@@ -206,26 +207,26 @@ void Interface::feed(const InputEvent& event) {
 void Interface::press_key(Key key) {
   const ImGuiIO& io = ImGui::GetIO();
   if (is_modifier(key) || io.WantTextInput) return;
-  if (key == Key::escape && desk_.picking && desk_.sight->any()) desk_.picking = false;
-  const window::Action* action = window::action_of({key, io.KeyCtrl, io.KeyShift});
+  if (key == Key::escape && viewer_.picking && viewer_.shell->any()) viewer_.picking = false;
+  const Action* action = action_of({key, io.KeyCtrl, io.KeyShift});
   if (!action) return;
   // nothing happens to a shell that is not seen
-  const bool hidden = desk_.help || desk_.picking;
+  const bool hidden = viewer_.help || viewer_.picking;
   const std::string menu = action->menu;
   if (hidden && (menu == "Shell" || menu == "Edit")) return;
-  action->act(desk_);
+  action->act(viewer_);
 }
 
 // ---- a frame ----
 
 void Interface::view_panel(const Panel& panel, const render::Box& box) {
   view_ = box;
-  desk_.view = {box.width, box.height};
+  viewer_.view = {box.width, box.height};
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   begin_fixed("view", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar();
   const ImVec2 low{float(box.x), float(box.y)}, high{float(box.right()), float(box.bottom())};
-  if (desk_.sight->any())
+  if (viewer_.shell->any())
     ImGui::GetWindowDrawList()->AddImage(texture_id(picture_.texture()), low, high);
   ImGui::SetCursorScreenPos(low);
   ImGui::InvisibleButton("mouse", {float(box.width), float(box.height)},
@@ -234,16 +235,16 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
   panel.controls["view"] = box;
   const ImGuiIO& io = ImGui::GetIO();
   const double x = io.MousePos.x - low.x, y = io.MousePos.y - low.y;
-  if (hand_.holds()) {
-    hand_.drag(x, y);
-    if (!ImGui::IsItemActive()) hand_.release(x, y);
+  if (mouse_.holds()) {
+    mouse_.drag(x, y);
+    if (!ImGui::IsItemActive()) mouse_.release(x, y);
   } else if (ImGui::IsItemHovered()) {
-    hand_.hover(x, y);
-    if (io.MouseWheel != 0) hand_.wheel(io.MouseWheel, x, y);
+    mouse_.hover(x, y);
+    if (io.MouseWheel != 0) mouse_.wheel(io.MouseWheel, x, y);
     for (int button = 0; button < 3; ++button)
-      if (ImGui::IsMouseClicked(button)) hand_.press(window::Button(button), io.KeyShift, x, y);
+      if (ImGui::IsMouseClicked(button)) mouse_.press(Button(button), io.KeyShift, x, y);
   } else {
-    hand_.leave();
+    mouse_.leave();
   }
   mark_picked();
   mark_under();
@@ -255,54 +256,49 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
 /// What the panel shows the figures of: a ring on a joint, a rod and the point on it, a cell's
 /// edge.
 void Interface::mark_picked() {
-  const window::ShellView& sight = *desk_.sight;
-  if (!sight.any()) return;
-  const record::Layout& layout = *sight.layout;
+  const ShellView& shell = *viewer_.shell;
+  if (!shell.any()) return;
+  const record::Layout& layout = *shell.layout;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto wide = float(2.2 * density_);
   const auto line = [&](const auto& nodes, bool closed) {
-    for (const int node : nodes) {
-      const Eigen::Vector2d at = in_view(node);
-      list.PathLineTo({float(at.x()), float(at.y())});
-    }
+    for (const int node : nodes) list.PathLineTo(point_of(node));
     list.PathStroke(mark_colour, closed, wide);
   };
   const auto ring = [&](int node, double radius) {
-    const Eigen::Vector2d at = in_view(node);
-    list.AddCircle({float(at.x()), float(at.y())}, float(radius * density_), mark_colour, 0, wide);
+    list.AddCircle(point_of(node), float(radius * density_), mark_colour, 0, wide);
   };
-  if (desk_.picked_joint >= 0 && desk_.picked_joint < int(layout.joints.size()))
-    ring(desk_.picked_joint, 9);
-  if (const auto [rod, point] = desk_.picked_rod; rod >= 0 && rod < int(layout.rods.size())) {
+  if (viewer_.picked_joint >= 0 && viewer_.picked_joint < int(layout.joints.size()))
+    ring(viewer_.picked_joint, 9);
+  if (const auto [rod, point] = viewer_.picked_rod; rod >= 0 && rod < int(layout.rods.size())) {
     const std::vector<int>& nodes = layout.rods[std::size_t(rod)];
     line(nodes, false);
     ring(nodes[std::min(std::size_t(point), nodes.size() - 1)], 5);
   }
-  if (desk_.picked_cell >= 0 && desk_.picked_cell < int(layout.cells.size()))
-    line(layout.cells[std::size_t(desk_.picked_cell)].joints, true);
+  if (viewer_.picked_cell >= 0 && viewer_.picked_cell < int(layout.cells.size()))
+    line(layout.cells[std::size_t(viewer_.picked_cell)].joints, true);
 }
 
 /// A ring around the joint or edge point that the mouse would take.
 void Interface::mark_under() {
-  const window::ShellView& sight = *desk_.sight;
-  if (!sight.any()) return;
-  const record::Layout& layout = *sight.layout;
-  const int joint = desk_.joint_under, edge = desk_.edge_under;
+  const ShellView& shell = *viewer_.shell;
+  if (!shell.any()) return;
+  const record::Layout& layout = *shell.layout;
+  const int joint = viewer_.joint_under, edge = viewer_.edge_under;
   int node = -1;
   if (joint >= 0 && joint < int(layout.joints.size())) node = joint;
   if (edge >= 0 && edge < int(layout.edge_points.size()))
     node = layout.edge_points[std::size_t(edge)];
   if (node < 0) return;
-  const Eigen::Vector2d at = in_view(node);
-  ImGui::GetWindowDrawList()->AddCircle({float(at.x()), float(at.y())}, float(7 * density_),
-                                        mark_colour, 0, float(2.2 * density_));
+  ImGui::GetWindowDrawList()->AddCircle(point_of(node), float(7 * density_), mark_colour, 0,
+                                        float(2.2 * density_));
 }
 
 /// Force and way beside each joint that is held.
 void Interface::write_forces() {
-  const window::ShellView& sight = *desk_.sight;
-  if (!sight.any()) return;
-  for (const window::HeldJoint& held : sight.held) {
+  const ShellView& shell = *viewer_.shell;
+  if (!shell.any()) return;
+  for (const HeldJoint& held : shell.held) {
     const Eigen::Vector2d at = in_view(held.joint);
     const std::string text =
         fmt::format("{:.3g} N, {:.2f} mm", held.force_N.norm(), held.moved_mm.norm());
@@ -321,14 +317,14 @@ void Interface::write_forces() {
 }
 
 void Interface::lay_out() {
-  const Panel panel{desk_, density_, controls_};
+  const Panel panel{viewer_, density_, controls_};
   const double left = std::round(272 * density_), right = std::round(272 * density_),
                status = std::round(30 * density_);
   controls_.clear();
   menu_bar(panel);
   const double top = ImGui::GetFrameHeight(), height = height_ - top - status;
   const bool small = width_ - left - right < least_view * density_;
-  const Column column = column_of(desk_, height, small, density_);
+  const Column column = column_of(viewer_, height, small, density_);
   shell_panel(panel, {0, top, left, height});
   view_panel(panel, {left, top, width_ - left - (column.any() ? right : 0), height});
   double from = top;
@@ -340,24 +336,24 @@ void Interface::lay_out() {
   if (column.design > 0) design_panel(panel, next(column.design));
   if (column.plots > 0) plots_panel(panel, next(column.plots));
   status_line(panel, {0, top + height, double(width_), status});
-  if (desk_.picking && !desk_.help) picker_.draw(panel, {left, top, width_ - left, height});
-  if (desk_.help)
+  if (viewer_.picking && !viewer_.help) picker_.draw(panel, {left, top, width_ - left, height});
+  if (viewer_.help)
     help_sheet(panel, render::Box{0, top, double(width_), height}.inset(20 * density_));
 }
 
 /// Anew only where anything that it shows is new, and sharp only once it rests.
 Result<void> Interface::draw_shell() {
-  if (!desk_.sight->any() || desk_.view.width < 16) return {};
-  const ShownShell shown{desk_.camera, desk_.view, desk_.show};
+  if (!viewer_.shell->any() || viewer_.view.width < 16) return {};
+  const ShownShell shown{viewer_.camera, viewer_.view, viewer_.show};
   const bool anew = shell_anew_ || shown != shown_;
   if (anew) still_seconds_ = 0;
-  const double wait_s = desk_.engine.idle() ? sharp_after_s : sharp_while_busy_s;
+  const double wait_s = viewer_.engine.idle() ? sharp_after_s : sharp_while_busy_s;
   const bool sharp = !anew && still_seconds_ >= wait_s;
   if (!anew && (!sharp || sharp_)) return {};
   shown_ = shown;
   shell_anew_ = false;
   sharp_ = sharp;
-  return picture_.draw(desk_, sharp ? window::Resolution::still : window::Resolution::moving);
+  return picture_.draw(viewer_, sharp ? Resolution::still : Resolution::moving);
 }
 
 Result<void> Interface::compose(double seconds) {
@@ -365,19 +361,19 @@ Result<void> Interface::compose(double seconds) {
   io.DisplaySize = {float(width_), float(height_)};
   io.DeltaTime = float(std::clamp(seconds, 1e-4, 0.5));
   still_seconds_ += seconds;
-  shell_anew_ |= desk_.tick(seconds);
-  if (dark_ != desk_.show.dark) choose_colours(dark_ = desk_.show.dark, density_);
+  shell_anew_ |= viewer_.tick(seconds);
+  if (dark_ != viewer_.show.dark) choose_colours(dark_ = viewer_.show.dark, density_);
   feed();
   ImGui::NewFrame();
   lay_out();
   ImGui::Render();
   io.MouseWheel = 0;
-  if (!desk_.copied.empty()) ImGui::SetClipboardText(std::exchange(desk_.copied, "").c_str());
+  if (!viewer_.copied.empty()) ImGui::SetClipboardText(std::exchange(viewer_.copied, "").c_str());
   return draw_shell();
 }
 
 bool Interface::busy() const {
-  return !events_.empty() || (desk_.sight->any() && (shell_anew_ || !sharp_));
+  return !events_.empty() || (viewer_.shell->any() && (shell_anew_ || !sharp_));
 }
 
 Result<void> Interface::frame(double seconds) {
@@ -407,4 +403,4 @@ render::Image Interface::read() {
   return image;
 }
 
-}  // namespace gridshell::ui
+}  // namespace gridshell::window

@@ -20,14 +20,13 @@
 
 struct ImGuiContext;
 
-namespace gridshell::ui {
+namespace gridshell::window {
 
 class Interface {
  public:
   /// Context and viewer outlive it. Errors: io, of OpenGL or without a font.
   static Result<std::unique_ptr<Interface>> create(const render::Context& context,
-                                                   render::Renderer& renderer,
-                                                   window::ViewerState& viewer);
+                                                   render::Renderer& renderer, ViewerState& viewer);
   ~Interface();
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
@@ -36,7 +35,7 @@ class Interface {
   Result<void> resize(int width, int height, double density);
   /// Comes with one of the next frames: one press or release of a button a frame. Errors: bad_input
   /// for the name of something that is not there.
-  Result<void> take(const window::InputEvent& event);
+  Result<void> take(const InputEvent& event);
 
   /// One frame after so many seconds, into framebuffer 0. Errors: the renderer's.
   Result<void> frame(double seconds);
@@ -51,23 +50,24 @@ class Interface {
   int height() const { return height_; }
 
  private:
-  /// What a picture of the shell hangs on, beside the sight.
+  /// What a picture of the shell hangs on, beside the view.
   struct ShownShell {
     render::Camera camera;
-    window::PictureSize view;
-    window::Show show;
+    PictureSize view;
+    Show show;
     bool operator==(const ShownShell&) const = default;
   };
 
-  Interface(const render::Gl& gl, render::Renderer& renderer, window::ViewerState& viewer);
+  Interface(const render::Gl& gl, render::Renderer& renderer, ViewerState& viewer);
   void feed();
-  void feed(const window::InputEvent& event);
-  Result<Eigen::Vector2d> place_of(const window::InputEvent& event) const;
+  void feed(const InputEvent& event);
+  Result<Eigen::Vector2d> place_of(const InputEvent& event) const;
   Eigen::Vector2d in_view(int node) const;
+  ImVec2 point_of(int node) const;
   void mark_picked();
   void mark_under();
   void write_forces();
-  void press_key(window::Key key);
+  void press_key(Key key);
   void lay_out();
   void view_panel(const Panel& panel, const render::Box& box);
   Result<void> draw_shell();
@@ -76,13 +76,13 @@ class Interface {
   render::Gl gl_;  // others point to it
   ImGuiContext* imgui_;
   std::optional<InterfacePainter> painter_;
-  window::ViewerState& desk_;
-  window::Picker hand_;
+  ViewerState& viewer_;
+  Picker mouse_;
   ShellPicture picture_;
   NumbersPanel numbers_;
   PresetPicker picker_;
   render::Target target_;
-  std::deque<window::InputEvent> events_;
+  std::deque<InputEvent> events_;
   std::map<std::string, render::Box> controls_;
   render::Box view_;
   int width_ = 1280, height_ = 720;
@@ -96,17 +96,15 @@ class Interface {
 
 /// Opens the window and stays until it is closed or `stopped`. Every event goes to `seen` as well.
 /// Errors: io where there is no GLFW, no display or no OpenGL, saying what to use instead.
-Result<void> run_desktop(window::ViewerState& viewer,
-                         const std::function<void(const window::InputEvent&)>& seen,
+Result<void> run_desktop(ViewerState& viewer, const std::function<void(const InputEvent&)>& seen,
                          const std::function<bool()>& stopped);
 
-// The interface without a hand: a recording played off-screen, and the bench that drags by itself.
+// The interface without a user: a recording played off-screen, and the bench that drags by itself.
 
 /// Plays events one by one, each with the equilibrium that it asks for awaited: the same states on
 /// every machine. Ends with the view sharp. Errors: those of the events and the renderer, naming
 /// the event.
-Result<void> play(Interface& interface, window::ViewerState& viewer,
-                  const std::vector<window::InputEvent>& events);
+Result<void> play(Interface& interface, ViewerState& viewer, const std::vector<InputEvent>& events);
 
 /// What a bench measured.
 struct BenchFigures {
@@ -118,6 +116,6 @@ struct BenchFigures {
 /// Drags the radius to and fro for so many seconds with the engine on its own thread; frames of the
 /// first second are no worst ones. Errors: no_equilibrium where the preset has no shell; the
 /// renderer's.
-Result<BenchFigures> bench(Interface& interface, window::ViewerState& viewer, double seconds);
+Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double seconds);
 
-}  // namespace gridshell::ui
+}  // namespace gridshell::window

@@ -89,7 +89,7 @@ double dragged_along(const render::Camera& camera, const PictureSize& size,
                      double down_px) {
   const Eigen::Vector2d px = seen_px(camera, size, place, axis);
   const double scale = 1 / mm_per_pixel(camera, size);
-  // seen along itself it goes with the hand up and down
+  // seen along itself it goes with the mouse up and down
   if (px.norm() < steep_px * scale) return -down_px / scale;
   return px.dot(Eigen::Vector2d(right_px, down_px)) / px.squaredNorm();
 }

@@ -1,4 +1,4 @@
-// What a hand does to a camera: orbit, pan, zoom to the cursor, the standard views.
+// What the mouse does to a camera: orbit, pan, zoom to the cursor, the standard views.
 #pragma once
 
 #include "render/gl/renderer.h"
@@ -16,7 +16,7 @@ double mm_per_pixel(const render::Camera& camera, const PictureSize& size);
 
 /// Turned by a drag of so many pixels; the elevation stays within straight down and straight up.
 void orbit(render::Camera& camera, double right_px, double down_px);
-/// The picture moves along with the hand.
+/// The picture moves along with the mouse.
 void pan(render::Camera& camera, const PictureSize& size, double right_px, double down_px);
 /// `steps` of the wheel closer; what lies under (x, y), pixels from the top left, stays there.
 void zoom(render::Camera& camera, const PictureSize& size, double steps, double x, double y);
@@ -35,7 +35,7 @@ void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd
 /// Millimetres that a point at `place` moves in the plane facing the camera for a drag in pixels.
 Eigen::Vector3d dragged_in_plane(const render::Camera& camera, const PictureSize& size,
                                  const Eigen::Vector3d& place, double right_px, double down_px);
-/// The same along the unit vector `axis` alone: as far as its picture goes along with the hand.
+/// The same along the unit vector `axis` alone: as far as its picture goes along with the mouse.
 double dragged_along(const render::Camera& camera, const PictureSize& size,
                      const Eigen::Vector3d& place, const Eigen::Vector3d& axis, double right_px,
                      double down_px);

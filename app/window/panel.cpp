@@ -7,12 +7,12 @@
 #include <memory>
 #include <string>
 
-namespace gridshell::ui {
+namespace gridshell::window {
 namespace {
 
 constexpr float tip_after_s = 0.6f;
 
-std::string help_of(const window::Action& action) {
+std::string help_of(const Action& action) {
   const std::string key = name_of(action.key);
   return action.help + (key.empty() ? "" : " (" + key + ")");
 }
@@ -23,7 +23,7 @@ void Panel::named(const std::string& name, const std::string& tip) const {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   controls[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
   if (tip.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  // not over what a hand is about to use
+  // not over what is about to be used
   const ImGuiContext& imgui = *ImGui::GetCurrentContext();
   const bool rests = imgui.HoveredId == 0 || imgui.HoveredIdTimer > tip_after_s;
   if (!rests || ImGui::IsAnyMouseDown()) return;
@@ -34,22 +34,16 @@ void Panel::named(const std::string& name, const std::string& tip) const {
   ImGui::EndTooltip();
 }
 
-void Panel::button(const char* name) const {
-  const window::Action& action = *window::find_action(name);
-  if (ImGui::Button(action.label)) action.act(viewer);
-  named(name, help_of(action));
-}
-
 void Panel::button(const char* name, const char* text, bool able) const {
-  const window::Action& action = *window::find_action(name);
+  const Action& action = *find_action(name);
   ImGui::BeginDisabled(!able);
-  if (ImGui::Button(text)) action.act(viewer);
+  if (ImGui::Button(text ? text : action.label)) action.act(viewer);
   ImGui::EndDisabled();
   named(name, help_of(action));
 }
 
 void Panel::tick(const char* name) const {
-  const window::Action& action = *window::find_action(name);
+  const Action& action = *find_action(name);
   bool on = action.on(viewer);
   if (ImGui::Checkbox(action.label, &on)) action.act(viewer);
   named(name, help_of(action));
@@ -65,6 +59,21 @@ void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more
 }
 
 bool is_typed_into() { return ImGui::IsItemActive() && ImGui::GetIO().WantTextInput; }
+
+std::optional<std::size_t> choose(const std::string& id, const std::string& shown,
+                                  const std::vector<std::string>& texts) {
+  std::optional<std::size_t> chosen;
+  if (!ImGui::BeginCombo(id.c_str(), shown.c_str())) return chosen;
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    if (ImGui::Selectable(texts[k].c_str(), texts[k] == shown)) chosen = k;
+  ImGui::EndCombo();
+  return chosen;
+}
+
+std::string help_of(const preset::Field& field) {
+  return fmt::format("{}{}; {}", field.meaning, field.unit.empty() ? "" : ", in " + field.unit,
+                     allowed(field));
+}
 
 void heading(const Panel& panel, const char* text) {
   ImGui::Dummy({0, panel.px(2)});
@@ -153,17 +162,18 @@ void choose_colours(bool dark, double density) {
   ImGui::GetStyle() = style;
 }
 
-ImU32 error_colour(bool dark) {
-  return dark ? IM_COL32(255, 120, 110, 255) : IM_COL32(186, 28, 20, 255);
+const TextColours& text_colours(bool dark) {
+  static constexpr TextColours on_dark{IM_COL32(255, 120, 110, 255), IM_COL32(110, 210, 130, 255),
+                                       IM_COL32(240, 185, 80, 255), IM_COL32(139, 145, 156, 255)};
+  static constexpr TextColours on_light{IM_COL32(186, 28, 20, 255), IM_COL32(24, 122, 52, 255),
+                                        IM_COL32(168, 98, 0, 255), IM_COL32(107, 114, 128, 255)};
+  return dark ? on_dark : on_light;
 }
-ImU32 ok_colour(bool dark) {
-  return dark ? IM_COL32(110, 210, 130, 255) : IM_COL32(24, 122, 52, 255);
-}
-ImU32 warning_colour(bool dark) {
-  return dark ? IM_COL32(240, 185, 80, 255) : IM_COL32(168, 98, 0, 255);
-}
-ImU32 muted_colour(bool dark) {
-  return dark ? IM_COL32(139, 145, 156, 255) : IM_COL32(107, 114, 128, 255);
+
+void coloured_text(ImU32 colour, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
 }
 
 // The menus, filled from the table of actions.
@@ -172,7 +182,7 @@ void menu_bar(const Panel& panel) {
   if (!ImGui::BeginMainMenuBar()) return;
   const char* open_menu = nullptr;
   bool open = false;
-  for (const window::Action& action : window::actions()) {
+  for (const Action& action : actions()) {
     if (!open_menu || std::string(open_menu) != action.menu) {
       if (open) ImGui::EndMenu();
       open_menu = action.menu;
@@ -189,7 +199,7 @@ void menu_bar(const Panel& panel) {
   ImGui::EndMainMenuBar();
 }
 
-// The certificate of the state in sight, what the engine is at, what was said last.
+// The certificate of the state shown, what the engine is at, what was said last.
 
 namespace {
 
@@ -199,19 +209,19 @@ std::string meshes_of(const std::vector<int>& meshes) {
   return text;
 }
 
-std::string certificate_of(const window::ShellView& sight, bool timed) {
-  const Certificate& c = sight.certificate;
+std::string certificate_of(const ShellView& shell, bool timed) {
+  const Certificate& c = shell.certificate;
   const std::string error = std::isfinite(c.error_estimate_mm)
                                 ? fmt::format("error {:.1e} mm", c.error_estimate_mm)
                                 : "error not known";
-  const std::string took = timed ? fmt::format("   {:.0f} ms", 1000 * sight.seconds) : "";
+  const std::string took = timed ? fmt::format("   {:.0f} ms", 1000 * shell.seconds) : "";
   return fmt::format("residual {:.1e} N   pivots {}   {}   {} edges{}", c.residual_N,
-                     c.negative_pivots, error, meshes_of(sight.meshes), took);
+                     c.negative_pivots, error, meshes_of(shell.meshes), took);
 }
 
-std::string standing_of(const window::DesignProgress& course) {
+std::string standing_of(const DesignProgress& course) {
   const double percent = 100 / course.length_scale_mm;
-  const window::DesignPoint& now = course.points.back();
+  const DesignPoint& now = course.points.back();
   return fmt::format("designing: iteration {}, largest {:.3f} %, mean {:.3f} % (Esc stops)",
                      course.iterations, percent * now.max_mm, percent * now.mean_mm);
 }
@@ -220,7 +230,7 @@ std::string standing_of(const window::DesignProgress& course) {
 void movie_standing(const Panel& panel) {
   const std::string said = panel.viewer.movie_task.standing();
   const std::string line = "movie " + (said.empty() ? "0 %" : said);
-  const char* stop = window::find_action("stop_movie")->label;
+  const char* stop = find_action("stop_movie")->label;
   const float width = ImGui::CalcTextSize(line.c_str()).x + ImGui::CalcTextSize(stop).x +
                       3 * ImGui::GetStyle().FramePadding.x + panel.px(18);
   ImGui::SameLine(ImGui::GetContentRegionMax().x - width);
@@ -234,26 +244,24 @@ void movie_standing(const Panel& panel) {
 }  // namespace
 
 void status_line(const Panel& panel, const render::Box& box) {
-  const window::ViewerState& viewer = panel.viewer;
-  const window::ShellView& sight = *viewer.sight;
-  const bool dark = viewer.show.dark;
+  const ViewerState& viewer = panel.viewer;
+  const ShellView& shell = *viewer.shell;
+  const TextColours& colours = text_colours(viewer.show.dark);
   begin_fixed("status", box, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  if (sight.any()) {
-    const ImU32 ink = !sight.stable()                  ? error_colour(dark)
-                      : sight.accuracy_warning.empty() ? ok_colour(dark)
-                                                       : warning_colour(dark);
-    const std::string lacks = sight.accuracy_warning.empty() ? "" : ", " + sight.accuracy_warning;
-    ImGui::PushStyleColor(ImGuiCol_Text, ink);
-    ImGui::TextUnformatted(((sight.stable() ? "● stable" : "● not stable") + lacks).c_str());
-    ImGui::PopStyleColor();
+  if (shell.any()) {
+    const ImU32 colour = !shell.stable()                  ? colours.error
+                         : shell.accuracy_warning.empty() ? colours.ok
+                                                          : colours.warning;
+    const std::string lacks = shell.accuracy_warning.empty() ? "" : ", " + shell.accuracy_warning;
+    coloured_text(colour, (shell.stable() ? "● stable" : "● not stable") + lacks);
     panel.named("stability", "whether the Hessian is positive definite with what is held held");
-    if (!sight.symmetry.empty()) {
+    if (!shell.symmetry.empty()) {
       ImGui::SameLine(0, panel.px(14));
-      ImGui::TextUnformatted(sight.symmetry.c_str());
+      ImGui::TextUnformatted(shell.symmetry.c_str());
       panel.named("symmetry", "symmetries of the square that leave this shape as it is");
     }
     ImGui::SameLine(0, panel.px(14));
-    ImGui::TextUnformatted(certificate_of(sight, viewer.timed).c_str());
+    ImGui::TextUnformatted(certificate_of(shell, viewer.timed).c_str());
     panel.named("certificate",
                 "largest force that nothing holds; negative pivots of the Hessian; estimated error "
                 "of the joints; meshes, edges a segment; time of the last equilibrium");
@@ -262,14 +270,11 @@ void status_line(const Panel& panel, const render::Box& box) {
   const double busy = viewer.engine.busy_seconds();
   std::string said =
       busy > 0.3 ? fmt::format("solving for {:.1f} s (Esc stops)", busy) : viewer.message;
-  if (sight.designing()) said = standing_of(*sight.design);
-  const bool bad = busy <= 0.3 && viewer.message_bad && !sight.designing();
-  ImGui::PushStyleColor(ImGuiCol_Text,
-                        bad ? error_colour(dark) : ImGui::GetColorU32(ImGuiCol_TextDisabled));
+  if (shell.designing()) said = standing_of(*shell.design);
+  const bool bad = busy <= 0.3 && viewer.message_bad && !shell.designing();
   // one line, however much was said: the tooltip has all of it
-  const std::string line = said.substr(0, said.find('\n'));
-  ImGui::TextUnformatted(line.c_str());
-  ImGui::PopStyleColor();
+  coloured_text(bad ? colours.error : ImGui::GetColorU32(ImGuiCol_TextDisabled),
+                said.substr(0, said.find('\n')));
   panel.named("message", said);
   if (viewer.movie_task.under_way()) movie_standing(panel);
   ImGui::End();
@@ -284,9 +289,7 @@ void row(const std::string& left, const std::string& right) {
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(left.c_str());
   ImGui::TableNextColumn();
-  ImGui::PushTextWrapPos();
-  ImGui::TextUnformatted(right.c_str());
-  ImGui::PopTextWrapPos();
+  ImGui::TextWrapped("%s", right.c_str());
 }
 
 bool begin_table(const Panel& panel, const char* name, double left) {
@@ -299,7 +302,7 @@ bool begin_table(const Panel& panel, const char* name, double left) {
 /// The keys of some menus.
 void keys(const Panel& panel, const std::string& menus) {
   if (!begin_table(panel, menus.c_str(), 62)) return;
-  for (const window::Action& action : window::actions())
+  for (const Action& action : actions())
     if (action.key.key && menus.find(action.menu) != std::string::npos)
       row(name_of(action.key), std::string(action.label) + ": " + action.help);
   ImGui::EndTable();
@@ -318,8 +321,7 @@ void help_sheet(const Panel& panel, const render::Box& box) {
     keys(panel, "File Edit Shell");
     ImGui::TableNextColumn();
     if (begin_table(panel, "mouse", 240)) {
-      for (const window::MouseAction& action : window::mouse_actions())
-        row(action.how, action.help);
+      for (const MouseAction& action : mouse_actions()) row(action.how, action.help);
       row("Ctrl + click on a number", "types it");
       ImGui::EndTable();
     }
@@ -329,4 +331,4 @@ void help_sheet(const Panel& panel, const render::Box& box) {
   ImGui::End();
 }
 
-}  // namespace gridshell::ui
+}  // namespace gridshell::window

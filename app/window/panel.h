@@ -15,21 +15,20 @@
 #include "render/canvas/canvas.h"
 #include "render/gl/opengl.h"
 
-namespace gridshell::ui {
+namespace gridshell::window {
 
 /// One frame of the interface: what panels draw into.
 struct Panel {
-  window::ViewerState& viewer;
+  ViewerState& viewer;
   double density = 1;                            ///< pixels a point of text
   std::map<std::string, render::Box>& controls;  ///< where each control stands, by its name
 
   float px(double points) const { return float(points * density); }
   /// Notes where the last control is, and gives it a tooltip.
   void named(const std::string& name, const std::string& tip) const;
-  /// A button or a tick of an action, with its help and key.
-  void button(const char* action) const;
-  /// With a text of its own where the panel says the rest; pale where it can do nothing now.
-  void button(const char* action, const char* text, bool able) const;
+  /// A button or a tick of an action, with its help and key. A button may have a text of its own
+  /// where the panel says the rest, and is pale where it can do nothing now.
+  void button(const char* action, const char* text = nullptr, bool able = true) const;
   void tick(const char* action) const;
 };
 
@@ -41,6 +40,19 @@ void begin_fixed(const char* name, const render::Box& box, ImGuiWindowFlags more
 
 /// Whether the last control is being typed into: what stands there is not meant yet.
 bool is_typed_into();
+
+/// A list that opens to choose from: the place in it of the text that was chosen, if one was.
+std::optional<std::size_t> choose(const std::string& id, const std::string& shown,
+                                  const std::vector<std::string>& texts);
+
+/// The same of all words of an enum.
+template <class Enum>
+void choose_word(const std::string& id, Enum& value) {
+  if (const auto k = choose(id, std::string(word_of(value)), all_words<Enum>())) value = Enum(*k);
+}
+
+/// The meaning of a key, with its unit and what is allowed.
+std::string help_of(const preset::Field& field);
 
 /// A small heading within a panel.
 void heading(const Panel& panel, const char* text);
@@ -62,13 +74,13 @@ class NumbersPanel {
 
  private:
   bool edit(const Panel& panel, const preset::Field& field);
-  void look(const window::ViewerState& viewer);
+  void look(const ViewerState& viewer);
   void find_idle();
 
-  std::shared_ptr<const window::ShellView> seen_;  // that the numbers are of
+  std::shared_ptr<const ShellView> seen_;  // that the numbers are of
   preset::Preset edited_;
   std::set<std::string> idle_;  // keys that count for nothing in it
-  std::string active_;          // the key under the hand
+  std::string active_;          // the key under the mouse
   bool typed_ = false;          // digits that are not meant yet
 };
 
@@ -81,12 +93,12 @@ Result<void> load_fonts(double density);
 /// Light or dark.
 void choose_colours(bool dark, double density);
 
-/// Red of what is wrong or not stable, green of what holds, amber of what lacks something, grey of
-/// what is said beside.
-ImU32 error_colour(bool dark);
-ImU32 ok_colour(bool dark);
-ImU32 warning_colour(bool dark);
-ImU32 muted_colour(bool dark);
+/// Of what is wrong or not stable, what holds, what lacks something, and what is said beside.
+struct TextColours {
+  ImU32 error, ok, warning, muted;
+};
+const TextColours& text_colours(bool dark);
+void coloured_text(ImU32 colour, const std::string& text);
 
 // A small plot within a panel.
 
@@ -115,11 +127,11 @@ class PresetPicker {
   void draw(const Panel& panel, const render::Box& box);
 
  private:
-  void load(const std::vector<window::PresetCard>& cards);
-  void card(const Panel& panel, const window::PresetCard& card, std::size_t number);
+  void load(const std::vector<PresetCard>& cards);
+  void card(const Panel& panel, const PresetCard& card, std::size_t number);
 
   const render::Gl* gl_;
   std::vector<std::optional<render::Texture>> pictures_;  // one a card, from the first sight on
 };
 
-}  // namespace gridshell::ui
+}  // namespace gridshell::window

@@ -5,6 +5,7 @@
 
 #include "app/window/shell_drawing.h"
 #include "render/gl/renderer.h"
+#include "render/movie/colour_by.h"
 
 namespace gridshell::window {
 namespace {
@@ -24,26 +25,27 @@ double share_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
 }  // namespace
 
 Eigen::Vector2d Picker::pixel_of(int node) const {
-  return render::to_pixel(desk_.camera, int(desk_.view.width), int(desk_.view.height),
-                          place_of(*desk_.sight, desk_.show, node));
+  return render::to_pixel(viewer_.camera, int(viewer_.view.width), int(viewer_.view.height),
+                          place_of(*viewer_.shell, viewer_.show, node));
 }
 
 /// The joint or edge point under the mouse; of several near ones the nearest to the eye.
 void Picker::find(double x, double y) {
   joint_ = edge_ = -1;
-  if (!desk_.sight->any()) return;
-  const record::Layout& layout = *desk_.sight->layout;
-  const Eigen::Vector3d forward = render::camera_axes(desk_.camera).forward;
-  const double within = near_px * std::max(1.0, desk_.view.height / 720);
+  if (!viewer_.shell->any()) return;
+  const record::Layout& layout = *viewer_.shell->layout;
+  const Eigen::Vector3d forward = render::camera_axes(viewer_.camera).forward;
+  const double within = near_px * std::max(1.0, viewer_.view.height / 720);
   double best = 1e300;
-  const bool cells_shown = values_of(*desk_.sight, desk_.show.colour_by).of_cells.size() > 0;
+  const bool cells_shown = render::of_cells(viewer_.show.colour_by) &&
+                           values_of(*viewer_.shell, viewer_.show.colour_by).size() > 0;
   const auto score = [&](int node, double through_mm) {
     const double off = (pixel_of(node) - Eigen::Vector2d(x, y)).norm();
     if (off > within || (cells_shown && is_covered(node, through_mm))) return 1e300;
-    const double depth = forward.dot(desk_.sight->frame.nodes.col(node));
-    return off + 0.05 * depth / mm_per_pixel(desk_.camera, desk_.view);
+    const double depth = forward.dot(viewer_.shell->frame.nodes.col(node));
+    return off + 0.05 * depth / mm_per_pixel(viewer_.camera, viewer_.view);
   };
-  // from above a shell that bulges hides its boundary, which a hand may want all the same
+  // from above a shell that bulges hides its boundary, which may be wanted all the same
   const double under_mm = bulge_spacings * layout.spacing_mm;
   for (int k = 0; k < int(layout.joints.size()); ++k)
     if (const double s = score(k, 0); s < best) best = s, joint_ = k;
@@ -57,26 +59,26 @@ bool Picker::is_covered(int node, double by_mm) const {
   const Eigen::Vector2d at = pixel_of(node);
   const int cell = cell_at(at.x(), at.y());
   if (cell < 0) return false;
-  const record::Layout& layout = *desk_.sight->layout;
+  const record::Layout& layout = *viewer_.shell->layout;
   const auto& joints = layout.cells[std::size_t(cell)].joints;
   if (std::ranges::find(joints, node) != joints.end()) return false;
-  const Eigen::Vector3d forward = render::camera_axes(desk_.camera).forward;
+  const Eigen::Vector3d forward = render::camera_axes(viewer_.camera).forward;
   double depth = -1e300;
   for (const int joint : joints)
-    depth = std::max(depth, forward.dot(desk_.sight->frame.nodes.col(joint)));
-  return depth + by_mm < forward.dot(desk_.sight->frame.nodes.col(node));
+    depth = std::max(depth, forward.dot(viewer_.shell->frame.nodes.col(joint)));
+  return depth + by_mm < forward.dot(viewer_.shell->frame.nodes.col(node));
 }
 
 void Picker::hover(double x, double y) {
   if (holding_) return;
   find(x, y);
-  desk_.joint_under = joint_;
-  desk_.edge_under = edge_;
+  viewer_.joint_under = joint_;
+  viewer_.edge_under = edge_;
 }
 
 void Picker::leave() {
   if (holding_) return;
-  joint_ = edge_ = desk_.joint_under = desk_.edge_under = -1;
+  joint_ = edge_ = viewer_.joint_under = viewer_.edge_under = -1;
 }
 
 void Picker::press(Button button, bool shift, double x, double y) {
@@ -84,25 +86,20 @@ void Picker::press(Button button, bool shift, double x, double y) {
   find(x, y);
   const Over over = joint_ >= 0 ? Over::joint : edge_ >= 0 ? Over::edge_point : Over::nothing;
   gesture_ = gesture_of(button, over, shift);
-  if (gesture_ == Gesture::push && desk_.push_direction == PushDirection::freely)
-    gesture_ = Gesture::pull_freely;
+  if (gesture_ == Gesture::push && viewer_.push_freely) gesture_ = Gesture::pull_freely;
   holding_ = true;
   moved_ = false;
   begin_x_ = last_x_ = x;
   begin_y_ = last_y_ = y;
   if (joint_ >= 0) {
-    place_ = desk_.sight->frame.nodes.col(joint_);
-    along_ = desk_.sight->normals.col(joint_);
+    place_ = viewer_.shell->frame.nodes.col(joint_);
+    along_ = viewer_.shell->normals.col(joint_);
     // pushed before, it goes on along the direction that it is held in
-    for (const HeldJoint& held : desk_.sight->held)
+    for (const HeldJoint& held : viewer_.shell->held)
       if (held.joint == joint_ && !held.along.isZero(0)) along_ = held.along;
   }
   if (edge_ >= 0)
-    place_ = desk_.sight->frame.nodes.col(desk_.sight->layout->edge_points[std::size_t(edge_)]);
-}
-
-bool Picker::turns() const {
-  return holding_ && moved_ && (gesture_ == Gesture::orbit || gesture_ == Gesture::pan);
+    place_ = viewer_.shell->frame.nodes.col(viewer_.shell->layout->edge_points[std::size_t(edge_)]);
 }
 
 void Picker::drag(double x, double y) {
@@ -113,25 +110,25 @@ void Picker::drag(double x, double y) {
   moved_ = true;
   last_x_ = x;
   last_y_ = y;
+  render::Camera& camera = viewer_.camera;
   switch (gesture_) {
     case Gesture::orbit:
-      return orbit(desk_.camera, dx, dy);
+      return orbit(camera, dx, dy);
     case Gesture::pan:
-      return pan(desk_.camera, desk_.view, dx, dy);
+      return pan(camera, viewer_.view, dx, dy);
     case Gesture::push: {
-      const double depth = dragged_along(desk_.camera, desk_.view, place_, along_, from_x, from_y);
-      return desk_.push(joint_, place_ + depth * along_, along_, true);
+      const double depth = dragged_along(camera, viewer_.view, place_, along_, from_x, from_y);
+      return viewer_.post(Push{joint_, place_ + depth * along_, along_}, true);
     }
     case Gesture::pull_freely:
-      return desk_.push(joint_,
-                        place_ + dragged_in_plane(desk_.camera, desk_.view, place_, from_x, from_y),
-                        Eigen::Vector3d::Zero(), true);
+      return viewer_.post(
+          Push{joint_, place_ + dragged_in_plane(camera, viewer_.view, place_, from_x, from_y)},
+          true);
     case Gesture::drag_edge:
-      return desk_.drag_edge(
-          edge_, place_ + dragged_level(desk_.camera, desk_.view, place_, from_x, from_y), true);
-    case Gesture::let_go_joint:
-    case Gesture::zoom:
-    case Gesture::pick:
+      return viewer_.post(
+          DragEdge{edge_, place_ + dragged_level(camera, viewer_.view, place_, from_x, from_y)},
+          true);
+    default:
       return;
   }
 }
@@ -141,27 +138,27 @@ void Picker::release(double x, double y) {
   holding_ = false;
   const bool at_shell = gesture_ == Gesture::push || gesture_ == Gesture::pull_freely ||
                         gesture_ == Gesture::drag_edge;
-  if (moved_ && at_shell) desk_.let_go();
+  if (moved_ && at_shell) viewer_.end_drag();
   if (moved_) return;
-  if (gesture_ == Gesture::let_go_joint) return desk_.send_command(Release{joint_});
-  desk_.picked_joint = joint_;
-  desk_.picked_rod = joint_ < 0 && edge_ < 0 ? rod_at(x, y) : PointOnRod{};
-  const bool nothing = joint_ < 0 && edge_ < 0 && desk_.picked_rod.rod < 0;
-  desk_.picked_cell = nothing ? cell_at(x, y) : -1;
+  if (gesture_ == Gesture::let_go_joint) return viewer_.send_command(Release{joint_});
+  viewer_.picked_joint = joint_;
+  viewer_.picked_rod = joint_ < 0 && edge_ < 0 ? rod_at(x, y) : PointOnRod{};
+  const bool nothing = joint_ < 0 && edge_ < 0 && viewer_.picked_rod.rod < 0;
+  viewer_.picked_cell = nothing ? cell_at(x, y) : -1;
 }
 
 void Picker::wheel(double steps, double x, double y) {
-  zoom(desk_.camera, desk_.view, steps, x, y);
+  zoom(viewer_.camera, viewer_.view, steps, x, y);
 }
 
 /// The rod under the mouse, and which of its points is next to it; of several near ones the nearest
 /// to the eye.
 PointOnRod Picker::rod_at(double x, double y) const {
   PointOnRod found;
-  if (!desk_.sight->any()) return found;
-  const auto& rods = desk_.sight->layout->rods;
-  const Eigen::Vector3d forward = render::camera_axes(desk_.camera).forward;
-  const double within = rod_px * std::max(1.0, desk_.view.height / 720);
+  if (!viewer_.shell->any()) return found;
+  const auto& rods = viewer_.shell->layout->rods;
+  const Eigen::Vector3d forward = render::camera_axes(viewer_.camera).forward;
+  const double within = rod_px * std::max(1.0, viewer_.view.height / 720);
   const Eigen::Vector2d at(x, y);
   double best = 1e300;
   for (int r = 0; r < int(rods.size()); ++r) {
@@ -171,8 +168,8 @@ PointOnRod Picker::rod_at(double x, double y) const {
       const Eigen::Vector2d p = pixel_of(from), q = pixel_of(to);
       const double share = share_along(p, q, at), off = (p + share * (q - p) - at).norm();
       if (off > within) continue;
-      const double depth = forward.dot(desk_.sight->frame.nodes.col(share < 0.5 ? from : to)),
-                   score = off + 0.05 * depth / mm_per_pixel(desk_.camera, desk_.view);
+      const double depth = forward.dot(viewer_.shell->frame.nodes.col(share < 0.5 ? from : to)),
+                   score = off + 0.05 * depth / mm_per_pixel(viewer_.camera, viewer_.view);
       if (score >= best) continue;
       best = score;
       found = {r, share < 0.5 ? k : k + 1};
@@ -183,9 +180,9 @@ PointOnRod Picker::rod_at(double x, double y) const {
 
 /// The cell whose picture holds the pixel; of several the nearest to the eye.
 int Picker::cell_at(double x, double y) const {
-  if (!desk_.sight->any()) return -1;
-  const record::Layout& layout = *desk_.sight->layout;
-  const Eigen::Vector3d forward = render::camera_axes(desk_.camera).forward;
+  if (!viewer_.shell->any()) return -1;
+  const record::Layout& layout = *viewer_.shell->layout;
+  const Eigen::Vector3d forward = render::camera_axes(viewer_.camera).forward;
   int best = -1;
   double nearest = 1e300;
   for (int k = 0; k < int(layout.cells.size()); ++k) {
@@ -195,7 +192,7 @@ int Picker::cell_at(double x, double y) const {
     for (int a = 0, b = 3; a < 4; b = a++) {
       const Eigen::Vector2d p = pixel_of(joints[std::size_t(a)]),
                             q = pixel_of(joints[std::size_t(b)]);
-      depth += forward.dot(desk_.sight->frame.nodes.col(joints[std::size_t(a)]));
+      depth += forward.dot(viewer_.shell->frame.nodes.col(joints[std::size_t(a)]));
       if ((p.y() > y) != (q.y() > y) && x < (q.x() - p.x()) * (y - p.y()) / (q.y() - p.y()) + p.x())
         inside = !inside;
     }

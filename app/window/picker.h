@@ -9,7 +9,7 @@ namespace gridshell::window {
 /// Positions are pixels from the top left of the view.
 class Picker {
  public:
-  explicit Picker(ViewerState& viewer) : desk_(viewer) {}
+  explicit Picker(ViewerState& viewer) : viewer_(viewer) {}
 
   void hover(double x, double y);
   void leave();
@@ -19,11 +19,6 @@ class Picker {
   void wheel(double steps, double x, double y);
 
   bool holds() const { return holding_; }
-  /// Whether the picture moves under the hand.
-  bool turns() const;
-  /// What the mouse is at, of a drag what it holds; -1: none.
-  int joint() const { return joint_; }
-  int edge_point() const { return edge_; }
 
  private:
   void find(double x, double y);
@@ -32,7 +27,7 @@ class Picker {
   bool is_covered(int node, double by_mm) const;
   Eigen::Vector2d pixel_of(int node) const;
 
-  ViewerState& desk_;
+  ViewerState& viewer_;
   int joint_ = -1, edge_ = -1;
   bool holding_ = false, moved_ = false;
   Gesture gesture_ = Gesture::orbit;

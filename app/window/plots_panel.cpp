@@ -8,7 +8,7 @@
 #include "app/window/panel.h"
 #include "render/canvas/text.h"
 
-namespace gridshell::ui {
+namespace gridshell::window {
 namespace {
 
 /// Low and high with some room; never of no width.
@@ -74,7 +74,7 @@ class PlotBox {
   float height_of(const Span& y, float value) const {
     return to_.y - std::clamp(y.at(value), 0.f, 1.f) * (to_.y - from_.y);
   }
-  ImU32 pale() const { return muted_colour(panel_.viewer.show.dark); }
+  ImU32 pale() const { return text_colours(panel_.viewer.show.dark).muted; }
   static ImU32 ink() { return ImGui::GetColorU32(ImGuiCol_PlotLines); }
 
   void title(const char* text) {
@@ -150,13 +150,13 @@ constexpr double jump = 0.2;  // of the boundary's way, between two equilibria
 /// What the curves of height and energy run over: the depth of the last push, else the boundary's
 /// way, else, where it rests, one equilibrium after the other.
 struct Abscissa {
-  std::span<const window::PlotPoint> plot_points;
+  std::span<const PlotPoint> plot_points;
   const char* label;
-  double (*of)(const window::PlotPoint&);
+  double (*of)(const PlotPoint&);
 };
 
-Abscissa abscissa_of(const window::ViewerState& viewer) {
-  std::span<const window::PlotPoint> all = viewer.plot_points;
+Abscissa abscissa_of(const ViewerState& viewer) {
+  std::span<const PlotPoint> all = viewer.plot_points;
   const int joint = all.empty() ? -1 : all.back().joint;
   std::size_t since = all.size();
   while (since > 0 && all[since - 1].joint == joint) --since;
@@ -165,12 +165,12 @@ Abscissa abscissa_of(const window::ViewerState& viewer) {
   const bool moved = std::ranges::any_of(
       all, [&](const auto& r) { return std::abs(r.progress - all.front().progress) > 1e-9; });
   if (!moved) return {all, "equilibrium", nullptr};
-  if (std::isfinite(viewer.sight->frame.boundary_radius_mm))
+  if (std::isfinite(viewer.shell->frame.boundary_radius_mm))
     return {all, "R_a (mm)", [](const auto& r) { return r.radius_mm; }};
   return {all, "progress", [](const auto& r) { return r.progress; }};
 }
 
-std::vector<Curve> curves_of(const window::ViewerState& viewer) {
+std::vector<Curve> curves_of(const ViewerState& viewer) {
   const auto [plot_points, over, abscissa] = abscissa_of(viewer);
   const bool pushed = !plot_points.empty() && plot_points.back().joint >= 0;
   std::vector<Curve> curves{{"height (mm)", over, "", {}, {}},
@@ -178,7 +178,7 @@ std::vector<Curve> curves_of(const window::ViewerState& viewer) {
                             {"force along its way (N)", "depth (mm)", "no joint is held", {}, {}},
                             {"K□ in bins (rad)", "x/L", "no cells", {}, {}, true}};
   for (std::size_t k = 0; k < plot_points.size(); ++k) {
-    const window::PlotPoint& reading = plot_points[k];
+    const PlotPoint& reading = plot_points[k];
     const auto x = float(abscissa ? abscissa(reading) : double(k + 1));
     const double values[] = {reading.height_mm, reading.energy_mJ, reading.force_N};
     // the boundary was put elsewhere, not drawn there
@@ -190,8 +190,8 @@ std::vector<Curve> curves_of(const window::ViewerState& viewer) {
       curves[c].y.push_back(float(values[c]));
     }
   }
-  const auto& bins = viewer.sight->frame.K_bins;
-  for (Eigen::Index k = 0; viewer.sight->any() && k < bins.rows(); ++k) {
+  const auto& bins = viewer.shell->frame.K_bins;
+  for (Eigen::Index k = 0; viewer.shell->any() && k < bins.rows(); ++k) {
     if (!std::isfinite(bins(k, 0))) continue;
     curves[3].x.push_back(-1 + (2 * float(k) + 1) / float(bins.rows()));
     curves[3].y.push_back(float(bins(k, 0)));
@@ -266,16 +266,16 @@ void bar(const render::ColourScale& scale, ImVec2 low, ImVec2 high) {
 }  // namespace
 
 void colour_legend(const Panel& panel, const render::Box& view) {
-  const window::ViewerState& viewer = panel.viewer;
-  if (!viewer.sight->any() || viewer.show.colour_by == window::ColourBy::none) return;
+  const ViewerState& viewer = panel.viewer;
+  if (!viewer.shell->any() || viewer.show.colour_by == ColourBy::none) return;
   const float line = ImGui::GetTextLineHeight(), width = panel.px(14);
   // in a low view the bar leaves room for the notes below it
   const float height = std::min(panel.px(170), std::max(2 * line, float(view.height) - 8 * line));
   const float right = float(view.right()) - panel.px(14), top = float(view.y) + panel.px(14);
   Ground ground(panel, *ImGui::GetWindowDrawList(), {right, top});
-  ground.text(window::label_of(*viewer.sight, viewer.show.colour_by), right, top);
-  const window::Values values = window::values_of(*viewer.sight, viewer.show.colour_by);
-  if (!values.any()) return ground.text("not known for this shell", right, top + 1.3f * line);
+  ground.text(label_of(*viewer.shell, viewer.show.colour_by), right, top);
+  const Eigen::VectorXd values = values_of(*viewer.shell, viewer.show.colour_by);
+  if (values.size() == 0) return ground.text("not known for this shell", right, top + 1.3f * line);
   const render::ColourScale& scale = viewer.show.scale;
   const float low = top + 1.6f * line, left = right - width;
   bar(scale, {left, low}, {right, low + height});
@@ -287,15 +287,14 @@ void colour_legend(const Panel& panel, const render::Box& view) {
                 low + height * down - 0.5f * line);
   }
   // the end colours stand for all that lies beyond them
-  const Eigen::VectorXd& all = values.of_cells.size() > 0 ? values.of_cells : values.of_nodes;
   const double slack = 1e-9 * (scale.high - scale.low);
   float note = low + height + 0.8f * line;
-  if (all.maxCoeff() > scale.high + slack) {
-    ground.text(fmt::format("up to {:.3g}", all.maxCoeff()), right, note);
+  if (values.maxCoeff() > scale.high + slack) {
+    ground.text(fmt::format("up to {:.3g}", values.maxCoeff()), right, note);
     note += 1.2f * line;
   }
-  if (all.minCoeff() < scale.low - slack)
-    ground.text(fmt::format("down to {:.3g}", all.minCoeff()), right, note);
+  if (values.minCoeff() < scale.low - slack)
+    ground.text(fmt::format("down to {:.3g}", values.minCoeff()), right, note);
 }
 
-}  // namespace gridshell::ui
+}  // namespace gridshell::window

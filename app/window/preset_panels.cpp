@@ -8,7 +8,7 @@
 #include "engine/gridshell.h"
 #include "render/gl/image.h"
 
-namespace gridshell::ui {
+namespace gridshell::window {
 namespace {
 
 constexpr double card_points = 216;             // the least width of a card
@@ -25,7 +25,7 @@ std::string shortened(const std::string& title, float width) {
 
 }  // namespace
 
-void PresetPicker::load(const std::vector<window::PresetCard>& cards) {
+void PresetPicker::load(const std::vector<PresetCard>& cards) {
   for (std::size_t k = pictures_.size(); k < cards.size(); ++k) {
     auto& picture = pictures_.emplace_back();
     const auto image = render::decode_png(cards[k].picture, cards[k].name);
@@ -35,7 +35,7 @@ void PresetPicker::load(const std::vector<window::PresetCard>& cards) {
   }
 }
 
-void PresetPicker::card(const Panel& panel, const window::PresetCard& card, std::size_t number) {
+void PresetPicker::card(const Panel& panel, const PresetCard& card, std::size_t number) {
   const float gap = panel.px(4), line = ImGui::GetTextLineHeight();
   const ImVec2 at = ImGui::GetCursorPos();
   const float width = ImGui::GetContentRegionAvail().x, inside = width - 2 * gap,
@@ -56,7 +56,7 @@ void PresetPicker::card(const Panel& panel, const window::PresetCard& card, std:
 }
 
 void PresetPicker::draw(const Panel& panel, const render::Box& box) {
-  const std::vector<window::PresetCard>& cards = panel.viewer.library.cards;
+  const std::vector<PresetCard>& cards = panel.viewer.library.cards;
   load(cards);
   begin_fixed("presets", box, 0, Layer::over);
   ImGui::TextUnformatted("Pick a preset");
@@ -110,14 +110,11 @@ struct Control {
   }
   bool operator()(bool* value) const { return ImGui::Checkbox(id, value); }
   bool operator()(const preset::OneWord& word) const {
-    const int now = word.get(word.member);
-    bool changed = false;
-    if (!ImGui::BeginCombo(id, field.words[std::size_t(now)].c_str())) return false;
-    for (int k = 0; k < int(field.words.size()); ++k)
-      if (ImGui::Selectable(field.words[std::size_t(k)].c_str(), k == now) && k != now)
-        word.set(word.member, k), changed = true;
-    ImGui::EndCombo();
-    return changed;
+    const auto now = std::size_t(word.get(word.member));
+    const auto chosen = choose(id, field.words[now], field.words);
+    if (!chosen || *chosen == now) return false;
+    word.set(word.member, int(*chosen));
+    return true;
   }
   template <class Other>
   bool operator()(const Other&) const {
@@ -141,20 +138,18 @@ bool NumbersPanel::edit(const Panel& panel, const Field& field) {
   ImGui::SameLine(std::max(panel.px(150), label + panel.px(16)));
   ImGui::SetNextItemWidth(-1);
   const bool changed = std::visit(Control{field, id.c_str()}, field.in(edited_, -1));
-  panel.named(field.table + "." + field.key,
-              fmt::format("{}{}; {}", field.meaning, field.unit.empty() ? "" : ", in " + field.unit,
-                          allowed(field)));
+  panel.named(field.table + "." + field.key, help_of(field));
   if (ImGui::IsItemActive()) active_ = name;
   // a number is meant when its last digit stands
   const bool meant = is_typed_into() ? false : changed || (typed_ && ImGui::IsItemDeactivated());
   if (changed && is_typed_into()) typed_ = true;
   if (meant) {
     typed_ = false;
-    panel.viewer.change(edited_, ImGui::IsItemActive());
+    panel.viewer.post(Change{edited_}, ImGui::IsItemActive());
     find_idle();
   }
   if (ImGui::IsItemDeactivated()) {
-    if (active_ == name) panel.viewer.let_go();
+    if (active_ == name) panel.viewer.end_drag();
     active_.clear();
   }
   return meant;
@@ -171,10 +166,10 @@ void NumbersPanel::find_idle() {
       idle_.insert(field.table + "." + field.key);
 }
 
-/// While a hand is at a number, the engine's answer may be older than its command.
-void NumbersPanel::look(const window::ViewerState& viewer) {
-  if (!active_.empty() || seen_ == viewer.sight) return;
-  seen_ = viewer.sight;
+/// While a number is being changed, the engine's answer may be older than its command.
+void NumbersPanel::look(const ViewerState& viewer) {
+  if (!active_.empty() || seen_ == viewer.shell) return;
+  seen_ = viewer.shell;
   edited_ = seen_->preset;
   find_idle();
 }
@@ -182,7 +177,7 @@ void NumbersPanel::look(const window::ViewerState& viewer) {
 void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
   begin_fixed("numbers", box);
   heading(panel, "Numbers of the preset");
-  if (panel.viewer.sight->any()) {
+  if (panel.viewer.shell->any()) {
     look(panel.viewer);
     // an edit may take a number away or bring one
     const auto shown = [this](const Field& field, const char* table) {
@@ -204,16 +199,10 @@ void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
 
 namespace {
 
-using window::DesignPoint;
-using window::DesignProgress;
-using window::ViewerState;
-
 /// What a key of [inverse] means, with unit and range.
 std::string tip_of(const char* key) {
   for (const preset::Field& field : preset::field_table())
-    if (field.table == "inverse" && field.key == key)
-      return fmt::format("{}{}; {}", field.meaning, field.unit.empty() ? "" : ", in " + field.unit,
-                         allowed(field));
+    if (field.table == "inverse" && field.key == key) return help_of(field);
   return "";
 }
 
@@ -246,7 +235,7 @@ void what_varies(const Panel& panel) {
   ImGui::TextUnformatted("What may change");
   int column = 0;
   for (const Variable& one : variables) {
-    const char* not_here = why_not(viewer.sight->preset, one.kind);
+    const char* not_here = why_not(viewer.shell->preset, one.kind);
     const auto at = std::ranges::find(vary, one.kind);
     bool on = at != vary.end();
     if (column++ % 2 == 1) ImGui::SameLine(panel.px(138));
@@ -284,12 +273,7 @@ void number(const Panel& panel, const char* text, const char* key, double& value
 void choices(const Panel& panel) {
   preset::Inverse& inverse = panel.viewer.design.inverse;
   label(panel, "target");
-  if (ImGui::BeginCombo("##target", std::string(word_of(inverse.target)).c_str())) {
-    for (const auto& entry : words_of<preset::Target>())
-      if (ImGui::Selectable(std::string(entry.word).c_str(), entry.value == inverse.target))
-        inverse.target = entry.value;
-    ImGui::EndCombo();
-  }
+  choose_word("##target", inverse.target);
   panel.named("design_target", tip_of("target"));
   number(panel, "norm", "norm", inverse.norm, 0.1f, 2, 32, "p = %.3g");
   number(panel, "furthest move", "move_limit_mm", inverse.move_limit_mm, 0.05f, 0.01f, 100,
@@ -304,15 +288,15 @@ void choices(const Panel& panel) {
 }
 
 void buttons(const Panel& panel) {
-  const window::ShellView& sight = *panel.viewer.sight;
-  const bool under_way = sight.designing(), pending = sight.design && !sight.design->kept;
-  panel.button("design_start", "Start", !under_way && window::why_not_designed(sight).empty());
+  const ShellView& shell = *panel.viewer.shell;
+  const bool under_way = shell.designing(), pending = shell.design && !shell.design->kept;
+  panel.button("design_start", "Start", !under_way && why_not_designed(shell).empty());
   ImGui::SameLine();
   panel.button("design_stop", "Stop", under_way);
   ImGui::SameLine();
   panel.button("design_keep", "Keep this", pending);
   ImGui::SameLine();
-  panel.button("design_put_back", "Put back", sight.design != nullptr);
+  panel.button("design_put_back", "Put back", shell.design != nullptr);
 }
 
 void standing(const Panel& panel, const DesignProgress& course) {
@@ -353,12 +337,12 @@ void plot(const Panel& panel, const DesignProgress& course) {
 }  // namespace
 
 void design_panel(const Panel& panel, const render::Box& box) {
-  const window::ShellView& sight = *panel.viewer.sight;
+  const ShellView& shell = *panel.viewer.shell;
   begin_fixed("design", box);
   heading(panel, "Design: the shell meets its surface");
-  const std::string why = window::why_not_designed(sight);
-  if (sight.any() && sight.layout->net_nodes.cols() > 0) {
-    ImGui::BeginDisabled(sight.designing());
+  const std::string why = why_not_designed(shell);
+  if (shell.any() && shell.layout->net_nodes.cols() > 0) {
+    ImGui::BeginDisabled(shell.designing());
     what_varies(panel);
     choices(panel);
     ImGui::EndDisabled();
@@ -368,12 +352,12 @@ void design_panel(const Panel& panel, const render::Box& box) {
     ImGui::TextDisabled("%s", (why + ".").c_str());
     ImGui::PopTextWrapPos();
   }
-  if (why.empty() || sight.design) buttons(panel);
-  if (sight.design) {
-    standing(panel, *sight.design);
-    plot(panel, *sight.design);
+  if (why.empty() || shell.design) buttons(panel);
+  if (shell.design) {
+    standing(panel, *shell.design);
+    plot(panel, *shell.design);
   }
   ImGui::End();
 }
 
-}  // namespace gridshell::ui
+}  // namespace gridshell::window

@@ -13,25 +13,24 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int least_px = 16, most_px = 16384;
-constexpr double shift_seen_px = 2;  // of the view, that a hand gave it
+constexpr double shift_seen_px = 2;  // of the view, that the user gave it
 
 double rounded(double value, double step) { return step * std::round(value / step); }
 
 /// What of a shell its preset may not bring back; empty: nothing.
-std::string left_out(const ShellView& sight) {
+std::string left_out(const ShellView& shell) {
   std::string text;
-  if (sight.rods_changed_late)
+  if (shell.rods_changed_late)
     text += "; numbers that were changed on the way count from its begin";
-  if (!sight.accuracy_warning.empty())
-    text += "; its state is " + sight.accuracy_warning + ": 'run' may come to another";
+  if (!shell.accuracy_warning.empty())
+    text += "; its state is " + shell.accuracy_warning + ": 'run' may come to another";
   return text;
 }
 
 /// Whether meshes decided which state it came to.
-bool jumped(const ShellView& sight) {
-  const std::vector<preset::Step> steps = sight.steps.all();
-  return sight.snapped || std::ranges::any_of(steps, [](const preset::Step& step) {
-           return step.kind == preset::StepKind::jitter;
+bool jumped(const ShellView& shell) {
+  return shell.snapped || std::ranges::any_of(shell.steps, [](const auto& step) {
+           return step->kind == preset::StepKind::jitter;
          });
 }
 
@@ -46,7 +45,7 @@ Result<void> check_picture(int width, int height) {
 
 /// The first path in the folder, numbered, of which no file has one of the endings.
 fs::path ViewerState::path_to_save(const std::vector<std::string>& endings) const {
-  const std::string name = fs::path(sight->preset.name).filename().string();
+  const std::string name = fs::path(shell->preset.name).filename().string();
   for (int k = 1;; ++k) {
     const fs::path path = library.save_to / fmt::format("{}_{}", name, k);
     const bool taken = std::ranges::any_of(endings, [&](const std::string& ending) {
@@ -72,27 +71,25 @@ void ViewerState::put_view(preset::Preset& preset) const {
   const double shift_mm = shift_seen_px * mm_per_pixel(camera, view);
   if ((camera.target - fitted.target).norm() > shift_mm)
     for (const double value : camera.target) movie.target_mm.push_back(rounded(value, 0.1));
-  const auto by = find_word<preset::ColourBy>(word_of(show.colour_by));
-  if (by && (show.colour_by == ColourBy::none || values_of(*sight, show.colour_by).any()))
-    movie.colour_by = *by;
+  if (show.colour_by == ColourBy::none || values_of(*shell, show.colour_by).size() > 0)
+    movie.colour_by = show.colour_by;
   if (range_of == RangeOf::hand) preset.style.range = {show.scale.low, show.scale.high};
 }
 
 preset::Preset ViewerState::preset_to_save() const {
-  preset::Preset preset = sight->preset;
+  preset::Preset preset = shell->preset;
   put_view(preset);
   preset.indentation = {};
   // a boundary that was moved and nothing else is a preset of that radius
   const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
-  const std::vector<preset::Step> steps = sight->steps.all();
-  const bool moves = std::ranges::all_of(steps, [](const preset::Step& step) {
-    return step.kind == preset::StepKind::move && step.edge_points.empty();
+  const bool moves = std::ranges::all_of(shell->steps, [](const auto& step) {
+    return step->kind == preset::StepKind::move && step->edge_points.empty();
   });
-  if (jumped(*sight) && preset.accuracy.edges_per_segment == 0)
-    preset.accuracy.leading_edges = sight->leader;
-  if (circle && moves && !sight->snapped) return preset;
-  preset.step = steps;
-  if (circle) preset.actuation.radius_mm = sight->radius_end_mm;
+  if (jumped(*shell) && preset.accuracy.edges_per_segment == 0)
+    preset.accuracy.leading_edges = shell->leader;
+  if (circle && moves && !shell->snapped) return preset;
+  preset.step = steps_of(shell->steps);
+  if (circle) preset.actuation.radius_mm = shell->radius_end_mm;
   return preset;
 }
 
@@ -101,20 +98,20 @@ Result<void> ViewerState::write_preset(const preset::Preset& preset, const fs::p
 }
 
 void ViewerState::save_preset() {
-  if (!sight->any()) return say("there is no shell to save", true);
+  if (!shell->any()) return say("there is no shell to save", true);
   const fs::path file = path_to_save({".toml", "_ends.csv", "_rods.csv"}).string() + ".toml";
   if (auto written = write_preset(preset_to_save(), file); !written)
     return say(written.error().message, true);
-  say("saved " + file.string() + left_out(*sight), !left_out(*sight).empty());
+  say("saved " + file.string() + left_out(*shell), !left_out(*shell).empty());
 }
 
 void ViewerState::save_picture() {
-  if (!sight->any()) return say("there is no shell to draw", true);
+  if (!shell->any()) return say("there is no shell to draw", true);
   if (picture_task.under_way()) return say("one picture is being drawn already", true);
   if (auto made = make_folder(library.save_to); !made) return say(made.error().message, true);
   const fs::path file = path_to_save({".png"}).string() + ".png";
-  picture_task.begin([draw = library.draw_picture, order = picture_order(), file](
-                         const ProgressListener&, const Watch&) { return draw(order, file); },
+  picture_task.begin([draw = library.draw_picture, request = picture_request(), file](
+                         const ProgressListener&, const Watch&) { return draw(request, file); },
                      file);
   say("drawing " + file.string());
 }
@@ -126,23 +123,22 @@ void ViewerState::size_picture(int width, int height) {
 }
 
 void ViewerState::save_movie() {
-  if (!sight->any()) return say("there is no shell to make a movie of", true);
+  if (!shell->any()) return say("there is no shell to make a movie of", true);
   if (movie_task.under_way()) return say("one movie is being made; 'Stop the movie' ends it", true);
   const fs::path folder = path_to_save({".toml", "_ends.csv", "_rods.csv", ""}),
                  file = folder.string() + ".toml";
   preset::Preset preset = preset_to_save();
-  if (sight->steps.empty()) {
-    preset = sight->preset;
+  if (shell->steps.empty()) {
+    preset = shell->preset;
     put_view(preset);
   }
   if (auto written = write_preset(preset, file); !written)
     return say(written.error().message, true);
-  movie_task.begin(
-      [make = library.make_movie, file, folder](const ProgressListener& heard, const Watch& watch) {
-        return make(file, folder, heard, watch);
-      },
-      folder);
-  say("making a movie in " + folder.string() + left_out(*sight), !left_out(*sight).empty());
+  movie_task.begin([make = library.make_movie, file, folder](
+                       const ProgressListener& listener,
+                       const Watch& watch) { return make(file, folder, listener, watch); },
+                   folder);
+  say("making a movie in " + folder.string() + left_out(*shell), !left_out(*shell).empty());
 }
 
 void ViewerState::report_finished_tasks() {
@@ -159,8 +155,8 @@ void ViewerState::report_finished_tasks() {
 }
 
 void ViewerState::copy_camera() {
-  if (!sight->any()) return say("there is no shell to look at", true);
-  preset::Preset looked = sight->preset;
+  if (!shell->any()) return say("there is no shell to look at", true);
+  preset::Preset looked = shell->preset;
   put_view(looked);
   const preset::Movie& movie = looked.movie;
   copied = fmt::format("azimuth_deg = {:g}\nelevation_deg = {:g}\nturn_deg = 0\nzoom = {:g}\n",

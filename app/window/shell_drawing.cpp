@@ -4,42 +4,35 @@
 #include <cmath>
 
 #include "render/canvas/text.h"
-#include "render/movie/run_summary.h"
+#include "render/movie/colour_by.h"
 
 namespace gridshell::window {
 namespace {
 
 constexpr double paling = 0.2;  // of a map for rods, which are thin lines on white
 
-struct ColourWords {
-  ColourBy by;
+struct ColourText {
   const char* label;
   const char* meaning;
 };
-constexpr ColourWords colour_words[] = {
-    {ColourBy::none, "nothing", "rods and joints alone"},
-    {ColourBy::K, "K□ (rad)", "integrated Gauss curvature of each cell"},
-    {ColourBy::K_change, "ΔK□ (rad)", "its change since the shell was formed"},
-    {ColourBy::deviation, "Δ/ρ", "distance of a cell's joints from the net, over ρ"},
-    {ColourBy::energy, "bending (mJ/m)", "bending energy a length of rod"},
-    {ColourBy::axial_force, "axial force (N)", "of the rods; below 0 they are compressed"},
-    {ColourBy::displacement, "|u| (mm)", "how far each point moved since the shell was formed"},
+/// In the order of the enum.
+constexpr ColourText colour_texts[] = {
+    {"nothing", "rods and joints alone"},
+    {"K□ (rad)", "integrated Gauss curvature of each cell"},
+    {"|u| (mm)", "how far each point moved since the shell was formed"},
+    {"ΔK□ (rad)", "its change since the shell was formed"},
+    {"Δ/ρ", "distance of a cell's joints from the net, over ρ"},
+    {"bending (mJ/m)", "bending energy a length of rod"},
+    {"axial force (N)", "of the rods; below 0 they are compressed"},
 };
-
-static_assert(
-    [] {
-      for (std::size_t k = 0; k < std::size(colour_words); ++k)
-        if (colour_words[k].by != ColourBy(k)) return false;
-      return !is_enumerator<ColourBy(std::size(colour_words))>();
-    }(),
-    "every colour has its line in colour_words, in their order");
+static_assert(std::size(colour_texts) == words(ColourBy{}).size());
 
 /// Both meshes' nodes lie at other places, but the joints come first in each.
-Eigen::VectorXd displacement(const ShellView& sight) {
-  const Eigen::Matrix3Xd &now = sight.frame.nodes, &then = sight.first->nodes;
+Eigen::VectorXd displacement(const ShellView& shell) {
+  const Eigen::Matrix3Xd &now = shell.frame.nodes, &then = shell.first->nodes;
   if (now.cols() == then.cols()) return (now - then).colwise().norm().transpose();
   // by the joints, along the rods in between
-  const record::Layout& layout = *sight.layout;
+  const record::Layout& layout = *shell.layout;
   const auto joints = int(layout.joints.size());
   const auto known = [&](int node) { return node < joints + int(layout.edge_points.size()); };
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(now.cols());
@@ -60,51 +53,52 @@ Eigen::VectorXd displacement(const ShellView& sight) {
 
 }  // namespace
 
-const char* label_of(const ShellView& sight, ColourBy by) {
-  const bool surface = sight.design && sight.design->inverse.target == preset::Target::surface;
+const char* label_of(const ShellView& shell, ColourBy by) {
+  const bool surface = shell.design && shell.design->inverse.target == preset::Target::surface;
   if (by == ColourBy::deviation && surface) return "Δ/ρ from the surface";
-  return colour_words[std::size_t(by)].label;
+  return colour_texts[std::size_t(by)].label;
 }
-const char* meaning_of(ColourBy by) { return colour_words[std::size_t(by)].meaning; }
+const char* meaning_of(ColourBy by) { return colour_texts[std::size_t(by)].meaning; }
 
-Values values_of(const ShellView& sight, ColourBy by) {
-  if (!sight.any()) return {};
+Eigen::VectorXd values_of(const ShellView& shell, ColourBy by) {
+  if (!shell.any()) return {};
   switch (by) {
     case ColourBy::none:
       return {};
     case ColourBy::K:
-      return {sight.frame.cell_K, {}};
+      return shell.frame.cell_K;
     case ColourBy::K_change:
-      if (sight.first->cell_K.size() != sight.frame.cell_K.size()) return {};
-      return {sight.frame.cell_K - sight.first->cell_K, {}};
+      if (shell.first->cell_K.size() != shell.frame.cell_K.size()) return {};
+      return shell.frame.cell_K - shell.first->cell_K;
     case ColourBy::deviation:
-      return {sight.deviation, {}};
+      return shell.deviation;
     case ColourBy::energy:
-      return {{}, sight.bending_mJ_m};
+      return shell.bending_mJ_m;
     case ColourBy::axial_force:
-      return {{}, sight.axial_N};
+      return shell.axial_N;
     case ColourBy::displacement:
-      return {{}, displacement(sight)};
+      return displacement(shell);
   }
   return {};
 }
 
-render::ColourScale scale_of(const Values& values, ColourBy by) {
-  const Eigen::VectorXd& all = values.of_cells.size() > 0 ? values.of_cells : values.of_nodes;
+render::ColourScale scale_of(const ShellView& shell, ColourBy by) {
+  const Eigen::VectorXd all = values_of(shell, by);
+  const double start = render::of_cells(by) ? 0 : paling;
   render::ColourScale scale =
       render::symmetric_scale(std::vector<double>(all.begin(), all.end()), 0.9);
   if (by == ColourBy::K || by == ColourBy::K_change || by == ColourBy::axial_force) {
     // round-off has no colour
     const double least = by == ColourBy::axial_force ? 1e-6 : 0.02;
     if (scale.high < least) scale.low = -least, scale.high = least;
-    if (values.of_nodes.size() > 0) scale.start = paling;
+    scale.start = start;
     return scale;
   }
   const bool any = all.size() > 0 && all.maxCoeff() > 1e-9;
   // of these the farthest is what is asked for
   const bool whole = by == ColourBy::displacement || by == ColourBy::deviation;
   const double end = !any ? 1 : whole ? render::nice_ceiling(all.maxCoeff()) : scale.high;
-  return {render::ColourMap::sequential, 0, end, values.of_nodes.size() > 0 ? paling : 0};
+  return {render::ColourMap::sequential, 0, end, start};
 }
 
 render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,
@@ -129,21 +123,30 @@ namespace {
 
 using render::Colour;
 
-constexpr Colour light_paper{1, 1, 1, 1}, light_ground{0.93f, 0.93f, 0.94f, 1},
-    light_rod{0.16f, 0.17f, 0.20f, 1}, light_ring{0.3f, 0.33f, 0.38f, 1};
-constexpr Colour dark_paper{0.105f, 0.11f, 0.125f, 1}, dark_ground{0.16f, 0.165f, 0.185f, 1},
-    dark_rod{0.80f, 0.82f, 0.86f, 1}, dark_ring{0.55f, 0.58f, 0.64f, 1};
-constexpr Colour joint_red{0.75f, 0.12f, 0.10f, 1}, joint_light{0.92f, 0.36f, 0.30f, 1},
-    ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1},
-    arrow_ink{0.05f, 0.05f, 0.06f, 1}, arrow_light{0.95f, 0.95f, 0.95f, 1};
+/// What is drawn on light paper, and on dark.
+struct Palette {
+  Colour paper, ground, rod, ring, joint, arrow;
+};
+constexpr Palette light{{1, 1, 1, 1},
+                        {0.93f, 0.93f, 0.94f, 1},
+                        {0.16f, 0.17f, 0.20f, 1},
+                        {0.3f, 0.33f, 0.38f, 1},
+                        {0.75f, 0.12f, 0.10f, 1},
+                        {0.05f, 0.05f, 0.06f, 1}};
+constexpr Palette dark{{0.105f, 0.11f, 0.125f, 1}, {0.16f, 0.165f, 0.185f, 1},
+                       {0.80f, 0.82f, 0.86f, 1},   {0.55f, 0.58f, 0.64f, 1},
+                       {0.92f, 0.36f, 0.30f, 1},   {0.95f, 0.95f, 0.95f, 1}};
+constexpr Colour ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1};
 
-void put_colours(const ShellView& sight, const Show& show, render::Drawing& drawing) {
-  const Values values = values_of(sight, show.colour_by);
-  for (double value : values.of_cells) {
-    drawing.cell_colours.push_back(show.scale(value));
-    drawing.cell_colours.back().a = 0.93f;
+const Palette& palette_of(const Show& show) { return show.dark ? dark : light; }
+
+void put_colours(const ShellView& shell, const Show& show, render::Drawing& drawing) {
+  const bool cells = render::of_cells(show.colour_by);
+  for (const double value : values_of(shell, show.colour_by)) {
+    auto& colours = cells ? drawing.cell_colours : drawing.node_colours;
+    colours.push_back(show.scale(value));
+    if (cells) colours.back().a = 0.93f;
   }
-  for (double value : values.of_nodes) drawing.node_colours.push_back(show.scale(value));
   if (drawing.node_colours.empty()) return;
   // colours need some width to be seen, and no shine
   drawing.rod_diameter_mm *= 1.8;
@@ -151,49 +154,46 @@ void put_colours(const ShellView& sight, const Show& show, render::Drawing& draw
 }
 
 /// The forces that hold joints, as arrows: the largest a sixth of the shell.
-void put_forces(const ShellView& sight, const Show& show, double thin_mm,
+void put_forces(const ShellView& shell, const Show& show, double thin_mm,
                 render::Drawing& drawing) {
   double most = 0;
-  for (const HeldJoint& held : sight.held) most = std::max(most, held.force_N.norm());
-  for (const HeldJoint& held : sight.held) {
-    const Eigen::Vector3d at = place_of(sight, show, held.joint);
+  for (const HeldJoint& held : shell.held) most = std::max(most, held.force_N.norm());
+  for (const HeldJoint& held : shell.held) {
+    const Eigen::Vector3d at = place_of(shell, show, held.joint);
     drawing.marks.push_back({at, std::max(5.0, 6 * thin_mm), held_yellow});
-    const double length = 0.35 * sight.layout->length_scale_mm * held.force_N.norm() / most;
+    const double length = 0.35 * shell.layout->length_scale_mm * held.force_N.norm() / most;
     if (!(length > 3 * thin_mm)) continue;
     const Eigen::Vector3d way = length * held.force_N.normalized();
-    drawing.arrows.push_back(
-        {at - way, at, std::max(1.4, 1.6 * thin_mm), show.dark ? arrow_light : arrow_ink});
+    drawing.arrows.push_back({at - way, at, std::max(1.4, 1.6 * thin_mm), palette_of(show).arrow});
   }
 }
 
-double lowest(const Eigen::Matrix3Xd& nodes) { return nodes.row(2).minCoeff(); }
-
 }  // namespace
 
-Eigen::Vector3d place_of(const ShellView& sight, const Show& show, int node) {
-  Eigen::Vector3d place = sight.frame.nodes.col(node);
-  if (show.mode_mm != 0 && node < sight.soft_mode.cols())
-    place += show.mode_mm * sight.soft_mode.col(node);
+Eigen::Vector3d place_of(const ShellView& shell, const Show& show, int node) {
+  Eigen::Vector3d place = shell.frame.nodes.col(node);
+  if (show.mode_mm != 0 && node < shell.soft_mode.cols())
+    place += show.mode_mm * shell.soft_mode.col(node);
   return place;
 }
 
-render::Drawing drawing_of(const ShellView& sight, const Show& show, double thin_mm) {
-  const record::Layout& layout = *sight.layout;
+render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin_mm) {
+  const record::Layout& layout = *shell.layout;
+  const Palette& palette = palette_of(show);
   render::Drawing drawing;
   drawing.layout = &layout;
-  drawing.nodes = sight.frame.nodes;
-  if (show.mode_mm != 0 && sight.soft_mode.cols() == drawing.nodes.cols())
-    drawing.nodes += show.mode_mm * sight.soft_mode;
-  drawing.rod_colour = show.dark ? dark_rod : light_rod;
+  drawing.nodes = shell.frame.nodes;
+  if (show.mode_mm != 0 && shell.soft_mode.cols() == drawing.nodes.cols())
+    drawing.nodes += show.mode_mm * shell.soft_mode;
+  drawing.rod_colour = palette.rod;
   drawing.rod_diameter_mm = std::max(layout.rod_diameter_mm, thin_mm);
-  drawing.joint_colour = show.dark ? joint_light : joint_red;
+  drawing.joint_colour = palette.joint;
   drawing.joint_diameter_mm = show.joints ? std::max(3.0, 1.5 * drawing.rod_diameter_mm) : 0;
-  put_colours(sight, show, drawing);
+  put_colours(shell, show, drawing);
   if (show.rings) {
-    const Colour ink = show.dark ? dark_ring : light_ring;
     drawing.rings.push_back({layout.original_boundary, std::max(0.6, thin_mm), ghost_grey, false});
-    drawing.rings.push_back(
-        {render::boundary_at(layout, sight.frame.actuation), std::max(1.4, 1.6 * thin_mm), ink});
+    drawing.rings.push_back({render::boundary_at(layout, shell.frame.actuation),
+                             std::max(1.4, 1.6 * thin_mm), palette.ring});
   }
   const auto ghosts = [&](const Eigen::Matrix3Xd& nodes) {
     if (nodes.cols() == drawing.nodes.cols())
@@ -201,12 +201,13 @@ render::Drawing drawing_of(const ShellView& sight, const Show& show, double thin
   };
   if (show.net) ghosts(layout.net_nodes);
   if (show.footprint) ghosts(layout.flat_nodes);
-  put_forces(sight, show, thin_mm, drawing);
-  drawing.ground_z_mm = std::min(0.0, lowest(drawing.nodes)) - 2.5;
-  if (sight.layout->net_nodes.cols() > 0) drawing.ground_z_mm = lowest(drawing.nodes) - 2.5;
+  put_forces(shell, show, thin_mm, drawing);
+  // what starts flat stands on its boundary's plane
+  const double lowest_mm = drawing.nodes.row(2).minCoeff();
+  drawing.ground_z_mm = (layout.net_nodes.cols() > 0 ? lowest_mm : std::min(0.0, lowest_mm)) - 2.5;
   drawing.ground = show.ground;
-  drawing.ground_colour = show.dark ? dark_ground : light_ground;
-  drawing.background = show.dark ? dark_paper : light_paper;
+  drawing.ground_colour = palette.ground;
+  drawing.background = palette.paper;
   drawing.far_fade = 0.25;
   return drawing;
 }

@@ -1,4 +1,4 @@
-// By what the shell is coloured, and the colours of a sight with the bar that explains them.
+// By what the shell is coloured, and the colours of a shell with the bar that explains them.
 #pragma once
 
 #include <optional>
@@ -7,32 +7,28 @@
 #include "app/window/orbit_camera.h"
 #include "app/window/shell_view.h"
 #include "engine/core/enum_words.h"
+#include "engine/gridshell.h"
 #include "render/canvas/legend.h"
 #include "render/gl/renderer.h"
 
 namespace gridshell::window {
 
-enum class ColourBy { none, K, K_change, deviation, energy, axial_force, displacement };
+using preset::ColourBy;
 
 /// What the colours' range is of: the state in sight, all since it was chosen, or as it was set by
 /// hand.
 enum class RangeOf { state, run, hand };
 
-/// As the interface names it of a sight, with its unit: "bending energy (mJ/m)".
-const char* label_of(const ShellView& sight, ColourBy by);
+/// As the interface names it of a shell, with its unit: "bending energy (mJ/m)".
+const char* label_of(const ShellView& shell, ColourBy by);
 /// What it is, in a sentence.
 const char* meaning_of(ColourBy by);
 
-/// The values that are coloured: of the cells or of the nodes; none where the shell has none.
-struct Values {
-  Eigen::VectorXd of_cells, of_nodes;
+/// The values that are coloured, of the cells or of the nodes; empty where the shell has none.
+Eigen::VectorXd values_of(const ShellView& shell, ColourBy by);
 
-  bool any() const { return of_cells.size() + of_nodes.size() > 0; }
-};
-Values values_of(const ShellView& sight, ColourBy by);
-
-/// The scale of a sight's values, with nice ends.
-render::ColourScale scale_of(const Values& values, ColourBy by);
+/// The scale of these values, with nice ends.
+render::ColourScale scale_of(const ShellView& shell, ColourBy by);
 
 /// The one that goes on from `before` as the range wants it.
 render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,
@@ -49,10 +45,10 @@ struct Show {
   bool operator==(const Show&) const = default;
 };
 
-/// Of a sight that has a shell; `thin_mm`: what is as wide as a pixel and a half.
-render::Drawing drawing_of(const ShellView& sight, const Show& show, double thin_mm);
+/// Of a shell that has a shell; `thin_mm`: what is as wide as a pixel and a half.
+render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin_mm);
 
 /// Where a node is drawn.
-Eigen::Vector3d place_of(const ShellView& sight, const Show& show, int node);
+Eigen::Vector3d place_of(const ShellView& shell, const Show& show, int node);
 
 }  // namespace gridshell::window

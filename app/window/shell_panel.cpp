@@ -1,4 +1,4 @@
-// What is done to the shell: path, boundary, hand, rest, accuracy, colours; what was picked.
+// What is done to the shell: path, boundary, joints held, rest, accuracy, colours; what was picked.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,13 +8,10 @@
 #include "app/window/shell_drawing.h"
 #include "engine/gridshell.h"
 
-namespace gridshell::ui {
+namespace gridshell::window {
 namespace {
 
-using window::ShellView;
-using window::ViewerState;
-
-/// A slider over the panel's width; true while the hand changes its value, and once what was typed
+/// A slider over the panel's width; true while the mouse changes its value, and once what was typed
 /// is done.
 bool slider(const Panel& panel, const char* name, float& value, float low, float high,
             const char* format, const std::string& tip) {
@@ -40,22 +37,21 @@ bool slider(const Panel& panel, const char* name, float& value, float low, float
 double four_digits(float value) { return std::round(1e4 * double(value)) / 1e4; }
 
 void speed(const Panel& panel, float gap) {
+  constexpr int seconds[] = {2, 4, 8, 16, 32};
   double& now = panel.viewer.play_speed;
-  const auto text = [](double speed) { return fmt::format("{:g} s", 1 / speed); };
+  std::vector<std::string> texts;
+  for (const int one : seconds) texts.push_back(fmt::format("{} s", one));
   ImGui::SameLine(0, gap);
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##speed", text(now).c_str())) {
-    for (const double seconds : {2, 4, 8, 16, 32})
-      if (ImGui::Selectable(text(1 / seconds).c_str(), now == 1 / seconds)) now = 1 / seconds;
-    ImGui::EndCombo();
-  }
+  if (const auto k = choose("##speed", fmt::format("{:g} s", 1 / now), texts))
+    now = 1.0 / seconds[*k];
   panel.named("speed", "how long the whole path plays");
 }
 
 void path(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
   heading(panel, "Path");
-  const bool push = viewer.sight->push.joint >= 0;
+  const bool push = viewer.shell->push.joint >= 0;
   const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
   panel.button("play", viewer.playing ? "Stop##play" : "Play##play", true);
   for (const char* action : {"step_back", "step_on"}) {
@@ -67,22 +63,22 @@ void path(const Panel& panel) {
   if (slider(panel, "path", part, 0, std::max(1.f, part), push ? "push %.3f" : "progress %.3f",
              push ? "share of the preset's depth" : "share of the boundary's way"))
     viewer.playing = false, viewer.go(part, true);
-  if (ImGui::IsItemDeactivated()) viewer.let_go();
+  if (ImGui::IsItemDeactivated()) viewer.end_drag();
 }
 
 void boundary(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
-  const ShellView& sight = *viewer.sight;
-  if (sight.preset.footprint.kind != preset::FootprintKind::circle) return;
-  const double from = sight.preset.original_radius_mm();
-  const double now = sight.frame.boundary_radius_mm;
-  const double way = sight.progress > 0 ? (now - from) / sight.progress : -1;
+  const ShellView& shell = *viewer.shell;
+  if (shell.preset.footprint.kind != preset::FootprintKind::circle) return;
+  const double from = shell.preset.original_radius_mm();
+  const double now = shell.frame.boundary_radius_mm;
+  const double way = shell.progress > 0 ? (now - from) / shell.progress : -1;
   ImGui::TextUnformatted("Boundary's radius");
   float radius = float(now);
-  if (slider(panel, "R_a", radius, float(0.6 * from), float(from + sight.least_progress * way),
+  if (slider(panel, "R_a", radius, float(0.6 * from), float(from + shell.least_progress * way),
              "R_a = %.2f mm", "radius of the actuated boundary, mm; Ctrl+click to type"))
-    viewer.playing = false, viewer.move((four_digits(radius) - from) / way, true);
-  if (ImGui::IsItemDeactivated()) viewer.let_go();
+    viewer.playing = false, viewer.post(Move{(four_digits(radius) - from) / way}, true);
+  if (ImGui::IsItemDeactivated()) viewer.end_drag();
 }
 
 /// At the right end of a line, the small button that takes back what the line tells.
@@ -97,36 +93,36 @@ bool small_button(const Panel& panel, const char* label, const std::string& name
 /// The first of the edge points off the boundary, and how many more.
 void dragged_edges(const Panel& panel) {
   constexpr std::size_t most = 3;
-  const auto& dragged = panel.viewer.sight->edges_dragged;
+  const auto& dragged = panel.viewer.shell->edges_dragged;
   for (std::size_t k = 0; k < std::min(most, dragged.size()); ++k) {
     const auto [edge_point, off_mm] = dragged[k];
     ImGui::Text("edge point %d  %.2f mm off", edge_point, off_mm);
     if (small_button(panel, "put back", fmt::format("put back {}", edge_point),
                      "takes this edge point back onto the boundary", 64))
-      panel.viewer.send_command(window::ResetEdgePoint{edge_point});
+      panel.viewer.send_command(ResetEdgePoint{edge_point});
   }
   if (dragged.size() < 2) return;
   ImGui::Text("%d edge points off in all", int(dragged.size()));
   if (small_button(panel, "put back", "put back all",
                    "takes every edge point back onto the boundary", 64))
-    panel.viewer.send_command(window::ResetEdgePoint{});
+    panel.viewer.send_command(ResetEdgePoint{});
 }
 
 void held(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
-  const ShellView& sight = *viewer.sight;
+  const ShellView& shell = *viewer.shell;
   heading(panel, "Hand");
   panel.tick("push_freely");
-  for (const window::HeldJoint& one : sight.held) {
-    const record::Joint& joint = sight.layout->joints[std::size_t(one.joint)];
+  for (const HeldJoint& one : shell.held) {
+    const record::Joint& joint = shell.layout->joints[std::size_t(one.joint)];
     ImGui::Text("(%d, %d)  %.4f N  %.2f mm", joint.i, joint.j, one.force_N.norm(),
                 one.moved_mm.norm());
     if (small_button(panel, "let go", fmt::format("let go {},{}", joint.i, joint.j),
                      "takes the force off this joint", 52))
-      viewer.send_command(window::Release{one.joint});
+      viewer.send_command(Release{one.joint});
   }
   dragged_edges(panel);
-  if (sight.held.empty() && sight.edges_dragged.empty())
+  if (shell.held.empty() && shell.edges_dragged.empty())
     ImGui::TextDisabled("drag a joint or an edge point");
   panel.tick("gravity");
   ImGui::SameLine();
@@ -135,14 +131,12 @@ void held(const Panel& panel) {
 
 void stability(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
-  if (viewer.sight->stable()) return;
+  if (viewer.shell->stable()) return;
   heading(panel, "Not stable");
-  ImGui::PushStyleColor(ImGuiCol_Text, error_colour(viewer.show.dark));
-  ImGui::PushTextWrapPos();
-  ImGui::Text("%d negative pivot%s: the shell would leave this state.",
-              viewer.sight->certificate.negative_pivots,
-              viewer.sight->certificate.negative_pivots == 1 ? "" : "s");
-  ImGui::PopTextWrapPos();
+  ImGui::PushStyleColor(ImGuiCol_Text, text_colours(viewer.show.dark).error);
+  ImGui::TextWrapped("%d negative pivot%s: the shell would leave this state.",
+                     viewer.shell->certificate.negative_pivots,
+                     viewer.shell->certificate.negative_pivots == 1 ? "" : "s");
   ImGui::PopStyleColor();
   panel.button("rest_along");
   ImGui::SameLine();
@@ -153,49 +147,52 @@ void stability(const Panel& panel) {
 void accuracy(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
   heading(panel, "Accuracy");
-  preset::Preset changed = viewer.sight->preset;
-  constexpr double steps[] = {1e-2, 1e-3, 1e-4, 1e-5};
+  preset::Preset changed = viewer.shell->preset;
+  constexpr double tolerances[] = {1e-2, 1e-3, 1e-4, 1e-5};
   const auto text = [](double tolerance) { return fmt::format("tolerance {:g}", tolerance); };
+  std::vector<std::string> texts;
+  for (const double one : tolerances) texts.push_back(text(one));
   ImGui::SetNextItemWidth(panel.px(150));
-  if (ImGui::BeginCombo("##tolerance", text(changed.accuracy.tolerance).c_str())) {
-    for (double step : steps)
-      if (ImGui::Selectable(text(step).c_str(), step == changed.accuracy.tolerance)) {
-        changed.accuracy.tolerance = step;
-        changed.accuracy.edges_per_segment = 0;
-        viewer.change(changed, false);
-      }
-    ImGui::EndCombo();
+  if (const auto k = choose("##tolerance", text(changed.accuracy.tolerance), texts)) {
+    changed.accuracy.tolerance = tolerances[*k];
+    changed.accuracy.edges_per_segment = 0;
+    viewer.post(Change{changed}, false);
   }
   panel.named("tolerance", "largest error of a joint, over R_o or ρ, when the hand rests");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  const std::string rung{word_of(changed.accuracy.model)};
-  if (ImGui::BeginCombo("##model", rung.c_str())) {
-    for (auto model : {RodModel::automatic, RodModel::bend, RodModel::twist})
-      if (ImGui::Selectable(std::string(word_of(model)).c_str(), model == changed.accuracy.model)) {
-        changed.accuracy.model = model;
-        viewer.change(changed, false);
-      }
-    ImGui::EndCombo();
+  // the net alone is geometry, which no command moves
+  constexpr RodModel models[] = {RodModel::automatic, RodModel::bend, RodModel::twist};
+  texts.clear();
+  for (const RodModel model : models) texts.emplace_back(word_of(model));
+  if (const auto k = choose("##model", std::string(word_of(changed.accuracy.model)), texts)) {
+    changed.accuracy.model = models[*k];
+    viewer.post(Change{changed}, false);
   }
   panel.named("model", "the model: auto takes the lowest rung that is exact for the scene");
 }
 
+/// A list of the actions whose names begin so, one of which is on; its help.
+const char* choose_action(const Panel& panel, const char* id, const std::string& begin) {
+  std::vector<const Action*> all;
+  std::vector<std::string> labels;
+  const Action* now = nullptr;
+  for (const Action& action : actions()) {
+    if (!std::string(action.name).starts_with(begin)) continue;
+    all.push_back(&action);
+    labels.emplace_back(action.label);
+    if (action.on(panel.viewer)) now = &action;
+  }
+  ImGui::SetNextItemWidth(-1);
+  if (const auto k = choose(id, now->label, labels)) (now = all[*k])->act(panel.viewer);
+  return now->help;
+}
+
 void colour_range(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
-  if (viewer.show.colour_by == window::ColourBy::none) return;
-  const auto action_of = [](window::RangeOf of) {
-    return window::find_action("range_" + std::string(word_of(of)));
-  };
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##range", action_of(viewer.range_of)->label)) {
-    for (const auto& entry : words_of<window::RangeOf>())
-      if (ImGui::Selectable(action_of(entry.value)->label, entry.value == viewer.range_of))
-        action_of(entry.value)->act(viewer);
-    ImGui::EndCombo();
-  }
-  panel.named("range", action_of(viewer.range_of)->help);
-  if (viewer.range_of != window::RangeOf::hand) return;
+  if (viewer.show.colour_by == ColourBy::none) return;
+  panel.named("range", choose_action(panel, "##range", "range_"));
+  if (viewer.range_of != RangeOf::hand) return;
   auto low = float(viewer.show.scale.low), high = float(viewer.show.scale.high);
   const float step = 0.005f * std::max(1e-6f, high - low);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - panel.px(6));
@@ -212,17 +209,8 @@ void colour_range(const Panel& panel) {
 void colours(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
   heading(panel, "Colour");
-  const auto action_of = [](window::ColourBy by) {
-    return window::find_action("colour_" + std::string(word_of(by)));
-  };
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##colour", action_of(viewer.show.colour_by)->label)) {
-    for (const auto& entry : words_of<window::ColourBy>())
-      if (ImGui::Selectable(action_of(entry.value)->label, entry.value == viewer.show.colour_by))
-        action_of(entry.value)->act(viewer);
-    ImGui::EndCombo();
-  }
-  panel.named("colour", window::meaning_of(viewer.show.colour_by));
+  choose_action(panel, "##colour", "colour_");
+  panel.named("colour", meaning_of(viewer.show.colour_by));
   colour_range(panel);
 }
 
@@ -238,7 +226,7 @@ std::string text_of(const SizeChoice& size) {
 
 void keep(const Panel& panel) {
   ViewerState& viewer = panel.viewer;
-  window::PictureFormat& picture = viewer.picture;
+  PictureFormat& picture = viewer.picture;
   heading(panel, "Keep");
   panel.button("save_picture");
   ImGui::SameLine();
@@ -257,12 +245,7 @@ void keep(const Panel& panel) {
   panel.named("picture_size", "size of a kept picture, pixels");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##quality", std::string(word_of(picture.quality)).c_str())) {
-    for (const auto& entry : words_of<render::Quality>())
-      if (ImGui::Selectable(std::string(entry.word).c_str(), entry.value == picture.quality))
-        picture.quality = entry.value;
-    ImGui::EndCombo();
-  }
+  choose_word("##quality", picture.quality);
   panel.named("picture_quality",
               "of a kept picture: draft has no shadow, figure has soft light and takes seconds");
 }
@@ -280,44 +263,44 @@ std::string rod_name(const record::Layout& layout, int rod) {
   return fmt::format("Rod {}", rod);
 }
 
-void picked_rod(const Panel& panel, const window::PointOnRod& at) {
-  const ShellView& sight = *panel.viewer.sight;
-  const record::Layout& layout = *sight.layout;
+void picked_rod(const Panel& panel, const PointOnRod& at) {
+  const ShellView& shell = *panel.viewer.shell;
+  const record::Layout& layout = *shell.layout;
   const std::vector<int>& nodes = layout.rods[std::size_t(at.rod)];
   const std::size_t k = std::min(std::size_t(at.point), nodes.size() - 1);
   double along = 0, length = 0;
   for (std::size_t n = 1; n < nodes.size(); ++n) {
-    length += (sight.frame.nodes.col(nodes[n]) - sight.frame.nodes.col(nodes[n - 1])).norm();
+    length += (shell.frame.nodes.col(nodes[n]) - shell.frame.nodes.col(nodes[n - 1])).norm();
     if (n == k) along = length;
   }
   heading(panel, rod_name(layout, at.rod).c_str());
   ImGui::Text("%.1f of %.1f mm along it", along, length);
-  const auto force = record::axial_force_N(layout, sight.frame, std::size_t(at.rod));
+  const auto force = record::axial_force_N(layout, shell.frame, std::size_t(at.rod));
   ImGui::Text("axial force %.3g N", force[k]);
-  const double curvature = record::curvature_per_mm(layout, sight.frame, std::size_t(at.rod))[k];
+  const double curvature = record::curvature_per_mm(layout, shell.frame, std::size_t(at.rod))[k];
   ImGui::Text("curvature %.4f 1/mm", curvature);
-  ImGui::Text("bending %.3g mJ/m", sight.bending_mJ_m[nodes[k]]);
+  ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[nodes[k]]);
 }
 
 void picked(const Panel& panel) {
   const ViewerState& viewer = panel.viewer;
-  const ShellView& sight = *viewer.sight;
-  const record::Layout& layout = *sight.layout;
+  const ShellView& shell = *viewer.shell;
+  const record::Layout& layout = *shell.layout;
   if (viewer.picked_joint >= 0 && viewer.picked_joint < int(layout.joints.size())) {
     const record::Joint& joint = layout.joints[std::size_t(viewer.picked_joint)];
-    const Eigen::Vector3d at = sight.frame.nodes.col(viewer.picked_joint);
+    const Eigen::Vector3d at = shell.frame.nodes.col(viewer.picked_joint);
     heading(panel, fmt::format("Joint ({}, {})", joint.i, joint.j).c_str());
     ImGui::Text("x %.2f  y %.2f  z %.2f mm", at.x(), at.y(), at.z());
-    ImGui::Text("axial force %.3g N", sight.axial_N[viewer.picked_joint]);
-    ImGui::Text("bending %.3g mJ/m", sight.bending_mJ_m[viewer.picked_joint]);
+    ImGui::Text("axial force %.3g N", shell.axial_N[viewer.picked_joint]);
+    ImGui::Text("bending %.3g mJ/m", shell.bending_mJ_m[viewer.picked_joint]);
   }
   if (viewer.picked_rod.rod >= 0 && viewer.picked_rod.rod < int(layout.rods.size()))
     picked_rod(panel, viewer.picked_rod);
   if (viewer.picked_cell >= 0 && viewer.picked_cell < int(layout.cells.size())) {
     const record::Cell& cell = layout.cells[std::size_t(viewer.picked_cell)];
     heading(panel, fmt::format("Cell ({}, {})", cell.i, cell.j).c_str());
-    ImGui::Text("K□ = %.4f rad", sight.frame.cell_K[viewer.picked_cell]);
-    if (sight.deviation.size() > 0) ImGui::Text("Δ/ρ = %.4f", sight.deviation[viewer.picked_cell]);
+    ImGui::Text("K□ = %.4f rad", shell.frame.cell_K[viewer.picked_cell]);
+    if (shell.deviation.size() > 0) ImGui::Text("Δ/ρ = %.4f", shell.deviation[viewer.picked_cell]);
   }
 }
 
@@ -326,10 +309,8 @@ void picked(const Panel& panel) {
 void shell_panel(const Panel& panel, const render::Box& box) {
   ViewerState& viewer = panel.viewer;
   begin_fixed("shell", box);
-  ImGui::PushTextWrapPos();
-  ImGui::TextUnformatted(viewer.sight->any() ? viewer.sight->preset.title.c_str()
-                                             : "No shell yet: pick a preset.");
-  ImGui::PopTextWrapPos();
+  ImGui::TextWrapped("%s", viewer.shell->any() ? viewer.shell->preset.title.c_str()
+                                               : "No shell yet: pick a preset.");
   // all four in one row
   const float gap = 0.5f * ImGui::GetStyle().ItemSpacing.x;
   panel.button("pick_preset");
@@ -337,7 +318,7 @@ void shell_panel(const Panel& panel, const render::Box& box) {
     ImGui::SameLine(0, gap);
     panel.button(action);
   }
-  if (viewer.sight->any()) {
+  if (viewer.shell->any()) {
     path(panel);
     boundary(panel);
     held(panel);
@@ -350,4 +331,4 @@ void shell_panel(const Panel& panel, const render::Box& box) {
   ImGui::End();
 }
 
-}  // namespace gridshell::ui
+}  // namespace gridshell::window

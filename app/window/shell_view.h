@@ -1,4 +1,4 @@
-// What the engine's thread shows of the shell in hand: a copy that the window draws from.
+// What the engine's thread shows of the edited shell: a copy that the window draws from.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 
 namespace gridshell::window {
 
-/// A joint that a hand holds.
+/// A joint that is held.
 struct HeldJoint {
   int joint = 0;
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();   ///< that holds it
@@ -21,7 +21,7 @@ struct HeldJoint {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();     ///< unit; zero: held in every direction
 };
 
-/// An edge point that a hand dragged off the boundary's motion.
+/// An edge point that was dragged off the boundary's motion.
 struct DraggedEdge {
   int edge_point = 0;
   double off_mm = 0;
@@ -52,37 +52,41 @@ struct DesignProgress {
   std::optional<double> rounded_max_mm;  ///< once it has ended, where the rounded shell holds
 };
 
+/// What commands change of a shell, beside the state of its rods.
+struct ViewedState {
+  preset::Preset preset;  ///< in a view with the boundary's radius as it stands
+  PresetPush push;
+  std::shared_ptr<const record::Frame> first;  ///< where the shell began; null before
+  StepHistory steps;                           ///< that the user did since it was formed
+  bool refined = false;            ///< to the preset's tolerance; else coarse, as in a drag
+  bool rods_changed_late = false;  ///< keys of its rods were changed after steps
+  bool snapped = false;            ///< it came to rest elsewhere on its way
+  std::shared_ptr<const DesignProgress> design;  ///< that the shell is of; null: none
+};
+
 /// One equilibrium of one shell, or none yet (no layout).
-struct ShellView {
-  preset::Preset preset;                         ///< as it stands, the boundary's radius in it
+struct ShellView : ViewedState {
   std::shared_ptr<const record::Layout> layout;  ///< of the frame's nodes
   record::Frame frame;
-  std::shared_ptr<const record::Frame> first;  ///< where the shell began; null before
   Certificate certificate;
   std::vector<int> meshes;       ///< edges a segment, coarse to fine
   int leader = 4;                ///< of the mesh that led when the shell was formed
-  bool refined = false;          ///< to the preset's tolerance; else coarse, as in a drag
   std::string accuracy_warning;  ///< of a refined state: what it lacks; empty: nothing
   double progress = 0;           ///< of the boundary; beyond 1 further than the preset has it
   double least_progress = 0;     ///< to which it can be let out
   std::string symmetry;          ///< "two diagonal mirrors"; empty while a drag passes
   std::vector<HeldJoint> held;
-  PresetPush push;
-  StepHistory steps;         ///< what the hand did since the shell was formed
   double radius_end_mm = 0;  ///< of a circle's boundary where its motion ends
   std::vector<DraggedEdge> edges_dragged;
-  bool rods_changed_late = false;  ///< numbers of its rods were changed after steps
-  bool snapped = false;            ///< it came to rest elsewhere on its way
-  Eigen::Matrix3Xd normals;        ///< one a joint: t_u x t_v
-  Eigen::VectorXd axial_N;         ///< one a node, the mean of its edges
-  Eigen::VectorXd bending_mJ_m;    ///< one a node: energy over length, J/m / 1000
+  Eigen::Matrix3Xd normals;      ///< one a joint: t_u x t_v
+  Eigen::VectorXd axial_N;       ///< one a node, the mean of its edges
+  Eigen::VectorXd bending_mJ_m;  ///< one a node: energy over length, J/m / 1000
   /// One a cell, mean of its joints, over rho: from the net, of a designed shell from what the
   /// design aims at; empty without a net.
   Eigen::VectorXd deviation;
-  std::shared_ptr<const DesignProgress> design;  ///< that the shell is of; null: none
   Eigen::Matrix3Xd soft_mode;  ///< of a state that is not stable: unit moves of its nodes
-  std::string told;            ///< what happened on the way; empty: nothing
-  std::string trouble;         ///< why the last command was not met; empty: it was
+  std::string message;         ///< what happened on the way; empty: nothing
+  std::string error;           ///< why the last command was not met; empty: it was
   int undo_steps = 0, redo_steps = 0;
   int equilibria = 0;  ///< found so far
   double seconds = 0;  ///< the last one took
@@ -92,7 +96,7 @@ struct ShellView {
   bool designing() const { return design && design->under_way; }
 };
 
-/// Why the shell in sight cannot be designed, a sentence; empty: it can.
-std::string why_not_designed(const ShellView& sight);
+/// Why the shell cannot be designed, a sentence; empty: it can.
+std::string why_not_designed(const ShellView& shell);
 
 }  // namespace gridshell::window

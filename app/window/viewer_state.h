@@ -1,4 +1,4 @@
-// Everything that the window knows: the shell in sight, how it is shown, what the hand holds, what
+// Everything that the window knows: the shell, how it is shown, what is picked, what
 // plays. It has no OpenGL and no interface library; panels show it, actions and the view change it.
 #pragma once
 
@@ -34,7 +34,7 @@ Result<void> check_picture(int width, int height);
 
 /// All that a picture hangs on.
 struct PictureRequest {
-  std::shared_ptr<const ShellView> sight;
+  std::shared_ptr<const ShellView> shell;
   render::Camera camera;
   PictureSize view;  ///< that the camera looks into
   Show show;
@@ -45,7 +45,7 @@ struct PictureRequest {
 struct Library {
   std::vector<PresetCard> cards;
   std::function<Result<preset::Preset>(const std::string& name)> load;
-  std::function<Result<void>(const PictureRequest& order, const std::filesystem::path& file)>
+  std::function<Result<void>(const PictureRequest& request, const std::filesystem::path& file)>
       draw_picture;
   /// A preset as a file, its tables in files beside it, whose names begin as its own.
   std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file)>
@@ -69,7 +69,7 @@ struct PlotPoint {
   double radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0, force_N = 0,
          total_K = 0;
   int joint = -1;  ///< that is held and was taken last; none
-  int steps = 0;   ///< that the hand had done
+  int steps = 0;   ///< that were done
   bool stable = true, refined = true;
 };
 
@@ -79,8 +79,6 @@ struct SavedCamera {
   render::Camera camera;
   ColourBy colour_by = ColourBy::K;
 };
-
-enum class PushDirection { normal, freely };
 
 /// What the next design may change, and how far it goes.
 struct DesignOptions {
@@ -99,7 +97,7 @@ class ViewerState {
 
   Library library;
   EngineThread engine;
-  std::shared_ptr<const ShellView> sight = std::make_shared<ShellView>();
+  std::shared_ptr<const ShellView> shell = std::make_shared<ShellView>();
   render::Camera camera;
   PictureSize view;  ///< of the shell's picture, pixels
   Show show;
@@ -113,7 +111,7 @@ class ViewerState {
   int picked_joint = -1, picked_cell = -1;  ///< whose figures are shown
   PointOnRod picked_rod;
   int joint_under = -1, edge_under = -1;  ///< marked: what the cursor is at
-  PushDirection push_direction = PushDirection::normal;
+  bool push_freely = false;  ///< a joint goes with the mouse instead of along its normal
   bool animate_mode = false;
   double mode_phase = 0;
   bool playing = false;
@@ -128,40 +126,37 @@ class ViewerState {
 
   /// A preset by its name or file.
   void open(const std::string& name);
-  void change(const preset::Preset& preset, bool passing);
+  /// Of a drag while it is `passing`; a design under way refuses it.
+  void post(Edit edit, bool passing);
+  /// A step of its own, which ends a design under way.
+  void send_command(Edit edit);
+  /// The drag is over: the shell goes onto finer meshes.
+  void end_drag();
   /// The boundary to a progress; of a preset with a push, the push to a share of its depth.
   void go(double part, bool passing);
-  void move(double progress, bool passing);
-  void push(int joint, const Eigen::Vector3d& to, const Eigen::Vector3d& along, bool passing);
-  void drag_edge(int edge_point, const Eigen::Vector3d& to, bool passing);
-  void send_command(Edit edit);
-  /// The hand comes to rest: the stroke is over.
-  void let_go();
   void play(bool on);
-  /// Stops what the engine is at; of a design the last step stays in hand.
+  /// Stops what the engine is at; of a design the last step stays.
   void stop();
   /// Designs the shell by what was chosen, coloured by its deviation.
   void start_design();
-  /// The same as it stands is the shell now; or the one before the design is again.
-  void end_design(Edit keep_or_put_back);
   /// Where on its path the shell is, 0 to 1.
   double part() const;
   /// The colours' ends by hand; ends that are none change nothing.
   void set_range(double low, double high);
   void toggle_gravity();
-  bool gravity() const { return sight->preset.loads.gravity_m_s2 != 0; }
+  bool gravity() const { return shell->preset.loads.gravity_m_s2 != 0; }
   void fit_view();
   void look(const ViewFrom& from);
   void say(const std::string& text, bool bad = false);
 
   // ---- what is kept ----
 
-  /// The preset as the shell stands now: radius, or what the hand did step by step; camera,
+  /// The preset as the shell stands now: radius, or what was done step by step; camera,
   /// colours.
   preset::Preset preset_to_save() const;
   void save_preset();
   void save_picture();
-  PictureRequest picture_order() const { return {sight, camera, view, show, picture}; }
+  PictureRequest picture_request() const { return {shell, camera, view, show, picture}; }
   /// The size of kept pictures, pixels; of no pixels twice the view's. One that cannot be says so.
   void size_picture(int width, int height);
   /// Of what was done, or where nothing was, of the preset; beside the window.
@@ -174,7 +169,6 @@ class ViewerState {
   bool tick(double seconds);
 
  private:
-  void post(Edit edit, bool passing);
   void take(std::shared_ptr<const ShellView> next);
   void reset_view();
   void add_plot_point();
@@ -185,7 +179,7 @@ class ViewerState {
   Result<void> write_preset(const preset::Preset& preset, const std::filesystem::path& file) const;
   void report_finished_tasks();
 
-  int stroke_ = 1;
+  int drag_ = 1;
   bool fresh_ = true;  // the next sight is of another shell: the camera goes round it
   std::filesystem::path file_;
   std::filesystem::file_time_type written_{};

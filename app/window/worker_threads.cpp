@@ -1,32 +1,23 @@
 #include "app/window/worker_threads.h"
 
+#include <chrono>
 #include <utility>
 
 #include "engine/core/system_info.h"
 
 namespace gridshell::window {
 
-BackgroundTask::~BackgroundTask() {
-  stop();
-  wait();
-}
-
 void BackgroundTask::begin(Work work, const std::filesystem::path& target) {
   wait();
   watch_.emplace();
   target_ = target;
   said_.clear();
-  made_.reset();
-  under_way_ = true;
-  thread_ = std::thread([this, work = std::move(work)] {
-    const auto heard = [this](const std::string& line) {
+  ended_ = std::async(std::launch::async, [this, work = std::move(work)] {
+    const auto listener = [this](const std::string& line) {
       const std::lock_guard lock(mutex_);
       said_ = line;
     };
-    auto made = work(heard, *watch_);
-    const std::lock_guard lock(mutex_);
-    made_ = std::move(made);
-    under_way_ = false;
+    return work(listener, *watch_);
   });
 }
 
@@ -35,13 +26,7 @@ void BackgroundTask::stop() {
 }
 
 bool BackgroundTask::under_way() const {
-  const std::lock_guard lock(mutex_);
-  return under_way_;
-}
-
-bool BackgroundTask::idle() const {
-  const std::lock_guard lock(mutex_);
-  return !under_way_ && !made_;
+  return ended_.valid() && ended_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
 }
 
 std::string BackgroundTask::standing() const {
@@ -50,20 +35,15 @@ std::string BackgroundTask::standing() const {
 }
 
 std::optional<BackgroundTask::End> BackgroundTask::take_end() {
-  const std::lock_guard lock(mutex_);
-  if (!made_) return std::nullopt;
-  return End{target_, *std::exchange(made_, std::nullopt), said_};
+  if (idle() || under_way()) return std::nullopt;
+  return End{target_, ended_.get(), standing()};
 }
 
-void BackgroundTask::wait() {
-  if (thread_.joinable()) thread_.join();
-}
-
-EngineThread::EngineThread() : shell_view_(std::make_shared<ShellView>()) {
-  hand_.tell([this](const ShellView& sight) {
-    auto seen = std::make_shared<const ShellView>(sight);
+EngineThread::EngineThread() : shell_(std::make_shared<ShellView>()) {
+  session_.tell([this](const ShellView& shell) {
+    auto seen = std::make_shared<const ShellView>(shell);
     const std::lock_guard lock(mutex_);
-    shell_view_ = std::move(seen);
+    shell_ = std::move(seen);
   });
   thread_ = std::thread([this] { work(); });
 }
@@ -83,8 +63,8 @@ void EngineThread::post(Command command) {
   {
     const std::lock_guard lock(mutex_);
     if (commands_.empty() && !working_) busy_since_ = seconds_now();
-    const bool newer = !commands_.empty() && command.stroke != 0 && commands_.back().passing &&
-                       commands_.back().stroke == command.stroke &&
+    const bool newer = !commands_.empty() && command.drag != 0 && commands_.back().passing &&
+                       commands_.back().drag == command.drag &&
                        commands_.back().edit.index() == command.edit.index();
     if (newer)
       commands_.back() = std::move(command);
@@ -103,9 +83,9 @@ void EngineThread::cancel() {
   if (!working_) rested_.notify_all();
 }
 
-std::shared_ptr<const ShellView> EngineThread::sight() const {
+std::shared_ptr<const ShellView> EngineThread::shell() const {
   const std::lock_guard lock(mutex_);
-  return shell_view_;
+  return shell_;
 }
 
 bool EngineThread::idle() const {
@@ -123,7 +103,7 @@ void EngineThread::wait() {
   rested_.wait(lock, [this] { return commands_.empty() && !working_ && !unrefined_; });
 }
 
-/// One command, or the refinement after the last of a stroke, at a time.
+/// One command, or the refinement after the last of a drag, at a time.
 void EngineThread::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -137,18 +117,18 @@ void EngineThread::work() {
       commands_.pop_front();
       unrefined_ = !command.passing;
       lock.unlock();
-      hand_.execute(command, *watch);
+      session_.execute(command, *watch);
       lock.lock();
       // of a design that is stopped the last step stands, and is to be certified as any other
       if (watch->cancelled()) unrefined_ = std::holds_alternative<Design>(command.edit);
     } else {
       refining_ = true;
       lock.unlock();
-      hand_.refine(*watch);
+      session_.refine(*watch);
       lock.lock();
       refining_ = unrefined_ = false;
     }
-    shell_view_ = std::make_shared<ShellView>(hand_.sight());
+    shell_ = std::make_shared<ShellView>(session_.shell());
     working_ = false;
     watch_.reset();
     if (commands_.empty() && !unrefined_) rested_.notify_all();

@@ -1,10 +1,11 @@
-// Work beside the window, on a thread of its own: the shell in hand and its picture stay free.
+// Work beside the window, on a thread of its own: the shell and its picture stay free.
 #pragma once
 
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -23,7 +24,7 @@ using ProgressListener = std::function<void(const std::string& line)>;
 /// A movie or a picture in the making; one at a time.
 class BackgroundTask {
  public:
-  using Work = std::function<Result<void>(const ProgressListener& heard, const Watch& watch)>;
+  using Work = std::function<Result<void>(const ProgressListener& listener, const Watch& watch)>;
   /// How it ended: what it made, and the last that was said.
   struct End {
     std::filesystem::path target;
@@ -32,7 +33,7 @@ class BackgroundTask {
   };
 
   BackgroundTask() = default;
-  ~BackgroundTask();  ///< stops what is under way
+  ~BackgroundTask() { stop(); }  ///< waits for the end
   BackgroundTask(const BackgroundTask&) = delete;
   BackgroundTask& operator=(const BackgroundTask&) = delete;
 
@@ -41,25 +42,25 @@ class BackgroundTask {
   void stop();
   bool under_way() const;
   /// Whether none is under way and the end of the last one was taken.
-  bool idle() const;
+  bool idle() const { return !ended_.valid(); }
   /// The last that was said.
   std::string standing() const;
   /// The end of the last one, once.
   std::optional<End> take_end();
   /// Waits until none is under way.
-  void wait();
+  void wait() const {
+    if (ended_.valid()) ended_.wait();
+  }
 
  private:
-  mutable std::mutex mutex_;
-  std::thread thread_;
+  mutable std::mutex mutex_;    // of what was said
   std::optional<Watch> watch_;  // of what is under way or has just ended
   std::filesystem::path target_;
   std::string said_;
-  bool under_way_ = false;
-  std::optional<Result<void>> made_;
+  std::future<Result<void>> ended_;  // goes first: its end waits for the work
 };
 
-// The engine on a thread of its own: wishes go in, sights come out, and it can be stopped.
+// The engine on a thread of its own: commands go in, views come out, and it can be stopped.
 
 class EngineThread {
  public:
@@ -68,14 +69,14 @@ class EngineThread {
   EngineThread(const EngineThread&) = delete;
   EngineThread& operator=(const EngineThread&) = delete;
 
-  /// Comes after those before it, but takes the place of a passing one of its own stroke that has
+  /// Comes after those before it, but takes the place of a passing one of its own drag that has
   /// not begun, and breaks off a refinement.
   void post(Command command);
   /// Stops what is under way and forgets what waits; the last certified state stays.
   void cancel();
 
   /// The latest; never null.
-  std::shared_ptr<const ShellView> sight() const;
+  std::shared_ptr<const ShellView> shell() const;
   /// Whether there is nothing to do.
   bool idle() const;
   /// Seconds since it was idle; 0 while it is.
@@ -90,10 +91,10 @@ class EngineThread {
   std::condition_variable wake_, rested_;
   std::deque<Command> commands_;
   std::shared_ptr<Watch> watch_;  // of what is under way
-  std::shared_ptr<const ShellView> shell_view_;
+  std::shared_ptr<const ShellView> shell_;
   bool working_ = false, refining_ = false, unrefined_ = false, over_ = false;
   double busy_since_ = 0;
-  EditSession hand_;  // the thread's alone
+  EditSession session_;  // the thread's alone
   std::thread thread_;
 };
 

@@ -11,8 +11,8 @@ def public(names):
 
 
 def stubs():
-    path = os.path.join(os.environ["GRIDSHELL_SOURCE"], "app/python/gridshell.pyi")
-    with open(path) as file:
+    path = os.path.join(os.path.dirname(gs.__file__), "gridshell.pyi")
+    with open(path, encoding="utf-8") as file:
         return ast.parse(file.read()).body
 
 

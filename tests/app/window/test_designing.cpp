@@ -1,10 +1,10 @@
-// A shell in hand that is designed: seen step by step, stopped, kept, put back.
+// A shell that is designed: seen step by step, stopped, kept, put back.
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <thread>
 
 #include "app/window/worker_threads.h"
-#include "tests/small_shell.h"
+#include "tests/app/window/edited_shell.h"
 
 using namespace gridshell;
 using namespace gridshell::window;
@@ -22,31 +22,23 @@ preset::Preset small_cap() {
   return p;
 }
 
-Design wish_of(std::vector<preset::Vary> vary, int most_iterations) {
-  Design wish;
-  wish.inverse.vary = std::move(vary);
-  wish.most_iterations = most_iterations;
-  return wish;
-}
-
-void opened(EditSession& hand, const preset::Preset& preset) {
-  hand.execute({Open{preset}}, unwatched);
-  REQUIRE(hand.sight().trouble == "");
-  hand.refine(unwatched);
+Design design_of(std::vector<preset::Vary> vary, int most_iterations) {
+  Design command;
+  command.inverse.vary = std::move(vary);
+  command.most_iterations = most_iterations;
+  return command;
 }
 
 }  // namespace
 
-TEST_CASE("a shell in hand is designed step by step, kept, put back and done again to the bit") {
-  EditSession hand;
-  opened(hand, small_cap());
-  const ShellView before = hand.sight();
+TEST_CASE("a shell is designed step by step, kept, put back and done again to the bit") {
+  EditedShell shell(small_cap());
+  const ShellView before = shell.view();
   std::vector<ShellView> seen;
-  hand.tell([&](const ShellView& sight) { seen.push_back(sight); });
-  hand.execute({wish_of({preset::Vary::pins}, 6)}, unwatched);
-  REQUIRE(hand.sight().trouble == "");
-  hand.refine(unwatched);
-  const ShellView after = hand.sight();
+  shell.session.tell([&](const ShellView& view) { seen.push_back(view); });
+  shell.act(design_of({preset::Vary::pins}, 6));
+  shell.refine();
+  const ShellView after = shell.view();
   REQUIRE(after.design);
   CHECK_FALSE(after.designing());
   CHECK(after.design->points.size() == seen.size());
@@ -68,97 +60,89 @@ TEST_CASE("a shell in hand is designed step by step, kept, put back and done aga
   CHECK(after.stable());
   CHECK(after.preset.ends.table.size() > 0);
   CHECK(after.undo_steps == 1);
-  hand.execute({AcceptDesign{}}, unwatched);
-  CHECK(hand.sight().design->kept);
-  CHECK(hand.sight().frame.nodes == after.frame.nodes);
-  CHECK(hand.sight().undo_steps == 1);
-  hand.execute({DiscardDesign{}}, unwatched);
-  CHECK(hand.sight().trouble == "");
-  CHECK(hand.sight().frame.nodes == before.frame.nodes);
-  CHECK(hand.sight().certificate.residual_N == before.certificate.residual_N);
-  CHECK(hand.sight().preset.ends.table.empty());
-  CHECK_FALSE(hand.sight().design);
-  CHECK(hand.sight().deviation == before.deviation);
-  hand.execute({DiscardDesign{}}, unwatched);
-  CHECK(hand.sight().trouble != "");
-  hand.execute({Redo{}}, unwatched);
-  CHECK(hand.sight().frame.nodes == after.frame.nodes);
-  REQUIRE(hand.sight().design);
-  hand.execute({DiscardDesign{}}, unwatched);
-  CHECK(hand.sight().frame.nodes == before.frame.nodes);
+  shell.act(AcceptDesign{});
+  CHECK(shell.view().design->kept);
+  CHECK(shell.nodes() == after.frame.nodes);
+  CHECK(shell.view().undo_steps == 1);
+  shell.act(DiscardDesign{});
+  CHECK(shell.nodes() == before.frame.nodes);
+  CHECK(shell.view().certificate.residual_N == before.certificate.residual_N);
+  CHECK(shell.view().preset.ends.table.empty());
+  CHECK_FALSE(shell.view().design);
+  CHECK(shell.view().deviation == before.deviation);
+  CHECK(shell.attempt(DiscardDesign{}) != "");
+  shell.act(Redo{});
+  CHECK(shell.nodes() == after.frame.nodes);
+  REQUIRE(shell.view().design);
+  shell.act(DiscardDesign{});
+  CHECK(shell.nodes() == before.frame.nodes);
 }
 
 TEST_CASE("a design that is stopped leaves the step in hand that was seen last") {
-  EditSession hand;
-  opened(hand, small_cap());
+  EditedShell shell(small_cap());
   Watch watch;
   ShellView last;
   int seen = 0;
-  hand.tell([&](const ShellView& sight) {
-    last = sight;
+  shell.session.tell([&](const ShellView& view) {
+    last = view;
     if (++seen == 2) watch.cancel();
   });
-  hand.execute({wish_of({preset::Vary::pins}, 25)}, watch);
-  REQUIRE(hand.sight().trouble == "");
+  shell.session.execute({design_of({preset::Vary::pins}, 25)}, watch);
+  CHECK(shell.view().error == "");
   CHECK(seen == 2);
-  REQUIRE(hand.sight().design);
-  CHECK(hand.sight().design->stopped);
+  REQUIRE(shell.view().design);
+  CHECK(shell.view().design->stopped);
   // to the bit but for one more correction of Newton's
-  CHECK((hand.sight().frame.nodes - last.frame.nodes).cwiseAbs().maxCoeff() < 1e-6);
+  CHECK((shell.nodes() - last.frame.nodes).cwiseAbs().maxCoeff() < 1e-6);
   // a hand that goes on has kept it
   const Eigen::Vector3d up(0, 0, 1);
-  hand.execute({Push{0, hand.sight().frame.nodes.col(0) - up}}, unwatched);
-  CHECK(hand.sight().design->kept);
-  CHECK(why_not_designed(hand.sight()) != "");
-  hand.execute({DiscardDesign{}}, unwatched);
-  CHECK(hand.sight().trouble.find("undone first") != std::string::npos);
-  hand.execute({Undo{}}, unwatched);
-  hand.execute({DiscardDesign{}}, unwatched);
-  CHECK(hand.sight().trouble == "");
+  shell.act(Push{0, shell.node(0) - up});
+  CHECK(shell.view().design->kept);
+  CHECK(why_not_designed(shell.view()) != "");
+  CHECK(shell.attempt(DiscardDesign{}).find("undone first") != std::string::npos);
+  shell.act(Undo{});
+  shell.act(DiscardDesign{});
 }
 
 TEST_CASE("rods that were varied have diameters of their own in sight") {
-  EditSession hand;
-  opened(hand, small_cap());
-  CHECK(hand.sight().layout->diameters_mm.empty());
-  hand.execute({wish_of({preset::Vary::diameters}, 4)}, unwatched);
-  REQUIRE(hand.sight().trouble == "");
-  const record::Layout& layout = *hand.sight().layout;
+  EditedShell shell(small_cap());
+  CHECK(shell.view().layout->diameters_mm.empty());
+  shell.act(design_of({preset::Vary::diameters}, 4));
+  const record::Layout& layout = *shell.view().layout;
   REQUIRE(layout.diameters_mm.size() == layout.rods.size());
-  const DesignPoint& end = hand.sight().design->points.back();
+  const DesignPoint& end = shell.view().design->points.back();
   CHECK(end.thickest_mm > end.thinnest_mm);
-  CHECK(hand.sight().preset.rod_table.size() == layout.rods.size());
+  CHECK(shell.view().preset.rod_table.size() == layout.rods.size());
 }
 
 TEST_CASE("a shell that cannot be designed says why, and stays as it is") {
-  EditSession hand;
-  opened(hand, small_shell());
-  const ShellView before = hand.sight();
+  EditedShell shell(small_shell());
+  const ShellView before = shell.view();
   CHECK(why_not_designed(before).find("net") != std::string::npos);
-  hand.execute({wish_of({preset::Vary::pins}, 4)}, unwatched);
-  CHECK(hand.sight().trouble != "");
-  CHECK(hand.sight().frame.nodes == before.frame.nodes);
-  CHECK(hand.sight().undo_steps == 0);
-  opened(hand, small_cap());
+  CHECK(shell.attempt(design_of({preset::Vary::pins}, 4)) != "");
+  CHECK(shell.nodes() == before.frame.nodes);
+  CHECK(shell.view().undo_steps == 0);
+  shell.act(Open{small_cap()});
+  shell.refine();
   // pinned ends hold no direction
-  hand.execute({wish_of({preset::Vary::directions}, 4)}, unwatched);
-  CHECK(hand.sight().trouble.find("directions") != std::string::npos);
-  CHECK_FALSE(hand.sight().design);
-  CHECK(hand.sight().layout != nullptr);
+  CHECK(shell.attempt(design_of({preset::Vary::directions}, 4)).find("directions") !=
+        std::string::npos);
+  CHECK_FALSE(shell.view().design);
+  CHECK(shell.view().layout != nullptr);
 }
 
 TEST_CASE("the engine's thread shows the steps of a design and stops within one of them") {
   EngineThread engine;
   engine.post({Open{small_cap()}});
   engine.wait();
-  engine.post({wish_of({preset::Vary::pins}, 100)});
-  for (int k = 0; k < 3000 && !engine.sight()->designing(); ++k)
+  engine.post({design_of({preset::Vary::pins}, 100)});
+  for (int k = 0; k < 3000 && !engine.shell()->designing(); ++k)
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  REQUIRE(engine.sight()->designing());
-  const auto points = engine.sight()->design->points.size();
+  REQUIRE(engine.shell()->designing());
+  const auto points = engine.shell()->design->points.size();
   CHECK(points >= 1);
   engine.cancel();
   engine.wait();
-  CHECK_FALSE(engine.sight()->designing());
-  CHECK(engine.sight()->refined);
+  CHECK_FALSE(engine.shell()->designing());
+  CHECK(engine.shell()->refined);
 }

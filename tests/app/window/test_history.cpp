@@ -1,52 +1,13 @@
-// Steps that can be undone, numbers put aside for them, and work beside the window.
+// Numbers put aside for steps to undo, and work beside the window.
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
 
-#include "app/window/command.h"
 #include "app/window/edit_session.h"
 #include "app/window/worker_threads.h"
 
 using namespace gridshell;
 using namespace gridshell::window;
-
-namespace {
-
-preset::Step numbered(int seed) {
-  preset::Step step;
-  step.kind = preset::StepKind::jitter;
-  step.seed = seed;
-  return step;
-}
-
-}  // namespace
-
-TEST_CASE("a chain of steps and its copies go on apart, sharing what came before") {
-  StepHistory chain;
-  CHECK(chain.empty());
-  for (int k : {1, 2, 3}) chain.add(numbered(k));
-  StepHistory copy = chain;
-  copy.replace_last(numbered(30));
-  copy.add(numbered(40));
-  const auto seeds = [](const StepHistory& of) {
-    std::vector<int> all;
-    for (const preset::Step& step : of.all()) all.push_back(step.seed);
-    return all;
-  };
-  CHECK(seeds(chain) == std::vector<int>{1, 2, 3});
-  CHECK(seeds(copy) == std::vector<int>{1, 2, 30, 40});
-  CHECK(copy.size() == 4);
-  CHECK(copy.last().seed == 40);
-  chain.clear();
-  CHECK(seeds(copy).size() == 4);
-}
-
-TEST_CASE("a very long chain of steps is freed") {
-  StepHistory chain;
-  for (int k = 0; k < 200000; ++k) chain.add(numbered(k));
-  const StepHistory copy = chain;
-  CHECK(copy.size() == 200000);
-}
 
 TEST_CASE("numbers put aside come back to the bit, in any order") {
   ScratchFile file;
@@ -72,8 +33,8 @@ TEST_CASE("work beside the window tells how far it is, and how it ended, once") 
   BackgroundTask work;
   CHECK(work.idle());
   work.begin(
-      [](const ProgressListener& heard, const Watch&) -> Result<void> {
-        heard("50 %  drawing");
+      [](const ProgressListener& listener, const Watch&) -> Result<void> {
+        listener("50 %  drawing");
         return {};
       },
       "out/shell.png");
@@ -90,9 +51,9 @@ TEST_CASE("work beside the window tells how far it is, and how it ended, once") 
 }
 
 TEST_CASE("work beside the window stops when it is asked to, and when the window goes") {
-  const auto endless = [](const ProgressListener& heard, const Watch& watch) -> Result<void> {
+  const auto endless = [](const ProgressListener& listener, const Watch& watch) -> Result<void> {
     while (!watch.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    heard("the frames so far are kept");
+    listener("the frames so far are kept");
     return stopped();
   };
   BackgroundTask work;

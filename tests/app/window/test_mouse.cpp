@@ -33,7 +33,7 @@ TEST_CASE("what lies under the cursor stays there when the wheel turns") {
   }
 }
 
-TEST_CASE("the picture goes along with a panning hand") {
+TEST_CASE("the picture goes along with the mouse") {
   render::Camera camera;
   const Eigen::Vector3d place = camera.target;
   const Eigen::Vector2d before = pixel(camera, place);
@@ -86,27 +86,27 @@ std::shared_ptr<const ShellView> one_cell() {
   layout->joints.resize(4);
   layout->cells.push_back({0, 0, 10, 10, {0, 1, 2, 3}});
   layout->rods = {{0, 1}, {3, 2}, {0, 3}, {1, 2}};
-  auto sight = std::make_shared<ShellView>();
-  sight->layout = layout;
-  sight->frame.nodes.resize(3, 4);
-  sight->frame.nodes << 0, 20, 20, 0, 0, 0, 20, 20, 0, 0, 0, 0;
-  sight->normals = Eigen::Matrix3Xd::Zero(3, 4);
-  return sight;
+  auto shell = std::make_shared<ShellView>();
+  shell->layout = layout;
+  shell->frame.nodes.resize(3, 4);
+  shell->frame.nodes << 0, 20, 20, 0, 0, 0, 20, 20, 0, 0, 0, 0;
+  shell->normals = Eigen::Matrix3Xd::Zero(3, 4);
+  return shell;
 }
 
 }  // namespace
 
 TEST_CASE("a click shows a joint, a rod with the nearest of its nodes, or a cell") {
   ViewerState viewer({});
-  viewer.sight = one_cell();
+  viewer.shell = one_cell();
   viewer.view = {800, 800};
   look_from(viewer.camera, view_top);
-  fit(viewer.camera, viewer.view, viewer.sight->frame.nodes);
-  Picker hand(viewer);
+  fit(viewer.camera, viewer.view, viewer.shell->frame.nodes);
+  Picker picker(viewer);
   const auto click = [&](double x, double y) {
     const Eigen::Vector2d at = render::to_pixel(viewer.camera, 800, 800, {x, y, 0});
-    hand.press(Button::left, false, at.x(), at.y());
-    hand.release(at.x(), at.y());
+    picker.press(Button::left, false, at.x(), at.y());
+    picker.release(at.x(), at.y());
   };
   click(20, 0);
   CHECK(viewer.picked_joint == 1);

@@ -1,4 +1,4 @@
-// What stands on the viewer: actions, recorded input, and what is kept until the next visit.
+// What the window knows: actions, recorded input, and what is kept until the next visit.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <set>
@@ -26,7 +26,7 @@ TEST_CASE("every colouring has an action") {
   for (const std::string& word : all_words<ColourBy>()) CHECK(find_action("colour_" + word));
 }
 
-TEST_CASE("the colours' range is of a state, of all states, or stays as the hand set it") {
+TEST_CASE("the colours' range is of a state, of all states, or stays as it was set") {
   for (const std::string& word : all_words<RangeOf>()) CHECK(find_action("range_" + word));
   const render::ColourScale before{render::ColourMap::diverging, -2, 1},
       now{render::ColourMap::diverging, -1, 3};
@@ -114,7 +114,7 @@ TEST_CASE("a workspace kept and taken again is the same") {
 
 TEST_CASE("what a workspace says wrongly stays as it is") {
   ViewerState viewer({});
-  const window::Show before = viewer.show;
+  const Show before = viewer.show;
   CHECK_FALSE(take_workspace(viewer, "not JSON"));
   CHECK_FALSE(take_workspace(viewer, "[1]"));
   for (const char* text :

@@ -1,0 +1,169 @@
+// The interface in a window of the desktop, played from a recording, and dragged by a bench.
+#include <fmt/format.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <thread>
+
+#include "app/window/interface.h"
+#include "engine/core/system_info.h"
+#include "engine/core/try.h"
+#include "render/gl/context.h"
+
+namespace gridshell::window {
+namespace {
+
+constexpr double still_wait_s = 0.05;  // for something to happen, where nothing moves
+
+std::string utf8(unsigned code) {
+  const auto byte = [](unsigned value) { return char((unsigned char)value); };
+  if (code < 0x80) return {byte(code)};
+  if (code < 0x800) return {byte(0xc0 | code >> 6), byte(0x80 | (code & 0x3f))};
+  return {byte(0xe0 | (code >> 12 & 0xf)), byte(0x80 | (code >> 6 & 0x3f)),
+          byte(0x80 | (code & 0x3f))};
+}
+
+/// From what happens to the window to events.
+render::WindowListener listener_to(const std::function<void(const InputEvent&)>& take) {
+  render::WindowListener listener;
+  listener.mouse = [take](double x, double y) {
+    take({.kind = InputKind::mouse, .x = std::round(x), .y = std::round(y)});
+  };
+  listener.button = [take](int button, bool down) {
+    take({.kind = down ? InputKind::press : InputKind::release, .button = Button(button)});
+  };
+  listener.wheel = [take](double steps) { take({.kind = InputKind::wheel, .y = steps}); };
+  listener.key = [take](const std::string& name, bool down) {
+    if (const auto key = find_word<Key>(name))
+      take({.kind = down ? InputKind::down : InputKind::up, .key = *key});
+  };
+  listener.text = [take](unsigned code) {
+    if (code > 0x20) take({.kind = InputKind::type, .text = utf8(code)});
+  };
+  return listener;
+}
+
+}  // namespace
+
+Result<void> run_desktop(ViewerState& viewer, const std::function<void(const InputEvent&)>& seen,
+                         const std::function<bool()>& stopped) {
+  auto window = render::Window::open({.least_width = 720, .least_height = 480});
+  if (!window)
+    return fail(Fault::io, "no window can be opened (" + window.error().message +
+                               "): 'gridshell movie' and 'gridshell figure' draw without one, and "
+                               "'gridshell view --play FILE --shot PNG' plays recorded input");
+  TRY(renderer, render::Renderer::create(**window));
+  TRY(interface, Interface::create(**window, **renderer, viewer));
+  Result<void> fault;
+  const auto take = [&](const InputEvent& event) {
+    seen(event);
+    if (auto taken = (*interface)->take(event); !taken) fault = taken;
+  };
+  const render::WindowListener listener = listener_to(take);
+  int width = 0, height = 0;
+  for (double last = seconds_now(); fault && !viewer.over && !stopped();) {
+    if ((*window)->wants_to_close()) break;
+    if (width != (*window)->width() || height != (*window)->height()) {
+      width = (*window)->width();
+      height = (*window)->height();
+      take({.kind = InputKind::size,
+            .x = double(width),
+            .y = double(height),
+            .density = (*window)->density()});
+    }
+    const double now = seconds_now();
+    if (auto drawn = (*interface)->frame(now - last); !drawn) return drawn;
+    last = now;
+    (*window)->present();
+    const bool still = !(*interface)->busy() && viewer.engine.idle() && !viewer.playing;
+    (*window)->listen(listener, still ? still_wait_s : 0);
+  }
+  return fault;
+}
+
+namespace {
+
+constexpr double frame_s = 1.0 / 60;
+constexpr int most_frames = 2000;  // until nothing moves any more
+constexpr int frames_to_sharpen = 30;
+
+/// Frames until all events are taken, the engine rests and the view shows what it found.
+Result<void> rest(Interface& interface, ViewerState& viewer) {
+  for (int k = 0; k < most_frames; ++k) {
+    viewer.engine.wait();
+    viewer.picture_task.wait();
+    viewer.movie_task.wait();
+    if (auto drawn = interface.frame_aside(frame_s); !drawn) return drawn;
+    const bool rests = viewer.engine.idle() && viewer.engine.shell() == viewer.shell &&
+                       !viewer.playing && viewer.picture_task.idle() && viewer.movie_task.idle();
+    if (rests && !interface.events_wait()) return {};
+  }
+  return {};
+}
+
+Result<void> wait_for(Interface& interface, ViewerState& viewer, double seconds) {
+  for (double t = 0; t < seconds; t += frame_s) {
+    viewer.engine.wait();
+    if (auto drawn = interface.frame_aside(frame_s); !drawn) return drawn;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> play(Interface& interface, ViewerState& viewer,
+                  const std::vector<InputEvent>& events) {
+  if (auto first = rest(interface, viewer); !first) return first;
+  for (const InputEvent& event : events) {
+    if (viewer.over) break;
+    const auto done = interface.take(event).and_then([&] {
+      return event.kind == InputKind::wait ? wait_for(interface, viewer, event.x)
+                                           : rest(interface, viewer);
+    });
+    if (!done) return fail(done.error().fault, write_event(event) + ": " + done.error().message);
+  }
+  for (int k = 0; k < frames_to_sharpen && interface.busy(); ++k)
+    if (auto drawn = interface.frame_aside(frame_s); !drawn) return drawn;
+  return interface.frame_aside(frame_s);
+}
+
+Result<BenchFigures> bench(Interface& interface, ViewerState& viewer, double seconds) {
+  TRY_DO(rest(interface, viewer));
+  if (!viewer.shell->any()) return fail(Fault::no_equilibrium, viewer.message);
+  BenchFigures figures;
+  const double begin = seconds_now();
+  const int before = viewer.shell->equilibria;
+  const double cpu = cpu_seconds_now();
+  int frames = 0;
+  for (double last = begin; last < begin + seconds;) {
+    // there and back in four seconds, between half the path and its end
+    const double phase = std::abs(std::remainder(last - begin, 4.0)) / 2;
+    viewer.post(Move{1 - 0.5 * phase}, true);
+    TRY_DO(interface.frame_aside(frame_s));
+    const double now = seconds_now();
+    if (now - begin > 1)
+      figures.worst_frame_ms = std::max(figures.worst_frame_ms, 1e3 * (now - last));
+    last = now;
+    ++frames;
+  }
+  const double took = seconds_now() - begin;
+  figures.interface_fps = frames / took;
+  const int found = viewer.engine.shell()->equilibria - before;
+  const double own = cpu_seconds_now() - cpu;
+  figures.equilibria_per_s = found / took;
+  figures.frame_cpu_ms = 1e3 * own / frames;
+  viewer.engine.cancel();
+  viewer.engine.wait();
+  // the whole path and back, stopped soon after it began
+  viewer.post(Move{0.01}, true);
+  viewer.send_command(Move{1.0});
+  std::this_thread::sleep_for(std::chrono::milliseconds(15));
+  const double asked = seconds_now();
+  viewer.engine.cancel();
+  viewer.engine.wait();
+  figures.cancel_ms = 1e3 * (seconds_now() - asked);
+  return figures;
+}
+
+}  // namespace gridshell::window

@@ -1,0 +1,313 @@
+// What commands do to a shell.
+#include <thread>
+
+#include "app/window/viewer_state.h"
+#include "app/window/worker_threads.h"
+#include "engine/simulate/experiment.h"
+#include "tests/app/window/edited_shell.h"
+
+using namespace gridshell;
+using namespace gridshell::window;
+
+namespace {
+
+/// What a run of a preset ends in.
+record::Frame end_of_run(const preset::Preset& preset) {
+  REQUIRE(check_preset(preset));
+  Watch watch;
+  auto run = experiment::run(preset, false, watch);
+  REQUIRE(run);
+  return run->trajectory.frames.back();
+}
+
+/// How far the joints of two states are apart, on whatever meshes they stand.
+double apart(const EditedShell& shell, const record::Frame& other) {
+  const auto joints = Eigen::Index(shell.view().layout->joints.size());
+  return (other.nodes.leftCols(joints) - shell.nodes().leftCols(joints))
+      .colwise()
+      .norm()
+      .maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("the edited shell is the one that a run ends in") {
+  const EditedShell shell;
+  CHECK(apart(shell, end_of_run(small_shell())) < 1e-4);
+  CHECK(shell.view().refined);
+  CHECK(shell.view().stable());
+  CHECK(shell.view().certificate.error_estimate_mm < 1e-3 * 66);
+}
+
+TEST_CASE("the symmetry of a state is told once it is refined") {
+  EditedShell shell;
+  CHECK(shell.view().symmetry == "two diagonal mirrors");
+  shell.drag(Move{0.9}, 7);
+  CHECK(shell.view().symmetry == "");
+  shell.end_drag(7);
+  CHECK(shell.view().symmetry == "two diagonal mirrors");
+  const int beside = shell.joint(-2, 0);
+  const Eigen::Vector3d from = shell.node(beside);
+  shell.act(Push{beside, from - Eigen::Vector3d(0, 0, 5)});
+  shell.refine();
+  CHECK(shell.view().symmetry == "no symmetry");
+}
+
+TEST_CASE("a drag of the boundary is coarse, then refined, and one step to undo") {
+  EditedShell shell;
+  const ShellView before = shell.view();
+  for (double progress : {0.95, 0.9, 0.85}) shell.drag(Move{progress}, 7);
+  CHECK(shell.view().meshes.size() == 1);
+  CHECK_FALSE(shell.view().refined);
+  shell.end_drag(7);
+  CHECK(shell.view().refined);
+  CHECK(shell.view().progress == Approx(0.85));
+  CHECK(shell.view().frame.boundary_radius_mm == Approx(66 - 0.85 * 12));
+  CHECK(shell.view().undo_steps == 1);
+  const ShellView after = shell.view();
+  shell.act(Undo{});
+  CHECK(difference(shell, before) == 0);
+  CHECK(shell.view().progress == before.progress);
+  shell.act(Redo{});
+  CHECK(difference(shell, after) == 0);
+}
+
+TEST_CASE("a joint pushed along its normal resists, and lets go to where it was") {
+  EditedShell shell;
+  const ShellView before = shell.view();
+  const int joint = shell.joint(0, 0);
+  const Eigen::Vector3d normal = before.normals.col(joint), from = before.frame.nodes.col(joint);
+  shell.act(Push{joint, from - 4 * normal, normal});
+  REQUIRE(shell.view().held.size() == 1);
+  const HeldJoint held = shell.view().held[0];
+  CHECK(held.moved_mm.dot(normal) == Approx(-4));
+  CHECK(held.force_N.dot(normal) < 0);
+  shell.act(Release{});
+  shell.refine();
+  CHECK(shell.view().held.empty());
+  CHECK(difference(shell, before) < 1e-4);
+}
+
+TEST_CASE("steps that are put aside into a file are undone and done again to the bit") {
+  // no memory for more than the latest
+  EditedShell shell(small_shell(), 0);
+  std::vector<ShellView> seen{shell.view()};
+  const auto act = [&](const Edit& edit) {
+    shell.act(edit);
+    shell.refine();
+    seen.push_back(shell.view());
+  };
+  act(Move{0.9});
+  const int joint = shell.joint(0, 0);
+  act(Push{joint, shell.node(joint) - Eigen::Vector3d(0, 0, 2)});
+  act(Release{joint});
+  act(Move{0.8});
+  const auto stands = [&](const ShellView& then) {
+    CHECK(shell.nodes() == then.frame.nodes);
+    CHECK(shell.view().held.size() == then.held.size());
+    CHECK(shell.view().steps.size() == then.steps.size());
+    CHECK(shell.view().certificate.residual_N == then.certificate.residual_N);
+  };
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t k = seen.size() - 1; k-- > 0;) {
+      shell.act(Undo{});
+      stands(seen[k]);
+    }
+    CHECK(shell.view().undo_steps == 0);
+    for (std::size_t k = 1; k < seen.size(); ++k) {
+      shell.act(Redo{});
+      stands(seen[k]);
+    }
+  }
+}
+
+TEST_CASE("the boundary moves in a drag while a joint is held, which stays in its place") {
+  EditedShell shell;
+  const int joint = shell.joint(0, 0);
+  const Eigen::Vector3d to = shell.node(joint) - Eigen::Vector3d(0, 0, 3);
+  shell.act(Push{joint, to});
+  shell.drag(Move{0.9}, 5);
+  shell.end_drag(5);
+  CHECK(shell.view().refined);
+  CHECK(shell.view().progress == Approx(0.9));
+  CHECK((shell.node(joint) - to).norm() < 1e-6);
+}
+
+TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run comes to it",
+          "[standard]") {
+  preset::Preset preset = small_shell();
+  preset.footprint.rods = 8;
+  preset.footprint.radius_mm = 88;
+  preset.actuation.radius_mm = 66;
+  EditedShell shell(preset);
+  const double unshaken = shell.bending_mJ();
+  int elsewhere = 0;
+  for (int seed = 1; seed <= 3; ++seed) {
+    shell.act(Jitter{seed});
+    shell.refine();
+    ViewerState viewer({});
+    viewer.shell = std::make_shared<const ShellView>(shell.view());
+    const preset::Preset kept = viewer.preset_to_save();
+    CHECK(kept.accuracy.leading_edges == 4);
+    const double energy = shell.bending_mJ();
+    elsewhere += std::abs(energy - unshaken) > 1e-2 * unshaken;
+    // each on the meshes that it took to meet the tolerance
+    const record::Frame ran = end_of_run(kept);
+    CHECK(apart(shell, ran) < ran.error_estimate_mm + shell.view().certificate.error_estimate_mm);
+    shell.act(Undo{});
+  }
+  CHECK(elsewhere > 0);
+}
+
+TEST_CASE("what was done is kept as steps, and a run of them ends in the same state",
+          "[standard]") {
+  EditedShell shell;
+  const ShellView begun = shell.view();
+  const int middle = shell.joint(0, 0), aside = shell.joint(-2, 1);
+  const Eigen::Vector3d normal = begun.normals.col(middle), from = shell.node(middle);
+  // a drag is one step where it goes straight, each of its places where it does not
+  for (const double depth : {1., 2.5, 4.})
+    shell.drag(Push{middle, from - depth * normal, normal}, 3);
+  shell.end_drag(3);
+  CHECK(shell.view().steps.size() == 1);
+  for (const double x : {0.5, 1.})
+    shell.drag(Push{aside, shell.node(aside) + Eigen::Vector3d(x, -x, 0.3 * x)}, 4);
+  CHECK(shell.view().steps.size() == 3);
+  shell.act(Move{0.9});
+  const int edge = begun.layout->edge_points[3];
+  shell.act(DragEdge{3, shell.node(edge) + Eigen::Vector3d(1.5, -1, 0)});
+  shell.act(Release{middle});
+  shell.act(Jitter{2});
+  shell.refine();
+  CHECK(shell.view().steps.size() == 7);
+
+  preset::Preset preset = shell.view().preset;
+  preset.step = steps_of(shell.view().steps);
+  preset.actuation.radius_mm = shell.view().radius_end_mm;
+  REQUIRE(check_preset(preset));
+  Watch watch;
+  const auto run = experiment::run(preset, false, watch);
+  REQUIRE(run);
+  // a jitter may come past other states
+  const record::Limit limit = run->summary.limit;
+  CHECK((limit == record::Limit::none || limit == record::Limit::snap));
+  const record::Frame &a = shell.view().frame, &b = run->trajectory.frames.back();
+  REQUIRE(a.nodes.cols() == b.nodes.cols());
+  CHECK((a.nodes - b.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
+  CHECK(b.energies[Term::bend] == Approx(a.energies[Term::bend]).epsilon(1e-9));
+
+  // and opened again it stands there
+  const EditedShell again(preset);
+  CHECK((again.view().frame.nodes - a.nodes).cwiseAbs().maxCoeff() < 1e-9 * 66);
+  CHECK(again.view().steps.size() == 7);
+  REQUIRE(again.view().held.size() == 1);
+  // it was taken hold of on the coarsest mesh, 0.2 mm off at most
+  CHECK((again.view().held[0].moved_mm - shell.view().held[0].moved_mm).norm() < 0.2);
+  shell.act(Undo{});
+  CHECK(shell.view().steps.size() == 6);
+}
+
+TEST_CASE("edge points go where they are dragged, and put back the shell is as before") {
+  EditedShell shell;
+  const ShellView before = shell.view();
+  CHECK(before.edges_dragged.empty());
+  for (const int k : {3, 5}) {
+    const int node = before.layout->edge_points[std::size_t(k)];
+    const Eigen::Vector3d to = before.frame.nodes.col(node) + Eigen::Vector3d(1.5, -1, 0);
+    shell.act(DragEdge{k, to});
+    CHECK((shell.node(node) - to).norm() < 1e-9);
+  }
+  REQUIRE(shell.view().edges_dragged.size() == 2);
+  CHECK(shell.view().edges_dragged[1].edge_point == 5);
+  CHECK(shell.view().edges_dragged[1].off_mm == Approx(std::hypot(1.5, 1)));
+  CHECK(difference(shell, before) > 0.1);
+  // the radius still moves
+  shell.act(Move{0.9});
+  CHECK(shell.view().progress == Approx(0.9));
+  shell.act(Undo{});
+  CHECK(shell.view().progress == Approx(1));
+  shell.act(ResetEdgePoint{3});
+  CHECK(shell.view().edges_dragged.size() == 1);
+  shell.act(ResetEdgePoint{});
+  CHECK(shell.view().edges_dragged.empty());
+  CHECK(difference(shell, before) < 1e-6);
+  CHECK(shell.attempt(ResetEdgePoint{}) == "no such edge point was dragged");
+}
+
+TEST_CASE(
+    "a number of the rods or loads changes the shell as it stands, one of its shape forms "
+    "another") {
+  EditedShell shell;
+  const double energy = shell.bending_mJ();
+  preset::Preset stiffer = shell.view().preset;
+  stiffer.rod.young_GPa *= 2;
+  CHECK(kind_of_change(shell.view().preset, stiffer) == ChangeKind::rods);
+  shell.act(Change{stiffer});
+  CHECK(shell.bending_mJ() == Approx(2 * energy).epsilon(1e-3));
+  // gravity pulls all nodes, which lie evenly along the rods
+  const double height = shell.nodes().row(2).mean();
+  preset::Preset heavy = shell.view().preset;
+  heavy.rod.density_kg_m3 = 6450;
+  heavy.loads.gravity_m_s2 = 9.81;
+  shell.act(Change{heavy});
+  CHECK(shell.nodes().row(2).mean() < height);
+  preset::Preset larger = shell.view().preset;
+  larger.footprint.rods = 4;
+  larger.footprint.radius_mm = 46;
+  larger.actuation.radius_mm = 40;
+  shell.act(Change{larger});
+  CHECK(shell.view().layout->rods.size() == 8);
+  // undone, the first shell stands again, on the rods that it had
+  shell.act(Undo{true});
+  CHECK(shell.view().layout->rods.size() == 12);
+  CHECK(shell.bending_mJ() == Approx(energy));
+}
+
+TEST_CASE("a command that cannot be met leaves the last good shell and says why") {
+  EditedShell shell;
+  const ShellView before = shell.view();
+  preset::Preset wrong = before.preset;
+  wrong.footprint.radius_mm = 1;
+  CHECK(shell.attempt(Change{wrong}) != "");
+  CHECK(difference(shell, before) == 0);
+  CHECK(shell.attempt(Push{-3}) == "no such joint");
+  CHECK(shell.attempt(Redo{}) == "there is nothing to do again");
+  CHECK(difference(shell, before) == 0);
+}
+
+TEST_CASE("without a shell there is nothing to do") {
+  EditSession session;
+  for (const Edit& edit : std::vector<Edit>{Move{0.5}, Push{}, Release{}, DragEdge{}, Rest{},
+                                            Jitter{}, Undo{}, Redo{}}) {
+    session.execute({edit}, unwatched);
+    CHECK(session.shell().error != "");
+    CHECK_FALSE(session.shell().any());
+  }
+}
+
+TEST_CASE("the thread executes every command, and the latest of a drag") {
+  EngineThread engine;
+  engine.post({Open{small_shell()}});
+  engine.wait();
+  REQUIRE(engine.shell()->any());
+  CHECK(engine.shell()->refined);
+  for (int k = 1; k <= 50; ++k) engine.post({Move{1 - 0.004 * k}, 3, true});
+  engine.post({RefineAfterDrag{}, 3, false});
+  engine.wait();
+  CHECK(engine.shell()->progress == Approx(0.8));
+  CHECK(engine.shell()->refined);
+  CHECK(engine.shell()->undo_steps == 1);
+  // fewer equilibria than commands, or as many on a machine that is quick
+  CHECK(engine.shell()->equilibria <= 60);
+}
+
+TEST_CASE("a cancel stops the thread and keeps a certified state") {
+  EngineThread engine;
+  engine.post({Open{small_shell()}});
+  engine.wait();
+  engine.post({Move{0.1}});
+  engine.cancel();
+  engine.wait();
+  CHECK(engine.idle());
+  CHECK(engine.shell()->certificate.residual_N < 1e-5);
+}
