@@ -33,8 +33,8 @@ struct Done {
 struct Kept {
   std::shared_ptr<const Scene> scene;
   Checkpoint checkpoint;
-  experiment::BoundaryPosition boundary;
-  experiment::GrippedJoints grips;
+  simulate::BoundaryPosition boundary;
+  simulate::GrippedJoints grips;
   bool formed = false;
 };
 
@@ -67,15 +67,15 @@ class Shell {
   Shell(std::shared_ptr<const preset::Preset> preset, std::shared_ptr<const Scene> scene)
       : preset_(std::move(preset)),
         scene_(std::move(scene)),
-        boundary_(experiment::BoundaryPosition::of(*scene_)) {}
+        boundary_(simulate::BoundaryPosition::of(*scene_)) {}
   Result<Done> form(double progress, const Watch& watch);
   Result<Done> ended(const std::string& what, Report report) const;
 
   std::shared_ptr<const preset::Preset> preset_;
   std::shared_ptr<const Scene> scene_;
-  std::optional<Session> session_;
-  experiment::BoundaryPosition boundary_;
-  experiment::GrippedJoints grips_;
+  std::optional<Simulation> session_;
+  simulate::BoundaryPosition boundary_;
+  simulate::GrippedJoints grips_;
   std::shared_ptr<const record::Layout> layout_;
   int layout_nodes_ = 0;
   bool formed_ = false;

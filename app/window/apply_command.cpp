@@ -17,7 +17,7 @@ namespace {
 std::vector<double> xyz_of(const Eigen::Vector3d& vector) {
   std::vector<double> xyz;
   for (const double value : vector)
-    xyz.push_back(std::abs(value) < experiment::nearest_mm ? 0 : value);
+    xyz.push_back(std::abs(value) < simulate::nearest_mm ? 0 : value);
   return xyz;
 }
 
@@ -52,7 +52,7 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   if (!session_) return fail(Fault::bad_input, "there is no shell yet");
   const bool holds = step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold;
   if (holds)
-    if (const auto joint = experiment::joint_of(step, scene_->footprint))
+    if (const auto joint = simulate::joint_of(step, scene_->footprint))
       // as it was seen, which the coarse mesh of a drag does not change
       grip_origins_.emplace(*joint, shell_view_.frame.nodes.cols() > *joint
                                         ? Eigen::Vector3d(shell_view_.frame.nodes.col(*joint))
@@ -61,8 +61,8 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   const bool leaps = step.kind == preset::StepKind::jitter || step.kind == preset::StepKind::rest ||
                      step.kind == preset::StepKind::release;
   if (leaps && session_->shell().levels() == 1)
-    session_->remesh(experiment::initial_levels(*scene_), watch);
-  TRY(report, experiment::apply_step(*session_, boundary_, step, watch));
+    session_->remesh(simulate::initial_levels(*scene_), watch);
+  TRY(report, simulate::apply_step(*session_, boundary_, step, watch));
   std::erase_if(grip_origins_, [&](const auto& taken) {
     return std::ranges::none_of(session_->holds(),
                                 [&](const Constraint& hold) { return hold.node == taken.first; });
@@ -77,7 +77,7 @@ void EditSession::keep(preset::Step step, const Report& report) {
     if (step.kind != preset::StepKind::move && step.kind != preset::StepKind::push) return;
     step.progress = boundary_.progress;
     if (step.kind == preset::StepKind::push)
-      if (const auto joint = experiment::joint_of(step, scene_->footprint))
+      if (const auto joint = simulate::joint_of(step, scene_->footprint))
         step.to_mm = xyz_of(session_->nodes().col(*joint));
   }
   if (step.kind == preset::StepKind::move) step.edge_points = rows_of(boundary_.dragged);
@@ -108,7 +108,7 @@ Result<void> EditSession::act(const DragEdge& command, const Watch& watch) {
   const BoundaryMotion& motion = scene_->motion;
   dragged.col(k) =
       command.to - motion.begin.col(k) - boundary_.progress * (motion.end - motion.begin).col(k);
-  if ((dragged - boundary_.dragged).norm() < experiment::nearest_mm) return {};
+  if ((dragged - boundary_.dragged).norm() < simulate::nearest_mm) return {};
   preset::Step step = step_of(preset::StepKind::move);
   step.progress = boundary_.progress;
   step.edge_points = rows_of(dragged);
@@ -143,8 +143,7 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   step.lateral = free ? preset::Lateral::free : preset::Lateral::held;
   // a hand that holds it already and does not move does nothing
   const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
-  const bool still =
-      (free ? std::abs(way.dot(command.along)) : way.norm()) < experiment::nearest_mm;
+  const bool still = (free ? std::abs(way.dot(command.along)) : way.norm()) < simulate::nearest_mm;
   if (still && grip_origins_.contains(command.joint)) return {};
   return do_step(step, watch);
 }
@@ -280,7 +279,7 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
 Result<void> EditSession::show_designed(const preset::Preset& designed, const State& state) {
   TRY(made, shared_scene_of(designed));
   const std::shared_ptr<const Scene>& scene = *made;
-  TRY(session, Session::open(scene, LevelPlan{{designed_on}, false}));
+  TRY(session, Simulation::open(scene, LevelPlan{{designed_on}, false}));
   if (const Report report = session->begin_at(1, state, unwatched); report.end != Outcome::reached)
     return fail(Fault::no_equilibrium,
                 std::string("the designed shell is lost: ") + words_of(report.end).what);
@@ -296,7 +295,7 @@ void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
   course.iterations = now.step.iteration;
   course.points.push_back(point_of(now));
   if (!s.layout) {
-    auto layout = experiment::layout_of(scene, shell.mesh());
+    auto layout = simulate::layout_of(scene, shell.mesh());
     if (!layout) return;
     layout->flat_nodes = drawn_nodes(shell.mesh(), scene.flat).leftCols(shell.mesh().rod_nodes());
     s.layout = std::make_shared<const record::Layout>(std::move(*layout));
@@ -309,7 +308,7 @@ void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
   }
   const record::Frame before = std::exchange(
       s.frame,
-      experiment::frame_of(scene, shell.mesh(), shell.model(), shell.state(), shell.forces()));
+      simulate::frame_of(scene, shell.mesh(), shell.model(), shell.state(), shell.forces()));
   s.frame.progress = s.frame.actuation = before.progress;
   s.frame.boundary_radius_mm = before.boundary_radius_mm;
   s.certificate = {shell.residual(), 0, std::numeric_limits<double>::quiet_NaN(), 0};

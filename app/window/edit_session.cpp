@@ -82,7 +82,7 @@ std::string told_of(const std::vector<Event>& events) {
 }  // namespace
 
 LevelPlan coarse_plan(const Scene& scene) {
-  return {{experiment::initial_levels(scene).edges_per_segment.front()}, false};
+  return {{simulate::initial_levels(scene).edges_per_segment.front()}, false};
 }
 
 void EditSession::execute(const Command& command, const Watch& watch) {
@@ -127,7 +127,7 @@ void EditSession::refine(const Watch& watch) {
   const bool untouched = shell_view_.first &&
                          shell_view_.first->nodes.cols() == shell_view_.frame.nodes.cols() &&
                          shell_view_.first->nodes == shell_view_.frame.nodes;
-  const LevelPlan plan = experiment::initial_levels(*scene_);
+  const LevelPlan plan = simulate::initial_levels(*scene_);
   const std::vector<int>& now = session_->shell().plan().edges_per_segment;
   const bool fine_enough = scene_->edges_per_segment == 0 && now.size() > 1 &&
                            now.back() >= plan.edges_per_segment.back();
@@ -217,7 +217,7 @@ bool EditSession::load_from_scratch(Step& step) const {
 
 Result<void> EditSession::stand(const Step& step) {
   if (step.scene != scene_) {
-    TRY(session, Session::open(step.scene, step.checkpoint.plan));
+    TRY(session, Simulation::open(step.scene, step.checkpoint.plan));
     session_ = std::move(*session);
   }
   session_->restore(step.checkpoint);
@@ -278,8 +278,8 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == RodModel::net)
     return fail(Fault::bad_input, "the rung 'net' is geometry alone: there is nothing to push");
-  TRY(course, experiment::follow_actuation(scene, coarse_plan(*scene), false, 1, watch));
-  begin_again(preset, scene, std::move(course->session));
+  TRY(course, simulate::follow_actuation(scene, coarse_plan(*scene), false, 1, watch));
+  begin_again(preset, scene, std::move(course->simulation));
   snapped_ = course->has_events();
   design_.reset();
   target_.reset();
@@ -295,12 +295,12 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
 
 /// Another shell, which no hand has touched.
 void EditSession::begin_again(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
-                              Session session) {
+                              Simulation session) {
   preset_ = preset;
   preset_.step.clear();
   scene_ = std::move(scene);
   session_ = std::move(session);
-  boundary_ = experiment::BoundaryPosition::of(*scene_);
+  boundary_ = simulate::BoundaryPosition::of(*scene_);
   boundary_.progress = session_->progress();
   grip_origins_.clear();
   steps_.clear();
@@ -313,8 +313,8 @@ void EditSession::begin_again(const preset::Preset& preset, std::shared_ptr<cons
 /// What the preset itself pushes, from where the shell stands.
 Result<void> EditSession::take_push() {
   if (!preset_.indentation.wanted()) return {};
-  TRY(push, experiment::push_of(preset_.indentation, *scene_, session_->shell().finest(),
-                                session_->nodes()));
+  TRY(push, simulate::push_of(preset_.indentation, *scene_, session_->shell().finest(),
+                              session_->nodes()));
   shell_view_.push = {push->joint, session_->nodes().col(push->joint), push->displacement};
   return {};
 }

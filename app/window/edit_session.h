@@ -83,7 +83,7 @@ class EditSession {
     preset::Preset preset;
     std::shared_ptr<const Scene> scene;
     Checkpoint checkpoint;
-    experiment::BoundaryPosition boundary;
+    simulate::BoundaryPosition boundary;
     std::map<int, Eigen::Vector3d> taken_at;
     PresetPush push;
     std::shared_ptr<const record::Frame> first;
@@ -114,7 +114,7 @@ class EditSession {
   Result<void> form(const preset::Preset& preset, const Watch& watch);
   Result<void> rebuild_shell(const preset::Preset& preset, const Watch& watch);
   void begin_again(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
-                   Session session);
+                   Simulation session);
   Result<void> take_push();
   Result<void> show_designed(const preset::Preset& designed, const State& state);
   void show_design_step(const Scene& scene, const CertifiedStep& step, DesignProgress& course);
@@ -144,8 +144,8 @@ class EditSession {
 
   preset::Preset preset_;
   std::shared_ptr<const Scene> scene_;
-  std::optional<Session> session_;
-  experiment::BoundaryPosition boundary_;
+  std::optional<Simulation> session_;
+  simulate::BoundaryPosition boundary_;
   std::map<int, Eigen::Vector3d> grip_origins_;  // where joints were taken hold of
   std::deque<Step> undo_, redo_;
   ScratchFile aside_;  // the arrays of older ones

@@ -15,7 +15,7 @@ constexpr double same_shape = 2e-3;        // of the length scale
 constexpr double least_shortening = 1e-3;  // nearer to the flat no path is followed
 
 /// Where each of the motions' parameters is as near to the flat as a path goes, as a progress.
-double least_progress_of(const Session& session) {
+double least_progress_of(const Simulation& session) {
   if (session.scene().drawn_in_space) return 0;
   const NestedShell& shell = session.shell();
   PinnedMotion motion = pinned_motion(shell.mesh(0), session.scene().motion);
@@ -57,7 +57,7 @@ void EditSession::look() {
   if (!session_) return;
   look_at_layout();
   if (!s.layout) return;
-  s.frame = experiment::frame_of(*session_);
+  s.frame = simulate::frame_of(*session_);
   s.frame.progress = s.frame.actuation = s.progress = boundary_.progress;
   s.frame.boundary_radius_mm = scene_->radius_at(boundary_.progress);
   if (s.preset.footprint.kind == preset::FootprintKind::circle)
@@ -101,7 +101,7 @@ void EditSession::look() {
 void EditSession::look_at_layout() {
   const RodMesh& mesh = session_->shell().finest();
   if (shell_view_.layout && nodes_shown_ == mesh.rod_nodes()) return;
-  auto layout = experiment::layout_of(*scene_, mesh);
+  auto layout = simulate::layout_of(*scene_, mesh);
   if (!layout) {
     shell_view_.trouble = layout.error().message;
     return;
@@ -115,8 +115,8 @@ void EditSession::look_at_layout() {
   // joints come first on every mesh, and the coarsest is the quickest to look at
   const NestedShell& shell = session_->shell();
   const RodMesh& coarsest = shell.mesh(0);
-  symmetries_ = experiment::symmetries_of_shell(*scene_, coarsest,
-                                                symmetries_of(coarsest, shell.motion(0).at(1)));
+  symmetries_ = simulate::symmetries_of_shell(*scene_, coarsest,
+                                              symmetries_of(coarsest, shell.motion(0).at(1)));
 }
 
 /// Of the shape, whatever holds it. A square that is mapped onto itself alone has none to tell of.

@@ -106,13 +106,13 @@ DesignedState described(DesignShell& shell, DesignTarget& target) {
 /// The shell of the scene as it is, on the mesh that is designed on.
 Result<std::unique_ptr<DesignShell>> begin(const std::shared_ptr<const Scene>& scene,
                                            const Watch& watch) {
-  TRY(course, experiment::follow_actuation(scene, plan_of_mesh(designed_on), false, 1, watch));
-  const Session& session = course->session;
-  if (session.progress() != 1)
+  TRY(course, simulate::follow_actuation(scene, plan_of_mesh(designed_on), false, 1, watch));
+  const Simulation& simulation = course->simulation;
+  if (simulation.progress() != 1)
     return fail(
         Fault::no_equilibrium,
         "the shell does not come to its end before anything is changed: " + course->limit_reason);
-  const NestedShell& shell = session.shell();
+  const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
   return DesignShell::make(*scene, designed_on, shell.mesh(last), shell.model(last),
                            shell.state().levels.back());

@@ -8,7 +8,7 @@
 #include "engine/record/trajectory.h"
 #include "engine/simulate/equilibrium_path.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// Errors (bad_input): the boundary holds that joint.
 Result<void> not_on_boundary(const Footprint& footprint, int joint);
@@ -33,7 +33,7 @@ Result<PushOf> push_of(const preset::Indentation& indentation, const Scene& scen
 
 /// An actuated shell that is held at the joint to be pushed, and what is to be done to it.
 struct HeldShell {
-  EquilibriumPath course;
+  EquilibriumPath path;
   PushOf push;
   Eigen::Matrix3Xd before;  ///< joints of the unloaded shell, 3 x n
 };
@@ -54,4 +54,4 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
                                         const std::vector<double>& progress, record::Sink& sink,
                                         Watch& watch);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

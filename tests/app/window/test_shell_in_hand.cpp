@@ -7,7 +7,7 @@
 #include "app/window/command.h"
 #include "app/window/viewer_state.h"
 #include "app/window/worker_threads.h"
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "tests/small_shell.h"
 
 using namespace gridshell;
@@ -39,7 +39,7 @@ double difference(const ShellView& a, const ShellView& b) {
 TEST_CASE("the shell in hand is the one that a run ends in") {
   const EditSession hand = formed();
   Watch watch;
-  const auto run = experiment::run(small_shell(), true, watch);
+  const auto run = simulate::run(small_shell(), true, watch);
   REQUIRE(run);
   const Eigen::Matrix3Xd& nodes = run->trajectory.frames.back().nodes;
   const auto joints = Eigen::Index(hand.sight().layout->joints.size());
@@ -192,7 +192,7 @@ TEST_CASE("a shell that was shaken is kept with its leading mesh, and a run come
     CHECK(kept.accuracy.leading_edges == 4);
     REQUIRE(check_preset(kept));
     Watch watch;
-    const auto run = experiment::run(kept, false, watch);
+    const auto run = simulate::run(kept, false, watch);
     REQUIRE(run);
     const double energy = hand.sight().frame.energies[Term::bend];
     elsewhere += std::abs(energy - unshaken) > 1e-2 * unshaken;
@@ -239,7 +239,7 @@ TEST_CASE("what a hand did is kept as steps, and a run of them ends in the same 
   const preset::Preset preset = saved(hand.sight());
   REQUIRE(check_preset(preset));
   Watch watch;
-  const auto run = experiment::run(preset, false, watch);
+  const auto run = simulate::run(preset, false, watch);
   REQUIRE(run);
   // a jitter may come past other states
   const record::Limit limit = run->summary.limit;

@@ -1,4 +1,4 @@
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +24,13 @@ PathOptions options_for(const Scene& scene) {
 
 }  // namespace
 
-Result<Session> Session::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan) {
-  Session session(std::move(scene));
-  TRY_DO(session.build(plan));
-  return session;
+Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan) {
+  Simulation simulation(std::move(scene));
+  TRY_DO(simulation.build(plan));
+  return simulation;
 }
 
-Result<void> Session::build(const LevelPlan& plan) {
+Result<void> Simulation::build(const LevelPlan& plan) {
   TRY(shell, NestedShell::make(scene_->footprint, rods_ ? *rods_ : scene_->rods,
                                scene_->solved_model(), scene_->motion, plan, options_for(*scene_)));
   if (shell_) spent_ += shell_->effort();
@@ -40,13 +40,13 @@ Result<void> Session::build(const LevelPlan& plan) {
 
 // ---- reports ----
 
-Certificate Session::certificate() const {
+Certificate Simulation::certificate() const {
   const NestedState& state = shell_->state();
   return {state.residual_N, state.inertia.negative_pivots, state.error_estimate_mm,
           state.largest_strain};
 }
 
-Report Session::report(Outcome end, double t, const Effort& before, double begin) const {
+Report Simulation::report(Outcome end, double t, const Effort& before, double begin) const {
   Report report;
   report.end = end;
   report.t = t;
@@ -56,27 +56,27 @@ Report Session::report(Outcome end, double t, const Effort& before, double begin
   return report;
 }
 
-Energies Session::energies() const {
+Energies Simulation::energies() const {
   const int last = shell_->levels() - 1;
   const Energies fine = shell_->energies(last);
   if (!shell_->plan().extrapolate || last == 0) return fine;
   return (4 * fine - shell_->energies(last - 1)) / 3;
 }
 
-bool Session::locked() const {
+bool Simulation::locked() const {
   const NestedState& state = shell_->state();
   if (std::abs(state.largest_strain) > scene_->max_strain) return true;
   if (actuating_ || holds_.empty() || !(first_stiffness_ > 0)) return false;
   return push_stiffness() > stiffness_growth * first_stiffness_;
 }
 
-double Session::push_stiffness() const {
+double Simulation::push_stiffness() const {
   return along_.dot(shell_->state().held_stiffness * along_);
 }
 
 // ---- begin ----
 
-Report Session::begin_flat() {
+Report Simulation::begin_flat() {
   const double begin = seconds_now();
   const Effort before = effort();
   NestedState flat;
@@ -96,7 +96,7 @@ Report Session::begin_flat() {
   return report(Outcome::reached, 0, before, begin);
 }
 
-Result<Report> Session::begin_buckled(double shortening, const Watch& watch) {
+Result<Report> Simulation::begin_buckled(double shortening, const Watch& watch) {
   const double begin = seconds_now();
   const Effort before = effort();
   TRY(t, parameter_of_shortening(shell_->mesh(0), shell_->motion(0), shortening));
@@ -107,17 +107,17 @@ Result<Report> Session::begin_buckled(double shortening, const Watch& watch) {
   return report;
 }
 
-Result<Report> Session::begin_on_net(const Watch& watch) {
+Result<Report> Simulation::begin_on_net(const Watch& watch) {
   TRY(rest, state_on_net(*shell_, *scene_, watch));
   return begin_at(1, *rest, watch);
 }
 
-Result<Report> Session::begin_as_drawn(const Watch& watch) {
+Result<Report> Simulation::begin_as_drawn(const Watch& watch) {
   TRY(rest, state_as_drawn(*shell_, *scene_, rods_ ? *rods_ : scene_->rods, watch));
   return begin_at(0, *rest, watch);
 }
 
-Report Session::begin_at(double t, const State& coarse, const Watch& watch) {
+Report Simulation::begin_at(double t, const State& coarse, const Watch& watch) {
   const double begin = seconds_now();
   const Effort before = effort();
   actuating_ = true;
@@ -132,7 +132,7 @@ Report Session::begin_at(double t, const State& coarse, const Watch& watch) {
 
 /// Other meshes or rods in the place of these, at rest where these stand; if they are not, these
 /// stay.
-Result<Outcome> Session::replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch) {
+Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch) {
   std::unique_ptr<NestedShell> before = std::move(shell_);
   const auto back = [&] {
     if (shell_) spent_ += shell_->effort();
@@ -164,12 +164,12 @@ Result<Outcome> Session::replace_meshes(const LevelPlan& plan, bool nearby, cons
   return end;
 }
 
-Checkpoint Session::save() const {
+Checkpoint Simulation::save() const {
   return {shell_->state(), shell_->plan(), rods_,     shell_->motions(), holds_,
           field_,          load_scale_,    progress_, actuating_};
 }
 
-void Session::restore(const Checkpoint& kept) {
+void Simulation::restore(const Checkpoint& kept) {
   if (kept.rods.has_value() != rods_.has_value() || rods_.has_value() ||
       kept.plan.edges_per_segment != shell_->plan().edges_per_segment) {
     rods_ = kept.rods;

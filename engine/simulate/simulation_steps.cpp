@@ -1,5 +1,5 @@
-// What a hand does to a session: each takes the path's place by a drive of its own, or brings the
-// shell to rest where it is.
+// What a hand does to a simulation: each takes the path's place by a drive of its own, or brings
+// the shell to rest where it is.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,7 +8,7 @@
 #include "engine/core/try.h"
 #include "engine/simulate/branch_switch.h"
 #include "engine/simulate/mesh_choice.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
 namespace gridshell {
 namespace {
@@ -30,18 +30,18 @@ std::vector<NodeAction> times(std::vector<NodeAction> actions, double factor) {
 
 }  // namespace
 
-LoadFactor Session::steady_load() const {
+LoadFactor Simulation::steady_load() const {
   return {actuating_ ? load_scale_ * progress_ : load_scale_, 0};
 }
 
-void Session::apply_field(std::vector<NodeAction> field) {
+void Simulation::apply_field(std::vector<NodeAction> field) {
   field_ = std::move(field);
   shell_->set_fields(field_, {});
 }
 
 /// Drives the shell from where it is, all the way if it can.
-Report Session::drive(const PrescribedMove& drive, std::vector<NodeAction> coming,
-                      const Watch& watch) {
+Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> coming,
+                         const Watch& watch) {
   const double begin = seconds_now();
   const Effort before = effort();
   const std::vector<Constraint> held = drive.holds;
@@ -62,7 +62,7 @@ Report Session::drive(const PrescribedMove& drive, std::vector<NodeAction> comin
   return done;
 }
 
-Report Session::move_to(double progress, const Watch& watch, PathRecord* trail) {
+Report Simulation::move_to(double progress, const Watch& watch, PathRecord* record) {
   const double t = parameter_at(progress);
   if (!actuating_) {
     const double now = parameter_at(progress_);
@@ -71,16 +71,17 @@ Report Session::move_to(double progress, const Watch& watch, PathRecord* trail) 
     const NestedReport started = shell_->start(now, shell_->state().levels[0], watch);
     if (started.end != Outcome::reached) return report(started.end, now, effort(), seconds_now());
   }
-  return go(t, watch, {}, trail);
+  return go(t, watch, {}, record);
 }
 
-Report Session::move_edge_points(const BoundaryMotion& motion, const Watch& watch) {
+Report Simulation::move_edge_points(const BoundaryMotion& motion, const Watch& watch) {
   const LoadFactor load = steady_load();
   return drive({.holds = holds_, .displacements = {}, .boundary = motion, .load = load}, {}, watch);
 }
 
-Report Session::begin_joint_push(std::vector<Constraint> holds,
-                                 std::vector<Eigen::Vector3d> displacements, const Watch& watch) {
+Report Simulation::begin_joint_push(std::vector<Constraint> holds,
+                                    std::vector<Eigen::Vector3d> displacements,
+                                    const Watch& watch) {
   const double begin = seconds_now();
   const Effort before = effort();
   const LoadFactor load = steady_load();
@@ -99,8 +100,8 @@ Report Session::begin_joint_push(std::vector<Constraint> holds,
   return report(nested.end, nested.t, before, begin);
 }
 
-Report Session::push(int joint, const Eigen::Vector3d& displacement, Across across,
-                     const Watch& watch, PathRecord* trail) {
+Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across across,
+                        const Watch& watch, PathRecord* record) {
   std::vector<Constraint> holds = holds_;
   std::erase_if(holds, [&](const Constraint& hold) { return hold.node == joint; });
   Constraint hold{joint};
@@ -115,10 +116,10 @@ Report Session::push(int joint, const Eigen::Vector3d& displacement, Across acro
   displacements.back() = displacement;
   const Report taken = begin_joint_push(std::move(holds), std::move(displacements), watch);
   if (first_stiffness > 0) first_stiffness_ = first_stiffness;
-  return taken.end == Outcome::reached ? go(1, watch, {}, trail) : taken;
+  return taken.end == Outcome::reached ? go(1, watch, {}, record) : taken;
 }
 
-Report Session::release(int joint, const Watch& watch) {
+Report Simulation::release(int joint, const Watch& watch) {
   std::vector<Constraint> left = holds_;
   std::vector<NodeAction> force;
   for (std::size_t k = 0; k < holds_.size(); ++k)
@@ -141,14 +142,14 @@ Report Session::release(int joint, const Watch& watch) {
   return done;
 }
 
-Report Session::load(double factor, const Watch& watch) {
+Report Simulation::load(double factor, const Watch& watch) {
   const LoadFactor now = steady_load();
   Report done = drive({.holds = holds_, .load = {now.begin, factor - now.begin}}, {}, watch);
   load_scale_ = now.begin + done.t * (factor - now.begin);
   return done;
 }
 
-Report Session::set_field(std::vector<NodeAction> field, const Watch& watch) {
+Report Simulation::set_field(std::vector<NodeAction> field, const Watch& watch) {
   const LoadFactor load = steady_load();
   const std::vector<NodeAction> coming = difference(field, field_);
   Report done = drive({.holds = holds_, .load = load, .field = {0, 1}}, coming, watch);
@@ -156,7 +157,7 @@ Report Session::set_field(std::vector<NodeAction> field, const Watch& watch) {
   return done;
 }
 
-Report Session::rest(const Watch& watch, BranchSide side) {
+Report Simulation::rest(const Watch& watch, BranchSide side) {
   const double begin = seconds_now();
   const Effort before = effort();
   const Checkpoint good = save();
@@ -170,8 +171,8 @@ Report Session::rest(const Watch& watch, BranchSide side) {
   return report(end, t, before, begin);
 }
 
-Report Session::rest_in_time(const Watch& watch,
-                             const std::function<void(const MovingState&)>& seen) {
+Report Simulation::rest_in_time(const Watch& watch,
+                                const std::function<void(const MovingState&)>& seen) {
   const double begin = seconds_now();
   const Effort before = effort();
   const Checkpoint good = save();
@@ -184,7 +185,7 @@ Report Session::rest_in_time(const Watch& watch,
   return report(end, shell_->state().t, before, begin);
 }
 
-Result<Report> Session::set_rods(const ShellRods& rods, const Watch& watch) {
+Result<Report> Simulation::set_rods(const ShellRods& rods, const Watch& watch) {
   const double begin = seconds_now();
   const Effort before = effort();
   std::optional<ShellRods> old = std::exchange(rods_, rods);
@@ -194,14 +195,14 @@ Result<Report> Session::set_rods(const ShellRods& rods, const Watch& watch) {
   return report(*taken, shell_->state().t, before, begin);
 }
 
-Result<Report> Session::remesh(const LevelPlan& plan, const Watch& watch) {
+Result<Report> Simulation::remesh(const LevelPlan& plan, const Watch& watch) {
   const double begin = seconds_now();
   const Effort before = effort();
   TRY(taken, replace_meshes(plan, false, watch));
   return report(*taken, shell_->state().t, before, begin);
 }
 
-Report Session::refine(double tolerance_mm, const Watch& watch) {
+Report Simulation::refine(double tolerance_mm, const Watch& watch) {
   const double begin = seconds_now();
   const Effort before = effort();
   Outcome end = Outcome::reached;

@@ -1,6 +1,6 @@
 // The `net` rung: the smooth Chebyshev net itself, sampled at the rods.
 
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -24,7 +24,7 @@
 #include "engine/solve/buckling.h"
 #include "engine/solve/mesh_levels.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// What a gridshell's joints are away from their net, as a rule and over rho: caps of a sphere with
 /// pinned ends lie within 0.032 of it.
@@ -165,18 +165,18 @@ void put_seams(const Scene& scene, record::Summary& s) {
 }
 
 /// What was followed, and on which meshes.
-void put_course(const EquilibriumPath& course, record::Summary& s) {
-  const NestedShell& shell = course.session.shell();
+void put_path(const EquilibriumPath& path, record::Summary& s) {
+  const NestedShell& shell = path.simulation.shell();
   s.edges_per_segment = shell.plan().edges_per_segment.back();
   s.dof = shell.model(shell.levels() - 1).dof();
-  s.limit = course.limit;
-  s.limit_reason = course.limit_reason;
-  s.doubt = course.mesh_disagreement;
-  s.largest_strain = course.session.certificate().largest_strain;
-  const Effort effort = course.session.effort();
+  s.limit = path.limit;
+  s.limit_reason = path.limit_reason;
+  s.doubt = path.mesh_disagreement;
+  s.largest_strain = path.simulation.certificate().largest_strain;
+  const Effort effort = path.simulation.effort();
   s.newton_iterations = effort.newton_iterations;
   s.factorizations = effort.factorizations;
-  s.seconds_setup = course.seconds_setup;
+  s.seconds_setup = path.seconds_setup;
 }
 
 record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
@@ -299,16 +299,16 @@ Result<Plan> plan(const preset::Preset& preset) {
 namespace {
 
 /// What the preset wants done, followed and shown; of steps, what each came to.
-Result<EquilibriumPath> course_for(const preset::Preset& preset,
-                                   const std::shared_ptr<const Scene>& scene, bool stills,
-                                   std::vector<std::string>& told, LastFrame& sink, Watch& watch) {
+Result<EquilibriumPath> path_for(const preset::Preset& preset,
+                                 const std::shared_ptr<const Scene>& scene, bool stills,
+                                 std::vector<std::string>& told, LastFrame& sink, Watch& watch) {
   if (preset.indentation.wanted())
     return run_indentation(scene, preset.indentation, samples_of_push(preset, stills), sink, watch);
   if (preset.step.empty()) return run_actuation(scene, samples_of(preset, stills), sink, watch);
   // stills show each step's end
   TRY(stepped, run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch));
   told = std::move(stepped->messages);
-  return std::move(stepped->course);
+  return std::move(stepped->path);
 }
 
 /// Runs a scene on a rung that solves, and says what was followed.
@@ -316,13 +316,13 @@ Result<void> follow(const preset::Preset& preset, const std::shared_ptr<const Sc
                     bool stills, LastFrame& sink, Watch& watch, record::Summary& summary) {
   const double begin = seconds_now();
   std::vector<std::string> told;
-  auto course = course_for(preset, scene, stills, told, sink, watch);
+  auto path = path_for(preset, scene, stills, told, sink, watch);
   if (watch.cancelled()) return stopped();
-  if (!course) return tl::unexpected<Error>(course.error());
+  if (!path) return tl::unexpected<Error>(path.error());
   if (!sink.frame())
-    return fail(Fault::no_equilibrium, "no frame was certified: " + course->limit_reason);
+    return fail(Fault::no_equilibrium, "no frame was certified: " + path->limit_reason);
   summary = summary_of(preset, *scene, sink);
-  put_course(*course, summary);
+  put_path(*path, summary);
   summary.steps = std::move(told);
   summary.seconds_simulation = seconds_now() - begin - summary.seconds_setup;
   return {};
@@ -358,4 +358,4 @@ Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& w
   return ExperimentResult{std::move(sink.trajectory()), std::move(*summary)};
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate
