@@ -27,7 +27,6 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
   } else {
     shell.as_drawn_ = true;
   }
-  shell.boundary_.progress = 0;
   return shell;
 }
 
@@ -37,7 +36,7 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
   if (report.end == Outcome::reached) return Done{std::move(report)};
   return fail(Fault::no_equilibrium,
               fmt::format("{}: {}; it stands in the last certified state, at progress {:.4g}", what,
-                          words_of(report.end).what, boundary_.progress));
+                          words_of(report.end).what, session_->boundary.progress));
 }
 
 Result<Done> Shell::form(double progress, const Watch& watch) {
@@ -52,7 +51,6 @@ Result<Done> Shell::form(double progress, const Watch& watch) {
   if (!course) return tl::unexpected<Error>(course.error());
   session_ = std::move(course->simulation);
   formed_ = true;
-  boundary_.progress = session_->progress();
   const simulate::PathSegment* last = course->segments.empty() ? nullptr : &course->segments.back();
   if (last && !last->back && last->report.end != Outcome::reached)
     return fail(Fault::no_equilibrium, "actuate: " + course->limit_reason);
@@ -85,8 +83,7 @@ Result<Done> Shell::move(const preset::Step& step, const Watch& watch) {
 Result<Done> Shell::take(const preset::Step& step, const Watch& watch) {
   if (!formed_) return fail(Fault::bad_input, "the shell is still flat: actuate it first");
   as_drawn_ = false;
-  grips_.note(*session_);
-  TRY(report, simulate::apply_step(*session_, boundary_, step, watch));
+  TRY(report, simulate::apply_step(*session_, step, watch));
   return ended(simulate::text_of(step), std::move(*report));
 }
 
@@ -106,13 +103,11 @@ Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
   return done;
 }
 
-Kept Shell::save() const { return {scene_, session_->save(), boundary_, grips_, formed_}; }
+Kept Shell::save() const { return {scene_, session_->save(), formed_}; }
 
 Result<void> Shell::restore(const Kept& kept) {
   if (kept.scene != scene_) return fail(Fault::bad_input, "the state was kept by another session");
   session_->restore(kept.checkpoint);
-  boundary_ = kept.boundary;
-  grips_ = kept.grips;
   formed_ = kept.formed;
   as_drawn_ = false;
   return {};
@@ -131,9 +126,9 @@ Result<State> Shell::look() {
               formed_ ? simulate::frame_of(*session_) : simulate::flat_frame(*session_),
               {}};
   record::Frame& frame = state.frame;
-  frame.progress = frame.actuation = boundary_.progress;
+  frame.progress = frame.actuation = session_->boundary.progress;
   frame.boundary_radius_mm = scene_->radius_at(frame.actuation);
-  simulate::fill_push(*session_, grips_.last(*session_), frame);
+  session_->put_push(frame);
   state.certificate = session_->certificate();
   for (const Constraint& hold : session_->holds()) {
     const FootprintJoint& joint = scene_->footprint.joints[std::size_t(hold.node)];

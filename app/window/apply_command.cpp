@@ -54,19 +54,16 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   if (holds)
     if (const auto joint = simulate::joint_of(step, scene_->footprint))
       // as it was seen, which the coarse mesh of a drag does not change
-      grip_origins_.emplace(*joint, shell_view_.frame.nodes.cols() > *joint
-                                        ? Eigen::Vector3d(shell_view_.frame.nodes.col(*joint))
-                                        : Eigen::Vector3d(session_->nodes().col(*joint)));
+      session_->grip_origins.emplace(*joint,
+                                     shell_view_.frame.nodes.cols() > *joint
+                                         ? Eigen::Vector3d(shell_view_.frame.nodes.col(*joint))
+                                         : Eigen::Vector3d(session_->nodes().col(*joint)));
   // a leap is taken from a state at rest on all meshes, as a run takes it
   const bool leaps = step.kind == preset::StepKind::jitter || step.kind == preset::StepKind::rest ||
                      step.kind == preset::StepKind::release;
   if (leaps && session_->shell().levels() == 1)
     session_->remesh(simulate::initial_levels(*scene_), watch);
-  TRY(report, simulate::apply_step(*session_, boundary_, step, watch));
-  std::erase_if(grip_origins_, [&](const auto& taken) {
-    return std::ranges::none_of(session_->holds(),
-                                [&](const Constraint& hold) { return hold.node == taken.first; });
-  });
+  TRY(report, simulate::apply_step(*session_, step, watch));
   keep(std::move(step), *report);
   return ended(*report);
 }
@@ -75,12 +72,12 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
 void EditSession::keep(preset::Step step, const Report& report) {
   if (report.end != Outcome::reached) {
     if (step.kind != preset::StepKind::move && step.kind != preset::StepKind::push) return;
-    step.progress = boundary_.progress;
+    step.progress = session_->boundary.progress;
     if (step.kind == preset::StepKind::push)
       if (const auto joint = simulate::joint_of(step, scene_->footprint))
         step.to_mm = xyz_of(session_->nodes().col(*joint));
   }
-  if (step.kind == preset::StepKind::move) step.edge_points = rows_of(boundary_.dragged);
+  if (step.kind == preset::StepKind::move) step.edge_points = rows_of(session_->boundary.dragged);
   const bool eventful = !report.events.empty();
   const bool same = now_stroke_ != 0 && now_stroke_ == kept_stroke_ && !steps_.empty() &&
                     !eventful && !kept_eventful_ && goes_on(steps_.last(), step);
@@ -95,37 +92,38 @@ void EditSession::keep(preset::Step step, const Report& report) {
 Result<void> EditSession::act(const Move& command, const Watch& watch) {
   preset::Step step = step_of(preset::StepKind::move);
   step.progress = std::max(command.progress, shell_view_.least_progress);
-  step.edge_points = rows_of(boundary_.dragged);
+  if (session_) step.edge_points = rows_of(session_->boundary.dragged);
   return do_step(step, watch);
 }
 
 Result<void> EditSession::act(const DragEdge& command, const Watch& watch) {
   if (!session_) return fail(Fault::bad_input, "there is no shell yet");
-  Eigen::Matrix3Xd dragged = boundary_.dragged;
+  Eigen::Matrix3Xd dragged = session_->boundary.dragged;
   if (command.edge_point < 0 || command.edge_point >= dragged.cols())
     return fail(Fault::bad_input, "no such edge point");
   const Eigen::Index k = command.edge_point;
   const BoundaryMotion& motion = scene_->motion;
-  dragged.col(k) =
-      command.to - motion.begin.col(k) - boundary_.progress * (motion.end - motion.begin).col(k);
-  if ((dragged - boundary_.dragged).norm() < simulate::nearest_mm) return {};
+  dragged.col(k) = command.to - motion.begin.col(k) -
+                   session_->boundary.progress * (motion.end - motion.begin).col(k);
+  if ((dragged - session_->boundary.dragged).norm() < simulate::nearest_mm) return {};
   preset::Step step = step_of(preset::StepKind::move);
-  step.progress = boundary_.progress;
+  step.progress = session_->boundary.progress;
   step.edge_points = rows_of(dragged);
   return do_step(step, watch);
 }
 
 Result<void> EditSession::act(const ResetEdgePoint& command, const Watch& watch) {
   const bool all = command.edge_point < 0;
-  Eigen::Matrix3Xd dragged = boundary_.dragged;
+  Eigen::Matrix3Xd dragged;
+  if (session_) dragged = session_->boundary.dragged;
   if (all)
     dragged.setZero();
   else if (command.edge_point < dragged.cols())
     dragged.col(command.edge_point).setZero();
-  if (!session_ || (dragged - boundary_.dragged).isZero(0))
+  if (!session_ || (dragged - session_->boundary.dragged).isZero(0))
     return fail(Fault::bad_input, "no such edge point was dragged");
   preset::Step step = step_of(preset::StepKind::move);
-  step.progress = boundary_.progress;
+  step.progress = session_->boundary.progress;
   step.edge_points = rows_of(dragged);
   return do_step(step, watch);
 }
@@ -144,7 +142,7 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   // a hand that holds it already and does not move does nothing
   const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
   const bool still = (free ? std::abs(way.dot(command.along)) : way.norm()) < simulate::nearest_mm;
-  if (still && grip_origins_.contains(command.joint)) return {};
+  if (still && session_->grip_origins.contains(command.joint)) return {};
   return do_step(step, watch);
 }
 

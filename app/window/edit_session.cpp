@@ -156,10 +156,9 @@ void EditSession::coarsen(const Watch& watch) {
 // ---- steps ----
 
 EditSession::Step EditSession::step() const {
-  return {preset_,       scene_,           session_->save(),  boundary_,
-          grip_origins_, shell_view_.push, shell_view_.first, steps_,
-          refined_,      changed_late_,    snapped_,          design_,
-          target_};
+  return {preset_,           scene_,  session_->save(), shell_view_.push,
+          shell_view_.first, steps_,  refined_,         changed_late_,
+          snapped_,          design_, target_};
 }
 
 /// Keeps the state before a command, but for one of the stroke that the last step began.
@@ -223,8 +222,6 @@ Result<void> EditSession::stand(const Step& step) {
   session_->restore(step.checkpoint);
   preset_ = step.preset;
   scene_ = step.scene;
-  boundary_ = step.boundary;
-  grip_origins_ = step.taken_at;
   shell_view_.push = step.push;
   shell_view_.first = step.first;
   shell_view_.layout.reset();
@@ -300,9 +297,6 @@ void EditSession::begin_again(const preset::Preset& preset, std::shared_ptr<cons
   preset_.step.clear();
   scene_ = std::move(scene);
   session_ = std::move(session);
-  boundary_ = simulate::BoundaryPosition::of(*scene_);
-  boundary_.progress = session_->progress();
-  grip_origins_.clear();
   steps_.clear();
   kept_stroke_ = 0;
   refined_ = changed_late_ = snapped_ = false;
@@ -356,7 +350,7 @@ Result<void> EditSession::act(const Change& command, const Watch& watch) {
 
 /// A shell of other numbers, to which nothing that the hand did is done again.
 Result<void> EditSession::rebuild_shell(const preset::Preset& preset, const Watch& watch) {
-  const bool untouched = steps_.empty() && grip_origins_.empty();
+  const bool untouched = steps_.empty() && session_->grip_origins.empty();
   return form(preset, watch).map([&] {
     if (untouched) return;
     if (!shell_view_.told.empty()) shell_view_.told += "; ";

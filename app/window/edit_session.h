@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -83,8 +82,6 @@ class EditSession {
     preset::Preset preset;
     std::shared_ptr<const Scene> scene;
     Checkpoint checkpoint;
-    simulate::BoundaryPosition boundary;
-    std::map<int, Eigen::Vector3d> taken_at;
     PresetPush push;
     std::shared_ptr<const record::Frame> first;
     StepHistory steps;
@@ -145,8 +142,6 @@ class EditSession {
   preset::Preset preset_;
   std::shared_ptr<const Scene> scene_;
   std::optional<Simulation> session_;
-  simulate::BoundaryPosition boundary_;
-  std::map<int, Eigen::Vector3d> grip_origins_;  // where joints were taken hold of
   std::deque<Step> undo_, redo_;
   ScratchFile aside_;  // the arrays of older ones
   std::int64_t most_bytes_;

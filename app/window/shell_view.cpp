@@ -58,8 +58,8 @@ void EditSession::look() {
   look_at_layout();
   if (!s.layout) return;
   s.frame = simulate::frame_of(*session_);
-  s.frame.progress = s.frame.actuation = s.progress = boundary_.progress;
-  s.frame.boundary_radius_mm = scene_->radius_at(boundary_.progress);
+  s.frame.progress = s.frame.actuation = s.progress = session_->boundary.progress;
+  s.frame.boundary_radius_mm = scene_->radius_at(session_->boundary.progress);
   if (s.preset.footprint.kind == preset::FootprintKind::circle)
     s.preset.set_radii(scene_->radius_begin_mm, s.frame.boundary_radius_mm);
   s.certificate = session_->certificate();
@@ -70,18 +70,19 @@ void EditSession::look() {
   s.steps = steps_;
   s.radius_end_mm = scene_->radius_end_mm;
   s.edges_dragged.clear();
-  for (Eigen::Index k = 0; k < boundary_.dragged.cols(); ++k)
-    if (!boundary_.dragged.col(k).isZero(0))
-      s.edges_dragged.push_back({int(k), boundary_.dragged.col(k).norm()});
+  for (Eigen::Index k = 0; k < session_->boundary.dragged.cols(); ++k)
+    if (!session_->boundary.dragged.col(k).isZero(0))
+      s.edges_dragged.push_back({int(k), session_->boundary.dragged.col(k).norm()});
   s.rods_changed_late = changed_late_;
   s.snapped = snapped_;
   s.design = design_;
   look_at_normals();
   s.held.clear();
+  const auto& origins = session_->grip_origins;
   for (std::size_t k = 0; k < session_->holds().size(); ++k) {
     const Constraint& hold = session_->holds()[k];
     const Eigen::Vector3d from =
-        grip_origins_.count(hold.node) ? grip_origins_[hold.node] : s.frame.nodes.col(hold.node);
+        origins.contains(hold.node) ? origins.at(hold.node) : s.frame.nodes.col(hold.node);
     // what is free to move across the push is no part of its depth
     HeldJoint held{hold.node, hold.part(session_->force(k)),
                    hold.part(s.frame.nodes.col(hold.node) - from)};

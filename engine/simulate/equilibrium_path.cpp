@@ -14,7 +14,7 @@ namespace {
 /// The load_step that it lies in front of.
 const LoadStep& load_step_after(const PathSegment& segment, double t) {
   for (const LoadStep& load_step : segment.load_steps)
-    if (segment.way() * (load_step.point.t - t) >= 0) return load_step;
+    if (segment.sign() * (load_step.point.t - t) >= 0) return load_step;
   return segment.load_steps.back();
 }
 
@@ -40,7 +40,7 @@ double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& 
 const LoadStep& load_step_before(const PathSegment& segment, double t) {
   const LoadStep* before = &segment.load_steps.front();
   for (const LoadStep& load_step : segment.load_steps)
-    if (segment.way() * (t - load_step.point.t) >= 0) before = &load_step;
+    if (segment.sign() * (t - load_step.point.t) >= 0) before = &load_step;
   return *before;
 }
 
@@ -54,7 +54,7 @@ bool EquilibriumPath::has_events() const {
 
 bool within_snap(const PathSegment& segment, double t) {
   const double after = load_step_after(segment, t).point.t;
-  return segment.way() * (after - t) > 0 &&
+  return segment.sign() * (after - t) > 0 &&
          std::any_of(segment.report.events.begin(), segment.report.events.end(),
                      [&](const Event& event) { return event.to && *event.to == after; });
 }
@@ -71,8 +71,8 @@ LevelPlan initial_levels(const Scene& scene) {
                                      : plan_levels(scene.tolerance, scene.leading_edges);
 }
 
-Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
-                                       const Watch& watch) {
+Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
+                                         const Watch& watch) {
   LevelPlan plan = initial_levels(scene);
   const double allowed = scene.tolerance * scene.length_scale_mm;
   const bool asked = scene.edges_per_segment > 0;
@@ -82,10 +82,10 @@ Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
     TRY_DO(fits_memory(scene, plan));
     auto path = follow(plan, watch);
     if (!path || watch.cancelled()) return path;
-    path->asked = plan;
-    path->seconds_setup += setup;
-    path->simulation.charge(spent);
-    const double worst = worst_estimate_mm(*path);
+    (*path)->asked = plan;
+    (*path)->seconds_setup += setup;
+    (*path)->simulation.charge(spent);
+    const double worst = worst_estimate_mm(**path);
     if (asked) return path;
     if (!(worst > allowed)) return confirm_on_finer_meshes(scene, std::move(*path), follow, watch);
     const auto next = finer(plan);
@@ -98,8 +98,8 @@ Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
                       scene.tolerance, plan.edges_per_segment.back(), worst,
                       worst / scene.length_scale_mm, fits ? "" : "; " + fits.error().message));
     plan = *next;
-    spent = path->simulation.effort();
-    setup = path->seconds_setup;
+    spent = (*path)->simulation.effort();
+    setup = (*path)->seconds_setup;
   }
 }
 
@@ -110,9 +110,10 @@ namespace {
 const LoadStep* last_of_a_branch_left_early(const PathSegment& segment, double t) {
   const auto& load_steps = segment.load_steps;
   for (const Event& event : segment.report.events) {
-    if (!event.to || segment.way() * (event.t - t) <= 0) continue;
+    if (!event.to || segment.sign() * (event.t - t) <= 0) continue;
     for (std::size_t k = 1; k < load_steps.size(); ++k)
-      if (load_steps[k].point.t == *event.to && segment.way() * (t - load_steps[k - 1].point.t) > 0)
+      if (load_steps[k].point.t == *event.to &&
+          segment.sign() * (t - load_steps[k - 1].point.t) > 0)
         return &load_steps[k - 1];
   }
   return nullptr;
@@ -234,24 +235,21 @@ Result<bool> PathSampler::at(const PathSample& sample) {
     return false;
   }
   TRY_DO(motions(sample, past));
-  record::Frame frame = frame_of(path_.simulation);
-  caption_.measure(frame);
-  frame.event = events(sample, past);
-  if (frame.event.empty() && frame.negative_pivots > 0)
-    frame.event = fmt::format("unstable: {} negative pivots", frame.negative_pivots);
-  frame.newton_iterations = path_.simulation.effort().newton_iterations - before;
-  TRY_DO(take(std::move(frame), sample));
-  last_ = sample;
-  last_past_ = past;
-  return true;
+  std::string event = events(sample, past);
+  if (const int pivots = report.certificate.negative_pivots; event.empty() && pivots > 0)
+    event = fmt::format("unstable: {} negative pivots", pivots);
+  const int newton = path_.simulation.effort().newton_iterations - before;
+  return take_current(sample, std::move(event), past, newton).map([] { return true; });
 }
 
-Result<void> PathSampler::stand(const PathSample& sample, const std::string& event, double past) {
+Result<void> PathSampler::take_current(const PathSample& sample, std::string event, double past,
+                                       int newton_iterations) {
   record::Frame frame = frame_of(path_.simulation);
   caption_.measure(frame);
-  frame.event = event;
+  frame.event = std::move(event);
+  frame.newton_iterations = newton_iterations;
   last_ = sample;
-  last_past_ = past;
+  last_reached_t_ = past;
   return take(std::move(frame), sample);
 }
 
@@ -259,7 +257,7 @@ Result<void> PathSampler::take(record::Frame frame, const PathSample& sample) {
   // with frames of a snap in between, all are counted
   frame.index = path_.simulation.scene().snap.wanted ? taken_ : sample.index;
   frame.progress = sample.progress;
-  caption_.stand(frame, sample.t, sample.progress);
+  caption_.place(frame, sample.t, sample.progress);
   ++taken_;
   watch_.report(0.5 + 0.5 * double(taken_) / double(count_));
   return sink_.take(std::move(frame));
@@ -273,7 +271,7 @@ Result<void> PathSampler::motions(const PathSample& sample, double past) {
   for (; next_snap_ < segment.snaps.size(); ++next_snap_) {
     const PathRecord::Snap& snap = segment.snaps[next_snap_];
     const double landed = segment.load_steps[snap.before + 1].point.t;
-    if (segment.way() * (past - landed) < 0) break;
+    if (segment.sign() * (past - landed) < 0) break;
     any = true;
     PathSample there = sample;
     there.t = landed;
@@ -288,9 +286,9 @@ Result<void> PathSampler::motions(const PathSample& sample, double past) {
 /// A segment back is shown against its way: from its end to where it began.
 std::string PathSampler::events(const PathSample& sample, double past) const {
   const PathSegment& segment = path_.segments[sample.segment];
-  const double way = segment.back ? -segment.way() : segment.way();
+  const double way = segment.back ? -segment.sign() : segment.sign();
   double before = segment.back ? segment.end() : segment.from;
-  if (last_ && last_->segment == sample.segment) before = last_past_;
+  if (last_ && last_->segment == sample.segment) before = last_reached_t_;
   std::string text;
   for (const Event& event : segment.report.events) {
     if (!event.to) continue;

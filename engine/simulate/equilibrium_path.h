@@ -2,9 +2,10 @@
 #pragma once
 
 #include <functional>
-#include <map>
+#include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct PathSegment : PathRecord {
   Report report;            ///< how it ended
   bool back = false;        ///< from the first state back towards the flat
   /// 1 where its parameter grows, -1 where it falls
-  double way() const { return to < from ? -1 : 1; }
+  double sign() const { return to < from ? -1 : 1; }
   /// Path parameter of the last certified state.
   double end() const { return load_steps.back().point.t; }
 };
@@ -61,37 +62,33 @@ PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationP
                             const Watch& watch);
 
 /// Follows a path on the meshes of a plan. Errors: bad_input, no_equilibrium, cancelled.
-using Follow = std::function<Result<EquilibriumPath>(const LevelPlan&, const Watch&)>;
+using SharedPath = std::shared_ptr<EquilibriumPath>;
+using Follow = std::function<Result<SharedPath>(const LevelPlan&, const Watch&)>;
 
 /// The meshes that the tolerance asks for, or those asked for by themselves.
 LevelPlan initial_levels(const Scene& scene);
 
-/// The path on the coarsest plan whose estimate meets the scene's tolerance. Its choices
-/// and events are confirmed (confirm.h) where the tolerance chooses the meshes. Errors: those of
-/// `follow`; no_equilibrium where the finest meshes do not meet it; bad_input where they do not fit
-/// the memory.
-Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
-                                       const Watch& watch);
+/// The path on the coarsest plan whose estimate meets the scene's tolerance. Its choices and events
+/// are confirmed (mesh_choice.h) where the tolerance chooses the meshes. Errors: those of `follow`;
+/// no_equilibrium where the finest meshes do not meet it; bad_input where they do not fit the
+/// memory.
+Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
+                                         const Watch& watch);
 
-/// The same of what holds a path and more (a member `path`): follow(plan, watch) gives a
-/// Result<Holder>.
-template <class Holder, class FollowHolder>
-Result<Holder> converged_path_holder(const Scene& scene, const FollowHolder& follow,
-                                     const Watch& watch) {
-  std::map<std::vector<int>, Holder> tried;  // by the meshes
-  auto path = converged_path(
-      scene,
-      [&](const LevelPlan& plan, const Watch& w) -> Result<EquilibriumPath> {
-        auto holder = follow(plan, w);
-        if (!holder) return tl::unexpected<Error>(holder.error());
-        const auto at = tried.insert_or_assign(plan.edges_per_segment, std::move(*holder)).first;
-        return std::move(at->second.path);
-      },
-      watch);
-  if (!path) return tl::unexpected<Error>(path.error());
-  Holder& kept = tried.at(path->asked.edges_per_segment);
-  kept.path = std::move(*path);
-  return std::move(kept);
+/// The same of an EquilibriumPath or what is made from one: follow(plan, watch) gives a Result of
+/// it.
+template <class FollowPath>
+auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& watch) {
+  using Found = std::invoke_result_t<FollowPath, const LevelPlan&, const Watch&>;
+  using Path = typename Found::value_type;
+  const auto shared = [](Path&& path) -> SharedPath {
+    return std::make_shared<Path>(std::move(path));
+  };
+  return converged_shared_path(
+             scene,
+             [&](const LevelPlan& plan, const Watch& w) { return follow(plan, w).map(shared); },
+             watch)
+      .map([](const SharedPath& path) { return std::move(static_cast<Path&>(*path)); });
 }
 
 /// A sample of a segment.
@@ -136,7 +133,7 @@ void set_limit(EquilibriumPath& path, const At& at);
 struct Caption {
   At at;
   /// Puts in where the boundary and the push stand at path parameter t.
-  std::function<void(record::Frame&, double t, double progress)> stand;
+  std::function<void(record::Frame&, double t, double progress)> place;
   /// Measures on a certified state: forces, reach.
   std::function<void(record::Frame&)> measure;
 };
@@ -155,7 +152,8 @@ class PathSampler {
   Result<bool> at(const PathSample& sample);
   /// The state that the simulation stands in as a frame, with an event of its own; `past`: as of
   /// CertifiedSample.
-  Result<void> stand(const PathSample& sample, const std::string& event, double past);
+  Result<void> take_current(const PathSample& sample, std::string event, double past,
+                            int newton_iterations = 0);
   /// What happened to the segment since the sample before, in words; empty: nothing.
   std::string events(const PathSample& sample, double past) const;
   /// A frame made elsewhere.
@@ -170,7 +168,7 @@ class PathSampler {
   Watch& watch_;
   std::size_t count_, next_snap_ = 0;
   std::optional<PathSample> last_;
-  double last_past_ = 0;  ///< of the last sample, as of CertifiedSample
+  double last_reached_t_ = 0;  ///< of the last sample, as of CertifiedSample
   int taken_ = 0;
 };
 

@@ -32,10 +32,11 @@ Result<PushOf> push_of(const preset::Indentation& indentation, const Scene& scen
                        const RodMesh& mesh, const Eigen::Matrix3Xd& nodes);
 
 /// An actuated shell that is held at the joint to be pushed, and what is to be done to it.
-struct HeldShell {
-  EquilibriumPath path;
+struct HeldShell : EquilibriumPath {
   PushOf push;
   Eigen::Matrix3Xd before;  ///< joints of the unloaded shell, 3 x n
+
+  double depth_mm() const { return push.displacement.norm(); }
 };
 
 /// Actuates on the meshes of `plan` and takes hold. Errors: bad_input as push_of(), no_equilibrium

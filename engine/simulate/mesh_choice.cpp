@@ -116,7 +116,7 @@ bool turns_later(const std::vector<PathSegment>& coarse, const std::vector<PathS
     const auto &early = coarse[k].report.events, &late = fine[k].report.events;
     for (std::size_t e = 0; e < early.size(); ++e)
       if (early[e].kind == Event::Kind::turned_back &&
-          coarse[k].way() * (late[e].t - early[e].t) > same_t)
+          coarse[k].sign() * (late[e].t - early[e].t) > same_t)
         return true;
   }
   return false;
@@ -128,7 +128,7 @@ bool seen_on_finest(EquilibriumPath& fine, const PathSegment& segment, const Eve
                     double coarse_t, const Watch& watch) {
   constexpr double least = 2e-3;  // in the path parameter
   const double apart = std::abs(event.t - coarse_t);
-  const double there = event.t + segment.way() * (apart + least);
+  const double there = event.t + segment.sign() * (apart + least);
   Simulation& simulation = fine.simulation;
   const Checkpoint end = simulation.save();
   const Report beyond = simulation.sample(there, load_step_before(segment, event.t), true, watch);
@@ -173,65 +173,65 @@ std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
   return std::nullopt;
 }
 
-Result<EquilibriumPath> confirm_on_finer_meshes(const Scene& scene, EquilibriumPath path,
-                                                const Follow& follow, const Watch& watch) {
+Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
+                                           const Follow& follow, const Watch& watch) {
   // the first buckling is a choice too, which the coarsest mesh made
-  const auto chose = [&] { return path.has_events() || !scene.from_net; };
-  auto plan = std::optional(path.asked);
+  const auto chose = [&] { return path->has_events() || !scene.from_net; };
+  auto plan = std::optional(path->asked);
   for (int asked = 0; asked < most_leaders && chose(); ++asked) {
     plan = with_finer_leader(*plan);
     if (!plan || !fits_memory(scene, *plan)) {
-      path.mesh_disagreement = fmt::format(
-          "no mesh finer than {} edges a segment led to confirm it", leading_edges_of(path));
+      path->mesh_disagreement = fmt::format(
+          "no mesh finer than {} edges a segment led to confirm it", leading_edges_of(*path));
       return path;
     }
     auto fine = follow(*plan, watch);
     if (watch.cancelled()) return stopped();
     if (!fine) {
-      path.mesh_disagreement = fmt::format("with {} edges a segment leading: {}",
-                                           plan->edges_per_segment.front(), fine.error().message);
+      path->mesh_disagreement = fmt::format("with {} edges a segment leading: {}",
+                                            plan->edges_per_segment.front(), fine.error().message);
       return path;
     }
-    fine->asked = *plan;
+    (*fine)->asked = *plan;
     const auto keep_fine = [&] {
-      fine->simulation.charge(path.simulation.effort());
-      fine->seconds_setup += path.seconds_setup;
+      (*fine)->simulation.charge(path->simulation.effort());
+      (*fine)->seconds_setup += path->seconds_setup;
       path = std::move(*fine);
     };
-    auto differs = mesh_disagreement(path, *fine);
-    if (!differs) differs = only_on_leaders(path, *fine, watch);
+    auto differs = mesh_disagreement(*path, **fine);
+    if (!differs) differs = only_on_leaders(*path, **fine, watch);
     if (!differs) {
-      const bool later =
-          path.single_motion && !scene.leader_asked && turns_later(path.segments, fine->segments);
-      extrapolate_events(path.segments, fine->segments);
-      extrapolate_events(path.earlier, fine->earlier);
+      const bool later = path->single_motion && !scene.leader_asked &&
+                         turns_later(path->segments, (*fine)->segments);
+      extrapolate_events(path->segments, (*fine)->segments);
+      extrapolate_events(path->earlier, (*fine)->earlier);
       if (later)
         keep_fine();
       else
-        path.simulation.charge(fine->simulation.effort());
-      path.mesh_disagreement.clear();
+        path->simulation.charge((*fine)->simulation.effort());
+      path->mesh_disagreement.clear();
       return path;
     }
     const std::string disagreed =
         fmt::format("leading meshes of {} and {} edges a segment do not agree: {}",
-                    leading_edges_of(path), leading_edges_of(*fine), *differs);
+                    leading_edges_of(*path), leading_edges_of(**fine), *differs);
     // whoever asks for a leader has its path
     if (scene.leader_asked) {
-      path.mesh_disagreement = disagreed;
-      path.simulation.charge(fine->simulation.effort());
+      path->mesh_disagreement = disagreed;
+      path->simulation.charge((*fine)->simulation.effort());
       return path;
     }
     // a path that came through is not given up for one that did not: a still finer one is asked
-    if (whole(path) && !whole(*fine)) {
-      path.mesh_disagreement =
+    if (whole(*path) && !whole(**fine)) {
+      path->mesh_disagreement =
           fmt::format("a leading mesh of {} edges a segment did not come so far: {}",
-                      leading_edges_of(*fine), *differs);
-      path.simulation.charge(fine->simulation.effort());
+                      leading_edges_of(**fine), *differs);
+      path->simulation.charge((*fine)->simulation.effort());
       continue;
     }
     keep_fine();
-    path.mesh_disagreement = disagreed;
-    if (!chose()) path.mesh_disagreement.clear();
+    path->mesh_disagreement = disagreed;
+    if (!chose()) path->mesh_disagreement.clear();
   }
   return path;
 }

@@ -38,7 +38,7 @@ std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
 /// where they do not, the finer one is asked against a still finer one, at most three
 /// times. Where a leader was asked for, its path is kept, and what a finer one does not confirm
 /// is said. What remains in doubt is said. Errors: cancelled.
-Result<EquilibriumPath> confirm_on_finer_meshes(const Scene& scene, EquilibriumPath path,
-                                                const Follow& follow, const Watch& watch);
+Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
+                                           const Follow& follow, const Watch& watch);
 
 }  // namespace gridshell::simulate

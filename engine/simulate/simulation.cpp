@@ -26,6 +26,7 @@ PathOptions options_for(const Scene& scene) {
 
 Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan) {
   Simulation simulation(std::move(scene));
+  simulation.set_progress(0);
   TRY_DO(simulation.build(plan));
   return simulation;
 }
@@ -46,14 +47,27 @@ Certificate Simulation::certificate() const {
           state.largest_strain};
 }
 
-Report Simulation::report(Outcome end, double t, const Effort& before, double begin) const {
+Simulation::CallBegin Simulation::call_begin() const { return {effort(), seconds_now()}; }
+
+Report Simulation::report(Outcome end, double t, const CallBegin& begin) const {
   Report report;
   report.end = end;
   report.t = t;
   report.certificate = certificate();
-  report.effort = effort() - before;
-  report.seconds = seconds_now() - begin;
+  report.effort = effort() - begin.effort;
+  report.seconds = seconds_now() - begin.seconds;
   return report;
+}
+
+void Simulation::put_push(record::Frame& frame) const {
+  if (holds_.empty()) return;
+  const Constraint& hold = holds_.back();
+  const auto origin = grip_origins.find(hold.node);
+  if (origin == grip_origins.end()) return;
+  const Eigen::Vector3d moved = hold.part(nodes().col(hold.node) - origin->second);
+  frame.depth_mm = moved.norm();
+  const bool any = frame.depth_mm > nearest_mm;
+  frame.force_N = any ? hold.part(force(holds_.size() - 1)).dot(moved.normalized()) : 0;
 }
 
 Energies Simulation::energies() const {
@@ -77,8 +91,7 @@ double Simulation::push_stiffness() const {
 // ---- begin ----
 
 Report Simulation::begin_flat() {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   NestedState flat;
   for (int k = 0; k < shell_->levels(); ++k) {
     Linearisation& system = shell_->system(k);
@@ -92,19 +105,16 @@ Report Simulation::begin_flat() {
   }
   shell_->restore(flat, shell_->motions(), {});
   actuating_ = true;
-  progress_ = 0;
-  return report(Outcome::reached, 0, before, begin);
+  set_progress(0);
+  return report(Outcome::reached, 0, begin);
 }
 
 Result<Report> Simulation::begin_buckled(double shortening, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   TRY(t, parameter_of_shortening(shell_->mesh(0), shell_->motion(0), shortening));
   TRY(first, buckled_state(*shell_, *scene_, rods_ ? *rods_ : scene_->rods, *t, watch));
-  Report report = begin_at(*t, *first, watch);
-  report.effort = effort() - before;
-  report.seconds = seconds_now() - begin;
-  return report;
+  const Report there = begin_at(*t, *first, watch);
+  return report(there.end, there.t, begin);
 }
 
 Result<Report> Simulation::begin_on_net(const Watch& watch) {
@@ -118,14 +128,18 @@ Result<Report> Simulation::begin_as_drawn(const Watch& watch) {
 }
 
 Report Simulation::begin_at(double t, const State& coarse, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   actuating_ = true;
   holds_.clear();
   shell_->actuate(t, {}, load_scale_);
   const NestedReport nested = shell_->start(t, coarse, watch);
-  if (nested.end == Outcome::reached) progress_ = progress_at(t);
-  return report(nested.end, nested.t, before, begin);
+  if (nested.end == Outcome::reached) set_progress(progress_at(t));
+  return report(nested.end, nested.t, begin);
+}
+
+/// Of the scene's motion, off which no edge point lies.
+void Simulation::set_progress(double progress) {
+  boundary = {progress_ = progress, Eigen::Matrix3Xd::Zero(3, scene_->motion.begin.cols())};
 }
 
 // ---- keep ----
@@ -165,8 +179,8 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
 }
 
 Checkpoint Simulation::save() const {
-  return {shell_->state(), shell_->plan(), rods_,     shell_->motions(), holds_,
-          field_,          load_scale_,    progress_, actuating_};
+  return {shell_->state(), shell_->plan(), rods_,      shell_->motions(), holds_,      field_,
+          load_scale_,     progress_,      actuating_, boundary,          grip_origins};
 }
 
 void Simulation::restore(const Checkpoint& kept) {
@@ -180,6 +194,8 @@ void Simulation::restore(const Checkpoint& kept) {
   load_scale_ = kept.load_scale;
   progress_ = kept.progress;
   actuating_ = kept.actuating;
+  boundary = kept.boundary;
+  grip_origins = kept.grip_origins;
   apply_field(kept.field);
   shell_->restore(kept.state, kept.motions, kept.holds);
 }

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/core/outcome.h"
+#include "engine/record/frame.h"
 #include "engine/scene/scene.h"
 #include "engine/solve/dynamics.h"
 #include "engine/solve/equilibrium.h"
@@ -74,8 +76,12 @@ struct BifurcationPolicy {
   bool through_unstable = false;  ///< go on through states that are not stable instead
 };
 
-// A shell held in one hand: begun, moved, pushed, loaded, let go, refined and taken back, each step
-// with its certificate.
+/// Where the boundary is: how far along the scene's motion, and by how much its edge points lie off
+/// that.
+struct BoundaryPosition {
+  double progress = 0;
+  Eigen::Matrix3Xd dragged;  ///< 3 x edge points, mm
+};
 
 /// A state to go back to; taking one and going back cost a copy.
 struct Checkpoint {
@@ -87,7 +93,12 @@ struct Checkpoint {
   std::vector<NodeAction> field;
   double load_scale = 1, progress = 0;
   bool actuating = true;
+  BoundaryPosition boundary;
+  std::map<int, Eigen::Vector3d> grip_origins;
 };
+
+/// Moves of a joint below are none, mm.
+inline constexpr double nearest_mm = 1e-9;
 
 /// Whether a pushed joint finds its own way across the push.
 enum class Across { free, held };
@@ -166,6 +177,11 @@ class Simulation {
   Eigen::Vector3d force(std::size_t k) const { return shell_->state().reactions[k]; }
   const std::vector<Constraint>& holds() const { return holds_; }
   double progress() const { return progress_; }
+  /// Tells a frame how far the joint held last was pushed, and with what force it resists; nothing
+  /// where none is held. The depth is the way of the joint since it was taken hold of, along the
+  /// directions that it is held in, mm, positive the way it was pushed; the force is the part along
+  /// that way of what holds it, N.
+  void put_push(record::Frame& frame) const;
   /// Energies by term under what acts, extrapolated as the nodes.
   Energies energies() const;
   Effort effort() const { return spent_ + shell_->effort(); }
@@ -179,12 +195,22 @@ class Simulation {
   /// Whether the rods have come to their length.
   bool locked() const;
 
+  BoundaryPosition boundary;
+  /// Where the joints that are held were when they were taken hold of, mm.
+  std::map<int, Eigen::Vector3d> grip_origins;
+
  private:
   Simulation(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
   Result<void> build(const LevelPlan& plan);
-  Report report(Outcome end, double t, const Effort& before, double begin) const;
+  struct CallBegin {
+    Effort effort;
+    double seconds;
+  };
+  CallBegin call_begin() const;
+  Report report(Outcome end, double t, const CallBegin& begin) const;
   Report drive(const PrescribedMove& drive, std::vector<NodeAction> field, const Watch& watch);
   void apply_field(std::vector<NodeAction> field);
+  void set_progress(double progress);
   LoadFactor steady_load() const;
   double load_step() const;
   bool leave(double t, Event& event, PathRecord* record, const Watch& watch);

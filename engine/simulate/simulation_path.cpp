@@ -70,16 +70,15 @@ double Simulation::load_step() const {
 
 Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& leaving,
                       PathRecord* record) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   std::vector<Event> events;
   const auto end = [&](Outcome outcome) {
     shell_->allow_unstable(false);
     // the leader may stand ahead of what is certified
     if (outcome != Outcome::reached && outcome != Outcome::locked) shell_->back_to(shell_->state());
-    Report done = report(outcome, shell_->state().t, before, begin);
+    Report done = report(outcome, shell_->state().t, begin);
     done.events = std::move(events);
-    if (actuating_) progress_ = progress_at(done.t);
+    if (actuating_) set_progress(progress_at(done.t));
     return done;
   };
   const auto note_load_step = [&] {
@@ -200,21 +199,19 @@ bool Simulation::leave(double t, Event& event, PathRecord* record, const Watch& 
 }
 
 Report Simulation::sample(double t, const LoadStep& beside, bool unstable, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   shell_->allow_unstable(unstable || !beside.certificate.stable());
   const NestedReport nested = shell_->sample(t, beside.point, watch);
   shell_->allow_unstable(false);
-  return report(nested.end, nested.t, before, begin);
+  return report(nested.end, nested.t, begin);
 }
 
 Report Simulation::certify_rest_at(double t, const LoadStep& before, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort spent = effort();
+  const CallBegin begin = call_begin();
   std::vector<TimedState> moments;
   const auto rest = rest_after_bifurcation(*shell_, *scene_, before.point,
                                            Event::Kind::stability_lost, t, moments, watch);
-  if (!rest) return report(Outcome::lost, t, spent, begin);
+  if (!rest) return report(Outcome::lost, t, begin);
   return sample(t, {{{t, *rest, {}}}, {}}, false, watch);
 }
 

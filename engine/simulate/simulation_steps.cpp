@@ -42,8 +42,7 @@ void Simulation::apply_field(std::vector<NodeAction> field) {
 /// Drives the shell from where it is, all the way if it can.
 Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> coming,
                          const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   const std::vector<Constraint> held = drive.holds;
   shell_->set_fields(field_, coming);
   shell_->drive(drive);
@@ -51,7 +50,7 @@ Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> co
   actuating_ = false;
   first_stiffness_ = 0;
   const NestedReport started = shell_->start(0, shell_->state().levels[0], watch);
-  if (started.end != Outcome::reached) return report(started.end, 0, before, begin);
+  if (started.end != Outcome::reached) return report(started.end, 0, begin);
   Report done = go(1, watch);
   std::vector<NodeAction> field = field_;
   const auto come = times(std::move(coming), drive.field.begin + done.t * drive.field.change);
@@ -69,7 +68,7 @@ Report Simulation::move_to(double progress, const Watch& watch, PathRecord* reco
     shell_->actuate(now, holds_, load_scale_);
     actuating_ = true;
     const NestedReport started = shell_->start(now, shell_->state().levels[0], watch);
-    if (started.end != Outcome::reached) return report(started.end, now, effort(), seconds_now());
+    if (started.end != Outcome::reached) return report(started.end, now, call_begin());
   }
   return go(t, watch, {}, record);
 }
@@ -82,8 +81,7 @@ Report Simulation::move_edge_points(const BoundaryMotion& motion, const Watch& w
 Report Simulation::begin_joint_push(std::vector<Constraint> holds,
                                     std::vector<Eigen::Vector3d> displacements,
                                     const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   const LoadFactor load = steady_load();
   along_.resize(0);
   for (std::size_t k = 0; k < holds.size(); ++k) {
@@ -97,7 +95,7 @@ Report Simulation::begin_joint_push(std::vector<Constraint> holds,
   actuating_ = false;
   const NestedReport nested = shell_->start(0, shell_->state().levels[0], watch);
   if (nested.end == Outcome::reached) first_stiffness_ = push_stiffness();
-  return report(nested.end, nested.t, before, begin);
+  return report(nested.end, nested.t, begin);
 }
 
 Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across across,
@@ -158,8 +156,7 @@ Report Simulation::set_field(std::vector<NodeAction> field, const Watch& watch) 
 }
 
 Report Simulation::rest(const Watch& watch, BranchSide side) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   const Checkpoint good = save();
   const double t = shell_->state().t;
   BranchSwitch departure = departure_of(*scene_, shell_->mesh(0), shell_->model(0));
@@ -168,13 +165,12 @@ Report Simulation::rest(const Watch& watch, BranchSide side) {
   Outcome end = watch.cancelled() ? Outcome::cancelled : Outcome::not_converged;
   if (found) end = shell_->start(t, *found, watch).end;
   if (end != Outcome::reached) restore(good);
-  return report(end, t, before, begin);
+  return report(end, t, begin);
 }
 
 Report Simulation::rest_in_time(const Watch& watch,
                                 const std::function<void(const MovingState&)>& seen) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   const Checkpoint good = save();
   Outcome end = Outcome::not_converged;
   if (const auto rest =
@@ -182,36 +178,33 @@ Report Simulation::rest_in_time(const Watch& watch,
     end = shell_->start(shell_->state().t, *rest, watch).end;
   if (watch.cancelled()) end = Outcome::cancelled;
   if (end != Outcome::reached) restore(good);
-  return report(end, shell_->state().t, before, begin);
+  return report(end, shell_->state().t, begin);
 }
 
 Result<Report> Simulation::set_rods(const ShellRods& rods, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   std::optional<ShellRods> old = std::exchange(rods_, rods);
   const auto taken = replace_meshes(shell_->plan(), true, watch);
   if (!taken || *taken != Outcome::reached) rods_ = std::move(old);
   if (!taken) return tl::unexpected<Error>(taken.error());
-  return report(*taken, shell_->state().t, before, begin);
+  return report(*taken, shell_->state().t, begin);
 }
 
 Result<Report> Simulation::remesh(const LevelPlan& plan, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   TRY(taken, replace_meshes(plan, false, watch));
-  return report(*taken, shell_->state().t, before, begin);
+  return report(*taken, shell_->state().t, begin);
 }
 
 Report Simulation::refine(double tolerance_mm, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+  const CallBegin begin = call_begin();
   Outcome end = Outcome::reached;
   while (end == Outcome::reached && !(certificate().error_estimate_mm <= tolerance_mm)) {
     const auto plan = finer(shell_->plan());
     if (!plan || !fits_memory(*scene_, *plan)) break;
     end = replace_meshes(*plan, false, watch).value_or(Outcome::not_converged);
   }
-  return report(end, shell_->state().t, before, begin);
+  return report(end, shell_->state().t, begin);
 }
 
 }  // namespace gridshell

@@ -25,7 +25,7 @@ Eigen::Vector3d normal_at(const Simulation& simulation, int joint) {
 
 /// Where a move has the edge points, off the scene's motion.
 Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene) {
-  Eigen::Matrix3Xd dragged = BoundaryPosition::of(scene).dragged;
+  Eigen::Matrix3Xd dragged = Eigen::Matrix3Xd::Zero(3, scene.motion.begin.cols());
   for (const auto& row : step.edge_points) {
     const auto k = Eigen::Index(row[0]);
     if (k >= dragged.cols())
@@ -39,10 +39,11 @@ Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene
   return dragged;
 }
 
-Result<Report> move(Simulation& simulation, BoundaryPosition& boundary, const preset::Step& step,
-                    const Watch& watch, StepPath* way) {
+Result<Report> move(Simulation& simulation, const preset::Step& step, const Watch& watch,
+                    StepPath* way) {
   const Scene& scene = simulation.scene();
   TRY(dragged, dragged_of(step, scene));
+  BoundaryPosition& boundary = simulation.boundary;
   const double progress = progress_of(step, scene);
   if (dragged->isZero(0) && boundary.dragged.isZero(0)) {
     const Report report = simulation.move_to(progress, watch, way);
@@ -157,13 +158,6 @@ Result<Report> led_by_coarsest(Simulation& simulation, const Watch& watch, const
   return report;
 }
 
-/// Where it goes is measured on all meshes.
-Result<Report> push_by_coarsest(Simulation& simulation, const preset::Step& step,
-                                const Watch& watch, StepPath* path) {
-  TRY(goal, goal_of(simulation, step));
-  return led_by_coarsest(simulation, watch, [&] { return push(simulation, *goal, watch, path); });
-}
-
 Result<Report> release(Simulation& simulation, const preset::Step& step, const Watch& watch) {
   std::vector<int> joints;
   if (step.joint.empty()) {
@@ -209,6 +203,33 @@ Result<Report> jitter(Simulation& simulation, const preset::Step& step, const Wa
   return back;
 }
 
+Result<Report> take_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
+                         StepPath* way) {
+  const auto led = [&](const auto& act) { return led_by_coarsest(simulation, watch, act); };
+  switch (step.kind) {
+    case preset::StepKind::move:
+      return move(simulation, step, watch, way);
+    case preset::StepKind::push:
+    case preset::StepKind::hold: {
+      // where it goes is measured on all meshes
+      TRY(goal, goal_of(simulation, step));
+      simulation.grip_origins.emplace(goal->joint, simulation.nodes().col(goal->joint));
+      return led([&] { return push(simulation, *goal, watch, way); });
+    }
+    case preset::StepKind::release:
+      return led([&] { return release(simulation, step, watch); });
+    case preset::StepKind::load:
+      return simulation.load(step.factor, watch);
+    case preset::StepKind::rest:
+      return led([&]() -> Result<Report> {
+        return simulation.rest(watch, same_word<BranchSide>(step.side));
+      });
+    case preset::StepKind::jitter:
+      return led([&] { return jitter(simulation, step, watch); });
+  }
+  return Report{};
+}
+
 }  // namespace
 
 std::string text_of(const preset::Step& step) {
@@ -218,63 +239,25 @@ std::string text_of(const preset::Step& step) {
 }
 
 Result<int> joint_of(const preset::Step& step, const Footprint& footprint) {
-  const auto& joints = footprint.joints;
-  const auto found = std::ranges::find_if(joints, [&](const FootprintJoint& joint) {
-    return step.joint.size() == 2 && joint.i == step.joint[0] && joint.j == step.joint[1];
-  });
-  if (found == joints.end())
+  const int joint = step.joint.size() == 2 ? joint_at(footprint, step.joint[0], step.joint[1]) : -1;
+  if (joint < 0)
     return fail(Fault::bad_input, fmt::format("joint = [{}]: the footprint has no such joint",
                                               fmt::join(step.joint, ", ")));
-  return int(found - joints.begin());
+  return joint;
 }
 
 double progress_of(const preset::Step& step, const Scene& scene) {
   return step.radius_mm == 0 ? step.progress : scene.progress_of_radius(step.radius_mm);
 }
 
-Result<Report> apply_step(Simulation& simulation, BoundaryPosition& boundary,
-                          const preset::Step& step, const Watch& watch, StepPath* way) {
-  switch (step.kind) {
-    case preset::StepKind::move:
-      return move(simulation, boundary, step, watch, way);
-    case preset::StepKind::push:
-    case preset::StepKind::hold:
-      return push_by_coarsest(simulation, step, watch, way);
-    case preset::StepKind::release:
-      return led_by_coarsest(simulation, watch, [&] { return release(simulation, step, watch); });
-    case preset::StepKind::load:
-      return simulation.load(step.factor, watch);
-    case preset::StepKind::rest:
-      return led_by_coarsest(simulation, watch, [&]() -> Result<Report> {
-        return simulation.rest(watch, same_word<BranchSide>(step.side));
-      });
-    case preset::StepKind::jitter:
-      return led_by_coarsest(simulation, watch, [&] { return jitter(simulation, step, watch); });
-  }
-  return Report{};
-}
-
-void GrippedJoints::note(const Simulation& simulation) {
-  for (int joint = 0; joint < int(simulation.scene().footprint.joints.size()); ++joint) {
-    const bool held = std::ranges::any_of(
-        simulation.holds(), [&](const Constraint& hold) { return hold.node == joint; });
-    if (!held) at_[joint] = simulation.nodes().col(joint);
-  }
-}
-
-GrippedJoint GrippedJoints::last(const Simulation& simulation) const {
-  if (simulation.holds().empty()) return {};
-  const int joint = simulation.holds().back().node;
-  return {joint, at_.at(joint)};
-}
-
-void fill_push(const Simulation& simulation, const GrippedJoint& grip, record::Frame& frame) {
-  if (grip.joint < 0 || simulation.holds().empty()) return;
-  const Constraint& hold = simulation.holds().back();
-  const Eigen::Vector3d moved = hold.part(simulation.nodes().col(grip.joint) - grip.at);
-  frame.depth_mm = moved.norm();
-  const Eigen::Vector3d force = hold.part(simulation.force(simulation.holds().size() - 1));
-  frame.force_N = frame.depth_mm > nearest_mm ? force.dot(moved.normalized()) : 0;
+Result<Report> apply_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
+                          StepPath* way) {
+  auto report = take_step(simulation, step, watch, way);
+  std::erase_if(simulation.grip_origins, [&](const auto& origin) {
+    return std::ranges::none_of(simulation.holds(),
+                                [&](const Constraint& hold) { return hold.node == origin.first; });
+  });
+  return report;
 }
 
 }  // namespace gridshell::simulate

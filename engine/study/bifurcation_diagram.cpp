@@ -42,7 +42,7 @@ struct Branch {
 Result<BranchStart> begin_push(std::shared_ptr<const Scene> scene, const preset::Indentation& asked,
                                const LevelPlan& plan, const Watch& watch) {
   TRY(held, simulate::hold_to_push(scene, asked, plan, watch));
-  return BranchStart{std::move(held->path.simulation), 0, 1, true};
+  return BranchStart{std::move(held->simulation), 0, 1, true};
 }
 
 Result<BranchStart> begin_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
