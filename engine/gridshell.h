@@ -37,11 +37,11 @@
 #include "engine/scene/scene.h"                // IWYU pragma: export
 #include "engine/simulate/actuation.h"         // IWYU pragma: export
 #include "engine/simulate/equilibrium_path.h"  // IWYU pragma: export
-#include "engine/simulate/experiment.h"        // IWYU pragma: export
 #include "engine/simulate/fabrication_plan.h"  // IWYU pragma: export
 #include "engine/simulate/frames.h"            // IWYU pragma: export
 #include "engine/simulate/indentation.h"       // IWYU pragma: export
-#include "engine/simulate/session.h"           // IWYU pragma: export
+#include "engine/simulate/run.h"               // IWYU pragma: export
+#include "engine/simulate/simulation.h"        // IWYU pragma: export
 #include "engine/simulate/steps.h"             // IWYU pragma: export
 #include "engine/solve/buckling.h"             // IWYU pragma: export
 #include "engine/solve/equilibrium.h"          // IWYU pragma: export

@@ -159,7 +159,7 @@ std::string or_unknown(double value, const char* unit) {
   return std::isnan(value) ? "unknown" : fmt::format("{:.2g} {}", value, unit);
 }
 
-void print_plan(const preset::Preset& preset, const experiment::Plan& plan) {
+void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
   fmt::print("{}: {}\n", preset.name, preset.title);
   fmt::print("  footprint       {}\n", plan.footprint);
   if (preset.footprint.kind == preset::FootprintKind::circle)

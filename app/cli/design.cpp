@@ -115,7 +115,7 @@ Result<preset::Preset> one_of(const Options& options) {
 
 /// The final state of a preset, kept in memory.
 Result<record::Trajectory> end_of(const preset::Preset& preset, Watch& watch) {
-  TRY(outcome, experiment::run(preset, true, watch));
+  TRY(outcome, simulate::run(preset, true, watch));
   return std::move(outcome->trajectory);
 }
 
@@ -123,7 +123,7 @@ Result<record::Trajectory> end_of(const preset::Preset& preset, Watch& watch) {
 Result<record::Trajectory> run_designed(const preset::Preset& preset, const fs::path& folder,
                                         record::Summary& summary, Watch& watch) {
   record::FolderSink sink(folder, {preset.name, record::Kind::figure, preset.title});
-  TRY(run, experiment::run(preset, true, sink, watch));
+  TRY(run, simulate::run(preset, true, sink, watch));
   summary = *run;
   summary.kind = record::Kind::figure;
   return sink.finish(summary);
@@ -132,7 +132,7 @@ Result<record::Trajectory> run_designed(const preset::Preset& preset, const fs::
 /// Whether the patient way from the flat ends in the same state.
 FlatStartCheck from_flat(preset::Preset preset, const record::Trajectory& designed, Watch& watch) {
   preset.actuation.start = preset::Start::flat;
-  const auto outcome = experiment::run(preset, true, watch);
+  const auto outcome = simulate::run(preset, true, watch);
   FlatStartCheck found;
   if (!outcome) {
     found.why = outcome.error().message;

@@ -224,7 +224,7 @@ Result<std::string> text_of(const ExportOptions& options) {
     return with(shape->second, [&](const auto& text) { return shape_text(options, text); });
   if (const auto work = workshop_formats().find(what); work != workshop_formats().end())
     return with(work->second, [&](const auto& text) {
-      return preset_of(options).and_then(experiment::fabrication_plan_of).and_then(text);
+      return preset_of(options).and_then(simulate::fabrication_plan_of).and_then(text);
     });
   return fail(Fault::bad_input,
               fmt::format("--what {}: must be one of\n{}", what, exported_formats()));

@@ -196,7 +196,7 @@ std::vector<std::string> captions_of(const preset::Preset& preset, const record:
     // a depth belongs to the push that made it, not to what was done while it holds
     const bool pushes = step.kind == preset::StepKind::push;
     captions.push_back(
-        experiment::text_of(step) + ": " +
+        simulate::text_of(step) + ": " +
         (pushes ? render::frame_state_caption(frame) : render::unpushed_caption(frame)));
   }
   return captions;

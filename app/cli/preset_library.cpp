@@ -51,8 +51,8 @@ std::vector<preset::Case> runs_of(const preset::Presets& presets) {
   return {{"", presets.base}};
 }
 
-Result<experiment::Plan> plan_of(const preset::Preset& preset) {
-  return experiment::plan(preset).map_error([&](Error error) {
+Result<simulate::Plan> plan_of(const preset::Preset& preset) {
+  return simulate::plan(preset).map_error([&](Error error) {
     error.message = preset.name + ": " + error.message;
     return error;
   });

@@ -43,7 +43,7 @@ Result<preset::Presets> load(const Options& options);
 std::vector<preset::Case> runs_of(const preset::Presets& presets);
 
 /// What would run; an error names the preset.
-Result<experiment::Plan> plan_of(const preset::Preset& preset);
+Result<simulate::Plan> plan_of(const preset::Preset& preset);
 
 /// The folder of a run: that of the command, or the one of its case in it.
 inline std::filesystem::path folder_of(const std::filesystem::path& folder,

@@ -25,7 +25,7 @@ namespace {
 struct Job {
   std::string name;  // of the case, empty without cases
   preset::Preset preset;
-  experiment::Plan plan;
+  simulate::Plan plan;
   record::Summary summary;     // once it has run
   record::StateTables states;  // that a search found
   double length_scale_mm = 0;
@@ -133,9 +133,9 @@ std::string help_for(const preset::Preset& preset, record::Limit limit) {
 Result<record::Summary> run_job(Job& job, Pictures pictures, int threads, record::Sink& sink,
                                 Watch& watch) {
   if (!is_search(job.preset))
-    return experiment::run(job.preset, pictures == Pictures::stills, sink, watch);
-  return experiment::run_states(job.preset, threads, sink, watch)
-      .map([&](experiment::StateSearchRun run) {
+    return simulate::run(job.preset, pictures == Pictures::stills, sink, watch);
+  return simulate::run_states(job.preset, threads, sink, watch)
+      .map([&](simulate::StateSearchRun run) {
         job.states = std::move(run.tables);
         return run.summary;
       });

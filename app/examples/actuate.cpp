@@ -13,7 +13,7 @@ int main(int count, char** arguments) {
   preset.movie.frames = 5;
   Watch watch;
   record::FolderSink sink(count > 1 ? arguments[1] : "first", {"first", record::Kind::run});
-  const auto summary = experiment::run(preset, false, sink, watch);
+  const auto summary = simulate::run(preset, false, sink, watch);
   if (!summary) {
     std::fprintf(stderr, "%s\n", summary.error().message.c_str());
     return 1;

@@ -11,7 +11,7 @@ int main() {
   preset.actuation.radius_mm = 48;
   const auto scene = scene_of(preset);
   if (!scene) return std::fprintf(stderr, "%s\n", scene.error().message.c_str()), 1;
-  auto session = Session::open(std::make_shared<const Scene>(*scene), plan_of_mesh(4));
+  auto session = Simulation::open(std::make_shared<const Scene>(*scene), plan_of_mesh(4));
   if (!session) return std::fprintf(stderr, "%s\n", session.error().message.c_str()), 1;
   if (!session->begin_buckled(0.02, unwatched)) return 1;
   if (session->move_to(1, unwatched).end != Outcome::reached) return 1;

@@ -18,7 +18,7 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
     return fail(Fault::bad_input,
                 "[accuracy] model = \"net\": the net is geometry alone, there is nothing to hold");
   Shell shell(std::make_shared<const preset::Preset>(preset), scene);
-  TRY(session, Session::open(shell.scene_, experiment::initial_levels(*shell.scene_)));
+  TRY(session, Simulation::open(shell.scene_, simulate::initial_levels(*shell.scene_)));
   shell.session_ = std::move(*session);
   if (!shell.scene_->drawn_in_space) {
     shell.session_->begin_flat();
@@ -27,7 +27,6 @@ Result<Shell> Shell::open(const preset::Preset& preset) {
   } else {
     shell.as_drawn_ = true;
   }
-  shell.boundary_.progress = 0;
   return shell;
 }
 
@@ -37,29 +36,28 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
   if (report.end == Outcome::reached) return Done{std::move(report)};
   return fail(Fault::no_equilibrium,
               fmt::format("{}: {}; it stands in the last certified state, at progress {:.4g}", what,
-                          words_of(report.end).what, boundary_.progress));
+                          words_of(report.end).what, session_->boundary.progress));
 }
 
 Result<Done> Shell::form(double progress, const Watch& watch) {
   if (progress == 0 && (formed_ || !scene_->drawn_in_space))  // where it stands
     return Done{{.certificate = session_->certificate(), .events = {}, .effort = {}}};
-  auto course = experiment::converged_path(
+  auto course = simulate::converged_path(
       *scene_,
       [&](const LevelPlan& plan, const Watch& w) {
-        return experiment::follow_actuation(scene_, plan, false, progress, w);
+        return simulate::follow_actuation(scene_, plan, false, progress, w);
       },
       watch);
   if (!course) return tl::unexpected<Error>(course.error());
-  session_ = std::move(course->session);
+  session_ = std::move(course->simulation);
   formed_ = true;
-  boundary_.progress = session_->progress();
-  const experiment::PathSegment* last = course->legs.empty() ? nullptr : &course->legs.back();
+  const simulate::PathSegment* last = course->segments.empty() ? nullptr : &course->segments.back();
   if (last && !last->back && last->report.end != Outcome::reached)
     return fail(Fault::no_equilibrium, "actuate: " + course->limit_reason);
   Done done;
-  for (const experiment::PathSegment& leg : course->legs)
-    done.report.events.insert(done.report.events.end(), leg.report.events.begin(),
-                              leg.report.events.end());
+  for (const simulate::PathSegment& segment : course->segments)
+    done.report.events.insert(done.report.events.end(), segment.report.events.begin(),
+                              segment.report.events.end());
   done.report.certificate = session_->certificate();
   done.report.effort = session_->effort();
   done.told = course->limit_reason;
@@ -67,7 +65,7 @@ Result<Done> Shell::form(double progress, const Watch& watch) {
 }
 
 Result<Done> Shell::move(const preset::Step& step, const Watch& watch) {
-  const double progress = experiment::progress_of(step, *scene_), begin = seconds_now();
+  const double progress = simulate::progress_of(step, *scene_), begin = seconds_now();
   if (formed_ && !as_drawn_) return take(step, watch);
   auto formed = form(progress, watch);
   if (!formed || !formed_) return formed;
@@ -85,9 +83,8 @@ Result<Done> Shell::move(const preset::Step& step, const Watch& watch) {
 Result<Done> Shell::take(const preset::Step& step, const Watch& watch) {
   if (!formed_) return fail(Fault::bad_input, "the shell is still flat: actuate it first");
   as_drawn_ = false;
-  grips_.note(*session_);
-  TRY(report, experiment::apply_step(*session_, boundary_, step, watch));
-  return ended(experiment::text_of(step), std::move(*report));
+  TRY(report, simulate::apply_step(*session_, step, watch));
+  return ended(simulate::text_of(step), std::move(*report));
 }
 
 Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
@@ -106,13 +103,11 @@ Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
   return done;
 }
 
-Kept Shell::save() const { return {scene_, session_->save(), boundary_, grips_, formed_}; }
+Kept Shell::save() const { return {scene_, session_->save(), formed_}; }
 
 Result<void> Shell::restore(const Kept& kept) {
   if (kept.scene != scene_) return fail(Fault::bad_input, "the state was kept by another session");
   session_->restore(kept.checkpoint);
-  boundary_ = kept.boundary;
-  grips_ = kept.grips;
   formed_ = kept.formed;
   as_drawn_ = false;
   return {};
@@ -121,19 +116,19 @@ Result<void> Shell::restore(const Kept& kept) {
 Result<State> Shell::look() {
   const RodMesh& mesh = session_->shell().finest();
   if (layout_nodes_ != mesh.rod_nodes()) {
-    TRY(layout, experiment::layout_of(*scene_, mesh));
+    TRY(layout, simulate::layout_of(*scene_, mesh));
     layout->extrapolated = session_->shell().plan().extrapolate;
     layout_ = std::make_shared<const record::Layout>(std::move(*layout));
     layout_nodes_ = mesh.rod_nodes();
   }
   State state{preset_,
               layout_,
-              formed_ ? experiment::frame_of(*session_) : experiment::flat_frame(*session_),
+              formed_ ? simulate::frame_of(*session_) : simulate::flat_frame(*session_),
               {}};
   record::Frame& frame = state.frame;
-  frame.progress = frame.actuation = boundary_.progress;
+  frame.progress = frame.actuation = session_->boundary.progress;
   frame.boundary_radius_mm = scene_->radius_at(frame.actuation);
-  experiment::fill_push(*session_, grips_.last(*session_), frame);
+  session_->put_push(frame);
   state.certificate = session_->certificate();
   for (const Constraint& hold : session_->holds()) {
     const FootprintJoint& joint = scene_->footprint.joints[std::size_t(hold.node)];

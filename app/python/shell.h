@@ -33,8 +33,6 @@ struct Done {
 struct Kept {
   std::shared_ptr<const Scene> scene;
   Checkpoint checkpoint;
-  experiment::BoundaryPosition boundary;
-  experiment::GrippedJoints grips;
   bool formed = false;
 };
 
@@ -65,17 +63,13 @@ class Shell {
 
  private:
   Shell(std::shared_ptr<const preset::Preset> preset, std::shared_ptr<const Scene> scene)
-      : preset_(std::move(preset)),
-        scene_(std::move(scene)),
-        boundary_(experiment::BoundaryPosition::of(*scene_)) {}
+      : preset_(std::move(preset)), scene_(std::move(scene)) {}
   Result<Done> form(double progress, const Watch& watch);
   Result<Done> ended(const std::string& what, Report report) const;
 
   std::shared_ptr<const preset::Preset> preset_;
   std::shared_ptr<const Scene> scene_;
-  std::optional<Session> session_;
-  experiment::BoundaryPosition boundary_;
-  experiment::GrippedJoints grips_;
+  std::optional<Simulation> session_;
   std::shared_ptr<const record::Layout> layout_;
   int layout_nodes_ = 0;
   bool formed_ = false;

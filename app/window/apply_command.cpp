@@ -17,7 +17,7 @@ namespace {
 std::vector<double> xyz_of(const Eigen::Vector3d& vector) {
   std::vector<double> xyz;
   for (const double value : vector)
-    xyz.push_back(std::abs(value) < experiment::nearest_mm ? 0 : value);
+    xyz.push_back(std::abs(value) < simulate::nearest_mm ? 0 : value);
   return xyz;
 }
 
@@ -57,21 +57,17 @@ bool goes_on(const preset::Step& before, const preset::Step& step) {
 Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
   const bool holds = step.kind == preset::StepKind::push || step.kind == preset::StepKind::hold;
   if (holds)
-    if (const auto joint = experiment::joint_of(step, now_.scene->footprint))
+    if (const auto joint = simulate::joint_of(step, now_.scene->footprint))
       // as it was seen, which the coarse mesh of a drag does not change
-      now_.grip_origins.emplace(*joint, view_.frame.nodes.cols() > *joint
-                                            ? Eigen::Vector3d(view_.frame.nodes.col(*joint))
-                                            : Eigen::Vector3d(session_->nodes().col(*joint)));
+      session_->grip_origins.emplace(*joint, view_.frame.nodes.cols() > *joint
+                                                 ? Eigen::Vector3d(view_.frame.nodes.col(*joint))
+                                                 : Eigen::Vector3d(session_->nodes().col(*joint)));
   // a leap is taken from a state at rest on all meshes, as a run takes it
   const bool leaps = step.kind == preset::StepKind::jitter || step.kind == preset::StepKind::rest ||
                      step.kind == preset::StepKind::release;
   if (leaps && session_->shell().levels() == 1)
-    session_->remesh(experiment::initial_levels(*now_.scene), watch);
-  TRY(report, experiment::apply_step(*session_, now_.boundary, step, watch));
-  std::erase_if(now_.grip_origins, [&](const auto& taken) {
-    return std::ranges::none_of(session_->holds(),
-                                [&](const Constraint& hold) { return hold.node == taken.first; });
-  });
+    session_->remesh(simulate::initial_levels(*now_.scene), watch);
+  TRY(report, simulate::apply_step(*session_, step, watch));
   add_step(std::move(step), *report);
   return note_events(*report);
 }
@@ -80,12 +76,12 @@ Result<void> EditSession::do_step(preset::Step step, const Watch& watch) {
 void EditSession::add_step(preset::Step step, const Report& report) {
   if (report.end != Outcome::reached) {
     if (step.kind != preset::StepKind::move && step.kind != preset::StepKind::push) return;
-    step.progress = now_.boundary.progress;
+    step.progress = session_->boundary.progress;
     if (step.kind == preset::StepKind::push)
-      if (const auto joint = experiment::joint_of(step, now_.scene->footprint))
+      if (const auto joint = simulate::joint_of(step, now_.scene->footprint))
         step.to_mm = xyz_of(session_->nodes().col(*joint));
   }
-  if (step.kind == preset::StepKind::move) step.edge_points = rows_of(now_.boundary.dragged);
+  if (step.kind == preset::StepKind::move) step.edge_points = rows_of(session_->boundary.dragged);
   const bool eventful = !report.events.empty();
   const bool same = this_drag_ != 0 && this_drag_ == steps_drag_ && !now_.steps.empty() &&
                     !eventful && !last_eventful_ && goes_on(*now_.steps.back(), step);
@@ -104,30 +100,30 @@ Result<void> EditSession::move_boundary(double progress, const Eigen::Matrix3Xd&
 }
 
 Result<void> EditSession::act(const Move& command, const Watch& watch) {
-  return move_boundary(std::max(command.progress, view_.least_progress), now_.boundary.dragged,
+  return move_boundary(std::max(command.progress, view_.least_progress), session_->boundary.dragged,
                        watch);
 }
 
 Result<void> EditSession::act(const DragEdge& command, const Watch& watch) {
-  Eigen::Matrix3Xd dragged = now_.boundary.dragged;
+  Eigen::Matrix3Xd dragged = session_->boundary.dragged;
   const Eigen::Index k = command.edge_point;
   if (k < 0 || k >= dragged.cols()) return fail(Fault::bad_input, "no such edge point");
   const BoundaryMotion& motion = now_.scene->motion;
-  const double progress = now_.boundary.progress;
+  const double progress = session_->boundary.progress;
   dragged.col(k) = command.to - motion.begin.col(k) - progress * (motion.end - motion.begin).col(k);
-  if ((dragged - now_.boundary.dragged).norm() < experiment::nearest_mm) return {};
+  if ((dragged - session_->boundary.dragged).norm() < simulate::nearest_mm) return {};
   return move_boundary(progress, dragged, watch);
 }
 
 Result<void> EditSession::act(const ResetEdgePoint& command, const Watch& watch) {
-  Eigen::Matrix3Xd dragged = now_.boundary.dragged;
+  Eigen::Matrix3Xd dragged = session_->boundary.dragged;
   if (command.edge_point < 0)
     dragged.setZero();
   else if (command.edge_point < dragged.cols())
     dragged.col(command.edge_point).setZero();
-  if (dragged == now_.boundary.dragged)
+  if (dragged == session_->boundary.dragged)
     return fail(Fault::bad_input, "no such edge point was dragged");
-  return move_boundary(now_.boundary.progress, dragged, watch);
+  return move_boundary(session_->boundary.progress, dragged, watch);
 }
 
 Result<void> EditSession::act(const Push& command, const Watch& watch) {
@@ -141,9 +137,8 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   step.lateral = free ? preset::Lateral::free : preset::Lateral::held;
   // a joint that is held already and does not move makes no step
   const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
-  const bool still =
-      (free ? std::abs(way.dot(command.along)) : way.norm()) < experiment::nearest_mm;
-  if (still && now_.grip_origins.contains(command.joint)) return {};
+  const bool still = (free ? std::abs(way.dot(command.along)) : way.norm()) < simulate::nearest_mm;
+  if (still && session_->grip_origins.contains(command.joint)) return {};
   return do_step(std::move(step), watch);
 }
 
@@ -273,7 +268,7 @@ Result<void> EditSession::act(const Design& command, const Watch& watch) {
 Result<void> EditSession::show_designed(const preset::Preset& designed, const State& state) {
   TRY(made, shared_scene_of(designed));
   const std::shared_ptr<const Scene>& scene = *made;
-  TRY(session, Session::open(scene, LevelPlan{{designed_on}, false}));
+  TRY(session, Simulation::open(scene, LevelPlan{{designed_on}, false}));
   if (const Report report = session->begin_at(1, state, unwatched); report.end != Outcome::reached)
     return fail(Fault::no_equilibrium,
                 std::string("the designed shell is lost: ") + words_of(report.end).what);
@@ -289,7 +284,7 @@ void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
   course.iterations = now.step.iteration;
   course.points.push_back(point_of(now));
   if (!s.layout) {
-    auto layout = experiment::layout_of(scene, shell.mesh());
+    auto layout = simulate::layout_of(scene, shell.mesh());
     if (!layout) return;
     layout->flat_nodes = drawn_nodes(shell.mesh(), scene.flat).leftCols(shell.mesh().rod_nodes());
     s.layout = std::make_shared<const record::Layout>(std::move(*layout));
@@ -302,7 +297,7 @@ void EditSession::show_design_step(const Scene& scene, const CertifiedStep& now,
   }
   const record::Frame before = std::exchange(
       s.frame,
-      experiment::frame_of(scene, shell.mesh(), shell.model(), shell.state(), shell.forces()));
+      simulate::frame_of(scene, shell.mesh(), shell.model(), shell.state(), shell.forces()));
   s.frame.progress = s.frame.actuation = before.progress;
   s.frame.boundary_radius_mm = before.boundary_radius_mm;
   s.certificate = {shell.residual(), 0, std::numeric_limits<double>::quiet_NaN(), 0};

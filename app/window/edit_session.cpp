@@ -82,7 +82,7 @@ std::string text_of_events(const std::vector<Event>& events) {
 }  // namespace
 
 LevelPlan coarse_plan(const Scene& scene) {
-  return {{experiment::initial_levels(scene).edges_per_segment.front()}, false};
+  return {{simulate::initial_levels(scene).edges_per_segment.front()}, false};
 }
 
 void EditSession::execute(const Command& command, const Watch& watch) {
@@ -127,7 +127,7 @@ void EditSession::refine(const Watch& watch) {
   const double begin = seconds_now();
   // a shell that nothing happened to since it was formed
   const bool untouched = now_.first && same_nodes(now_.first->nodes, view_.frame.nodes);
-  const LevelPlan plan = experiment::initial_levels(*now_.scene);
+  const LevelPlan plan = simulate::initial_levels(*now_.scene);
   const std::vector<int>& now = session_->shell().plan().edges_per_segment;
   const bool fine_enough = now_.scene->edges_per_segment == 0 && now.size() > 1 &&
                            now.back() >= plan.edges_per_segment.back();
@@ -204,7 +204,7 @@ bool EditSession::load_from_scratch(UndoStep& step) const {
 
 Result<void> EditSession::restore(const UndoStep& step) {
   if (step.state.scene != now_.scene) {
-    TRY(session, Session::open(step.state.scene, step.checkpoint.plan));
+    TRY(session, Simulation::open(step.state.scene, step.checkpoint.plan));
     session_ = std::move(*session);
   }
   session_->restore(step.checkpoint);
@@ -254,8 +254,8 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
   const std::shared_ptr<const Scene>& scene = *made;
   if (scene->rung == RodModel::net)
     return fail(Fault::bad_input, "the rung 'net' is geometry alone: there is nothing to push");
-  TRY(course, experiment::follow_actuation(scene, coarse_plan(*scene), false, 1, watch));
-  set_shell(preset, scene, std::move(course->session));
+  TRY(course, simulate::follow_actuation(scene, coarse_plan(*scene), false, 1, watch));
+  set_shell(preset, scene, std::move(course->simulation));
   now_.snapped = course->has_events();
   now_.first.reset();
   view_.message = course->limit_reason;
@@ -269,7 +269,7 @@ Result<void> EditSession::form(const preset::Preset& preset, const Watch& watch)
 
 /// Another shell, to which nothing was done.
 void EditSession::set_shell(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
-                            Session session) {
+                            Simulation session) {
   const auto first = now_.first;
   now_ = {};
   now_.preset = preset;
@@ -277,8 +277,6 @@ void EditSession::set_shell(const preset::Preset& preset, std::shared_ptr<const 
   now_.first = first;
   now_.scene = std::move(scene);
   session_ = std::move(session);
-  now_.boundary = experiment::BoundaryPosition::of(*now_.scene);
-  now_.boundary.progress = session_->progress();
   steps_drag_ = 0;
   view_.layout.reset();
 }
@@ -286,8 +284,8 @@ void EditSession::set_shell(const preset::Preset& preset, std::shared_ptr<const 
 /// What the preset itself pushes, from where the shell stands.
 Result<void> EditSession::set_preset_push() {
   if (!now_.preset.indentation.wanted()) return {};
-  TRY(push, experiment::push_of(now_.preset.indentation, *now_.scene, session_->shell().finest(),
-                                session_->nodes()));
+  TRY(push, simulate::push_of(now_.preset.indentation, *now_.scene, session_->shell().finest(),
+                              session_->nodes()));
   now_.push = {push->joint, session_->nodes().col(push->joint), push->displacement};
   return {};
 }
@@ -329,7 +327,7 @@ Result<void> EditSession::act(const Change& command, const Watch& watch) {
 
 /// A shell of another preset, to which nothing that was done before is done again.
 Result<void> EditSession::rebuild_shell(const preset::Preset& preset, const Watch& watch) {
-  const bool untouched = now_.steps.empty() && now_.grip_origins.empty();
+  const bool untouched = now_.steps.empty() && session_->grip_origins.empty();
   return form(preset, watch).map([&] {
     if (untouched) return;
     if (!view_.message.empty()) view_.message += "; ";

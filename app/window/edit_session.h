@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -82,9 +81,7 @@ class EditSession {
   /// All that a command can change but the state of the rods.
   struct EditState : ViewedState {
     std::shared_ptr<const Scene> scene;
-    experiment::BoundaryPosition boundary;
-    std::map<int, Eigen::Vector3d> grip_origins;  ///< where joints were taken hold of
-    std::shared_ptr<DesignTarget> target;         ///< that the design aims at
+    std::shared_ptr<DesignTarget> target;  ///< that the design aims at
   };
 
   /// To go back to.
@@ -113,7 +110,8 @@ class EditSession {
 
   Result<void> form(const preset::Preset& preset, const Watch& watch);
   Result<void> rebuild_shell(const preset::Preset& preset, const Watch& watch);
-  void set_shell(const preset::Preset& preset, std::shared_ptr<const Scene> scene, Session session);
+  void set_shell(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
+                 Simulation session);
   Result<void> set_preset_push();
   Result<void> show_designed(const preset::Preset& designed, const State& state);
   void show_design_step(const Scene& scene, const CertifiedStep& step, DesignProgress& course);
@@ -143,7 +141,7 @@ class EditSession {
   void update_deviation(const Eigen::VectorXd& of_joints_mm);
 
   EditState now_;
-  std::optional<Session> session_;
+  std::optional<Simulation> session_;
   std::deque<UndoStep> undo_, redo_;
   ScratchFile scratch_;  // the arrays of older ones
   std::int64_t most_bytes_;

@@ -15,7 +15,7 @@ constexpr double same_shape = 2e-3;        // of the length scale
 constexpr double least_shortening = 1e-3;  // nearer to the flat no path is followed
 
 /// Where each of the motions' parameters is as near to the flat as a path goes, as a progress.
-double least_progress_of(const Session& session) {
+double least_progress_of(const Simulation& session) {
   if (session.scene().drawn_in_space) return 0;
   const NestedShell& shell = session.shell();
   PinnedMotion motion = pinned_motion(shell.mesh(0), session.scene().motion);
@@ -57,9 +57,9 @@ void EditSession::update_view() {
   if (!session_) return;
   update_layout();
   if (!s.layout) return;
-  s.frame = experiment::frame_of(*session_);
-  s.frame.progress = s.frame.actuation = s.progress = now_.boundary.progress;
-  s.frame.boundary_radius_mm = now_.scene->radius_at(now_.boundary.progress);
+  s.frame = simulate::frame_of(*session_);
+  s.frame.progress = s.frame.actuation = s.progress = session_->boundary.progress;
+  s.frame.boundary_radius_mm = now_.scene->radius_at(session_->boundary.progress);
   if (s.preset.footprint.kind == preset::FootprintKind::circle)
     s.preset.set_radii(now_.scene->radius_begin_mm, s.frame.boundary_radius_mm);
   s.certificate = session_->certificate();
@@ -68,15 +68,16 @@ void EditSession::update_view() {
   s.accuracy_warning = accuracy_warning();
   s.radius_end_mm = now_.scene->radius_end_mm;
   s.edges_dragged.clear();
-  for (Eigen::Index k = 0; k < now_.boundary.dragged.cols(); ++k)
-    if (!now_.boundary.dragged.col(k).isZero(0))
-      s.edges_dragged.push_back({int(k), now_.boundary.dragged.col(k).norm()});
+  for (Eigen::Index k = 0; k < session_->boundary.dragged.cols(); ++k)
+    if (!session_->boundary.dragged.col(k).isZero(0))
+      s.edges_dragged.push_back({int(k), session_->boundary.dragged.col(k).norm()});
   update_normals();
   s.held.clear();
+  const auto& origins = session_->grip_origins;
   for (std::size_t k = 0; k < session_->holds().size(); ++k) {
     const Constraint& hold = session_->holds()[k];
-    const Eigen::Vector3d from = now_.grip_origins.count(hold.node) ? now_.grip_origins[hold.node]
-                                                                    : s.frame.nodes.col(hold.node);
+    const Eigen::Vector3d from =
+        origins.contains(hold.node) ? origins.at(hold.node) : s.frame.nodes.col(hold.node);
     // what is free to move across the push is no part of its depth
     HeldJoint held{hold.node, hold.part(session_->force(k)),
                    hold.part(s.frame.nodes.col(hold.node) - from)};
@@ -96,7 +97,7 @@ void EditSession::update_view() {
 void EditSession::update_layout() {
   const RodMesh& mesh = session_->shell().finest();
   if (view_.layout && nodes_shown_ == mesh.rod_nodes()) return;
-  auto layout = experiment::layout_of(*now_.scene, mesh);
+  auto layout = simulate::layout_of(*now_.scene, mesh);
   if (!layout) {
     view_.error = layout.error().message;
     return;
@@ -110,8 +111,8 @@ void EditSession::update_layout() {
   // joints come first on every mesh, and the coarsest is the quickest to look at
   const NestedShell& shell = session_->shell();
   const RodMesh& coarsest = shell.mesh(0);
-  symmetries_ = experiment::symmetries_of_shell(*now_.scene, coarsest,
-                                                symmetries_of(coarsest, shell.motion(0).at(1)));
+  symmetries_ = simulate::symmetries_of_shell(*now_.scene, coarsest,
+                                              symmetries_of(coarsest, shell.motion(0).at(1)));
 }
 
 /// Of the shape, whatever holds it. A square that is mapped onto itself alone has none to tell of.

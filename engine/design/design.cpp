@@ -36,8 +36,17 @@ OptimiseOptions options_of(const preset::Inverse& inverse) {
   return options;
 }
 
-}  // namespace
+/// What every design works on, whether it goes to its end or is watched and stopped.
+struct DesignProblem {
+  std::unique_ptr<DesignShell> coarse, fine;  ///< on the two meshes
+  DesignTarget target;
+  int symmetries = 1;
+  DesignVariables variables;
+  OptimiseOptions options;
+  double jump_mm = 0;  ///< Newton's way from a prediction that is believed
+};
 
+/// Whether a shell has what a design needs.
 Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene) {
   if (preset.inverse.vary.empty())
     return fail(Fault::bad_input,
@@ -54,10 +63,7 @@ Result<void> can_be_designed(const preset::Preset& preset, const Scene& scene) {
   return {};
 }
 
-Result<DesignTarget> design_target(const Scene& scene, preset::Target kind) {
-  return DesignTarget::make(scene.net, uv_of_joints(scene), kind);
-}
-
+/// Pins and legs as a builder measures them; 0: exact.
 ShellEnds rounded(ShellEnds ends, double to_mm) {
   if (to_mm == 0) return ends;
   const auto round = [to_mm](double value) { return std::round(value / to_mm) * to_mm; };
@@ -67,23 +73,24 @@ ShellEnds rounded(ShellEnds ends, double to_mm) {
   return ends;
 }
 
-Result<DesignProblem> begin_design(const preset::Preset& preset, std::shared_ptr<const Scene> scene,
+/// The work of a preset's [inverse] on a shell of its scene, at rest on the mesh that is designed
+/// on. Errors: bad_input (ends that have nothing of what is to vary), no_equilibrium (on the mesh
+/// that certifies), cancelled.
+Result<DesignProblem> begin_design(const preset::Preset& preset, const Scene& scene,
                                    std::unique_ptr<DesignShell> coarse, const Watch& watch) {
-  TRY(target, design_target(*scene, preset.inverse.target));
+  TRY(target, design_target(scene, preset.inverse.target));
   // the same shell on the mesh that certifies
-  TRY(fine, DesignShell::make(*scene, certified_on, coarse->mesh(), coarse->model(),
-                              coarse->state(), watch));
-  const double spacing = scene->footprint.spacing;
-  const auto symmetries = symmetries_of(*scene, coarse->joints(), same_place * spacing);
-  DesignVariables variables(*scene, preset.inverse.vary, symmetries);
+  TRY(fine, DesignShell::make(scene, certified_on, coarse->mesh(), coarse->model(), coarse->state(),
+                              watch));
+  const double spacing = scene.footprint.spacing;
+  const auto symmetries = symmetries_of(scene, coarse->joints(), same_place * spacing);
+  DesignVariables variables(scene, preset.inverse.vary, symmetries);
   if (variables.count() == 0)
     return fail(Fault::bad_input, "[inverse] vary names nothing that these ends have");
-  return DesignProblem{std::move(scene),           std::move(coarse),      std::move(*fine),
-                       std::move(*target),         int(symmetries.size()), std::move(variables),
-                       options_of(preset.inverse), 0.1 * spacing};
+  return DesignProblem{std::move(coarse),      std::move(*fine),     std::move(*target),
+                       int(symmetries.size()), std::move(variables), options_of(preset.inverse),
+                       0.1 * spacing};
 }
-
-namespace {
 
 constexpr int fabricated_samples = 8;
 constexpr double sigmas_mm[] = {0.1, 0.5};
@@ -106,13 +113,13 @@ DesignedState described(DesignShell& shell, DesignTarget& target) {
 /// The shell of the scene as it is, on the mesh that is designed on.
 Result<std::unique_ptr<DesignShell>> begin(const std::shared_ptr<const Scene>& scene,
                                            const Watch& watch) {
-  TRY(course, experiment::follow_actuation(scene, plan_of_mesh(designed_on), false, 1, watch));
-  const Session& session = course->session;
-  if (session.progress() != 1)
+  TRY(course, simulate::follow_actuation(scene, plan_of_mesh(designed_on), false, 1, watch));
+  const Simulation& simulation = course->simulation;
+  if (simulation.progress() != 1)
     return fail(
         Fault::no_equilibrium,
         "the shell does not come to its end before anything is changed: " + course->limit_reason);
-  const NestedShell& shell = session.shell();
+  const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
   return DesignShell::make(*scene, designed_on, shell.mesh(last), shell.model(last),
                            shell.state().levels.back());
@@ -166,6 +173,10 @@ Result<std::size_t> certify(DesignShell& coarse, DesignShell& fine,
 
 }  // namespace
 
+Result<DesignTarget> design_target(const Scene& scene, preset::Target kind) {
+  return DesignTarget::make(scene.net, uv_of_joints(scene), kind);
+}
+
 Result<DesignResult> design(const preset::Preset& preset, Watch& watch,
                             const std::function<void(const DesignStep&)>& seen) {
   const double started = cpu_seconds_now();
@@ -175,7 +186,7 @@ Result<DesignResult> design(const preset::Preset& preset, Watch& watch,
   auto first = begin(scene, watch);
   if (watch.cancelled()) return stopped();
   if (!first) return tl::unexpected<Error>(first.error());
-  TRY(begun, begin_design(preset, scene, std::move(*first)));
+  TRY(begun, begin_design(preset, *scene, std::move(*first), unwatched));
   DesignProblem& work = *begun;
   DesignShell &coarse = *work.coarse, &fine = *work.fine;
 
@@ -243,7 +254,7 @@ Result<LiveDesignResult> design_live(const preset::Preset& preset, const DesignS
                                      const std::function<void(const CertifiedStep&)>& seen) {
   TRY_DO(can_be_designed(preset, *from.scene));
   TRY(shell, DesignShell::make(*from.scene, designed_on, from.mesh, from.model, from.state, watch));
-  TRY(begun, begin_design(preset, from.scene, std::move(*shell), watch));
+  TRY(begun, begin_design(preset, *from.scene, std::move(*shell), watch));
   DesignProblem& work = *begun;
   work.options.most_iterations = most_iterations;
   ShellEnds last = work.coarse->ends();

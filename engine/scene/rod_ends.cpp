@@ -149,9 +149,8 @@ Result<Eigen::Vector3d> rod_curvature(const ChebyshevNet& net, Family family,
                                       const Eigen::Vector2d& uv, double inwards) {
   const double h = inwards * difference_step;
   const Eigen::Vector2d along = family == Family::u ? Eigen::Vector2d(h, 0) : Eigen::Vector2d(0, h);
-  const auto here = tangent_at(net, family, uv), in = tangent_at(net, family, uv + along);
-  for (const auto* tangent : {&here, &in})
-    if (!*tangent) return tl::unexpected<Error>(tangent->error());
+  TRY(here, tangent_at(net, family, uv));
+  TRY(in, tangent_at(net, family, uv + along));
   if (const auto out = tangent_at(net, family, uv - along)) return (*in - *out) / (2 * h);
   TRY(further, tangent_at(net, family, uv + 2 * along));
   return (4 * *in - 3 * *here - *further) / (2 * h);
@@ -167,10 +166,8 @@ Result<void> add_second_ring(double length_mm, Scene& scene) {
     (first ? rod.tail_begin : rod.tail_end) = length_mm;
     const double side = first ? -1 : 1, at = first ? rod.span.begin : rod.span.end;
     const Eigen::Vector2d uv = rod.at(at);
-    const auto tangent = tangent_at(*scene.net, rod.family, uv);
-    const auto curvature = rod_curvature(*scene.net, rod.family, uv, -side);
-    for (const auto* vector : {&tangent, &curvature})
-      if (!*vector) return tl::unexpected<Error>(vector->error());
+    TRY(tangent, tangent_at(*scene.net, rod.family, uv));
+    TRY(curvature, rod_curvature(*scene.net, rod.family, uv, -side));
     scene.motion.begin_far.col(k) =
         scene.motion.begin.col(k) + side * length_mm * scene.flat.axes * rod.direction;
     scene.motion.end_far.col(k) =

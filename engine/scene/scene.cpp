@@ -19,22 +19,6 @@
 
 namespace gridshell {
 
-/// The rods of a footprint as a preset wants them.
-struct SceneRods {
-  ShellRods shell;
-  std::vector<double> mass_t_per_mm;       ///< one a rod; 0 where no density is given
-  std::vector<double> diameters_mm;        ///< one a rod, of round ones
-  double drawn_diameter_mm = 0;            ///< of a round section of the area of [rod]'s
-  std::vector<double> drawn_diameters_mm;  ///< of every rod's
-};
-
-/// Errors (bad_input): a load on a joint that the footprint does not have; a diameter of a rod that
-/// it does not have, of none or a rectangular one, or as wide as the rods' spacing.
-Result<SceneRods> scene_rods(const preset::Preset& preset, const Footprint& footprint);
-
-/// The joint (i, j), or -1.
-int joint_at(const Footprint& footprint, int i, int j);
-
 namespace {
 
 double area_of(const preset::Rod& rod) {
@@ -105,39 +89,31 @@ Result<std::vector<double>> diameters_of(const preset::Preset& preset, const Foo
   return diameters;
 }
 
-}  // namespace
-
-int joint_at(const Footprint& footprint, int i, int j) {
-  for (std::size_t k = 0; k < footprint.joints.size(); ++k)
-    if (footprint.joints[k].i == i && footprint.joints[k].j == j) return int(k);
-  return -1;
-}
-
-Result<SceneRods> scene_rods(const preset::Preset& preset, const Footprint& footprint) {
-  SceneRods rods;
+/// Gives a scene's footprint the preset's rods, joints and loads. Errors (bad_input): a load on a
+/// joint, a diameter of a rod that is not there.
+Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
+  const Footprint& footprint = scene.footprint;
   const preset::Loads& loads = preset.loads;
   TRY(diameters, diameters_of(preset, footprint));
-  rods.diameters_mm = std::move(*diameters);
+  scene.diameters_mm = std::move(*diameters);
   for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
     preset::Rod rod = rod_of(preset, footprint.rods[r].family);
-    rod.diameter_mm = rods.diameters_mm[r];
-    rods.drawn_diameters_mm.push_back(2 * std::sqrt(area_of(rod) / M_PI));
+    rod.diameter_mm = scene.diameters_mm[r];
+    scene.drawn_diameters_mm.push_back(2 * std::sqrt(area_of(rod) / M_PI));
     const double mass = 1e-12 * rod.density_kg_m3 * area_of(rod);  // 1 kg/m^3 = 1e-12 t/mm^3
-    rods.shell.materials.push_back(material_of(rod));
-    rods.mass_t_per_mm.push_back(mass);
+    scene.rods.materials.push_back(material_of(rod));
+    scene.mass_t_per_mm.push_back(mass);
     if (loads.gravity_m_s2 != 0 || loads.field_N_per_mm != 0)
-      rods.shell.weight_N_per_mm.push_back(1e3 * loads.gravity_m_s2 * mass + loads.field_N_per_mm);
+      scene.rods.weight_N_per_mm.push_back(1e3 * loads.gravity_m_s2 * mass + loads.field_N_per_mm);
   }
   TRY(points, points_of(loads, footprint));
-  rods.shell.points = std::move(*points);
+  scene.rods.points = std::move(*points);
   const bool springs = preset.joints.kind == preset::JointKind::spring;
-  rods.shell.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,
+  scene.rods.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,
                        preset.joints.twist_Nmm};
-  rods.drawn_diameter_mm = 2 * std::sqrt(area_of(preset.rod) / M_PI);
-  return rods;
+  scene.rod_diameter_mm = 2 * std::sqrt(area_of(preset.rod) / M_PI);
+  return {};
 }
-
-namespace {
 
 constexpr int boundary_points = 256;
 
@@ -167,7 +143,7 @@ Result<void> build_circle(const preset::Preset& preset, Scene& scene) {
   return {};
 }
 
-Result<void> clip_to_circle(const Domain& domain, const preset::Preset& preset, Scene& scene) {
+Result<void> clip(const Domain& domain, const preset::Preset& preset, Scene& scene) {
   TRY(footprint, cut_footprint(domain, preset.footprint.spacing_mm,
                                same_word<Placement>(preset.footprint.placement)));
   scene.footprint = std::move(*footprint);
@@ -176,7 +152,7 @@ Result<void> clip_to_circle(const Domain& domain, const preset::Preset& preset, 
 
 Result<void> build_curve(const preset::Preset& preset, Scene& scene) {
   TRY(design, curve_design(preset));
-  if (auto cut = clip_to_circle(*design->domain, preset, scene); !cut) return cut;
+  TRY_DO(clip(*design->domain, preset, scene));
   scene.length_scale_mm = design->scale_mm;
   const Eigen::Matrix2Xd ring = design->domain->boundary(boundary_points);
   const Eigen::Matrix2Xd ends = edge_points(scene.footprint);
@@ -227,7 +203,7 @@ Result<void> build_net(const preset::Preset& preset, Scene& scene) {
   TRY(design, preset.footprint.kind == preset::FootprintKind::blocks
                   ? block_design(preset)
                   : net_design(preset.net, preset.footprint.spacing_mm));
-  if (auto cut = clip_to_circle(*design->domain, preset, scene); !cut) return cut;
+  TRY_DO(clip(*design->domain, preset, scene));
   scene.net = design->net;
   scene.blocks = design->blocks;
   scene.flat = design->flat;
@@ -236,13 +212,12 @@ Result<void> build_net(const preset::Preset& preset, Scene& scene) {
   const Eigen::Matrix2Xd ring = design->domain->boundary(boundary_points);
   const Eigen::Matrix2Xd ends = edge_points(scene.footprint);
   // C maps the original boundary to the actuated one, the edge points too
-  const auto actuated = points_on(*scene.net, ring), held = points_on(*scene.net, ends);
-  for (const auto* sampled : {&actuated, &held})
-    if (!*sampled) return tl::unexpected<Error>(sampled->error());
+  TRY(actuated, points_on(*scene.net, ring));
+  TRY(held, points_on(*scene.net, ends));
   scene.original_boundary = scene.flat.all(ring);
-  scene.actuated_boundary = *actuated;
+  scene.actuated_boundary = std::move(*actuated);
   scene.motion.begin = scene.flat.all(ends);
-  scene.motion.end = *held;
+  scene.motion.end = std::move(*held);
   if (preset.ends.rings == preset::Rings::free) free_rings(scene);
   return {};
 }
@@ -280,22 +255,23 @@ Result<void> check_in_space(const preset::Preset& preset, const Scene& scene) {
 
 }  // namespace
 
+int joint_at(const Footprint& footprint, int i, int j) {
+  const auto found = std::ranges::find_if(
+      footprint.joints, [&](const FootprintJoint& joint) { return joint.i == i && joint.j == j; });
+  return found == footprint.joints.end() ? -1 : int(found - footprint.joints.begin());
+}
+
 Result<Scene> scene_of(const preset::Preset& preset) {
   Scene scene;
   TRY_DO(build(preset, scene));
   if (preset.ends.kind != preset::EndKind::pinned) {
     const bool clamped = preset.ends.kind == preset::EndKind::clamped;
-    TRY(held, hold_directions(edge_points(scene.footprint),
-                              clamped ? RodEnd::clamped : RodEnd::tangent, scene));
+    TRY_DO(hold_directions(edge_points(scene.footprint),
+                           clamped ? RodEnd::clamped : RodEnd::tangent, scene));
   }
   if (preset.ends.second_ring_mm > 0) TRY_DO(add_second_ring(preset.ends.second_ring_mm, scene));
   TRY_DO(apply_ends_table(preset.ends.table, scene));
-  TRY(rods, scene_rods(preset, scene.footprint));
-  scene.rods = std::move(rods->shell);
-  scene.mass_t_per_mm = std::move(rods->mass_t_per_mm);
-  scene.rod_diameter_mm = rods->drawn_diameter_mm;
-  scene.drawn_diameters_mm = rods->drawn_diameters_mm;
-  scene.diameters_mm = std::move(rods->diameters_mm);
+  TRY_DO(put_rods(preset, scene));
   scene.rung = preset::rod_model_of(preset);
   TRY_DO(check_in_space(preset, scene));
   scene.seed.up = preset.actuation.seed == preset::Seed::up ? 1 : -1;

@@ -68,6 +68,9 @@ struct Scene {
   }
 };
 
+/// The joint (i, j), or -1.
+int joint_at(const Footprint& footprint, int i, int j);
+
 /// Builds the scene of a preset. Errors: Fault::bad_input with the reason when the preset's values
 /// do not make a footprint.
 Result<Scene> scene_of(const preset::Preset& preset);

@@ -12,85 +12,86 @@
 #include "engine/simulate/frames.h"
 #include "engine/solve/buckling.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 // of the rods, where the first buckled state is looked for: the first that is connected to the flat
 constexpr double first_shortening[] = {0.02, 0.01, 0.005, 0.0025};
 
 /// Back from the first state towards the flat; whether it came there.
-bool follow_back(EquilibriumPath& course, const BifurcationPolicy& leaving, const Watch& watch) {
-  const NestedShell& shell = course.session.shell();
+bool follow_back(EquilibriumPath& path, const BifurcationPolicy& leaving, const Watch& watch) {
+  const NestedShell& shell = path.simulation.shell();
   const auto nearly_flat = parameter_of_shortening(shell.mesh(0), shell.motion(0), flat_shortening);
   const double t = shell.state().t;
   PathSegment& back =
-      follow_segment(course, nearly_flat ? std::min(*nearly_flat, t) : 0, leaving, watch);
+      follow_segment(path, nearly_flat ? std::min(*nearly_flat, t) : 0, leaving, watch);
   back.back = true;
   return back.report.end == Outcome::reached;
 }
 
 /// A way on which no state has a negative pivot.
-bool stable(const PathSegment& leg) {
-  const auto& stations = leg.trail.stations;
-  return std::all_of(stations.begin(), stations.end(),
-                     [](const LoadStep& station) { return station.certificate.stable(); });
+bool stable(const PathSegment& segment) {
+  const auto& load_steps = segment.load_steps;
+  return std::all_of(load_steps.begin(), load_steps.end(),
+                     [](const LoadStep& load_step) { return load_step.certificate.stable(); });
 }
 
 /// The first buckled state, and the way back from it to the flat: through states that are not
 /// stable too, so that it is seen whether there are any.
-Result<Checkpoint> begin_from_flat(EquilibriumPath& course, const Watch& watch) {
+Result<Checkpoint> begin_from_flat(EquilibriumPath& path, const Watch& watch) {
   Result<Checkpoint> found = fail(Fault::no_equilibrium, "no buckled state was certified");
   for (double shortening : first_shortening) {
-    const auto first = course.session.begin_buckled(shortening, watch);
+    const auto first = path.simulation.begin_buckled(shortening, watch);
     if (watch.cancelled()) return stopped();
     if (!first && found) break;
     if (!first) return tl::unexpected<Error>(first.error());
     if (first->end != Outcome::reached) continue;
-    std::vector<PathSegment> before = std::exchange(course.legs, {});
-    Checkpoint start = course.session.save();
-    const bool connected = follow_back(course, {.wanted = false, .through_unstable = true}, watch);
+    std::vector<PathSegment> before = std::exchange(path.segments, {});
+    Checkpoint start = path.simulation.save();
+    const bool connected = follow_back(path, {.wanted = false, .through_unstable = true}, watch);
     if (connected || !found)
       found = std::move(start);
     else
-      course.legs = std::move(before);
+      path.segments = std::move(before);
     if (connected || watch.cancelled()) break;
   }
   return found;
 }
 
-/// Whether the path from next to the flat, where the session stands after a way back, comes to the
-/// first state: not where that lies on a branch that leaves it.
-bool leads_to(EquilibriumPath& course, const Checkpoint& first, const Watch& watch) {
-  Session& session = course.session;
-  const Checkpoint here = session.save();
+/// Whether the path from next to the flat, where the simulation stands after a way back, comes to
+/// the first state: not where that lies on a branch that leaves it.
+bool leads_to(EquilibriumPath& path, const Checkpoint& first, const Watch& watch) {
+  Simulation& simulation = path.simulation;
+  const Checkpoint here = simulation.save();
   const Report there =
-      session.sample(first.state.t, course.legs.front().trail.stations.back(), false, watch);
+      simulation.sample(first.state.t, path.segments.front().load_steps.back(), false, watch);
   const bool same =
-      there.end == Outcome::reached && distance_of_joints(session, first.state.x) <
-                                           near_spacings * session.scene().footprint.spacing;
-  session.restore(here);
+      there.end == Outcome::reached && distance_of_joints(simulation, first.state.x) <
+                                           near_spacings * simulation.scene().footprint.spacing;
+  simulation.restore(here);
   return same;
 }
 
 /// On from the first state, or, where the path from the flat does not lead to it through stable
-/// states, from next to the flat, where the session stands after the way back.
-void follow_from_flat(EquilibriumPath& course, const Checkpoint& first, double to,
+/// states, from next to the flat, where the simulation stands after the way back.
+void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
                       const Watch& watch) {
-  Session& session = course.session;
-  const PathSegment& back = course.legs.front();
+  Simulation& simulation = path.simulation;
+  const PathSegment& back = path.segments.front();
   const bool connected = back.report.end == Outcome::reached;
-  if (connected && session.scene().imperfection.chooses()) {
-    const bool straight = stable(back) && leads_to(course, first, watch);
-    const bool rests = !straight && (stable(back) || session.rest(watch).end == Outcome::reached);
+  if (connected && simulation.scene().imperfection.chooses()) {
+    const bool straight = stable(back) && leads_to(path, first, watch);
+    const bool rests =
+        !straight && (stable(back) || simulation.rest(watch).end == Outcome::reached);
     if (rests || watch.cancelled()) {
-      course.legs.clear();
+      path.segments.clear();
       // nearer to the flat nothing happens any more
-      follow_segment(course, to, {}, watch).from = 0;
+      follow_segment(path, to, {}, watch).from = 0;
       return;
     }
   }
-  session.restore(first);
-  if (to >= first.state.t) follow_segment(course, to, {}, watch);
+  simulation.restore(first);
+  if (to >= first.state.t) follow_segment(path, to, {}, watch);
 }
 
 }  // namespace
@@ -105,9 +106,9 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
                                          const LevelPlan& plan, bool inner, double to,
                                          const Watch& watch) {
   const double started = seconds_now();
-  TRY(session, Session::open(scene, plan));
-  EquilibriumPath course{std::move(*session)};
-  course.seconds_setup = seconds_now() - started;
+  TRY(simulation, Simulation::open(scene, plan));
+  EquilibriumPath path{std::move(*simulation)};
+  path.seconds_setup = seconds_now() - started;
   const auto certified = [](const Result<Report>& first, const char* which) -> Result<void> {
     if (!first) return tl::unexpected<Error>(first.error());
     if (first->end == Outcome::reached) return {};
@@ -115,37 +116,37 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
                 fmt::format("{} is not certified: {}", which, words_of(first->end).what));
   };
   if (scene->drawn_in_space) {
-    TRY(begun, certified(course.session.begin_as_drawn(watch), "the network as drawn"));
-    follow_segment(course, parameter_at(to), {}, watch);
+    TRY(begun, certified(path.simulation.begin_as_drawn(watch), "the network as drawn"));
+    follow_segment(path, parameter_at(to), {}, watch);
   } else if (to == 0) {
-    return course;
+    return path;
   } else if (scene->from_net) {
-    TRY(begun, certified(course.session.begin_on_net(watch), "the state beside the net"));
-    const Checkpoint start = course.session.save();
+    TRY(begun, certified(path.simulation.begin_on_net(watch), "the state beside the net"));
+    const Checkpoint start = path.simulation.save();
     if (inner) {
-      follow_back(course, {}, watch);
-      course.session.restore(start);
+      follow_back(path, {}, watch);
+      path.simulation.restore(start);
     }
-    follow_segment(course, 1, {}, watch);
+    follow_segment(path, 1, {}, watch);
   } else {
-    TRY(start, begin_from_flat(course, watch));
-    follow_from_flat(course, *start, parameter_at(to), watch);
+    TRY(start, begin_from_flat(path, watch));
+    follow_from_flat(path, *start, parameter_at(to), watch);
   }
   if (watch.cancelled()) return stopped();
-  set_limit(course, at_progress);
-  return course;
+  set_limit(path, at_progress);
+  return path;
 }
 
 namespace {
 
-/// The leg on which a path parameter lies, if there is one.
-std::optional<std::size_t> leg_at(const EquilibriumPath& course, double t) {
-  for (std::size_t k = course.legs.size(); k-- > 0;) {
-    const PathSegment& leg = course.legs[k];
-    double end = leg.end();
+/// The segment on which a path parameter lies, if there is one.
+std::optional<std::size_t> leg_at(const EquilibriumPath& path, double t) {
+  for (std::size_t k = path.segments.size(); k-- > 0;) {
+    const PathSegment& segment = path.segments[k];
+    double end = segment.end();
     // nearer to the flat than it was followed nothing happens any more
-    if (leg.back && leg.report.end == Outcome::reached) end = 0;
-    if (std::min(leg.from, end) <= t && t <= std::max(leg.from, end)) return k;
+    if (segment.back && segment.report.end == Outcome::reached) end = 0;
+    if (std::min(segment.from, end) <= t && t <= std::max(segment.from, end)) return k;
   }
   return std::nullopt;
 }
@@ -183,32 +184,32 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
                                       Watch& watch) {
   const bool inner =
       std::any_of(progress.begin(), progress.end(), [](double p) { return p > 0 && p < 1; });
-  auto course = converged_path(
+  auto path = converged_path(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {
         return follow_actuation(scene, plan, inner, progress.back(), w);
       },
       watch);
-  if (!course) return course;
-  set_limit(*course, at_progress);
-  TRY(layout, layout_of(*scene, course->session.shell().finest()));
-  layout->extrapolated = course->session.shell().plan().extrapolate;
+  if (!path) return path;
+  set_limit(*path, at_progress);
+  TRY(layout, layout_of(*scene, path->simulation.shell().finest()));
+  layout->extrapolated = path->simulation.shell().plan().extrapolate;
   TRY_DO(sink.begin(std::move(*layout)));
-  PathSampler sampler(*course, caption_of(*scene), sink, watch, progress.size());
-  const Checkpoint end = course->session.save();
+  PathSampler sampler(*path, caption_of(*scene), sink, watch, progress.size());
+  const Checkpoint end = path->simulation.save();
   for (std::size_t k = 0; k < progress.size(); ++k) {
     PathSample sample{int(k), 0, parameter_at(progress[k]), progress[k]};
     if (progress[k] == 0 && rests_flat(*scene)) {
-      TRY_DO(sampler.take(flat_frame(course->session), sample));
+      TRY_DO(sampler.take(flat_frame(path->simulation), sample));
       continue;
     }
-    const auto leg = leg_at(*course, sample.t);
-    if (!leg) continue;  // the course's limit says why
-    sample.leg = *leg;
+    const auto segment = leg_at(*path, sample.t);
+    if (!segment) continue;  // the path's limit says why
+    sample.segment = *segment;
     TRY_DO(sampler.at(sample));
   }
-  course->session.restore(end);
-  return course;
+  path->simulation.restore(end);
+  return path;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

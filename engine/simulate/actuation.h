@@ -9,7 +9,7 @@
 #include "engine/record/trajectory.h"
 #include "engine/simulate/equilibrium_path.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// "at progress 0.0183 ± 0.0005", of a path parameter of an actuation.
 std::string at_progress(double t, std::optional<double> error);
@@ -32,10 +32,10 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
                                                const Watch& watch);
 
 /// Hands frames at `progress` (ascending, in [0, 1]; 0 is the flat footprint) to the sink. Where
-/// the path ends before a sample, the course's limit says why. Errors: as follow_actuation(), and
+/// the path ends before a sample, the path's limit says why. Errors: as follow_actuation(), and
 /// the sink's.
 Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
                                       const std::vector<double>& progress, record::Sink& sink,
                                       Watch& watch);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

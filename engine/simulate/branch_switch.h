@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 #include "engine/solve/dynamics.h"
 #include "engine/solve/equilibrium.h"
 #include "engine/solve/nested_shell.h"

@@ -8,62 +8,62 @@
 #include "engine/simulate/frames.h"
 #include "engine/simulate/mesh_choice.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
-/// The station that it lies in front of.
-const LoadStep& load_step_after(const PathSegment& leg, double t) {
-  for (const LoadStep& station : leg.trail.stations)
-    if (leg.way() * (station.point.t - t) >= 0) return station;
-  return leg.trail.stations.back();
+/// The load_step that it lies in front of.
+const LoadStep& load_step_after(const PathSegment& segment, double t) {
+  for (const LoadStep& load_step : segment.load_steps)
+    if (segment.sign() * (load_step.point.t - t) >= 0) return load_step;
+  return segment.load_steps.back();
 }
 
 /// Largest error estimate where stable states were certified on a way that was followed forwards,
 /// mm; NaN where one is not known.
-double worst_estimate_mm(const EquilibriumPath& course) {
+double worst_estimate_mm(const EquilibriumPath& path) {
   double worst = 0;
-  for (const PathSegment& leg : course.legs)
-    for (const LoadStep& station : leg.trail.stations) {
-      const double estimate = station.certificate.error_estimate_mm;
-      if (station.certificate.stable() && !(estimate <= worst)) worst = estimate;
+  for (const PathSegment& segment : path.segments)
+    for (const LoadStep& load_step : segment.load_steps) {
+      const double estimate = load_step.certificate.error_estimate_mm;
+      if (load_step.certificate.stable() && !(estimate <= worst)) worst = estimate;
     }
   return worst;
 }
 
 }  // namespace
 
-double distance_of_joints(const Session& session, const Eigen::Matrix3Xd& nodes) {
-  const Eigen::Index joints = session.shell().finest().joints;
-  return max_column_norm(session.nodes().leftCols(joints) - nodes.leftCols(joints));
+double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes) {
+  const Eigen::Index joints = simulation.shell().finest().joints;
+  return max_column_norm(simulation.nodes().leftCols(joints) - nodes.leftCols(joints));
 }
 
-const LoadStep& load_step_before(const PathSegment& leg, double t) {
-  const LoadStep* before = &leg.trail.stations.front();
-  for (const LoadStep& station : leg.trail.stations)
-    if (leg.way() * (t - station.point.t) >= 0) before = &station;
+const LoadStep& load_step_before(const PathSegment& segment, double t) {
+  const LoadStep* before = &segment.load_steps.front();
+  for (const LoadStep& load_step : segment.load_steps)
+    if (segment.sign() * (t - load_step.point.t) >= 0) before = &load_step;
   return *before;
 }
 
 bool EquilibriumPath::has_events() const {
-  const auto any = [](const PathSegment& leg) {
-    return !leg.report.events.empty() || leg.report.end != Outcome::reached;
+  const auto any = [](const PathSegment& segment) {
+    return !segment.report.events.empty() || segment.report.end != Outcome::reached;
   };
-  return std::any_of(legs.begin(), legs.end(), any) ||
+  return std::any_of(segments.begin(), segments.end(), any) ||
          std::any_of(earlier.begin(), earlier.end(), any);
 }
 
-bool within_snap(const PathSegment& leg, double t) {
-  const double after = load_step_after(leg, t).point.t;
-  return leg.way() * (after - t) > 0 &&
-         std::any_of(leg.report.events.begin(), leg.report.events.end(),
+bool within_snap(const PathSegment& segment, double t) {
+  const double after = load_step_after(segment, t).point.t;
+  return segment.sign() * (after - t) > 0 &&
+         std::any_of(segment.report.events.begin(), segment.report.events.end(),
                      [&](const Event& event) { return event.to && *event.to == after; });
 }
 
-PathSegment& follow_segment(EquilibriumPath& course, double to, const BifurcationPolicy& leaving,
+PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationPolicy& leaving,
                             const Watch& watch) {
-  PathSegment leg{course.session.shell().state().t, to, {}, {}};
-  leg.report = course.session.go(to, watch, leaving, &leg.trail);
-  return course.legs.emplace_back(std::move(leg));
+  PathSegment segment{{}, path.simulation.shell().state().t, to, {}};
+  segment.report = path.simulation.go(to, watch, leaving, &segment);
+  return path.segments.emplace_back(std::move(segment));
 }
 
 LevelPlan initial_levels(const Scene& scene) {
@@ -71,8 +71,8 @@ LevelPlan initial_levels(const Scene& scene) {
                                      : plan_levels(scene.tolerance, scene.leading_edges);
 }
 
-Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
-                                       const Watch& watch) {
+Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
+                                         const Watch& watch) {
   LevelPlan plan = initial_levels(scene);
   const double allowed = scene.tolerance * scene.length_scale_mm;
   const bool asked = scene.edges_per_segment > 0;
@@ -80,15 +80,14 @@ Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
   double setup = 0;
   for (;;) {
     TRY_DO(fits_memory(scene, plan));
-    auto course = follow(plan, watch);
-    if (!course || watch.cancelled()) return course;
-    course->asked = plan;
-    course->seconds_setup += setup;
-    course->session.charge(spent);
-    const double worst = worst_estimate_mm(*course);
-    if (asked) return course;
-    if (!(worst > allowed))
-      return confirm_on_finer_meshes(scene, std::move(*course), follow, watch);
+    auto path = follow(plan, watch);
+    if (!path || watch.cancelled()) return path;
+    (*path)->asked = plan;
+    (*path)->seconds_setup += setup;
+    (*path)->simulation.charge(spent);
+    const double worst = worst_estimate_mm(**path);
+    if (asked) return path;
+    if (!(worst > allowed)) return confirm_on_finer_meshes(scene, std::move(*path), follow, watch);
     const auto next = finer(plan);
     const auto fits = next ? fits_memory(scene, *next) : Result<void>{};
     if (!next || !fits)
@@ -99,44 +98,45 @@ Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
                       scene.tolerance, plan.edges_per_segment.back(), worst,
                       worst / scene.length_scale_mm, fits ? "" : "; " + fits.error().message));
     plan = *next;
-    spent = course->session.effort();
-    setup = course->seconds_setup;
+    spent = (*path)->simulation.effort();
+    setup = (*path)->seconds_setup;
   }
 }
 
 namespace {
 
-/// The last station of a branch that the leading mesh left before t, where finer ones, as is told,
-/// leave it after t.
-const LoadStep* last_of_a_branch_left_early(const PathSegment& leg, double t) {
-  const auto& stations = leg.trail.stations;
-  for (const Event& event : leg.report.events) {
-    if (!event.to || leg.way() * (event.t - t) <= 0) continue;
-    for (std::size_t k = 1; k < stations.size(); ++k)
-      if (stations[k].point.t == *event.to && leg.way() * (t - stations[k - 1].point.t) > 0)
-        return &stations[k - 1];
+/// The last load_step of a branch that the leading mesh left before t, where finer ones, as is
+/// told, leave it after t.
+const LoadStep* last_of_a_branch_left_early(const PathSegment& segment, double t) {
+  const auto& load_steps = segment.load_steps;
+  for (const Event& event : segment.report.events) {
+    if (!event.to || segment.sign() * (event.t - t) <= 0) continue;
+    for (std::size_t k = 1; k < load_steps.size(); ++k)
+      if (load_steps[k].point.t == *event.to &&
+          segment.sign() * (t - load_steps[k - 1].point.t) > 0)
+        return &load_steps[k - 1];
   }
   return nullptr;
 }
 
 }  // namespace
 
-CertifiedSample certify_sample(EquilibriumPath& course, const PathSample& sample,
+CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
                                const Watch& watch) {
-  const PathSegment& leg = course.legs[sample.leg];
+  const PathSegment& segment = path.segments[sample.segment];
   const double t = sample.t;
   const auto from = [&](const LoadStep& beside, bool unstable) {
-    return course.session.sample(t, beside, unstable, watch);
+    return path.simulation.sample(t, beside, unstable, watch);
   };
   const auto done = [&](const Report& report) {
     return report.end == Outcome::reached || watch.cancelled();
   };
-  if (const LoadStep* still = last_of_a_branch_left_early(leg, t))
+  if (const LoadStep* still = last_of_a_branch_left_early(segment, t))
     for (const bool leader_unstable : {false, true}) {
       const Report held = from(*still, leader_unstable);
       if (done(held) && held.certificate.stable()) return {held, still->point.t};
     }
-  const LoadStep &before = load_step_before(leg, t), &after = load_step_after(leg, t);
+  const LoadStep &before = load_step_before(segment, t), &after = load_step_after(segment, t);
   Report report = from(before, false);
   if (done(report)) return {report, t};
   // a branch was left in between: it may be a state of the next one
@@ -144,7 +144,7 @@ CertifiedSample certify_sample(EquilibriumPath& course, const PathSample& sample
   if (done(report)) return {report, after.point.t};
   // or, where the next one does not come back so far, the rest to which the shell went
   if (report.end == Outcome::unstable || report.end == Outcome::lost)
-    report = course.session.certify_rest_at(t, before, watch);
+    report = path.simulation.certify_rest_at(t, before, watch);
   if (done(report)) return {report, after.point.t};
   // or any equilibrium, which says what it is
   return {from(before, true), t};
@@ -171,9 +171,9 @@ record::Limit limit_of(Outcome end) {
   return record::Limit::branch_lost;
 }
 
-/// How a leg ended before its end.
-std::string how_it_ended(const PathSegment& leg, const At& at) {
-  const Report& report = leg.report;
+/// How a segment ended before its end.
+std::string how_it_ended(const PathSegment& segment, const At& at) {
+  const Report& report = segment.report;
   const double strain = report.certificate.largest_strain;
   if (report.end == Outcome::locked && strain < 0)
     return fmt::format(
@@ -183,123 +183,120 @@ std::string how_it_ended(const PathSegment& leg, const At& at) {
   if (report.end == Outcome::locked)
     return fmt::format("{} the rods are at their length: the largest strain is {:.3g}",
                        at(report.t, {}), strain);
-  const char* where = leg.back ? " on the way back to the flat" : "";
+  const char* where = segment.back ? " on the way back to the flat" : "";
   return fmt::format("{}{} {}, and no rest was found beyond", words_of(report.end).what, where,
                      at(report.t, {}));
 }
 
 }  // namespace
 
-std::string branch_loss_places(std::span<const PathSegment> legs, const At& at) {
+std::string branch_loss_places(std::span<const PathSegment> segments, const At& at) {
   std::string places;
-  for (const PathSegment& leg : legs)
-    for (const Event& event : leg.report.events)
+  for (const PathSegment& segment : segments)
+    for (const Event& event : segment.report.events)
       if (event.to) places += (places.empty() ? "" : " and ") + at(event.t, event.error);
   return places;
 }
 
-void set_limit(EquilibriumPath& course, const At& at) {
-  course.limit = record::Limit::none;
-  course.limit_reason.clear();
-  for (const PathSegment& leg : course.legs) {
-    const auto ended = limit_of(leg.report.end);
+void set_limit(EquilibriumPath& path, const At& at) {
+  path.limit = record::Limit::none;
+  path.limit_reason.clear();
+  for (const PathSegment& segment : path.segments) {
+    const auto ended = limit_of(segment.report.end);
     if (ended != record::Limit::none) {
-      const bool on_its_way = leg.back && ended != record::Limit::locking;
-      course.limit = on_its_way ? record::Limit::no_equilibrium : ended;
-      course.limit_reason = how_it_ended(leg, at);
+      const bool on_its_way = segment.back && ended != record::Limit::locking;
+      path.limit = on_its_way ? record::Limit::no_equilibrium : ended;
+      path.limit_reason = how_it_ended(segment, at);
       break;
     }
-    const auto places = branch_loss_places({&leg, 1}, at);
-    if (places.empty() || course.limit != record::Limit::none) continue;
-    course.limit = record::Limit::snap;
-    course.limit_reason =
+    const auto places = branch_loss_places({&segment, 1}, at);
+    if (places.empty() || path.limit != record::Limit::none) continue;
+    path.limit = record::Limit::snap;
+    path.limit_reason =
         fmt::format("{}the path lost its stability {} and came to rest in another state",
-                    leg.back ? "on the way back to the flat " : "", places);
+                    segment.back ? "on the way back to the flat " : "", places);
   }
-  if (course.mesh_disagreement.empty()) return;
-  course.limit_reason += (course.limit_reason.empty() ? "" : "; ") + course.mesh_disagreement;
+  if (path.mesh_disagreement.empty()) return;
+  path.limit_reason += (path.limit_reason.empty() ? "" : "; ") + path.mesh_disagreement;
 }
 
 Result<bool> PathSampler::at(const PathSample& sample) {
-  const int before = course_.session.effort().newton_iterations;
-  const auto [report, past] = certify_sample(course_, sample, watch_);
+  const int before = path_.simulation.effort().newton_iterations;
+  const auto [report, past] = certify_sample(path_, sample, watch_);
   if (watch_.cancelled()) return stopped();
   if (report.end != Outcome::reached) {
-    if (within_snap(course_.legs[sample.leg], sample.t)) {
-      course_.limit_reason += "; there is no state to show " + caption_.at(sample.t, {});
-    } else if (course_.limit == record::Limit::none || course_.limit == record::Limit::snap) {
-      course_.limit = record::Limit::branch_lost;
-      course_.limit_reason =
+    if (within_snap(path_.segments[sample.segment], sample.t)) {
+      path_.limit_reason += "; there is no state to show " + caption_.at(sample.t, {});
+    } else if (path_.limit == record::Limit::none || path_.limit == record::Limit::snap) {
+      path_.limit = record::Limit::branch_lost;
+      path_.limit_reason =
           fmt::format("{} {}", words_of(report.end).what, caption_.at(sample.t, {}));
     }
     return false;
   }
   TRY_DO(motions(sample, past));
-  record::Frame frame = frame_of(course_.session);
-  caption_.measure(frame);
-  frame.event = events(sample, past);
-  if (frame.event.empty() && frame.negative_pivots > 0)
-    frame.event = fmt::format("unstable: {} negative pivots", frame.negative_pivots);
-  frame.newton_iterations = course_.session.effort().newton_iterations - before;
-  TRY_DO(take(std::move(frame), sample));
-  last_ = sample;
-  last_past_ = past;
-  return true;
+  std::string event = events(sample, past);
+  if (const int pivots = report.certificate.negative_pivots; event.empty() && pivots > 0)
+    event = fmt::format("unstable: {} negative pivots", pivots);
+  const int newton = path_.simulation.effort().newton_iterations - before;
+  return take_current(sample, std::move(event), past, newton).map([] { return true; });
 }
 
-Result<void> PathSampler::stand(const PathSample& sample, const std::string& event, double past) {
-  record::Frame frame = frame_of(course_.session);
+Result<void> PathSampler::take_current(const PathSample& sample, std::string event, double past,
+                                       int newton_iterations) {
+  record::Frame frame = frame_of(path_.simulation);
   caption_.measure(frame);
-  frame.event = event;
+  frame.event = std::move(event);
+  frame.newton_iterations = newton_iterations;
   last_ = sample;
-  last_past_ = past;
+  last_reached_t_ = past;
   return take(std::move(frame), sample);
 }
 
 Result<void> PathSampler::take(record::Frame frame, const PathSample& sample) {
   // with frames of a snap in between, all are counted
-  frame.index = course_.session.scene().snap.wanted ? taken_ : sample.index;
+  frame.index = path_.simulation.scene().snap.wanted ? taken_ : sample.index;
   frame.progress = sample.progress;
-  caption_.stand(frame, sample.t, sample.progress);
+  caption_.place(frame, sample.t, sample.progress);
   ++taken_;
   watch_.report(0.5 + 0.5 * double(taken_) / double(count_));
   return sink_.take(std::move(frame));
 }
 
-/// Frames of snaps that the leg came past since the sample before.
+/// Frames of snaps that the segment came past since the sample before.
 Result<void> PathSampler::motions(const PathSample& sample, double past) {
-  const PathSegment& leg = course_.legs[sample.leg];
-  if (!last_ || last_->leg != sample.leg) next_snap_ = 0;
+  const PathSegment& segment = path_.segments[sample.segment];
+  if (!last_ || last_->segment != sample.segment) next_snap_ = 0;
   bool any = false;
-  for (; next_snap_ < leg.trail.snaps.size(); ++next_snap_) {
-    const PathRecord::Snap& snap = leg.trail.snaps[next_snap_];
-    const double landed = leg.trail.stations[snap.before + 1].point.t;
-    if (leg.way() * (past - landed) < 0) break;
+  for (; next_snap_ < segment.snaps.size(); ++next_snap_) {
+    const PathRecord::Snap& snap = segment.snaps[next_snap_];
+    const double landed = segment.load_steps[snap.before + 1].point.t;
+    if (segment.sign() * (past - landed) < 0) break;
     any = true;
     PathSample there = sample;
     there.t = landed;
-    for (record::Frame& frame : frames_in_motion(course_.session, snap.moments))
+    for (record::Frame& frame : frames_in_motion(path_.simulation, snap.moments))
       if (auto taken = take(std::move(frame), there); !taken) return taken;
   }
-  // the session stood somewhere else for them
-  if (any) certify_sample(course_, sample, watch_);
+  // the simulation stood somewhere else for them
+  if (any) certify_sample(path_, sample, watch_);
   return {};
 }
 
-/// A leg back is shown against its way: from its end to where it began.
+/// A segment back is shown against its way: from its end to where it began.
 std::string PathSampler::events(const PathSample& sample, double past) const {
-  const PathSegment& leg = course_.legs[sample.leg];
-  const double way = leg.back ? -leg.way() : leg.way();
-  double before = leg.back ? leg.end() : leg.from;
-  if (last_ && last_->leg == sample.leg) before = last_past_;
+  const PathSegment& segment = path_.segments[sample.segment];
+  const double way = segment.back ? -segment.sign() : segment.sign();
+  double before = segment.back ? segment.end() : segment.from;
+  if (last_ && last_->segment == sample.segment) before = last_reached_t_;
   std::string text;
-  for (const Event& event : leg.report.events) {
+  for (const Event& event : segment.report.events) {
     if (!event.to) continue;
-    const double seen = leg.back ? event.t : *event.to;
+    const double seen = segment.back ? event.t : *event.to;
     if (way * (seen - before) <= 0 || way * (past - seen) < 0) continue;
     text += (text.empty() ? "snap " : " and ") + caption_.at(event.t, {});
   }
   return text;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

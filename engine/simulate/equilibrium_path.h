@@ -2,161 +2,159 @@
 #pragma once
 
 #include <functional>
-#include <map>
+#include <memory>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "engine/record/summary.h"
 #include "engine/record/trajectory.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// How near to the flat a path is followed: what its rods are shorter there, over their length.
 inline constexpr double flat_shortening = 1e-3;
 
-/// One way along the path of a session, from where it began to where it was to end.
-struct PathSegment {
+/// One way along the path of a simulation, from where it began to where it was to end.
+struct PathSegment : PathRecord {
   double from = 0, to = 0;  ///< path parameter
-  PathRecord trail;
-  Report report;      ///< how it ended
-  bool back = false;  ///< from the first state back towards the flat
+  Report report;            ///< how it ended
+  bool back = false;        ///< from the first state back towards the flat
   /// 1 where its parameter grows, -1 where it falls
-  double way() const { return to < from ? -1 : 1; }
+  double sign() const { return to < from ? -1 : 1; }
   /// Path parameter of the last certified state.
-  double end() const { return trail.stations.back().point.t; }
+  double end() const { return load_steps.back().point.t; }
 };
 
-/// A session with the legs that were followed in it, and what ended them.
+/// A simulation with the segments that were followed in it, and what ended them.
 struct EquilibriumPath {
-  Session session;
-  std::vector<PathSegment> legs = {};
+  Simulation simulation;
+  std::vector<PathSegment> segments = {};
   std::vector<PathSegment> earlier = {};  ///< of a push: those of the actuation before it
   LevelPlan asked = {};       ///< meshes that it was followed on; steps may end on finer ones
-  bool single_motion = true;  ///< whether all legs are of the motion that the session is on
+  bool single_motion = true;  ///< whether all segments are of the motion that the simulation is on
   double seconds_setup = 0;
   std::string mesh_disagreement =
       {};  ///< what meshes do not agree on, a sentence; empty: nothing is known
   record::Limit limit = record::Limit::none;
   std::string limit_reason = {};
 
-  /// Whether a branch was lost, a limit met, or a leg ended early.
+  /// Whether a branch was lost, a limit met, or a segment ended early.
   bool has_events() const;
 };
 
 /// States whose joints lie so near are the same, of d.
 inline constexpr double near_spacings = 0.1;
 
-/// Largest distance of the joints where a session stands from those of nodes of its finest mesh,
+/// Largest distance of the joints where a simulation stands from those of nodes of its finest mesh,
 /// mm.
-double distance_of_joints(const Session& session, const Eigen::Matrix3Xd& nodes);
+double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes);
 
-/// The station that a sample of a leg lies behind: the last one that the leg came past before it.
-const LoadStep& load_step_before(const PathSegment& leg, double t);
+/// The load_step that a sample of a segment lies behind: the last one that the segment came past
+/// before it.
+const LoadStep& load_step_before(const PathSegment& segment, double t);
 
-/// From where the session stands on: follows the path to `to` and keeps the way as a leg.
-PathSegment& follow_segment(EquilibriumPath& course, double to, const BifurcationPolicy& leaving,
+/// From where the simulation stands on: follows the path to `to` and keeps the way as a segment.
+PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationPolicy& leaving,
                             const Watch& watch);
 
 /// Follows a path on the meshes of a plan. Errors: bad_input, no_equilibrium, cancelled.
-using Follow = std::function<Result<EquilibriumPath>(const LevelPlan&, const Watch&)>;
+using SharedPath = std::shared_ptr<EquilibriumPath>;
+using Follow = std::function<Result<SharedPath>(const LevelPlan&, const Watch&)>;
 
 /// The meshes that the tolerance asks for, or those asked for by themselves.
 LevelPlan initial_levels(const Scene& scene);
 
-/// The path on the coarsest plan whose estimate meets the scene's tolerance. Its choices
-/// and events are confirmed (confirm.h) where the tolerance chooses the meshes. Errors: those of
-/// `follow`; no_equilibrium where the finest meshes do not meet it; bad_input where they do not fit
-/// the memory.
-Result<EquilibriumPath> converged_path(const Scene& scene, const Follow& follow,
-                                       const Watch& watch);
+/// The path on the coarsest plan whose estimate meets the scene's tolerance. Its choices and events
+/// are confirmed (mesh_choice.h) where the tolerance chooses the meshes. Errors: those of `follow`;
+/// no_equilibrium where the finest meshes do not meet it; bad_input where they do not fit the
+/// memory.
+Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,
+                                         const Watch& watch);
 
-/// The same of what holds a course and more (a member `course`): follow(plan, watch) gives a
-/// Result<Holder>.
-template <class Holder, class FollowHolder>
-Result<Holder> converged_path_holder(const Scene& scene, const FollowHolder& follow,
-                                     const Watch& watch) {
-  std::map<std::vector<int>, Holder> tried;  // by the meshes
-  auto course = converged_path(
-      scene,
-      [&](const LevelPlan& plan, const Watch& w) -> Result<EquilibriumPath> {
-        auto holder = follow(plan, w);
-        if (!holder) return tl::unexpected<Error>(holder.error());
-        const auto at = tried.insert_or_assign(plan.edges_per_segment, std::move(*holder)).first;
-        return std::move(at->second.course);
-      },
-      watch);
-  if (!course) return tl::unexpected<Error>(course.error());
-  Holder& kept = tried.at(course->asked.edges_per_segment);
-  kept.course = std::move(*course);
-  return std::move(kept);
+/// The same of an EquilibriumPath or what is made from one: follow(plan, watch) gives a Result of
+/// it.
+template <class FollowPath>
+auto converged_path(const Scene& scene, const FollowPath& follow, const Watch& watch) {
+  using Found = std::invoke_result_t<FollowPath, const LevelPlan&, const Watch&>;
+  using Path = typename Found::value_type;
+  const auto shared = [](Path&& path) -> SharedPath {
+    return std::make_shared<Path>(std::move(path));
+  };
+  return converged_shared_path(
+             scene,
+             [&](const LevelPlan& plan, const Watch& w) { return follow(plan, w).map(shared); },
+             watch)
+      .map([](const SharedPath& path) { return std::move(static_cast<Path&>(*path)); });
 }
 
-/// A sample of a leg.
+/// A sample of a segment.
 struct PathSample {
   int index = 0;  ///< of the frame
-  std::size_t leg = 0;
+  std::size_t segment = 0;
   double t = 0;         ///< path parameter
   double progress = 0;  ///< of the experiment
 };
 
 /// Whether t lies in the jump between two branches, where neither may have a state.
-bool within_snap(const PathSegment& leg, double t);
+bool within_snap(const PathSegment& segment, double t);
 
-/// How a sample was certified, and the path parameter that the leg had reached when the sample's
-/// branch was found: events before it have happened to this state.
+/// How a sample was certified, and the path parameter that the segment had reached when the
+/// sample's branch was found: events before it have happened to this state.
 struct CertifiedSample {
   Report report;
   double past = 0;
 };
 
-/// Certifies the course at a sample and leaves the session there; what the path itself found is
+/// Certifies the path at a sample and leaves the simulation there; what the path itself found is
 /// not changed by it. Where the leading mesh left its branch before the place that is told of the
 /// event, the state stays on the branch up to that place, if the finest mesh is stable there.
 /// Outcomes as of a path.
-CertifiedSample certify_sample(EquilibriumPath& course, const PathSample& sample,
-                               const Watch& watch);
+CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample, const Watch& watch);
 
 /// Says where a path parameter lies, in the experiment's own words: "at progress 0.4312", with its
 /// error where it is known.
 using At = std::function<std::string(double t, std::optional<double> error)>;
 
-/// Where legs left a branch for a rest further on: "at progress 0.0183 and at ..."; empty: nowhere.
-std::string branch_loss_places(std::span<const PathSegment> legs, const At& at);
+/// Where segments left a branch for a rest further on: "at progress 0.0183 and at ..."; empty:
+/// nowhere.
+std::string branch_loss_places(std::span<const PathSegment> segments, const At& at);
 
-/// Tells as a limit and a sentence how the legs ended and what they came past: the first that ended
-/// before its end, else the snaps.
-void set_limit(EquilibriumPath& course, const At& at);
+/// Tells as a limit and a sentence how the segments ended and what they came past: the first that
+/// ended before its end, else the snaps.
+void set_limit(EquilibriumPath& path, const At& at);
 
-// Frames of a course, one a sample, handed to a sink in order.
+// Frames of a path, one a sample, handed to a sink in order.
 
 /// What an experiment says of its frames beyond the state itself.
 struct Caption {
   At at;
   /// Puts in where the boundary and the push stand at path parameter t.
-  std::function<void(record::Frame&, double t, double progress)> stand;
+  std::function<void(record::Frame&, double t, double progress)> place;
   /// Measures on a certified state: forces, reach.
   std::function<void(record::Frame&)> measure;
 };
 
-/// Certifies samples of a course, in the order in which they are shown, with what happened between
+/// Certifies samples of a path, in the order in which they are shown, with what happened between
 /// them: frames of snaps that were followed in time, events.
 class PathSampler {
  public:
   /// `count`: of the samples to come, for the progress.
-  PathSampler(EquilibriumPath& course, Caption caption, record::Sink& sink, Watch& watch,
+  PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
               std::size_t count)
-      : course_(course), caption_(std::move(caption)), sink_(sink), watch_(watch), count_(count) {}
+      : path_(path), caption_(std::move(caption)), sink_(sink), watch_(watch), count_(count) {}
 
-  /// One sample. False: it is not certified, which becomes the course's limit; within a jump that
+  /// One sample. False: it is not certified, which becomes the path's limit; within a jump that
   /// already is the limit, the limit's reason says it. Errors: cancelled, the sink's.
   Result<bool> at(const PathSample& sample);
-  /// The state that the session stands in as a frame, with an event of its own; `past`: as of
+  /// The state that the simulation stands in as a frame, with an event of its own; `past`: as of
   /// CertifiedSample.
-  Result<void> stand(const PathSample& sample, const std::string& event, double past);
-  /// What happened to the leg since the sample before, in words; empty: nothing.
+  Result<void> take_current(const PathSample& sample, std::string event, double past,
+                            int newton_iterations = 0);
+  /// What happened to the segment since the sample before, in words; empty: nothing.
   std::string events(const PathSample& sample, double past) const;
   /// A frame made elsewhere.
   Result<void> take(record::Frame frame, const PathSample& sample);
@@ -164,14 +162,14 @@ class PathSampler {
  private:
   Result<void> motions(const PathSample& sample, double past);
 
-  EquilibriumPath& course_;
+  EquilibriumPath& path_;
   Caption caption_;
   record::Sink& sink_;
   Watch& watch_;
   std::size_t count_, next_snap_ = 0;
   std::optional<PathSample> last_;
-  double last_past_ = 0;  ///< of the last sample, as of CertifiedSample
+  double last_reached_t_ = 0;  ///< of the last sample, as of CertifiedSample
   int taken_ = 0;
 };
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

@@ -8,7 +8,7 @@
 #include "engine/preset/preset_access.h"
 #include "engine/scene/scene.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 using exports::CutRod;
@@ -75,4 +75,4 @@ Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& prese
   return work;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

@@ -5,9 +5,9 @@
 #include "engine/preset/preset.h"
 #include "engine/record/fabrication.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// The rods, marks, boundaries and pins of a preset's footprint. Errors: bad_input, as scene_of().
 Result<exports::FabricationPlan> fabrication_plan_of(const preset::Preset& preset);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

@@ -9,18 +9,18 @@
 #include "engine/record/gauss_curvature.h"
 #include "engine/scene/rod_ends.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 constexpr int most_frames_in_motion = 24;
 constexpr double still_move = 0.01;  // of d: nearer to the rest nothing is seen to move
 
-Eigen::VectorXd curvature(const Session& session, int level) {
-  const NestedShell& shell = session.shell();
+Eigen::VectorXd curvature(const Simulation& simulation, int level) {
+  const NestedShell& shell = simulation.shell();
   const RodMesh& mesh = shell.mesh(level);
   const Eigen::Matrix3Xd nodes =
       nodes_of(mesh, shell.model(level), shell.state().levels[std::size_t(level)].x);
-  const Footprint& footprint = session.scene().footprint;
+  const Footprint& footprint = simulation.scene().footprint;
   return cell_curvature(footprint, joint_tangents(footprint, mesh, nodes));
 }
 
@@ -163,12 +163,12 @@ void put_reactions(const RodMesh& mesh, const Model& model, const Assembly& at,
 }
 
 /// Of the finest mesh's own state.
-void put_forces(const Session& session, record::Frame& frame) {
-  const NestedShell& shell = session.shell();
+void put_forces(const Simulation& simulation, record::Frame& frame) {
+  const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
   const Assembly at = shell.forces(last);
   put_rods(shell.model(last), shell.state().levels[std::size_t(last)], at, frame);
-  put_reactions(shell.mesh(last), shell.model(last), at, session.holds(), frame);
+  put_reactions(shell.mesh(last), shell.model(last), at, simulation.holds(), frame);
 }
 
 /// Adds the blocks on their own nets and the rods across their seams to a layout.
@@ -264,19 +264,20 @@ void fill_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd&
   frame.nodes = x.leftCols(mesh.rod_nodes());
 }
 
-record::Frame frame_of(const Session& session) {
-  const NestedShell& shell = session.shell();
+record::Frame frame_of(const Simulation& simulation) {
+  const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
-  Eigen::VectorXd K = curvature(session, last);
-  if (shell.plan().extrapolate && last > 0) K = ((4 * K - curvature(session, last - 1)) / 3).eval();
+  Eigen::VectorXd K = curvature(simulation, last);
+  if (shell.plan().extrapolate && last > 0)
+    K = ((4 * K - curvature(simulation, last - 1)) / 3).eval();
   record::Frame frame;
-  fill_shape(session.scene(), shell.finest(), session.nodes(), K, frame);
-  frame.energies = session.energies();
-  const Certificate certificate = session.certificate();
+  fill_shape(simulation.scene(), shell.finest(), simulation.nodes(), K, frame);
+  frame.energies = simulation.energies();
+  const Certificate certificate = simulation.certificate();
   frame.residual_N = certificate.residual_N;
   frame.negative_pivots = certificate.negative_pivots;
   frame.error_estimate_mm = certificate.error_estimate_mm;
-  put_forces(session, frame);
+  put_forces(simulation, frame);
   return frame;
 }
 
@@ -292,20 +293,20 @@ record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& mod
   return frame;
 }
 
-record::Frame flat_frame(Session& session) {
-  const Checkpoint before = session.save();
-  const Report flat = session.begin_flat();
+record::Frame flat_frame(Simulation& simulation) {
+  const Checkpoint before = simulation.save();
+  const Report flat = simulation.begin_flat();
   record::Frame frame;
-  const Scene& scene = session.scene();
-  fill_shape(scene, session.shell().finest(), session.nodes(),
+  const Scene& scene = simulation.scene();
+  fill_shape(scene, simulation.shell().finest(), simulation.nodes(),
              Eigen::VectorXd::Zero(Eigen::Index(scene.footprint.cells.size())), frame);
-  frame.energies = session.shell().energies(session.shell().levels() - 1);
+  frame.energies = simulation.shell().energies(simulation.shell().levels() - 1);
   frame.negative_pivots = flat.certificate.negative_pivots;
   frame.residual_N = flat.certificate.residual_N;
   frame.error_estimate_mm = 0;
   frame.boundary_radius_mm = scene.radius_begin_mm;
-  put_forces(session, frame);
-  session.restore(before);
+  put_forces(simulation, frame);
+  simulation.restore(before);
   return frame;
 }
 
@@ -327,12 +328,12 @@ std::vector<const TimedState*> shown(const std::vector<TimedState>& all, double 
 
 }  // namespace
 
-std::vector<record::Frame> frames_in_motion(Session& session,
+std::vector<record::Frame> frames_in_motion(Simulation& simulation,
                                             const std::vector<TimedState>& moments) {
   std::vector<record::Frame> frames;
   if (moments.empty()) return frames;
-  const Scene& scene = session.scene();
-  NestedShell& shell = session.shell();
+  const Scene& scene = simulation.scene();
+  NestedShell& shell = simulation.shell();
   const RodMesh& mesh = shell.mesh(0);
   const MeshTransfer to_finest(mesh, shell.finest());
   Linearisation& system = shell.system(0);
@@ -355,4 +356,4 @@ std::vector<record::Frame> frames_in_motion(Session& session,
   return frames;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

@@ -4,9 +4,9 @@
 #include "engine/preset/preset.h"
 #include "engine/record/summary.h"
 #include "engine/record/trajectory.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// What a summary says before anything is solved: the preset, its model and why, rods, joints,
 /// cells.
@@ -21,22 +21,22 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh);
 void fill_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd& x,
                 const Eigen::VectorXd& K, record::Frame& frame);
 
-/// The state that a session stands in as a frame: positions, energies, K of the cells and their
+/// The state that a simulation stands in as a frame: positions, energies, K of the cells and their
 /// bins along x, certificate, extrapolated where the plan extrapolates. Index, progress, boundary,
 /// push and event are the experiment's to add.
-record::Frame frame_of(const Session& session);
+record::Frame frame_of(const Simulation& simulation);
 
-/// The same of an equilibrium on one mesh that no session stands in, with the forces there.
+/// The same of an equilibrium on one mesh that no simulation stands in, with the forces there.
 record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& model,
                        const State& state, const Assembly& forces);
 
 /// The flat footprint as a frame at progress 0; straight rods are exact on any mesh.
-record::Frame flat_frame(Session& session);
+record::Frame flat_frame(Simulation& simulation);
 
 /// Frames of what moved in time during a snap, evenly in time until nothing is seen to move, at
 /// most 24: positions, energies, K and the unbalanced force; pivots and error are not known,
 /// `event` says "in motion".
-std::vector<record::Frame> frames_in_motion(Session& session,
+std::vector<record::Frame> frames_in_motion(Simulation& simulation,
                                             const std::vector<TimedState>& moments);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

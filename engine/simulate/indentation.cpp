@@ -15,7 +15,7 @@
 #include "engine/simulate/frames.h"
 #include "engine/solve/equilibrium_path.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 Eigen::Vector3d direction_of(const preset::Indentation& indentation) {
@@ -51,10 +51,8 @@ Result<void> not_on_boundary(const Footprint& footprint, int joint) {
 Result<int> pushed_joint(const preset::Indentation& indentation, const Footprint& footprint,
                          const Eigen::Matrix3Xd& joints) {
   if (indentation.joint.size() == 2) {
-    for (std::size_t k = 0; k < footprint.joints.size(); ++k)
-      if (footprint.joints[k].i == indentation.joint[0] &&
-          footprint.joints[k].j == indentation.joint[1])
-        return int(k);
+    const int joint = joint_at(footprint, indentation.joint[0], indentation.joint[1]);
+    if (joint >= 0) return joint;
     return fail(Fault::bad_input,
                 fmt::format("[indentation] joint = [{}, {}]: the footprint has no such joint",
                             indentation.joint[0], indentation.joint[1]));
@@ -97,26 +95,21 @@ Result<HeldShell> hold_to_push(const std::shared_ptr<const Scene>& scene,
                                const preset::Indentation& asked, const LevelPlan& plan,
                                const Watch& watch) {
   TRY(actuated, follow_whole_actuation(scene, plan, "to push", watch));
-  Session& session = actuated->session;
-  TRY(push, push_of(asked, *scene, session.shell().finest(), session.nodes()));
+  Simulation& simulation = actuated->simulation;
+  TRY(push, push_of(asked, *scene, simulation.shell().finest(), simulation.nodes()));
   const auto joints = Eigen::Index(scene->footprint.joints.size());
-  Eigen::Matrix3Xd before = session.nodes().leftCols(joints);
+  Eigen::Matrix3Xd before = simulation.nodes().leftCols(joints);
   HeldShell held{std::move(*actuated), *push, std::move(before)};
-  held.course.earlier = std::exchange(held.course.legs, {});
+  held.earlier = std::exchange(held.segments, {});
   Constraint hold{push->joint};
   if (asked.lateral == preset::Lateral::free) hold.directions = push->displacement.normalized();
-  const Report taken = held.course.session.begin_joint_push({hold}, {push->displacement}, watch);
+  const Report taken = held.simulation.begin_joint_push({hold}, {push->displacement}, watch);
   if (taken.end != Outcome::reached)
     return fail(Fault::no_equilibrium, "the unloaded shell cannot be held at the joint pushed");
   return held;
 }
 
 namespace {
-
-/// One push of one shell, with what its frames need to know.
-struct Pushed : HeldShell {
-  double depth_mm = 0;
-};
 
 At at_depth(double depth_mm) {
   return [depth_mm](double t, std::optional<double> error) {
@@ -127,102 +120,99 @@ At at_depth(double depth_mm) {
 }
 
 /// Where the path that was lost turns back, as the arc length says.
-std::string turning_back(Session& session, const PathSegment& leg, double depth_mm,
+std::string turning_back(Simulation& simulation, const PathSegment& segment, double depth_mm,
                          const Watch& watch) {
   // the last one before the jump: the event's own place may be extrapolated past what came after it
-  const Event& event = leg.report.events.front();
+  const Event& event = segment.report.events.front();
   const LoadStep* last = nullptr;
-  for (const LoadStep& station : leg.trail.stations) {
-    if (event.to && station.point.t == *event.to) break;
-    last = &station;
+  for (const LoadStep& load_step : segment.load_steps) {
+    if (event.to && load_step.point.t == *event.to) break;
+    last = &load_step;
   }
   if (!last) return {};
   const ArcOptions fine{.step_mm = 0.05, .largest_mm = 0.2, .parameter_mm = depth_mm};
-  const auto turn = turning_point(session.shell().system(0), session.shell().motion(0), last->point,
-                                  leg.way(), fine, watch);
+  const auto turn = turning_point(simulation.shell().system(0), simulation.shell().motion(0),
+                                  last->point, segment.sign(), fine, watch);
   return turn ? fmt::format(" (on the leading mesh its path turns back at {:.3f} mm)",
                             *turn * depth_mm)
               : std::string();
 }
 
-/// Why the push stopped, or what it came past, in its own words: the first leg to which anything
-/// happened; empty where the common ones serve.
-std::string reason_of(Pushed& pushed, const At& at, const Watch& watch) {
-  EquilibriumPath& course = pushed.course;
-  const auto told =
-      std::find_if(course.legs.begin(), course.legs.end(), [](const PathSegment& leg) {
-        return !leg.report.events.empty() || leg.report.end != Outcome::reached;
+/// Why the push stopped, or what it came past, in its own words: the first segment to which
+/// anything happened; empty where the common ones serve.
+std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
+  const auto eventful =
+      std::find_if(pushed.segments.begin(), pushed.segments.end(), [](const PathSegment& segment) {
+        return !segment.report.events.empty() || segment.report.end != Outcome::reached;
       });
-  if (told == course.legs.end() || told->report.events.empty()) return {};
-  const PathSegment& leg = *told;
-  const Scene& scene = course.session.scene();
-  const Event& first = leg.report.events.front();
+  if (eventful == pushed.segments.end() || eventful->report.events.empty()) return {};
+  const PathSegment& segment = *eventful;
+  const Scene& scene = pushed.simulation.scene();
+  const Event& first = segment.report.events.front();
   std::string reason;
-  if (course.limit == record::Limit::snap)
+  if (pushed.limit == record::Limit::snap)
     reason = fmt::format(
         "held at the joint, the shell lost its {} {}{} and came to rest in another state",
         first.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
-        at(first.t, first.error), turning_back(course.session, leg, pushed.depth_mm, watch));
-  const double strain = leg.report.certificate.largest_strain;
-  if (course.limit == record::Limit::locking && strain > 0)
-    reason =
-        fmt::format("{} ({:.4f} of the length scale) and {:.4g} N the rods are at their length: {}",
-                    at(leg.report.t, {}), leg.report.t * pushed.depth_mm / scene.length_scale_mm,
-                    pushed.push.displacement.normalized().dot(course.session.force(0)),
-                    strain > 0.99 * scene.max_strain
-                        ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
-                        : "the push meets 100 times its first stiffness");
+        at(first.t, first.error),
+        turning_back(pushed.simulation, segment, pushed.depth_mm(), watch));
+  const double strain = segment.report.certificate.largest_strain;
+  if (pushed.limit == record::Limit::locking && strain > 0)
+    reason = fmt::format(
+        "{} ({:.4f} of the length scale) and {:.4g} N the rods are at their length: {}",
+        at(segment.report.t, {}), segment.report.t * pushed.depth_mm() / scene.length_scale_mm,
+        pushed.push.displacement.normalized().dot(pushed.simulation.force(0)),
+        strain > 0.99 * scene.max_strain
+            ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
+            : "the push meets 100 times its first stiffness");
   return reason;
 }
 
-void tell(Pushed& pushed, const Watch& watch) {
-  EquilibriumPath& course = pushed.course;
-  const At at = at_depth(pushed.depth_mm);
-  const auto doubt = std::exchange(course.mesh_disagreement, {});
-  set_limit(course, at);
+void set_push_limit(HeldShell& pushed, const Watch& watch) {
+  const At at = at_depth(pushed.depth_mm());
+  const auto disagreement = std::exchange(pushed.mesh_disagreement, {});
+  set_limit(pushed, at);
   if (auto reason = reason_of(pushed, at, watch); !reason.empty())
-    course.limit_reason = std::move(reason);
-  const auto say = [&](const std::string& more) {
-    course.limit_reason += (course.limit_reason.empty() ? "" : "; ") + more;
+    pushed.limit_reason = std::move(reason);
+  const auto add = [&](const std::string& more) {
+    pushed.limit_reason += (pushed.limit_reason.empty() ? "" : "; ") + more;
   };
   // which shell was pushed hangs on what happened before
-  if (const auto places = branch_loss_places(course.earlier, at_progress); !places.empty()) {
-    if (course.limit == record::Limit::none) course.limit = record::Limit::snap;
-    say("before the push the path lost its stability " + places +
+  if (const auto places = branch_loss_places(pushed.earlier, at_progress); !places.empty()) {
+    if (pushed.limit == record::Limit::none) pushed.limit = record::Limit::snap;
+    add("before the push the path lost its stability " + places +
         " and came to rest in another state");
   }
-  if (!doubt.empty()) say(doubt);
-  course.mesh_disagreement = doubt;
+  if (!disagreement.empty()) add(disagreement);
+  pushed.mesh_disagreement = disagreement;
 }
 
-Result<Pushed> follow_push(const std::shared_ptr<const Scene>& scene,
-                           const preset::Indentation& asked, const LevelPlan& plan,
-                           const Watch& watch) {
-  TRY(held, hold_to_push(scene, asked, plan, watch));
-  const double depth_mm = held->push.displacement.norm();
-  Pushed pushed{std::move(*held), depth_mm};
-  EquilibriumPath& course = pushed.course;
+Result<HeldShell> follow_push(const std::shared_ptr<const Scene>& scene,
+                              const preset::Indentation& asked, const LevelPlan& plan,
+                              const Watch& watch) {
+  auto pushed = hold_to_push(scene, asked, plan, watch);
   for (double to : asked.unload ? std::vector<double>{1, 0} : std::vector<double>{1}) {
-    const PathSegment& leg = follow_segment(course, to, {}, watch);
+    if (!pushed) break;
+    const PathSegment& segment = follow_segment(*pushed, to, {}, watch);
     if (watch.cancelled()) return stopped();
-    if (leg.report.end != Outcome::reached) break;
+    if (segment.report.end != Outcome::reached) break;
   }
   return pushed;
 }
 
-Caption caption_of(const Pushed& pushed) {
-  const Session& session = pushed.course.session;
-  return {at_depth(pushed.depth_mm),
+Caption caption_of(const HeldShell& pushed) {
+  const Simulation& simulation = pushed.simulation;
+  return {at_depth(pushed.depth_mm()),
           [&](record::Frame& frame, double t, double) {
             frame.actuation = 1;
-            frame.boundary_radius_mm = session.scene().radius_end_mm;
-            frame.depth_mm = t * pushed.depth_mm;
+            frame.boundary_radius_mm = simulation.scene().radius_end_mm;
+            frame.depth_mm = t * pushed.depth_mm();
           },
           [&](record::Frame& frame) {
-            frame.force_N = pushed.push.displacement.normalized().dot(session.force(0));
+            frame.force_N = pushed.push.displacement.normalized().dot(simulation.force(0));
             const PushReach reach =
                 push_reach(pushed.before, frame.nodes.leftCols(pushed.before.cols()),
-                           session.shell().state().t * pushed.depth_mm);
+                           simulation.shell().state().t * pushed.depth_mm());
             frame.reach_above_tenth = reach.above_tenth;
             frame.reach_above_half = reach.above_half;
             frame.lowest_latitude_deg = reach.lowest_latitude_deg;
@@ -237,10 +227,10 @@ PathSample sample_of(std::size_t index, double progress, bool unload) {
 }
 
 /// Whether a push came as far as a sample.
-bool came_to(const EquilibriumPath& course, const PathSample& sample) {
-  if (sample.leg >= course.legs.size()) return false;
-  const PathSegment& leg = course.legs[sample.leg];
-  return leg.way() * (leg.end() - sample.t) >= 0;
+bool came_to(const EquilibriumPath& path, const PathSample& sample) {
+  if (sample.segment >= path.segments.size()) return false;
+  const PathSegment& segment = path.segments[sample.segment];
+  return segment.sign() * (segment.end() - sample.t) >= 0;
 }
 
 }  // namespace
@@ -249,33 +239,33 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
                                         const preset::Indentation& indentation,
                                         const std::vector<double>& progress, record::Sink& sink,
                                         Watch& watch) {
-  auto kept = converged_path_holder<Pushed>(
+  auto kept = converged_path(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) {
         return follow_push(scene, indentation, plan, w);
       },
       watch);
   if (!kept) return tl::unexpected<Error>(kept.error());
-  tell(*kept, watch);
-  TRY(layout, layout_of(*scene, kept->course.session.shell().finest()));
+  set_push_limit(*kept, watch);
+  TRY(layout, layout_of(*scene, kept->simulation.shell().finest()));
   layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
-  layout->extrapolated = kept->course.session.shell().plan().extrapolate;
+  layout->extrapolated = kept->simulation.shell().plan().extrapolate;
   TRY_DO(sink.begin(std::move(*layout)));
-  const Checkpoint end = kept->course.session.save();
-  PathSampler sampler(kept->course, caption_of(*kept), sink, watch, progress.size());
+  const Checkpoint end = kept->simulation.save();
+  PathSampler sampler(*kept, caption_of(*kept), sink, watch, progress.size());
   for (std::size_t k = 0; k < progress.size(); ++k) {
     PathSample sample = sample_of(k, progress[k], indentation.unload);
     Result<bool> taken = false;
-    if (came_to(kept->course, sample)) taken = sampler.at(sample);
+    if (came_to(*kept, sample)) taken = sampler.at(sample);
     if (!taken) return tl::unexpected<Error>(taken.error());
-    if (*taken || kept->course.limit != record::Limit::locking) continue;
+    if (*taken || kept->limit != record::Limit::locking) continue;
     // the state in which the rods came to their length
-    kept->course.session.restore(end);
+    kept->simulation.restore(end);
     sample.t = end.state.t;
-    TRY_DO(sampler.stand(sample, "locking", sample.t));
+    TRY_DO(sampler.take_current(sample, "locking", sample.t));
     break;
   }
-  return std::move(kept->course);
+  return EquilibriumPath(std::move(*kept));
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

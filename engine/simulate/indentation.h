@@ -8,7 +8,7 @@
 #include "engine/record/trajectory.h"
 #include "engine/simulate/equilibrium_path.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// Errors (bad_input): the boundary holds that joint.
 Result<void> not_on_boundary(const Footprint& footprint, int joint);
@@ -32,10 +32,11 @@ Result<PushOf> push_of(const preset::Indentation& indentation, const Scene& scen
                        const RodMesh& mesh, const Eigen::Matrix3Xd& nodes);
 
 /// An actuated shell that is held at the joint to be pushed, and what is to be done to it.
-struct HeldShell {
-  EquilibriumPath course;
+struct HeldShell : EquilibriumPath {
   PushOf push;
   Eigen::Matrix3Xd before;  ///< joints of the unloaded shell, 3 x n
+
+  double depth_mm() const { return push.displacement.norm(); }
 };
 
 /// Actuates on the meshes of `plan` and takes hold. Errors: bad_input as push_of(), no_equilibrium
@@ -54,4 +55,4 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
                                         const std::vector<double>& progress, record::Sink& sink,
                                         Watch& watch);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

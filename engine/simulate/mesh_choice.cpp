@@ -59,7 +59,7 @@ Result<void> fits_memory(const Scene& scene, const LevelPlan& plan) {
 
 }  // namespace gridshell
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 constexpr int most_leaders = 3;
@@ -67,14 +67,12 @@ constexpr double near_t = 0.05;  // events that two leaders place so near are th
 // of turns: frames between the coarser leader's and the true one show the state beyond
 constexpr double same_t = 0.005;
 
-int leading_edges_of(const EquilibriumPath& course) {
-  return course.asked.edges_per_segment.front();
-}
+int leading_edges_of(const EquilibriumPath& path) { return path.asked.edges_per_segment.front(); }
 
-/// Whether every leg came to its end, or to a limit of the rods.
-bool whole(const EquilibriumPath& course) {
-  return std::all_of(course.legs.begin(), course.legs.end(), [](const PathSegment& leg) {
-    return leg.report.end == Outcome::reached || leg.report.end == Outcome::locked;
+/// Whether every segment came to its end, or to a limit of the rods.
+bool whole(const EquilibriumPath& path) {
+  return std::all_of(path.segments.begin(), path.segments.end(), [](const PathSegment& segment) {
+    return segment.report.end == Outcome::reached || segment.report.end == Outcome::locked;
   });
 }
 
@@ -118,7 +116,7 @@ bool turns_later(const std::vector<PathSegment>& coarse, const std::vector<PathS
     const auto &early = coarse[k].report.events, &late = fine[k].report.events;
     for (std::size_t e = 0; e < early.size(); ++e)
       if (early[e].kind == Event::Kind::turned_back &&
-          coarse[k].way() * (late[e].t - early[e].t) > same_t)
+          coarse[k].sign() * (late[e].t - early[e].t) > same_t)
         return true;
   }
   return false;
@@ -126,32 +124,32 @@ bool turns_later(const std::vector<PathSegment>& coarse, const std::vector<PathS
 
 /// Whether the finest mesh, too, loses its stability where two leaders say that the shell does:
 /// past the event, by more than they differ. Where the leader cannot be followed there, it does.
-bool seen_on_finest(EquilibriumPath& fine, const PathSegment& leg, const Event& event,
+bool seen_on_finest(EquilibriumPath& fine, const PathSegment& segment, const Event& event,
                     double coarse_t, const Watch& watch) {
   constexpr double least = 2e-3;  // in the path parameter
   const double apart = std::abs(event.t - coarse_t);
-  const double there = event.t + leg.way() * (apart + least);
-  Session& session = fine.session;
-  const Checkpoint end = session.save();
-  const Report beyond = session.sample(there, load_step_before(leg, event.t), true, watch);
-  session.restore(end);
+  const double there = event.t + segment.sign() * (apart + least);
+  Simulation& simulation = fine.simulation;
+  const Checkpoint end = simulation.save();
+  const Report beyond = simulation.sample(there, load_step_before(segment, event.t), true, watch);
+  simulation.restore(end);
   return beyond.end != Outcome::reached || !beyond.certificate.stable();
 }
 
-/// Losses of stability that the leaders of both courses see and the finest mesh does not: a
+/// Losses of stability that the leaders of both paths see and the finest mesh does not: a
 /// sentence, or nothing. Motions that are over are not looked at: the actuation before a push, and
 /// steps.
 std::optional<std::string> only_on_leaders(const EquilibriumPath& coarse, EquilibriumPath& fine,
                                            const Watch& watch) {
   if (!fine.single_motion) return std::nullopt;
-  for (std::size_t k = 0; k < fine.legs.size(); ++k) {
-    const auto &seen = coarse.legs[k].report.events, &events = fine.legs[k].report.events;
+  for (std::size_t k = 0; k < fine.segments.size(); ++k) {
+    const auto &seen = coarse.segments[k].report.events, &events = fine.segments[k].report.events;
     for (std::size_t e = 0; e < events.size(); ++e) {
       const bool left = events[e].kind == Event::Kind::stability_lost && events[e].to;
-      if (left && !seen_on_finest(fine, fine.legs[k], events[e], seen[e].t, watch))
+      if (left && !seen_on_finest(fine, fine.segments[k], events[e], seen[e].t, watch))
         return fmt::format(
             "{} edges a segment do not lose their stability at path parameter {:.3f}",
-            fine.session.shell().plan().edges_per_segment.back(), events[e].t);
+            fine.simulation.shell().plan().edges_per_segment.back(), events[e].t);
     }
   }
   return std::nullopt;
@@ -161,81 +159,81 @@ std::optional<std::string> only_on_leaders(const EquilibriumPath& coarse, Equili
 
 std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
                                              const EquilibriumPath& fine) {
-  for (const auto legs : {&EquilibriumPath::earlier, &EquilibriumPath::legs}) {
-    const auto &a = coarse.*legs, &b = fine.*legs;
+  for (const auto segments : {&EquilibriumPath::earlier, &EquilibriumPath::segments}) {
+    const auto &a = coarse.*segments, &b = fine.*segments;
     if (a.size() != b.size()) return "another way from the flat";
     for (std::size_t k = 0; k < a.size(); ++k)
       if (auto found = leg_disagreement(a[k], b[k])) return found;
   }
-  if (coarse.legs.empty() || coarse.legs.back().end() != fine.legs.back().end())
+  if (coarse.segments.empty() || coarse.segments.back().end() != fine.segments.back().end())
     return std::nullopt;  // both ended early, at states of their own
-  const double apart = distance_of_joints(coarse.session, fine.session.nodes()),
-               d = coarse.session.scene().footprint.spacing;
+  const double apart = distance_of_joints(coarse.simulation, fine.simulation.nodes()),
+               d = coarse.simulation.scene().footprint.spacing;
   if (apart > near_spacings * d) return fmt::format("ends {:.3g} mm apart", apart);
   return std::nullopt;
 }
 
-Result<EquilibriumPath> confirm_on_finer_meshes(const Scene& scene, EquilibriumPath course,
-                                                const Follow& follow, const Watch& watch) {
+Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
+                                           const Follow& follow, const Watch& watch) {
   // the first buckling is a choice too, which the coarsest mesh made
-  const auto chose = [&] { return course.has_events() || !scene.from_net; };
-  auto plan = std::optional(course.asked);
+  const auto chose = [&] { return path->has_events() || !scene.from_net; };
+  auto plan = std::optional(path->asked);
   for (int asked = 0; asked < most_leaders && chose(); ++asked) {
     plan = with_finer_leader(*plan);
     if (!plan || !fits_memory(scene, *plan)) {
-      course.mesh_disagreement = fmt::format(
-          "no mesh finer than {} edges a segment led to confirm it", leading_edges_of(course));
-      return course;
+      path->mesh_disagreement = fmt::format(
+          "no mesh finer than {} edges a segment led to confirm it", leading_edges_of(*path));
+      return path;
     }
     auto fine = follow(*plan, watch);
     if (watch.cancelled()) return stopped();
     if (!fine) {
-      course.mesh_disagreement = fmt::format("with {} edges a segment leading: {}",
-                                             plan->edges_per_segment.front(), fine.error().message);
-      return course;
+      path->mesh_disagreement = fmt::format("with {} edges a segment leading: {}",
+                                            plan->edges_per_segment.front(), fine.error().message);
+      return path;
     }
-    fine->asked = *plan;
+    (*fine)->asked = *plan;
     const auto keep_fine = [&] {
-      fine->session.charge(course.session.effort());
-      fine->seconds_setup += course.seconds_setup;
-      course = std::move(*fine);
+      (*fine)->simulation.charge(path->simulation.effort());
+      (*fine)->seconds_setup += path->seconds_setup;
+      path = std::move(*fine);
     };
-    auto differs = mesh_disagreement(course, *fine);
-    if (!differs) differs = only_on_leaders(course, *fine, watch);
+    auto differs = mesh_disagreement(*path, **fine);
+    if (!differs) differs = only_on_leaders(*path, **fine, watch);
     if (!differs) {
-      const bool later =
-          course.single_motion && !scene.leader_asked && turns_later(course.legs, fine->legs);
-      extrapolate_events(course.legs, fine->legs);
-      extrapolate_events(course.earlier, fine->earlier);
+      const bool later = path->single_motion && !scene.leader_asked &&
+                         turns_later(path->segments, (*fine)->segments);
+      extrapolate_events(path->segments, (*fine)->segments);
+      extrapolate_events(path->earlier, (*fine)->earlier);
       if (later)
         keep_fine();
       else
-        course.session.charge(fine->session.effort());
-      course.mesh_disagreement.clear();
-      return course;
+        path->simulation.charge((*fine)->simulation.effort());
+      path->mesh_disagreement.clear();
+      return path;
     }
     const std::string disagreed =
         fmt::format("leading meshes of {} and {} edges a segment do not agree: {}",
-                    leading_edges_of(course), leading_edges_of(*fine), *differs);
+                    leading_edges_of(*path), leading_edges_of(**fine), *differs);
     // whoever asks for a leader has its path
     if (scene.leader_asked) {
-      course.mesh_disagreement = disagreed;
-      course.session.charge(fine->session.effort());
-      return course;
+      path->mesh_disagreement = disagreed;
+      path->simulation.charge((*fine)->simulation.effort());
+      return path;
     }
     // a path that came through is not given up for one that did not: a still finer one is asked
-    if (whole(course) && !whole(*fine)) {
-      course.mesh_disagreement =
+    if (whole(*path) && !whole(**fine)) {
+      path->mesh_disagreement =
           fmt::format("a leading mesh of {} edges a segment did not come so far: {}",
-                      leading_edges_of(*fine), *differs);
-      course.session.charge(fine->session.effort());
+                      leading_edges_of(**fine), *differs);
+      path->simulation.charge((*fine)->simulation.effort());
       continue;
     }
     keep_fine();
-    course.mesh_disagreement = disagreed;
-    if (!chose()) course.mesh_disagreement.clear();
+    path->mesh_disagreement = disagreed;
+    if (!chose()) path->mesh_disagreement.clear();
   }
-  return course;
+  return path;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

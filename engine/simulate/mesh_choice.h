@@ -24,21 +24,21 @@ Result<void> fits_memory(const Scene& scene, const LevelPlan& plan);
 // What happens on a path belongs to the shell, not to the mesh that led: it is looked for on a
 // finer leader too.
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
-/// Whether two courses on different meshes tell the same: the same legs with the same events, which
-/// lie near each other, to the same end. Otherwise a sentence says what they differ in.
+/// Whether two paths on different meshes tell the same: the same segments with the same events,
+/// which lie near each other, to the same end. Otherwise a sentence says what they differ in.
 std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
                                              const EquilibriumPath& fine);
 
-/// A course that began in a buckled state out of the flat, or on which something happened, followed
+/// A path that began in a buckled state out of the flat, or on which something happened, followed
 /// once more with leading meshes of twice the edges.
 /// Where both tell the same, the events' places are extrapolated (the error falls fourfold), with
-/// an error, and where the path turns back clearly later with the finer one, its course is kept;
+/// an error, and where the path turns back clearly later with the finer one, its path is kept;
 /// where they do not, the finer one is asked against a still finer one, at most three
-/// times. Where a leader was asked for, its course is kept, and what a finer one does not confirm
+/// times. Where a leader was asked for, its path is kept, and what a finer one does not confirm
 /// is said. What remains in doubt is said. Errors: cancelled.
-Result<EquilibriumPath> confirm_on_finer_meshes(const Scene& scene, EquilibriumPath course,
-                                                const Follow& follow, const Watch& watch);
+Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
+                                           const Follow& follow, const Watch& watch);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

@@ -11,27 +11,24 @@
 #include "engine/simulate/equilibrium_path.h"
 #include "engine/simulate/frames.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 using preset::StepKind;
 
-/// One step that was done: its leg of the course stands at the same place.
+/// One step that was done: its segment of the path stands at the same place.
 struct Done {
-  BoundaryPosition before, after;
-  GrippedJoint taken;
-  Checkpoint way_end, end;  ///< where its way ended, and where it stands after it
+  Checkpoint way_end, end;  ///< where its way ended, and where the shell stands after it
 };
 
 /// A hand's whole work on one plan of meshes.
-struct Work {
-  EquilibriumPath course;
+struct Work : EquilibriumPath {
   Checkpoint begin;
   std::vector<Done> done = {};
 };
 
-/// Whether frames are taken on the way of a step, which a leg then knows: of a push, and of a move
-/// of the whole boundary, before and after which no edge point lies off it.
+/// Whether frames are taken on the way of a step, which a segment then knows: of a push, and of a
+/// move of the whole boundary, before and after which no edge point lies off it.
 bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
   if (steps[k].kind != StepKind::move) return steps[k].kind == StepKind::push;
   const auto before = std::find_if(steps.rend() - std::ptrdiff_t(k), steps.rend(),
@@ -39,57 +36,49 @@ bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
   return steps[k].edge_points.empty() && (before == steps.rend() || before->edge_points.empty());
 }
 
-bool snapped(const PathSegment& leg) {
-  return std::ranges::any_of(leg.report.events,
+bool snapped(const PathSegment& segment) {
+  return std::ranges::any_of(segment.report.events,
                              [](const Event& one) { return one.to.has_value(); });
 }
 
-/// A step without a way is a leg from its begin to its end, which is all that is known of it.
-void close(PathSegment& leg, const Session& session) {
-  if (!leg.trail.stations.empty()) {
-    leg.from = leg.trail.stations.front().point.t;
+/// A step without a way is a segment from its begin to its end, which is all that is known of it.
+void close(PathSegment& segment, const Simulation& simulation) {
+  if (!segment.load_steps.empty()) {
+    segment.from = segment.load_steps.front().point.t;
     // one mesh alone knows no error
-    for (LoadStep& station : leg.trail.stations)
-      if (std::isnan(station.certificate.error_estimate_mm))
-        station.certificate.error_estimate_mm = session.certificate().error_estimate_mm;
+    for (LoadStep& load_step : segment.load_steps)
+      if (std::isnan(load_step.certificate.error_estimate_mm))
+        load_step.certificate.error_estimate_mm = simulation.certificate().error_estimate_mm;
     return;
   }
-  leg.trail.stations.push_back({session.shell().point(), session.certificate()});
-  leg.from = leg.to = leg.end();
+  segment.load_steps.push_back({simulation.shell().point(), simulation.certificate()});
+  segment.from = segment.to = segment.end();
 }
 
 Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
                       const std::vector<preset::Step>& steps, const LevelPlan& plan,
                       const Watch& watch) {
   TRY(actuated, follow_whole_actuation(scene, plan, "to begin with", watch));
-  Checkpoint begin = actuated->session.save();
+  Checkpoint begin = actuated->simulation.save();
   Work work{std::move(*actuated), std::move(begin)};
-  work.course.earlier = std::exchange(work.course.legs, {});
-  work.course.single_motion = false;
-  Session& session = work.course.session;
-  BoundaryPosition boundary = BoundaryPosition::of(*scene);
-  GrippedJoints grips;
+  work.earlier = std::exchange(work.segments, {});
+  work.single_motion = false;
+  Simulation& simulation = work.simulation;
   for (std::size_t k = 0; k < steps.size(); ++k) {
-    Done done{.before = boundary, .after = {}, .taken = {}, .way_end = {}, .end = {}};
-    grips.note(session);
     const StepKind kind = steps[k].kind;
     const double to = kind == StepKind::move ? parameter_at(progress_of(steps[k], *scene)) : 1;
-    PathSegment& leg = work.course.legs.emplace_back(PathSegment{0, to, {}, {}});
+    PathSegment& segment = work.segments.emplace_back(PathSegment{{}, 0, to, {}});
     StepPath way;
-    auto report = apply_step(session, boundary, steps[k], watch, &way);
+    auto report = apply_step(simulation, steps[k], watch, &way);
     if (watch.cancelled()) return stopped();
     if (!report)
       return fail(report.error().fault,
                   fmt::format("[[step]] {}: {}", k + 1, report.error().message));
-    leg.report = std::move(*report);
-    leg.trail = std::move(way.trail);
-    close(leg, session);
-    done.way_end = std::move(way.end);
-    done.after = boundary;
-    done.taken = grips.last(session);
-    done.end = session.save();
-    work.done.push_back(std::move(done));
-    if (leg.report.end != Outcome::reached) break;
+    segment.report = std::move(*report);
+    static_cast<PathRecord&>(segment) = std::move(way);
+    close(segment, simulation);
+    work.done.push_back({std::move(way.end), simulation.save()});
+    if (segment.report.end != Outcome::reached) break;
   }
   return work;
 }
@@ -101,20 +90,20 @@ class Show {
        Watch& watch)
       : work_(work), steps_(steps), watch_(watch), shares_(frames_of_steps(steps, frames)) {
     for (const int share : shares_) count_ += share;
-    sampler_.emplace(work.course, caption(), sink, watch, std::size_t(count_) + 1);
+    sampler_.emplace(work, caption(), sink, watch, std::size_t(count_) + 1);
   }
 
   Result<void> all() {
-    Session& session = work_.course.session;
+    Simulation& simulation = work_.simulation;
     if (!work_.done.empty()) meshes_ = work_.done.back().end.plan;
     if (auto stood = stand(work_.begin); !stood) return stood;
     boundary_ = {1, 1};
     // of no step
-    if (auto first = sampler_->stand({0, steps_.size(), 1, 0}, "", 1); !first) return first;
+    if (auto first = sampler_->take_current({0, steps_.size(), 1, 0}, "", 1); !first) return first;
     shown_ = true;
     for (step_ = 0; step_ < work_.done.size(); ++step_)
       if (auto shown = one(); !shown) return shown;
-    session.restore(work_.done.empty() ? work_.begin : work_.done.back().end);
+    simulation.restore(work_.done.empty() ? work_.begin : work_.done.back().end);
     return {};
   }
 
@@ -122,10 +111,10 @@ class Show {
   /// Stands in a state, on the meshes of the last one: frames have the same nodes. Errors:
   /// no_equilibrium where these meshes do not have it.
   Result<void> stand(const Checkpoint& state) {
-    Session& session = work_.course.session;
-    session.restore(state);
+    Simulation& simulation = work_.simulation;
+    simulation.restore(state);
     if (state.plan.edges_per_segment == meshes_.edges_per_segment) return {};
-    const auto fine = session.remesh(meshes_, watch_);
+    const auto fine = simulation.remesh(meshes_, watch_);
     if (watch_.cancelled()) return stopped();
     if (fine && fine->end == Outcome::reached) return {};
     return fail(Fault::no_equilibrium,
@@ -138,35 +127,34 @@ class Show {
   /// The frames on the way of a step, and the one at its end.
   Result<void> one() {
     const Done& done = work_.done[step_];
-    const PathSegment& leg = work_.course.legs[step_];
+    const PathSegment& segment = work_.segments[step_];
     const int share = shares_[step_];
-    taken_ = done.taken;
-    boundary_ = {done.before.progress, done.after.progress};
+    boundary_ = {boundary_[1], done.end.boundary.progress};
     for (int k = 1; k < share; ++k) {
       const double part = double(k) / share;
       const bool moves = steps_[step_].kind == StepKind::move;
       const double t = moves ? parameter_at(boundary_[0] + part * (boundary_[1] - boundary_[0]))
-                             : leg.from + part * (leg.end() - leg.from);
+                             : segment.from + part * (segment.end() - segment.from);
       if (auto taken = between(done, sample(t)); !taken) return taken;
     }
     if (auto stood = stand(done.end); !stood) return stood;
-    const PathSample last = sample(leg.end());
-    return sampler_->stand(last, event(last), last.t);
+    const PathSample last = sample(segment.end());
+    return sampler_->take_current(last, event(last), last.t);
   }
 
   /// A sample of the way, on the meshes of its end; what has no state on them is left out.
   Result<void> between(const Done& done, const PathSample& sample) {
-    Session& session = work_.course.session;
-    session.restore(done.way_end);
-    const CertifiedSample stood = certify_sample(work_.course, sample, watch_);
+    Simulation& simulation = work_.simulation;
+    simulation.restore(done.way_end);
+    const CertifiedSample stood = certify_sample(work_, sample, watch_);
     if (watch_.cancelled()) return stopped();
     if (stood.report.end != Outcome::reached) return {};
-    if (session.shell().plan().edges_per_segment != meshes_.edges_per_segment) {
-      const auto fine = session.remesh(meshes_, watch_);
+    if (simulation.shell().plan().edges_per_segment != meshes_.edges_per_segment) {
+      const auto fine = simulation.remesh(meshes_, watch_);
       if (watch_.cancelled()) return stopped();
       if (!fine || fine->end != Outcome::reached) return {};
     }
-    return sampler_->stand(sample, sampler_->events(sample, stood.past), stood.past);
+    return sampler_->take_current(sample, sampler_->events(sample, stood.past), stood.past);
   }
 
   PathSample sample(double t) {
@@ -176,23 +164,23 @@ class Show {
 
   /// What the end of a step says.
   std::string event(const PathSample& sample) const {
-    const PathSegment& leg = work_.course.legs[step_];
-    if (leg.report.end == Outcome::locked) return "locking";
+    const PathSegment& segment = work_.segments[step_];
+    if (segment.report.end == Outcome::locked) return "locking";
     if (has_way(steps_, step_)) return sampler_->events(sample, sample.t);
-    return text_of(steps_[step_]) + (snapped(leg) ? ": snap to another state" : "");
+    return text_of(steps_[step_]) + (snapped(segment) ? ": snap to another state" : "");
   }
 
   Caption caption() {
     return {[](double t, std::optional<double>) { return fmt::format("at {:.3f} of its way", t); },
             [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
-            [this](record::Frame& frame) { fill_push(work_.course.session, taken_, frame); }};
+            [this](record::Frame& frame) { work_.simulation.put_push(frame); }};
   }
 
   void put_boundary(record::Frame& frame, double t) const {
     const bool on_way = step_ < steps_.size() && steps_[step_].kind == StepKind::move &&
                         has_way(steps_, step_) && boundary_[0] != boundary_[1];
     frame.actuation = on_way ? progress_at(t) : boundary_[1];
-    frame.boundary_radius_mm = work_.course.session.scene().radius_at(frame.actuation);
+    frame.boundary_radius_mm = work_.simulation.scene().radius_at(frame.actuation);
   }
 
   Work& work_;
@@ -202,15 +190,14 @@ class Show {
   std::vector<int> shares_;
   int count_ = 0, index_ = 0;
   std::size_t step_ = 0;
-  bool shown_ = false;  // the state before the first step
-  GrippedJoint taken_;
+  bool shown_ = false;                    // the state before the first step
   std::array<double, 2> boundary_{1, 1};  // progress before and after the step
   std::optional<PathSampler> sampler_;
 };
 
 /// "2 push [0, 0]: reached, residual 3.1e-10 N, stable"
-std::string message_of(std::size_t k, const preset::Step& step, const PathSegment& leg) {
-  const Report& report = leg.report;
+std::string message_of(std::size_t k, const preset::Step& step, const PathSegment& segment) {
+  const Report& report = segment.report;
   std::string text = fmt::format("{} {}: {}", k + 1, text_of(step), words_of(report.end).name);
   for (const Event& event : report.events)
     if (event.to) text += fmt::format(", snap to another state at {:.3f} of its way", event.t);
@@ -225,16 +212,15 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
 }
 
 /// Which step the limit belongs to, in front of its reason.
-void tell(Work& work, const std::vector<preset::Step>& steps) {
-  EquilibriumPath& course = work.course;
-  set_limit(course, [](double t, std::optional<double>) {
+void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
+  set_limit(work, [](double t, std::optional<double>) {
     return fmt::format("at path parameter {:.4f}", t);
   });
-  for (std::size_t k = 0; k < course.legs.size(); ++k) {
-    const PathSegment& leg = course.legs[k];
-    if (!snapped(leg) && leg.report.end == Outcome::reached) continue;
-    if (course.limit != record::Limit::none)
-      course.limit_reason.insert(0, fmt::format("step {} ({}): ", k + 1, text_of(steps[k])));
+  for (std::size_t k = 0; k < work.segments.size(); ++k) {
+    const PathSegment& segment = work.segments[k];
+    if (!snapped(segment) && segment.report.end == Outcome::reached) continue;
+    if (work.limit != record::Limit::none)
+      work.limit_reason.insert(0, fmt::format("step {} ({}): ", k + 1, text_of(steps[k])));
     break;
   }
 }
@@ -242,12 +228,13 @@ void tell(Work& work, const std::vector<preset::Step>& steps) {
 void put_loads(const Work& work, const std::vector<preset::Step>& steps, record::Layout& layout) {
   for (std::size_t k = 0; k < work.done.size(); ++k) {
     if (steps[k].kind != StepKind::push) continue;
-    const Done& done = work.done[k];
-    const Eigen::Vector3d moved = done.end.state.x.col(done.taken.joint) - done.taken.at;
-    const bool there = std::ranges::any_of(
-        layout.loaded_joints, [&](const auto& load) { return load.joint == done.taken.joint; });
+    const Checkpoint& end = work.done[k].end;
+    const int joint = end.holds.back().node;
+    const Eigen::Vector3d moved = end.state.x.col(joint) - end.grip_origins.at(joint);
+    const bool there = std::ranges::any_of(layout.loaded_joints,
+                                           [&](const auto& load) { return load.joint == joint; });
     if (!there && moved.norm() > nearest_mm)
-      layout.loaded_joints.push_back({done.taken.joint, moved.normalized(), true});
+      layout.loaded_joints.push_back({joint, moved.normalized(), true});
   }
 }
 
@@ -271,21 +258,21 @@ std::vector<int> frames_of_steps(const std::vector<preset::Step>& steps, int fra
 Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
                               const std::vector<preset::Step>& steps, int frames,
                               record::Sink& sink, Watch& watch) {
-  auto work = converged_path_holder<Work>(
+  auto work = converged_path(
       *scene,
       [&](const LevelPlan& plan, const Watch& w) { return do_steps(scene, steps, plan, w); },
       watch);
   if (!work) return tl::unexpected<Error>(work.error());
-  tell(*work, steps);
-  TRY(layout, layout_of(*scene, work->course.session.shell().finest()));
-  layout->extrapolated = work->course.session.shell().plan().extrapolate;
+  name_step_of_limit(*work, steps);
+  TRY(layout, layout_of(*scene, work->simulation.shell().finest()));
+  layout->extrapolated = work->simulation.shell().plan().extrapolate;
   put_loads(*work, steps, *layout);
   TRY_DO(sink.begin(std::move(*layout)));
   TRY_DO(Show(*work, steps, frames, sink, watch).all());
-  StepsResult stepped{std::move(work->course)};
-  for (std::size_t k = 0; k < stepped.course.legs.size(); ++k)
-    stepped.messages.push_back(message_of(k, steps[k], stepped.course.legs[k]));
+  StepsResult stepped{EquilibriumPath(std::move(*work))};
+  for (std::size_t k = 0; k < stepped.path.segments.size(); ++k)
+    stepped.messages.push_back(message_of(k, steps[k], stepped.path.segments[k]));
   return stepped;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

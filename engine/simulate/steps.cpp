@@ -11,20 +11,21 @@
 #include "engine/simulate/indentation.h"
 #include "engine/simulate/mesh_choice.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 Eigen::Vector3d vector_of(const std::vector<double>& xyz) { return {xyz[0], xyz[1], xyz[2]}; }
 
 /// t_u x t_v at a joint of the shell as it stands; zero where no two rods cross.
-Eigen::Vector3d normal_at(const Session& session, int joint) {
-  return joint_tangents(session.scene().footprint, session.shell().finest(), session.nodes())
+Eigen::Vector3d normal_at(const Simulation& simulation, int joint) {
+  return joint_tangents(simulation.scene().footprint, simulation.shell().finest(),
+                        simulation.nodes())
       .normal(joint);
 }
 
 /// Where a move has the edge points, off the scene's motion.
 Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene) {
-  Eigen::Matrix3Xd dragged = BoundaryPosition::of(scene).dragged;
+  Eigen::Matrix3Xd dragged = Eigen::Matrix3Xd::Zero(3, scene.motion.begin.cols());
   for (const auto& row : step.edge_points) {
     const auto k = Eigen::Index(row[0]);
     if (k >= dragged.cols())
@@ -38,21 +39,22 @@ Result<Eigen::Matrix3Xd> dragged_of(const preset::Step& step, const Scene& scene
   return dragged;
 }
 
-Result<Report> move(Session& session, BoundaryPosition& boundary, const preset::Step& step,
-                    const Watch& watch, StepPath* way) {
-  const Scene& scene = session.scene();
+Result<Report> move(Simulation& simulation, const preset::Step& step, const Watch& watch,
+                    StepPath* way) {
+  const Scene& scene = simulation.scene();
   TRY(dragged, dragged_of(step, scene));
+  BoundaryPosition& boundary = simulation.boundary;
   const double progress = progress_of(step, scene);
   if (dragged->isZero(0) && boundary.dragged.isZero(0)) {
-    const Report report = session.move_to(progress, watch, way ? &way->trail : nullptr);
-    if (way) way->end = session.save();
-    boundary.progress = session.progress();
+    const Report report = simulation.move_to(progress, watch, way);
+    if (way) way->end = simulation.save();
+    boundary.progress = simulation.progress();
     return report;
   }
   BoundaryMotion motion = scene.motion;
   motion.end = motion.begin + progress * (motion.end - motion.begin) + *dragged;
   motion.end_joints = motion.begin_joints + progress * (motion.end_joints - motion.begin_joints);
-  const Report report = session.move_edge_points(motion, watch);
+  const Report report = simulation.move_edge_points(motion, watch);
   boundary.progress += report.t * (progress - boundary.progress);
   boundary.dragged += report.t * (*dragged - boundary.dragged);
   return report;
@@ -66,15 +68,15 @@ struct Goal {
   bool free = false;
 };
 
-Result<Goal> goal_of(const Session& session, const preset::Step& step) {
-  TRY(joint, joint_of(step, session.scene().footprint));
-  TRY_DO(not_on_boundary(session.scene().footprint, *joint));
-  const Eigen::Vector3d at = session.nodes().col(*joint);
+Result<Goal> goal_of(const Simulation& simulation, const preset::Step& step) {
+  TRY(joint, joint_of(step, simulation.scene().footprint));
+  TRY_DO(not_on_boundary(simulation.scene().footprint, *joint));
+  const Eigen::Vector3d at = simulation.nodes().col(*joint);
   const bool holds = step.kind == preset::StepKind::hold;
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
   if (!holds && !step.to_mm.empty()) way = vector_of(step.to_mm) - at;
   if (!holds && step.to_mm.empty()) {
-    const Eigen::Vector3d normal = normal_at(session, *joint);
+    const Eigen::Vector3d normal = normal_at(simulation, *joint);
     if (normal.isZero(0))
       return fail(Fault::bad_input,
                   "no two rods cross at the joint, so the shell has no normal there: to_mm must "
@@ -91,14 +93,14 @@ Result<Goal> goal_of(const Session& session, const preset::Step& step) {
   return goal;
 }
 
-Result<Report> push(Session& session, const Goal& goal, const Watch& watch, StepPath* path) {
-  Eigen::Vector3d way = goal.target - session.nodes().col(goal.joint);
+Result<Report> push(Simulation& simulation, const Goal& goal, const Watch& watch, StepPath* path) {
+  Eigen::Vector3d way = goal.target - simulation.nodes().col(goal.joint);
   if (goal.free) way = goal.along * goal.along.dot(way);
   // a hand that does not move yet takes hold along its own direction
   if (way.norm() < nearest_mm) way = nearest_mm * goal.along;
-  const Report report = session.push(goal.joint, way, goal.free ? Across::free : Across::held,
-                                     watch, path ? &path->trail : nullptr);
-  if (path) path->end = session.save();
+  const Report report =
+      simulation.push(goal.joint, way, goal.free ? Across::free : Across::held, watch, path);
+  if (path) path->end = simulation.save();
   return report;
 }
 
@@ -118,20 +120,20 @@ std::optional<LevelPlan> with_next_leader(const Scene& scene, const LevelPlan& p
 /// Takes a step on the coarsest mesh of a plan alone, then brings the finer ones there; what they
 /// do not have is Outcome::meshes_disagree.
 template <class Do>
-Result<Report> do_led(Session& session, const LevelPlan& plan, const Watch& watch,
+Result<Report> do_led(Simulation& simulation, const LevelPlan& plan, const Watch& watch,
                       const Do& take_step) {
   const auto refused = [&] {
     return watch.cancelled() ? Outcome::cancelled : Outcome::meshes_disagree;
   };
-  auto coarse = session.remesh({{plan.edges_per_segment.front()}, false}, watch);
+  auto coarse = simulation.remesh({{plan.edges_per_segment.front()}, false}, watch);
   if (!coarse) return coarse;
   if (coarse->end != Outcome::reached) return coarse->end = refused(), coarse;
   auto report = take_step();
   if (!report) return report;
-  const auto fine = session.remesh(plan, watch);
+  const auto fine = simulation.remesh(plan, watch);
   if (!fine) return fine;
   if (fine->end != Outcome::reached) report->end = refused();
-  report->certificate = session.certificate();
+  report->certificate = simulation.certificate();
   return report;
 }
 
@@ -139,37 +141,30 @@ Result<Report> do_led(Session& session, const LevelPlan& plan, const Watch& watc
 /// to then hangs on no other mesh, and each holds a joint where that one has it. Where they cannot
 /// follow, a finer one leads; last of all the shell stands where it was.
 template <class Do>
-Result<Report> led_by_coarsest(Session& session, const Watch& watch, const Do& take_step) {
+Result<Report> led_by_coarsest(Simulation& simulation, const Watch& watch, const Do& take_step) {
   constexpr int most_leaders = 3;
-  std::optional<LevelPlan> plan = session.shell().plan();
+  std::optional<LevelPlan> plan = simulation.shell().plan();
   if (plan->edges_per_segment.size() == 1) return take_step();
-  const Checkpoint before = session.save();
+  const Checkpoint before = simulation.save();
   Result<Report> report;
   for (int tried = 0; plan && tried < most_leaders; ++tried) {
-    report = do_led(session, *plan, watch, take_step);
+    report = do_led(simulation, *plan, watch, take_step);
     if (report && report->end != Outcome::meshes_disagree && report->end != Outcome::cancelled)
       return report;
-    session.restore(before);
+    simulation.restore(before);
     if (!report || report->end == Outcome::cancelled) return report;
-    plan = with_next_leader(session.scene(), *plan);
+    plan = with_next_leader(simulation.scene(), *plan);
   }
   return report;
 }
 
-/// Where it goes is measured on all meshes.
-Result<Report> push_by_coarsest(Session& session, const preset::Step& step, const Watch& watch,
-                                StepPath* path) {
-  TRY(goal, goal_of(session, step));
-  return led_by_coarsest(session, watch, [&] { return push(session, *goal, watch, path); });
-}
-
-Result<Report> release(Session& session, const preset::Step& step, const Watch& watch) {
+Result<Report> release(Simulation& simulation, const preset::Step& step, const Watch& watch) {
   std::vector<int> joints;
   if (step.joint.empty()) {
-    for (const Constraint& hold : session.holds()) joints.push_back(hold.node);
+    for (const Constraint& hold : simulation.holds()) joints.push_back(hold.node);
   } else {
-    TRY(joint, joint_of(step, session.scene().footprint));
-    if (std::ranges::any_of(session.holds(),
+    TRY(joint, joint_of(step, simulation.scene().footprint));
+    if (std::ranges::any_of(simulation.holds(),
                             [&](const Constraint& hold) { return hold.node == *joint; }))
       joints = {*joint};
   }
@@ -177,7 +172,7 @@ Result<Report> release(Session& session, const preset::Step& step, const Watch& 
   Report all;
   for (const int joint : joints) {
     std::vector<Event> before = std::move(all.events);
-    all = session.release(joint, watch);
+    all = simulation.release(joint, watch);
     all.events.insert(all.events.begin(), before.begin(), before.end());
     if (all.end != Outcome::reached) break;
   }
@@ -196,16 +191,43 @@ std::vector<NodeAction> random_field(const Scene& scene, int seed, double force_
   return field;
 }
 
-Result<Report> jitter(Session& session, const preset::Step& step, const Watch& watch) {
-  const Checkpoint before = session.save();
-  const auto field = random_field(session.scene(), step.seed, step.force_N);
-  const Report thrown = session.set_field(field, watch);
+Result<Report> jitter(Simulation& simulation, const preset::Step& step, const Watch& watch) {
+  const Checkpoint before = simulation.save();
+  const auto field = random_field(simulation.scene(), step.seed, step.force_N);
+  const Report thrown = simulation.set_field(field, watch);
   // a field that the shell cannot bear all the way has moved it as well
-  if (watch.cancelled()) return session.restore(before), thrown;
-  Report back = session.set_field({}, watch);
+  if (watch.cancelled()) return simulation.restore(before), thrown;
+  Report back = simulation.set_field({}, watch);
   back.events.insert(back.events.begin(), thrown.events.begin(), thrown.events.end());
-  if (back.end != Outcome::reached) session.restore(before);
+  if (back.end != Outcome::reached) simulation.restore(before);
   return back;
+}
+
+Result<Report> take_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
+                         StepPath* way) {
+  const auto led = [&](const auto& act) { return led_by_coarsest(simulation, watch, act); };
+  switch (step.kind) {
+    case preset::StepKind::move:
+      return move(simulation, step, watch, way);
+    case preset::StepKind::push:
+    case preset::StepKind::hold: {
+      // where it goes is measured on all meshes
+      TRY(goal, goal_of(simulation, step));
+      simulation.grip_origins.emplace(goal->joint, simulation.nodes().col(goal->joint));
+      return led([&] { return push(simulation, *goal, watch, way); });
+    }
+    case preset::StepKind::release:
+      return led([&] { return release(simulation, step, watch); });
+    case preset::StepKind::load:
+      return simulation.load(step.factor, watch);
+    case preset::StepKind::rest:
+      return led([&]() -> Result<Report> {
+        return simulation.rest(watch, same_word<BranchSide>(step.side));
+      });
+    case preset::StepKind::jitter:
+      return led([&] { return jitter(simulation, step, watch); });
+  }
+  return Report{};
 }
 
 }  // namespace
@@ -217,63 +239,25 @@ std::string text_of(const preset::Step& step) {
 }
 
 Result<int> joint_of(const preset::Step& step, const Footprint& footprint) {
-  const auto& joints = footprint.joints;
-  const auto found = std::ranges::find_if(joints, [&](const FootprintJoint& joint) {
-    return step.joint.size() == 2 && joint.i == step.joint[0] && joint.j == step.joint[1];
-  });
-  if (found == joints.end())
+  const int joint = step.joint.size() == 2 ? joint_at(footprint, step.joint[0], step.joint[1]) : -1;
+  if (joint < 0)
     return fail(Fault::bad_input, fmt::format("joint = [{}]: the footprint has no such joint",
                                               fmt::join(step.joint, ", ")));
-  return int(found - joints.begin());
+  return joint;
 }
 
 double progress_of(const preset::Step& step, const Scene& scene) {
   return step.radius_mm == 0 ? step.progress : scene.progress_of_radius(step.radius_mm);
 }
 
-Result<Report> apply_step(Session& session, BoundaryPosition& boundary, const preset::Step& step,
-                          const Watch& watch, StepPath* way) {
-  switch (step.kind) {
-    case preset::StepKind::move:
-      return move(session, boundary, step, watch, way);
-    case preset::StepKind::push:
-    case preset::StepKind::hold:
-      return push_by_coarsest(session, step, watch, way);
-    case preset::StepKind::release:
-      return led_by_coarsest(session, watch, [&] { return release(session, step, watch); });
-    case preset::StepKind::load:
-      return session.load(step.factor, watch);
-    case preset::StepKind::rest:
-      return led_by_coarsest(session, watch, [&]() -> Result<Report> {
-        return session.rest(watch, same_word<BranchSide>(step.side));
-      });
-    case preset::StepKind::jitter:
-      return led_by_coarsest(session, watch, [&] { return jitter(session, step, watch); });
-  }
-  return Report{};
+Result<Report> apply_step(Simulation& simulation, const preset::Step& step, const Watch& watch,
+                          StepPath* way) {
+  auto report = take_step(simulation, step, watch, way);
+  std::erase_if(simulation.grip_origins, [&](const auto& origin) {
+    return std::ranges::none_of(simulation.holds(),
+                                [&](const Constraint& hold) { return hold.node == origin.first; });
+  });
+  return report;
 }
 
-void GrippedJoints::note(const Session& session) {
-  for (int joint = 0; joint < int(session.scene().footprint.joints.size()); ++joint) {
-    const bool held = std::ranges::any_of(
-        session.holds(), [&](const Constraint& hold) { return hold.node == joint; });
-    if (!held) at_[joint] = session.nodes().col(joint);
-  }
-}
-
-GrippedJoint GrippedJoints::last(const Session& session) const {
-  if (session.holds().empty()) return {};
-  const int joint = session.holds().back().node;
-  return {joint, at_.at(joint)};
-}
-
-void fill_push(const Session& session, const GrippedJoint& grip, record::Frame& frame) {
-  if (grip.joint < 0 || session.holds().empty()) return;
-  const Constraint& hold = session.holds().back();
-  const Eigen::Vector3d moved = hold.part(session.nodes().col(grip.joint) - grip.at);
-  frame.depth_mm = moved.norm();
-  const Eigen::Vector3d force = hold.part(session.force(session.holds().size() - 1));
-  frame.force_N = frame.depth_mm > nearest_mm ? force.dot(moved.normalized()) : 0;
-}
-
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

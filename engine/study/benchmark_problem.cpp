@@ -115,7 +115,7 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
 }
 
 Result<void> BenchmarkProblem::find_push(const NestedShell& shell) {
-  TRY(push, experiment::push_of(pushed_, *scene_, shell.finest(), shell.state().x));
+  TRY(push, simulate::push_of(pushed_, *scene_, shell.finest(), shell.state().x));
   joint_ = push->joint;
   displacement_ = push->displacement;
   return {};

@@ -12,7 +12,7 @@
 #include "engine/simulate/actuation.h"
 #include "engine/simulate/indentation.h"
 #include "engine/simulate/mesh_choice.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 #include "engine/solve/buckling.h"
 
 namespace gridshell::study {
@@ -27,7 +27,7 @@ constexpr double first_shortenings[] = {0.02, 0.01, 0.005, 0.0025};
 
 /// What is followed, where it begins and how far it goes.
 struct BranchStart {
-  Session session;
+  Simulation session;
   double from = 0, to = 1;  // of the path parameter
   bool of_push = false;
 };
@@ -41,15 +41,15 @@ struct Branch {
 
 Result<BranchStart> begin_push(std::shared_ptr<const Scene> scene, const preset::Indentation& asked,
                                const LevelPlan& plan, const Watch& watch) {
-  TRY(held, experiment::hold_to_push(scene, asked, plan, watch));
-  return BranchStart{std::move(held->course.session), 0, 1, true};
+  TRY(held, simulate::hold_to_push(scene, asked, plan, watch));
+  return BranchStart{std::move(held->simulation), 0, 1, true};
 }
 
 Result<BranchStart> begin_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
                                     const Watch& watch) {
   if (scene->drawn_in_space)
     return fail(Fault::bad_input, "branches are looked for where a path begins flat or on a net");
-  TRY(session, Session::open(scene, plan));
+  TRY(session, Simulation::open(scene, plan));
   BranchStart course{std::move(*session)};
   const NestedShell& shell = course.session.shell();
   TRY(nearly_flat,
@@ -281,7 +281,7 @@ Result<BranchDiagram> branches_study(const preset::Preset& preset, const Branche
     return fail(Fault::bad_input,
                 "a bifurcation diagram needs a model that is solved, not the net itself "
                 "([accuracy] model)");
-  const LevelPlan plan = experiment::initial_levels(*scene);
+  const LevelPlan plan = simulate::initial_levels(*scene);
   TRY_DO(fits_memory(*scene, plan));
   auto course = preset.indentation.wanted() ? begin_push(scene, preset.indentation, plan, watch)
                                             : begin_actuation(scene, plan, watch);

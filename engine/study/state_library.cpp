@@ -14,7 +14,7 @@
 #include "engine/study/state_measures.h"
 #include "engine/study/state_transitions.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 // energies of one state differ by round-off, and by what joints within the tolerance are worth
@@ -248,4 +248,4 @@ Result<StateSearchRun> run_states(const preset::Preset& preset, int threads, rec
   return run;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

@@ -12,7 +12,7 @@
 #include "engine/record/trajectory.h"
 #include "engine/study/state_search.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// States by the positions of their joints.
 class StateCatalogue {
@@ -86,4 +86,4 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
 Result<StateSearchRun> run_states(const preset::Preset& preset, int threads, record::Sink& sink,
                                   Watch& watch);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

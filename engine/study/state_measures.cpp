@@ -16,7 +16,7 @@
 #include "engine/solve/newton.h"
 #include "engine/study/state_search.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 constexpr double largest_step = 0.05;  // in the path parameter: where a branch is asked for
@@ -98,7 +98,7 @@ LevelPlan measuring_plan(const Scene& scene) {
 }
 
 StateMeasures::StateMeasures(std::shared_ptr<const Scene> scene, double tolerance_mm,
-                             Session session, Session path)
+                             Simulation session, Simulation path)
     : scene_(std::move(scene)),
       tolerance_mm_(tolerance_mm),
       session_(std::move(session)),
@@ -112,8 +112,8 @@ StateMeasures::StateMeasures(std::shared_ptr<const Scene> scene, double toleranc
 }
 
 Result<StateMeasures> StateMeasures::make(std::shared_ptr<const Scene> scene, double tolerance_mm) {
-  TRY(session, Session::open(scene, measuring_plan(*scene)));
-  TRY(path, Session::open(scene, {{judged_edges}, false}));
+  TRY(session, Simulation::open(scene, measuring_plan(*scene)));
+  TRY(path, Simulation::open(scene, {{judged_edges}, false}));
   return StateMeasures(std::move(scene), tolerance_mm, std::move(*session), std::move(*path));
 }
 
@@ -191,4 +191,4 @@ std::optional<MeasuredState> StateMeasures::of(const State& found, bool life, co
   return one;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

@@ -8,9 +8,9 @@
 #include "engine/record/frame.h"
 #include "engine/record/shape_symmetry.h"
 #include "engine/record/states.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// The symmetries of a mesh that its shell has: none of those that would exchange rods of different
 /// kinds, or turn over or move loads and rods that are curved at rest.
@@ -39,21 +39,21 @@ class StateMeasures {
   /// have it, have it and it is not stable, or its rods are beyond the strain allowed.
   std::optional<MeasuredState> of(const State& rest, bool life, const Watch& watch);
 
-  const Session& session() const { return session_; }
+  const Simulation& session() const { return session_; }
   /// Of the finest mesh, and so of its joints.
   const std::vector<MeshSymmetry>& symmetries() const { return fine_; }
 
  private:
-  StateMeasures(std::shared_ptr<const Scene> scene, double tolerance_mm, Session session,
-                Session path);
+  StateMeasures(std::shared_ptr<const Scene> scene, double tolerance_mm, Simulation session,
+                Simulation path);
   State upright(const State& rest) const;
   void put_life(const State& rest, record::StateRow& row, const Watch& watch);
   double eigenvalue(const Watch& watch);
 
   std::shared_ptr<const Scene> scene_;
   double tolerance_mm_;
-  Session session_, path_;  // on all meshes, and on the coarsest alone
+  Simulation session_, path_;  // on all meshes, and on the coarsest alone
   std::vector<MeshSymmetry> coarse_, fine_;
 };
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

@@ -12,7 +12,7 @@
 #include "engine/simulate/indentation.h"
 #include "engine/study/state_measures.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 using preset::SearchMode;
@@ -64,10 +64,10 @@ Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>
     if (jitter.mode == SearchMode::random) continue;
     auto course = follow_actuation(scene, judged_plan, level < 1, level, watch);
     if (watch.cancelled()) return stopped();
-    if (course && scene->from_net) course->session.go(forms.back().t, watch);
-    const bool there = course && course->session.shell().state().t == forms.back().t;
+    if (course && scene->from_net) course->simulation.go(forms.back().t, watch);
+    const bool there = course && course->simulation.shell().state().t == forms.back().t;
     if (there)
-      forms.back().state = course->session.shell().state().levels[0];
+      forms.back().state = course->simulation.shell().state().levels[0];
     else
       forms.pop_back();
     if (!course) last = tl::unexpected<Error>(course.error());
@@ -80,7 +80,7 @@ Result<std::vector<StartForm>> forms_to_shake(const std::shared_ptr<const Scene>
 StateSearcher::StateSearcher(std::shared_ptr<const Scene> scene,
                              const preset::SearchSettings& jitter,
                              const std::vector<StartForm>& forms, MultilevelRelaxation cascade,
-                             Session session)
+                             Simulation session)
     : scene_(std::move(scene)),
       jitter_(jitter),
       forms_(&forms),
@@ -100,7 +100,7 @@ Result<StateSearcher> StateSearcher::make(std::shared_ptr<const Scene> scene,
                                           const std::vector<StartForm>& forms) {
   TRY(cascade, MultilevelRelaxation::make(scene->footprint, scene->rods, scene->solved_model(),
                                           scene->motion, scene->flat, judged_edges));
-  TRY(session, Session::open(scene, judged_plan));
+  TRY(session, Simulation::open(scene, judged_plan));
   return StateSearcher(std::move(scene), jitter, forms, std::move(*cascade), std::move(*session));
 }
 
@@ -206,4 +206,4 @@ Result<State> StateSearcher::poke_start(const State& from, int k, const Watch& w
   return push_start({1, from}, random, watch);
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

@@ -9,10 +9,10 @@
 
 #include "engine/preset/preset.h"
 #include "engine/record/shape_symmetry.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 #include "engine/solve/multilevel_relaxation.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// Edges a segment of the mesh that trials end on and that tells states apart.
 inline constexpr int judged_edges = 4;
@@ -58,7 +58,8 @@ class StateSearcher {
 
  private:
   StateSearcher(std::shared_ptr<const Scene> scene, const preset::SearchSettings& jitter,
-                const std::vector<StartForm>& forms, MultilevelRelaxation cascade, Session session);
+                const std::vector<StartForm>& forms, MultilevelRelaxation cascade,
+                Simulation session);
   Result<State> random_start(const StartForm& form, std::mt19937& random, const Watch& watch);
   Result<State> pull_start(const StartForm& form, std::mt19937& random, const Watch& watch);
   Result<State> push_start(const StartForm& form, std::mt19937& random, const Watch& watch);
@@ -74,7 +75,7 @@ class StateSearcher {
   Eigen::VectorXd joint_length_;  // of rod that each joint stands for, mm
   std::vector<int> pushable_;     // joints that no support holds
   MultilevelRelaxation cascade_;
-  Session session_;
+  Simulation session_;
 };
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

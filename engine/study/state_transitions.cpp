@@ -13,7 +13,7 @@
 #include "engine/study/state_library.h"
 #include "engine/study/state_measures.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 constexpr int pokes = 8, ways = pokes + 1;  // of a state; the first lets the boundary out
@@ -244,4 +244,4 @@ Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
   return lowest_each(std::move(all));
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

@@ -6,7 +6,7 @@
 
 #include "engine/study/state_library.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// Lets out the boundary of the first `jitter.transitions` states of a library until each ends, and
 /// draws it in again; and pokes each eight times. What goes to a state that is not in the library
@@ -30,4 +30,4 @@ Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
                                                       int threads, double begun, double end,
                                                       Watch& watch);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

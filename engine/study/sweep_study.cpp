@@ -10,11 +10,11 @@
 #include "engine/preset/preset_file.h"
 #include "engine/record/phase_diagram.h"
 #include "engine/record/summary.h"
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "engine/study/state_library.h"
 #include "engine/study/stopwatch.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 namespace {
 
 constexpr int samples = 41;  // of a path from the flat
@@ -110,7 +110,7 @@ std::vector<std::string> figure_names(bool search) {
   return names;
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate
 
 namespace gridshell::study {
 namespace {
@@ -124,7 +124,7 @@ constexpr double no_limit_s = 1e9;
 Result<PointResult> result_of(const preset::SweepGrid& grid, std::size_t point, Watch& watch) {
   PointResult result;
   result.point = point;
-  auto figures = experiment::figures_of(grid.at(point).preset, watch);
+  auto figures = simulate::figures_of(grid.at(point).preset, watch);
   if (figures) {
     result.figures = std::move(*figures);
     return result;

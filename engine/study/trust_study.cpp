@@ -7,7 +7,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/scene/scene.h"
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "engine/study/stopwatch.h"
 
 namespace gridshell::study {
@@ -192,8 +192,8 @@ Preset random_preset(SceneKind kind, std::mt19937& random) {
 
 namespace {
 
-using experiment::ExperimentResult;
 using record::TrustClass;
+using simulate::ExperimentResult;
 
 constexpr int frames = 5, fine_frames = 9, other_frames = 8;
 
@@ -229,8 +229,8 @@ Trial try_scene(preset::Preset preset, int count, bool fine, const TrustOptions&
     scene->tolerance /= 8;
   }
   record::MemorySink sink;
-  auto summary = experiment::run(preset, std::make_shared<const Scene>(std::move(*scene)), false,
-                                 sink, limit.watch());
+  auto summary = simulate::run(preset, std::make_shared<const Scene>(std::move(*scene)), false,
+                               sink, limit.watch());
   trial.too_slow = limit.ran_out();
   if (!summary) {
     trial.exit = summary.error().fault == Fault::bad_input ? 2 : 1;

@@ -3,7 +3,7 @@
 
 #include "app/window/viewer_state.h"
 #include "app/window/worker_threads.h"
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "tests/app/window/edited_shell.h"
 
 using namespace gridshell;
@@ -15,7 +15,7 @@ namespace {
 record::Frame end_of_run(const preset::Preset& preset) {
   REQUIRE(check_preset(preset));
   Watch watch;
-  auto run = experiment::run(preset, false, watch);
+  auto run = simulate::run(preset, false, watch);
   REQUIRE(run);
   return run->trajectory.frames.back();
 }
@@ -186,7 +186,7 @@ TEST_CASE("what was done is kept as steps, and a run of them ends in the same st
   preset.actuation.radius_mm = shell.view().radius_end_mm;
   REQUIRE(check_preset(preset));
   Watch watch;
-  const auto run = experiment::run(preset, false, watch);
+  const auto run = simulate::run(preset, false, watch);
   REQUIRE(run);
   // a jitter may come past other states
   const record::Limit limit = run->summary.limit;

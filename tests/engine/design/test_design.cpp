@@ -4,7 +4,7 @@
 
 #include "engine/design/design.h"
 #include "engine/scene/net_design.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
 using namespace gridshell;
 using preset::Vary;
@@ -31,7 +31,7 @@ Moved moved_shell(const preset::Preset& preset, int edges) {
   auto scene = scene_of(preset);
   REQUIRE(scene.has_value());
   Moved moved{std::make_shared<const Scene>(std::move(*scene)), nullptr};
-  auto session = Session::open(moved.scene, plan_of_mesh(edges));
+  auto session = Simulation::open(moved.scene, plan_of_mesh(edges));
   REQUIRE(session.has_value());
   REQUIRE(session->begin_on_net(unwatched).has_value());
   const NestedShell& shell = session->shell();

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
 using namespace gridshell;
 
@@ -33,7 +33,7 @@ Result<LiveDesignResult> live(const preset::Preset& preset, const Watch& watch, 
   auto made = scene_of(preset);
   REQUIRE(made.has_value());
   const auto scene = std::make_shared<const Scene>(std::move(*made));
-  auto session = Session::open(scene, plan_of_mesh(8));
+  auto session = Simulation::open(scene, plan_of_mesh(8));
   REQUIRE(session.has_value());
   REQUIRE(session->begin_on_net(unwatched).has_value());
   const NestedShell& shell = session->shell();
@@ -93,7 +93,7 @@ TEST_CASE("a move that is stopped leaves the shell where it was") {
   auto made = scene_of(low_cap());
   REQUIRE(made.has_value());
   const auto scene = std::make_shared<const Scene>(std::move(*made));
-  auto session = Session::open(scene, plan_of_mesh(8));
+  auto session = Simulation::open(scene, plan_of_mesh(8));
   REQUIRE(session->begin_on_net(unwatched).has_value());
   const NestedShell& nested = session->shell();
   auto shell =

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/preset/preset_file.h"
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -73,7 +73,7 @@ second = "middle.west"
   auto open = two_quarters;
   open.replace(open.find("second = \"b.west\""), 17, "second = \"middle.west\"");
   Watch watch;
-  auto refused = experiment::run(read(open + text.substr(0, text.find("[[join]]"))), true, watch);
+  auto refused = simulate::run(read(open + text.substr(0, text.find("[[join]]"))), true, watch);
   REQUIRE_FALSE(refused);
   CHECK_THAT(refused.error().message, Catch::Contains("is cut and not joined"));
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/scene/scene.h"
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;

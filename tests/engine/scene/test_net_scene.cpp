@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/scene/scene.h"
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -60,8 +60,8 @@ TEST_CASE("the hemisphere on the axes, converged: deviation, total curvature and
 
 TEST_CASE("from flat and from the net a cap comes to the same state") {
   for (const auto placement : {preset::Placement::on_axis, preset::Placement::half}) {
-    const experiment::ExperimentResult net = run_stills(cap(0.5, placement, preset::Start::net));
-    const experiment::ExperimentResult flat = run_stills(cap(0.5, placement, preset::Start::flat));
+    const simulate::ExperimentResult net = run_stills(cap(0.5, placement, preset::Start::net));
+    const simulate::ExperimentResult flat = run_stills(cap(0.5, placement, preset::Start::flat));
     const auto& a = net.trajectory.frames.back().nodes;
     const auto& b = flat.trajectory.frames.back().nodes;
     REQUIRE(a.cols() == b.cols());
@@ -73,9 +73,9 @@ TEST_CASE("from flat and from the net a cap comes to the same state") {
 TEST_CASE("from flat, through snaps, and from the net a saddle comes to the same state") {
   preset::Preset p = surface(preset::NetKind::spool, 120, 180);
   p.net.waist = 0.6;
-  const experiment::ExperimentResult net = run_stills(p);
+  const simulate::ExperimentResult net = run_stills(p);
   p.actuation.start = preset::Start::flat;
-  const experiment::ExperimentResult flat = run_stills(p);
+  const simulate::ExperimentResult flat = run_stills(p);
   CHECK(net.summary.limit == record::Limit::none);
   CHECK(flat.summary.limit == record::Limit::snap);
   CHECK(flat.summary.stable);
@@ -91,7 +91,7 @@ TEST_CASE("Beltrami's pseudosphere: stable, its cells negative on the whole") {
   preset::Preset p = surface(preset::NetKind::beltrami, 120, 70);
   p.net.waist = 0.6;
   p.net.crossing_deg = 60;
-  const experiment::ExperimentResult shell = run_stills(p);
+  const simulate::ExperimentResult shell = run_stills(p);
   CHECK(shell.summary.stable);
   CHECK(shell.summary.limit == record::Limit::none);
   CHECK(shell.summary.total_K < 0);
@@ -115,13 +115,13 @@ TEST_CASE("a cylinder whose ends are held along the helices is its net, to secon
 TEST_CASE("a saddle's cells are negative over most of the arch, a cylinder's near zero") {
   preset::Preset p = surface(preset::NetKind::spool, 120, 180);
   p.net.waist = 0.6;
-  const experiment::ExperimentResult saddle = run_stills(p);
-  const auto K = [](const experiment::ExperimentResult& outcome) -> Eigen::ArrayXd {
+  const simulate::ExperimentResult saddle = run_stills(p);
+  const auto K = [](const simulate::ExperimentResult& outcome) -> Eigen::ArrayXd {
     return outcome.trajectory.frames.back().cell_K.array();
   };
   CHECK(saddle.summary.stable);
   CHECK((K(saddle) < 0).count() > 0.6 * double(K(saddle).size()));
-  const experiment::ExperimentResult cylinder =
+  const simulate::ExperimentResult cylinder =
       run_stills(surface(preset::NetKind::cylinder, 80, 200));
   CHECK(std::abs(K(cylinder).mean()) < 0.2 * std::abs(K(saddle).mean()));
   CHECK((K(run_stills(cap(0, preset::Placement::on_axis, preset::Start::net))) > 0).all());

@@ -7,7 +7,7 @@
 #include "engine/preset/preset_file.h"
 #include "engine/record/fabrication.h"
 #include "engine/simulate/fabrication_plan.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -48,11 +48,11 @@ preset::NetworkData as_file(const Scene& scene, double turn, double scale) {
   return file;
 }
 
-Session open(const preset::Preset& p) {
+Simulation open(const preset::Preset& p) {
   auto scene = scene_of(p);
   if (!scene) FAIL(scene.error().message);
   const LevelPlan plan = plan_of_mesh(p.accuracy.edges_per_segment);
-  return Session::open(std::make_shared<const Scene>(std::move(*scene)), plan).value();
+  return Simulation::open(std::make_shared<const Scene>(std::move(*scene)), plan).value();
 }
 
 /// For every node of `to` the node of `from` at its place of the flat, turned.
@@ -80,13 +80,13 @@ preset::Preset shipped(const std::string& name) {
 
 TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[standard]") {
   const Watch watch;
-  Session circle = open(fig1());
+  Simulation circle = open(fig1());
   for (const double turn : {0.0, 0.3}) {
     preset::Preset p = fig1();
     p.footprint = {};
     p.footprint.kind = preset::FootprintKind::network;
     p.footprint.file = as_file(circle.scene(), turn, 0.75);
-    Session network = open(p);
+    Simulation network = open(p);
     const Footprint& net = network.scene().footprint;
     CHECK(net.joints.size() == circle.scene().footprint.joints.size());
     // turned it is no grid any more, and nothing but its rods counts
@@ -104,7 +104,7 @@ TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[st
       const State& coarse = circle.shell().state().levels[0];
       Eigen::Matrix3Xd off = coarse.x;
       off.row(2) *= 1.01;
-      const auto begun = [&](Session& session, const Eigen::Matrix3Xd& x) {
+      const auto begun = [&](Simulation& session, const Eigen::Matrix3Xd& x) {
         const Model& model = session.shell().model(0);
         State state = start_state(model, x);
         session.shell().motion(0).impose(session.shell().system(0), 1, state);
@@ -140,7 +140,7 @@ TEST_CASE("the shipped networks come to certified rest", "[standard]") {
 TEST_CASE("a footprint drawn as DXF reads back as the same network") {
   preset::Preset p = shipped("network_triaxial");
   const auto scene = scene_of(p);
-  const auto work = experiment::fabrication_plan_of(p);
+  const auto work = simulate::fabrication_plan_of(p);
   REQUIRE(scene);
   REQUIRE(work);
   const auto read =

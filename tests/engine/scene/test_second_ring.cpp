@@ -4,7 +4,7 @@
 
 #include "engine/preset/preset_file.h"
 #include "engine/scene/rod_ends.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
 using namespace gridshell;
 
@@ -28,7 +28,7 @@ std::shared_ptr<const Scene> scene_with(const preset::Preset& preset) {
 }
 
 /// largest and mean distance of the joints from the sphere about the origin, per cent
-Eigen::Vector2d off_sphere(const Session& session) {
+Eigen::Vector2d off_sphere(const Simulation& session) {
   const int joints = session.shell().finest().joints;
   const Eigen::ArrayXd off =
       (session.nodes().leftCols(joints).colwise().norm().array() - 120).abs().transpose();
@@ -36,7 +36,7 @@ Eigen::Vector2d off_sphere(const Session& session) {
 }
 
 Eigen::Vector2d at_rest(double tail_mm, const LevelPlan& plan) {
-  auto session = Session::open(scene_with(cap(0, tail_mm)), plan);
+  auto session = Simulation::open(scene_with(cap(0, tail_mm)), plan);
   REQUIRE(session.has_value());
   const auto begun = session->begin_on_net(unwatched);
   REQUIRE(begun.has_value());
@@ -106,11 +106,11 @@ TEST_CASE("a cap with a second ring comes to one state from the flat and from th
           "[standard]") {
   auto preset = cap(0.6, 10);
   const LevelPlan plan = plan_of_mesh(8);
-  auto from_net = Session::open(scene_with(preset), plan);
+  auto from_net = Simulation::open(scene_with(preset), plan);
   REQUIRE(from_net.has_value());
   REQUIRE(from_net->begin_on_net(unwatched)->end == Outcome::reached);
   preset.actuation.start = preset::Start::flat;
-  auto from_flat = Session::open(scene_with(preset), plan);
+  auto from_flat = Simulation::open(scene_with(preset), plan);
   REQUIRE(from_flat.has_value());
   REQUIRE(from_flat->begin_buckled(0.01, unwatched)->end == Outcome::reached);
   REQUIRE(from_flat->go(1, unwatched).end == Outcome::reached);
@@ -121,12 +121,12 @@ TEST_CASE("a second ring of rods that may twist gives the same shell", "[standar
   auto twisted = cap(0.6, 8);
   twisted.rod.shear_GPa = 31;
   twisted.accuracy.model = RodModel::twist;
-  auto session = Session::open(scene_with(twisted), plan_of_mesh(4));
+  auto session = Simulation::open(scene_with(twisted), plan_of_mesh(4));
   REQUIRE(session.has_value());
   const auto begun = session->begin_on_net(unwatched);
   REQUIRE(begun.has_value());
   CHECK(begun->end == Outcome::reached);
-  auto plain = Session::open(scene_with(cap(0.6, 8)), plan_of_mesh(4));
+  auto plain = Simulation::open(scene_with(cap(0.6, 8)), plan_of_mesh(4));
   REQUIRE(plain->begin_on_net(unwatched)->end == Outcome::reached);
   CHECK((session->nodes() - plain->nodes()).colwise().norm().maxCoeff() < 1e-5);
 }

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "engine/simulate/actuation.h"
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "engine/study/trust_study.h"
 
 namespace gridshell {
@@ -45,7 +45,7 @@ inline EstimateTrial try_estimate(const preset::Preset& preset) {
                   preset.footprint.radius_mm,
                   preset.actuation.radius_mm / preset.footprint.radius_mm, trial.tolerance);
   Watch watch;
-  const auto run = [&](const preset::Preset& p) { return experiment::run(p, true, watch); };
+  const auto run = [&](const preset::Preset& p) { return simulate::run(p, true, watch); };
   const auto asked = run(preset);
   if (!asked) {
     trial.refused = asked.error().message;
@@ -61,8 +61,8 @@ inline EstimateTrial try_estimate(const preset::Preset& preset) {
   LevelPlan plan{{4}, true};
   while (plan.edges_per_segment.back() < std::min(128, 4 * asked->summary.edges_per_segment))
     plan.edges_per_segment.push_back(2 * plan.edges_per_segment.back());
-  const auto finer = experiment::follow_actuation(std::make_shared<const Scene>(std::move(exact)),
-                                                  plan, false, 1, watch);
+  const auto finer = simulate::follow_actuation(std::make_shared<const Scene>(std::move(exact)),
+                                                plan, false, 1, watch);
   if (!finer || finer->limit != asked->summary.limit) {
     trial.refused = "reference: " + (finer ? finer->limit_reason : finer.error().message);
     return trial;
@@ -71,7 +71,7 @@ inline EstimateTrial try_estimate(const preset::Preset& preset) {
   double worst = 0;
   for (std::size_t k = 0; k < a.layout.joints.size(); ++k)
     worst = std::max(worst, (a.frames.back().nodes.col(a.layout.joints[k].node) -
-                             finer->session.nodes().col(Eigen::Index(k)))
+                             finer->simulation.nodes().col(Eigen::Index(k)))
                                 .norm());
   trial.truth = worst / preset.footprint.radius_mm;
   // which state a snap leads to is told, and judged by the chart of trust

@@ -3,20 +3,20 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 
 namespace gridshell {
 
 /// With the frames of a movie.
-inline experiment::ExperimentResult run(const preset::Preset& preset, bool stills = false) {
+inline simulate::ExperimentResult run(const preset::Preset& preset, bool stills = false) {
   Watch watch;
-  auto outcome = experiment::run(preset, stills, watch);
+  auto outcome = simulate::run(preset, stills, watch);
   if (!outcome) FAIL(outcome.error().message);
   return std::move(*outcome);
 }
 
 /// With the frames of a figure.
-inline experiment::ExperimentResult run_stills(const preset::Preset& preset) {
+inline simulate::ExperimentResult run_stills(const preset::Preset& preset) {
   return run(preset, true);
 }
 

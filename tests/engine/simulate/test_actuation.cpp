@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 #include "tests/small_shell.h"
 
@@ -61,7 +61,7 @@ double corner_on_diagonal(const record::Trajectory& trajectory, double s) {
 
 TEST_CASE("actuation of Fig. 1 ends in the state with two diagonal mirrors, at its energy",
           "[standard]") {
-  const experiment::ExperimentResult outcome = run(fig1(2, 1e-6));
+  const simulate::ExperimentResult outcome = run(fig1(2, 1e-6));
   const record::Summary& s = outcome.summary;
   CHECK(s.stable);
   CHECK(s.negative_pivots == 0);
@@ -84,7 +84,7 @@ TEST_CASE("the seed names the diagonal whose corner joints lie lower, and up or 
       p.actuation.seed = down ? preset::Seed::down : preset::Seed::up;
       p.actuation.seed_diagonal =
           other ? preset::SeedDiagonal::y_eq_minus_x : preset::SeedDiagonal::y_eq_x;
-      const experiment::ExperimentResult outcome = run(p);
+      const simulate::ExperimentResult outcome = run(p);
       const double on_seed = corner_on_diagonal(outcome.trajectory, other ? -1 : 1);
       const double across = corner_on_diagonal(outcome.trajectory, other ? 1 : -1);
       CHECK(on_seed < across);
@@ -94,7 +94,7 @@ TEST_CASE("the seed names the diagonal whose corner joints lie lower, and up or 
 }
 
 TEST_CASE("the last frame does not depend on how many frames are asked for") {
-  const experiment::ExperimentResult few = run(fig1(2, 1e-3)), many = run(fig1(25, 1e-3));
+  const simulate::ExperimentResult few = run(fig1(2, 1e-3)), many = run(fig1(25, 1e-3));
   CHECK(few.trajectory.frames.back().nodes == many.trajectory.frames.back().nodes);
   CHECK(few.summary.energies[Term::bend] == many.summary.energies[Term::bend]);
   REQUIRE(many.trajectory.frames.size() == 25);
@@ -115,11 +115,11 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
     p.accuracy.edges_per_segment = edges;
     return run(p);
   };
-  const experiment::ExperimentResult reference = run(fig1(2, 1e-7));
+  const simulate::ExperimentResult reference = run(fig1(2, 1e-7));
   const Eigen::Matrix3Xd exact = joints_of(reference.trajectory);
   double before = 0, energy_before = 0;
   for (int edges : {4, 8, 16}) {
-    const experiment::ExperimentResult outcome = at(edges);
+    const simulate::ExperimentResult outcome = at(edges);
     const double error = (joints_of(outcome.trajectory) - exact).colwise().norm().maxCoeff();
     const double energy =
         std::abs(outcome.summary.energies[Term::bend] - reference.summary.energies[Term::bend]);
@@ -137,7 +137,7 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
     before = error;
     energy_before = energy;
   }
-  const experiment::ExperimentResult extrapolated = run(fig1(2, 1e-5));
+  const simulate::ExperimentResult extrapolated = run(fig1(2, 1e-5));
   const double error = (joints_of(extrapolated.trajectory) - exact).colwise().norm().maxCoeff();
   CHECK(error <= 1e-5 * 126);
   CHECK(error < 2 * extrapolated.summary.error_estimate_mm);
@@ -145,7 +145,7 @@ TEST_CASE("joints and energy converge at second order, extrapolated they agree w
 }
 
 TEST_CASE("the flat footprint is the first frame: at rest, stable, without curvature") {
-  const experiment::ExperimentResult outcome = run(fig1(3, 1e-3));
+  const simulate::ExperimentResult outcome = run(fig1(3, 1e-3));
   const record::Frame& flat = outcome.trajectory.frames.front();
   CHECK(flat.nodes.row(2).cwiseAbs().maxCoeff() == 0);
   CHECK(flat.residual_N < 1e-9);
@@ -154,7 +154,7 @@ TEST_CASE("the flat footprint is the first frame: at rest, stable, without curva
 }
 
 TEST_CASE("the same run twice is the same to the last bit", "[standard]") {
-  const experiment::ExperimentResult a = run(fig1(6, 1e-4)), b = run(fig1(6, 1e-4));
+  const simulate::ExperimentResult a = run(fig1(6, 1e-4)), b = run(fig1(6, 1e-4));
   for (std::size_t k = 0; k < a.trajectory.frames.size(); ++k) {
     CHECK(a.trajectory.frames[k].nodes == b.trajectory.frames[k].nodes);
     CHECK(a.trajectory.frames[k].cell_K == b.trajectory.frames[k].cell_K);
@@ -164,7 +164,7 @@ TEST_CASE("the same run twice is the same to the last bit", "[standard]") {
 TEST_CASE("a cancelled run ends as cancelled") {
   Watch watch;
   watch.cancel();
-  const auto outcome = experiment::run(fig1(6, 1e-3), false, watch);
+  const auto outcome = simulate::run(fig1(6, 1e-3), false, watch);
   REQUIRE_FALSE(outcome.has_value());
   CHECK(outcome.error().fault == Fault::cancelled);
 }
@@ -172,10 +172,10 @@ TEST_CASE("a cancelled run ends as cancelled") {
 TEST_CASE("a boundary that takes no rod out of the flat is refused before a run") {
   preset::Preset still = small_shell();
   still.actuation.radius_mm = still.footprint.radius_mm;
-  const auto plan = experiment::plan(still);
+  const auto plan = simulate::plan(still);
   REQUIRE_FALSE(plan);
   CHECK(plan.error().fault == Fault::bad_input);
   CHECK(plan.error().message ==
         "the actuated boundary does not shorten the rods: nothing would buckle");
-  CHECK(experiment::plan(small_shell()));
+  CHECK(simulate::plan(small_shell()));
 }

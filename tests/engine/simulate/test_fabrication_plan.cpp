@@ -34,7 +34,7 @@ preset::Preset cap(double second_ring_mm) {
 }
 
 FabricationPlan made(const preset::Preset& preset) {
-  auto work = experiment::fabrication_plan_of(preset);
+  auto work = simulate::fabrication_plan_of(preset);
   if (!work) FAIL(work.error().message);
   return std::move(*work);
 }

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
 using namespace gridshell;
 
@@ -23,7 +23,7 @@ Scene many_states() {
 }
 
 Energies first_energies(const std::shared_ptr<const Scene>& scene, int edges) {
-  Session session = Session::open(scene, {.edges_per_segment = {edges}}).value();
+  Simulation session = Simulation::open(scene, {.edges_per_segment = {edges}}).value();
   const Watch watch;
   const Report report = session.begin_buckled(0.02, watch).value();
   REQUIRE(report.end == Outcome::reached);

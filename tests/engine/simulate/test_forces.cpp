@@ -39,19 +39,19 @@ double bending_of(const record::Trajectory& run, const record::Frame& frame, dou
 
 TEST_CASE("reactions carry the loads, and nothing where there are none") {
   preset::Preset p = circle();
-  const experiment::ExperimentResult unloaded = run(p);
+  const simulate::ExperimentResult unloaded = run(p);
   const record::Frame& free = unloaded.trajectory.frames.back();
   REQUIRE(free.reactions_N.cols() == Eigen::Index(unloaded.trajectory.layout.supports.size()));
   CHECK(sum_of(free).norm() < 1e-9);
   CHECK(free.reactions_N.colwise().norm().maxCoeff() > 1e-3);
   p.loads.points = {{0, 0, 0, 0.01, -0.02}, {-1, 0, 0.003, 0, 0}};
-  const experiment::ExperimentResult loaded = run(p);
+  const simulate::ExperimentResult loaded = run(p);
   const Eigen::Vector3d loads(0.003, 0.01, -0.02);
   CHECK((sum_of(loaded.trajectory.frames.back()) + loads).norm() < 1e-9);
 }
 
 TEST_CASE("curvature gives the bending energy, stretch the axial force, as one mesh has them") {
-  const experiment::ExperimentResult outcome = run(circle());
+  const simulate::ExperimentResult outcome = run(circle());
   const record::Frame& frame = outcome.trajectory.frames.back();
   const double area = M_PI * 0.127 * 0.127, EA = 83e3 * area, EI = 83e3 * area * 0.127 * 0.127 / 4;
   CHECK(bending_of(outcome.trajectory, frame, EI) ==
@@ -82,7 +82,7 @@ TEST_CASE("bending over length adds up to the bending energy, of any section and
     p.rod.shear_GPa = 31;
     p.ends.kind = preset::EndKind::clamped;
   }
-  const experiment::ExperimentResult outcome = run(p);
+  const simulate::ExperimentResult outcome = run(p);
   const record::Frame& frame = outcome.trajectory.frames.back();
   REQUIRE(frame.energies[Term::bend] > 0.01);
   double energy = 0;
@@ -102,7 +102,7 @@ TEST_CASE("bending over length adds up to the bending energy, of any section and
 }
 
 TEST_CASE("at a pinned end the reaction along the rod is its axial force") {
-  const experiment::ExperimentResult outcome = run(circle());
+  const simulate::ExperimentResult outcome = run(circle());
   const record::Layout& layout = outcome.trajectory.layout;
   const record::Frame& frame = outcome.trajectory.frames.back();
   Eigen::Index edge = 0;
@@ -122,7 +122,7 @@ TEST_CASE("the reaction of a pushed joint is the force of its push on one mesh")
   p.indentation.depth = 0.05;
   p.movie.frames = 2;
   p.accuracy.edges_per_segment = 4;
-  const experiment::ExperimentResult outcome = run(p);
+  const simulate::ExperimentResult outcome = run(p);
   const record::Layout& layout = outcome.trajectory.layout;
   const record::Frame& frame = outcome.trajectory.frames.back();
   REQUIRE(layout.loaded_joints.size() == 1);
@@ -139,7 +139,7 @@ TEST_CASE("a net and what is in motion know no forces") {
   p.actuation.start = preset::Start::net;
   p.accuracy.model = RodModel::net;
   p.accuracy.tolerance = 0.05;
-  const experiment::ExperimentResult outcome = run_stills(p);
+  const simulate::ExperimentResult outcome = run_stills(p);
   CHECK(outcome.trajectory.frames.back().axial_force_N.size() == 0);
   CHECK(outcome.trajectory.frames.back().bending_mJ_per_m.size() == 0);
   CHECK(outcome.trajectory.frames.back().reactions_N.size() == 0);

@@ -5,7 +5,7 @@
 #include "engine/footprint/symmetry.h"
 #include "engine/record/gauss_curvature.h"
 #include "engine/scene/scene.h"
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -48,7 +48,7 @@ double energy_of(const record::Frame& frame) {
 
 TEST_CASE("three point loads: certified frames, depth as asked, the force does the work") {
   for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
-    const experiment::ExperimentResult outcome =
+    const simulate::ExperimentResult outcome =
         run(hemisphere(which, 120, preset::Placement::on_axis));
     const auto& frames = outcome.trajectory.frames;
     REQUIRE(frames.size() == 11);
@@ -73,7 +73,7 @@ TEST_CASE("total K equals the sum over the corner joints in every frame") {
   for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
     for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
       const preset::Preset p = hemisphere(which, 120, placement, 0.1, 4);
-      const experiment::ExperimentResult outcome = run(p);
+      const simulate::ExperimentResult outcome = run(p);
       const Footprint footprint = scene_of(p)->footprint;
       const RodMesh mesh = mesh_rods(footprint, outcome.summary.edges_per_segment);
       for (const record::Frame& frame : outcome.trajectory.frames)
@@ -87,7 +87,7 @@ TEST_CASE("the pushed joint goes straight down its normal, held, it does not go 
   for (const auto lateral : {preset::Lateral::free, preset::Lateral::held}) {
     preset::Preset p = hemisphere(Case::oblique_inward, 120, preset::Placement::on_axis, 0.1, 3);
     p.indentation.lateral = lateral;
-    const experiment::ExperimentResult outcome = run(p);
+    const simulate::ExperimentResult outcome = run(p);
     const Eigen::Matrix3Xd before = joints_of(outcome.trajectory, 0),
                            after = joints_of(outcome.trajectory, 2);
     // the joint nearest to latitude and longitude of 45 degrees on the net
@@ -109,7 +109,7 @@ TEST_CASE("the pushed joint goes straight down its normal, held, it does not go 
 TEST_CASE("pole cases keep four mirror planes, at half placement one diagonal") {
   const double half = std::sqrt(0.5);
   for (const Case which : {Case::pole_inward, Case::pole_outward}) {
-    const experiment::ExperimentResult outcome =
+    const simulate::ExperimentResult outcome =
         run(hemisphere(which, 120, preset::Placement::on_axis));
     const Eigen::Matrix3Xd joints = joints_of(outcome.trajectory, 10);
     for (const Eigen::Vector2d& normal :
@@ -117,7 +117,7 @@ TEST_CASE("pole cases keep four mirror planes, at half placement one diagonal") 
           Eigen::Vector2d(half, -half)})
       CHECK(mirror_defect(joints, normal) < 1e-8 * 120);
   }
-  const experiment::ExperimentResult outcome =
+  const simulate::ExperimentResult outcome =
       run(hemisphere(Case::pole_inward, 120, preset::Placement::half));
   const Eigen::Matrix3Xd joints = joints_of(outcome.trajectory, 10);
   CHECK(mirror_defect(joints, {half, -half}) < 1e-8 * 120);
@@ -132,7 +132,7 @@ TEST_CASE("force, total K and reach converge at second order over three meshes",
         for (int k = 0; k < 4; ++k) {
           preset::Preset p = hemisphere(which, radius, placement);
           p.accuracy.edges_per_segment = 4 << k;
-          const experiment::ExperimentResult outcome = run(p);
+          const simulate::ExperimentResult outcome = run(p);
           const record::Frame& last = outcome.trajectory.frames.back();
           REQUIRE(outcome.trajectory.frames.size() == 11);
           force[k] = last.force_N, total[k] = last.total_K, most[k] = last.cell_K.maxCoeff();
@@ -149,11 +149,11 @@ TEST_CASE("force, total K and reach converge at second order over three meshes",
 
 TEST_CASE("outward at the pole the rods run into their length: locking, certified up to there",
           "[standard]") {
-  const experiment::ExperimentResult few =
+  const simulate::ExperimentResult few =
       run(hemisphere(Case::pole_outward, 120, preset::Placement::on_axis, 0.4, 3));
-  const experiment::ExperimentResult many =
+  const simulate::ExperimentResult many =
       run(hemisphere(Case::pole_outward, 120, preset::Placement::on_axis, 0.4, 21));
-  for (const experiment::ExperimentResult* outcome : {&few, &many}) {
+  for (const simulate::ExperimentResult* outcome : {&few, &many}) {
     CHECK(outcome->summary.limit == record::Limit::locking);
     const record::Frame& last = outcome->trajectory.frames.back();
     CHECK(last.event == "locking");
@@ -170,7 +170,7 @@ TEST_CASE("outward at the pole the rods run into their length: locking, certifie
 TEST_CASE("deep pushes end certified or at a named limit", "[standard]") {
   for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
     for (const Case which : {Case::pole_inward, Case::oblique_inward}) {
-      const experiment::ExperimentResult outcome = run(hemisphere(which, 120, placement, 0.6, 31));
+      const simulate::ExperimentResult outcome = run(hemisphere(which, 120, placement, 0.6, 31));
       for (const record::Frame& frame : outcome.trajectory.frames) {
         // between a loss of stability and the next rest a frame says that it is not stable
         CHECK((frame.negative_pivots == 0 || frame.event.starts_with("unstable")));
@@ -184,7 +184,7 @@ TEST_CASE("deep pushes end certified or at a named limit", "[standard]") {
 TEST_CASE("unloading follows the way back, after a snap on another branch", "[standard]") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, preset::Placement::on_axis, 0.1, 9);
   p.indentation.unload = true;
-  const experiment::ExperimentResult there_and_back = run(p);
+  const simulate::ExperimentResult there_and_back = run(p);
   const auto& frames = there_and_back.trajectory.frames;
   REQUIRE(frames.size() == 9);
   for (int k = 0; k < 4; ++k)
@@ -196,7 +196,7 @@ TEST_CASE("unloading follows the way back, after a snap on another branch", "[st
   fig1.indentation.depth = 0.5;
   fig1.indentation.unload = true;
   fig1.movie.frames = 21;
-  const experiment::ExperimentResult snapped = run(fig1);
+  const simulate::ExperimentResult snapped = run(fig1);
   CHECK(snapped.summary.limit == record::Limit::snap);
   CHECK_THAT(snapped.summary.limit_reason,
              Catch::Contains("on the leading mesh its path turns back at 33.4"));
@@ -220,7 +220,7 @@ TEST_CASE("a joint that is not there is refused") {
   preset::Preset p = hemisphere(Case::pole_inward, 120, preset::Placement::on_axis);
   p.indentation.joint = {40, 0};
   Watch watch;
-  const auto outcome = experiment::run(p, false, watch);
+  const auto outcome = simulate::run(p, false, watch);
   REQUIRE_FALSE(outcome.has_value());
   CHECK(outcome.error().fault == Fault::bad_input);
   CHECK_THAT(outcome.error().message, Catch::Contains("no such joint"));
@@ -231,10 +231,10 @@ TEST_CASE("pushes on the twist rung are those of the bend rung, to a millionth o
     preset::Preset p = hemisphere(which, 120, preset::Placement::on_axis, 0.05, 3);
     p.accuracy.edges_per_segment = 4;
     p.accuracy.tolerance = 1e-6;
-    const experiment::ExperimentResult bend = run(p);
+    const simulate::ExperimentResult bend = run(p);
     p.accuracy.model = RodModel::twist;
     p.rod.shear_GPa = 31;
-    const experiment::ExperimentResult twist = run(p);
+    const simulate::ExperimentResult twist = run(p);
     REQUIRE(twist.trajectory.frames.size() == bend.trajectory.frames.size());
     const record::Frame &a = bend.trajectory.frames.back(), &b = twist.trajectory.frames.back();
     CHECK(b.force_N == Approx(a.force_N).epsilon(1e-5));

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -22,7 +22,7 @@ preset::Preset circle(int rods, int edges) {
   return p;
 }
 
-double distance(const experiment::ExperimentResult& a, const experiment::ExperimentResult& b) {
+double distance(const simulate::ExperimentResult& a, const simulate::ExperimentResult& b) {
   const Eigen::Index joints = a.summary.joints;
   return (a.trajectory.frames.back().nodes.leftCols(joints) -
           b.trajectory.frames.back().nodes.leftCols(joints))
@@ -36,9 +36,9 @@ double distance(const experiment::ExperimentResult& a, const experiment::Experim
 TEST_CASE("a circle on the twist rung ends where it does on the bend rung, without twist") {
   preset::Preset p = circle(4, 4);
   p.accuracy.tolerance = 1e-6;
-  const experiment::ExperimentResult bend = run(p);
+  const simulate::ExperimentResult bend = run(p);
   p.accuracy.model = RodModel::twist;
-  const experiment::ExperimentResult twist = run(p);
+  const simulate::ExperimentResult twist = run(p);
   CHECK(bend.summary.model == "bend");
   CHECK(twist.summary.model == "twist");
   CHECK(twist.summary.stable);
@@ -53,14 +53,14 @@ TEST_CASE("a circle on the twist rung ends where it does on the bend rung, witho
 TEST_CASE("loads on the bend rung are those of the twist rung, and lower the shell") {
   preset::Preset p = circle(4, 4);
   p.accuracy.tolerance = 1e-6;
-  const experiment::ExperimentResult unloaded = run(p);
+  const simulate::ExperimentResult unloaded = run(p);
   p.rod.density_kg_m3 = 6450;
   p.loads.gravity_m_s2 = 200;
   p.loads.points = {{0, 0, 0, 0.01, -0.02}};
-  const experiment::ExperimentResult bend = run(p);
+  const simulate::ExperimentResult bend = run(p);
   CHECK(bend.summary.model == "bend");
   CHECK(bend.summary.stable);
-  const auto lowered = [](const experiment::ExperimentResult& outcome) {
+  const auto lowered = [](const simulate::ExperimentResult& outcome) {
     return outcome.trajectory.frames.back().nodes.row(2).leftCols(outcome.summary.joints).sum();
   };
   CHECK(lowered(bend) < lowered(unloaded) - 0.5);
@@ -69,7 +69,7 @@ TEST_CASE("loads on the bend rung are those of the twist rung, and lower the she
   CHECK(distance(bend, run(p)) < 1e-6 * p.footprint.radius_mm);
   p.loads.points = {{7, 0, 0, 0, 1}};
   Watch watch;
-  const auto refused = experiment::run(p, false, watch);
+  const auto refused = simulate::run(p, false, watch);
   REQUIRE_FALSE(refused);
   CHECK(refused.error().fault == Fault::bad_input);
   CHECK(refused.error().message == "[loads] points: the footprint has no joint [7, 0]");
@@ -78,12 +78,12 @@ TEST_CASE("loads on the bend rung are those of the twist rung, and lower the she
 TEST_CASE("spring joints from a preset come to the shared ones as they stiffen") {
   preset::Preset p = circle(4, 4);
   p.accuracy.tolerance = 1e-5;
-  const experiment::ExperimentResult shared = run(p);
+  const simulate::ExperimentResult shared = run(p);
   p.joints.kind = preset::JointKind::spring;
   double before = 0;
   for (double stiffness : {1.0, 10.0, 100.0}) {
     p.joints.stiffness_N_per_mm = stiffness;
-    const experiment::ExperimentResult spring = run(p);
+    const simulate::ExperimentResult spring = run(p);
     CHECK(spring.summary.stable);
     const double off = distance(shared, spring);
     CAPTURE(stiffness, off);
@@ -97,7 +97,7 @@ TEST_CASE("joints that pass twist twist the rods, the more the stiffer they are"
   double before = 0;
   for (double stiffness : {0.05, 0.5, 5.0}) {
     p.joints.twist_Nmm = stiffness;
-    const experiment::ExperimentResult outcome = run(p);
+    const simulate::ExperimentResult outcome = run(p);
     CHECK(outcome.summary.stable);
     CHECK(outcome.summary.energies[Term::twist] > 1.2 * before);
     CHECK(outcome.summary.energies[Term::twist] > 1e-4);
@@ -132,7 +132,7 @@ TEST_CASE("a strip lies down or stands up, and an arched rod rises by itself") {
   preset::Preset p = circle(4, 4);
   const double round = run(p).summary.height_mm;
   p.rod.curvature_per_mm = 0.005;
-  const experiment::ExperimentResult arched = run(p);
+  const simulate::ExperimentResult arched = run(p);
   CHECK(arched.summary.stable);
   // curved as the dome is, it has less to bend; in the flat it is not at rest straight
   CHECK(arched.trajectory.frames.front().height_mm > 0.01);
@@ -144,7 +144,7 @@ TEST_CASE("a strip lies down or stands up, and an arched rod rises by itself") {
   p.rod.curvature_per_mm = 0;
   p.rod.width_mm = 0.5;
   p.rod.thickness_mm = 0.15;
-  const experiment::ExperimentResult flat = run(p);
+  const simulate::ExperimentResult flat = run(p);
   CHECK(flat.summary.stable);
   CHECK(flat.summary.energies[Term::twist] > 1e-3);
   CHECK(flat.summary.height_mm != Approx(round).epsilon(1e-3));
@@ -155,7 +155,7 @@ TEST_CASE("the net rung says that nothing was solved for") {
   p.footprint.kind = preset::FootprintKind::net;
   p.accuracy.tolerance = 0.05;
   p.movie.frames = 3;
-  const experiment::ExperimentResult net = run(p);
+  const simulate::ExperimentResult net = run(p);
   CHECK(net.summary.model == "net");
   CHECK_FALSE(net.summary.solved);
   CHECK(net.summary.limit == record::Limit::none);
@@ -179,7 +179,7 @@ TEST_CASE("a push that snaps is followed in time to the rest that ends it", "[st
   p.indentation.depth_mm = 36;
   p.dynamics.snap = true;
   p.movie.frames = 10;
-  const experiment::ExperimentResult outcome = run(p);
+  const simulate::ExperimentResult outcome = run(p);
   CHECK(outcome.summary.limit == record::Limit::snap);
   CHECK(outcome.summary.stable);
   CHECK(outcome.summary.residual_N < 1e-6);

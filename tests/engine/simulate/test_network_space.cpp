@@ -63,8 +63,8 @@ TEST_CASE("a tent of two rods drawn in space rests as the arches that a flat cro
   const double a = 50, foot = 0.9 * a, height = std::sqrt(a * a - foot * foot);
   preset::Preset flat = network(cross(a, 0), 8);
   flat.actuation.scale = 0.9;
-  const experiment::ExperimentResult actuated = run(flat);
-  const experiment::ExperimentResult relaxed = run(network(cross(foot, height), 8));
+  const simulate::ExperimentResult actuated = run(flat);
+  const simulate::ExperimentResult relaxed = run(network(cross(foot, height), 8));
   CHECK(relaxed.summary.stable);
   CHECK(relaxed.summary.limit == record::Limit::none);
   CHECK(relaxed.summary.energies[Term::bend] ==
@@ -80,7 +80,7 @@ TEST_CASE("a tent of two rods drawn in space rests as the arches that a flat cro
 }
 
 TEST_CASE("a vault drawn in space is the same however it is turned, moved supports and all") {
-  const experiment::ExperimentResult upright = run(network(vault(0.92), 4));
+  const simulate::ExperimentResult upright = run(network(vault(0.92), 4));
   CHECK(upright.summary.stable);
   CHECK(upright.summary.limit == record::Limit::none);
   // from the rest as drawn on: every frame is certified
@@ -100,7 +100,7 @@ TEST_CASE("a vault drawn in space is the same however it is turned, moved suppor
     const Eigen::Matrix3d by =
         Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Eigen::Vector3d(1, 0.3, 0).normalized())
             .toRotationMatrix();
-    const experiment::ExperimentResult other = run(network(turned(vault(0.92), by), 4));
+    const simulate::ExperimentResult other = run(network(turned(vault(0.92), by), 4));
     CAPTURE(degrees, other.summary.limit_reason);
     CHECK(other.summary.stable);
     CHECK(other.summary.energies[Term::bend] ==

@@ -5,11 +5,11 @@
 #include "engine/footprint/symmetry.h"
 #include "engine/preset/preset_file.h"
 #include "engine/simulate/frames.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
-using experiment::frame_of;
+using simulate::frame_of;
 
 namespace {
 
@@ -32,11 +32,12 @@ preset::Preset on_springs(const Eigen::Vector3d& k) {
   return p;
 }
 
-Session formed(const preset::Preset& p, const LevelPlan& plan, double shortening = 0.02) {
+Simulation formed(const preset::Preset& p, const LevelPlan& plan, double shortening = 0.02) {
   auto scene = scene_of(p);
   if (!scene) FAIL(scene.error().message);
   const Watch watch;
-  Session session = Session::open(std::make_shared<const Scene>(std::move(*scene)), plan).value();
+  Simulation session =
+      Simulation::open(std::make_shared<const Scene>(std::move(*scene)), plan).value();
   REQUIRE(session.begin_buckled(shortening, watch).value().end == Outcome::reached);
   REQUIRE(session.move_to(1, watch).end == Outcome::reached);
   CHECK(session.certificate().stable());
@@ -44,7 +45,7 @@ Session formed(const preset::Preset& p, const LevelPlan& plan, double shortening
   return session;
 }
 
-Eigen::Matrix3Xd joints_of(const Session& session) {
+Eigen::Matrix3Xd joints_of(const Simulation& session) {
   return session.nodes().leftCols(session.shell().finest().joints);
 }
 
@@ -78,10 +79,10 @@ TEST_CASE("stiff springs come to what held supports have, the distance falling a
 
 TEST_CASE("forces of springs are k times what the ends stay behind, and balance") {
   const Eigen::Vector3d k{0.05, 0.02, 0.04};
-  Session session = formed(on_springs(k), {{4, 8}, false});
+  Simulation session = formed(on_springs(k), {{4, 8}, false});
   const record::Frame frame = frame_of(session);
   const RodMesh& mesh = session.shell().finest();
-  const auto layout = experiment::layout_of(session.scene(), mesh);
+  const auto layout = simulate::layout_of(session.scene(), mesh);
   REQUIRE(layout);
   const Eigen::Matrix3Xd& goes_to = session.scene().motion.end;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), moment = sum;
@@ -123,7 +124,7 @@ TEST_CASE("a joint inside rods on a spring gives way, and may be pushed") {
   const auto& at = file.points[std::size_t(point)];
   file.supports.push_back({double(point), at[0], at[1], at[2]});
   file.springs.push_back({double(point), 0, 0, 1e-4});
-  Session session = formed(p, {{4}, false});
+  Simulation session = formed(p, {{4}, false});
   const Footprint& net = session.scene().footprint;
   REQUIRE(net.springs.size() == 1);
   const int joint = net.springs.front().joint;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/simulate/actuation.h"
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -73,24 +73,24 @@ preset::Preset drawn_ellipse(double half_x_mm, double half_y_mm, double scale, d
 }
 
 /// Led by a mesh of so many edges a segment, in load steps of so many of the usual ones.
-experiment::ExperimentResult led_by(int edges, const preset::Preset& preset, double load_step = 1) {
+simulate::ExperimentResult led_by(int edges, const preset::Preset& preset, double load_step = 1) {
   Scene scene = scene_of(preset).value();
   scene.leading_edges = edges;
   scene.load_step = load_step;
   record::MemorySink sink;
   Watch watch;
   auto summary =
-      experiment::run(preset, std::make_shared<const Scene>(std::move(scene)), false, sink, watch);
+      simulate::run(preset, std::make_shared<const Scene>(std::move(scene)), false, sink, watch);
   REQUIRE(summary);
   return {std::move(sink.trajectory()), std::move(*summary)};
 }
 
-double bend(const experiment::ExperimentResult& outcome) {
+double bend(const simulate::ExperimentResult& outcome) {
   return outcome.summary.energies[Term::bend];
 }
 
 /// Every frame is at rest and says whether it is stable; where the path ended early it says why.
-void check_frames(const experiment::ExperimentResult& outcome, int asked) {
+void check_frames(const simulate::ExperimentResult& outcome, int asked) {
   const auto& frames = outcome.trajectory.frames;
   CAPTURE(outcome.summary.limit_reason);
   if (int(frames.size()) < asked) {
@@ -263,10 +263,9 @@ TEST_CASE("a saddle from flat loses its branch where two leading meshes say", "[
   Watch watch;
   const auto scene =
       std::make_shared<const Scene>(scene_of(saddle(preset::Start::flat, 2)).value());
-  const auto coarse =
-      experiment::follow_actuation(scene, {{8, 16}, false}, false, 1, watch).value();
-  const auto fine = experiment::follow_actuation(scene, {{16, 32}, false}, false, 1, watch).value();
-  REQUIRE(coarse.legs.back().report.events.size() == fine.legs.back().report.events.size());
+  const auto coarse = simulate::follow_actuation(scene, {{8, 16}, false}, false, 1, watch).value();
+  const auto fine = simulate::follow_actuation(scene, {{16, 32}, false}, false, 1, watch).value();
+  REQUIRE(coarse.segments.back().report.events.size() == fine.segments.back().report.events.size());
   const auto confirmed = run(saddle(preset::Start::flat, 2));
   CHECK(confirmed.summary.limit == record::Limit::snap);
   CHECK(confirmed.summary.limit_reason.find("do not agree") == std::string::npos);

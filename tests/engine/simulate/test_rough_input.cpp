@@ -18,14 +18,14 @@ std::shared_ptr<const Scene> fig1(double tolerance = 1e-4) {
 
 /// A course with the frames that were sampled of it.
 struct Run {
-  experiment::EquilibriumPath course;
+  simulate::EquilibriumPath course;
   record::Trajectory trajectory;
 };
 
 Result<Run> run(std::shared_ptr<const Scene> scene, const std::vector<double>& progress) {
   Watch watch;
   record::MemorySink sink;
-  auto course = experiment::run_actuation(std::move(scene), progress, sink, watch);
+  auto course = simulate::run_actuation(std::move(scene), progress, sink, watch);
   if (!course) return tl::unexpected<Error>(course.error());
   return Run{std::move(*course), std::move(sink.trajectory())};
 }

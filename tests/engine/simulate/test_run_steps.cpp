@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/preset/preset_file.h"
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 #include "tests/small_shell.h"
 
@@ -48,13 +48,13 @@ double difference(const record::Frame& a, const record::Frame& b) {
 
 TEST_CASE("frames fall to the steps that have a way, one to each of the others") {
   const std::vector<preset::Step> steps{push(0, 0, 3), of(StepKind::release), move(0.9)};
-  CHECK(experiment::frames_of_steps(steps, 11) == std::vector{5, 1, 4});
-  CHECK(experiment::frames_of_steps(steps, 2) == std::vector{1, 1, 1});
-  CHECK(experiment::frames_of_steps({of(StepKind::rest)}, 20) == std::vector{1});
+  CHECK(simulate::frames_of_steps(steps, 11) == std::vector{5, 1, 4});
+  CHECK(simulate::frames_of_steps(steps, 2) == std::vector{1, 1, 1});
+  CHECK(simulate::frames_of_steps({of(StepKind::rest)}, 20) == std::vector{1});
   // edge points go straight to their places, and back
   preset::Step dragged = move(0.9);
   dragged.edge_points = {{0, 1, 0, 0}};
-  CHECK(experiment::frames_of_steps({dragged, of(StepKind::release), move(0.8), move(0.7)}, 11) ==
+  CHECK(simulate::frames_of_steps({dragged, of(StepKind::release), move(0.8), move(0.7)}, 11) ==
         std::vector{1, 1, 1, 7});
 }
 
@@ -62,7 +62,7 @@ TEST_CASE("a push let go is the shell before, and every step says what it came t
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), of(StepKind::release)};
   preset.movie.frames = 6;
-  const experiment::ExperimentResult outcome = run(preset);
+  const simulate::ExperimentResult outcome = run(preset);
   const auto& frames = outcome.trajectory.frames;
   REQUIRE(frames.size() == 6);
   CHECK(outcome.summary.limit == record::Limit::none);
@@ -95,7 +95,7 @@ TEST_CASE("a push is as deep as it is asked to be, however many meshes follow") 
   preset.movie.frames = 3;
   for (const double depth : {0.5, 4.0}) {
     preset.step = {push(0, 0, depth)};
-    const experiment::ExperimentResult finished = run(preset);
+    const simulate::ExperimentResult finished = run(preset);
     CAPTURE(depth, finished.summary.limit_reason);
     REQUIRE(finished.summary.edges_per_segment > 4);
     CHECK(finished.trajectory.frames.back().depth_mm == Approx(depth).epsilon(1e-6));
@@ -105,9 +105,9 @@ TEST_CASE("a push is as deep as it is asked to be, however many meshes follow") 
 TEST_CASE("frames only sample the steps, which end where they end") {
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), move(0.9), push(1, -1, 2)};
-  const experiment::ExperimentResult few = run(preset);
+  const simulate::ExperimentResult few = run(preset);
   preset.movie.frames = 17;
-  const experiment::ExperimentResult many = run(preset);
+  const simulate::ExperimentResult many = run(preset);
   CHECK(few.trajectory.frames.size() == 4);
   CHECK(many.trajectory.frames.size() == 17);
   CHECK(difference(few.trajectory.frames.back(), many.trajectory.frames.back()) == 0);
@@ -134,7 +134,7 @@ TEST_CASE("loads, a held joint, edge points, a jitter and a rest are steps") {
   edge.edge_points = {{3, 1.5, -1, 0}};
   preset.step = {
       light, hold, edge, of(StepKind::release), of(StepKind::jitter), of(StepKind::rest)};
-  const experiment::ExperimentResult outcome = run(preset);
+  const simulate::ExperimentResult outcome = run(preset);
   const auto& frames = outcome.trajectory.frames;
   REQUIRE(frames.size() == 7);
   CHECK(frames[0].energies[Term::load] != 0);
@@ -150,7 +150,7 @@ TEST_CASE("a step that ends early ends the run, and both say so") {
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, -60),
                  of(StepKind::release)};  // outward, further than the rods are long
-  const experiment::ExperimentResult outcome = run(preset);
+  const simulate::ExperimentResult outcome = run(preset);
   CHECK(outcome.summary.limit == record::Limit::locking);
   CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 1 (push [0, 0]): "));
   REQUIRE(outcome.summary.steps.size() == 1);
@@ -163,14 +163,14 @@ TEST_CASE("steps on what is not there are errors with their number") {
   const auto refused = [&](const preset::Step& step) {
     preset.step = {move(0.95), step};
     Watch watch;
-    const auto outcome = experiment::run(preset, false, watch);
+    const auto outcome = simulate::run(preset, false, watch);
     return outcome ? std::string() : outcome.error().message;
   };
   CHECK_THAT(refused(push(40, 0, 1)), Catch::Contains("[[step]] 2") &&
                                           Catch::Contains("joint = [40, 0]: the footprint has no"));
   CHECK_THAT(refused(of(StepKind::release)), Catch::Contains("[[step]] 2: no joint is held"));
   // which `check` says as well
-  const auto plan = experiment::plan(preset);
+  const auto plan = simulate::plan(preset);
   REQUIRE_FALSE(plan);
   CHECK_THAT(plan.error().message, Catch::StartsWith("[[step]] 2: no joint is held"));
   preset::Step edge = of(StepKind::move);

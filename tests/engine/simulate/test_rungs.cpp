@@ -15,10 +15,10 @@ namespace {
 double distance_of_rungs(const preset::Preset& preset) {
   const auto scene = std::make_shared<const Scene>(scene_of(preset).value());
   const Watch watch;
-  const auto bend = experiment::follow_actuation(scene, plan_of_mesh(4), false, 1, watch).value();
+  const auto bend = simulate::follow_actuation(scene, plan_of_mesh(4), false, 1, watch).value();
   REQUIRE(bend.limit == record::Limit::none);
-  const RodMesh& mesh = bend.session.shell().mesh(0);
-  const Eigen::Matrix3Xd& rest = bend.session.shell().state().levels.front().x;
+  const RodMesh& mesh = bend.simulation.shell().mesh(0);
+  const Eigen::Matrix3Xd& rest = bend.simulation.shell().state().levels.front().x;
 
   const Model model = build_model(mesh, circular_material(0.254, 83, 31), RodModel::twist).value();
   State state = start_state(model, columns_of(mesh, model, rest));

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 using namespace gridshell;
-using namespace gridshell::experiment;
+using namespace gridshell::simulate;
 
 TEST_CASE("barriers: passes lie above the states that their two sides lead to") {
   preset::Preset p;

@@ -17,7 +17,7 @@ const ScanTarget& circle() {
     p.movie.frames = 2;
     p.imperfection.size = 0;
     p.accuracy.edges_per_segment = 4;
-    const experiment::ExperimentResult outcome = run(p);
+    const simulate::ExperimentResult outcome = run(p);
     return form_of(outcome.trajectory.layout, outcome.trajectory.frames.back());
   }();
   return form;
@@ -30,7 +30,7 @@ const ScanTarget& hemisphere() {
     p.net.radius_mm = 120;
     p.actuation.start = preset::Start::net;
     p.accuracy.edges_per_segment = 4;
-    const experiment::ExperimentResult outcome = run_stills(p);
+    const simulate::ExperimentResult outcome = run_stills(p);
     return form_of(outcome.trajectory.layout, outcome.trajectory.frames.back());
   }();
   return form;

@@ -5,8 +5,8 @@
 #include <set>
 
 using namespace gridshell;
-using experiment::find_states;
-using experiment::StateLibrary;
+using simulate::find_states;
+using simulate::StateLibrary;
 
 namespace {
 

@@ -1,5 +1,5 @@
-// What a hand does to a session: each takes the path's place by a drive of its own, or brings the
-// shell to rest where it is.
+// What a hand does to a simulation: each takes the path's place by a drive of its own, or brings
+// the shell to rest where it is.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,7 +8,7 @@
 #include "engine/core/try.h"
 #include "engine/simulate/branch_switch.h"
 #include "engine/simulate/mesh_choice.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
 namespace gridshell {
 namespace {
@@ -30,20 +30,19 @@ std::vector<NodeAction> times(std::vector<NodeAction> actions, double factor) {
 
 }  // namespace
 
-LoadFactor Session::steady_load() const {
+LoadFactor Simulation::steady_load() const {
   return {actuating_ ? load_scale_ * progress_ : load_scale_, 0};
 }
 
-void Session::apply_field(std::vector<NodeAction> field) {
+void Simulation::apply_field(std::vector<NodeAction> field) {
   field_ = std::move(field);
   shell_->set_fields(field_, {});
 }
 
 /// Drives the shell from where it is, all the way if it can.
-Report Session::drive(const PrescribedMove& drive, std::vector<NodeAction> coming,
-                      const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Report Simulation::drive(const PrescribedMove& drive, std::vector<NodeAction> coming,
+                         const Watch& watch) {
+  const CallBegin begin = call_begin();
   const std::vector<Constraint> held = drive.holds;
   shell_->set_fields(field_, coming);
   shell_->drive(drive);
@@ -51,7 +50,7 @@ Report Session::drive(const PrescribedMove& drive, std::vector<NodeAction> comin
   actuating_ = false;
   first_stiffness_ = 0;
   const NestedReport started = shell_->start(0, shell_->state().levels[0], watch);
-  if (started.end != Outcome::reached) return report(started.end, 0, before, begin);
+  if (started.end != Outcome::reached) return report(started.end, 0, begin);
   Report done = go(1, watch);
   std::vector<NodeAction> field = field_;
   const auto come = times(std::move(coming), drive.field.begin + done.t * drive.field.change);
@@ -62,27 +61,27 @@ Report Session::drive(const PrescribedMove& drive, std::vector<NodeAction> comin
   return done;
 }
 
-Report Session::move_to(double progress, const Watch& watch, PathRecord* trail) {
+Report Simulation::move_to(double progress, const Watch& watch, PathRecord* record) {
   const double t = parameter_at(progress);
   if (!actuating_) {
     const double now = parameter_at(progress_);
     shell_->actuate(now, holds_, load_scale_);
     actuating_ = true;
     const NestedReport started = shell_->start(now, shell_->state().levels[0], watch);
-    if (started.end != Outcome::reached) return report(started.end, now, effort(), seconds_now());
+    if (started.end != Outcome::reached) return report(started.end, now, call_begin());
   }
-  return go(t, watch, {}, trail);
+  return go(t, watch, {}, record);
 }
 
-Report Session::move_edge_points(const BoundaryMotion& motion, const Watch& watch) {
+Report Simulation::move_edge_points(const BoundaryMotion& motion, const Watch& watch) {
   const LoadFactor load = steady_load();
   return drive({.holds = holds_, .displacements = {}, .boundary = motion, .load = load}, {}, watch);
 }
 
-Report Session::begin_joint_push(std::vector<Constraint> holds,
-                                 std::vector<Eigen::Vector3d> displacements, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Report Simulation::begin_joint_push(std::vector<Constraint> holds,
+                                    std::vector<Eigen::Vector3d> displacements,
+                                    const Watch& watch) {
+  const CallBegin begin = call_begin();
   const LoadFactor load = steady_load();
   along_.resize(0);
   for (std::size_t k = 0; k < holds.size(); ++k) {
@@ -96,11 +95,11 @@ Report Session::begin_joint_push(std::vector<Constraint> holds,
   actuating_ = false;
   const NestedReport nested = shell_->start(0, shell_->state().levels[0], watch);
   if (nested.end == Outcome::reached) first_stiffness_ = push_stiffness();
-  return report(nested.end, nested.t, before, begin);
+  return report(nested.end, nested.t, begin);
 }
 
-Report Session::push(int joint, const Eigen::Vector3d& displacement, Across across,
-                     const Watch& watch, PathRecord* trail) {
+Report Simulation::push(int joint, const Eigen::Vector3d& displacement, Across across,
+                        const Watch& watch, PathRecord* record) {
   std::vector<Constraint> holds = holds_;
   std::erase_if(holds, [&](const Constraint& hold) { return hold.node == joint; });
   Constraint hold{joint};
@@ -115,10 +114,10 @@ Report Session::push(int joint, const Eigen::Vector3d& displacement, Across acro
   displacements.back() = displacement;
   const Report taken = begin_joint_push(std::move(holds), std::move(displacements), watch);
   if (first_stiffness > 0) first_stiffness_ = first_stiffness;
-  return taken.end == Outcome::reached ? go(1, watch, {}, trail) : taken;
+  return taken.end == Outcome::reached ? go(1, watch, {}, record) : taken;
 }
 
-Report Session::release(int joint, const Watch& watch) {
+Report Simulation::release(int joint, const Watch& watch) {
   std::vector<Constraint> left = holds_;
   std::vector<NodeAction> force;
   for (std::size_t k = 0; k < holds_.size(); ++k)
@@ -141,14 +140,14 @@ Report Session::release(int joint, const Watch& watch) {
   return done;
 }
 
-Report Session::load(double factor, const Watch& watch) {
+Report Simulation::load(double factor, const Watch& watch) {
   const LoadFactor now = steady_load();
   Report done = drive({.holds = holds_, .load = {now.begin, factor - now.begin}}, {}, watch);
   load_scale_ = now.begin + done.t * (factor - now.begin);
   return done;
 }
 
-Report Session::set_field(std::vector<NodeAction> field, const Watch& watch) {
+Report Simulation::set_field(std::vector<NodeAction> field, const Watch& watch) {
   const LoadFactor load = steady_load();
   const std::vector<NodeAction> coming = difference(field, field_);
   Report done = drive({.holds = holds_, .load = load, .field = {0, 1}}, coming, watch);
@@ -156,9 +155,8 @@ Report Session::set_field(std::vector<NodeAction> field, const Watch& watch) {
   return done;
 }
 
-Report Session::rest(const Watch& watch, BranchSide side) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Report Simulation::rest(const Watch& watch, BranchSide side) {
+  const CallBegin begin = call_begin();
   const Checkpoint good = save();
   const double t = shell_->state().t;
   BranchSwitch departure = departure_of(*scene_, shell_->mesh(0), shell_->model(0));
@@ -167,13 +165,12 @@ Report Session::rest(const Watch& watch, BranchSide side) {
   Outcome end = watch.cancelled() ? Outcome::cancelled : Outcome::not_converged;
   if (found) end = shell_->start(t, *found, watch).end;
   if (end != Outcome::reached) restore(good);
-  return report(end, t, before, begin);
+  return report(end, t, begin);
 }
 
-Report Session::rest_in_time(const Watch& watch,
-                             const std::function<void(const MovingState&)>& seen) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Report Simulation::rest_in_time(const Watch& watch,
+                                const std::function<void(const MovingState&)>& seen) {
+  const CallBegin begin = call_begin();
   const Checkpoint good = save();
   Outcome end = Outcome::not_converged;
   if (const auto rest =
@@ -181,36 +178,33 @@ Report Session::rest_in_time(const Watch& watch,
     end = shell_->start(shell_->state().t, *rest, watch).end;
   if (watch.cancelled()) end = Outcome::cancelled;
   if (end != Outcome::reached) restore(good);
-  return report(end, shell_->state().t, before, begin);
+  return report(end, shell_->state().t, begin);
 }
 
-Result<Report> Session::set_rods(const ShellRods& rods, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Result<Report> Simulation::set_rods(const ShellRods& rods, const Watch& watch) {
+  const CallBegin begin = call_begin();
   std::optional<ShellRods> old = std::exchange(rods_, rods);
   const auto taken = replace_meshes(shell_->plan(), true, watch);
   if (!taken || *taken != Outcome::reached) rods_ = std::move(old);
   if (!taken) return tl::unexpected<Error>(taken.error());
-  return report(*taken, shell_->state().t, before, begin);
+  return report(*taken, shell_->state().t, begin);
 }
 
-Result<Report> Session::remesh(const LevelPlan& plan, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Result<Report> Simulation::remesh(const LevelPlan& plan, const Watch& watch) {
+  const CallBegin begin = call_begin();
   TRY(taken, replace_meshes(plan, false, watch));
-  return report(*taken, shell_->state().t, before, begin);
+  return report(*taken, shell_->state().t, begin);
 }
 
-Report Session::refine(double tolerance_mm, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Report Simulation::refine(double tolerance_mm, const Watch& watch) {
+  const CallBegin begin = call_begin();
   Outcome end = Outcome::reached;
   while (end == Outcome::reached && !(certificate().error_estimate_mm <= tolerance_mm)) {
     const auto plan = finer(shell_->plan());
     if (!plan || !fits_memory(*scene_, *plan)) break;
     end = replace_meshes(*plan, false, watch).value_or(Outcome::not_converged);
   }
-  return report(end, shell_->state().t, before, begin);
+  return report(end, shell_->state().t, begin);
 }
 
 }  // namespace gridshell

@@ -1,5 +1,5 @@
 // One shell held in one hand through everything that a hand does.
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
 #include <pthread.h>
 
@@ -29,19 +29,19 @@ std::shared_ptr<const Scene> scene(double tolerance = 1e-3, RodModel model = Rod
   return std::make_shared<const Scene>(scene_of(six_rods(tolerance, model)).value());
 }
 
-Session open(const std::shared_ptr<const Scene>& scene) {
-  return Session::open(scene, plan_levels(scene->tolerance)).value();
+Simulation open(const std::shared_ptr<const Scene>& scene) {
+  return Simulation::open(scene, plan_levels(scene->tolerance)).value();
 }
 
-Session actuated(const std::shared_ptr<const Scene>& scene) {
-  Session session = open(scene);
+Simulation actuated(const std::shared_ptr<const Scene>& scene) {
+  Simulation session = open(scene);
   const Watch watch;
   REQUIRE(session.begin_buckled(0.02, watch).value().end == Outcome::reached);
   REQUIRE(session.move_to(1, watch).end == Outcome::reached);
   return session;
 }
 
-void certified(const Session& session, const Report& report) {
+void certified(const Simulation& session, const Report& report) {
   CAPTURE(words_of(report.end).name, report.t, report.certificate.residual_N);
   REQUIRE(report.end == Outcome::reached);
   CHECK(report.certificate.stable());
@@ -69,7 +69,7 @@ TEST_CASE("a session goes through all that a hand does, and back by its checkpoi
   const auto model = GENERATE(RodModel::bend, RodModel::twist);
   CAPTURE(word_of(model));
   const auto shell = scene(1e-3, model);
-  Session session = open(shell);
+  Simulation session = open(shell);
   const Watch watch;
   std::vector<Checkpoint> kept;
   std::vector<Eigen::Matrix3Xd> nodes;
@@ -120,7 +120,7 @@ TEST_CASE("a session goes through all that a hand does, and back by its checkpoi
 
 TEST_CASE("a session refines on request and takes other rods from where it is") {
   const auto shell = scene(1e-2);
-  Session session = actuated(shell);
+  Simulation session = actuated(shell);
   const Watch watch;
   const double coarse = session.certificate().error_estimate_mm;
   const Checkpoint before = session.save();
@@ -139,7 +139,7 @@ TEST_CASE("a session refines on request and takes other rods from where it is") 
 
 TEST_CASE("what fails leaves the last certified state, what is cancelled says so") {
   const auto shell = scene();
-  Session session = actuated(shell);
+  Simulation session = actuated(shell);
   Watch watch;
   const Eigen::Matrix3Xd before = session.nodes();
   watch.cancel();
@@ -156,7 +156,7 @@ TEST_CASE("what fails leaves the last certified state, what is cancelled says so
 
 TEST_CASE("a shell in motion comes to rest where the static solver finds it") {
   const auto shell = scene();
-  Session session = actuated(shell);
+  Simulation session = actuated(shell);
   const Watch watch;
   const Eigen::Matrix3Xd before = session.nodes();
   certified(session, session.set_field({{3, {0, 0, -0.15}}}, watch));
@@ -181,7 +181,7 @@ TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and
   p.loads.gravity_m_s2 *= 40;
   const auto heavy = std::make_shared<const Scene>(scene_of(p).value());
   const Watch watch;
-  Session session = open(light);
+  Simulation session = open(light);
   const Report flat = session.begin_flat();
   CHECK(flat.end == Outcome::reached);
   CHECK(session.nodes().row(2).cwiseAbs().maxCoeff() == 0);
@@ -223,7 +223,7 @@ TEST_CASE("a session of 24 rods answers a wish to stop within 0.2 s on both rung
   p.footprint.radius_mm = 20 * (11.5 + 0.8);
   p.actuation.radius_mm = 0.8 * p.footprint.radius_mm;
   const auto shell = std::make_shared<const Scene>(scene_of(p).value());
-  Session session = open(shell);
+  Simulation session = open(shell);
   const Watch patient;
   REQUIRE(session.begin_buckled(0.02, patient).value().end == Outcome::reached);
   const Checkpoint begun = session.save();

@@ -1,4 +1,4 @@
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +24,14 @@ PathOptions options_for(const Scene& scene) {
 
 }  // namespace
 
-Result<Session> Session::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan) {
-  Session session(std::move(scene));
-  TRY_DO(session.build(plan));
-  return session;
+Result<Simulation> Simulation::open(std::shared_ptr<const Scene> scene, const LevelPlan& plan) {
+  Simulation simulation(std::move(scene));
+  simulation.set_progress(0);
+  TRY_DO(simulation.build(plan));
+  return simulation;
 }
 
-Result<void> Session::build(const LevelPlan& plan) {
+Result<void> Simulation::build(const LevelPlan& plan) {
   TRY(shell, NestedShell::make(scene_->footprint, rods_ ? *rods_ : scene_->rods,
                                scene_->solved_model(), scene_->motion, plan, options_for(*scene_)));
   if (shell_) spent_ += shell_->effort();
@@ -40,45 +41,57 @@ Result<void> Session::build(const LevelPlan& plan) {
 
 // ---- reports ----
 
-Certificate Session::certificate() const {
+Certificate Simulation::certificate() const {
   const NestedState& state = shell_->state();
   return {state.residual_N, state.inertia.negative_pivots, state.error_estimate_mm,
           state.largest_strain};
 }
 
-Report Session::report(Outcome end, double t, const Effort& before, double begin) const {
+Simulation::CallBegin Simulation::call_begin() const { return {effort(), seconds_now()}; }
+
+Report Simulation::report(Outcome end, double t, const CallBegin& begin) const {
   Report report;
   report.end = end;
   report.t = t;
   report.certificate = certificate();
-  report.effort = effort() - before;
-  report.seconds = seconds_now() - begin;
+  report.effort = effort() - begin.effort;
+  report.seconds = seconds_now() - begin.seconds;
   return report;
 }
 
-Energies Session::energies() const {
+void Simulation::put_push(record::Frame& frame) const {
+  if (holds_.empty()) return;
+  const Constraint& hold = holds_.back();
+  const auto origin = grip_origins.find(hold.node);
+  if (origin == grip_origins.end()) return;
+  const Eigen::Vector3d moved = hold.part(nodes().col(hold.node) - origin->second);
+  frame.depth_mm = moved.norm();
+  const bool any = frame.depth_mm > nearest_mm;
+  frame.force_N = any ? hold.part(force(holds_.size() - 1)).dot(moved.normalized()) : 0;
+}
+
+Energies Simulation::energies() const {
   const int last = shell_->levels() - 1;
   const Energies fine = shell_->energies(last);
   if (!shell_->plan().extrapolate || last == 0) return fine;
   return (4 * fine - shell_->energies(last - 1)) / 3;
 }
 
-bool Session::locked() const {
+bool Simulation::locked() const {
   const NestedState& state = shell_->state();
   if (std::abs(state.largest_strain) > scene_->max_strain) return true;
   if (actuating_ || holds_.empty() || !(first_stiffness_ > 0)) return false;
   return push_stiffness() > stiffness_growth * first_stiffness_;
 }
 
-double Session::push_stiffness() const {
+double Simulation::push_stiffness() const {
   return along_.dot(shell_->state().held_stiffness * along_);
 }
 
 // ---- begin ----
 
-Report Session::begin_flat() {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Report Simulation::begin_flat() {
+  const CallBegin begin = call_begin();
   NestedState flat;
   for (int k = 0; k < shell_->levels(); ++k) {
     Linearisation& system = shell_->system(k);
@@ -92,47 +105,48 @@ Report Session::begin_flat() {
   }
   shell_->restore(flat, shell_->motions(), {});
   actuating_ = true;
-  progress_ = 0;
-  return report(Outcome::reached, 0, before, begin);
+  set_progress(0);
+  return report(Outcome::reached, 0, begin);
 }
 
-Result<Report> Session::begin_buckled(double shortening, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Result<Report> Simulation::begin_buckled(double shortening, const Watch& watch) {
+  const CallBegin begin = call_begin();
   TRY(t, parameter_of_shortening(shell_->mesh(0), shell_->motion(0), shortening));
   TRY(first, buckled_state(*shell_, *scene_, rods_ ? *rods_ : scene_->rods, *t, watch));
-  Report report = begin_at(*t, *first, watch);
-  report.effort = effort() - before;
-  report.seconds = seconds_now() - begin;
-  return report;
+  const Report there = begin_at(*t, *first, watch);
+  return report(there.end, there.t, begin);
 }
 
-Result<Report> Session::begin_on_net(const Watch& watch) {
+Result<Report> Simulation::begin_on_net(const Watch& watch) {
   TRY(rest, state_on_net(*shell_, *scene_, watch));
   return begin_at(1, *rest, watch);
 }
 
-Result<Report> Session::begin_as_drawn(const Watch& watch) {
+Result<Report> Simulation::begin_as_drawn(const Watch& watch) {
   TRY(rest, state_as_drawn(*shell_, *scene_, rods_ ? *rods_ : scene_->rods, watch));
   return begin_at(0, *rest, watch);
 }
 
-Report Session::begin_at(double t, const State& coarse, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Report Simulation::begin_at(double t, const State& coarse, const Watch& watch) {
+  const CallBegin begin = call_begin();
   actuating_ = true;
   holds_.clear();
   shell_->actuate(t, {}, load_scale_);
   const NestedReport nested = shell_->start(t, coarse, watch);
-  if (nested.end == Outcome::reached) progress_ = progress_at(t);
-  return report(nested.end, nested.t, before, begin);
+  if (nested.end == Outcome::reached) set_progress(progress_at(t));
+  return report(nested.end, nested.t, begin);
+}
+
+/// Of the scene's motion, off which no edge point lies.
+void Simulation::set_progress(double progress) {
+  boundary = {progress_ = progress, Eigen::Matrix3Xd::Zero(3, scene_->motion.begin.cols())};
 }
 
 // ---- keep ----
 
 /// Other meshes or rods in the place of these, at rest where these stand; if they are not, these
 /// stay.
-Result<Outcome> Session::replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch) {
+Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch) {
   std::unique_ptr<NestedShell> before = std::move(shell_);
   const auto back = [&] {
     if (shell_) spent_ += shell_->effort();
@@ -164,12 +178,12 @@ Result<Outcome> Session::replace_meshes(const LevelPlan& plan, bool nearby, cons
   return end;
 }
 
-Checkpoint Session::save() const {
-  return {shell_->state(), shell_->plan(), rods_,     shell_->motions(), holds_,
-          field_,          load_scale_,    progress_, actuating_};
+Checkpoint Simulation::save() const {
+  return {shell_->state(), shell_->plan(), rods_,      shell_->motions(), holds_,      field_,
+          load_scale_,     progress_,      actuating_, boundary,          grip_origins};
 }
 
-void Session::restore(const Checkpoint& kept) {
+void Simulation::restore(const Checkpoint& kept) {
   if (kept.rods.has_value() != rods_.has_value() || rods_.has_value() ||
       kept.plan.edges_per_segment != shell_->plan().edges_per_segment) {
     rods_ = kept.rods;
@@ -180,6 +194,8 @@ void Session::restore(const Checkpoint& kept) {
   load_scale_ = kept.load_scale;
   progress_ = kept.progress;
   actuating_ = kept.actuating;
+  boundary = kept.boundary;
+  grip_origins = kept.grip_origins;
   apply_field(kept.field);
   shell_->restore(kept.state, kept.motions, kept.holds);
 }

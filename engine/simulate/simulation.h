@@ -1,13 +1,15 @@
-// What a step of a session says: how it ended, what it certified, what happened on its way.
+// What a step of a simulation says: how it ended, what it certified, what happened on its way.
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/core/outcome.h"
+#include "engine/record/frame.h"
 #include "engine/scene/scene.h"
 #include "engine/solve/dynamics.h"
 #include "engine/solve/equilibrium.h"
@@ -57,12 +59,12 @@ struct TimedState {
   State state;
 };
 
-/// What a path leaves to whoever watches it: a station a certified load step, in order, and what
+/// What a path leaves to whoever watches it: a load_step a certified load step, in order, and what
 /// moved in time where a snap was followed so.
 struct PathRecord {
-  std::vector<LoadStep> stations;
+  std::vector<LoadStep> load_steps;
   struct Snap {
-    std::size_t before = 0;  ///< the station that it left from
+    std::size_t before = 0;  ///< the load_step that it left from
     std::vector<TimedState> moments;
   };
   std::vector<Snap> snaps;
@@ -74,8 +76,12 @@ struct BifurcationPolicy {
   bool through_unstable = false;  ///< go on through states that are not stable instead
 };
 
-// A shell held in one hand: begun, moved, pushed, loaded, let go, refined and taken back, each step
-// with its certificate.
+/// Where the boundary is: how far along the scene's motion, and by how much its edge points lie off
+/// that.
+struct BoundaryPosition {
+  double progress = 0;
+  Eigen::Matrix3Xd dragged;  ///< 3 x edge points, mm
+};
 
 /// A state to go back to; taking one and going back cost a copy.
 struct Checkpoint {
@@ -87,7 +93,12 @@ struct Checkpoint {
   std::vector<NodeAction> field;
   double load_scale = 1, progress = 0;
   bool actuating = true;
+  BoundaryPosition boundary;
+  std::map<int, Eigen::Vector3d> grip_origins;
 };
+
+/// Moves of a joint below are none, mm.
+inline constexpr double nearest_mm = 1e-9;
 
 /// Whether a pushed joint finds its own way across the push.
 enum class Across { free, held };
@@ -95,10 +106,10 @@ enum class Across { free, held };
 /// One shell of one scene. Not thread-safe; its watch may be cancelled from any thread, which is
 /// answered within one factorisation. Every call ends by itself too: a load step is halved five
 /// times at most, a way leaves eight branches at most, and Newton's corrections are counted.
-class Session {
+class Simulation {
  public:
   /// Errors (bad_input): rods that the rung cannot take.
-  static Result<Session> open(std::shared_ptr<const Scene> scene, const LevelPlan& plan);
+  static Result<Simulation> open(std::shared_ptr<const Scene> scene, const LevelPlan& plan);
 
   // ---- begin ----
 
@@ -120,14 +131,14 @@ class Session {
   /// length. The path parameter is sqrt(progress) in an actuation, else from 0 to 1 since the drive
   /// began.
   Report go(double t, const Watch& watch, const BifurcationPolicy& leaving = {},
-            PathRecord* trail = nullptr);
+            PathRecord* record = nullptr);
   /// The boundary to a progress of the scene's motion, joints held where they are.
-  Report move_to(double progress, const Watch& watch, PathRecord* trail = nullptr);
+  Report move_to(double progress, const Watch& watch, PathRecord* record = nullptr);
   /// The boundary to somewhere else altogether: the edge points straight to the motion's end.
   Report move_edge_points(const BoundaryMotion& motion, const Watch& watch);
   /// Moves a joint, held from now on.
   Report push(int joint, const Eigen::Vector3d& displacement, Across across, const Watch& watch,
-              PathRecord* trail = nullptr);
+              PathRecord* record = nullptr);
   /// Lets a joint go: the force on it is taken away in even steps.
   Report release(int joint, const Watch& watch);
   /// From now on the scene's dead loads count `factor` times.
@@ -166,28 +177,43 @@ class Session {
   Eigen::Vector3d force(std::size_t k) const { return shell_->state().reactions[k]; }
   const std::vector<Constraint>& holds() const { return holds_; }
   double progress() const { return progress_; }
+  /// Tells a frame how far the joint held last was pushed, and with what force it resists; nothing
+  /// where none is held. The depth is the way of the joint since it was taken hold of, along the
+  /// directions that it is held in, mm, positive the way it was pushed; the force is the part along
+  /// that way of what holds it, N.
+  void put_push(record::Frame& frame) const;
   /// Energies by term under what acts, extrapolated as the nodes.
   Energies energies() const;
   Effort effort() const { return spent_ + shell_->effort(); }
-  /// Counts what another session spent before this one.
+  /// Counts what another simulation spent before this one.
   void charge(const Effort& spent) { spent_ += spent; }
-  /// Certifies the state at t beside a station, without moving the path on; with `unstable`, or
-  /// beside a station that is not stable, any equilibrium, which says how stable it is.
+  /// Certifies the state at t beside a load_step, without moving the path on; with `unstable`, or
+  /// beside a load_step that is not stable, any equilibrium, which says how stable it is.
   Report sample(double t, const LoadStep& beside, bool unstable, const Watch& watch);
-  /// The rest at t that a shell comes to which lost its branch behind the station.
+  /// The rest at t that a shell comes to which lost its branch behind the load_step.
   Report certify_rest_at(double t, const LoadStep& before, const Watch& watch);
   /// Whether the rods have come to their length.
   bool locked() const;
 
+  BoundaryPosition boundary;
+  /// Where the joints that are held were when they were taken hold of, mm.
+  std::map<int, Eigen::Vector3d> grip_origins;
+
  private:
-  Session(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
+  Simulation(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
   Result<void> build(const LevelPlan& plan);
-  Report report(Outcome end, double t, const Effort& before, double begin) const;
+  struct CallBegin {
+    Effort effort;
+    double seconds;
+  };
+  CallBegin call_begin() const;
+  Report report(Outcome end, double t, const CallBegin& begin) const;
   Report drive(const PrescribedMove& drive, std::vector<NodeAction> field, const Watch& watch);
   void apply_field(std::vector<NodeAction> field);
+  void set_progress(double progress);
   LoadFactor steady_load() const;
   double load_step() const;
-  bool leave(double t, Event& event, PathRecord* trail, const Watch& watch);
+  bool leave(double t, Event& event, PathRecord* record, const Watch& watch);
   Result<Outcome> replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch);
   double push_stiffness() const;
   void bisect_to_last_accepted(double beyond, const NestedState& good,

@@ -7,7 +7,7 @@
 #include "engine/core/system_info.h"
 #include "engine/core/watch.h"
 #include "engine/simulate/branch_switch.h"
-#include "engine/simulate/session.h"
+#include "engine/simulate/simulation.h"
 #include "engine/solve/nested_shell.h"
 #include "engine/solve/newton.h"
 
@@ -49,8 +49,8 @@ double StabilityStepControl::shortened(double step) const {
   return to_zero < 3 * step ? std::clamp(to_zero / 3, step / 8, step) : step;
 }
 
-// How a session follows its path: in load steps, over branches that end, to the rods' length; and
-// what is read off the path afterwards.
+// How a simulation follows its path: in load steps, over branches that end, to the rods' length;
+// and what is read off the path afterwards.
 
 namespace {
 
@@ -62,38 +62,37 @@ constexpr std::size_t most_events = 8;   // branches left on one way
 
 }  // namespace
 
-double Session::load_step() const {
+double Simulation::load_step() const {
   if (actuating_) return scene_->load_step * actuation_step;
   const double reach = shell_->reach_mm();
   return scene_->load_step * (reach > 0 ? push_step * scene_->length_scale_mm / reach : 0.1);
 }
 
-Report Session::go(double t, const Watch& watch, const BifurcationPolicy& leaving,
-                   PathRecord* trail) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& leaving,
+                      PathRecord* record) {
+  const CallBegin begin = call_begin();
   std::vector<Event> events;
   const auto end = [&](Outcome outcome) {
     shell_->allow_unstable(false);
     // the leader may stand ahead of what is certified
     if (outcome != Outcome::reached && outcome != Outcome::locked) shell_->back_to(shell_->state());
-    Report done = report(outcome, shell_->state().t, before, begin);
+    Report done = report(outcome, shell_->state().t, begin);
     done.events = std::move(events);
-    if (actuating_) progress_ = progress_at(done.t);
+    if (actuating_) set_progress(progress_at(done.t));
     return done;
   };
-  const auto station = [&] {
-    if (trail) trail->stations.push_back({shell_->point(), certificate()});
+  const auto note_load_step = [&] {
+    if (record) record->load_steps.push_back({shell_->point(), certificate()});
   };
   bool unstable_too = leaving.through_unstable;
   shell_->allow_unstable(unstable_too);
   // of a path that is followed for what happens on it
   StabilityStepControl softening;
   const auto take_softness = [&] {
-    if (trail && actuating_ && leaving.wanted && scene_->imperfection.chooses())
+    if (record && actuating_ && leaving.wanted && scene_->imperfection.chooses())
       softening.take(*shell_, watch);
   };
-  station();
+  note_load_step();
   take_softness();
   int halvings = 0;
   while (shell_->state().t != t) {
@@ -113,7 +112,7 @@ Report Session::go(double t, const Watch& watch, const BifurcationPolicy& leavin
         return end(Outcome::locked);
       }
       halvings = std::max(halvings - 1, 0);
-      station();
+      note_load_step();
       take_softness();
       continue;
     }
@@ -130,7 +129,7 @@ Report Session::go(double t, const Watch& watch, const BifurcationPolicy& leavin
     if (shell_->followed().t == next && kind == Event::Kind::stability_lost) {
       bisect_to_last_accepted(
           next, good, [] { return true; }, watch);
-      if (shell_->state().t != good.t) station();
+      if (shell_->state().t != good.t) note_load_step();
     }
     events.push_back({kind, shell_->followed().t, {}, {}});
     if (kind == Event::Kind::stability_lost && !scene_->imperfection.chooses()) {
@@ -138,7 +137,7 @@ Report Session::go(double t, const Watch& watch, const BifurcationPolicy& leavin
       shell_->allow_unstable(unstable_too = true);
       continue;
     }
-    if (!leave(t, events.back(), trail, watch))
+    if (!leave(t, events.back(), record, watch))
       return end(watch.cancelled() ? Outcome::cancelled : nested.end);
     if (locked()) {
       // the rest beyond would need longer rods
@@ -146,7 +145,7 @@ Report Session::go(double t, const Watch& watch, const BifurcationPolicy& leavin
       events.back() = {Event::Kind::locked, shell_->state().t, {}, {}};
       return end(Outcome::locked);
     }
-    station();
+    note_load_step();
     softening.forget();
     take_softness();
   }
@@ -154,8 +153,9 @@ Report Session::go(double t, const Watch& watch, const BifurcationPolicy& leavin
 }
 
 /// Stands in the last certified state, between `good` and `beyond`, that is accepted.
-void Session::bisect_to_last_accepted(double beyond, const NestedState& good,
-                                      const std::function<bool()>& accepted, const Watch& watch) {
+void Simulation::bisect_to_last_accepted(double beyond, const NestedState& good,
+                                         const std::function<bool()>& accepted,
+                                         const Watch& watch) {
   const double reach = std::max(shell_->reach_mm(), 1e-9);
   NestedState last = good;
   double bad = beyond;
@@ -172,7 +172,7 @@ void Session::bisect_to_last_accepted(double beyond, const NestedState& good,
 
 /// The branch ended: comes to rest again a little further on. The meshes lose it at slightly
 /// different places; beyond the last of them all find the new state.
-bool Session::leave(double t, Event& event, PathRecord* trail, const Watch& watch) {
+bool Simulation::leave(double t, Event& event, PathRecord* record, const Watch& watch) {
   const PathPoint last = shell_->followed();
   const double way = t > last.t ? 1 : -1;
   const double speed =
@@ -186,8 +186,8 @@ bool Session::leave(double t, Event& event, PathRecord* trail, const Watch& watc
     if (watch.cancelled()) return false;
     if (rest && shell_->start(there, *rest, watch).end == Outcome::reached) {
       event.to = there;
-      if (trail && !moments.empty())
-        trail->snaps.push_back({trail->stations.size() - 1, std::move(moments)});
+      if (record && !moments.empty())
+        record->snaps.push_back({record->load_steps.size() - 1, std::move(moments)});
       return true;
     }
     if (there == t) break;
@@ -198,22 +198,20 @@ bool Session::leave(double t, Event& event, PathRecord* trail, const Watch& watc
   return false;
 }
 
-Report Session::sample(double t, const LoadStep& beside, bool unstable, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort before = effort();
+Report Simulation::sample(double t, const LoadStep& beside, bool unstable, const Watch& watch) {
+  const CallBegin begin = call_begin();
   shell_->allow_unstable(unstable || !beside.certificate.stable());
   const NestedReport nested = shell_->sample(t, beside.point, watch);
   shell_->allow_unstable(false);
-  return report(nested.end, nested.t, before, begin);
+  return report(nested.end, nested.t, begin);
 }
 
-Report Session::certify_rest_at(double t, const LoadStep& before, const Watch& watch) {
-  const double begin = seconds_now();
-  const Effort spent = effort();
+Report Simulation::certify_rest_at(double t, const LoadStep& before, const Watch& watch) {
+  const CallBegin begin = call_begin();
   std::vector<TimedState> moments;
   const auto rest = rest_after_bifurcation(*shell_, *scene_, before.point,
                                            Event::Kind::stability_lost, t, moments, watch);
-  if (!rest) return report(Outcome::lost, t, spent, begin);
+  if (!rest) return report(Outcome::lost, t, begin);
   return sample(t, {{{t, *rest, {}}}, {}}, false, watch);
 }
 

@@ -12,7 +12,7 @@
 #include "engine/record/trajectory.h"
 #include "engine/scene/scene.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
 
 /// A finished experiment. When the path ended early, `summary.limit` says why and `trajectory`
 /// holds the certified frames up to there; a state that is not an equilibrium is never in it.
@@ -52,4 +52,4 @@ Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<
 /// The same with all frames kept in memory.
 Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& watch);
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate

@@ -1,6 +1,4 @@
-// The `net` rung: the smooth Chebyshev net itself, sampled at the rods.
-
-#include "engine/simulate/experiment.h"
+#include "engine/simulate/run.h"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -24,19 +22,13 @@
 #include "engine/solve/buckling.h"
 #include "engine/solve/mesh_levels.h"
 
-namespace gridshell::experiment {
+namespace gridshell::simulate {
+
+namespace {
 
 /// What a gridshell's joints are away from their net, as a rule and over rho: caps of a sphere with
 /// pinned ends lie within 0.032 of it.
 constexpr double net_error = 0.032;
-
-/// The flat footprint and the net, where `progress` has 0 and 1; nothing in between, as no
-/// equilibrium is solved for. Residual, energies, pivots and error estimate are not known. Returns
-/// the mesh that was drawn. Errors (bad_input): those of the net; the sink's.
-Result<RodMesh> write_net_frames(const Scene& scene, const std::vector<double>& progress,
-                                 record::Sink& sink, Watch& watch);
-
-namespace {
 
 constexpr int edges_per_segment = 4;  // for the pictures of the rods between joints
 
@@ -68,8 +60,9 @@ Result<Eigen::VectorXd> curvature_of(const Scene& scene) {
   return cell_curvature(scene.footprint, tangents);
 }
 
-}  // namespace
-
+/// The flat footprint and the net, where `progress` has 0 and 1; nothing in between, as no
+/// equilibrium is solved for. Residual, energies, pivots and error estimate are not known. Returns
+/// the mesh that was drawn. Errors (bad_input): those of the net; the sink's.
 Result<RodMesh> write_net_frames(const Scene& scene, const std::vector<double>& progress,
                                  record::Sink& sink, Watch& watch) {
   RodMesh mesh = mesh_rods(scene.footprint, edges_per_segment);
@@ -78,18 +71,14 @@ Result<RodMesh> write_net_frames(const Scene& scene, const std::vector<double>& 
   const Eigen::Matrix3Xd net = layout->net_nodes;
   TRY_DO(sink.begin(std::move(*layout)));
   for (std::size_t k = 0; k < progress.size(); ++k) {
-    Result<void> taken;
     if (progress[k] == 0)
-      taken = sink.take(frame_at(scene, mesh, int(k), 0, scene.flat.all(mesh.flat),
-                                 Eigen::VectorXd::Zero(K->size())));
-    if (progress[k] == 1) taken = sink.take(frame_at(scene, mesh, int(k), 1, net, *K));
-    if (!taken) return tl::unexpected<Error>(taken.error());
+      TRY_DO(sink.take(frame_at(scene, mesh, int(k), 0, scene.flat.all(mesh.flat),
+                                Eigen::VectorXd::Zero(K->size()))));
+    if (progress[k] == 1) TRY_DO(sink.take(frame_at(scene, mesh, int(k), 1, net, *K)));
   }
   watch.report(1);
   return mesh;
 }
-
-namespace {
 
 /// From 0 to 1, both among them.
 std::vector<double> evenly(int frames) {
@@ -109,11 +98,6 @@ std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
     return progress;
   }
   return preset.movie.frames == 1 ? std::vector{1.0} : evenly(preset.movie.frames);
-}
-
-/// Of a push: all frames of a movie, or enough for the curve of its force.
-std::vector<double> samples_of_push(const preset::Preset& preset, bool stills) {
-  return evenly(stills ? 11 : std::max(2, preset.movie.frames));
 }
 
 /// Passes frames on, and keeps the layout and the last frame for the summary. What solvers say once
@@ -165,18 +149,18 @@ void put_seams(const Scene& scene, record::Summary& s) {
 }
 
 /// What was followed, and on which meshes.
-void put_course(const EquilibriumPath& course, record::Summary& s) {
-  const NestedShell& shell = course.session.shell();
+void put_path(const EquilibriumPath& path, record::Summary& s) {
+  const NestedShell& shell = path.simulation.shell();
   s.edges_per_segment = shell.plan().edges_per_segment.back();
   s.dof = shell.model(shell.levels() - 1).dof();
-  s.limit = course.limit;
-  s.limit_reason = course.limit_reason;
-  s.doubt = course.mesh_disagreement;
-  s.largest_strain = course.session.certificate().largest_strain;
-  const Effort effort = course.session.effort();
+  s.limit = path.limit;
+  s.limit_reason = path.limit_reason;
+  s.doubt = path.mesh_disagreement;
+  s.largest_strain = path.simulation.certificate().largest_strain;
+  const Effort effort = path.simulation.effort();
   s.newton_iterations = effort.newton_iterations;
   s.factorizations = effort.factorizations;
-  s.seconds_setup = course.seconds_setup;
+  s.seconds_setup = path.seconds_setup;
 }
 
 record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
@@ -242,18 +226,12 @@ Result<void> check_steps(const std::vector<preset::Step>& steps, const Footprint
   return {};
 }
 
-}  // namespace
-
-namespace {
-
 /// Whether the boundary's motion takes the rods out of the flat at all. Errors: bad_input.
 Result<void> check_motion(const Scene& scene) {
   if (scene.from_net || scene.drawn_in_space || scene.rung == RodModel::net) return {};
   MeshLevel flat;
   const int edges = initial_levels(scene).edges_per_segment.front();
-  if (auto built = flat.build(scene.footprint, scene.rods, RodModel::bend, scene.motion, edges);
-      !built)
-    return built;
+  TRY_DO(flat.build(scene.footprint, scene.rods, RodModel::bend, scene.motion, edges));
   return parameter_of_shortening(flat.mesh, flat.motion, flat_shortening).map([](double) {});
 }
 
@@ -299,16 +277,31 @@ Result<Plan> plan(const preset::Preset& preset) {
 namespace {
 
 /// What the preset wants done, followed and shown; of steps, what each came to.
-Result<EquilibriumPath> course_for(const preset::Preset& preset,
-                                   const std::shared_ptr<const Scene>& scene, bool stills,
-                                   std::vector<std::string>& told, LastFrame& sink, Watch& watch) {
+Result<EquilibriumPath> path_for(const preset::Preset& preset,
+                                 const std::shared_ptr<const Scene>& scene, bool stills,
+                                 std::vector<std::string>& told, LastFrame& sink, Watch& watch) {
+  // of a push all frames of a movie, or enough for the curve of its force
+  const auto samples = evenly(stills ? 11 : std::max(2, preset.movie.frames));
   if (preset.indentation.wanted())
-    return run_indentation(scene, preset.indentation, samples_of_push(preset, stills), sink, watch);
+    return run_indentation(scene, preset.indentation, samples, sink, watch);
   if (preset.step.empty()) return run_actuation(scene, samples_of(preset, stills), sink, watch);
   // stills show each step's end
   TRY(stepped, run_steps(scene, preset.step, stills ? 1 : preset.movie.frames, sink, watch));
   told = std::move(stepped->messages);
-  return std::move(stepped->course);
+  return std::move(stepped->path);
+}
+
+/// Why a path without a limit has no frame of what was asked for.
+std::string not_in_the_flat(const EquilibriumPath& path) {
+  const Scene& scene = path.simulation.scene();
+  std::string text =
+      "rods that are curved at rest have no equilibrium in the flat, where all frames were asked "
+      "for: ask for one nearer to the actuated boundary";
+  if (path.segments.empty()) return text;
+  double nearest = 1;  // to the flat
+  for (const PathSegment& segment : path.segments)
+    nearest = std::min({nearest, progress_at(segment.from), progress_at(segment.end())});
+  return text + fmt::format(", at a radius of {:.6g} mm or less", scene.radius_at(nearest));
 }
 
 /// Runs a scene on a rung that solves, and says what was followed.
@@ -316,13 +309,15 @@ Result<void> follow(const preset::Preset& preset, const std::shared_ptr<const Sc
                     bool stills, LastFrame& sink, Watch& watch, record::Summary& summary) {
   const double begin = seconds_now();
   std::vector<std::string> told;
-  auto course = course_for(preset, scene, stills, told, sink, watch);
+  auto path = path_for(preset, scene, stills, told, sink, watch);
   if (watch.cancelled()) return stopped();
-  if (!course) return tl::unexpected<Error>(course.error());
+  if (!path) return tl::unexpected<Error>(path.error());
   if (!sink.frame())
-    return fail(Fault::no_equilibrium, "no frame was certified: " + course->limit_reason);
+    return fail(Fault::no_equilibrium,
+                "no frame was certified: " +
+                    (path->limit_reason.empty() ? not_in_the_flat(*path) : path->limit_reason));
   summary = summary_of(preset, *scene, sink);
-  put_course(*course, summary);
+  put_path(*path, summary);
   summary.steps = std::move(told);
   summary.seconds_simulation = seconds_now() - begin - summary.seconds_setup;
   return {};
@@ -341,7 +336,7 @@ Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<
   LastFrame seen(sink, watch);
   record::Summary summary;
   if (scene->rung != RodModel::net) {
-    TRY(followed, follow(preset, scene, stills, seen, watch, summary));
+    TRY_DO(follow(preset, scene, stills, seen, watch, summary));
     return summary;
   }
   const double begin = seconds_now();
@@ -358,4 +353,4 @@ Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& w
   return ExperimentResult{std::move(sink.trajectory()), std::move(*summary)};
 }
 
-}  // namespace gridshell::experiment
+}  // namespace gridshell::simulate
