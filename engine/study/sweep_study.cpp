@@ -12,7 +12,7 @@
 #include "engine/record/summary.h"
 #include "engine/simulate/experiment.h"
 #include "engine/study/state_library.h"
-#include "engine/study/stopwatch.h"
+#include "engine/study/time_limit.h"
 
 namespace gridshell::experiment {
 namespace {

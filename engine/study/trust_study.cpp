@@ -8,7 +8,7 @@
 #include "engine/core/parallel.h"
 #include "engine/scene/scene.h"
 #include "engine/simulate/experiment.h"
-#include "engine/study/stopwatch.h"
+#include "engine/study/time_limit.h"
 
 namespace gridshell::study {
 namespace {
