@@ -134,8 +134,8 @@ Result<record::Summary> run_job(Job& job, Pictures pictures, int threads, record
                                 Watch& watch) {
   if (!is_search(job.preset))
     return experiment::run(job.preset, pictures == Pictures::stills, sink, watch);
-  return experiment::run_states(job.preset, threads, sink, watch)
-      .map([&](experiment::StateSearchRun run) {
+  return study::run_states(job.preset, threads, sink, watch)
+      .map([&](study::StateSearchRun run) {
         job.states = std::move(run.tables);
         return run.summary;
       });

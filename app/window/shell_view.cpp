@@ -115,7 +115,7 @@ void EditSession::look_at_layout() {
   // joints come first on every mesh, and the coarsest is the quickest to look at
   const NestedShell& shell = session_->shell();
   const RodMesh& coarsest = shell.mesh(0);
-  symmetries_ = experiment::symmetries_of_shell(*scene_, coarsest,
+  symmetries_ = study::symmetries_of_shell(*scene_, coarsest,
                                                 symmetries_of(coarsest, shell.motion(0).at(1)));
 }
 

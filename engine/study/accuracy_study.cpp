@@ -121,8 +121,7 @@ Result<std::vector<AccuracyRow>> climb(BenchmarkProblem& study, const std::vecto
     for (const auto& some : rows) all.insert(all.end(), some.begin(), some.end());
     return all;
   };
-  return parallel_for(int(ladders.size()), threads, watch, climb_one,
-                      [&](double share) { watch.report(from + (to - from) * share); })
+  return parallel_for(int(ladders.size()), threads, watch, climb_one, reporting(watch, from, to))
       .map(gathered);
 }
 

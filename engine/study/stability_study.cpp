@@ -16,8 +16,6 @@ namespace {
 
 using record::RunOutcome;
 
-const Watch patient;  // references are made whole
-
 /// A map in the making: its axes, and of every method what it comes to at (x, y).
 class Map {
  public:
@@ -50,9 +48,9 @@ class Map {
 /// Runs on one mesh of a case and is judged there.
 template <class Run>
 RunOutcome on_mesh(const SharedProblem& study, double edges, double promised, const Run& run) {
-  const auto problem = study->problem(int(edges), patient);
+  const auto problem = study->problem(int(edges), unwatched);
   if (!problem) return RunOutcome::refused;
-  return verdict_of(*study, run(**problem), promised, promised, patient);
+  return verdict_of(*study, run(**problem), promised, promised, unwatched);
 }
 
 RunOutcome newton_outcome(const SharedProblem& study, double edges, const MarchOptions& options,
@@ -69,7 +67,7 @@ RunOutcome default_outcome(const SharedProblem& study, const FollowOptions& opti
   const double promised =
       options.refine ? std::max(options.tolerance, claimed_error) : claimed_error;
   return verdict_of(*study, result, result.whole_mesh ? claimed_error : promised, promised,
-                    patient);
+                    unwatched);
 }
 
 constexpr Globalisation globalisations[] = {Globalisation::none, Globalisation::line_search,
@@ -202,7 +200,7 @@ Cells seed_map(const SharedProblem& study, const Axis& heights, const Axis& edge
   Map map("seed", "seed_mm", heights, "edges_per_segment", edges);
   const auto add = [&](std::string_view method, auto run) {
     map.add(method, [=](double height, double k, const Watch& watch) {
-      const auto problem = study->problem(int(k), patient);
+      const auto problem = study->problem(int(k), unwatched);
       if (!problem) return RunOutcome::refused;
       const Problem flat = from_flat(*study, **problem, height);
       const MethodResult result = run(flat, **problem, watch);
@@ -233,10 +231,10 @@ Cells joint_map(const SharedProblem& study, const Axis& stiffnesses, const Axis&
     Map map("joint stiffness", "stiffness_N_per_mm", {stiffness}, "load_steps", load_steps);
     for (const Globalisation how : {Globalisation::none, Globalisation::shifted})
       map.add(word_of(how), [=](double, double steps, const Watch& watch) {
-        const auto problem = study->problem(edges, patient);
+        const auto problem = study->problem(edges, unwatched);
         if (!problem) return RunOutcome::refused;
         const Problem joined = study->on_model(**problem, {RodModel::twist, stiffness});
-        std::call_once(truth->once, [&] { truth->result = march(joined, {60}, patient); });
+        std::call_once(truth->once, [&] { truth->result = march(joined, {60}, unwatched); });
         const MethodResult found = march(joined, {int(steps), how}, watch);
         if (found.claim != RunOutcome::right) return found.claim;
         if (truth->result.claim != RunOutcome::right) return RunOutcome::refused;
@@ -256,8 +254,7 @@ Result<void> run_cells(Cells& cells, const StabilityOptions& options, Watch& wat
     const TimeLimit limit(options.seconds, watch);
     cell.row.outcome = cell.run(limit.watch());
   };
-  return parallel_for(int(cells.size()), options.threads, watch, run,
-                      [&](double share) { watch.report(share); });
+  return parallel_for(int(cells.size()), options.threads, watch, run, reporting(watch));
 }
 
 Result<std::vector<record::StabilityRow>> stability_study(const preset::Preset& preset,

@@ -155,38 +155,10 @@ Preset random_preset(SceneKind kind, std::mt19937& random) {
   RandomDraw draw(random);
   Preset p;
   p.accuracy.tolerance = std::pow(10, draw.between(-4, -2));
-  switch (kind) {
-    case SceneKind::circle:
-      circle(draw, p);
-      break;
-    case SceneKind::curve:
-      curve(draw, p);
-      break;
-    case SceneKind::cap:
-      cap(draw, p);
-      break;
-    case SceneKind::revolution:
-      revolution(draw, p);
-      break;
-    case SceneKind::profile:
-      profile(draw, p);
-      break;
-    case SceneKind::translation:
-      translation(draw, p);
-      break;
-    case SceneKind::blocks:
-      blocks(draw, p);
-      break;
-    case SceneKind::push:
-      push(draw, p);
-      break;
-    case SceneKind::load:
-      load(draw, p);
-      break;
-    case SceneKind::rods:
-      rods(draw, p);
-      break;
-  }
+  constexpr void (*draw_kind[])(RandomDraw&, Preset&) = {
+      circle, curve, cap, revolution, profile, translation, blocks, push, load, rods};
+  static_assert(std::size(draw_kind) == words(SceneKind{}).size());
+  draw_kind[std::size_t(kind)](draw, p);
   return p;
 }
 
@@ -331,8 +303,7 @@ Result<std::vector<TrustScene>> trust_study(const TrustOptions& options, Watch& 
   std::vector<TrustScene> scenes(std::size_t(options.scenes));
   return parallel_for(
              options.scenes, options.threads, watch,
-             [&](int k) { scenes[std::size_t(k)] = judged(k, options, watch); },
-             [&](double share) { watch.report(share); })
+             [&](int k) { scenes[std::size_t(k)] = judged(k, options, watch); }, reporting(watch))
       .map([&] { return std::move(scenes); });
 }
 

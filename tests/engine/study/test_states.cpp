@@ -5,8 +5,8 @@
 #include <set>
 
 using namespace gridshell;
-using experiment::find_states;
-using experiment::StateLibrary;
+using study::find_states;
+using study::StateLibrary;
 
 namespace {
 
