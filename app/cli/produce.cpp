@@ -134,8 +134,8 @@ Result<record::Summary> run_job(Job& job, Pictures pictures, int threads, record
                                 Watch& watch) {
   if (!is_search(job.preset))
     return simulate::run(job.preset, pictures == Pictures::stills, sink, watch);
-  return simulate::run_states(job.preset, threads, sink, watch)
-      .map([&](simulate::StateSearchRun run) {
+  return study::run_states(job.preset, threads, sink, watch)
+      .map([&](study::StateSearchRun run) {
         job.states = std::move(run.tables);
         return run.summary;
       });

@@ -26,6 +26,11 @@
 
 namespace gridshell::app {
 
+using study::Clusters;
+using study::JointCylinder;
+using study::Pose;
+using study::RegisteredScan;
+
 /// One state that a scan is compared with, and how it lies on it.
 struct ComparedState {
   std::string name;  ///< of the run, its case, its state: "out/fig2_states, state 3"
@@ -217,7 +222,7 @@ Result<Scanned> read_all(const ScanOptions& options) {
 /// Errors: bad_input when the cloud holds no joints or far too many, or cannot be laid on any
 /// state.
 Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, Watch& watch) {
-  auto clusters = cluster_joint_tops(scanned.cloud, scanned.cylinder.diameter_mm);
+  auto clusters = study::cluster_joint_tops(scanned.cloud, scanned.cylinder.diameter_mm);
   if (!clusters)
     return fail(Fault::bad_input, fmt::format("{}: {}", file, clusters.error().message));
   long most = 0;
@@ -236,7 +241,9 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
     const record::Frame& frame = run.frames[one.frame];
     if (const auto& fault = run.frames.fault()) return tl::unexpected(*fault);
     ComparedState state{
-        one.name, register_points(scan.clusters, form_of(run.layout, frame), scan.cylinder), false};
+        one.name,
+        study::register_points(scan.clusters, study::form_of(run.layout, frame), scan.cylinder),
+        false};
     // states of shells of other sizes count by their joints
     if (state.scan) {
       state.shown = scan_matches(*state.scan, scan.cylinder);

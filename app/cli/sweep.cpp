@@ -69,7 +69,7 @@ std::vector<std::string> drawable(const preset::Presets& presets, const preset::
   std::set<std::string> names;
   for (const auto& run : runs_of(presets)) {
     const bool search = run.preset.jitter.wanted();
-    for (auto& name : simulate::figure_names(search)) names.insert(std::move(name));
+    for (auto& name : study::figure_names(search)) names.insert(std::move(name));
     if (search && record::makes_phase_diagram(axes_of(grid))) names.insert(classes);
   }
   return {names.begin(), names.end()};

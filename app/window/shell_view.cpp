@@ -111,8 +111,8 @@ void EditSession::update_layout() {
   // joints come first on every mesh, and the coarsest is the quickest to look at
   const NestedShell& shell = session_->shell();
   const RodMesh& coarsest = shell.mesh(0);
-  symmetries_ = simulate::symmetries_of_shell(*now_.scene, coarsest,
-                                              symmetries_of(coarsest, shell.motion(0).at(1)));
+  symmetries_ = study::symmetries_of_shell(*now_.scene, coarsest,
+                                                symmetries_of(coarsest, shell.motion(0).at(1)));
 }
 
 /// Of the shape, whatever holds it. A square that is mapped onto itself alone has none to tell of.

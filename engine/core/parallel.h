@@ -80,4 +80,9 @@ Result<void> parallel_for(int count, int threads, Watch& watch, const Task& task
       [&](bool, int k) { return task(k); }, done);
 }
 
+/// A `done` that tells a watch: the share of all between two fractions of its own work.
+inline auto reporting(Watch& watch, double from = 0, double to = 1) {
+  return [&watch, from, to](double share) { watch.report(from + (to - from) * share); };
+}
+
 }  // namespace gridshell

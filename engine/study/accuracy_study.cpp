@@ -1,11 +1,14 @@
 #include "engine/study/accuracy_study.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "engine/core/parallel.h"
 #include "engine/core/try.h"
 #include "engine/study/benchmark_methods.h"
+#include "engine/study/time_limit.h"
 
 namespace gridshell::study {
 namespace {
@@ -20,10 +23,9 @@ struct Ladder {
 };
 
 struct Measured {
-  MethodResult arrival;
+  MethodResult result;
   std::vector<double> seconds;  // ascending
   RunOutcome outcome = RunOutcome::right;
-  double median() const { return seconds[seconds.size() / 2]; }
 };
 
 /// Several runs of a fast method, one of a slow one.
@@ -31,39 +33,41 @@ Measured measure(BenchmarkProblem& study, const Method& method, double allowed,
                  const AccuracyOptions& options, const Watch& watch) {
   Measured measured;
   for (int run = 0; run < std::max(1, options.runs); ++run) {
-    Stopwatch stopwatch;
     TimeLimit limit(options.seconds, watch);
-    measured.arrival = method.run(study, stopwatch, limit.watch());
-    measured.seconds.push_back(stopwatch.seconds());
-    const bool slow = stopwatch.seconds() > 0.5, very_slow = stopwatch.seconds() > 2;
-    if (very_slow || (slow && run >= 2) || watch.cancelled()) break;
-    if (measured.arrival.claim != RunOutcome::right) break;
+    measured.result = method.run(study, limit.watch());
+    const double seconds = measured.result.seconds;
+    measured.seconds.push_back(seconds);
+    if (seconds > 2 || (seconds > 0.5 && run >= 2) || watch.cancelled()) break;
+    if (measured.result.claim != RunOutcome::right) break;
   }
   std::sort(measured.seconds.begin(), measured.seconds.end());
-  measured.outcome = verdict_of(study, measured.arrival, claimed_error, allowed, watch);
+  measured.outcome = verdict_of(study, measured.result, claimed_error, allowed, watch);
   return measured;
 }
 
-AccuracyRow row_of(const BenchmarkProblem& study, const Method& method, const Measured& measured) {
-  AccuracyRow row;
+/// What rows of both tables say.
+template <class Row>
+Row row_of(const Method& method, const Measured& measured) {
+  Row row;
   row.method = method.name;
-  row.edges_per_segment = measured.arrival.edges;
-  row.dof = measured.arrival.dof;
+  row.edges_per_segment = measured.result.edges;
+  row.dof = measured.result.dof;
   row.outcome = measured.outcome;
-  row.cpu_s = measured.median();
+  row.cpu_s = measured.seconds[measured.seconds.size() / 2];
   row.cpu_min_s = measured.seconds.front();
   row.cpu_max_s = measured.seconds.back();
-  const bool there = measured.arrival.claim == RunOutcome::right;
-  if (there) row.error = study.error_of(measured.arrival.x);
   return row;
 }
 
 template <class Make>
-Ladder ladder(Make make, int most_edges, int coarsest = 1) {
+Ladder ladder(Make make, int most_edges) {
   Ladder ladder;
-  for (int k = coarsest; k <= most_edges; k *= 2) ladder.rungs.push_back(make(k));
+  for (int k = 1; k <= most_edges; k *= 2) ladder.rungs.push_back(make(k));
   return ladder;
 }
+
+Method bend_method(int edges) { return plan_method("bend", {{edges}, false}); }
+Method twist_method(int edges) { return plan_method("twist", {{edges}, false}, {RodModel::twist}); }
 
 /// The engine's own: fractions of a second each.
 std::vector<Ladder> own_ladders(const AccuracyOptions& options) {
@@ -71,7 +75,7 @@ std::vector<Ladder> own_ladders(const AccuracyOptions& options) {
   std::vector<int> edges{4};
   while (2 * edges.back() <= options.most_edges) {
     edges.push_back(2 * edges.back());
-    all.push_back({{nested_method(edges)}, 1e-2});
+    all.push_back({{plan_method("nested", {edges, edges.size() > 2})}, 1e-2});
   }
   for (double tolerance : auto_tolerances) all.push_back({{auto_method(tolerance)}, tolerance});
   return all;
@@ -79,17 +83,21 @@ std::vector<Ladder> own_ladders(const AccuracyOptions& options) {
 
 /// What others use.
 std::vector<Ladder> other_ladders(const AccuracyOptions& options) {
-  const auto up_to = [&](int edges) { return std::min(edges, options.most_edges); };
+  const auto climb_to = [&](int edges, auto make) {
+    return ladder(make, std::min(edges, options.most_edges));
+  };
   const auto relaxed = [](Relaxation kind) {
     return [kind](int edges) { return relaxed_method(kind, edges); };
   };
-  std::vector<Ladder> all{ladder(relaxed(Relaxation::explicit_damped), up_to(8)),
-                          ladder(relaxed(Relaxation::kinetic), up_to(8)),
-                          ladder(textbook_method, up_to(8)), ladder(twist_method, up_to(8)),
-                          ladder(relaxed(Relaxation::implicit_euler), up_to(8))};
+  std::vector<Ladder> all{climb_to(8, relaxed(Relaxation::explicit_damped)),
+                          climb_to(8, relaxed(Relaxation::kinetic)), climb_to(8, textbook_method),
+                          climb_to(8, twist_method),
+                          climb_to(8, relaxed(Relaxation::implicit_euler))};
   for (double stiffness : {1.0, 10.0, 100.0})
-    all.push_back(
-        ladder([stiffness](int edges) { return spring_method(edges, stiffness); }, up_to(4)));
+    all.push_back(climb_to(4, [stiffness](int edges) {
+      return plan_method(fmt::format("springs {:g} N/mm", stiffness), {{edges}, false},
+                         {RodModel::twist, stiffness});
+    }));
   return all;
 }
 
@@ -103,7 +111,8 @@ Result<std::vector<AccuracyRow>> climb(BenchmarkProblem& study, const std::vecto
     for (const Method& method : ladder.rungs) {
       if (watch.cancelled()) return;
       const Measured measured = measure(study, method, ladder.allowed, options, watch);
-      rows[std::size_t(k)].push_back(row_of(study, method, measured));
+      auto& row = rows[std::size_t(k)].emplace_back(row_of<AccuracyRow>(method, measured));
+      if (measured.result.claim == RunOutcome::right) row.error = study.error_of(measured.result.x);
       if (measured.outcome == RunOutcome::too_slow) break;
     }
   };
@@ -112,8 +121,7 @@ Result<std::vector<AccuracyRow>> climb(BenchmarkProblem& study, const std::vecto
     for (const auto& some : rows) all.insert(all.end(), some.begin(), some.end());
     return all;
   };
-  return parallel_for(int(ladders.size()), threads, watch, climb_one,
-                      [&](double share) { watch.report(from + (to - from) * share); })
+  return parallel_for(int(ladders.size()), threads, watch, climb_one, reporting(watch, from, to))
       .map(gathered);
 }
 
@@ -177,15 +185,8 @@ std::vector<record::ScalingRow> scaling_of(const preset::Preset& preset,
     for (std::size_t k = 0; k < methods.size() && !watch.cancelled(); ++k) {
       if (slow[k]) continue;
       const Measured measured = measure(**made, methods[k], INFINITY, limited, watch);
-      record::ScalingRow row;
-      row.method = methods[k].name;
+      auto row = row_of<record::ScalingRow>(methods[k], measured);
       row.rods = int((*made)->scene().footprint.rods.size()) / 2;
-      row.edges_per_segment = measured.arrival.edges;
-      row.dof = measured.arrival.dof;
-      row.cpu_s = measured.median();
-      row.cpu_min_s = measured.seconds.front();
-      row.cpu_max_s = measured.seconds.back();
-      row.outcome = measured.outcome;
       slow[k] = row.outcome == RunOutcome::too_slow;
       rows.push_back(std::move(row));
     }

@@ -1,141 +1,91 @@
-// The engine's own solvers as methods of a study.
-
 #include "engine/study/benchmark_methods.h"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/system_info.h"
 #include "engine/scene/net_design.h"
+#include "engine/solve/buckling.h"
 
 namespace gridshell::study {
 namespace {
 
 using record::RunOutcome;
 
-RunOutcome claim_of(const NestedReport& report) {
-  switch (report.end) {
-    case Outcome::reached:
-      return RunOutcome::right;
-    case Outcome::cancelled:
-      return RunOutcome::too_slow;
-    case Outcome::unstable:
-    case Outcome::lost:
-    case Outcome::folded:
-    case Outcome::not_finite:
-    case Outcome::not_converged:
-    case Outcome::meshes_disagree:
-    case Outcome::locked:
-      break;
-  }
-  return RunOutcome::refused;  // the report names the reason
-}
-
-MethodResult arrive(const NestedShell& shell, const NestedReport& report, bool extrapolated) {
-  MethodResult arrival;
-  arrival.claim = claim_of(report);
-  arrival.edges = shell.plan().edges_per_segment.back();
-  arrival.dof = shell.model(shell.levels() - 1).dof();
-  arrival.x = shell.state().x;
-  arrival.whole_mesh = !extrapolated;
-  return arrival;
-}
-
-MethodResult follow(BenchmarkProblem& study, const LevelPlan& plan, double tolerance,
-                    Stopwatch& stopwatch, const Watch& watch, double* estimate,
-                    const ModelVariant& on = {}) {
-  stopwatch.start();
-  NestedShell shell = study.shell(plan, tolerance, on);
-  stopwatch.stop();
-  NestedReport report = study.begin(shell, watch);
-  if (report.end == Outcome::reached) {
-    stopwatch.start();
-    report = study.go(shell, watch);
-    stopwatch.stop();
-  }
-  if (estimate) *estimate = shell.state().error_estimate_mm / study.scale_mm();
-  return arrive(shell, report, plan.extrapolate || on.spring_N_per_mm > 0);
+/// A method that takes a problem on one mesh; refused where that has none.
+template <class Run>
+Method mesh_method(std::string_view name, int edges, Run run) {
+  return {std::string(name), [edges, run](BenchmarkProblem& study, const Watch& watch) {
+            const auto problem = study.problem(edges, watch);
+            return problem ? run(**problem, watch) : MethodResult{};
+          }};
 }
 
 }  // namespace
 
-double load_parameter(const Problem& problem, int k, int steps) {
-  const double from = problem.motion.progress(problem.t);
-  const double come = k == steps ? 1 : from + (1 - from) * k / steps;
-  return problem.motion.law == PathLaw::square ? parameter_at(come) : come;
-}
-
 Method net_method() {
-  return {"net", 0, [](BenchmarkProblem& study, Stopwatch& stopwatch, const Watch&) {
-            MethodResult arrival;
-            arrival.claim = RunOutcome::refused;
+  return {"net", [](BenchmarkProblem& study, const Watch&) {
+            MethodResult result;
             const auto& scene = study.scene();
-            if (!scene.net || study.task() == Task::push) return arrival;
-            stopwatch.start();
+            if (!scene.net || study.task() == Task::push) return result;
+            const double begin = cpu_seconds_now();
             Eigen::Matrix2Xd uv(2, study.joints());
             for (int k = 0; k < study.joints(); ++k)
               uv.col(k) << scene.footprint.joints[std::size_t(k)].u,
                   scene.footprint.joints[std::size_t(k)].v;
             auto net = points_on(*scene.net, uv);
-            stopwatch.stop();
-            if (!net) return arrival;
-            arrival.claim = RunOutcome::right;
-            arrival.x = std::move(*net);
-            arrival.dof = 3 * study.joints();
-            return arrival;
+            result.seconds = cpu_seconds_now() - begin;
+            if (!net) return result;
+            result.claim = RunOutcome::right;
+            result.x = std::move(*net);
+            result.dof = 3 * study.joints();
+            return result;
           }};
 }
 
-Method bend_method(int edges) {
-  return {"bend", edges,
-          [edges](BenchmarkProblem& study, Stopwatch& stopwatch, const Watch& watch) {
-            const LevelPlan plan{{edges}, false};
-            return follow(study, plan, expected_error(plan), stopwatch, watch, nullptr);
-          }};
+MethodResult follow_path(BenchmarkProblem& study, FollowOptions options, const Watch& watch) {
+  MethodResult result;
+  for (;;) {
+    double begin = cpu_seconds_now();
+    NestedShell shell = study.shell(options.plan, options.tolerance, options.on);
+    result.seconds += cpu_seconds_now() - begin;
+    NestedReport report = study.begin(shell, watch);
+    if (report.end == Outcome::reached) {
+      begin = cpu_seconds_now();
+      report = study.go(shell, watch, options.stops);
+      result.seconds += cpu_seconds_now() - begin;
+    }
+    // where it is refused the report names the reason
+    result.claim = report.end == Outcome::reached     ? RunOutcome::right
+                   : report.end == Outcome::cancelled ? RunOutcome::too_slow
+                                                      : RunOutcome::refused;
+    result.edges = options.plan.edges_per_segment.back();
+    result.dof = shell.model(shell.levels() - 1).dof();
+    result.x = shell.state().x;
+    result.whole_mesh = !options.plan.extrapolate && options.on.spring_N_per_mm == 0;
+    const bool met = shell.state().error_estimate_mm <= options.tolerance * study.scale_mm();
+    if (result.claim != RunOutcome::right || !options.refine || met) return result;
+    const auto next = finer(options.plan);
+    if (!next) {
+      result.claim = RunOutcome::refused;  // the tolerance is not met, and it says so
+      return result;
+    }
+    options.plan = *next;
+  }
 }
 
-namespace {
-
-Method on_model(const std::string& name, int edges, const ModelVariant& on) {
-  return {name, edges,
-          [edges, on](BenchmarkProblem& study, Stopwatch& stopwatch, const Watch& watch) {
-            const LevelPlan plan{{edges}, false};
-            return follow(study, plan, expected_error(plan), stopwatch, watch, nullptr, on);
-          }};
-}
-
-}  // namespace
-
-Method twist_method(int edges) { return on_model("twist", edges, {RodModel::twist}); }
-
-Method spring_method(int edges, double stiffness_N_per_mm) {
-  return on_model(fmt::format("springs {:g} N/mm", stiffness_N_per_mm), edges,
-                  {RodModel::twist, stiffness_N_per_mm});
-}
-
-Method nested_method(const std::vector<int>& edges) {
-  const LevelPlan plan{edges, edges.size() > 2};
-  return {"nested", edges.back(),
-          [plan](BenchmarkProblem& study, Stopwatch& stopwatch, const Watch& watch) {
-            return follow(study, plan, expected_error(plan), stopwatch, watch, nullptr);
+Method plan_method(std::string name, const LevelPlan& plan, const ModelVariant& on) {
+  return {std::move(name), [plan, on](BenchmarkProblem& study, const Watch& watch) {
+            return follow_path(study, {.plan = plan, .tolerance = expected_error(plan), .on = on},
+                               watch);
           }};
 }
 
 Method auto_method(double tolerance) {
-  return {fmt::format("auto {:.0e}", tolerance), 0,
-          [tolerance](BenchmarkProblem& study, Stopwatch& stopwatch, const Watch& watch) {
-            LevelPlan plan = plan_levels(tolerance);
-            for (;;) {
-              double estimate = 0;
-              MethodResult arrival = follow(study, plan, tolerance, stopwatch, watch, &estimate);
-              if (arrival.claim != RunOutcome::right || estimate <= tolerance) return arrival;
-              const auto next = finer(plan);
-              if (!next) {
-                arrival.claim = RunOutcome::refused;  // the tolerance is not met, and it says so
-                return arrival;
-              }
-              plan = *next;
-            }
+  return {fmt::format("auto {:.0e}", tolerance),
+          [tolerance](BenchmarkProblem& study, const Watch& watch) {
+            return follow_path(study, {plan_levels(tolerance), tolerance, true}, watch);
           }};
 }
 
@@ -143,7 +93,7 @@ Method auto_method(double tolerance) {
 
 namespace {
 
-using record::RunOutcome;
+constexpr int most_iterations = 400;  // a load step
 
 /// Full or shortened Newton steps on the energy's Hessian, whatever its inertia.
 RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOptions& options,
@@ -151,9 +101,9 @@ RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOption
   Eigen::Matrix3Xd dx;
   State trial;
   Assembly there;
-  for (int k = 0; k < options.most_iterations; ++k) {
+  for (int k = 0; k < most_iterations; ++k) {
     if (watch.cancelled()) return RunOutcome::too_slow;
-    if (!system.at(state, false, 0, options.EA_scale).usable) return RunOutcome::blow_up;
+    if (!system.at(state, false).usable) return RunOutcome::blow_up;
     system.correction(dx);
     const double move = max_column_norm(dx);
     if (!std::isfinite(move) || !std::isfinite(system.assembly().energies.total()))
@@ -185,16 +135,14 @@ RunOutcome rest_unshifted(Linearisation& system, State& state, const MarchOption
 RunOutcome rest_shifted(Linearisation& system, State& state, const MarchOptions& options,
                         const Watch& watch) {
   const auto energy_at = [&](const State& at) {
-    Energies energies = energies_of(system.model(), at, system.outside);
-    energies[Term::stretch] *= options.EA_scale;
-    return energies.total();
+    return energies_of(system.model(), at, system.outside).total();
   };
   Eigen::Matrix3Xd dx;
   State trial;
   double shift = 0;
-  for (int k = 0; k < options.most_iterations; ++k) {
+  for (int k = 0; k < most_iterations; ++k) {
     if (watch.cancelled()) return RunOutcome::too_slow;
-    Inertia inertia = system.at(state, false, shift, options.EA_scale);
+    Inertia inertia = system.at(state, false, shift);
     const double first = shift;
     while (!inertia.positive_definite()) {
       if (shift > 1e8) return RunOutcome::blow_up;
@@ -222,62 +170,72 @@ RunOutcome rest_shifted(Linearisation& system, State& state, const MarchOptions&
   return RunOutcome::not_converged;
 }
 
-RunOutcome rest(Linearisation& system, State& state, const MarchOptions& options,
-                const Watch& watch) {
-  return options.globalisation == Globalisation::shifted
-             ? rest_shifted(system, state, options, watch)
-             : rest_unshifted(system, state, options, watch);
-}
-
 }  // namespace
 
-const char* name_of(Globalisation globalisation) {
-  switch (globalisation) {
-    case Globalisation::none:
-      return "full steps";
-    case Globalisation::line_search:
-      return "line search";
-    case Globalisation::shifted:
-      break;
-  }
-  return "shifted";
-}
-
-MethodResult march(const Problem& problem, const MarchOptions& options, Stopwatch& stopwatch,
-                   const Watch& watch) {
-  MethodResult arrival;
-  arrival.edges = problem.edges;
-  arrival.dof = problem.model.dof();
-  arrival.whole_mesh = options.EA_scale == 1;
-  stopwatch.start();
+MethodResult march(const Problem& problem, const MarchOptions& options, const Watch& watch) {
+  MethodResult result = MethodResult::on(problem);
+  const double begin = cpu_seconds_now();
   Linearisation system(problem.model,
                        make_cholmod(problem.model, {.supernodal = true, .own_ordering = false}));
   State state = problem.start;
+  const auto rest = options.globalisation == Globalisation::shifted ? rest_shifted : rest_unshifted;
   const int steps = problem.motion.progress(problem.t) == 1 ? 1 : options.load_steps;
   for (int k = 1; k <= steps; ++k) {
-    problem.motion.impose(system, load_parameter(problem, k, steps), state);
-    arrival.claim = rest(system, state, options, watch);
-    if (arrival.claim != RunOutcome::right) break;
+    problem.motion.impose(system, problem.load_parameter(k, steps), state);
+    result.claim = rest(system, state, options, watch);
+    if (result.claim != RunOutcome::right) break;
   }
-  stopwatch.stop();
-  arrival.negative_pivots = system.at(state, false).negative_pivots;
-  arrival.x = nodes_of(problem.mesh, problem.model, state.x);
-  return arrival;
+  result.seconds = cpu_seconds_now() - begin;
+  result.negative_pivots = system.at(state, false).negative_pivots;
+  result.x = nodes_of(problem.mesh, problem.model, state.x);
+  return result;
 }
 
 Method textbook_method(int edges) {
-  return {
-      "Newton + CHOLMOD", edges,
-      [edges](BenchmarkProblem& study, Stopwatch& stopwatch, const Watch& watch) -> MethodResult {
-        const auto problem = study.problem(edges, watch);
-        if (!problem) return {RunOutcome::refused, {}, false, 0, 0, 0};
-        return march(**problem, {}, stopwatch, watch);
-      }};
+  return mesh_method("Newton + CHOLMOD", edges, [](const Problem& problem, const Watch& watch) {
+    return march(problem, {}, watch);
+  });
+}
+
+Method relaxed_method(Relaxation kind, int edges) {
+  return mesh_method(word_of(kind), edges, [kind](const Problem& problem, const Watch& watch) {
+    const double step = kind == Relaxation::implicit_euler ? 0.1 : 0.9;
+    return relax(problem, {.kind = kind, .step = step}, watch);
+  });
+}
+
+Problem from_flat(const BenchmarkProblem& study, const Problem& problem, double height) {
+  Problem flat = problem;
+  const Eigen::Matrix3Xd end = problem.motion.at(problem.t);
+  flat.motion = {study.scene().flat.all(problem.mesh.flat), {}, PathLaw::even};
+  flat.motion.change = end - flat.motion.begin;
+  flat.t = 0;
+  flat.end = problem.start;
+  flat.start.x = flat.motion.begin;
+  flat.start.force.setZero();
+  const double reach2 = problem.mesh.flat.colwise().squaredNorm().maxCoeff();
+  const BuckleSeed& seed = study.scene().seed;
+  for (int node : problem.model.free_columns) {
+    const Eigen::Vector2d p = problem.mesh.flat.col(node);
+    const double tilted = 1 - 0.8 * seed.up * seed.diagonal * p.x() * p.y() / reach2;
+    flat.start.x(2, node) += seed.up * height * (1 - p.squaredNorm() / reach2) * tilted;
+  }
+  return flat;
+}
+
+MethodResult buckle(const BenchmarkProblem& study, const Problem& problem, const Watch& watch) {
+  MethodResult result = MethodResult::on(problem);
+  Linearisation system(problem.model);
+  const auto first = first_buckled(system, problem.mesh, problem.motion, problem.t,
+                                   study.scene().seed, study.scene().flat, watch);
+  if (watch.cancelled()) result.claim = RunOutcome::too_slow;
+  if (!first) return result;
+  result.claim = RunOutcome::right;
+  result.x = first->x;
+  return result;
 }
 
 namespace {
-
-using record::RunOutcome;
 
 constexpr double flat = 1e-3;  // of the length scale
 
@@ -306,19 +264,19 @@ RunOutcome kind_of(const BenchmarkProblem& study, const Problem& problem, const 
 
 }  // namespace
 
-RunOutcome verdict_of(BenchmarkProblem& study, const MethodResult& arrival, double claimed,
+RunOutcome verdict_of(BenchmarkProblem& study, const MethodResult& result, double claimed,
                       double allowed, const Watch& watch) {
-  if (arrival.claim != RunOutcome::right) return arrival.claim;
-  if (!arrival.x.allFinite() || arrival.x.cols() < study.joints()) return RunOutcome::silent_wrong;
-  const double error = study.error_of(arrival.x);
+  if (result.claim != RunOutcome::right) return result.claim;
+  if (!result.x.allFinite() || result.x.cols() < study.joints()) return RunOutcome::silent_wrong;
+  const double error = study.error_of(result.x);
   const auto problem =
-      arrival.edges > 0 ? study.problem(arrival.edges, watch) : Result<const Problem*>(nullptr);
-  if (!arrival.whole_mesh || !problem || !*problem) {
+      result.edges > 0 ? study.problem(result.edges, watch) : Result<const Problem*>(nullptr);
+  if (!result.whole_mesh || !problem || !*problem) {
     if (error <= 10 * allowed) return RunOutcome::right;
-    return height_of(study, arrival.x) < flat && arrival.edges > 0 ? RunOutcome::planar_saddle
-                                                                   : RunOutcome::silent_wrong;
+    return height_of(study, result.x) < flat && result.edges > 0 ? RunOutcome::planar_saddle
+                                                                 : RunOutcome::silent_wrong;
   }
-  return verdict_at_end(study, **problem, arrival.x, claimed);
+  return verdict_at_end(study, **problem, result.x, claimed);
 }
 
 RunOutcome verdict_at_end(const BenchmarkProblem& study, const Problem& problem,

@@ -39,37 +39,38 @@ Error lost(const NestedReport& report, const char* where) {
 
 }  // namespace
 
+double Problem::load_parameter(int k, int steps) const {
+  const double from = motion.progress(t);
+  const double come = k == steps ? 1 : from + (1 - from) * k / steps;
+  return motion.law == PathLaw::square ? parameter_at(come) : come;
+}
+
+BenchmarkProblem::BenchmarkProblem(std::shared_ptr<const Scene> scene,
+                                   const preset::Indentation& pushed)
+    : scene_(std::move(scene)),
+      pushed_(pushed),
+      task_(pushed.wanted()    ? Task::push
+            : scene_->from_net ? Task::beside_net
+                               : Task::actuation) {}
+
 Result<std::unique_ptr<BenchmarkProblem>> BenchmarkProblem::create(const preset::Preset& preset,
                                                                    int finest, Watch& watch,
                                                                    double EA_scale) {
-  std::unique_ptr<BenchmarkProblem> made(new BenchmarkProblem);
-  TRY_DO(made->set_up(preset));
-  if (EA_scale != 1) {
-    Scene stiffer = *made->scene_;
-    for (RodMaterial& material : stiffer.rods.materials) material.EA *= EA_scale;
-    made->scene_ = std::make_shared<const Scene>(std::move(stiffer));
-  }
-  TRY_DO(made->follow(finest, watch));
-  return made;
-}
-
-Result<void> BenchmarkProblem::set_up(const preset::Preset& preset) {
-  TRY(made, shared_scene_of(preset));
-  const std::shared_ptr<const Scene>& scene = *made;
+  TRY(scene, scene_of(preset));
+  const auto refused = [](std::string why) { return fail(Fault::bad_input, std::move(why)); };
   if (scene->rung == RodModel::twist)
-    return fail(Fault::bad_input,
-                "a study compares methods on rods for which the bend rung is exact: " +
-                    preset::model_reason(preset));
+    return refused("a study compares methods on rods for which the bend rung is exact: " +
+                   preset::model_reason(preset));
   if (scene->rods.loaded())
-    return fail(
-        Fault::bad_input,
+    return refused(
         "a study compares methods on shells that bear no [loads] and stand on their ends alone");
   if (scene->drawn_in_space)
-    return fail(Fault::bad_input, "a study compares methods on shells that begin flat or on a net");
-  scene_ = scene;
-  pushed_ = preset.indentation;
-  task_ = pushed_.wanted() ? Task::push : scene_->from_net ? Task::beside_net : Task::actuation;
-  return {};
+    return refused("a study compares methods on shells that begin flat or on a net");
+  for (RodMaterial& material : scene->rods.materials) material.EA *= EA_scale;
+  std::unique_ptr<BenchmarkProblem> made(
+      new BenchmarkProblem(std::make_shared<const Scene>(std::move(*scene)), preset.indentation));
+  TRY_DO(made->follow(finest, watch));
+  return made;
 }
 
 Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
@@ -103,7 +104,9 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
   finest_ = reference.mesh(reference.levels() - 1);
   if (task_ == Task::push) {
     start_ = reference.state().x;
-    if (auto found = find_push(reference); !found) return found;
+    TRY(asked, simulate::push_of(pushed_, *scene_, reference.finest(), reference.state().x));
+    joint_ = asked->joint;
+    displacement_ = asked->displacement;
     push(reference);
     report = go(reference, watch);
     if (report.end != Outcome::reached)
@@ -111,13 +114,6 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
   }
   end_ = reference.state().x;
   reference_error_ = reference.state().error_estimate_mm / scale_mm();
-  return {};
-}
-
-Result<void> BenchmarkProblem::find_push(const NestedShell& shell) {
-  TRY(push, simulate::push_of(pushed_, *scene_, shell.finest(), shell.state().x));
-  joint_ = push->joint;
-  displacement_ = push->displacement;
   return {};
 }
 
@@ -171,8 +167,14 @@ NestedReport BenchmarkProblem::begin(NestedShell& shell, const Watch& watch) {
   return report;
 }
 
-NestedReport BenchmarkProblem::go(NestedShell& shell, const Watch& watch) const {
-  if (task_ == Task::actuation) return shell.advance(1, watch);
+NestedReport BenchmarkProblem::go(NestedShell& shell, const Watch& watch, int stops) const {
+  if (task_ == Task::actuation) {
+    NestedReport report{Outcome::reached, t_};
+    const double from = progress_at(t_);
+    for (int k = 1; k <= stops && report.end == Outcome::reached; ++k)
+      report = shell.advance(k == stops ? 1 : parameter_at(from + (1 - from) * k / stops), watch);
+    return report;
+  }
   if (task_ == Task::beside_net) {
     auto net = on_net(*scene_, shell.mesh(0), shell.model(0), shell.motion(0));
     if (net) net = find_equilibrium(shell.system(0), *net, 0.5 * scene_->footprint.spacing, watch);

@@ -32,6 +32,9 @@ struct Problem {
   double t = 0;  ///< where it starts
   State start;   ///< certified on this mesh (beside_net: the net itself)
   State end;     ///< the equilibrium of *this* mesh at t = 1 on the branch of the reference
+
+  /// Path parameter of load step `k` of `steps`: boundary or joint move evenly.
+  double load_parameter(int k, int steps) const;
 };
 
 /// A scene with its reference. The start is the first buckled state where the rods are 2 % shorter
@@ -67,14 +70,13 @@ class BenchmarkProblem {
   NestedShell shell(const LevelPlan& plan, double tolerance, const ModelVariant& on = {}) const;
   /// Brings the shell to the start, as far as that is given and not the method's own work.
   NestedReport begin(NestedShell& shell, const Watch& watch);
-  /// From there to the end, in load steps as the experiments choose them.
-  NestedReport go(NestedShell& shell, const Watch& watch) const;
+  /// From there to the end, in load steps as the experiments choose them; of an actuation through
+  /// `stops` certified states.
+  NestedReport go(NestedShell& shell, const Watch& watch, int stops = 1) const;
 
  private:
-  BenchmarkProblem() = default;
-  Result<void> set_up(const preset::Preset& preset);
+  BenchmarkProblem(std::shared_ptr<const Scene> scene, const preset::Indentation& pushed);
   Result<void> follow(int finest, Watch& watch);
-  Result<void> find_push(const NestedShell& shell);
   Result<State> rest_beside(const Problem& problem, const Eigen::Matrix3Xd& wanted, double t,
                             const Watch& watch) const;
   ShellRods rods_on(const ModelVariant& on) const;
@@ -82,7 +84,7 @@ class BenchmarkProblem {
 
   std::shared_ptr<const Scene> scene_;
   preset::Indentation pushed_;
-  Task task_ = Task::actuation;
+  Task task_;
   double t_ = 0;    // where the actuation starts
   int joint_ = -1;  // pushed
   Eigen::Vector3d displacement_ = Eigen::Vector3d::Zero();

@@ -22,7 +22,6 @@ using record::BranchEvent;
 
 // of the length scale
 constexpr double step_size = 0.006, symmetric_within = 1e-4, round_off = 1e-9;
-constexpr double flat_shortening = 1e-3;  // how near to the flat it is followed
 constexpr double first_shortenings[] = {0.02, 0.01, 0.005, 0.0025};
 
 /// What is followed, where it begins and how far it goes.
@@ -39,39 +38,31 @@ struct Branch {
   double sign = 1;
 };
 
-Result<BranchStart> begin_push(std::shared_ptr<const Scene> scene, const preset::Indentation& asked,
-                               const LevelPlan& plan, const Watch& watch) {
-  TRY(held, simulate::hold_to_push(scene, asked, plan, watch));
-  return BranchStart{std::move(held->simulation), 0, 1, true};
-}
-
 Result<BranchStart> begin_actuation(std::shared_ptr<const Scene> scene, const LevelPlan& plan,
                                     const Watch& watch) {
   if (scene->drawn_in_space)
     return fail(Fault::bad_input, "branches are looked for where a path begins flat or on a net");
   TRY(session, Simulation::open(scene, plan));
-  BranchStart course{std::move(*session)};
-  const NestedShell& shell = course.session.shell();
-  TRY(nearly_flat,
-      parameter_of_shortening(shell.finest(), shell.motion(shell.levels() - 1), flat_shortening));
-  course.from = *nearly_flat;
   Result<Report> begun = fail(Fault::no_equilibrium, "no buckled state was certified");
   if (scene->from_net) {
-    begun = course.session.begin_on_net(watch);
+    begun = session->begin_on_net(watch);
   } else {
     for (double shortening : first_shortenings) {
-      begun = course.session.begin_buckled(shortening, watch);
+      begun = session->begin_buckled(shortening, watch);
       if (begun && begun->end == Outcome::reached) break;
     }
   }
   if (!begun) return tl::unexpected<Error>(begun.error());
   if (begun->end != Outcome::reached)
     return fail(Fault::no_equilibrium, "the state that the path begins with is not certified");
-  if (course.from >= 1)
+  const NestedShell& shell = session->shell();
+  TRY(from, parameter_of_shortening(shell.finest(), shell.motion(shell.levels() - 1),
+                                    simulate::flat_shortening));
+  if (*from >= 1)
     return fail(Fault::bad_input,
                 "the boundary moves too little for a path: the rods come less than 0.1 % shorter "
                 "than flat");
-  return course;
+  return BranchStart{std::move(*session), *from};
 }
 
 /// Distance of a shape from the nearest point of a polyline of shapes, root mean square, mm.
@@ -283,8 +274,14 @@ Result<BranchDiagram> branches_study(const preset::Preset& preset, const Branche
                 "([accuracy] model)");
   const LevelPlan plan = simulate::initial_levels(*scene);
   TRY_DO(fits_memory(*scene, plan));
-  auto course = preset.indentation.wanted() ? begin_push(scene, preset.indentation, plan, watch)
-                                            : begin_actuation(scene, plan, watch);
+  Result<BranchStart> course = stopped();
+  if (preset.indentation.wanted())
+    course = simulate::hold_to_push(scene, preset.indentation, plan, watch)
+                 .map([](simulate::HeldShell held) {
+                   return BranchStart{std::move(held.course.session), 0, 1, true};
+                 });
+  else
+    course = begin_actuation(scene, plan, watch);
   if (watch.cancelled()) return stopped();
   if (!course) return tl::unexpected<Error>(course.error());
   return Diagram(*course, options, watch).make();

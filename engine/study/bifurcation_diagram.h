@@ -18,8 +18,6 @@ struct TraceOptions {
   double from = 0, to = 1;  ///< of the path parameter: it ends at either
   double max_strain = 1e-3;
   int most_steps = 300;
-  int most_pivots = 6;   ///< with more of them below zero it is given up
-  double locate = 1e-3;  ///< of a step: to which an event is located
 };
 
 /// One equilibrium on the way.

@@ -11,6 +11,9 @@ namespace {
 
 using record::BranchEvent;
 
+constexpr int most_pivots = 6;    // with more of them below zero a branch is given up
+constexpr double located = 1e-3;  // of a step: to which an event is located
+
 TracedPoint traced(const ArcPoint& at, BranchEvent event = BranchEvent::none) {
   return {at.point, at.inertia.negative_pivots, event};
 }
@@ -48,7 +51,7 @@ class Tracer {
     points_.push_back(traced(path_.at()));
     if (std::abs(system_.assembly().largest_strain) > options_.max_strain)
       return end(BranchEvent::locking);
-    return path_.at().inertia.negative_pivots <= options_.most_pivots || end(BranchEvent::lost);
+    return path_.at().inertia.negative_pivots <= most_pivots || end(BranchEvent::lost);
   }
 
   bool end(BranchEvent event) {
@@ -83,7 +86,7 @@ class Tracer {
     double left = length_between(before, path_);
     for (int k = 0; k < most && low.at().inertia.negative_pivots != last; ++k) {
       const int here = low.at().inertia.negative_pivots;
-      const double smallest = options_.locate * left;
+      const double smallest = located * left;
       double done = 0;
       ArcFollower high = path_;
       for (double step = left / 2; step > smallest && !watch_.cancelled(); step /= 2) {

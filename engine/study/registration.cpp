@@ -9,7 +9,7 @@
 
 #include "engine/core/box_grid.h"
 
-namespace gridshell {
+namespace gridshell::study {
 namespace {
 
 constexpr int most_triples = 80, least_points = 4;
@@ -275,4 +275,4 @@ std::optional<Registration> register_points(const Eigen::Matrix3Xd& points,
   return best;
 }
 
-}  // namespace gridshell
+}  // namespace gridshell::study

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/solve/buckling.h"
+#include "engine/core/system_info.h"
 #include "engine/solve/newton.h"
 #include "engine/study/benchmark_methods.h"
 
@@ -149,41 +149,26 @@ BaselineReport implicit_to_rest(const Model& model, const Eigen::Matrix3Xd& mass
   const auto solver = make_linear_solver(model);
   const double h = options.step, inertia = 1 / (h * h) + options.damping_per_s / h;
   for (; report.steps < options.most_steps; ++report.steps) {
-    if (watch.cancelled()) return report.end = Outcome::cancelled, report;
-    assemble_gradient(model, moving.state, {}, assembly);
-    report.residual_N = residual_of(model, assembly.gradient);
-    if (report.residual_N < options.tolerance_N) return report.end = Outcome::reached, report;
+    if (ended(model, moving.state, options, watch, assembly, report)) return report;
     if (!euler_step(model, mass, h, inertia, *solver, assembly, moving))
       return report.end = grown(assembly) ? Outcome::not_finite : Outcome::not_converged, report;
   }
   return report;
 }
 
-// Methods that come to rest by moving: dynamic relaxation, explicit and implicit dynamics.
+// Methods that come to rest by moving.
 
 namespace {
 
 using record::RunOutcome;
+
+constexpr double loose_N = 1e-3;  // largest force left between load steps
 
 RunOutcome claim_of(const BaselineReport& report) {
   if (report.end == Outcome::reached) return RunOutcome::right;
   if (report.end == Outcome::not_finite) return RunOutcome::blow_up;
   return report.end == Outcome::cancelled ? RunOutcome::too_slow : RunOutcome::not_converged;
 }
-
-const char* name_of(Relaxation kind) {
-  switch (kind) {
-    case Relaxation::kinetic:
-      return "dynamic relaxation";
-    case Relaxation::explicit_damped:
-      return "explicit";
-    case Relaxation::implicit_euler:
-      break;
-  }
-  return "implicit Euler";
-}
-
-constexpr double density_kg_m3 = 6450, diameter_mm = 0.254;  // Nitinol wire
 
 /// Of the slowest mode at the problem's end, 1/s.
 double slowest_frequency(const Problem& problem, const Eigen::Matrix3Xd& mass) {
@@ -208,7 +193,7 @@ struct RelaxationRun {
   const Eigen::Matrix3Xd& mass;
   const RelaxationOptions& options;
   MovingState moving;
-  BaselineOptions how;
+  BaselineOptions how = {.step = options.step};
 
   void place(double t) {
     const Eigen::Matrix3Xd there = problem.motion.at(t);
@@ -221,8 +206,8 @@ struct RelaxationRun {
     how.most_steps = 1 << 30;  // the time limit decides
     RunOutcome claim = RunOutcome::right;
     for (int k = 1; k <= count && claim == RunOutcome::right; ++k) {
-      place(load_parameter(problem, k, count));
-      how.tolerance_N = k == count ? options.tolerance_N : options.loose_N;
+      place(problem.load_parameter(k, count));
+      how.tolerance_N = k == count ? options.tolerance_N : loose_N;
       claim = claim_of(options.kind == Relaxation::kinetic
                            ? dynamic_relaxation(problem.model, moving.state, how, watch)
                            : implicit_to_rest(problem.model, mass, moving, how, watch));
@@ -241,7 +226,7 @@ struct RelaxationRun {
     how.tolerance_N = options.tolerance_N;
     how.most_steps = chunk;
     for (int k = 1; k <= count; ++k) {
-      place(load_parameter(problem, k, count));
+      place(problem.load_parameter(k, count));
       const BaselineReport report = explicit_to_rest(problem.model, mass, moving, how, watch);
       if (report.end == Outcome::not_finite || report.end == Outcome::cancelled)
         return claim_of(report);
@@ -251,130 +236,49 @@ struct RelaxationRun {
   }
 };
 
+Eigen::Matrix3Xd mass_of_wire(const Model& model) {
+  constexpr double density_kg_m3 = 6450, diameter_mm = 0.254;  // Nitinol
+  return lumped_mass(model, {round_mass_t_per_mm(density_kg_m3, diameter_mm)}).value();
+}
+
 }  // namespace
 
-MethodResult relax(const Problem& problem, const RelaxationOptions& options, Stopwatch& stopwatch,
-                   const Watch& watch) {
-  MethodResult arrival;
-  arrival.edges = problem.edges;
-  arrival.dof = problem.model.dof();
-  arrival.whole_mesh = true;
-  const auto mass = lumped_mass(problem.model, {round_mass_t_per_mm(density_kg_m3, diameter_mm)});
-  if (!mass) return arrival;
-  RelaxationRun walk{problem, *mass, options, {}, {}};
-  walk.moving = MovingState::at_rest(problem.start);
-  walk.how.step = options.step;
+MethodResult relax(const Problem& problem, const RelaxationOptions& options, const Watch& watch) {
+  MethodResult result = MethodResult::on(problem);
+  const Eigen::Matrix3Xd mass = mass_of_wire(problem.model);
+  RelaxationRun run{problem, mass, options, MovingState::at_rest(problem.start)};
   const bool moves = problem.motion.progress(problem.t) < 1;
-  stopwatch.start();
-  if (options.kind == Relaxation::explicit_damped)
-    arrival.claim = walk.ramp(moves, watch);
-  else
-    arrival.claim = walk.steps(moves ? options.load_steps : 1, watch);
-  stopwatch.stop();
-  arrival.x = std::move(walk.moving.state.x);
-  return arrival;
-}
-
-Method relaxed_method(Relaxation kind, int edges) {
-  return {name_of(kind), edges,
-          [kind, edges](BenchmarkProblem& study, Stopwatch& stopwatch,
-                        const Watch& watch) -> MethodResult {
-            const auto problem = study.problem(edges, watch);
-            if (!problem) return {RunOutcome::refused, {}, false, 0, 0, 0};
-            RelaxationOptions how{.kind = kind};
-            if (kind == Relaxation::implicit_euler) how.step = 0.1;
-            return relax(**problem, how, stopwatch, watch);
-          }};
-}
-
-using record::RunOutcome;
-
-MethodResult default_run(BenchmarkProblem& study, LevelPlan plan, double tolerance, int stops,
-                         const Watch& watch) {
-  for (;;) {
-    NestedShell shell = study.shell(plan, tolerance > 0 ? tolerance : 1e-3);
-    NestedReport report = study.begin(shell, watch);
-    const double from = progress_at(report.t);
-    for (int k = 1; k <= stops && report.end == Outcome::reached; ++k)
-      report = shell.advance(k == stops ? 1 : parameter_at(from + (1 - from) * k / stops), watch);
-    MethodResult arrival;
-    arrival.edges = plan.edges_per_segment.back();
-    arrival.whole_mesh = !plan.extrapolate;
-    arrival.x = shell.state().x;
-    arrival.claim = report.end == Outcome::reached     ? RunOutcome::right
-                    : report.end == Outcome::cancelled ? RunOutcome::too_slow
-                                                       : RunOutcome::refused;
-    if (arrival.claim != RunOutcome::right || tolerance == 0 ||
-        shell.state().error_estimate_mm <= tolerance * study.scale_mm())
-      return arrival;
-    const auto next = finer(plan);
-    if (!next) {
-      arrival.claim = RunOutcome::refused;  // the tolerance is not met, and the program says so
-      return arrival;
-    }
-    plan = *next;
-  }
+  const double begin = cpu_seconds_now();
+  result.claim = options.kind == Relaxation::explicit_damped
+                     ? run.ramp(moves, watch)
+                     : run.steps(moves ? options.load_steps : 1, watch);
+  result.seconds = cpu_seconds_now() - begin;
+  result.x = std::move(run.moving.state.x);
+  return result;
 }
 
 MethodResult hold(const Problem& problem, double over_l_c, const Watch& watch) {
-  MethodResult arrival;
-  arrival.edges = problem.edges;
-  arrival.whole_mesh = true;
-  const Eigen::Matrix3Xd mass =
-      lumped_mass(problem.model, {round_mass_t_per_mm(6450, 0.254)}).value();
+  MethodResult result = MethodResult::on(problem);
+  const Eigen::Matrix3Xd mass = mass_of_wire(problem.model);
   double shortest = INFINITY, along = 0;
-  for (const ModelEdge& edge : problem.model.edges) shortest = std::min(shortest, edge.rest_length);
-  for (const ModelEdge& edge : problem.model.edges) along += edge.rest_length;
+  for (const ModelEdge& edge : problem.model.edges) {
+    shortest = std::min(shortest, edge.rest_length);
+    along += edge.rest_length;
+  }
   const double c = std::sqrt(problem.model.edges[0].EA * along / mass.row(0).sum());
-  BaselineOptions options;
-  options.step = over_l_c * shortest / c / courant_step(problem.model, mass);
-  options.damping_per_s = 100;
-  options.tolerance_N = 0;
-  options.most_steps = 20000;
+  const BaselineOptions options{.step = over_l_c * shortest / c / courant_step(problem.model, mass),
+                                .damping_per_s = 100,
+                                .tolerance_N = 0,
+                                .most_steps = 20000};
   MovingState moving = MovingState::at_rest(problem.end);
   for (int node : problem.model.free_columns)
     for (int axis = 0; axis < 3; ++axis)
       moving.state.x(axis, node) += 0.01 * std::sin(1 + 2.3 * node + 1.7 * axis);
   const BaselineReport report = explicit_to_rest(problem.model, mass, moving, options, watch);
-  arrival.claim = report.end == Outcome::not_finite  ? RunOutcome::blow_up
-                  : report.end == Outcome::cancelled ? RunOutcome::too_slow
-                                                     : RunOutcome::right;
-  arrival.x = std::move(moving.state.x);
-  return arrival;
-}
-
-Problem from_flat(const BenchmarkProblem& study, const Problem& problem, double height) {
-  Problem flat = problem;
-  const Eigen::Matrix3Xd end = problem.motion.at(problem.t);
-  flat.motion = {study.scene().flat.all(problem.mesh.flat), {}, PathLaw::even};
-  flat.motion.change = end - flat.motion.begin;
-  flat.t = 0;
-  flat.end = problem.start;
-  flat.start.x = flat.motion.begin;
-  flat.start.force.setZero();
-  const double reach2 = problem.mesh.flat.colwise().squaredNorm().maxCoeff();
-  const BuckleSeed& seed = study.scene().seed;
-  for (int node : problem.model.free_columns) {
-    const Eigen::Vector2d p = problem.mesh.flat.col(node);
-    const double tilted = 1 - 0.8 * seed.up * seed.diagonal * p.x() * p.y() / reach2;
-    flat.start.x(2, node) += seed.up * height * (1 - p.squaredNorm() / reach2) * tilted;
-  }
-  return flat;
-}
-
-MethodResult buckle(const BenchmarkProblem& study, const Problem& problem, const Watch& watch) {
-  Linearisation system(problem.model);
-  MethodResult arrival;
-  arrival.edges = problem.edges;
-  arrival.whole_mesh = true;
-  arrival.claim = RunOutcome::refused;
-  const auto first = first_buckled(system, problem.mesh, problem.motion, problem.t,
-                                   study.scene().seed, study.scene().flat, watch);
-  if (watch.cancelled()) arrival.claim = RunOutcome::too_slow;
-  if (!first) return arrival;
-  arrival.claim = RunOutcome::right;
-  arrival.x = first->x;
-  return arrival;
+  // it need not come to rest, it must not leave
+  result.claim = report.end == Outcome::not_converged ? RunOutcome::right : claim_of(report);
+  result.x = std::move(moving.state.x);
+  return result;
 }
 
 }  // namespace gridshell::study

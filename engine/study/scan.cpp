@@ -14,7 +14,7 @@
 #include "engine/core/try.h"
 #include "engine/footprint/symmetry.h"
 
-namespace gridshell {
+namespace gridshell::study {
 namespace {
 
 constexpr double cells_a_diameter = 3, most_cells = 1e6;  // a side
@@ -305,4 +305,4 @@ bool scan_matches(const RegisteredScan& scan, const JointCylinder& cylinder) {
          scan.within_bar >= least_within * could && scan.rms_mm <= cylinder.diameter_mm / 2;
 }
 
-}  // namespace gridshell
+}  // namespace gridshell::study

@@ -8,7 +8,7 @@
 #include "engine/core/result.h"
 #include "engine/record/trajectory.h"
 
-namespace gridshell {
+namespace gridshell::study {
 
 /// What a cloud comes to.
 struct Clusters {
@@ -112,4 +112,4 @@ std::optional<RegisteredScan> register_points(const Clusters& clusters, const Sc
 /// are fewer), and their rms is at most a radius.
 bool scan_matches(const RegisteredScan& scan, const JointCylinder& cylinder);
 
-}  // namespace gridshell
+}  // namespace gridshell::study

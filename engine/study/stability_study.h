@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -31,39 +30,34 @@ struct Cell {
 /// A map over one variable of its columns and one of its rows, for each of some methods. Every map
 /// also holds the default solver, where it applies.
 ///
-/// Outcomes are judged from outside (judge.h): by the equilibrium of the same mesh on the branch of
-/// a reference that was followed on finer meshes and extrapolated.
+/// Outcomes are judged from outside (verdict_of): by the equilibrium of the same mesh on the branch
+/// of a reference that was followed on finer meshes and extrapolated.
 using Cells = std::vector<Cell>;
+using Axis = std::vector<double>;
+using SharedProblem = std::shared_ptr<BenchmarkProblem>;
 
 /// Explicit time step over l_min/c (c the speed of sound in the rods) x edges a segment: whether
 /// the equilibrium, off by a hundredth of a millimetre, is held for 20 000 steps.
-Cells explicit_map(const std::shared_ptr<BenchmarkProblem>& study, const std::vector<double>& steps,
-                   const std::vector<int>& edges);
+Cells explicit_map(const SharedProblem& study, const Axis& steps, const Axis& edges);
 /// Step of kinetic dynamic relaxation over its limit x edges, over the whole path.
-Cells relaxation_map(const std::shared_ptr<BenchmarkProblem>& study,
-                     const std::vector<double>& steps, const std::vector<int>& edges);
+Cells relaxation_map(const SharedProblem& study, const Axis& steps, const Axis& edges);
 /// Load steps x edges for Newton's method with full steps, with a line search, shifted, and by
 /// default (then the states asked for: it takes load steps of its own between them).
-Cells newton_map(const std::shared_ptr<BenchmarkProblem>& study,
-                 const std::vector<double>& load_steps, const std::vector<int>& edges);
+Cells newton_map(const SharedProblem& study, const Axis& load_steps, const Axis& edges);
 /// Tolerance of Newton's corrections (mm) x load steps; by default that of the joints, which is
 /// judged against the converged reference.
-Cells tolerance_map(const std::shared_ptr<BenchmarkProblem>& study,
-                    const std::vector<double>& tolerances, const std::vector<double>& load_steps,
+Cells tolerance_map(const SharedProblem& study, const Axis& tolerances, const Axis& load_steps,
                     int edges);
 /// EA over that of the rods x load steps; every EA has a reference of its own.
-Cells stiffness_map(const preset::Preset& preset, const std::vector<double>& scales,
-                    const std::vector<double>& load_steps, int edges);
+Cells stiffness_map(const preset::Preset& preset, const Axis& scales, const Axis& load_steps,
+                    int edges);
 /// Shortest leg over d x load steps, of circles (none for other footprints).
-Cells leg_map(const preset::Preset& preset, const std::vector<double>& legs,
-              const std::vector<double>& load_steps, int edges);
+Cells leg_map(const preset::Preset& preset, const Axis& legs, const Axis& load_steps, int edges);
 /// Height of the seed (mm) on the flat footprint x edges, to 0.98 R_o at once.
-Cells seed_map(const std::shared_ptr<BenchmarkProblem>& study, const std::vector<double>& heights,
-               const std::vector<int>& edges);
+Cells seed_map(const SharedProblem& study, const Axis& heights, const Axis& edges);
 /// Stiffness of spring joints (N/mm) x load steps, on the twist rung, shifted or with full steps;
 /// judged by the same joints in 60 load steps.
-Cells joint_map(const std::shared_ptr<BenchmarkProblem>& study,
-                const std::vector<double>& stiffnesses, const std::vector<double>& load_steps,
+Cells joint_map(const SharedProblem& study, const Axis& stiffnesses, const Axis& load_steps,
                 int edges);
 
 /// Runs cells on several threads; outcomes are filled in, in place.

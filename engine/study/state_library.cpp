@@ -12,13 +12,18 @@
 #include "engine/simulate/frames.h"
 #include "engine/simulate/mesh_choice.h"
 #include "engine/study/state_measures.h"
-#include "engine/study/state_transitions.h"
 
-namespace gridshell::simulate {
+namespace gridshell::study {
+
+using namespace experiment;
+
 namespace {
 
 // energies of one state differ by round-off, and by what joints within the tolerance are worth
 constexpr double same_energy = 1e-3;
+
+// shares of the work, for the progress
+constexpr double shaken = 0.55, measured = 0.8, followed = 0.9;
 
 }  // namespace
 
@@ -40,9 +45,6 @@ std::size_t StateCatalogue::enter(const Eigen::Matrix3Xd& joints, double energy_
 }
 
 namespace {
-
-// shares of the work, for the progress
-constexpr double shaken = 0.55, measured = 0.8, followed = 0.9;
 
 /// What a trial ended in.
 struct Trial {
@@ -75,12 +77,12 @@ Result<std::vector<Trial>> shake(const std::shared_ptr<const Scene>& scene,
     trial.rest =
         k < jitter.trials ? hand.trial(k, watch) : hand.symmetric_trial(k - jitter.trials, watch);
     trial.cpu_s = cpu_seconds_now() - begin;
-    if (trial.rest) trial.energy_mJ = hand.cascade().system().energy_at(*trial.rest);
+    if (trial.rest) trial.energy_mJ = hand.energy_of(*trial.rest);
   };
   return parallel_for(
              int(trials.size()), threads, watch,
              [&] { return StateSearcher::make(scene, jitter, *forms); }, try_one,
-             [&](double share) { watch.report(shaken * share); })
+             reporting(watch, 0, shaken))
       .map([&] { return std::move(trials); });
 }
 
@@ -163,13 +165,12 @@ Result<void> measure(const std::shared_ptr<const Scene>& scene,
   const auto make = [&] { return StateMeasures::make(scene, tolerance_mm(*scene, jitter)); };
   TRY(first, make());
   Measures all(met.size());
-  const auto done = parallel_for(
+  TRY_DO(parallel_for(
       int(met.size()), options.threads, watch, make,
       [&](StateMeasures& measures, int k) {
         all[std::size_t(k)] = measures.of(met[std::size_t(k)].rest, options.lives, watch);
       },
-      [&](double share) { watch.report(shaken + (measured - shaken) * share); });
-  if (!done) return done;
+      reporting(watch, shaken, measured)));
   keep(*scene, jitter, first->symmetries(), met, all, library);
   const NestedShell& shell = first->session().shell();
   TRY(layout, layout_of(*scene, shell.finest()));
@@ -248,4 +249,4 @@ Result<StateSearchRun> run_states(const preset::Preset& preset, int threads, rec
   return run;
 }
 
-}  // namespace gridshell::simulate
+}  // namespace gridshell::study

@@ -12,7 +12,7 @@
 #include "engine/record/trajectory.h"
 #include "engine/study/state_search.h"
 
-namespace gridshell::simulate {
+namespace gridshell::study {
 
 /// States by the positions of their joints.
 class StateCatalogue {
@@ -25,8 +25,6 @@ class StateCatalogue {
   std::optional<std::size_t> find(const Eigen::Matrix3Xd& joints, double energy_mJ) const;
   /// The same, entered as a new one where there is none.
   std::size_t enter(const Eigen::Matrix3Xd& joints, double energy_mJ);
-
-  std::size_t size() const { return entries_.size(); }
 
  private:
   struct Entry {
@@ -86,4 +84,25 @@ record::Summary summary_of(const preset::Preset& preset, const Scene& scene,
 Result<StateSearchRun> run_states(const preset::Preset& preset, int threads, record::Sink& sink,
                                   Watch& watch);
 
-}  // namespace gridshell::simulate
+// Where states go to when a hand disturbs them, and how high the barriers between them are. Both
+// tell the watch their progress from `begun` to `end`. Errors: bad_input, cancelled.
+
+/// Lets out the boundary of the first `jitter.transitions` states of a library until each ends, and
+/// draws it in again; and pokes each eight times. What goes to a state that is not in the library
+/// goes to 0; what does not come to rest is left out.
+Result<std::vector<record::Transition>> transitions_between(
+    const StateLibrary& library, const std::shared_ptr<const Scene>& scene,
+    const preset::SearchSettings& jitter, int threads, double begun, double end, Watch& watch);
+
+/// The lowest passes between the states of a library that its picture shows: a way is followed from
+/// each to the nearest images of two others, and from the saddle on it down on either side,
+/// whatever states that leads to. Of several passes between two states the lowest. On the mesh that
+/// states are judged on. Counts of ways and of passes go into `library.search`, the lowest way out
+/// of each state into its row.
+Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
+                                                      const std::shared_ptr<const Scene>& scene,
+                                                      const preset::SearchSettings& jitter,
+                                                      int threads, double begun, double end,
+                                                      Watch& watch);
+
+}  // namespace gridshell::study

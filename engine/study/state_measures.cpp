@@ -16,7 +16,10 @@
 #include "engine/solve/newton.h"
 #include "engine/study/state_search.h"
 
-namespace gridshell::simulate {
+namespace gridshell::study {
+
+using namespace experiment;
+
 namespace {
 
 constexpr double largest_step = 0.05;  // in the path parameter: where a branch is asked for
@@ -191,4 +194,4 @@ std::optional<MeasuredState> StateMeasures::of(const State& found, bool life, co
   return one;
 }
 
-}  // namespace gridshell::simulate
+}  // namespace gridshell::study

@@ -10,7 +10,7 @@
 #include "engine/record/states.h"
 #include "engine/simulate/simulation.h"
 
-namespace gridshell::simulate {
+namespace gridshell::study {
 
 /// The symmetries of a mesh that its shell has: none of those that would exchange rods of different
 /// kinds, or turn over or move loads and rods that are curved at rest.
@@ -56,4 +56,4 @@ class StateMeasures {
   std::vector<MeshSymmetry> coarse_, fine_;
 };
 
-}  // namespace gridshell::simulate
+}  // namespace gridshell::study

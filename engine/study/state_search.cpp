@@ -12,7 +12,10 @@
 #include "engine/simulate/indentation.h"
 #include "engine/study/state_measures.h"
 
-namespace gridshell::simulate {
+namespace gridshell::study {
+
+using namespace experiment;
+
 namespace {
 
 using preset::SearchMode;
@@ -44,6 +47,10 @@ tl::unexpected<Error> no_rest(std::string why) {
 Result<State> in_few_words(Result<State> rest, const char* why) {
   if (!rest && rest.error().fault == Fault::no_equilibrium) return no_rest(why);
   return rest;
+}
+Result<void> reached_or(Outcome end, const char* why, const Watch& watch) {
+  if (end == Outcome::reached) return {};
+  return watch.cancelled() ? stopped() : no_rest(why);
 }
 
 std::vector<double> levels_of(const preset::SearchSettings& jitter) {
@@ -111,12 +118,6 @@ Eigen::Matrix3Xd StateSearcher::random_nodes(double t, std::mt19937& random) con
   return nodes;
 }
 
-Result<State> StateSearcher::random_start(const StartForm& form, std::mt19937& random,
-                                          const Watch& watch) {
-  return in_few_words(cascade_.rest(form.t, random_nodes(form.t, random), watch),
-                      "did not come to rest");
-}
-
 Result<State> StateSearcher::pull_start(const StartForm& form, std::mt19937& random,
                                         const Watch& watch) {
   const Eigen::Vector3d field = jitter_.field_N_per_mm * share(random) * direction(random);
@@ -133,9 +134,8 @@ Result<State> StateSearcher::pull_start(const StartForm& form, std::mt19937& ran
 Result<State> StateSearcher::push_start(const StartForm& form, std::mt19937& random,
                                         const Watch& watch) {
   constexpr unsigned most_pushes = 3;
-  if (session_.begin_at(form.t, form.state, watch).end != Outcome::reached)
-    return watch.cancelled() ? Result<State>(stopped())
-                             : Result<State>(no_rest("the form to push is not at rest"));
+  TRY_DO(reached_or(session_.begin_at(form.t, form.state, watch).end,
+                    "the form to push is not at rest", watch));
   if (pushable_.empty()) return no_rest("every joint is a support, nothing can push it");
   const unsigned pushes = 1 + random() % most_pushes;
   for (unsigned k = 0; k < pushes; ++k) {
@@ -144,9 +144,8 @@ Result<State> StateSearcher::push_start(const StartForm& form, std::mt19937& ran
     // how far it came is far enough: a hand stops where the rods are at their length
     session_.push(joint, depth * direction(random), Across::free, watch);
     if (watch.cancelled()) return stopped();
-    if (session_.release(joint, watch).end != Outcome::reached)
-      return watch.cancelled() ? Result<State>(stopped())
-                               : Result<State>(no_rest("did not come to rest when it was let go"));
+    TRY_DO(reached_or(session_.release(joint, watch).end, "did not come to rest when it was let go",
+                      watch));
   }
   return session_.shell().state().levels[0];
 }
@@ -163,26 +162,21 @@ Result<State> StateSearcher::go(double t, const Watch& watch) {
   return session_.shell().state().levels[0];
 }
 
-Result<State> StateSearcher::tighten_boundary(double t, Result<State> rest, const Watch& watch) {
-  if (!rest || t == 1) return rest;
-  if (session_.begin_at(t, *rest, watch).end != Outcome::reached)
-    return watch.cancelled() ? Result<State>(stopped())
-                             : Result<State>(no_rest("its rest is not certified"));
-  return go(1, watch);
+Result<State> StateSearcher::go_from(double from, const State& rest, double t, const Watch& watch) {
+  TRY_DO(reached_or(session_.begin_at(from, rest, watch).end, "its rest is not certified", watch));
+  return go(t, watch);
 }
 
 Result<State> StateSearcher::trial(int k, const Watch& watch) {
   std::mt19937 random = generator(jitter_.seed, Purpose::trial, k);
   const StartForm& form = (*forms_)[std::size_t(k) % forms_->size()];
-  switch (jitter_.mode) {
-    case SearchMode::gravity:
-      return tighten_boundary(form.t, pull_start(form, random, watch), watch);
-    case SearchMode::random:
-      return tighten_boundary(form.t, random_start(form, random, watch), watch);
-    case SearchMode::poke:
-      return tighten_boundary(form.t, push_start(form, random, watch), watch);
-  }
-  return no_rest("no such mode");
+  auto rest = jitter_.mode == SearchMode::gravity ? pull_start(form, random, watch)
+              : jitter_.mode == SearchMode::poke
+                  ? push_start(form, random, watch)
+                  : in_few_words(cascade_.rest(form.t, random_nodes(form.t, random), watch),
+                                 "did not come to rest");
+  if (!rest || form.t == 1) return rest;
+  return go_from(form.t, *rest, 1, watch);
 }
 
 Result<State> StateSearcher::symmetric_trial(int k, const Watch& watch) {
@@ -194,10 +188,7 @@ Result<State> StateSearcher::symmetric_trial(int k, const Watch& watch) {
 }
 
 Result<State> StateSearcher::release_boundary(const State& from, double to, const Watch& watch) {
-  if (session_.begin_at(1, from, watch).end != Outcome::reached)
-    return watch.cancelled() ? Result<State>(stopped())
-                             : Result<State>(no_rest("its rest is not certified"));
-  if (auto out = go(parameter_at(to), watch); !out) return out;
+  if (auto out = go_from(1, from, parameter_at(to), watch); !out) return out;
   return go(1, watch);
 }
 
@@ -206,4 +197,4 @@ Result<State> StateSearcher::poke_start(const State& from, int k, const Watch& w
   return push_start({1, from}, random, watch);
 }
 
-}  // namespace gridshell::simulate
+}  // namespace gridshell::study

@@ -12,7 +12,7 @@
 #include "engine/simulate/simulation.h"
 #include "engine/solve/multilevel_relaxation.h"
 
-namespace gridshell::simulate {
+namespace gridshell::study {
 
 /// Edges a segment of the mesh that trials end on and that tells states apart.
 inline constexpr int judged_edges = 4;
@@ -53,17 +53,20 @@ class StateSearcher {
 
   const std::vector<SymmetryGroup>& groups() const { return groups_; }
   const std::vector<MeshSymmetry>& symmetries() const { return symmetries_; }
+  /// Positions of the joints and energy (mJ) of a state on that mesh.
+  Eigen::Matrix3Xd joints_of(const State& state) const {
+    return state.x.leftCols(cascade_.finest().joints);
+  }
+  double energy_of(const State& state) { return cascade_.system().energy_at(state); }
   MultilevelRelaxation& cascade() { return cascade_; }
   const MultilevelRelaxation& cascade() const { return cascade_; }
 
  private:
   StateSearcher(std::shared_ptr<const Scene> scene, const preset::SearchSettings& jitter,
-                const std::vector<StartForm>& forms, MultilevelRelaxation cascade,
-                Simulation session);
-  Result<State> random_start(const StartForm& form, std::mt19937& random, const Watch& watch);
+                const std::vector<StartForm>& forms, MultilevelRelaxation cascade, Simulation session);
   Result<State> pull_start(const StartForm& form, std::mt19937& random, const Watch& watch);
   Result<State> push_start(const StartForm& form, std::mt19937& random, const Watch& watch);
-  Result<State> tighten_boundary(double t, Result<State> rest, const Watch& watch);
+  Result<State> go_from(double from, const State& rest, double t, const Watch& watch);
   Result<State> go(double t, const Watch& watch);
   Eigen::Matrix3Xd random_nodes(double t, std::mt19937& random) const;
 
@@ -78,4 +81,4 @@ class StateSearcher {
   Simulation session_;
 };
 
-}  // namespace gridshell::simulate
+}  // namespace gridshell::study

@@ -1,5 +1,3 @@
-#include "engine/study/state_transitions.h"
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -11,14 +9,38 @@
 #include "engine/core/try.h"
 #include "engine/solve/mountain_pass.h"
 #include "engine/study/state_library.h"
-#include "engine/study/state_measures.h"
 
-namespace gridshell::simulate {
+namespace gridshell::study {
 namespace {
 
 constexpr int pokes = 8, ways = pokes + 1;  // of a state; the first lets the boundary out
 constexpr double beyond = 0.98;             // of the progress at which a state ends
 constexpr int nowhere = -1;
+
+/// The shell on the mesh that states are judged on, and a library's states by what they look like
+/// there; one a thread.
+struct Explorer {
+  StateSearcher hand;
+  StateCatalogue catalogue;
+  const StateLibrary* library;
+
+  static Result<Explorer> make(const StateLibrary& library,
+                               const std::shared_ptr<const Scene>& scene,
+                               const preset::SearchSettings& jitter) {
+    static const std::vector<StartForm> no_forms;
+    TRY(hand, StateSearcher::make(scene, jitter, no_forms));
+    StateCatalogue catalogue(hand->symmetries(), jitter.tolerance * scene->footprint.spacing);
+    for (const ShellState& state : library.states)
+      catalogue.enter(hand->joints_of(state.rest), state.energy_mJ);
+    return Explorer{std::move(*hand), std::move(catalogue), &library};
+  }
+
+  /// The number of the library's state that this is; 0: of none.
+  int number_of(const State& rest, double energy_mJ) const {
+    const auto at = catalogue.find(hand.joints_of(rest), energy_mJ);
+    return at ? library->states[*at].row.state : 0;
+  }
+};
 
 void count(std::vector<record::Transition>& all, int from, int to, const char* by) {
   const auto known = std::ranges::find_if(all, [&](const record::Transition& way) {
@@ -37,26 +59,18 @@ Result<std::vector<record::Transition>> transitions_between(
     const preset::SearchSettings& jitter, int threads, double begun, double end, Watch& watch) {
   const auto& states = library.states;
   const int followed = std::min(jitter.transitions, int(states.size()));
-  const std::vector<StartForm> none;
-  const auto make = [&] { return StateSearcher::make(scene, jitter, none); };
-  TRY(judge, make());
-  const Eigen::Index joints = judge->cascade().finest().joints;
-  StateCatalogue book(judge->symmetries(), jitter.tolerance * scene->footprint.spacing);
-  for (const ShellState& state : states) book.enter(state.rest.x.leftCols(joints), state.energy_mJ);
   std::vector<int> to(std::size_t(followed * ways), nowhere);
-  const auto follow = [&](StateSearcher& hand, int k) {
+  const auto follow = [&](Explorer& explorer, int k) {
     const ShellState& from = states[std::size_t(k / ways)];
     const int way = k % ways;
+    StateSearcher& hand = explorer.hand;
     const auto rest = way == 0 ? hand.release_boundary(from.rest, beyond * from.row.lives_to, watch)
                                : hand.poke_start(from.rest, way, watch);
-    if (!rest) return;
-    const auto at = book.find(rest->x.leftCols(joints), hand.cascade().system().energy_at(*rest));
-    to[std::size_t(k)] = at ? states[*at].row.state : 0;
+    if (rest) to[std::size_t(k)] = explorer.number_of(*rest, hand.energy_of(*rest));
   };
-  const auto shared = parallel_for(int(to.size()), threads, watch, make, follow, [&](double share) {
-    watch.report(begun + (end - begun) * share);
-  });
-  if (!shared) return tl::unexpected<Error>(shared.error());
+  TRY_DO(parallel_for(
+      int(to.size()), threads, watch, [&] { return Explorer::make(library, scene, jitter); },
+      follow, reporting(watch, begun, end)));
   std::vector<record::Transition> all;
   for (std::size_t k = 0; k < to.size(); ++k)
     if (to[k] != nowhere)
@@ -82,17 +96,11 @@ struct Crossing {
   MountainPass pass;
 };
 
-/// The shell on the mesh that states are judged on; one a thread.
+/// Looks for passes between the states of an explorer's library.
 class Crossings {
  public:
-  Crossings(StateSearcher hand, const StateLibrary& library, const StateCatalogue& book,
-            double spacing)
-      : hand_(std::move(hand)), library_(&library), book_(&book), spacing_(spacing) {}
-
-  Eigen::Matrix3Xd nodes(std::size_t state) const {
-    const MultilevelRelaxation& cascade = hand_.cascade();
-    return nodes_of(cascade.finest(), cascade.model(), library_->states[state].rest.x);
-  }
+  Crossings(Explorer explorer, double spacing)
+      : explorer_(std::move(explorer)), spacing_(spacing) {}
 
   /// The ways to the nearest states: of the images that the bend rung can turn, else the states as
   /// they are.
@@ -114,10 +122,10 @@ class Crossings {
   }
 
   std::optional<Crossing> cross(const Pairing& way, const Watch& watch) {
-    MultilevelRelaxation& cascade = hand_.cascade();
+    MultilevelRelaxation& cascade = explorer_.hand.cascade();
     Linearisation& system = cascade.system();
-    const MeshSymmetry& symmetry = hand_.symmetries()[way.symmetry];
-    State target = library_->states[way.to].rest;
+    const MeshSymmetry& symmetry = explorer_.hand.symmetries()[way.symmetry];
+    State target = rest_of(way.to);
     if (symmetry.index != 0) {
       const auto image = symmetry.of(nodes(way.to));
       target = start_state(cascade.model(), columns_of(cascade.finest(), cascade.model(), image));
@@ -128,7 +136,7 @@ class Crossings {
     PassOptions options;
     options.step_mm = step_over_d * spacing_;
     Crossing crossing;
-    crossing.pass = mountain_pass(system, library_->states[way.from].rest, target, options, watch);
+    crossing.pass = mountain_pass(system, rest_of(way.from), target, options, watch);
     if (crossing.pass.outcome != Outcome::reached) return std::nullopt;
     const bool back =
         descend(crossing.pass, BranchSide::against, crossing.from, crossing.from_mJ, watch);
@@ -138,12 +146,20 @@ class Crossings {
   }
 
  private:
+  const State& rest_of(std::size_t state) const { return explorer_.library->states[state].rest; }
+
+  Eigen::Matrix3Xd nodes(std::size_t state) const {
+    const MultilevelRelaxation& cascade = explorer_.hand.cascade();
+    return nodes_of(cascade.finest(), cascade.model(), rest_of(state).x);
+  }
+
   std::pair<double, Pairing> nearest(std::size_t from, std::size_t to) const {
     std::pair<double, Pairing> best{std::numeric_limits<double>::infinity(), {from, to, 0}};
-    const Eigen::Index joints = hand_.cascade().finest().joints;
-    const bool turns = !hand_.cascade().model().has_spins();
-    for (std::size_t k = 0; k < hand_.symmetries().size(); ++k) {
-      const MeshSymmetry& symmetry = hand_.symmetries()[k];
+    const StateSearcher& hand = explorer_.hand;
+    const Eigen::Index joints = hand.cascade().finest().joints;
+    const bool turns = !hand.cascade().model().has_spins();
+    for (std::size_t k = 0; k < hand.symmetries().size(); ++k) {
+      const MeshSymmetry& symmetry = hand.symmetries()[k];
       if (symmetry.index != 0 && !turns) continue;
       const double away =
           distance_under(symmetry, nodes(from).leftCols(joints), nodes(to).leftCols(joints));
@@ -157,18 +173,15 @@ class Crossings {
     BranchSwitch departure;
     departure.side = side;
     departure.amplitude_mm = departure.step_mm = way_down_mm;
-    Linearisation& system = hand_.cascade().system();
-    const auto rest = leave_saddle(system, pass.saddle, pass.towards_b, departure, watch);
+    const auto rest = leave_saddle(explorer_.hand.cascade().system(), pass.saddle, pass.towards_b,
+                                   departure, watch);
     if (!rest) return false;
-    energy = system.energy_at(*rest);
-    const auto at = book_->find(rest->x.leftCols(hand_.cascade().finest().joints), energy);
-    state = at ? library_->states[*at].row.state : 0;
+    energy = explorer_.hand.energy_of(*rest);
+    state = explorer_.number_of(*rest, energy);
     return true;
   }
 
-  StateSearcher hand_;
-  const StateLibrary* library_;
-  const StateCatalogue* book_;
+  Explorer explorer_;
   double spacing_;
 };
 
@@ -199,10 +212,6 @@ std::vector<record::Barrier> lowest_each(std::vector<record::Barrier> all) {
   return all;
 }
 
-void lower(double& barrier, double height) {
-  if (!(barrier <= height)) barrier = height;
-}
-
 }  // namespace
 
 Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
@@ -210,38 +219,32 @@ Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
                                                       const preset::SearchSettings& jitter,
                                                       int threads, double begun, double end,
                                                       Watch& watch) {
-  const double spacing = scene->footprint.spacing;
-  const std::vector<StartForm> none;
+  const auto make = [&]() -> Result<Crossings> {
+    TRY(explorer, Explorer::make(library, scene, jitter));
+    return Crossings(std::move(*explorer), scene->footprint.spacing);
+  };
   std::vector<record::StateRow> rows;
   for (const ShellState& state : library.states) rows.push_back(state.row);
-  TRY(judge, StateSearcher::make(scene, jitter, none));
-  StateCatalogue book(judge->symmetries(), jitter.tolerance * spacing);
-  const Eigen::Index joints = judge->cascade().finest().joints;
-  for (const ShellState& state : library.states)
-    book.enter(state.rest.x.leftCols(joints), state.energy_mJ);
-  const auto ways = Crossings(std::move(*judge), library, book, spacing)
-                        .ways(record::states_to_draw(rows, jitter.drawn));
+  TRY(first, make());
+  const auto ways = first->ways(record::states_to_draw(rows, jitter.drawn));
   std::vector<std::optional<Crossing>> found(ways.size());
-  const auto shared = parallel_for(
-      int(ways.size()), threads, watch,
-      [&]() -> Result<Crossings> {
-        TRY(hand, StateSearcher::make(scene, jitter, none));
-        return Crossings(std::move(*hand), library, book, spacing);
-      },
-      [&](Crossings& hand, int k) {
-        found[std::size_t(k)] = hand.cross(ways[std::size_t(k)], watch);
-      },
-      [&](double share) { watch.report(begun + (end - begun) * share); });
-  if (!shared) return tl::unexpected<Error>(shared.error());
+  const auto cross = [&](Crossings& crossings, int k) {
+    found[std::size_t(k)] = crossings.cross(ways[std::size_t(k)], watch);
+  };
+  TRY_DO(parallel_for(int(ways.size()), threads, watch, make, cross, reporting(watch, begun, end)));
   std::vector<record::Barrier> all;
   for (const auto& crossing : found)
     if (crossing) all.push_back(barrier_of(*crossing));
   library.search.ways_followed = int(ways.size());
   library.search.passes_found = int(all.size());
   for (const record::Barrier& one : all)
-    for (const auto& [state, height] : {std::pair(one.from, one.barrier_mJ), {one.to, one.back_mJ}})
-      if (state != 0) lower(library.states[std::size_t(state) - 1].row.barrier_mJ, height);
+    for (const auto& [state, height] :
+         {std::pair(one.from, one.barrier_mJ), {one.to, one.back_mJ}}) {
+      if (state == 0) continue;
+      double& lowest = library.states[std::size_t(state) - 1].row.barrier_mJ;
+      if (!(lowest <= height)) lowest = height;
+    }
   return lowest_each(std::move(all));
 }
 
-}  // namespace gridshell::simulate
+}  // namespace gridshell::study

@@ -12,9 +12,12 @@
 #include "engine/record/summary.h"
 #include "engine/simulate/run.h"
 #include "engine/study/state_library.h"
-#include "engine/study/stopwatch.h"
+#include "engine/study/time_limit.h"
 
-namespace gridshell::simulate {
+namespace gridshell::study {
+
+using namespace experiment;
+
 namespace {
 
 constexpr int samples = 41;  // of a path from the flat
@@ -110,9 +113,6 @@ std::vector<std::string> figure_names(bool search) {
   return names;
 }
 
-}  // namespace gridshell::simulate
-
-namespace gridshell::study {
 namespace {
 
 using record::PointOutcome;
@@ -124,24 +124,18 @@ constexpr double no_limit_s = 1e9;
 Result<PointResult> result_of(const preset::SweepGrid& grid, std::size_t point, Watch& watch) {
   PointResult result;
   result.point = point;
-  auto figures = simulate::figures_of(grid.at(point).preset, watch);
+  auto figures = figures_of(grid.at(point).preset, watch);
   if (figures) {
     result.figures = std::move(*figures);
     return result;
   }
-  result.reason = figures.error().message;
-  switch (figures.error().fault) {
-    case Fault::bad_input:
-      result.outcome = PointOutcome::refused;
-      return result;
-    case Fault::no_equilibrium:
-      result.outcome = PointOutcome::no_equilibrium;
-      return result;
-    case Fault::io:
-    case Fault::cancelled:
-      break;
-  }
-  return tl::unexpected<Error>(figures.error());
+  const Error& error = figures.error();
+  if (error.fault == Fault::io || error.fault == Fault::cancelled)
+    return tl::unexpected<Error>(error);
+  result.reason = error.message;
+  result.outcome =
+      error.fault == Fault::bad_input ? PointOutcome::refused : PointOutcome::no_equilibrium;
+  return result;
 }
 
 }  // namespace
@@ -189,8 +183,7 @@ Result<void> run_points(const preset::SweepGrid& grid, const std::vector<std::si
     refused = !kept;
     return kept;
   };
-  return parallel_for(int(points.size()), jobs, watch, compute,
-                      [&](double share) { watch.report(share); });
+  return parallel_for(int(points.size()), jobs, watch, compute, reporting(watch));
 }
 
 }  // namespace gridshell::study

@@ -10,7 +10,7 @@
 #include "engine/preset/sweep_grid.h"
 #include "engine/record/sweep_results.h"
 
-namespace gridshell::simulate {
+namespace gridshell::study {
 
 /// The figures of a preset's run: those of summary.json but for its seconds, for its last state;
 /// how far that is (progress, below 1 where the path ended early), the depth and the force of a
@@ -23,11 +23,7 @@ Result<record::Figures> figures_of(const preset::Preset& preset, Watch& watch);
 /// The names of all figures that figures_of() can give for runs, or for searches for states.
 std::vector<std::string> figure_names(bool search);
 
-}  // namespace gridshell::simulate
-
 // Computes points of a sweep on several threads.
-
-namespace gridshell::study {
 
 /// Hash of what the numbers of a sweep depend on: the printed preset without its pictures, words
 /// and plots.

@@ -8,7 +8,7 @@
 #include "engine/core/parallel.h"
 #include "engine/scene/scene.h"
 #include "engine/simulate/run.h"
-#include "engine/study/stopwatch.h"
+#include "engine/study/time_limit.h"
 
 namespace gridshell::study {
 namespace {
@@ -155,45 +155,17 @@ Preset random_preset(SceneKind kind, std::mt19937& random) {
   RandomDraw draw(random);
   Preset p;
   p.accuracy.tolerance = std::pow(10, draw.between(-4, -2));
-  switch (kind) {
-    case SceneKind::circle:
-      circle(draw, p);
-      break;
-    case SceneKind::curve:
-      curve(draw, p);
-      break;
-    case SceneKind::cap:
-      cap(draw, p);
-      break;
-    case SceneKind::revolution:
-      revolution(draw, p);
-      break;
-    case SceneKind::profile:
-      profile(draw, p);
-      break;
-    case SceneKind::translation:
-      translation(draw, p);
-      break;
-    case SceneKind::blocks:
-      blocks(draw, p);
-      break;
-    case SceneKind::push:
-      push(draw, p);
-      break;
-    case SceneKind::load:
-      load(draw, p);
-      break;
-    case SceneKind::rods:
-      rods(draw, p);
-      break;
-  }
+  constexpr void (*draw_kind[])(RandomDraw&, Preset&) = {
+      circle, curve, cap, revolution, profile, translation, blocks, push, load, rods};
+  static_assert(std::size(draw_kind) == words(SceneKind{}).size());
+  draw_kind[std::size_t(kind)](draw, p);
   return p;
 }
 
 namespace {
 
-using record::TrustClass;
 using simulate::ExperimentResult;
+using record::TrustClass;
 
 constexpr int frames = 5, fine_frames = 9, other_frames = 8;
 
@@ -230,7 +202,7 @@ Trial try_scene(preset::Preset preset, int count, bool fine, const TrustOptions&
   }
   record::MemorySink sink;
   auto summary = simulate::run(preset, std::make_shared<const Scene>(std::move(*scene)), false,
-                               sink, limit.watch());
+                                 sink, limit.watch());
   trial.too_slow = limit.ran_out();
   if (!summary) {
     trial.exit = summary.error().fault == Fault::bad_input ? 2 : 1;
@@ -299,7 +271,7 @@ TrustClass judge(const Trial& asked, const Trial& fine, const Trial& other, reco
 }
 
 TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
-  constexpr int kinds = int(words_of<SceneKind>().size());
+  constexpr int kinds = int(words(SceneKind{}).size());
   const auto kind = SceneKind(index % kinds);
   // a generator a scene, so that any scene can be drawn by itself
   std::mt19937 random{std::uint32_t(options.seed) * 100003u + std::uint32_t(index)};
@@ -331,8 +303,7 @@ Result<std::vector<TrustScene>> trust_study(const TrustOptions& options, Watch& 
   std::vector<TrustScene> scenes(std::size_t(options.scenes));
   return parallel_for(
              options.scenes, options.threads, watch,
-             [&](int k) { scenes[std::size_t(k)] = judged(k, options, watch); },
-             [&](double share) { watch.report(share); })
+             [&](int k) { scenes[std::size_t(k)] = judged(k, options, watch); }, reporting(watch))
       .map([&] { return std::move(scenes); });
 }
 

@@ -21,15 +21,15 @@ preset::Preset shipped(const std::string& name, preset::SearchMode mode, int tri
   return p;
 }
 
-simulate::StateLibrary states_of(const preset::Preset& preset) {
+study::StateLibrary states_of(const preset::Preset& preset) {
   const auto scene = std::make_shared<const Scene>(scene_of(preset).value());
   Watch watch;
-  auto found = simulate::find_states(scene, preset.jitter, {.threads = 2}, watch);
+  auto found = study::find_states(scene, preset.jitter, {.threads = 2}, watch);
   if (!found) FAIL(found.error().message);
   return std::move(*found);
 }
 
-void check(const simulate::StateLibrary& library, int trials) {
+void check(const study::StateLibrary& library, int trials) {
   int met = 0;
   double before = -1e300;
   for (const auto& state : library.states) {
@@ -68,7 +68,7 @@ TEST_CASE("a shell has the symmetries that take rods to rods of their kind") {
   const auto symmetries = [&] {
     const auto scene = scene_of(p);
     if (!scene) FAIL(scene.error().message);
-    return simulate::symmetries_of_shell(
+    return study::symmetries_of_shell(
         *scene, mesh, symmetries_of(mesh, pinned_motion(mesh, scene->motion).at(1)));
   };
   const auto keeps = [&](const MeshSymmetry& symmetry, std::size_t rod) {

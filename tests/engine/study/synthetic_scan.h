@@ -7,7 +7,7 @@
 
 #include "engine/study/scan.h"
 
-namespace gridshell {
+namespace gridshell::study {
 
 struct ScanMaking {
   unsigned seed = 1;
@@ -96,4 +96,4 @@ inline int wrong_joints(const MadeScan& made, const ScanTarget& form, const Regi
   return wrong;
 }
 
-}  // namespace gridshell
+}  // namespace gridshell::study

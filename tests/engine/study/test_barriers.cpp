@@ -1,9 +1,9 @@
-#include "engine/study/state_transitions.h"
+#include "engine/study/state_library.h"
 
 #include <catch2/catch.hpp>
 
 using namespace gridshell;
-using namespace gridshell::simulate;
+using namespace gridshell::study;
 
 TEST_CASE("barriers: passes lie above the states that their two sides lead to") {
   preset::Preset p;

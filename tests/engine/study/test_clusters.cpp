@@ -5,6 +5,7 @@
 #include "engine/study/scan.h"
 
 using namespace gridshell;
+using namespace gridshell::study;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include "engine/study/scan.h"
 
 using namespace gridshell;
+using namespace gridshell::study;
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include "tests/engine/study/synthetic_scan.h"
 
 using namespace gridshell;
+using namespace gridshell::study;
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <set>
 
 using namespace gridshell;
-using simulate::find_states;
-using simulate::StateLibrary;
+using study::find_states;
+using study::StateLibrary;
 
 namespace {
 

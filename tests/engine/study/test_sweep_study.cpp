@@ -91,7 +91,7 @@ TEST_CASE(
   CHECK(figure(1, "states_i") == 1);
   CHECK(figure(1, "met_first_order") == 4);
   // every figure that comes is one that can be drawn
-  const auto names = simulate::figure_names(true);
+  const auto names = figure_names(true);
   for (const auto& [name, value] : one.at(0).figures)
     CHECK(std::ranges::find(names, name) != names.end());
 }
@@ -106,7 +106,7 @@ TEST_CASE("a path that ends early counts as far as it came, whatever the movie's
             .base;
     preset.movie.frames = frames;
     Watch watch;
-    return simulate::figures_of(preset, watch).value();
+    return figures_of(preset, watch).value();
   };
   const auto found = figures(2);
   CHECK(found == figures(90));

@@ -1,8 +1,10 @@
-#include "engine/study/stopwatch.h"
+#include "engine/study/time_limit.h"
 
 #include <pthread.h>
 
 #include <chrono>
+
+#include "engine/core/system_info.h"
 
 // there only where OpenBLAS is what is linked
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));

@@ -1,25 +1,13 @@
-// What a method is charged for, and when it is cut off.
+// When a method is cut off.
 #pragma once
 
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
-#include "engine/core/system_info.h"
 #include "engine/core/watch.h"
 
 namespace gridshell::study {
-
-/// Processor time of the calling thread between start() and stop(), summed.
-class Stopwatch {
- public:
-  void start() { since_ = cpu_seconds_now(); }
-  void stop() { seconds_ += cpu_seconds_now() - since_; }
-  double seconds() const { return seconds_; }
-
- private:
-  double since_ = 0, seconds_ = 0;
-};
 
 /// From here on BLAS works on the calling thread alone, where the library can be told so
 /// (OpenBLAS): its helpers would not be charged, and sums would depend on how many there are.
