@@ -103,7 +103,7 @@ class PageMaker {
     style.turn_deg = 0;
     const render::Stage stage(run, style);
     // what pictures show of a millimetre is the same for all, points
-    const double units = (height - caption) * 72 / 25.4 * stage.pixels_per_mm() / style.height;
+    const double units = (height - caption) * 72 / 25.4 * stage.pixels_per_mm() / style.height();
     for (int k = 0; k < count; ++k) {
       const record::Frame& frame = run.frames[std::size_t(k)];
       TRY(picture, stage.draw_views(renderer_, {frame, k}));

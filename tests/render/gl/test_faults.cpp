@@ -32,8 +32,7 @@ struct Subject {
     });
     run.layout.loaded_joints = {{int(pushed - joints.begin()), -Eigen::Vector3d::UnitZ()}};
     run.frames[3].negative_pivots = 1;
-    style.width = 480;
-    style.height = 270;
+    style.size = {480, 270};
     style.title = "Dome";
     style.scale_bar_mm = 20;
   }
@@ -49,7 +48,7 @@ class Easel {
     Camera camera = stage.camera(subject.at);
     subject.spoil(drawing, camera);
     auto picture = studio_.renderer->draw(drawing, camera, draw_quality(subject.style),
-                                          subject.style.width, subject.style.height);
+                                          subject.style.width(), subject.style.height());
     REQUIRE(picture);
     stage.finish(*picture, {frame, subject.at});
     return std::move(*picture);
@@ -103,7 +102,7 @@ const std::map<std::string, Change>& faults() {
        }},
       {"a wrong letter", [](Subject& s) { s.style.title = "Dome."; }},
       {"no colour bar", [](Subject& s) { s.style.legends = false; }},
-      {"another colour map", [](Subject& s) { s.style.look.map = ColourMap::grey; }},
+      {"another colour map", [](Subject& s) { s.style.look.map = grey; }},
       {"another colour range",
        [](Subject& s) {
          s.style.look.range = {{-0.3, 0.3}};

@@ -13,8 +13,7 @@ namespace {
 
 MovieStyle small() {
   MovieStyle style;
-  style.width = 480;
-  style.height = 270;
+  style.size = {480, 270};
   style.title = "two shells";
   return style;
 }

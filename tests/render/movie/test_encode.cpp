@@ -131,8 +131,7 @@ TEST_CASE("a real ffmpeg makes movies of the length asked for", "[standard]") {
   const fs::path frames = folder.path() / "frames";
   REQUIRE(make_folder(frames));
   MovieStyle style;
-  style.width = 64;
-  style.height = 49;
+  style.size = {64, 49};
   style.title = "a title";
   REQUIRE(write_png(title_card(style), frames / "title.png"));
   for (int k = 0; k < 6; ++k) {
@@ -187,8 +186,7 @@ TEST_CASE("a movie made while its frames are drawn is that of the frames, to the
   const fs::path frames = folder.path() / "frames";
   REQUIRE(make_folder(frames));
   MovieStyle style;
-  style.width = 64;
-  style.height = 49;
+  style.size = {64, 49};
   REQUIRE(write_png(title_card(style), frames / "title.png"));
   const MovieTiming timing{.fps = 20, .frames = 6, .hold_s = 0.5, .title_s = 0.5};
   auto movie = MovieEncoder::begin(frames, timing, 64, 49, folder.path() / "a.mp4");

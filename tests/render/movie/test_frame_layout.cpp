@@ -6,7 +6,7 @@
 using namespace gridshell::render;
 
 TEST_CASE("parts of a frame lie inside it and never overlap, at any size and aspect") {
-  const ColourBar bar{"*K*_{□} (rad)", {ColourMap::diverging, -0.08, 0.08}, true, true};
+  const ColourBar bar{"*K*_{□} (rad)", {diverging, -0.08, 0.08}, true, true};
   const std::vector<std::pair<int, int>> sizes = {
       {320, 240},  {640, 360}, {640, 480}, {1280, 720},  {1920, 1080}, {3840, 2160},
       {720, 1280}, {500, 500}, {800, 700}, {3840, 240},  {320, 2160},  {1000, 100},
@@ -14,8 +14,7 @@ TEST_CASE("parts of a frame lie inside it and never overlap, at any size and asp
   for (const auto& [width, height] : sizes)
     for (int options = 0; options < 16; ++options) {
       MovieStyle style;
-      style.width = width;
-      style.height = height;
+      style.size = {width, height};
       style.captions = options & 1;
       style.inset = options & 2;
       style.scale_bar_mm = options & 4 ? 20 : 0;
@@ -36,13 +35,12 @@ TEST_CASE("parts of a frame lie inside it and never overlap, at any size and asp
 }
 
 TEST_CASE("at the usual sizes nothing is left out, and text grows with the picture") {
-  const ColourBar bar{"*K*_{□} (rad)", {ColourMap::diverging, -0.08, 0.08}};
+  const ColourBar bar{"*K*_{□} (rad)", {diverging, -0.08, 0.08}};
   double before = 0;
   for (const auto& [width, height] :
        {std::pair{320, 240}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}}) {
     MovieStyle style;
-    style.width = width;
-    style.height = height;
+    style.size = {width, height};
     style.scale_bar_mm = 20;
     const FrameLayout layout = lay_out_frame(style, &bar);
     INFO(width << " x " << height);

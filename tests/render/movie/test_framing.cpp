@@ -16,8 +16,7 @@ TEST_CASE("the whole run stays within the view over the whole turn, and fills it
     for (double elevation : {0.0, 22.0, 60.0, 90.0})
       for (double turn : {0.0, 40.0, -360.0}) {
         MovieStyle style;
-        style.width = width;
-        style.height = height;
+        style.size = {width, height};
         style.elevation_deg = elevation;
         style.turn_deg = turn;
         // a view off the picture's middle, as captions leave it

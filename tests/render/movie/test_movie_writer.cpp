@@ -13,8 +13,7 @@ namespace {
 
 MovieStyle small() {
   MovieStyle style;
-  style.width = 160;
-  style.height = 120;
+  style.size = {160, 120};
   return style;
 }
 

@@ -59,8 +59,7 @@ TEST_CASE(
   test::FakeRenderer renderer;
   Watch watch;
   MovieStyle style;
-  style.width = 160;
-  style.height = 120;
+  style.size = {160, 120};
   const auto image =
       draw_pushes({{&run, "a"}, {&run, "b"}}, style, renderer, watch).and_then(draw_panels);
   REQUIRE(image);

@@ -17,8 +17,7 @@ namespace {
 
 MovieStyle titled(int width, int height) {
   MovieStyle style;
-  style.width = width;
-  style.height = height;
+  style.size = {width, height};
   style.scale_bar_mm = 20;
   style.title =
       "Actuation of a circular_gridshell with a title that is long enough to need cutting "
@@ -287,7 +286,7 @@ TEST_CASE("a run that cannot be shown is refused with its reason") {
   record::Trajectory run = synthetic::dome(3, 2);
   CHECK(check_showable(run, {}));
   MovieStyle style;
-  style.width = 8;
+  style.size[0] = 8;
   CHECK(message(run, style) ==
         "a picture of 8 x 720 pixels cannot be made: both sides must be 16 to 16384");
   run.frames[1].nodes(2, 5) = std::numeric_limits<double>::quiet_NaN();
