@@ -13,6 +13,7 @@
 #include "render/movie/run_plots.h"
 #include "render/movie/stage.h"
 #include "render/movie/stills.h"
+#include "tests/render/canvas/ink.h"
 #include "tests/render/synthetic.h"
 #include "tests/temporary_folder.h"
 
@@ -144,7 +145,7 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
       std::mutex mutex;
       std::vector<std::pair<Words, Box>> canvases;
       {
-        const CanvasObserver watch([&](const Canvas& canvas) {
+        const test::CanvasObserver watch([&](const Canvas& canvas) {
           const std::lock_guard lock(mutex);
           canvases.push_back({{canvas.texts(), canvas.text_boxes(), canvas.marker_boxes()},
                               {0, 0, canvas.width(), canvas.height()}});

@@ -7,12 +7,6 @@
 using namespace gridshell;
 using namespace gridshell::render;
 
-namespace {
-
-constexpr Colour white{1, 1, 1, 1};
-
-}  // namespace
-
 TEST_CASE("a colour bar stays in its box and shows its scale from end to end") {
   const ColourBar bar{"*K*_{□} (rad)", {diverging, -0.08, 0.08}, true, true};
   for (double font : {8.0, 14.0, 30.0}) {

@@ -105,7 +105,7 @@ const std::map<std::string, Change>& faults() {
       {"another colour map", [](Subject& s) { s.style.look.map = grey; }},
       {"another colour range",
        [](Subject& s) {
-         s.style.look.range = {{-0.3, 0.3}};
+         s.style.look.range = {-0.3, 0.3};
        }},
       {"no top view", [](Subject& s) { s.style.inset = false; }},
       {"no mark on the timeline", [](Subject& s) { s.run.frames[3].negative_pivots = 0; }},

@@ -77,7 +77,7 @@ TEST_CASE("the change of K starts at nothing, and the style's range goes before"
   CHECK(change->scale.low <= -0.05);
   CHECK(change->scale.high <= 0.1);
   CHECK(change->label.starts_with("Δ"));
-  style.look.range = {{-0.01, 0.03}};
+  style.look.range = {-0.01, 0.03};
   const auto given = bar({of_K(0.5, 0.45)}, style);
   CHECK(given->scale.low == -0.01);
   CHECK(given->scale.high == 0.03);
@@ -113,7 +113,7 @@ TEST_CASE("bending energy goes up from zero, and the style's range and map go be
   CHECK(energy->scale.map == sequential);
   CHECK(energy->scale.low == 0);
   CHECK(energy->scale.high >= 1.5);
-  style.look.range = {{0, 1}};
+  style.look.range = {0, 1};
   style.look.map = grey;
   const auto given = bar({of_rods(0, 0, 1.5)}, style);
   CHECK(given->scale.high == 1);
