@@ -156,7 +156,7 @@ class PageMaker {
       const record::Trajectory& run = *named_pushes_[k].run;
       render::Plot plot =
           render::bins_plot(render::summarise_run(run), long(run.layout.cells.size()),
-                            run.frames.back(), std::array{-0.01, 0.07}, page_font);
+                            run.frames.back(), {-0.01, 0.07}, page_font);
       // too low for more words; B has them
       plot.y.label = "mean *K*_{□} (rad)";
       const double width = 174.0 / double(named_pushes_.size());
