@@ -166,7 +166,7 @@ Result<void> work(const preset::Preset& preset, const Options& options, const fs
   if (last.cancelled()) return stopped();
   text = design_text(*found, flat);
   return write_design(folder, designed, *found, flat).and_then([&] {
-    auto artist = PictureMaker::create(options.context, options.threads, preset.style.font);
+    auto artist = PictureMaker::create(options.context, preset.style.font);
     if (!artist) return Result<void>(tl::unexpected(artist.error()));
     return draw_design({preset, std::move(*before), {}, "before"},
                        {designed, std::move(*after), {}, "designed"}, *found, artist->renderer(),

@@ -7,6 +7,7 @@
 #include "app/cli/console.h"
 #include "engine/core/suggest.h"
 #include "engine/core/system_info.h"
+#include "render/gl/context.h"
 
 namespace {
 
@@ -46,6 +47,7 @@ int main(int argc, char** argv) {
   gridshell::app::install_signal_handlers();
   gridshell::app::install_terminate_handler();
   gridshell::app::open_standard_streams();
+  gridshell::render::keep_compiled_shaders();
   int code = gridshell::app::ExitCode::failed;
   try {
     code = run(argc, argv);

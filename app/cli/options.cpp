@@ -40,7 +40,9 @@ void add_run_options(CLI::App& command, Options& options) {
 void add_work_options(CLI::App& command, Options& options, const std::string& output) {
   command.add_option("-o,--output", options.output, output);
   command.add_option("--threads", options.threads, "threads to work with; results do not change")
-      ->check(CLI::Range(1, 1024));
+      ->check(CLI::Range(1, 1024))
+      // the software rasteriser reads this when its context is made
+      ->each([](const std::string& count) { setenv("LP_NUM_THREADS", count.c_str(), 1); });
   command.add_flag("--quiet", options.quiet, "print nothing but errors");
 }
 

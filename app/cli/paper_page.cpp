@@ -103,7 +103,7 @@ class PageMaker {
     style.turn_deg = 0;
     const render::Stage stage(run, style);
     // what pictures show of a millimetre is the same for all, points
-    const double units = (height - caption) * 72 / 25.4 * stage.pixels_per_mm() / style.height;
+    const double units = (height - caption) * 72 / 25.4 * stage.pixels_per_mm() / style.height();
     for (int k = 0; k < count; ++k) {
       const record::Frame& frame = run.frames[std::size_t(k)];
       TRY(picture, stage.draw_views(renderer_, {frame, k}));
@@ -156,7 +156,7 @@ class PageMaker {
       const record::Trajectory& run = *named_pushes_[k].run;
       render::Plot plot =
           render::bins_plot(render::summarise_run(run), long(run.layout.cells.size()),
-                            run.frames.back(), std::array{-0.01, 0.07}, page_font);
+                            run.frames.back(), {-0.01, 0.07}, page_font);
       // too low for more words; B has them
       plot.y.label = "mean *K*_{□} (rad)";
       const double width = 174.0 / double(named_pushes_.size());

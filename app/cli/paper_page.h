@@ -25,8 +25,8 @@ inline constexpr double page_font = 7;  // points, of plots and legends on a pag
 /// A style whose pictures are so large on the page, pixel by pixel as it is printed.
 inline render::MovieStyle at_size(render::MovieStyle style, double width_mm, double height_mm,
                                   double dpi) {
-  style.width = std::max(16, int(width_mm * dpi / 25.4));
-  style.height = std::max(16, int(style.width * height_mm / width_mm));
+  style.size[0] = std::max(16, int(width_mm * dpi / 25.4));
+  style.size[1] = std::max(16, int(style.width() * height_mm / width_mm));
   return style;
 }
 

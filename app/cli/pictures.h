@@ -48,11 +48,9 @@ Eigen::Matrix3Xd scan_of(const preset::Preset& preset);
 /// Draws runs; holds the OpenGL context, so it stays on the thread that made it.
 class PictureMaker {
  public:
-  /// `context` as in --context; `threads` of the rasteriser, 0: as many as it likes; `font` of all
-  /// text, empty: the usual one. Errors: io when no context can be had, naming what was tried;
-  /// bad_input for a font that is not there.
-  static Result<PictureMaker> create(const std::string& context, int threads,
-                                     const std::string& font);
+  /// `context` as in --context; `font` of all text, empty: the usual one. Errors: io when no
+  /// context can be had, naming what was tried; bad_input for a font that is not there.
+  static Result<PictureMaker> create(const std::string& context, const std::string& font);
 
   /// Movie: folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is on the PATH.
   /// Stills: folder/<preset>_1.png ... and all in one, folder/<preset>.png. Each file is whole or
@@ -73,17 +71,13 @@ class PictureMaker {
   std::unique_ptr<render::Renderer> renderer_;
 };
 
-/// How fast the movie of `frames` frames plays.
-render::MovieTiming timing_of(const render::MovieStyle& style, int frames);
-
 /// Writes the frames of a movie, and shows each to whoever wants to see it.
 using DrawFrames = std::function<Result<render::MovieReport>(const render::FrameCallback& seen)>;
 
 /// Draws so many frames into folder/frames and makes of them, where ffmpeg is on the PATH,
 /// movie.mp4 and what else the preset asks for; poster.png. Errors: those of `draw`, io, cancelled.
 Result<void> make_movie(const std::filesystem::path& folder, const preset::Preset& preset,
-                        const render::MovieStyle& style, int frames, Watch& watch,
-                        const DrawFrames& draw);
+                        render::MovieStyle style, int frames, Watch& watch, const DrawFrames& draw);
 
 /// What drawing will take about, for the progress bar and `check`.
 double expected_seconds(Pictures pictures, const preset::Preset& preset);

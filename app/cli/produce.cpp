@@ -237,7 +237,7 @@ Result<void> do_jobs(std::vector<Job>& jobs, const preset::Presets& presets, Pic
       return said;
   std::optional<PictureMaker> artist;
   if (pictures != Pictures::none) {
-    TRY(made, PictureMaker::create(options.context, options.threads, base.style.font));
+    TRY(made, PictureMaker::create(options.context, base.style.font));
     artist.emplace(std::move(*made));
   }
   std::vector<std::string> names;

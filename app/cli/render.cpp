@@ -147,8 +147,7 @@ int render(const Options& options, bool unsealed) {
         drawing("drawing point loads",
                 double(runs->size()) * expected_seconds(Pictures::stills, runs->front().preset)));
   const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
-    TRY(artist,
-        PictureMaker::create(options.context, options.threads, runs->front().preset.style.font));
+    TRY(artist, PictureMaker::create(options.context, runs->front().preset.style.font));
     std::vector<CaseRun> all;
     for (const auto& run : *runs) all.push_back({run.preset, run.trajectory});
     const auto bars = shared_bars(all, runs->front().pictures);

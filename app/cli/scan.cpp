@@ -302,19 +302,18 @@ int produce_scan(const ScanOptions& options) {
   const std::vector<Phase> phases{drawing("comparing", 0.1 * double(scanned->candidates.size())),
                                   drawing("drawing", expected_seconds(Pictures::stills, first))};
   std::optional<ComparedScan> scan;
-  const int code =
-      deliver(folder, phases, options.common.quiet,
-              [&](const fs::path& partial, Progress& progress) -> Result<void> {
-                TRY(found, compared(*scanned, points.string(), progress.next_phase()));
-                scan = std::move(*found);
-                const Candidate& best = scanned->candidates[scan->best];
-                return write(*scan, best.run->trajectory.layout, partial).and_then([&] {
-                  auto artist = PictureMaker::create(options.common.context, options.common.threads,
-                                                     best.run->preset.style.font);
-                  if (!artist) return Result<void>(tl::unexpected(artist.error()));
-                  return draw(*scan, best, *artist, partial, progress.next_phase());
-                });
-              });
+  const int code = deliver(
+      folder, phases, options.common.quiet,
+      [&](const fs::path& partial, Progress& progress) -> Result<void> {
+        TRY(found, compared(*scanned, points.string(), progress.next_phase()));
+        scan = std::move(*found);
+        const Candidate& best = scanned->candidates[scan->best];
+        return write(*scan, best.run->trajectory.layout, partial).and_then([&] {
+          auto artist = PictureMaker::create(options.common.context, best.run->preset.style.font);
+          if (!artist) return Result<void>(tl::unexpected(artist.error()));
+          return draw(*scan, best, *artist, partial, progress.next_phase());
+        });
+      });
   if (code != ExitCode::done) return code;
   if (!options.common.quiet) fmt::print("{}: {}", folder.string(), scan_text(*scan));
   return scan->of_best().shown ? ExitCode::done : ExitCode::different;

@@ -263,7 +263,7 @@ Result<void> add_states(Page& page, const CaseRun& one, render::MovieStyle style
     if (over >= 0) drawing.joint_diameter_mm = 0;
     if (over == int(k)) render::show_measured_joints(measured, drawing);
     TRY(picture, renderer.draw(drawing, stage.camera(int(k)), render::draw_quality(style),
-                               style.width, style.height));
+                               style.width(), style.height()));
     render::Panel panel{std::move(*picture), "A" + std::to_string(k + 1), ""};
     if (style.vector) panel.lines = render::shell_lines(std::move(drawing), stage.camera(int(k)));
     page.add_panel(fmt::format("state *{}*, {}: {:.2f} mJ, {:.1f} mm high", word_of(row.kind),
@@ -277,7 +277,7 @@ Result<void> add_states(Page& page, const CaseRun& one, render::MovieStyle style
       render::draw_colour_keys(canvas, box, {render::scan_key()}, page_font);
     });
   const double units =
-      (above.height * points_per_mm - caption) * stage.pixels_per_mm() / style.height;
+      (above.height * points_per_mm - caption) * stage.pixels_per_mm() / style.height();
   page.add("", "", {158, 38, 18, 8},
            [units, length = one.preset.figure.scale_bar_mm](Canvas& canvas, const Box& box) {
              render::draw_scale_bar(canvas, box, length, units, page_font);

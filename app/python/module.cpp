@@ -6,6 +6,7 @@
 #include "app/cli/preset_library.h"
 #include "engine/core/system_info.h"
 #include "engine/gridshell.h"
+#include "render/gl/context.h"
 
 namespace gridshell::python {
 namespace {
@@ -109,6 +110,7 @@ preset::Step step_of(const preset::Preset& preset, const char* kind, const py::d
 
 PYBIND11_MODULE(gridshell, module) {
   using namespace gridshell;
+  render::keep_compiled_shaders();
   module.doc() =
       "Elastic gridshells: formed, pushed, measured and shown. Millimetres, newtons, millijoules; "
       "z is up.";

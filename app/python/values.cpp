@@ -204,7 +204,7 @@ namespace {
 Result<void> draw_on(const State& state, const render::MovieStyle& style,
                      const std::filesystem::path& path, const std::string& context) {
   // OpenGL stays on the thread that began it, which is that of this call
-  TRY(artist, app::PictureMaker::create(context, 0, state.preset->style.font));
+  TRY(artist, app::PictureMaker::create(context, state.preset->style.font));
   const record::Trajectory run{*state.layout, {state.frame}};
   if (auto showable = render::check_showable(run, style); !showable) return showable;
   const render::Stage stage(run, style);
@@ -217,7 +217,7 @@ Result<void> draw_on(const State& state, const render::MovieStyle& style,
 void draw(const State& state, const std::filesystem::path& path,
           const std::optional<std::pair<int, int>>& size, const std::string& context) {
   render::MovieStyle style = app::style_of(*state.preset, app::Pictures::movie);
-  if (size) std::tie(style.width, style.height) = *size;
+  if (size) style.size = {size->first, size->second};
   value_of(interruptible([&](const Watch&) { return draw_on(state, style, path, context); }));
 }
 

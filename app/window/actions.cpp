@@ -57,7 +57,7 @@ constexpr Action range(const char* name, const char* label, Shortcut key, const 
           [](const ViewerState& viewer) { return viewer.range_of == of; }};
 }
 
-template <const ViewFrom& from>
+template <const render::ViewDirection& from>
 constexpr Action look(const char* name, const char* label, Shortcut key, const char* help) {
   return {name, "View", label, key, help, [](ViewerState& viewer) { viewer.look(from); }};
 }
@@ -145,11 +145,11 @@ const Action table[] = {
      "the shell as it was before the design, to the bit; stops the design",
      [](auto& v) { v.send_command(DiscardDesign{}); }},
 
-    look<view_home>("view_home", "Home", on(Key::n0), "the whole shell as movies show it"),
-    look<view_top>("view_top", "Top", on(Key::n7), "from above"),
-    look<view_front>("view_front", "Front", on(Key::n1), "along y"),
-    look<view_side>("view_side", "Side", on(Key::n3), "against x"),
-    look<view_iso>("view_iso", "Corner", on(Key::n9), "the three axes alike"),
+    look<render::view_home>("view_home", "Home", on(Key::n0), "the whole shell as movies show it"),
+    look<render::view_top>("view_top", "Top", on(Key::n7), "from above"),
+    look<render::view_front>("view_front", "Front", on(Key::n1), "along y"),
+    look<render::view_side>("view_side", "Side", on(Key::n3), "against x"),
+    look<render::view_corner>("view_iso", "Corner", on(Key::n9), "the three axes alike"),
     {"orthographic", "View", "Orthographic", on(Key::n5), "without perspective",
      [](auto& v) { v.camera.field_of_view_deg = v.camera.field_of_view_deg > 0 ? 0 : 20; },
      [](auto& v) { return v.camera.field_of_view_deg == 0; }},

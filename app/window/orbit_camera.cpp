@@ -47,7 +47,7 @@ void zoom(render::Camera& camera, const PictureSize& size, double steps, double 
   camera.target += off * (1 - camera.half_extent_mm / before);
 }
 
-void look_from(render::Camera& camera, const ViewFrom& view) {
+void look_from(render::Camera& camera, const render::ViewDirection& view) {
   camera.azimuth_deg = view.azimuth_deg;
   camera.elevation_deg = view.elevation_deg;
 }

@@ -21,13 +21,7 @@ void pan(render::Camera& camera, const PictureSize& size, double right_px, doubl
 /// `steps` of the wheel closer; what lies under (x, y), pixels from the top left, stays there.
 void zoom(render::Camera& camera, const PictureSize& size, double steps, double x, double y);
 
-/// Azimuth and elevation of a view.
-struct ViewFrom {
-  double azimuth_deg = 0, elevation_deg = 0;
-};
-inline constexpr ViewFrom view_top{-90, 90}, view_front{-90, 0}, view_side{0, 0},
-    view_iso{-45, 35.264}, view_home{30, 22};
-void look_from(render::Camera& camera, const ViewFrom& view);
+void look_from(render::Camera& camera, const render::ViewDirection& view);
 
 /// All points (3 x n, mm) within the picture, from where the camera looks.
 void fit(render::Camera& camera, const PictureSize& size, const Eigen::Matrix3Xd& points);

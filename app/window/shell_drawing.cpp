@@ -98,7 +98,7 @@ render::ColourScale scale_of(const ShellView& shell, ColourBy by) {
   // of these the farthest is what is asked for
   const bool whole = by == ColourBy::displacement || by == ColourBy::deviation;
   const double end = !any ? 1 : whole ? render::nice_ceiling(all.maxCoeff()) : scale.high;
-  return {render::ColourMap::sequential, 0, end, start};
+  return {render::sequential, 0, end, start};
 }
 
 render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,

@@ -134,7 +134,7 @@ void ViewerState::fit_view() {
   if (shell->any()) camera = fitted_view();
 }
 
-void ViewerState::look(const ViewFrom& from) {
+void ViewerState::look(const render::ViewDirection& from) {
   look_from(camera, from);
   fit_view();
 }

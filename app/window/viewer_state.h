@@ -146,7 +146,7 @@ class ViewerState {
   void toggle_gravity();
   bool gravity() const { return shell->preset.loads.gravity_m_s2 != 0; }
   void fit_view();
-  void look(const ViewFrom& from);
+  void look(const render::ViewDirection& from);
   void say(const std::string& text, bool bad = false);
 
   // ---- what is kept ----

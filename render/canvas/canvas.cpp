@@ -23,11 +23,6 @@ std::string& font_family() {
   return family;
 }
 
-CanvasObserver::OnFinished& watcher() {
-  thread_local CanvasObserver::OnFinished now;
-  return now;
-}
-
 struct Unref {
   void operator()(void* object) const { g_object_unref(object); }
 };
@@ -138,13 +133,6 @@ Result<void> use_font(const std::string& family) {
   return {};
 }
 
-CanvasObserver::CanvasObserver(OnFinished on_finished)
-    : before_(std::exchange(watcher(), std::move(on_finished))) {}
-
-CanvasObserver::~CanvasObserver() { watcher() = std::move(before_); }
-
-CanvasObserver::OnFinished CanvasObserver::of_thread() { return watcher(); }
-
 bool Box::contains(const Box& b) const {
   const double e = 1e-6;
   return b.x >= x - e && b.y >= y - e && b.right() <= right() + e && b.bottom() <= bottom() + e;
@@ -161,13 +149,26 @@ Box Box::inset(double margin) const {
           std::max(0.0, height - 2 * margin)};
 }
 
+PlanView::PlanView(const Box& box, const Eigen::MatrixXd& points) : at(box.middle()) {
+  const Eigen::Vector2d low = points.topRows<2>().rowwise().minCoeff(),
+                        high = points.topRows<2>().rowwise().maxCoeff();
+  middle = 0.5 * (low + high);
+  scale = std::min(box.width / (high - low).x(), box.height / (high - low).y());
+}
+
+std::vector<Point> PlanView::line(const Eigen::MatrixXd& points) const {
+  std::vector<Point> placed;
+  for (const auto& point : points.colwise()) placed.push_back((*this)(point));
+  return placed;
+}
+
 Canvas::Canvas(cairo_t* cairo, double width, double height)
     : cairo_(cairo), width_(width), height_(height) {
   cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
 }
 
 Canvas::~Canvas() {
-  if (watcher()) watcher()(*this);
+  if (on_finished) on_finished(*this);
 }
 
 void Canvas::paint_path(Colour fill, const Stroke& stroke) {

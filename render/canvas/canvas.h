@@ -17,6 +17,11 @@ typedef struct _cairo cairo_t;
 
 namespace gridshell::render {
 
+inline constexpr double points_per_mm = 72 / 25.4;
+
+/// Of text and axes, and of what stands on dark.
+inline constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, white{1, 1, 1, 1};
+
 struct Point {
   double x = 0, y = 0;
 };
@@ -34,6 +39,24 @@ struct Box {
   Box inset(double margin) const;
 };
 
+/// Places points of a plane (or of space, seen from above) on a canvas, y up.
+struct PlanView {
+  Point at;                ///< where `middle` goes
+  Eigen::Vector2d middle;  ///< mm
+  double scale = 1;        ///< units of the canvas a millimetre
+
+  /// What holds all of `points` (at least 2 rows; one a column), as large as fits into the box.
+  PlanView(const Box& box, const Eigen::MatrixXd& points);
+  PlanView(Point at_, const Eigen::Vector2d& middle_, double scale_)
+      : at(at_), middle(middle_), scale(scale_) {}
+
+  template <class P>
+  Point operator()(const Eigen::MatrixBase<P>& p) const {
+    return {at.x + scale * (p.x() - middle.x()), at.y - scale * (p.y() - middle.y())};
+  }
+  std::vector<Point> line(const Eigen::MatrixXd& points) const;
+};
+
 /// A line as drawn; width 0 draws nothing. `dash` alternates lengths of line and gap.
 struct Stroke {
   Colour colour{0, 0, 0, 1};
@@ -46,7 +69,7 @@ enum class AlignY { top, middle, baseline, bottom };  ///< of the line's height,
 
 struct TextStyle {
   double size = 9;  ///< of the font (one em), in units of the canvas
-  Colour colour{0.1f, 0.1f, 0.12f, 1};
+  Colour colour = ink;
   bool bold = false;
   AlignX align_x = AlignX::left;
   AlignY align_y = AlignY::baseline;
@@ -118,6 +141,10 @@ class Canvas {
   void keep_text() { keeps_text_ = true; }
   const std::string& text_elements() const { return text_elements_; }
 
+  /// Called with every canvas that is finished, on the thread that drew it; to be set while nothing
+  /// is drawn.
+  static inline std::function<void(const Canvas&)> on_finished;
+
  private:
   void paint_path(Colour fill, const Stroke& stroke);
   Box scaled(const Box& box) const {
@@ -132,22 +159,6 @@ class Canvas {
   std::vector<std::string> texts_;
   std::vector<Box> text_boxes_, markers_;
   Box clip_;  ///< empty: everything is drawn
-};
-
-/// While it lives, it is told of every canvas of its thread that is finished: what the tests of
-/// layouts look at.
-class CanvasObserver {
- public:
-  using OnFinished = std::function<void(const Canvas&)>;
-  explicit CanvasObserver(OnFinished on_finished);
-  ~CanvasObserver();
-  CanvasObserver(const CanvasObserver&) = delete;
-  CanvasObserver& operator=(const CanvasObserver&) = delete;
-  /// That of this thread, for a thread that draws in its place; null: there is none.
-  static OnFinished of_thread();
-
- private:
-  OnFinished before_;
 };
 
 using DrawOn = std::function<void(Canvas&)>;

@@ -85,34 +85,32 @@ Colour diverging(double t, double start) {
                        from_polar(end_L, end_chroma, t < 0 ? blue : red), std::abs(t)));
 }
 
-Colour sequential(double t) {
+namespace {
+
+double begun(double t, double start) { return start + (1 - start) * std::clamp(t, 0.0, 1.0); }
+
+}  // namespace
+
+Colour sequential(double t, double start) {
   static const std::vector<Oklab> table = even_steps({{0.935, -0.002, 0.045},
                                                       {0.79, 0.066, 0.105},
                                                       {0.645, 0.135, 0.070},
                                                       {0.47, 0.140, -0.045},
                                                       {0.31, 0.055, -0.125}},
                                                      256);
-  const double x = std::clamp(t, 0.0, 1.0) * double(table.size() - 1);
+  const double x = begun(t, start) * double(table.size() - 1);
   const std::size_t k = std::min(std::size_t(x), table.size() - 2);
   return to_colour(mix(table[k], table[k + 1], x - double(k)));
 }
 
-Colour grey(double t) { return to_colour({0.95 - 0.75 * std::clamp(t, 0.0, 1.0), 0, 0}); }
+Colour grey(double t, double start) { return to_colour({0.95 - 0.75 * begun(t, start), 0, 0}); }
 
 Colour ColourScale::operator()(double value) const {
   if (!std::isfinite(value)) return {0.6f, 0.6f, 0.6f, 1};
   double t = high > low ? (value - low) / (high - low) : 0.5;
   // what is farther from zero is stronger
-  if (map != ColourMap::diverging && high <= 0 && low < 0) t = 1 - t;
-  switch (map) {
-    case ColourMap::diverging:
-      return diverging(2 * t - 1, start);
-    case ColourMap::sequential:
-      return sequential(start + (1 - start) * std::clamp(t, 0.0, 1.0));
-    case ColourMap::grey:
-      return grey(start + (1 - start) * std::clamp(t, 0.0, 1.0));
-  }
-  return {};
+  if (map != diverging && high <= 0 && low < 0) t = 1 - t;
+  return map(map == diverging ? 2 * t - 1 : t, start);
 }
 
 ColourScale symmetric_scale(std::vector<double> values, double quantile) {
@@ -128,7 +126,7 @@ ColourScale symmetric_scale(std::vector<double> values, double quantile) {
     if (largest <= 1.3 * end || end < 1e-9) end = largest;
   }
   end = end > 1e-12 ? nice_ceiling(end) : 1;
-  return {ColourMap::diverging, -end, end};
+  return {diverging, -end, end};
 }
 
 }  // namespace gridshell::render

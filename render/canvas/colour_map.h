@@ -25,17 +25,18 @@ Colour diverging(double t, double start = 0);
 /// Sand - apricot - coral - plum - indigo over t in [0, 1] (clipped): lightness falls evenly, and
 /// equal steps of t are equal distances in Oklab. Light where there is little, so that dark rods
 /// stand out and paper stays white.
-Colour sequential(double t);
+Colour sequential(double t, double start = 0);
 
 /// Light to dark grey over t in [0, 1], for print without colours.
-Colour grey(double t);
+Colour grey(double t, double start = 0);
 
-enum class ColourMap { diverging, sequential, grey };
+/// One of the three. `start` leaves out that share of a map of [0, 1] at its light end.
+using ColourMap = Colour (*)(double t, double start);
 
 /// What a value looks like: `low` … `high` over the whole map; beyond it the end colours, for an
 /// unknown value grey.
 struct ColourScale {
-  ColourMap map = ColourMap::diverging;
+  ColourMap map = diverging;
   double low = -1, high = 1;
   double start = 0;  ///< where in its map the least size stands, for thin lines on white
 

@@ -10,8 +10,6 @@
 namespace gridshell::render {
 namespace {
 
-constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
-
 double bar_thickness(double font_size) { return 0.9 * font_size; }
 double tick_length(double font_size) { return 0.3 * font_size; }
 // of the column of words beside the ticks
@@ -67,6 +65,12 @@ double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_
       bar_thickness(font_size) + tick_length(font_size) + 0.25 * font_size + ticks;
   const double words = words_column(bar, font_size);
   return std::max(with_ticks + words, canvas.measure(bar.label, style).width) + 0.2 * font_size;
+}
+
+double colour_bar_width(const ColourBar& bar, double font_size) {
+  double width = 0;
+  draw_picture(1, 1, 1, {}, [&](Canvas& c) { width = colour_bar_width(c, bar, font_size); });
+  return width;
 }
 
 void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size) {

@@ -21,6 +21,7 @@ struct ColourBar {
 
 /// The width that a vertical bar with its labels takes at this font size.
 double colour_bar_width(const Canvas& canvas, const ColourBar& bar, double font_size);
+double colour_bar_width(const ColourBar& bar, double font_size);
 
 /// Draws a vertical colour bar into `box`, everything within.
 void draw_colour_bar(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size);

@@ -50,9 +50,7 @@ Grid make_grid(const PanelFigure& figure) {
   grid.keys = figure.keys.empty() ? 0 : std::round(1.7 * grid.em);
   grid.foot = figure.scale_bar_mm > 0 ? std::round(1.9 * grid.em) : 0;
   if (figure.colour_bar)
-    draw_picture(1, 1, 1, {}, [&](Canvas& canvas) {
-      grid.bar = grid.gap + std::ceil(colour_bar_width(canvas, *figure.colour_bar, grid.em));
-    });
+    grid.bar = grid.gap + std::ceil(colour_bar_width(*figure.colour_bar, grid.em));
   return grid;
 }
 

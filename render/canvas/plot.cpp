@@ -9,8 +9,6 @@
 namespace gridshell::render {
 namespace {
 
-constexpr double points_per_mm = 72 / 25.4;
-
 bool drawable(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 void draw_band(Canvas& canvas, const PlotFrame& frame, const Band& band) {
@@ -87,7 +85,7 @@ void draw_bars(Canvas& canvas, const PlotFrame& frame, const Series& s) {
 void draw_error_bars(Canvas& canvas, const PlotFrame& frame, const Series& s) {
   const double cap = std::max(1.5, 0.4 * s.marker_size);
   // over bars of the same colour an error bar must stay visible
-  const Stroke stroke{s.kind == SeriesKind::bars ? Colour{0.1f, 0.1f, 0.12f, 1} : s.colour, 0.8};
+  const Stroke stroke{s.kind == SeriesKind::bars ? ink : s.colour, 0.8};
   for (std::size_t k = 0; k < std::min(s.x.size(), s.y.size()); ++k) {
     const Point p = frame.place(s.x[k], s.y[k]);
     if (!drawable(p)) continue;
@@ -127,7 +125,7 @@ void draw_line_and_markers(Canvas& canvas, const PlotFrame& frame, const Series&
       flush();
   }
   flush();
-  const Colour fill = s.hollow ? Colour{1, 1, 1, 1} : s.colour;
+  const Colour fill = s.hollow ? white : s.colour;
   for (std::size_t k = 0; k < n; ++k)
     if (const Point p = frame.place(s.x[k], s.y[k]); drawable(p))
       canvas.marker(s.marker, p, s.marker_size, fill, {s.colour, s.hollow ? 0.9 : 0});
@@ -138,8 +136,27 @@ void draw_line_and_markers(Canvas& canvas, const PlotFrame& frame, const Series&
 Colour series_colour(std::size_t index) {
   constexpr std::array<int, 10> colours = {0x4477AA, 0xEE6677, 0x228833, 0xCCBB44, 0x66CCEE,
                                            0xAA3377, 0x555555, 0x004488, 0xDDAA33, 0xBB5566};
-  const int c = colours[index % colours.size()];
-  return {float(c >> 16) / 255, float(c >> 8 & 255) / 255, float(c & 255) / 255, 1};
+  return hex_colour(colours[index % colours.size()]);
+}
+
+Marker series_marker(std::size_t index) {
+  constexpr std::array markers{Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+  return markers[index % markers.size()];
+}
+
+Series line_series(const std::string& name, Colour colour, double width,
+                   const std::vector<double>& dash) {
+  return {.name = name, .colour = colour, .line_width = width, .dash = dash};
+}
+
+Series mark_series(const std::string& name, Colour colour, Marker marker, double size,
+                   bool hollow) {
+  return {.name = name,
+          .colour = colour,
+          .line_width = 0,
+          .marker = marker,
+          .marker_size = size,
+          .hollow = hollow};
 }
 
 Box note_box(const Canvas& canvas, const Plot& plot, const PlotFrame& frame, const Note& note) {

@@ -2,9 +2,12 @@
 // notes and a legend, as a journal prints it.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/canvas/canvas.h"
@@ -15,6 +18,8 @@ namespace gridshell::render {
 /// Ten colours that stay apart for colour-blind readers and in grey, in order of use (Paul Tol's
 /// "bright" and "high contrast" schemes).
 Colour series_colour(std::size_t index);
+/// Four signs, in the same order of use.
+Marker series_marker(std::size_t index);
 
 struct Axis {
   std::string label;  ///< marked text with its unit: "*R*_{a} (mm)"
@@ -41,7 +46,19 @@ struct Series {
   double marker_size = 4.5;
   bool hollow = false;   ///< markers filled with white
   double bar_width = 0;  ///< in units of x
+
+  void add(double px, double py) {
+    x.push_back(px);
+    y.push_back(py);
+  }
+  void part() { add(NAN, NAN); }
 };
+
+/// A line without marks, and marks without a line; points come by add().
+Series line_series(const std::string& name, Colour colour, double width = 1,
+                   const std::vector<double>& dash = {});
+Series mark_series(const std::string& name, Colour colour, Marker marker = Marker::circle,
+                   double size = 4.5, bool hollow = false);
 
 /// The area between two curves, or, with one x to the next, a shaded region of the plot.
 struct Band {
@@ -49,6 +66,21 @@ struct Band {
   std::vector<double> x = {}, low = {}, high = {};  ///< not finite ends reach to the frame
   Colour colour{0.5f, 0.5f, 0.5f, 0.2f};
 };
+
+/// The values of a member in the order in which they first come, of those that are wanted.
+template <class Row, class Value, class Wanted>
+std::vector<Value> distinct(const std::vector<Row>& rows, Value Row::*member,
+                            const Wanted& wanted) {
+  std::vector<Value> values;
+  for (const Row& row : rows)
+    if (wanted(row.*member) && std::ranges::find(values, row.*member) == values.end())
+      values.push_back(row.*member);
+  return values;
+}
+template <class Row, class Value>
+std::vector<Value> distinct(const std::vector<Row>& rows, Value Row::*member) {
+  return distinct(rows, member, [](const Value&) { return true; });
+}
 
 /// A line across the whole plot.
 struct ReferenceLine {
@@ -64,7 +96,7 @@ struct Note {
   std::string text;
   AlignX align_x = AlignX::left;
   AlignY align_y = AlignY::bottom;
-  Colour colour{0.1f, 0.1f, 0.12f, 1};
+  Colour colour = ink;
 };
 
 enum class LegendPlace { none, automatic, above, upper_left, upper_right, lower_left, lower_right };
@@ -78,6 +110,11 @@ struct Plot {
   std::vector<Note> notes;
   LegendPlace legend = LegendPlace::automatic;
   double font_size = 8.5;
+
+  /// On top of all others; left out where it has no point.
+  void add(Series one) {
+    if (!one.x.empty()) series.push_back(std::move(one));
+  }
 };
 
 /// Draws the plot with its labels into `box`; nothing reaches outside.

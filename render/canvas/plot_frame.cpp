@@ -8,7 +8,6 @@ namespace gridshell::render {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
 
 struct Range {
   double low = infinity, high = -infinity;

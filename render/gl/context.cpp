@@ -21,10 +21,6 @@ Result<SharedLibrary> SharedLibrary::open(std::initializer_list<const char*> nam
 
 void* SharedLibrary::symbol(const char* name) const { return dlsym(handle_, name); }
 
-namespace {
-
-/// Mesa compiles shaders on every start unless it may keep them: gives it a folder of the user's
-/// cache, unless the user chose one. Where none can be made, the first frame is slower.
 void keep_compiled_shaders() {
   if (std::getenv("MESA_SHADER_CACHE_DIR")) return;
   const char* cache = std::getenv("XDG_CACHE_HOME");
@@ -42,6 +38,8 @@ void keep_compiled_shaders() {
   if (!error) setenv("MESA_SHADER_CACHE_DIR", folder.c_str(), 0);
 }
 
+namespace {
+
 Result<std::unique_ptr<Context>> create_off_screen() {
   auto osmesa = create_osmesa_context();
   if (osmesa) return osmesa;
@@ -55,7 +53,6 @@ Result<std::unique_ptr<Context>> create_off_screen() {
 }  // namespace
 
 Result<std::unique_ptr<Context>> Context::create(ContextKind kind) {
-  keep_compiled_shaders();
   switch (kind) {
     case ContextKind::osmesa:
       return create_osmesa_context();

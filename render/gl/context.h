@@ -17,6 +17,11 @@ constexpr auto words(ContextKind) {
   return names_except<ContextKind>({{ContextKind::automatic, "auto"}});
 }
 
+/// Lets Mesa keep compiled shaders in a folder of the user's cache from now on, unless the user
+/// chose one; else it compiles them on every start. It changes the environment: to be called once,
+/// before there are threads. Where no folder can be made, the first frame is slower.
+void keep_compiled_shaders();
+
 /// Current from creation to destruction, on the thread that made it.
 class Context {
  public:

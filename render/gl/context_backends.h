@@ -15,10 +15,11 @@ class SharedLibrary {
   /// The first of `names` that opens. Errors: Fault::io with what the loader said of each.
   static Result<SharedLibrary> open(std::initializer_list<const char*> names);
 
-  /// The function `name` as a pointer of type F; null when the library lacks it.
+  /// Sets `function` to that of this name. False where the library lacks it.
   template <class F>
-  F function(const char* name) const {
-    return reinterpret_cast<F>(symbol(name));
+  bool load(F& function, const char* name) const {
+    function = reinterpret_cast<F>(symbol(name));
+    return function != nullptr;
   }
 
  private:
@@ -27,6 +28,17 @@ class SharedLibrary {
 
   void* handle_;
 };
+
+// A struct of the functions that a list X(member, function) names, to be loaded from a library.
+// NOLINTBEGIN: names cannot stand in parentheses
+#define GRIDSHELL_MEMBER(member, function) decltype(&function) member = nullptr;
+#define GRIDSHELL_LOADED(member, function) &&library.load(member, #function)
+#define GRIDSHELL_FUNCTIONS(Name, LIST)                                             \
+  struct Name {                                                                     \
+    LIST(GRIDSHELL_MEMBER)                                                          \
+    bool load(const SharedLibrary& library) { return true LIST(GRIDSHELL_LOADED); } \
+  }
+// NOLINTEND
 
 // One function for each kind of context; Context::create chooses among them.
 

@@ -6,37 +6,21 @@
 
 #include "render/gl/context_backends.h"
 
+#define GRIDSHELL_EGL(X)                \
+  X(proc_address, eglGetProcAddress)    \
+  X(query_string, eglQueryString)       \
+  X(initialize, eglInitialize)          \
+  X(terminate, eglTerminate)            \
+  X(bind_api, eglBindAPI)               \
+  X(choose_config, eglChooseConfig)     \
+  X(create_context, eglCreateContext)   \
+  X(destroy_context, eglDestroyContext) \
+  X(make_current, eglMakeCurrent)
+
 namespace gridshell::render {
 namespace {
 
-/// The entry points of libEGL.
-struct Egl {
-  decltype(&eglGetProcAddress) proc_address;
-  decltype(&eglQueryString) query_string;
-  decltype(&eglInitialize) initialize;
-  decltype(&eglTerminate) terminate;
-  decltype(&eglBindAPI) bind_api;
-  decltype(&eglChooseConfig) choose_config;
-  decltype(&eglCreateContext) create_context;
-  decltype(&eglDestroyContext) destroy_context;
-  decltype(&eglMakeCurrent) make_current;
-
-  explicit Egl(const SharedLibrary& library)
-      : proc_address(library.function<decltype(&eglGetProcAddress)>("eglGetProcAddress")),
-        query_string(library.function<decltype(&eglQueryString)>("eglQueryString")),
-        initialize(library.function<decltype(&eglInitialize)>("eglInitialize")),
-        terminate(library.function<decltype(&eglTerminate)>("eglTerminate")),
-        bind_api(library.function<decltype(&eglBindAPI)>("eglBindAPI")),
-        choose_config(library.function<decltype(&eglChooseConfig)>("eglChooseConfig")),
-        create_context(library.function<decltype(&eglCreateContext)>("eglCreateContext")),
-        destroy_context(library.function<decltype(&eglDestroyContext)>("eglDestroyContext")),
-        make_current(library.function<decltype(&eglMakeCurrent)>("eglMakeCurrent")) {}
-
-  bool complete() const {
-    return proc_address && query_string && initialize && terminate && bind_api && choose_config &&
-           create_context && destroy_context && make_current;
-  }
-};
+GRIDSHELL_FUNCTIONS(Egl, GRIDSHELL_EGL);
 
 class EglContext final : public Context {
  public:
@@ -57,13 +41,11 @@ class EglContext final : public Context {
     EGLint count = 0;
     if (!egl_.bind_api(EGL_OPENGL_API)) return false;
     if (!egl_.choose_config(display_, config_wanted, &config, 1, &count) || count < 1) return false;
-    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
-                             3,
-                             EGL_CONTEXT_MINOR_VERSION,
-                             3,
-                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+    // clang-format off
+    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
+                             EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                              EGL_NONE};
+    // clang-format on
     context_ = egl_.create_context(display_, config, EGL_NO_CONTEXT, wanted);
     return context_ != EGL_NO_CONTEXT &&
            egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
@@ -84,8 +66,8 @@ class EglContext final : public Context {
 Result<std::unique_ptr<Context>> create_egl_context() {
   auto library = SharedLibrary::open({"libEGL.so.1", "libEGL.so"});
   if (!library) return fail(Fault::io, "EGL: " + library.error().message);
-  const Egl egl(*library);
-  if (!egl.complete()) return fail(Fault::io, "EGL: the library is too old");
+  Egl egl;
+  if (!egl.load(*library)) return fail(Fault::io, "EGL: the library is too old");
 
   const char* extensions = egl.query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   if (!extensions || !std::strstr(extensions, "EGL_MESA_platform_surfaceless"))

@@ -45,6 +45,11 @@ Eigen::Matrix4f on_ground(const Eigen::Matrix4f& light_matrix, double z) {
 /// same in all frames of a movie.
 int texels_for(int height) { return std::clamp(64 * int(std::lround(height / 90.0)), 512, 1024); }
 
+/// Nothing is blended, hidden or left out.
+void fill_only(const Gl& gl) {
+  for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE}) gl.Disable(state);
+}
+
 /// Of level ground in the open.
 float open_light(const Lighting& light) {
   return float(light.key * light.direction.z() + light.sky);
@@ -91,9 +96,7 @@ bool Ground::seen(const RenderJob& shot) {
 
 void Ground::draw(const RenderJob& shot, const Eigen::Matrix4d& matrix, const Lighting& light,
                   const ShadowMap* shadow) const {
-  gl_->Disable(GL_BLEND);
-  gl_->Disable(GL_DEPTH_TEST);
-  gl_->Disable(GL_CULL_FACE);
+  fill_only(*gl_);
   if (!seen(shot)) {
     const Eigen::Vector4f behind = to_linear(shot.drawing.background);
     const float alpha = shot.drawing.background.a;
@@ -158,9 +161,7 @@ Result<void> Ground::gather(const RenderJob& shot, const Tile& tile, const Eigen
 }
 
 void Ground::draw_ground_light(const RenderJob& shot, const Eigen::Matrix4d& matrix) const {
-  gl_->Disable(GL_BLEND);
-  gl_->Disable(GL_DEPTH_TEST);
-  gl_->Disable(GL_CULL_FACE);
+  fill_only(*gl_);
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, gathered_.colour());
   programs_.gathered.use();
@@ -187,9 +188,7 @@ Result<void> Ground::soften(const RenderJob& shot, const ShadowMap& shadow, cons
   program.set("growth", float(growth));
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, shadow.cover());
-  gl_->Disable(GL_BLEND);
-  gl_->Disable(GL_DEPTH_TEST);
-  gl_->Disable(GL_CULL_FACE);
+  fill_only(*gl_);
   gl_->BindVertexArray(no_vertices_.id());
   gl_->DrawArrays(GL_TRIANGLES, 0, 3);
   return {};

@@ -10,8 +10,8 @@ namespace gridshell::render {
 Result<Gl> Gl::load(const Context& context) {
   Gl gl;
   const char* missing = nullptr;
-#define GRIDSHELL_GL_LOAD(type, name)                                 \
-  gl.name = reinterpret_cast<type>(context.proc_address("gl" #name)); \
+#define GRIDSHELL_GL_LOAD(name)                                                    \
+  gl.name = reinterpret_cast<decltype(gl.name)>(context.proc_address("gl" #name)); \
   if (!gl.name && !missing) missing = "gl" #name;
   GRIDSHELL_GL_FUNCTIONS(GRIDSHELL_GL_LOAD)
 #undef GRIDSHELL_GL_LOAD

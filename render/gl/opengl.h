@@ -2,6 +2,7 @@
 // One table serves OSMesa, EGL and GLFW; linking libGL would not (it knows nothing of OSMesa).
 #pragma once
 
+#define GL_GLEXT_PROTOTYPES  // for their types; nothing is linked
 #include <GL/glcorearb.h>
 #include <cstddef>
 #include <cstdint>
@@ -13,69 +14,21 @@
 #include "engine/core/result.h"
 #include "render/gl/mesh.h"
 
-// X(type of the pointer, name without gl)
-#define GRIDSHELL_GL_FUNCTIONS(X)                              \
-  X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                     \
-  X(PFNGLATTACHSHADERPROC, AttachShader)                       \
-  X(PFNGLBINDBUFFERPROC, BindBuffer)                           \
-  X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                 \
-  X(PFNGLBINDTEXTUREPROC, BindTexture)                         \
-  X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                 \
-  X(PFNGLBLENDFUNCPROC, BlendFunc)                             \
-  X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)             \
-  X(PFNGLBUFFERDATAPROC, BufferData)                           \
-  X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
-  X(PFNGLCLEARPROC, Clear)                                     \
-  X(PFNGLCLEARCOLORPROC, ClearColor)                           \
-  X(PFNGLCOLORMASKPROC, ColorMask)                             \
-  X(PFNGLCOMPILESHADERPROC, CompileShader)                     \
-  X(PFNGLCREATEPROGRAMPROC, CreateProgram)                     \
-  X(PFNGLCREATESHADERPROC, CreateShader)                       \
-  X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                     \
-  X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)           \
-  X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                     \
-  X(PFNGLDELETESHADERPROC, DeleteShader)                       \
-  X(PFNGLDELETETEXTURESPROC, DeleteTextures)                   \
-  X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)           \
-  X(PFNGLDEPTHFUNCPROC, DepthFunc)                             \
-  X(PFNGLDEPTHMASKPROC, DepthMask)                             \
-  X(PFNGLDISABLEPROC, Disable)                                 \
-  X(PFNGLDRAWARRAYSPROC, DrawArrays)                           \
-  X(PFNGLDRAWBUFFERPROC, DrawBuffer)                           \
-  X(PFNGLDRAWELEMENTSPROC, DrawElements)                       \
-  X(PFNGLENABLEPROC, Enable)                                   \
-  X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
-  X(PFNGLFINISHPROC, Finish)                                   \
-  X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)       \
-  X(PFNGLGENBUFFERSPROC, GenBuffers)                           \
-  X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                 \
-  X(PFNGLGENTEXTURESPROC, GenTextures)                         \
-  X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                 \
-  X(PFNGLGETERRORPROC, GetError)                               \
-  X(PFNGLGETINTEGERVPROC, GetIntegerv)                         \
-  X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)             \
-  X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                       \
-  X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)               \
-  X(PFNGLGETSHADERIVPROC, GetShaderiv)                         \
-  X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
-  X(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
-  X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \
-  X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                     \
-  X(PFNGLREADBUFFERPROC, ReadBuffer)                           \
-  X(PFNGLREADPIXELSPROC, ReadPixels)                           \
-  X(PFNGLSCISSORPROC, Scissor)                                 \
-  X(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
-  X(PFNGLTEXIMAGE2DPROC, TexImage2D)                           \
-  X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \
-  X(PFNGLUNIFORM1FPROC, Uniform1f)                             \
-  X(PFNGLUNIFORM1IPROC, Uniform1i)                             \
-  X(PFNGLUNIFORM2FPROC, Uniform2f)                             \
-  X(PFNGLUNIFORM3FPROC, Uniform3f)                             \
-  X(PFNGLUNIFORM4FPROC, Uniform4f)                             \
-  X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)               \
-  X(PFNGLUSEPROGRAMPROC, UseProgram)                           \
-  X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
-  X(PFNGLVIEWPORTPROC, Viewport)
+// The functions, without gl.
+// clang-format off
+#define GRIDSHELL_GL_FUNCTIONS(X) \
+  X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindTexture) \
+  X(BindVertexArray) X(BlendFunc) X(BlendFuncSeparate) X(BufferData) X(CheckFramebufferStatus) \
+  X(Clear) X(ClearColor) X(ColorMask) X(CompileShader) X(CreateProgram) X(CreateShader) \
+  X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteShader) X(DeleteTextures) \
+  X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays) X(DrawBuffer) \
+  X(DrawElements) X(Enable) X(EnableVertexAttribArray) X(Finish) X(FramebufferTexture2D) \
+  X(GenBuffers) X(GenFramebuffers) X(GenTextures) X(GenVertexArrays) X(GetError) X(GetIntegerv) \
+  X(GetProgramInfoLog) X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv) X(GetUniformLocation) \
+  X(LinkProgram) X(PixelStorei) X(PolygonOffset) X(ReadBuffer) X(ReadPixels) X(Scissor) \
+  X(ShaderSource) X(TexImage2D) X(TexParameteri) X(Uniform1f) X(Uniform1i) X(Uniform2f) \
+  X(Uniform3f) X(Uniform4f) X(UniformMatrix4fv) X(UseProgram) X(VertexAttribPointer) X(Viewport)
+// clang-format on
 
 namespace gridshell::render {
 
@@ -83,7 +36,7 @@ class Context;
 
 /// gl.DrawArrays(...) is glDrawArrays(...).
 struct Gl {
-#define GRIDSHELL_GL_MEMBER(type, name) type name = nullptr;
+#define GRIDSHELL_GL_MEMBER(name) decltype(&gl##name) name = nullptr;  // NOLINT: a name
   GRIDSHELL_GL_FUNCTIONS(GRIDSHELL_GL_MEMBER)
 #undef GRIDSHELL_GL_MEMBER
 

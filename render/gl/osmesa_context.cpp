@@ -6,18 +6,16 @@
 
 #include "render/gl/context_backends.h"
 
+#define GRIDSHELL_OSMESA(X)             \
+  X(create, OSMesaCreateContextAttribs) \
+  X(destroy, OSMesaDestroyContext)      \
+  X(make_current, OSMesaMakeCurrent)    \
+  X(proc_address, OSMesaGetProcAddress)
+
 namespace gridshell::render {
 namespace {
 
-/// The entry points of libOSMesa.
-struct Osmesa {
-  decltype(&OSMesaCreateContextAttribs) create;
-  decltype(&OSMesaDestroyContext) destroy;
-  decltype(&OSMesaMakeCurrent) make_current;
-  decltype(&OSMesaGetProcAddress) proc_address;
-
-  bool complete() const { return create && destroy && make_current && proc_address; }
-};
+GRIDSHELL_FUNCTIONS(Osmesa, GRIDSHELL_OSMESA);
 
 class OsmesaContext final : public Context {
  public:
@@ -49,22 +47,13 @@ class OsmesaContext final : public Context {
 Result<std::unique_ptr<Context>> create_osmesa_context() {
   auto library = SharedLibrary::open({"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"});
   if (!library) return fail(Fault::io, "OSMesa: " + library.error().message);
-  const Osmesa osmesa{
-      library->function<decltype(&OSMesaCreateContextAttribs)>("OSMesaCreateContextAttribs"),
-      library->function<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext"),
-      library->function<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent"),
-      library->function<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress")};
-  if (!osmesa.complete()) return fail(Fault::io, "OSMesa: the library is too old");
+  Osmesa osmesa;
+  if (!osmesa.load(*library)) return fail(Fault::io, "OSMesa: the library is too old");
 
-  const int wanted[] = {OSMESA_FORMAT,
-                        OSMESA_RGBA,
-                        OSMESA_PROFILE,
-                        OSMESA_CORE_PROFILE,
-                        OSMESA_CONTEXT_MAJOR_VERSION,
-                        3,
-                        OSMESA_CONTEXT_MINOR_VERSION,
-                        3,
-                        0};
+  // clang-format off
+  const int wanted[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
+                        OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
+  // clang-format on
   OSMesaContext raw = osmesa.create(wanted, nullptr);
   if (!raw) return fail(Fault::io, "OSMesa: no OpenGL 3.3 core context");
   auto context = std::make_unique<OsmesaContext>(osmesa, raw);

@@ -22,6 +22,13 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
+/// Azimuth and elevation of a view, and the standard ones.
+struct ViewDirection {
+  double azimuth_deg = 30, elevation_deg = 22;
+};
+inline constexpr ViewDirection view_home{}, view_front{-90, 0}, view_side{0, 0}, view_top{-90, 90},
+    view_corner{-45, 35.264};
+
 /// A closed polyline drawn as a rod of its own (the ring of the actuated boundary).
 struct Ring {
   Eigen::Matrix3Xd points;

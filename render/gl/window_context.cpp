@@ -1,69 +1,49 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <array>
 #include <cstdlib>
+#include <map>
 #include <utility>
 
 #include "render/gl/context.h"
 #include "render/gl/context_backends.h"
 
-// X(name of a member, its name without glfw)
-#define GRIDSHELL_GLFW_FUNCTIONS(X)         \
-  X(init, Init)                             \
-  X(terminate, Terminate)                   \
-  X(error, GetError)                        \
-  X(hint, WindowHint)                       \
-  X(create, CreateWindow)                   \
-  X(destroy, DestroyWindow)                 \
-  X(make_current, MakeContextCurrent)       \
-  X(proc_address, GetProcAddress)           \
-  X(poll, PollEvents)                       \
-  X(wait, WaitEventsTimeout)                \
-  X(swap, SwapBuffers)                      \
-  X(swap_interval, SwapInterval)            \
-  X(should_close, WindowShouldClose)        \
-  X(framebuffer_size, GetFramebufferSize)   \
-  X(window_size, GetWindowSize)             \
-  X(content_scale, GetWindowContentScale)   \
-  X(set_user_pointer, SetWindowUserPointer) \
-  X(user_pointer, GetWindowUserPointer)     \
-  X(on_cursor, SetCursorPosCallback)        \
-  X(on_button, SetMouseButtonCallback)      \
-  X(on_scroll, SetScrollCallback)           \
-  X(on_key, SetKeyCallback)                 \
-  X(on_char, SetCharCallback)               \
-  X(size_limits, SetWindowSizeLimits)
+#define GRIDSHELL_GLFW(X)                       \
+  X(init, glfwInit)                             \
+  X(terminate, glfwTerminate)                   \
+  X(error, glfwGetError)                        \
+  X(hint, glfwWindowHint)                       \
+  X(create, glfwCreateWindow)                   \
+  X(destroy, glfwDestroyWindow)                 \
+  X(make_current, glfwMakeContextCurrent)       \
+  X(proc_address, glfwGetProcAddress)           \
+  X(poll, glfwPollEvents)                       \
+  X(wait, glfwWaitEventsTimeout)                \
+  X(swap, glfwSwapBuffers)                      \
+  X(swap_interval, glfwSwapInterval)            \
+  X(should_close, glfwWindowShouldClose)        \
+  X(framebuffer_size, glfwGetFramebufferSize)   \
+  X(window_size, glfwGetWindowSize)             \
+  X(content_scale, glfwGetWindowContentScale)   \
+  X(set_user_pointer, glfwSetWindowUserPointer) \
+  X(user_pointer, glfwGetWindowUserPointer)     \
+  X(on_cursor, glfwSetCursorPosCallback)        \
+  X(on_button, glfwSetMouseButtonCallback)      \
+  X(on_scroll, glfwSetScrollCallback)           \
+  X(on_key, glfwSetKeyCallback)                 \
+  X(on_char, glfwSetCharCallback)               \
+  X(size_limits, glfwSetWindowSizeLimits)
 
 namespace gridshell::render {
 namespace {
 
-/// The entry points of libglfw.
-struct Glfw {
-#define GRIDSHELL_GLFW_MEMBER(member, name) decltype(&glfw##name) member;  // NOLINT: a name
-  GRIDSHELL_GLFW_FUNCTIONS(GRIDSHELL_GLFW_MEMBER)
-#undef GRIDSHELL_GLFW_MEMBER
+GRIDSHELL_FUNCTIONS(Glfw, GRIDSHELL_GLFW);
 
-  explicit Glfw(const SharedLibrary& library) {
-#define GRIDSHELL_GLFW_LOAD(member, name) \
-  member = library.function<decltype(&glfw##name)>("glfw" #name);
-    GRIDSHELL_GLFW_FUNCTIONS(GRIDSHELL_GLFW_LOAD)
-#undef GRIDSHELL_GLFW_LOAD
-  }
-
-  bool complete() const {
-    bool all = true;
-#define GRIDSHELL_GLFW_THERE(member, name) all = all && (member);
-    GRIDSHELL_GLFW_FUNCTIONS(GRIDSHELL_GLFW_THERE)
-#undef GRIDSHELL_GLFW_THERE
-    return all;
-  }
-  std::string reason() const {
-    const char* text = nullptr;
-    error(&text);
-    return text ? text : "unknown reason";
-  }
-};
+std::string reason_of(const Glfw& glfw) {
+  const char* text = nullptr;
+  glfw.error(&text);
+  return text ? text : "unknown reason";
+}
 
 /// What is printed on a key; empty for one that nobody asks for.
 std::string name_of_key(int key) {
@@ -72,38 +52,21 @@ std::string name_of_key(int key) {
   if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) return {char('0' + key - GLFW_KEY_KP_0)};
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12)
     return std::string("F").append(std::to_string(key - GLFW_KEY_F1 + 1));
-  static constexpr std::array<std::pair<int, const char*>, 28> others{
-      {{GLFW_KEY_SPACE, "Space"},
-       {GLFW_KEY_ENTER, "Enter"},
-       {GLFW_KEY_KP_ENTER, "Enter"},
-       {GLFW_KEY_ESCAPE, "Esc"},
-       {GLFW_KEY_TAB, "Tab"},
-       {GLFW_KEY_BACKSPACE, "Backspace"},
-       {GLFW_KEY_DELETE, "Del"},
-       {GLFW_KEY_LEFT, "Left"},
-       {GLFW_KEY_RIGHT, "Right"},
-       {GLFW_KEY_UP, "Up"},
-       {GLFW_KEY_DOWN, "Down"},
-       {GLFW_KEY_HOME, "Home"},
-       {GLFW_KEY_END, "End"},
-       {GLFW_KEY_PAGE_UP, "PageUp"},
-       {GLFW_KEY_PAGE_DOWN, "PageDown"},
-       {GLFW_KEY_COMMA, "Comma"},
-       {GLFW_KEY_PERIOD, "Period"},
-       {GLFW_KEY_MINUS, "Minus"},
-       {GLFW_KEY_KP_SUBTRACT, "Minus"},
-       {GLFW_KEY_EQUAL, "Plus"},
-       {GLFW_KEY_KP_ADD, "Plus"},
-       {GLFW_KEY_LEFT_CONTROL, "Ctrl"},
-       {GLFW_KEY_RIGHT_CONTROL, "Ctrl"},
-       {GLFW_KEY_LEFT_SHIFT, "Shift"},
-       {GLFW_KEY_RIGHT_SHIFT, "Shift"},
-       {GLFW_KEY_LEFT_ALT, "Alt"},
-       {GLFW_KEY_RIGHT_ALT, "Alt"},
-       {GLFW_KEY_KP_DECIMAL, "Period"}}};
-  for (const auto& [code, name] : others)
-    if (code == key) return name;
-  return "";
+  // clang-format off
+  static const std::map<int, const char*> others{
+      {GLFW_KEY_SPACE, "Space"}, {GLFW_KEY_ENTER, "Enter"}, {GLFW_KEY_KP_ENTER, "Enter"},
+      {GLFW_KEY_ESCAPE, "Esc"}, {GLFW_KEY_TAB, "Tab"}, {GLFW_KEY_BACKSPACE, "Backspace"},
+      {GLFW_KEY_DELETE, "Del"}, {GLFW_KEY_LEFT, "Left"}, {GLFW_KEY_RIGHT, "Right"},
+      {GLFW_KEY_UP, "Up"}, {GLFW_KEY_DOWN, "Down"}, {GLFW_KEY_HOME, "Home"}, {GLFW_KEY_END, "End"},
+      {GLFW_KEY_PAGE_UP, "PageUp"}, {GLFW_KEY_PAGE_DOWN, "PageDown"}, {GLFW_KEY_COMMA, "Comma"},
+      {GLFW_KEY_PERIOD, "Period"}, {GLFW_KEY_MINUS, "Minus"}, {GLFW_KEY_KP_SUBTRACT, "Minus"},
+      {GLFW_KEY_EQUAL, "Plus"}, {GLFW_KEY_KP_ADD, "Plus"}, {GLFW_KEY_LEFT_CONTROL, "Ctrl"},
+      {GLFW_KEY_RIGHT_CONTROL, "Ctrl"}, {GLFW_KEY_LEFT_SHIFT, "Shift"},
+      {GLFW_KEY_RIGHT_SHIFT, "Shift"}, {GLFW_KEY_LEFT_ALT, "Alt"}, {GLFW_KEY_RIGHT_ALT, "Alt"},
+      {GLFW_KEY_KP_DECIMAL, "Period"}};
+  // clang-format on
+  const auto found = others.find(key);
+  return found == others.end() ? "" : found->second;
 }
 
 class GlfwWindow final : public Window {
@@ -190,9 +153,9 @@ class GlfwWindow final : public Window {
 Result<std::unique_ptr<Window>> Window::open(const WindowOptions& wish) {
   auto library = SharedLibrary::open({"libglfw.so.3", "libglfw.so"});
   if (!library) return fail(Fault::io, "window: " + library.error().message);
-  const Glfw glfw(*library);
-  if (!glfw.complete()) return fail(Fault::io, "window: GLFW is too old; 3.3 is needed");
-  if (!glfw.init()) return fail(Fault::io, "window: " + glfw.reason());
+  Glfw glfw;
+  if (!glfw.load(*library)) return fail(Fault::io, "window: GLFW is too old; 3.3 is needed");
+  if (!glfw.init()) return fail(Fault::io, "window: " + reason_of(glfw));
 
   glfw.hint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfw.hint(GLFW_CONTEXT_VERSION_MINOR, 3);
@@ -202,7 +165,7 @@ Result<std::unique_ptr<Window>> Window::open(const WindowOptions& wish) {
   glfw.hint(GLFW_VISIBLE, wish.visible ? GLFW_TRUE : GLFW_FALSE);
   GLFWwindow* window = glfw.create(wish.width, wish.height, wish.title.c_str(), nullptr, nullptr);
   if (!window) {
-    const std::string reason = glfw.reason();
+    const std::string reason = reason_of(glfw);
     glfw.terminate();
     return fail(Fault::io, "window: no OpenGL 3.3 core context: " + reason);
   }

@@ -15,7 +15,6 @@ using record::BranchPoint;
 
 constexpr double width = 504, panel_height = 190, title_room = 20, legend_room = 20, margin = 4,
                  gap = 10;
-constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
 constexpr double dash_on = 3.2, dash_off = 2.2;
 
 bool has_radius(const std::vector<BranchPoint>& points) {
@@ -77,32 +76,20 @@ std::vector<Series> pieces_of(const std::vector<BranchPoint>& points, const Plac
     const bool stable = stable_between(points, k);
     const bool begins = k == 1 || points[k - 2].branch != from.branch;
     if (begins || pieces.back().dash.empty() != stable) {
-      Series piece;
-      piece.colour = colour_of(to.branch);
-      piece.line_width = to.branch == 0 ? 1.3 : 1.1;
+      Series piece = line_series("", colour_of(to.branch), to.branch == 0 ? 1.3 : 1.1);
       if (!stable) piece.dash = {dash_on, dash_off};
-      piece.x.push_back(place.x(from));
-      piece.y.push_back(place.y(from));
+      piece.add(place.x(from), place.y(from));
       pieces.push_back(std::move(piece));
     }
-    pieces.back().x.push_back(place.x(to));
-    pieces.back().y.push_back(place.y(to));
+    pieces.back().add(place.x(to), place.y(to));
   }
   return pieces;
 }
 
 Series marks_of(const std::vector<BranchPoint>& points, const Place& place, const EventMark& mark) {
-  Series series;
-  series.colour = ink;
-  series.line_width = 0;
-  series.marker = mark.marker;
-  series.hollow = mark.hollow;
-  series.marker_size = 4.2;
+  Series series = mark_series("", ink, mark.marker, 4.2, mark.hollow);
   for (const BranchPoint& p : points)
-    if (p.event == mark.event) {
-      series.x.push_back(place.x(p));
-      series.y.push_back(place.y(p));
-    }
+    if (p.event == mark.event) series.add(place.x(p), place.y(p));
   return series;
 }
 
@@ -129,10 +116,6 @@ Series cut(const Series& whole, double low, double high) {
   Series part = whole;
   part.x.clear();
   part.y.clear();
-  const auto add = [&](double x, double y) {
-    part.x.push_back(x);
-    part.y.push_back(y);
-  };
   const bool line = whole.line_width > 0;
   for (std::size_t k = 0; k < whole.x.size(); ++k) {
     const double x = whole.x[k];
@@ -141,12 +124,13 @@ Series cut(const Series& whole, double low, double high) {
       // where the way from the point before crosses an end
       const double x0 = whole.x[k - 1], y0 = whole.y[k - 1];
       for (const double end : x0 < x ? std::array{low, high} : std::array{high, low})
-        if ((x0 - end) * (x - end) < 0) add(end, y0 + (whole.y[k] - y0) * (end - x0) / (x - x0));
+        if ((x0 - end) * (x - end) < 0)
+          part.add(end, y0 + (whole.y[k] - y0) * (end - x0) / (x - x0));
     }
     if (inside)
-      add(x, whole.y[k]);
+      part.add(x, whole.y[k]);
     else if (line)
-      add(NAN, NAN);
+      part.part();
   }
   return part;
 }
@@ -188,8 +172,7 @@ void draw_legend(Canvas& canvas, const std::vector<BranchPoint>& points, Point a
   for (const EventMark& mark : marks) {
     if (std::ranges::none_of(points, [&](const BranchPoint& p) { return p.event == mark.event; }))
       continue;
-    canvas.marker(mark.marker, {at.x + 3, at.y}, 5, mark.hollow ? Colour{1, 1, 1, 1} : ink,
-                  {ink, 0.9});
+    canvas.marker(mark.marker, {at.x + 3, at.y}, 5, mark.hollow ? white : ink, {ink, 0.9});
     entry(mark.name, 6);
   }
 }
@@ -206,9 +189,7 @@ Plot branches_plot(const std::vector<BranchPoint>& points, BranchAxis axis) {
   plot.series = pieces_of(points, place);
   // the path itself on top
   std::ranges::stable_partition(plot.series, [](const Series& s) { return s.line_width < 1.2; });
-  for (const EventMark& mark : marks)
-    if (auto series = marks_of(points, place, mark); !series.x.empty())
-      plot.series.push_back(std::move(series));
+  for (const EventMark& mark : marks) plot.add(marks_of(points, place, mark));
   return plot;
 }
 

@@ -16,8 +16,6 @@
 namespace gridshell::render {
 namespace {
 
-constexpr Colour ink{0.1f, 0.1f, 0.12f, 1};
-
 /// How far each block is moved so that they stand apart, in proportion to its place.
 std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
                                    Eigen::Matrix3Xd record::Part::*where, double share) {
@@ -67,18 +65,7 @@ struct Extent {
   Eigen::Vector2d size() const { return high - low; }
 };
 
-/// Places points of the flat plane, mm, to scale, the corner (low x, high y) at `corner`.
-struct ToScale {
-  Point corner;
-  Extent extent;
-  double scale = 1;
-  Point operator()(const Eigen::Vector3d& p) const {
-    return {corner.x + scale * (p.x() - extent.low.x()),
-            corner.y + scale * (extent.high.y() - p.y())};
-  }
-};
-
-void draw_rods(Canvas& canvas, const ToScale& place, const record::Part& part,
+void draw_rods(Canvas& canvas, const PlanView& place, const record::Part& part,
                const Eigen::Vector3d& move, const Stroke& stroke) {
   for (const auto& rod : part.rods)
     canvas.line(place(part.flat.col(rod.front()) + move), place(part.flat.col(rod.back()) + move),
@@ -104,11 +91,7 @@ std::vector<ColourKey> block_keys(const record::Layout& layout) {
 
 Result<PanelFigure> draw_blocks(const record::Trajectory& run, const MovieStyle& movie_style,
                                 Renderer& renderer, Watch& watch) {
-  if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
-  MovieStyle style = movie_style;
-  style.captions = style.inset = false;
-  style.turn_deg = 0;
-  style.colour_by = ColourBy::none;
+  const MovieStyle style = uncoloured(movie_style);
   std::vector<std::size_t> owner;
   const record::Trajectory blocks = blocks_apart(run, owner);
   TRY_DO(check_showable(blocks, style));
@@ -118,14 +101,8 @@ Result<PanelFigure> draw_blocks(const record::Trajectory& run, const MovieStyle&
   drawing.joint_diameter_mm = 0;
   drawing.rod_diameter_mm *= 1.5;
   for (const std::size_t block : owner) drawing.node_colours.push_back(block_colour(block));
-  TRY(picture,
-      renderer.draw(drawing, stage.camera(0), draw_quality(style), style.width, style.height));
-  PanelFigure figure;
-  if (style.print.width_mm > 0) figure.print = style.print;
-  figure.title = style.title;
-  figure.columns = 1;
-  figure.panels.push_back({std::move(*picture), "", ""});
-  if (style.vector) figure.panels.back().lines = shell_lines(std::move(drawing), stage.camera(0));
+  PanelFigure figure = empty_figure(style, 1);
+  TRY_DO(add_panel(figure, stage, std::move(drawing), {}, renderer, watch));
   figure.keys = block_keys(run.layout);
   figure.scale_bar_mm = style.scale_bar_mm;
   figure.pixels_per_mm = stage.pixels_per_mm();
@@ -161,23 +138,19 @@ void draw_block_footprints(Canvas& canvas, const Box& box, const record::Traject
   const double scale =
       std::min(box.width / sheet.wide(), (box.height - between - bar_height) / sheet.high());
   const auto centred = [&](const Extent& extent, double y) {
-    return ToScale{{box.middle().x - scale * extent.size().x() / 2, y}, extent, scale};
+    return PlanView{{box.middle().x - scale * extent.size().x() / 2, y},
+                    {extent.low.x(), extent.high.y()},
+                    scale};
   };
-  const ToScale up = centred(sheet.above, box.y),
-                down = centred(sheet.below, box.y + scale * sheet.above.size().y() + between);
+  const PlanView up = centred(sheet.above, box.y),
+                 down = centred(sheet.below, box.y + scale * sheet.above.size().y() + between);
   for (std::size_t k = 0; k < layout.parts.size(); ++k) {
     draw_rods(canvas, up, layout.parts[k], sheet.moves[k], {block_colour(k), 0.8});
     draw_rods(canvas, down, layout.parts[k], Eigen::Vector3d::Zero(), {block_colour(k), 0.8});
   }
-  std::vector<Point> ring;
-  for (Eigen::Index k = 0; k < layout.original_boundary.cols(); ++k)
-    ring.push_back(down(layout.original_boundary.col(k)));
-  canvas.polyline(ring, {ink, 1.2}, true);
-  const Point left{box.x, down.corner.y + scale * sheet.below.size().y() + 0.6 * bar_height};
-  canvas.line(left, {left.x + scale * layout.spacing_mm, left.y}, {ink, 1.4});
-  canvas.text(fmt::format("*d* = {:g} mm", layout.spacing_mm),
-              {left.x + scale * layout.spacing_mm + 4, left.y},
-              {.size = 8, .align_y = AlignY::middle});
+  canvas.polyline(down.line(layout.original_boundary), {ink, 1.2}, true);
+  const double below = down.at.y + scale * sheet.below.size().y();
+  draw_spacing(canvas, {box.x, below + 0.6 * bar_height}, layout, scale);
 }
 
 Result<void> write_block_footprints(const std::filesystem::path& stem,
@@ -199,7 +172,6 @@ Result<void> write_block_footprints(const std::filesystem::path& stem,
 }
 
 Plot seam_plot(const record::Trajectory& run) {
-  constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
   Plot plot;
   plot.x.label = "place along the seam (mm)";
   plot.y.label = "gap (mm), kink (°)";
@@ -223,15 +195,13 @@ Plot seam_plot(const record::Trajectory& run) {
   std::size_t index = 0;
   for (auto& [name, pair] : seams) {
     for (int k = 0; k < 2; ++k) {
-      Series& series = pair[std::size_t(k)];
-      series.name = plain(name) + (k == 0 ? ", gap" : ", kink");
-      series.colour = series_colour(index);
-      series.line_width = 0;
-      series.marker = markers[index % std::size(markers)];
       // seams may be mirror images: the later ones lie inside
-      series.marker_size = std::max(2.2, 5.4 - 2.0 * double(index));
-      series.hollow = k == 1;
-      plot.series.push_back(series);
+      Series marks =
+          mark_series(plain(name) + (k == 0 ? ", gap" : ", kink"), series_colour(index),
+                      series_marker(index), std::max(2.2, 5.4 - 2.0 * double(index)), k == 1);
+      marks.x = std::move(pair[std::size_t(k)].x);
+      marks.y = std::move(pair[std::size_t(k)].y);
+      plot.add(std::move(marks));
     }
     ++index;
   }

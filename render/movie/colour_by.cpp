@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <map>
 
 #include "engine/record/frame_values.h"
 
@@ -21,35 +22,35 @@ Eigen::VectorXd move_over_depth(const ColourOrigin& from, const record::Frame& f
 
 }  // namespace
 
-bool of_cells(ColourBy by) {
-  switch (by) {
-    case ColourBy::K:
-    case ColourBy::K_change:
-    case ColourBy::deviation:
-      return true;
-    case ColourBy::none:
-    case ColourBy::displacement:
-    case ColourBy::energy:
-    case ColourBy::axial_force:
-      return false;
-  }
-  return false;
+namespace {
+
+/// What is coloured, and as a bar says it.
+struct Quantity {
+  const char *label = "", *words = "";
+  bool cells = false;  // its values are the cells', not the nodes'
+  bool may_be_missing = false;
+  double least_end = 0;  // below, round-off would have a colour
+  bool size = false;     // never below zero
+};
+
+const Quantity& quantity_of(ColourBy by) {
+  static const std::map<ColourBy, Quantity> quantities{
+      {ColourBy::none, {}},
+      {ColourBy::K, {"*K*_{□} (rad)", "Gauss curvature of a cell", true, false, 0.02}},
+      {ColourBy::K_change, {"Δ*K*_{□} (rad)", "change of Gauss curvature", true, false, 0.02}},
+      {ColourBy::deviation, {"Δ/*ρ*", "distance from the net", true, true, 1e-6, true}},
+      {ColourBy::displacement,
+       {"|*u*| / *δ*_{0}", "displacement over depth", false, false, 0, true}},
+      {ColourBy::energy, {"*e*_{b} (mJ/m)", "bending energy over length", false, true, 1e-6, true}},
+      {ColourBy::axial_force, {"*N* (N)", "axial force", false, true, 1e-6}}};
+  return quantities.at(by);
 }
 
-bool may_be_missing(ColourBy by) {
-  switch (by) {
-    case ColourBy::none:
-    case ColourBy::K:
-    case ColourBy::K_change:
-    case ColourBy::displacement:
-      return false;
-    case ColourBy::deviation:
-    case ColourBy::energy:
-    case ColourBy::axial_force:
-      return true;
-  }
-  return false;
-}
+}  // namespace
+
+bool of_cells(ColourBy by) { return quantity_of(by).cells; }
+
+bool may_be_missing(ColourBy by) { return quantity_of(by).may_be_missing; }
 
 Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
                                 const record::Frame& frame, const ColourOrigin& from) {
@@ -88,33 +89,6 @@ constexpr double quantile = 0.9;   // of the cells or nodes lie within the scale
 constexpr double one_sign = 0.05;  // the other side's share of the larger one that is no sign
 constexpr double paling = 0.2;     // of a map for rods, which are thin lines on white
 
-// what is coloured, as a bar says it
-struct Quantity {
-  const char *label, *words;
-  double least_end;   // below, round-off would have a colour
-  bool size = false;  // never below zero
-};
-
-Quantity quantity_of(ColourBy by) {
-  switch (by) {
-    case ColourBy::none:
-      break;
-    case ColourBy::K:
-      return {"*K*_{□} (rad)", "Gauss curvature of a cell", 0.02};
-    case ColourBy::K_change:
-      return {"Δ*K*_{□} (rad)", "change of Gauss curvature", 0.02};
-    case ColourBy::deviation:
-      return {"Δ/*ρ*", "distance from the net", 1e-6, true};
-    case ColourBy::displacement:
-      return {"|*u*| / *δ*_{0}", "displacement over depth", 0, true};
-    case ColourBy::energy:
-      return {"*e*_{b} (mJ/m)", "bending energy over length", 1e-6, true};
-    case ColourBy::axial_force:
-      return {"*N* (N)", "axial force", 1e-6};
-  }
-  return {};
-}
-
 using Surveys = std::vector<const RunSummary*>;
 
 Interval all_of(const Surveys& runs, ColourBy by) {
@@ -134,12 +108,12 @@ ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
     most.insert(most.end(), run->spread(by).most.begin(), run->spread(by).most.end());
   const Interval all = all_of(runs, by);
   ColourBar bar{.label = {}, .scale = symmetric_scale(most, quantile)};
-  const Quantity quantity = quantity_of(by);
+  const Quantity& quantity = quantity_of(by);
   const double end = std::max(bar.scale.high, quantity.least_end);
   const bool positive = quantity.size || (all.any() && -all.low < one_sign * all.high);
   const bool negative = all.any() && all.high < -one_sign * all.low;
-  bar.scale = {positive || negative ? ColourMap::sequential : ColourMap::diverging,
-               positive ? 0 : -end, negative ? 0 : end, of_cells(by) ? 0 : paling};
+  bar.scale = {positive || negative ? sequential : diverging, positive ? 0 : -end,
+               negative ? 0 : end, of_cells(by) ? 0 : paling};
   if (all.any()) {
     bar.beyond_low = all.low < bar.scale.low && !positive;
     bar.beyond_high = all.high > bar.scale.high && !negative;
@@ -148,7 +122,7 @@ ColourBar bar_of_sizes(const Surveys& runs, ColourBy by) {
 }
 
 ColourBar displacement_bar(const Surveys& runs) {
-  ColourBar bar{.label = {}, .scale = {ColourMap::sequential, 0, 1, paling}};
+  ColourBar bar{.label = {}, .scale = {sequential, 0, 1, paling}};
   for (const RunSummary* run : runs)
     bar.beyond_high |= run->depth_mm > 0 && run->largest_move_mm > 1.02 * run->depth_mm;
   return bar;
@@ -166,10 +140,10 @@ std::optional<ColourBar> colour_bar_of(const Surveys& runs, const MovieStyle& st
   ColourBar bar = by == ColourBy::displacement ? displacement_bar(runs) : bar_of_sizes(runs, by);
   bar.label = quantity_of(by).label;
   bar.words = quantity_of(by).words;
-  if (style.look.map) bar.scale.map = *style.look.map;
-  if (!style.look.range) return bar;
-  bar.scale.low = (*style.look.range)[0];
-  bar.scale.high = (*style.look.range)[1];
+  if (style.look.map) bar.scale.map = style.look.map;
+  if (style.look.range.empty()) return bar;
+  bar.scale.low = style.look.range[0];
+  bar.scale.high = style.look.range[1];
   const Interval all = all_of(runs, by);
   bar.beyond_low = all.any() && all.low < bar.scale.low;
   bar.beyond_high = all.any() && all.high > bar.scale.high;

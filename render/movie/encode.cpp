@@ -16,7 +16,7 @@ namespace gridshell::render {
 namespace {
 
 /// When every frame is shown, and how long the last one stays.
-std::string timing_filters(const MovieTiming& timing) {
+std::string timing_filters(const preset::Movie& timing) {
   std::string filters;
   const bool eased = timing.pace == Pace::eased && timing.frames > 1;
   const double seconds =
@@ -51,7 +51,7 @@ std::vector<std::string> output_options(const std::string& kind) {
 /// ffmpeg with its first input, which is the frames.
 std::vector<std::string> arguments_of(const std::vector<std::string>& input,
                                       const std::filesystem::path& frames,
-                                      const MovieTiming& timing,
+                                      const preset::Movie& timing,
                                       const std::filesystem::path& movie) {
   const std::string kind = movie.extension().string(), rate = std::to_string(timing.fps);
   std::vector<std::string> words{"ffmpeg", "-nostdin", "-y", "-loglevel", "error"};
@@ -87,7 +87,7 @@ Error told(Error error, const std::filesystem::path& frames, const std::filesyst
 }  // namespace
 
 std::vector<std::string> encode_arguments(const std::filesystem::path& frames,
-                                          const MovieTiming& timing,
+                                          const preset::Movie& timing,
                                           const std::filesystem::path& movie) {
   // in the pattern a percent sign of the folder's own name is doubled
   std::string pattern;
@@ -124,7 +124,7 @@ std::filesystem::path find_program(const std::string& name) {
   return {};
 }
 
-Result<Encoding> encode_movie(const std::filesystem::path& frames, const MovieTiming& timing,
+Result<Encoding> encode_movie(const std::filesystem::path& frames, const preset::Movie& timing,
                               const std::filesystem::path& movie, const Watch& watch) {
   Encoding encoding{false, shell_line(encode_arguments(frames, timing, movie))};
   const std::filesystem::path program = find_program("ffmpeg");
@@ -140,16 +140,15 @@ Result<Encoding> encode_movie(const std::filesystem::path& frames, const MovieTi
 }
 
 Result<std::optional<MovieEncoder>> MovieEncoder::begin(const std::filesystem::path& frames,
-                                                        const MovieTiming& timing, int width,
-                                                        int height,
+                                                        const preset::Movie& timing,
                                                         const std::filesystem::path& movie) {
   const std::filesystem::path program = find_program("ffmpeg");
   if (program.empty()) return std::nullopt;
   auto file = std::make_unique<AtomicFile>(movie);
   std::vector<std::string> arguments =
       arguments_of({"-f", "rawvideo", "-pixel_format", "rgba", "-video_size",
-                    fmt::format("{}x{}", width, height), "-framerate", std::to_string(timing.fps),
-                    "-i", "pipe:0"},
+                    fmt::format("{}x{}", timing.size[0], timing.size[1]), "-framerate",
+                    std::to_string(timing.fps), "-i", "pipe:0"},
                    frames, timing, file->temporary());
   arguments[0] = program.string();
   auto ffmpeg = Subprocess::start(arguments, Input::fed);

@@ -22,21 +22,14 @@ struct Encoding {
   std::string command;
 };
 
-/// How fast a movie plays.
-struct MovieTiming {
-  int fps = 30;
-  int frames = 0;      ///< how many there are; only seconds and pace need it
-  double seconds = 0;  ///< of all frames; 0: frames / fps
-  double hold_s = 0;   ///< of the last frame
-  Pace pace = Pace::even;
-  double title_s = 0;  ///< of the card `frames`/title.png before all
-};
+// How fast a movie of so many frames plays its preset says: fps, frames, seconds, hold_s, pace, and
+// title_s of the card `frames`/title.png before all.
 
 /// The arguments that turn `frames`/frame_%05d.png into `movie`, to be run in any folder. By its
 /// extension: .mp4, H.264 with 4:2:0 colours, which every player knows, and tags that say which
 /// colours these are; .webm, VP9; .gif with a palette of its own. An odd size is padded by a pixel.
 std::vector<std::string> encode_arguments(const std::filesystem::path& frames,
-                                          const MovieTiming& timing,
+                                          const preset::Movie& timing,
                                           const std::filesystem::path& movie);
 
 /// Words as one line that a POSIX shell reads back as the same words.
@@ -48,17 +41,17 @@ std::filesystem::path find_program(const std::string& name);
 /// Runs ffmpeg on `frames` and puts `movie` in place once it is whole. Without ffmpeg that is no
 /// error: `made` is false and `command` says how. Errors: Fault::io with ffmpeg's last words when
 /// it failed, Fault::cancelled.
-Result<Encoding> encode_movie(const std::filesystem::path& frames, const MovieTiming& timing,
+Result<Encoding> encode_movie(const std::filesystem::path& frames, const preset::Movie& timing,
                               const std::filesystem::path& movie, const Watch& watch);
 
 /// A movie that is made while its frames are drawn: the same file, to the bit, as encode_movie()
 /// makes of them afterwards.
 class MovieEncoder {
  public:
-  /// Starts ffmpeg for pictures of width x height pixels; a title card stands in `frames` already.
+  /// Starts ffmpeg for pictures of timing.size; a title card stands in `frames` already.
   /// Nothing without ffmpeg. Errors: Fault::io when it cannot start.
   static Result<std::optional<MovieEncoder>> begin(const std::filesystem::path& frames,
-                                                   const MovieTiming& timing, int width, int height,
+                                                   const preset::Movie& timing,
                                                    const std::filesystem::path& movie);
 
   /// The next frame. What goes wrong finish() says: the pictures themselves are to be kept.

@@ -16,40 +16,12 @@ using exports::Pin;
 
 constexpr double a4_width = 595.28, a4_height = 841.89, margin = 42;  // points
 constexpr double line_height = 13;
-const Colour ink{0.1f, 0.1f, 0.12f, 1}, blue{0.1f, 0.3f, 0.65f, 1}, red{0.7f, 0.1f, 0.1f, 1};
+const Colour blue{0.1f, 0.3f, 0.65f, 1}, red{0.7f, 0.1f, 0.1f, 1};
 
 /// Over the page, smaller where it would not fit.
 void draw_title(Canvas& canvas, const std::string& title, double size) {
-  TextStyle style{size, ink, true};
-  const double wide = canvas.measure(plain(title), style).width;
-  style.size *= std::min(1.0, (a4_width - 2 * margin) / std::max(1.0, wide));
-  canvas.text(plain(title), {margin, margin}, style);
-}
-
-/// Fits points of a plane into a box, y up.
-class Fit {
- public:
-  Fit(const Eigen::Matrix2Xd& points, const Box& box) {
-    const Eigen::Vector2d low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
-    scale_ = std::min(box.width / (high - low).x(), box.height / (high - low).y());
-    middle_ = (low + high) / 2;
-    to_ = box.middle();
-  }
-  Point operator()(const Eigen::Vector2d& at) const {
-    return {to_.x + scale_ * (at - middle_).x(), to_.y - scale_ * (at - middle_).y()};
-  }
-  double scale() const { return scale_; }
-
- private:
-  double scale_ = 1;
-  Eigen::Vector2d middle_;
-  Point to_;
-};
-
-std::vector<Point> ring(const Eigen::Matrix2Xd& polyline, const Fit& fit) {
-  std::vector<Point> points;
-  for (Eigen::Index k = 0; k < polyline.cols(); ++k) points.push_back(fit(polyline.col(k)));
-  return points;
+  canvas.text(plain(title), {margin, margin},
+              canvas.fitted(plain(title), a4_width - 2 * margin, {size, ink, true}));
 }
 
 void draw_footprint(Canvas& canvas, const FabricationPlan& work, const Box& box) {
@@ -58,10 +30,10 @@ void draw_footprint(Canvas& canvas, const FabricationPlan& work, const Box& box)
     corners.col(2 * Eigen::Index(r)) = work.rods[r].begin;
     corners.col(2 * Eigen::Index(r) + 1) = work.rods[r].end;
   }
-  const Fit fit(corners, box.inset(18));
-  canvas.polyline(ring(work.original_boundary, fit), {red, 0.8}, true);
+  const PlanView fit(box.inset(18), corners);
+  canvas.polyline(fit.line(work.original_boundary), {red, 0.8}, true);
   // names where they do not touch one another
-  const double size = std::clamp(0.6 * work.spacing_mm * fit.scale(), 3.0, 7.0);
+  const double size = std::clamp(0.6 * work.spacing_mm * fit.scale, 3.0, 7.0);
   for (const CutRod& rod : work.rods) {
     Eigen::Vector2d from = rod.begin;
     const auto draw_to = [&](const Eigen::Vector2d& to) {
@@ -70,7 +42,7 @@ void draw_footprint(Canvas& canvas, const FabricationPlan& work, const Box& box)
     };
     for (const Eigen::Vector2d& corner : rod.corners) draw_to(corner);
     draw_to(rod.end);
-    const Point at = fit(work.label_position(rod, 1.3 * size / fit.scale()));
+    const Point at = fit(work.label_position(rod, 1.3 * size / fit.scale));
     canvas.text(rod.name, at, {size, ink, false, AlignX::centre, AlignY::middle});
   }
   for (const Eigen::Vector2d& joint : work.joints) canvas.circle(fit(joint), 1.1, blue);
@@ -80,8 +52,8 @@ void draw_footprint(Canvas& canvas, const FabricationPlan& work, const Box& box)
 
 void draw_plate(Canvas& canvas, const FabricationPlan& work, const Box& box) {
   const Eigen::Matrix2Xd boundary = work.actuated_boundary.topRows<2>();
-  const Fit fit(boundary, box.inset(18));
-  canvas.polyline(ring(boundary, fit), {red, 0.8}, true);
+  const PlanView fit(box.inset(18), boundary);
+  canvas.polyline(fit.line(boundary), {red, 0.8}, true);
   for (const Pin& pin : work.pins)
     if (pin.in_ring) canvas.circle(fit(pin.at.head<2>()), 1.3, {1, 1, 1, 1}, {ink, 0.7});
   canvas.text("actuated boundary with its holes, seen from above", {box.middle().x, box.bottom()},

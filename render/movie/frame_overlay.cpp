@@ -10,13 +10,6 @@
 namespace gridshell::render {
 namespace {
 
-double bar_width(const ColourBar& bar, double font_size) {
-  double width = 0;
-  draw_picture(1, 1, 1, {},
-               [&](Canvas& canvas) { width = colour_bar_width(canvas, bar, font_size); });
-  return width;
-}
-
 // the title in at most two lines; what is longer still is shortened
 std::vector<std::string> lines_of_title(const MovieStyle& style, double width, double font_size) {
   std::vector<std::string> lines;
@@ -48,14 +41,12 @@ Box cut_right(Box& box, double width) {
 }  // namespace
 
 TextStyle title_style(const MovieStyle& style, double font_size) {
-  return {.size = (style.captions ? 1.15 : 1) * font_size,
-          .colour = {0.1f, 0.1f, 0.12f, 1},
-          .bold = true};
+  return {.size = (style.captions ? 1.15 : 1) * font_size, .bold = true};
 }
 
 FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
   FrameLayout layout;
-  const double w = style.width, h = style.height;
+  const double w = style.width(), h = style.height();
   // readable down to small pictures, and no wider than a tall one allows
   const double em = layout.font_size =
       style.font_scale * std::max(7.5, 0.024 * std::min(h, 0.72 * w));
@@ -67,7 +58,7 @@ FrameLayout lay_out_frame(const MovieStyle& style, const ColourBar* bar) {
   // legends first: a column on the right or a strip below
   const double side = std::min(0.3 * h, 0.28 * w);
   const bool inset = style.inset && side > 4 * em;
-  const double bar_wide = bar ? bar_width(*bar, 0.95 * em) : 0;
+  const double bar_wide = bar ? colour_bar_width(*bar, 0.95 * em) : 0;
   const double bar_tall = wide ? std::min(0.42 * h, 20 * em) : side;
   bool with_bar = bar && bar_tall > 5 * line && bar_wide < 0.4 * rest.width;
   if (wide && style.bins && 0.42 * w > 16 * em && rest.height > 16 * em) {
@@ -164,8 +155,7 @@ std::string event_caption(const record::Frame& frame) {
 
 namespace {
 
-constexpr Colour way{0.84f, 0.84f, 0.86f, 1}, done{0.45f, 0.47f, 0.5f, 1},
-    ink{0.38f, 0.39f, 0.42f, 1};
+constexpr Colour way{0.84f, 0.84f, 0.86f, 1}, done{0.45f, 0.47f, 0.5f, 1};
 
 struct Sign {
   MarkKind kind;
@@ -229,7 +219,7 @@ void draw_timeline(Canvas& canvas, const Box& box, const std::vector<Mark>& mark
     x += size + gap;
     x = canvas
             .text(sign.word, {x, box.middle().y},
-                  {.size = size, .colour = ink, .align_y = AlignY::middle})
+                  {.size = size, .colour = pale_ink, .align_y = AlignY::middle})
             .right() +
         2 * gap;
   }
@@ -240,34 +230,19 @@ namespace {
 constexpr Colour rod_ink{0.16f, 0.17f, 0.2f, 1}, joint_ink{0.75f, 0.12f, 0.1f, 1},
     load_ink{0.05f, 0.05f, 0.06f, 1};
 
-struct TopViewTransform {
-  Box box;
-  TopExtent extent;
-  double scale() const { return std::min(box.width, box.height) / (2 * extent.half_mm); }
-  // y grows upwards seen from above
-  Point operator()(const Eigen::Vector3d& p) const {
-    return {box.middle().x + scale() * (p.x() - extent.x_mm),
-            box.middle().y - scale() * (p.y() - extent.y_mm)};
-  }
-};
-
-std::vector<Point> closed_line(const Eigen::Matrix3Xd& points, const TopViewTransform& place) {
-  std::vector<Point> line;
-  for (long k = 0; k < points.cols(); ++k) line.push_back(place(points.col(k)));
-  return line;
-}
-
 }  // namespace
 
 void draw_top_view(Canvas& canvas, const Box& box, const record::Layout& layout,
                    const record::Frame& frame, const TopExtent& extent,
                    const std::vector<Colour>& cell_colours) {
   const double hair = std::max(0.6, box.width / 260), radius = std::max(0.7, box.width / 130);
-  const TopViewTransform place{box.inset(radius + hair), extent};
+  const Box inside = box.inset(radius + hair);
+  const PlanView place{inside.middle(),
+                       {extent.x_mm, extent.y_mm},
+                       std::min(inside.width, inside.height) / (2 * extent.half_mm)};
   if (original_boundary_shown(frame))
-    canvas.polyline(closed_line(layout.original_boundary, place), {{0.6f, 0.6f, 0.62f, 1}, hair},
-                    true);
-  canvas.polyline(closed_line(boundary_at(layout, frame.actuation), place),
+    canvas.polyline(place.line(layout.original_boundary), {{0.6f, 0.6f, 0.62f, 1}, hair}, true);
+  canvas.polyline(place.line(boundary_at(layout, frame.actuation)),
                   {{0.25f, 0.27f, 0.3f, 1}, 1.5 * hair}, true);
   for (std::size_t c = 0; c < std::min(cell_colours.size(), layout.cells.size()); ++c) {
     std::vector<Point> corners;

@@ -13,6 +13,8 @@
 
 namespace gridshell::render {
 
+inline constexpr Colour pale_ink{0.38f, 0.39f, 0.42f, 1}, event_ink{0.70f, 0.10f, 0.08f, 1};
+
 /// Boxes in pixels; an empty one is not shown.
 struct FrameLayout {
   double font_size = 17;          ///< of captions; follows the picture's height

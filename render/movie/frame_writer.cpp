@@ -71,9 +71,7 @@ std::string frame_name(int index) { return fmt::format("frame_{:05d}.png", index
 Result<void> FrameWriter::put(Image picture, DrawOverPicture over) {
   return finish().and_then([&] { return check(); }).map([&] {
     picture_ = std::move(picture);
-    worker_.begin([this, over = std::move(over), index = begun_++,
-                   on_finished = CanvasObserver::of_thread()] {
-      const CanvasObserver canvases(on_finished);
+    worker_.begin([this, over = std::move(over), index = begun_++] {
       if (over) over(picture_);
       return write_png(picture_, folder_ / frame_name(index)).map([&] {
         watch_.report(double(index + 1) / count_);

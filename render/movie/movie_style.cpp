@@ -1,8 +1,11 @@
 #include "render/movie/movie_style.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 #include "render/canvas/canvas.h"
+#include "render/movie/frame_overlay.h"
 
 namespace gridshell::render {
 
@@ -16,16 +19,94 @@ Appearance paper_appearance() {
   return look;
 }
 
-DrawQuality draw_quality(Quality quality) {
-  switch (quality) {
-    case Quality::draft:
-      return {.supersample = 1, .shadow = false, .jittered_passes = 1};
-    case Quality::movie:
-      return {.supersample = 1, .shadow = true, .jittered_passes = 1};
-    case Quality::figure:
-      return {.supersample = 1, .shadow = true, .jittered_passes = 24};
+namespace {
+
+void choose(Colour& colour, const std::string& wish) {
+  if (wish == "transparent")
+    colour.a = 0;
+  else if (!wish.empty())  // "#rrggbb", which the preset's reader has looked at
+    colour = hex_colour(std::strtol(wish.c_str() + 1, nullptr, 16));
+}
+void choose(double& width, double wish) {
+  if (wish > 0) width = wish;
+}
+void choose(bool& flag, preset::Visibility wish) {
+  if (wish != preset::Visibility::automatic) flag = wish == preset::Visibility::on;
+}
+
+ViewDirection direction_of(const preset::Movie& movie) {
+  switch (movie.view) {
+    case preset::View::free:
+      break;
+    case preset::View::front:
+      return view_front;
+    case preset::View::side:
+      return view_side;
+    case preset::View::top:
+      return view_top;
+    case preset::View::corner:
+      return view_corner;
   }
-  return {};
+  return {movie.azimuth_deg, movie.elevation_deg};
+}
+
+}  // namespace
+
+Appearance appearance_of(const preset::Style& style) {
+  Appearance look = style.theme == preset::Theme::paper ? paper_appearance() : Appearance{};
+  choose(look.rod_mm, style.rod_width_mm);
+  choose(look.joint_mm, style.joint_width_mm);
+  choose(look.ring_mm, style.ring_width_mm);
+  choose(look.rod, style.rod_colour);
+  choose(look.joint, style.joint_colour);
+  choose(look.ring, style.ring_colour);
+  choose(look.background, style.background);
+  choose(look.cells, style.cells);
+  choose(look.rings, style.rings);
+  choose(look.floor, style.floor);
+  choose(look.shadow, style.shadow);
+  if (style.joints == preset::Visibility::off) look.joint_mm = 0;
+  if (style.joints == preset::Visibility::on && look.joint_mm == 0)
+    look.joint_mm = Appearance{}.joint_mm;
+  constexpr ColourMap maps[] = {nullptr, diverging, sequential, grey};
+  look.map = maps[std::size_t(style.colour_map)];
+  look.range = style.range;
+  look.far_fade = style.far_fade;
+  look.letters = style.letters;
+  return look;
+}
+
+MovieStyle movie_style(const preset::Preset& preset) {
+  MovieStyle style{preset.movie};
+  const ViewDirection from = direction_of(preset.movie);
+  style.azimuth_deg = from.azimuth_deg;
+  style.elevation_deg = from.elevation_deg;
+  style.title = preset.title;
+  style.source = preset.source;
+  style.font_scale = preset.style.font_size;
+  style.look = appearance_of(preset.style);
+  return style;
+}
+
+MovieStyle figure_style(const preset::Preset& preset) {
+  const preset::Figure& figure = preset.figure;
+  MovieStyle style = movie_style(preset);
+  style.quality = figure.quality;
+  style.scale_bar_mm = figure.scale_bar_mm;
+  style.vector = figure.vector;
+  if (figure.width_mm <= 0) return style;
+  style.print = {figure.width_mm, figure.dpi};
+  const double aspect = double(style.height()) / style.width();
+  const auto pixels = [](double wished) { return std::clamp(int(std::lround(wished)), 16, 16384); };
+  style.size[0] = pixels(figure.width_mm / 25.4 * figure.dpi);
+  style.size[1] = pixels(aspect * style.width());
+  return style;
+}
+
+DrawQuality draw_quality(Quality quality) {
+  return {.supersample = 1,
+          .shadow = quality != Quality::draft,
+          .jittered_passes = quality == Quality::figure ? 24 : 1};
 }
 
 DrawQuality draw_quality(const MovieStyle& style) {
@@ -35,8 +116,6 @@ DrawQuality draw_quality(const MovieStyle& style) {
 }
 
 namespace {
-
-constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, pale_ink{0.38f, 0.39f, 0.42f, 1};
 
 std::string in_lines(const Canvas& canvas, const std::string& text, double width,
                      const TextStyle& style) {
@@ -49,7 +128,7 @@ std::string in_lines(const Canvas& canvas, const std::string& text, double width
 }  // namespace
 
 Image title_card(const MovieStyle& style) {
-  const double w = style.width, h = style.height;
+  const double w = style.width(), h = style.height();
   return draw_picture(w, h, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
     TextStyle title{.size = style.font_scale * 0.075 * std::min(h, 0.6 * w),
                     .colour = ink,
@@ -64,13 +143,12 @@ Image title_card(const MovieStyle& style) {
       text = in_lines(canvas, style.title, 0.84 * w, title);
     }
     canvas.text(plain(text), {w / 2, 0.45 * h}, title);
-    TextStyle source{.size = 0.5 * title.size,
-                     .colour = pale_ink,
-                     .align_x = AlignX::centre,
-                     .align_y = AlignY::middle};
-    const double width = canvas.measure(plain(style.source), source).width;
-    source.size *= std::min(1.0, 0.9 * w / std::max(1.0, width));
-    canvas.text(plain(style.source), {w / 2, 0.8 * h}, source);
+    const TextStyle source{.size = 0.5 * title.size,
+                           .colour = pale_ink,
+                           .align_x = AlignX::centre,
+                           .align_y = AlignY::middle};
+    canvas.text(plain(style.source), {w / 2, 0.8 * h},
+                canvas.fitted(plain(style.source), 0.9 * w, source));
   });
 }
 

@@ -1,11 +1,12 @@
 #include "render/movie/movie_writer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include "engine/core/file_io.h"
+#include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "render/movie/colour_by.h"
 #include "render/movie/frame_overlay.h"
@@ -15,13 +16,32 @@
 namespace gridshell::render {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+/// A picture, and what is still to be drawn over it while the next one is made.
+struct DrawnFrame {
+  Image picture;
+  DrawOverPicture over = {};
+};
+using DrawFrame = std::function<Result<DrawnFrame>(int at)>;
 
-// adds the time since `since` to `total` and returns now
-Clock::time_point lap(Clock::time_point since, double& total) {
-  const auto now = Clock::now();
-  total += std::chrono::duration<double>(now - since).count();
-  return now;
+Result<MovieReport> write_frames(int count, const DrawFrame& draw,
+                                 const std::filesystem::path& folder, Watch& watch,
+                                 const FrameCallback& on_frame) {
+  FrameWriter writer(folder, count, watch, on_frame);
+  MovieReport report;
+  for (int k = 0; k < count; ++k) {
+    TRY_DO(writer.check());
+    const double begin = seconds_now();
+    TRY(frame, draw(k));
+    const double drawn = seconds_now();
+    TRY_DO(writer.put(std::move(frame->picture), std::move(frame->over)));
+    report.seconds_draw += drawn - begin;
+    report.seconds_write += seconds_now() - drawn;
+  }
+  const double waiting = seconds_now();
+  TRY_DO(writer.finish());
+  report.seconds_write += seconds_now() - waiting;
+  report.frames = writer.written();
+  return report;
 }
 
 }  // namespace
@@ -35,25 +55,16 @@ Result<MovieReport> write_movie(const FrameSource& source, RunSummary survey,
   TRY_DO(check_coloured(survey, style));
   TRY_DO(make_folder(folder));
   const Stage stage(*source.layout, std::move(survey), style, bar);
-  FrameWriter writer(folder, source.count, watch, on_frame);
-  MovieReport report;
-  for (int k = 0; k < source.count; ++k) {
-    TRY_DO(writer.check());
-    auto time = Clock::now();
+  const auto draw = [&](int k) -> Result<DrawnFrame> {
     TRY(read, source.at(k));
     const auto frame = std::make_shared<const record::Frame>(std::move(*read));
     TRY_DO(check_frame(*source.layout, *frame, k, style));
     TRY(picture, stage.draw_views(renderer, {*frame, k}));
-    time = lap(time, report.seconds_draw);
-    const auto overlay = [&stage, frame, k](Image& image) { stage.finish(image, {*frame, k}); };
-    TRY_DO(writer.put(std::move(*picture), overlay));
-    lap(time, report.seconds_write);
-  }
-  auto time = Clock::now();
-  TRY_DO(writer.finish());
-  lap(time, report.seconds_write);
-  report.frames = writer.written();
-  return report;
+    return DrawnFrame{std::move(*picture), [&stage, frame, k](Image& image) {
+                        stage.finish(image, {*frame, k});
+                      }};
+  };
+  return write_frames(source.count, draw, folder, watch, on_frame);
 }
 
 Result<MovieReport> write_movie(const record::Trajectory& run, const MovieStyle& style,
@@ -65,8 +76,6 @@ Result<MovieReport> write_movie(const record::Trajectory& run, const MovieStyle&
 }
 
 namespace {
-
-constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, event_ink{0.70f, 0.10f, 0.08f, 1};
 
 // a run's part of the frame has no text of its own
 MovieStyle without_captions(MovieStyle style) {
@@ -82,17 +91,17 @@ class SideBySideMovie {
   SideBySideMovie(const std::vector<ComparedRun>& runs, const MovieStyle& style)
       : runs_(runs), style_(style) {
     em_ = style.font_scale *
-          std::max(7.5, 0.024 * std::min<double>(style.height, 0.72 * style.width));
+          std::max(7.5, 0.024 * std::min<double>(style.height(), 0.72 * style.width()));
     MovieStyle part = without_captions(style);
     std::vector<RunSummary> surveys;
     std::vector<const RunSummary*> all;
     for (const ComparedRun& one : runs) surveys.push_back(summarise_run(*one.run));
     for (const RunSummary& survey : surveys) all.push_back(&survey);
     bar_ = colour_bar_of(all, style);
-    legend_ = bar_ ? legend_width() : 0;
+    legend_ = bar_ ? colour_bar_width(*bar_, 0.95 * em_) + em_ : 0;
     const int count = int(runs.size());
-    part.width = std::max(16, int((style.width - legend_ - 2 * em_) / count));
-    part.height = std::max(16, int(style.height - top() - foot()));
+    part.size = {std::max(16, int((style.width() - legend_ - 2 * em_) / count)),
+                 std::max(16, int(style.height() - top() - foot()))};
     for (std::size_t k = 0; k < runs.size(); ++k)
       stages_.push_back(
           std::make_unique<Stage>(runs[k].run->layout, std::move(surveys[k]), part, bar_));
@@ -108,11 +117,10 @@ class SideBySideMovie {
     std::vector<Image> parts;
     for (std::size_t run = 0; run < stages_.size(); ++run) {
       const int k = at(*stages_[run], index);
-      auto part = stages_[run]->draw_views(renderer, {frame(run, k), k});
-      if (!part) return part;
+      TRY(part, stages_[run]->draw_views(renderer, {frame(run, k), k}));
       parts.push_back(std::move(*part));
     }
-    return draw_picture(style_.width, style_.height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
+    return draw_picture(style_.width(), style_.height(), 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
       for (std::size_t k = 0; k < parts.size(); ++k) draw_part(canvas, k, parts[k], index);
       draw_text(canvas, index);
     });
@@ -126,21 +134,13 @@ class SideBySideMovie {
   }
   static int at(const Stage& stage, int index) { return std::min(index, stage.frames() - 1); }
 
-  double legend_width() const {
-    double width = 0;
-    draw_picture(1, 1, 1, {},
-                 [&](Canvas& canvas) { width = colour_bar_width(canvas, *bar_, 0.95 * em_); });
-    return width + em_;
-  }
-
   void draw_part(Canvas& canvas, std::size_t k, const Image& part, int index) const {
     const Box box{em_ + double(k) * part.width, top(), double(part.width), double(part.height)};
     canvas.picture(part, box);
     if (!style_.captions) return;
     const int now = at(*stages_[k], index);
     const record::Frame& shown = frame(k, now);
-    TextStyle text{.size = em_, .colour = ink, .bold = true, .align_x = AlignX::centre};
-    text.align_y = AlignY::middle;
+    TextStyle text{.size = em_, .bold = true, .align_x = AlignX::centre, .align_y = AlignY::middle};
     const double x = box.middle().x, width = box.width - em_;
     canvas.text(plain(canvas.shortened(runs_[k].name, width, text)), {x, 3.3 * em_}, text);
     text.bold = false;
@@ -161,19 +161,19 @@ class SideBySideMovie {
 
   void draw_text(Canvas& canvas, int index) const {
     if (bar_) {
-      const double width = legend_ - em_, height = std::min(20 * em_, 0.6 * style_.height);
-      draw_colour_bar(canvas, {style_.width - em_ - width, top(), width, height}, *bar_,
+      const double width = legend_ - em_, height = std::min(20 * em_, 0.6 * style_.height());
+      draw_colour_bar(canvas, {style_.width() - em_ - width, top(), width, height}, *bar_,
                       0.95 * em_);
     }
     if (!style_.captions) return;
     constexpr double least = 0.7;
-    const double room = style_.width - 2 * em_;
-    const TextStyle title = canvas.fitted(
-        plain(style_.title), room,
-        {.size = 1.15 * em_, .colour = ink, .bold = true, .align_y = AlignY::middle}, least);
+    const double room = style_.width() - 2 * em_;
+    const TextStyle title =
+        canvas.fitted(plain(style_.title), room,
+                      {.size = 1.15 * em_, .bold = true, .align_y = AlignY::middle}, least);
     canvas.text(plain(canvas.shortened(style_.title, room, title)), {em_, 1.5 * em_}, title);
-    canvas.text(frame_caption(index, frames()), {em_, style_.height - 1.2 * em_},
-                {.size = em_, .colour = ink, .align_y = AlignY::middle});
+    canvas.text(frame_caption(index, frames()), {em_, style_.height() - 1.2 * em_},
+                {.size = em_, .align_y = AlignY::middle});
   }
 
   const std::vector<ComparedRun>& runs_;
@@ -182,10 +182,6 @@ class SideBySideMovie {
   std::optional<ColourBar> bar_;
   std::vector<std::unique_ptr<Stage>> stages_;
 };
-
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 }  // namespace
 
@@ -197,20 +193,12 @@ Result<MovieReport> write_side_by_side(const std::vector<ComparedRun>& runs,
   for (const ComparedRun& one : runs) TRY_DO(check_showable(*one.run, style));
   TRY_DO(make_folder(folder));
   const SideBySideMovie beside(runs, style);
-  FrameWriter writer(folder, beside.frames(), watch, on_frame);
-  MovieReport report;
-  for (int k = 0; k < beside.frames(); ++k) {
-    TRY_DO(writer.check());
-    const double begin = seconds();
-    TRY(picture, beside.draw(k, renderer));
-    const double drawn = seconds();
-    TRY_DO(writer.put(std::move(*picture)));
-    report.seconds_draw += drawn - begin;
-    report.seconds_write += seconds() - drawn;
-  }
-  TRY_DO(writer.finish());
-  report.frames = writer.written();
-  return report;
+  const auto draw = [&](int k) {
+    return beside.draw(k, renderer).map([](Image&& picture) {
+      return DrawnFrame{std::move(picture)};
+    });
+  };
+  return write_frames(beside.frames(), draw, folder, watch, on_frame);
 }
 
 }  // namespace gridshell::render

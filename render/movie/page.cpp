@@ -8,7 +8,7 @@
 namespace gridshell::render {
 namespace {
 
-constexpr double points_per_mm = 72 / 25.4, letter_room = 10, caption_room = 12;  // points
+constexpr double letter_room = 10, caption_room = 12;  // points
 constexpr Colour pale{0.75f, 0.75f, 0.77f, 1};
 
 }  // namespace
@@ -63,7 +63,7 @@ Result<void> write_page(const std::filesystem::path& stem, const std::string& ti
 namespace {
 
 constexpr double margin = 12, line = 22, size = 13;
-constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, empty_ink{0.8f, 0.8f, 0.82f, 1};
+constexpr Colour empty_ink{0.8f, 0.8f, 0.82f, 1};
 
 double cell_height(const PicturePair& pair, double width) {
   double height = 0;

@@ -16,8 +16,7 @@
 namespace gridshell::render {
 namespace {
 
-constexpr Colour shell_ink{0.10f, 0.10f, 0.12f, 1}, net_ink{0.16f, 0.42f, 0.78f, 1},
-    scan_ink{0.80f, 0.16f, 0.12f, 1};
+constexpr Colour shell_ink = ink, net_ink{0.16f, 0.42f, 0.78f, 1}, scan_ink{0.80f, 0.16f, 0.12f, 1};
 
 /// The last frame alone, its boundary where it is held.
 record::Trajectory final_state(const record::Trajectory& run) {
@@ -28,42 +27,26 @@ record::Trajectory final_state(const record::Trajectory& run) {
   return last;
 }
 
-MovieStyle plain_style(MovieStyle style) {
-  style.captions = style.inset = false;
-  style.turn_deg = 0;
-  style.colour_by = ColourBy::none;
-  return style;
-}
-
 using DrawingEdit = std::function<void(const NetRun&, Drawing&)>;
 
-/// One panel a run, the drawing of each changed by `dress`.
+/// One panel a run, the drawing of each changed by `edit`.
 Result<PanelFigure> panels_of(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
                               Renderer& renderer, Watch& watch, int columns,
-                              const DrawingEdit& dress) {
-  const MovieStyle style = plain_style(movie_style);
-  PanelFigure figure;
-  if (style.print.width_mm > 0) figure.print = style.print;
-  figure.title = style.title;
-  figure.columns = std::min(columns, int(runs.size()));
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
-    TRY_DO(check_showable(*runs[k].run, style));
-    const record::Trajectory last = final_state(*runs[k].run);
+                              const DrawingEdit& edit) {
+  const MovieStyle style = uncoloured(movie_style);
+  PanelFigure figure = empty_figure(style, std::min(columns, int(runs.size())));
+  for (const NetRun& one : runs) {
+    TRY_DO(check_showable(*one.run, style));
+    const record::Trajectory last = final_state(*one.run);
     const Stage stage(last, style);
     Drawing drawing = stage.drawing(last.frames.front());
     drawing.ground = false;
-    dress(runs[k], drawing);
-    TRY(picture,
-        renderer.draw(drawing, stage.camera(0), draw_quality(style), style.width, style.height));
-    const std::string letter =
-        runs.size() > 1 && style.look.letters ? std::string(1, char('a' + k % 26)) : "";
-    figure.panels.push_back({std::move(*picture), letter, runs[k].caption});
-    if (style.vector) figure.panels.back().lines = shell_lines(std::move(drawing), stage.camera(0));
-    if (runs.size() == 1) {
-      figure.scale_bar_mm = style.scale_bar_mm;
-      figure.pixels_per_mm = stage.pixels_per_mm();
-    }
+    edit(one, drawing);
+    TRY_DO(add_panel(figure, stage, std::move(drawing), {runs.size() > 1, one.caption}, renderer,
+                     watch));
+    if (runs.size() > 1) continue;
+    figure.scale_bar_mm = style.scale_bar_mm;
+    figure.pixels_per_mm = stage.pixels_per_mm();
   }
   return figure;
 }
@@ -91,6 +74,36 @@ std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
 }
 
 }  // namespace
+
+MovieStyle uncoloured(MovieStyle style) {
+  style.captions = style.inset = false;
+  style.turn_deg = 0;
+  style.colour_by = ColourBy::none;
+  return style;
+}
+
+PanelFigure empty_figure(const MovieStyle& style, int columns) {
+  PanelFigure figure{.title = style.title, .panels = {}, .columns = columns, .colour_bar = {}};
+  if (style.print.width_mm > 0) figure.print = style.print;
+  return figure;
+}
+
+std::string panel_letter(const MovieStyle& style, std::size_t k) {
+  return style.look.letters ? std::string(1, char('a' + k % 26)) : "";
+}
+
+Result<void> add_panel(PanelFigure& figure, const Stage& stage, Drawing drawing,
+                       const PanelText& text, Renderer& renderer, const Watch& watch) {
+  if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
+  const MovieStyle& style = stage.style();
+  const Camera camera = stage.camera(stage.frames() - 1);
+  TRY(picture, renderer.draw(drawing, camera, draw_quality(style), style.width(), style.height()));
+  figure.panels.push_back({std::move(*picture),
+                           text.lettered ? panel_letter(style, figure.panels.size()) : "",
+                           text.caption});
+  if (style.vector) figure.panels.back().lines = shell_lines(std::move(drawing), camera);
+  return {};
+}
 
 Eigen::VectorXd last_deviation(const record::Trajectory& run) {
   return record::deviation_of_nodes(run.layout, run.frames.back());
@@ -141,7 +154,7 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
   const DeviationUnit unit = deviation_unit(runs.front().run->layout);
   for (const NetRun& one : runs)
     largest = std::max(largest, unit.factor * last_deviation(*one.run).maxCoeff());
-  const ColourScale scale{ColourMap::sequential, 0, round_end(largest), 0.2};
+  const ColourScale scale{sequential, 0, round_end(largest), 0.2};
   const auto dress = [&](const NetRun& one, Drawing& drawing) {
     const Eigen::VectorXd deviation = last_deviation(*one.run);
     for (double share : deviation) drawing.node_colours.push_back(scale(unit.factor * share));
@@ -164,26 +177,20 @@ MovieStyle panel_style(MovieStyle style) {
   style.look.floor = false;
   style.look.joint_mm = 0;
   // round shells, three to a row
-  style.width = style.height;
+  style.size[0] = style.size[1];
   return style;
 }
 
 /// From the last state before each snap to the first after it.
 Series snaps_of(const Series& pushed, const record::Trajectory& run) {
-  Series snaps;
-  snaps.colour = pushed.colour;
-  snaps.dash = {3, 2};
+  Series snaps = line_series("", pushed.colour, 1, {3, 2});
   for (std::size_t k = 1; k < run.frames.size(); ++k) {
     if (!run.frames[k].event.starts_with("snap")) continue;
     // what moved in time in between has no force
     std::size_t before = k - 1;
     while (before > 0 && !std::isfinite(pushed.y[before])) --before;
-    for (const std::size_t at : {before, k}) {
-      snaps.x.push_back(pushed.x[at]);
-      snaps.y.push_back(pushed.y[at]);
-    }
-    snaps.x.push_back(NAN);
-    snaps.y.push_back(NAN);
+    for (const std::size_t at : {before, k}) snaps.add(pushed.x[at], pushed.y[at]);
+    snaps.part();
   }
   return snaps;
 }
@@ -207,49 +214,33 @@ Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyl
   for (const NetRun& one : runs) surveys.push_back(summarise_run(*one.run));
   for (const RunSummary& survey : surveys) all.push_back(&survey);
   const auto bar = colour_bar_of(all, style);
-  PanelFigure figure;
-  if (style.print.width_mm > 0) figure.print = style.print;
-  figure.title = style.title;
-  figure.columns = std::min(3, int(runs.size()));
+  PanelFigure figure = empty_figure(style, std::min(3, int(runs.size())));
+  figure.colour_bar = bar;
   // one by itself is named by the title
   const bool several = runs.size() > 1 || style.title.empty();
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    if (watch.cancelled()) return fail(Fault::cancelled, "stopped while drawing a figure");
     TRY_DO(check_showable(*runs[k].run, style));
     const Stage stage(runs[k].run->layout, std::move(surveys[k]), style, bar);
-    const int last = stage.frames() - 1;
     Drawing drawing = stage.drawing(runs[k].run->frames.back());
     // the colours are the rods': nothing hides them
     drawing.rod_diameter_mm *= 1.5;
-    TRY(picture,
-        renderer.draw(drawing, stage.camera(last), draw_quality(style), style.width, style.height));
-    figure.panels.push_back(
-        {std::move(*picture),
-         several && style.look.letters ? std::string(1, char('a' + k % 26)) : "",
-         several ? runs[k].caption : ""});
-    if (style.vector)
-      figure.panels.back().lines = shell_lines(std::move(drawing), stage.camera(last));
-    figure.colour_bar = bar;
+    TRY_DO(add_panel(figure, stage, std::move(drawing), {several, several ? runs[k].caption : ""},
+                     renderer, watch));
     watch.report(double(k + 1) / double(runs.size()));
   }
   return figure;
 }
 
 Plot force_plot(const std::vector<NamedRun>& runs) {
-  constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
   Plot plot;
   plot.x = {.label = "depth *δ* (mm)", .low = 0};
   plot.y = {.label = "force (N)"};
   bool snap_in_legend = false;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    Series series;
-    if (runs.size() > 1) series.name = runs[k].name;
-    series.colour = series_colour(k);
-    series.marker = markers[k % 4];
-    for (const record::Frame& frame : runs[k].run->frames) {
-      series.x.push_back(frame.depth_mm);
-      series.y.push_back(frame.force_N);
-    }
+    Series series = line_series(runs.size() > 1 ? runs[k].name : "", series_colour(k));
+    series.marker = series_marker(k);
+    for (const record::Frame& frame : runs[k].run->frames)
+      series.add(frame.depth_mm, frame.force_N);
     Series snaps = snaps_of(series, *runs[k].run);
     part_at_snaps(series, *runs[k].run);
     plot.series.push_back(std::move(series));

@@ -14,8 +14,27 @@
 #include "render/gl/renderer.h"
 #include "render/movie/movie_style.h"
 #include "render/movie/run_plots.h"
+#include "render/movie/stage.h"
 
 namespace gridshell::render {
+
+// What figures of shells share.
+
+/// A style of panels that are not coloured by a quantity: no captions, no turn.
+MovieStyle uncoloured(MovieStyle style);
+/// A figure in a style, without panels.
+PanelFigure empty_figure(const MovieStyle& style, int columns);
+/// "a", "b", ... where the style wants letters.
+std::string panel_letter(const MovieStyle& style, std::size_t k);
+
+struct PanelText {
+  bool lettered = false;
+  std::string caption = {};  ///< marked text
+};
+/// One panel more: a drawing from where the stage sees its last frame, as lines too where the style
+/// wants them. Errors: the renderer's; Fault::cancelled.
+Result<void> add_panel(PanelFigure& figure, const Stage& stage, Drawing drawing,
+                       const PanelText& text, Renderer& renderer, const Watch& watch);
 
 /// A run shown by its last frame, over its net if its layout knows one.
 struct NetRun {

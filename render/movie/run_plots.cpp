@@ -12,31 +12,13 @@
 namespace gridshell::render {
 namespace {
 
-constexpr Colour rod_ink{0.45f, 0.46f, 0.5f, 1}, ink{0.1f, 0.1f, 0.12f, 1};
-constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+constexpr Colour rod_ink{0.45f, 0.46f, 0.5f, 1}, net_ink{0.16f, 0.42f, 0.78f, 1};
 
 Eigen::Matrix3Xd joints_of(const record::Trajectory& run) {
   Eigen::Matrix3Xd joints(3, run.layout.joints.size());
   for (std::size_t k = 0; k < run.layout.joints.size(); ++k)
     joints.col(long(k)) = run.frames.back().nodes.col(run.layout.joints[k].node);
   return joints;
-}
-
-/// Places points of the flat plane, mm, into a box to scale.
-struct ToScale {
-  Box box;
-  Eigen::Vector2d middle;
-  double scale = 1;
-  Point operator()(const Eigen::Vector2d& p) const {
-    return {box.middle().x + scale * (p.x() - middle.x()),
-            box.middle().y - scale * (p.y() - middle.y())};
-  }
-};
-
-std::vector<Point> placed(const Eigen::Matrix2Xd& points, const ToScale& place) {
-  std::vector<Point> line;
-  for (long k = 0; k < points.cols(); ++k) line.push_back(place(points.col(k)));
-  return line;
 }
 
 bool all_caps(const std::vector<NamedRun>& runs) {
@@ -53,31 +35,24 @@ void draw_names(Canvas& canvas, Point at, const std::vector<NamedRun>& runs) {
 }
 
 void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs) {
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(INFINITY), high = -low;
+  Eigen::Matrix2Xd all;
   for (const NamedRun& one : runs) {
     const auto flat = one.run->layout.original_boundary.topRows<2>();
-    low = low.cwiseMin(flat.rowwise().minCoeff());
-    high = high.cwiseMax(flat.rowwise().maxCoeff());
+    all.conservativeResize(2, all.cols() + flat.cols());
+    all.rightCols(flat.cols()) = flat;
   }
-  const Eigen::Vector2d size = high - low;
-  const ToScale place{box, 0.5 * (low + high),
-                      std::min(box.width / size.x(), box.height / size.y())};
+  const PlanView place(box, all);
   if (runs.size() == 1) {
     const record::Layout& layout = runs.front().run->layout;
     for (const auto& rod : layout.rods)
-      canvas.line(place(layout.flat_nodes.col(rod.front()).head<2>()),
-                  place(layout.flat_nodes.col(rod.back()).head<2>()), {rod_ink, 0.7});
+      canvas.line(place(layout.flat_nodes.col(rod.front())),
+                  place(layout.flat_nodes.col(rod.back())), {rod_ink, 0.7});
   }
   for (std::size_t k = 0; k < runs.size(); ++k)
-    canvas.polyline(placed(runs[k].run->layout.original_boundary.topRows<2>(), place),
+    canvas.polyline(place.line(runs[k].run->layout.original_boundary),
                     {runs.size() == 1 ? ink : series_colour(k), 1.4}, true);
-  // a length to read the drawing by
-  const double bar = runs.front().run->layout.spacing_mm;
   const Point left{box.x, box.bottom() + 9};
-  canvas.line(left, {left.x + place.scale * bar, left.y}, {ink, 1.4});
-  const Box length =
-      canvas.text(fmt::format("*d* = {:g} mm", bar), {left.x + place.scale * bar + 4, left.y},
-                  {.size = 8, .align_y = AlignY::middle});
+  const Box length = draw_spacing(canvas, left, runs.front().run->layout, place.scale);
   if (runs.size() == 1)
     canvas.text("flat footprint", {length.right() + 10, left.y},
                 {.size = 8, .align_y = AlignY::middle});
@@ -116,26 +91,30 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
   }
 }
 
+double latitude_deg(double sine) {
+  return std::asin(std::clamp(sine, -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
 /// Joints by latitude and distance from the centre.
-Series by_latitude(const std::string& name, const Eigen::Matrix3Xd& joints, double rho) {
-  Series series{.name = name};
-  for (long k = 0; k < joints.cols(); ++k) {
-    const double r = joints.col(k).norm();
-    series.x.push_back(std::asin(std::clamp(joints(2, k) / r, -1.0, 1.0)) * 180 / std::numbers::pi);
-    series.y.push_back(r / rho);
-  }
-  series.line_width = 0;
-  return series;
+void add_by_latitude(const Eigen::Matrix3Xd& joints, double rho, Series& series) {
+  for (const auto& joint : joints.colwise())
+    series.add(latitude_deg(joint.z() / joint.norm()), joint.norm() / rho);
 }
 
 }  // namespace
 
 void draw_figure_title(Canvas& canvas, const std::string& title) {
   constexpr double margin = 9;
-  TextStyle style{.size = 8.5, .bold = true, .align_y = AlignY::middle};
-  const double wide = canvas.measure(plain(title), style).width;
-  style.size *= std::min(1.0, (canvas.width() - 2 * margin) / std::max(1.0, wide));
-  canvas.text(plain(title), {margin, 0.6 * figure_title_room}, style);
+  const TextStyle style{.size = 8.5, .bold = true, .align_y = AlignY::middle};
+  canvas.text(plain(title), {margin, 0.6 * figure_title_room},
+              canvas.fitted(plain(title), canvas.width() - 2 * margin, style));
+}
+
+Box draw_spacing(Canvas& canvas, Point left, const record::Layout& layout, double scale) {
+  const double end = left.x + scale * layout.spacing_mm;
+  canvas.line(left, {end, left.y}, {ink, 1.4});
+  return canvas.text(fmt::format("*d* = {:g} mm", layout.spacing_mm), {end + 4, left.y},
+                     {.size = 8, .align_y = AlignY::middle});
 }
 
 Plot curvature_plot(const std::vector<NamedRun>& runs) {
@@ -151,18 +130,12 @@ Plot curvature_plot(const std::vector<NamedRun>& runs) {
     const auto ends = run.layout.actuated_boundary.row(0);
     const double middle = 0.5 * (ends.minCoeff() + ends.maxCoeff()), L = ends.maxCoeff() - middle;
     const Eigen::Matrix3Xd joints = joints_of(run);
-    Series series;
-    series.name = runs[r].name;
+    Series series = mark_series(runs[r].name, series_colour(r), series_marker(r), 3.2);
     for (std::size_t k = 0; k < run.layout.cells.size(); ++k) {
       double x = 0;
       for (int joint : run.layout.cells[k].joints) x += joints(0, joint) / 4;
-      series.x.push_back((x - middle) / L);
-      series.y.push_back(run.frames.back().cell_K[long(k)]);
+      series.add((x - middle) / L, run.frames.back().cell_K[long(k)]);
     }
-    series.colour = series_colour(r);
-    series.line_width = 0;
-    series.marker = markers[r % std::size(markers)];
-    series.marker_size = 3.2;
     plot.series.push_back(std::move(series));
   }
   return plot;
@@ -180,12 +153,10 @@ Plot quantile_plot(const std::vector<NamedRun>& runs) {
     const record::Trajectory& run = *runs[r].run;
     Eigen::VectorXd sorted = last_deviation(run).head(long(run.layout.joints.size()));
     std::sort(sorted.begin(), sorted.end());
-    Series series{.name = runs[r].name, .colour = series_colour(r)};
-    for (long k = 0; k < sorted.size(); ++k) {
-      series.x.push_back(sorted.size() > 1 ? 100.0 * double(k) / double(sorted.size() - 1) : 100);
-      series.y.push_back(unit.factor * sorted[k]);
-    }
-    series.line_width = 1.2;
+    Series series = line_series(runs[r].name, series_colour(r), 1.2);
+    for (long k = 0; k < sorted.size(); ++k)
+      series.add(sorted.size() > 1 ? 100.0 * double(k) / double(sorted.size() - 1) : 100,
+                 unit.factor * sorted[k]);
     plot.series.push_back(std::move(series));
   }
   return plot;
@@ -197,28 +168,20 @@ Plot latitude_plot(const NamedRun& named, const Eigen::Matrix3Xd& scan) {
   Plot plot;
   plot.x.label = "latitude (°)";
   plot.y.label = "radius of a joint, *r*/*ρ*";
-  Series net{.name = "net", .x = {0, 90}, .y = {1, 1}, .colour = {0.16f, 0.42f, 0.78f, 1}};
-  net.line_width = 1.3;
-  const Eigen::Matrix3Xd joints = joints_of(run);
-  const double lowest = run.layout.actuated_boundary.row(2).mean() / rho;
-  net.x.front() = std::asin(std::clamp(lowest, -1.0, 1.0)) * 180 / std::numbers::pi;
+  Series net = line_series("net", net_ink, 1.3);
+  net.add(latitude_deg(run.layout.actuated_boundary.row(2).mean() / rho), 1);
+  net.add(90, 1);
   plot.x.low = net.x.front();
   plot.x.high = 90;
-  Series shell = by_latitude("joints, computed", joints, rho);
-  shell.colour = ink;
-  shell.marker = Marker::circle;
-  shell.marker_size = 2.6;
-  plot.series = {net};
-  if (scan.cols() > 0) {
-    Series measured = by_latitude("joints, scanned", scan, rho);
-    measured.colour = {0.80f, 0.16f, 0.12f, 1};
-    measured.marker = Marker::circle;
-    // wider and below, so that a computed joint shows inside the one scanned
-    measured.marker_size = 4.2;
-    measured.hollow = true;
-    plot.series.push_back(std::move(measured));
-  }
-  plot.series.push_back(std::move(shell));
+  plot.add(std::move(net));
+  // wider and below, so that a computed joint shows inside the one scanned
+  Series measured =
+      mark_series("joints, scanned", {0.80f, 0.16f, 0.12f, 1}, Marker::circle, 4.2, true);
+  add_by_latitude(scan, rho, measured);
+  plot.add(std::move(measured));
+  Series shell = mark_series("joints, computed", ink, Marker::circle, 2.6);
+  add_by_latitude(joints_of(run), rho, shell);
+  plot.add(std::move(shell));
   return plot;
 }
 
@@ -264,40 +227,26 @@ void frame_about(const std::vector<Eigen::Matrix3Xd>& lines, Plot& plot) {
 
 Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matrix3Xd& narrow,
                   const Eigen::Vector3d& end, const std::string& title) {
-  Series net{"the net as far as it comes, from above"}, close{"rods within 17° of parallel"},
-      place{fmt::format("it ends at *z* = {}{:.1f} mm", end.z() < 0 ? "−" : "", std::abs(end.z()))};
+  Series net = line_series("the net as far as it comes, from above", {0.45f, 0.5f, 0.55f, 1}, 0.5);
   for (const auto& line : lines) {
-    for (const auto& p : line.colwise()) {
-      net.x.push_back(p.x());
-      net.y.push_back(p.y());
-    }
-    net.x.push_back(std::numeric_limits<double>::quiet_NaN());
-    net.y.push_back(std::numeric_limits<double>::quiet_NaN());
+    for (const auto& p : line.colwise()) net.add(p.x(), p.y());
+    net.part();
   }
-  net.colour = {0.45f, 0.5f, 0.55f, 1};
-  net.line_width = 0.5;
-  for (const auto& p : narrow.colwise()) {
-    close.x.push_back(p.x());
-    close.y.push_back(p.y());
-  }
-  close.colour = {0.93f, 0.6f, 0.2f, 1};
-  close.line_width = 0;
-  close.marker = Marker::circle;
-  close.marker_size = 1.8;
-  place.x = {end.x()};
-  place.y = {end.y()};
-  place.colour = {0.75f, 0.1f, 0.15f, 1};
-  place.line_width = 0;
-  place.marker = Marker::cross;
-  place.marker_size = 8;
+  Series close =
+      mark_series("rods within 17° of parallel", {0.93f, 0.6f, 0.2f, 1}, Marker::circle, 1.8);
+  for (const auto& p : narrow.colwise()) close.add(p.x(), p.y());
+  Series place = mark_series(
+      fmt::format("it ends at *z* = {}{:.1f} mm", end.z() < 0 ? "−" : "", std::abs(end.z())),
+      {0.75f, 0.1f, 0.15f, 1}, Marker::cross, 8);
+  place.add(end.x(), end.y());
   Plot plot;
   plot.title = title;
   plot.x.label = "*x* (mm)";
   plot.y.label = "*y* (mm)";
   plot.legend = LegendPlace::above;
   plot.series = {net};
-  if (!close.x.empty()) plot.series.push_back(close);
-  plot.series.push_back(place);
+  plot.add(std::move(close));
+  plot.add(std::move(place));
   if (!lines.empty()) frame_about(lines, plot);
   return plot;
 }
@@ -311,30 +260,24 @@ Series bins_of(const record::Frame& frame) {
   Series series;
   const long count = frame.K_bins.rows();
   for (long k = 0; k < count; ++k) {
-    series.x.push_back(-1 + (2.0 * double(k) + 1) / double(count));
-    series.y.push_back(frame.K_bins(k, 0));
+    series.add(-1 + (2.0 * double(k) + 1) / double(count), frame.K_bins(k, 0));
     series.y_error.push_back(frame.K_bins(k, 1));
   }
   return series;
 }
 
-// one row of the legend for a line across the plot
-Series line_key(const std::string& name, const Stroke& stroke) {
-  return {.name = name, .colour = stroke.colour, .line_width = stroke.width, .dash = stroke.dash};
-}
-
 }  // namespace
 
 Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
-               const std::optional<std::array<double, 2>>& range, double font_size) {
+               const std::vector<double>& range, double font_size) {
   const double low = std::min(0.0, run.bins_rad.low), high = std::max(0.0, run.bins_rad.high);
   const double margin = 0.06 * std::max(1e-9, high - low);
   Plot plot;
   plot.font_size = font_size;
   plot.x = {.label = "*x* / *L*", .low = -1, .high = 1};
   plot.y = {.label = "mean Gauss curvature *K*_{□} (rad)",
-            .low = range ? (*range)[0] : low - (low < 0 ? margin : 0),
-            .high = range ? (*range)[1] : high + margin};
+            .low = !range.empty() ? range[0] : low - (low < 0 ? margin : 0),
+            .high = !range.empty() ? range[1] : high + margin};
   Series before = bins_of(run.first), now = bins_of(frame);
   before.name = "unloaded";
   before.kind = SeriesKind::bars;
@@ -348,8 +291,10 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
   now.marker_size = 0.6 * font_size;
   const Stroke dashed{reference_ink, 0.08 * font_size, {0.35 * font_size, 0.25 * font_size}},
       solid{mean_ink, 0.1 * font_size, {}};
-  plot.series = {before, now, line_key("all cells, unloaded", dashed),
-                 line_key("all cells", solid)};
+  // lines across the plot have a row of the legend too
+  plot.series = {before, now,
+                 line_series("all cells, unloaded", dashed.colour, dashed.width, dashed.dash),
+                 line_series("all cells", solid.colour, solid.width)};
   plot.references = {{true, run.first.total_K / double(cells), "", dashed},
                      {true, frame.total_K / double(cells), "", solid}};
   plot.title = "Σ*K*_{□} = " + fixed(frame.total_K, 3) + " rad";

@@ -39,6 +39,10 @@ inline constexpr double figure_title_room = 17;
 /// Plain text, bold, in that room; smaller where it would not fit.
 void draw_figure_title(Canvas& canvas, const std::string& title);
 
+/// A line as long as the spacing, to read a drawing by, and how long that is; returns the text's
+/// box.
+Box draw_spacing(Canvas& canvas, Point left, const record::Layout& layout, double units_per_mm);
+
 /// What write_footprints draws, into a box.
 void draw_footprints(Canvas& canvas, const Box& box, const std::vector<NamedRun>& runs);
 
@@ -59,8 +63,8 @@ Plot refused_plot(const std::vector<Eigen::Matrix3Xd>& lines, const Eigen::Matri
 
 /// Mean and standard deviation of K in every bin of x/L as points with error bars, over the grey
 /// bars of the run's first frame; the mean over all `cells` as a line across (dashed that of the
-/// first frame). The range is fixed over the run, or the one given. Frames need K_bins.
+/// first frame). The range is fixed over the run, or (low, high) as given. Frames need K_bins.
 Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
-               const std::optional<std::array<double, 2>>& range, double font_size);
+               const std::vector<double>& range, double font_size);
 
 }  // namespace gridshell::render

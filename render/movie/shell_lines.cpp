@@ -93,6 +93,7 @@ class Lines {
     if (hidden && drawing_.far_fade >= 1) return;
     const auto ink = [&](Colour colour) { return faded(colour, drawing_.background, fade); };
     for (const Ring& ring : drawing_.rings) {
+      if (ring.points.cols() == 0) continue;
       Eigen::Matrix3Xd closed(3, ring.points.cols() + 1);
       closed << ring.points, ring.points.col(0);
       polyline(closed, hidden, {ink(ring.colour), width(ring.diameter_mm)}, {});

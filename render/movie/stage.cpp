@@ -19,8 +19,8 @@ Framing::Framing(const Eigen::Matrix3Xd& points, const MovieStyle& style, const 
       elevation_deg_(style.elevation_deg),
       turn_deg_(style.turn_deg),
       field_of_view_deg_(style.orthographic ? 0 : Camera{}.field_of_view_deg),
-      width_(style.width),
-      height_(style.height) {
+      width_(style.width()),
+      height_(style.height()) {
   if (points.cols() == 0 || panel.empty()) return;
   fit(points, panel);
   look_at(style, panel);
@@ -50,8 +50,8 @@ void Framing::look_at(const MovieStyle& style, const Box& panel) {
   const double x = panel.middle().x - width_ / 2.0, y = panel.middle().y - height_ / 2.0;
   right_mm_ += x / pixels_per_mm();
   up_mm_ -= y / pixels_per_mm();
-  if (style.target_mm) {
-    middle_ = *style.target_mm;
+  if (!style.target_mm.empty()) {
+    middle_ = Eigen::Vector3d::Map(style.target_mm.data());
     right_mm_ = up_mm_ = 0;
   }
   half_extent_mm_ /= style.zoom;
@@ -91,9 +91,8 @@ Box Framing::union_of_views(const Eigen::Matrix3Xd& points) const {
 
 namespace {
 
-constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, pale_ink{0.38f, 0.39f, 0.42f, 1},
-    event_ink{0.70f, 0.10f, 0.08f, 1}, load_ink{0.05f, 0.05f, 0.06f, 1},
-    mark_ink{0.98f, 0.76f, 0.10f, 1}, original_ink{0.66f, 0.67f, 0.7f, 1};
+constexpr Colour load_ink{0.05f, 0.05f, 0.06f, 1}, mark_ink{0.98f, 0.76f, 0.10f, 1},
+    original_ink{0.66f, 0.67f, 0.7f, 1};
 
 // a square around everything that moves or bounds
 TopExtent top_extent(const Eigen::Matrix3Xd& points) {
@@ -105,7 +104,7 @@ TopExtent top_extent(const Eigen::Matrix3Xd& points) {
 
 // a rod's least width in pixels: thin enough for a large net, thick enough to be seen
 double least_pixels(const MovieStyle& style) {
-  return std::max(1.1, 1.5 * std::min(style.height / 720.0, style.width / 1000.0));
+  return std::max(1.1, 1.5 * std::min(style.height() / 720.0, style.width() / 1000.0));
 }
 
 // K is a frame's own
@@ -115,7 +114,7 @@ bool by_K(ColourBy by) { return by == ColourBy::K || by == ColourBy::K_change; }
 // under the captions
 std::vector<Box> panels_of(const FrameLayout& layout, const MovieStyle& style) {
   const int count = 1 + int(style.views.size());
-  if (count == 1) return {{0, 0, double(style.width), double(style.height)}};
+  if (count == 1) return {{0, 0, double(style.width()), double(style.height())}};
   std::vector<Box> panels;
   const Box& view = layout.view;
   for (int k = 0; k < count; ++k) {
@@ -132,11 +131,10 @@ std::vector<Framing> framings_of(const std::vector<Box>& panels, const Box& view
   std::vector<Framing> framings;
   for (std::size_t k = 0; k < panels.size(); ++k) {
     MovieStyle one = style;
-    one.width = int(panels[k].width);
-    one.height = int(panels[k].height);
+    one.size = {int(panels[k].width), int(panels[k].height)};
     if (k > 0) {
-      one.azimuth_deg = style.views[k - 1].azimuth_deg;
-      one.elevation_deg = style.views[k - 1].elevation_deg;
+      one.azimuth_deg = style.views[k - 1][0];
+      one.elevation_deg = style.views[k - 1][1];
     }
     const double margin = 0.04 * panels[k].width;
     framings.emplace_back(points, one, Box{0, 0, panels[k].width, panels[k].height}.inset(margin));
@@ -157,10 +155,10 @@ void clear_outside(Image& image, const Box& box, Colour colour) {
 }  // namespace
 
 Result<void> check_size(const MovieStyle& style) {
-  if (style.width < 16 || style.height < 16 || style.width > 16384 || style.height > 16384)
+  if (style.width() < 16 || style.height() < 16 || style.width() > 16384 || style.height() > 16384)
     return fail(Fault::bad_input, fmt::format("a picture of {} x {} pixels cannot be made: both "
                                               "sides must be 16 to 16384",
-                                              style.width, style.height));
+                                              style.width(), style.height()));
   if (!(style.zoom > 0)) return fail(Fault::bad_input, "the camera's zoom must be above 0");
   return {};
 }
@@ -282,7 +280,7 @@ Result<Image> Stage::draw_views(Renderer& renderer, const ShownFrame& shown) con
   const Drawing drawn = drawing(shown.frame);
   const DrawQuality quality = draw_quality(style_);
   if (panels_.size() == 1) {
-    auto picture = renderer.draw(drawn, camera(shown.at), quality, style_.width, style_.height);
+    auto picture = renderer.draw(drawn, camera(shown.at), quality, style_.width(), style_.height());
     // what is larger than its panel ends at the panel's edge
     if (picture && !layout_.view.inset(-1).contains(shell_box()))
       clear_outside(*picture, layout_.view, style_.look.background);
@@ -295,9 +293,11 @@ Result<Image> Stage::draw_views(Renderer& renderer, const ShownFrame& shown) con
     if (!part) return part;
     parts.push_back(std::move(*part));
   }
-  return draw_picture(style_.width, style_.height, 1, style_.look.background, [&](Canvas& canvas) {
-    for (std::size_t k = 0; k < parts.size(); ++k) canvas.picture(parts[k], panels_[k]);
-  });
+  return draw_picture(style_.width(), style_.height(), 1, style_.look.background,
+                      [&](Canvas& canvas) {
+                        for (std::size_t k = 0; k < parts.size(); ++k)
+                          canvas.picture(parts[k], panels_[k]);
+                      });
 }
 
 Result<Image> Stage::draw(Renderer& renderer, const ShownFrame& shown) const {

@@ -22,8 +22,7 @@ constexpr int pieces = 40;
 void add_flank(Series& curve, double from_x, double from, double to_x, double to) {
   for (int k = 0; k <= pieces; ++k) {
     const double s = double(k) / pieces;
-    curve.x.push_back(from_x + s * (to_x - from_x));
-    curve.y.push_back(from + (to - from) * 0.5 * (1 - std::cos(M_PI * s)));
+    curve.add(from_x + s * (to_x - from_x), from + (to - from) * 0.5 * (1 - std::cos(M_PI * s)));
   }
 }
 
@@ -46,8 +45,7 @@ Plot barrier_plot(const record::StateTables& states) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const record::Barrier& one : states.barriers) {
     if (one.to == 0 || one.from == one.to) continue;
-    Series curve;
-    curve.colour = series_colour(colour++);
+    Series curve = line_series("", series_colour(colour++));
     lowest = std::min({lowest, energy.at(one.from), energy.at(one.to)});
     highest = std::max(highest, one.energy_mJ);
     const double a = place.at(one.from), b = place.at(one.to), middle = 0.5 * (a + b);
@@ -60,11 +58,8 @@ Plot barrier_plot(const record::StateTables& states) {
                           AlignY::bottom, plot.series.back().colour});
   }
   for (const auto& [state, level] : energy) {
-    Series bar;
-    bar.colour = {0.1f, 0.1f, 0.12f, 1};
-    bar.line_width = 2.2;
-    bar.x = {place.at(state) - half_bar, place.at(state) + half_bar};
-    bar.y = {level, level};
+    Series bar = line_series("", ink, 2.2);
+    for (const double half : {-half_bar, half_bar}) bar.add(place.at(state) + half, level);
     plot.series.push_back(std::move(bar));
     const auto& row = states.rows.at(std::size_t(state) - 1);
     const bool named = row.kind != record::StateClass::other;
@@ -182,9 +177,7 @@ class PhasePlot {
   /// L_d over n at one shortest leg.
   void add_line(double leg) {
     constexpr int pieces = 120;
-    Series line{.name = leg == 1 ? "*l̄*_{d} = 1, 0, −1 (from right to left)" : ""};
-    line.colour = grey;
-    line.line_width = 1;
+    Series line = line_series(leg == 1 ? "*l̄*_{d} = 1, 0, −1 (from right to left)" : "", grey);
     line.dash = leg == 1   ? std::vector<double>{}
                 : leg == 0 ? std::vector<double>{5, 2.5}
                            : std::vector<double>{1.5, 2};
@@ -192,51 +185,33 @@ class PhasePlot {
       const double n = *plot_.y.low + (*plot_.y.high - *plot_.y.low) * k / pieces;
       const double at = record::longest_leg_at(leg, n);
       const bool inside = leg + 0.5 * (n - 1) >= 0 && at >= *plot_.x.low && at <= *plot_.x.high;
-      line.x.push_back(inside ? at : std::nan(""));
-      line.y.push_back(n);
+      line.add(inside ? at : std::nan(""), n);
     }
     plot_.series.push_back(std::move(line));
   }
 
   void add_class(const ClassMark& mark, bool by_trials) {
-    Series series{.name = by_trials ? fmt::format("state {}", mark.name) : ""};
-    series.colour = series_colour(std::size_t(mark.kind));
-    series.marker = mark.marker;
-    series.marker_size = mark.size;
-    series.line_width = 0;
-    series.hollow = !by_trials;
+    Series series =
+        mark_series(by_trials ? fmt::format("state {}", mark.name) : "",
+                    series_colour(std::size_t(mark.kind)), mark.marker, mark.size, !by_trials);
     for (const PhasePoint& point : points_) {
       const StateCount& count = point.of(mark.kind);
       if (count.states == 0 || (count.met > 0) != by_trials) continue;
-      series.x.push_back(point.longest_leg + mark.right * leg_step_);
-      series.y.push_back(point.rods + mark.up * rod_step_);
+      series.add(point.longest_leg + mark.right * leg_step_, point.rods + mark.up * rod_step_);
     }
     plot_.series.push_back(std::move(series));
   }
 
   /// A dot where each footprint belongs that its marks stand around.
   void add_places() {
-    Series dots;
-    dots.colour = grey;
-    dots.marker = Marker::circle;
-    dots.marker_size = 1.6;
-    dots.line_width = 0;
-    for (const PhasePoint& point : points_) {
-      dots.x.push_back(point.longest_leg);
-      dots.y.push_back(point.rods);
-    }
+    Series dots = mark_series("", grey, Marker::circle, 1.6);
+    for (const PhasePoint& point : points_) dots.add(point.longest_leg, point.rods);
     plot_.series.push_back(std::move(dots));
   }
 
   /// A row of the legend that says how to read a sign.
   void add_key(const std::string& text, Marker marker, bool hollow) {
-    Series series{.name = text};
-    series.colour = grey;
-    series.marker = marker;
-    series.marker_size = 5;
-    series.hollow = hollow;
-    series.line_width = 0;
-    plot_.series.push_back(std::move(series));
+    plot_.series.push_back(mark_series(text, grey, marker, 5, hollow));
   }
 
   void add_others() {
@@ -247,16 +222,10 @@ class PhasePlot {
   }
 
   void add_nothing() {
-    Series series{.name = "none found"};
-    series.colour = grey;
-    series.marker = Marker::cross;
-    series.line_width = 0;
-    for (const PhasePoint& point : points_) {
-      if (point.found) continue;
-      series.x.push_back(point.longest_leg);
-      series.y.push_back(point.rods);
-    }
-    if (!series.x.empty()) plot_.series.push_back(std::move(series));
+    Series series = mark_series("none found", grey, Marker::cross);
+    for (const PhasePoint& point : points_)
+      if (!point.found) series.add(point.longest_leg, point.rods);
+    plot_.add(std::move(series));
   }
 
   PhaseDiagram points_;
@@ -309,24 +278,19 @@ double state_map_scale(const Box& box, const record::Layout& layout) {
 void draw_state_map(Canvas& canvas, const Box& box, double units_per_mm,
                     const record::Layout& layout, const record::Frame& frame,
                     const record::StateRow& row) {
-  const auto place = [&](const Eigen::Vector3d& p) {
-    return Point{box.middle().x + units_per_mm * p.x(), box.middle().y - units_per_mm * p.y()};
-  };
+  const PlanView place{box.middle(), {0, 0}, units_per_mm};
   const double beyond = room * radius_of(layout);
   for (const double degrees : mirrors_of(row.group)) {
     const double angle = degrees * M_PI / 180;
     const Eigen::Vector3d end(beyond * std::cos(angle), beyond * std::sin(angle), 0);
     canvas.line(place(-end), place(end), {mirror_ink, 0.8, {4, 2, 1, 2}});
   }
-  std::vector<Point> ring;
-  for (const auto& point : layout.actuated_boundary.colwise()) ring.push_back(place(point));
-  canvas.polyline(ring, {ring_ink, 0.8}, true);
+  canvas.polyline(place.line(layout.actuated_boundary), {ring_ink, 0.8}, true);
   const std::vector<int> inflections = inflections_of(row);
   for (std::size_t r = 0; r < layout.rods.size(); ++r) {
     const bool higher = r < inflections.size() && inflections[r] > 0;
-    std::vector<Point> rod;
-    for (const int node : layout.rods[r]) rod.push_back(place(frame.nodes.col(node)));
-    canvas.polyline(rod, {higher ? higher_order_ink : first_order_ink, 0.6});
+    canvas.polyline(place.line(frame.nodes(Eigen::all, layout.rods[r])),
+                    {higher ? higher_order_ink : first_order_ink, 0.6});
   }
   if (row.group == "C4") {
     const double half = 2.6;

@@ -10,6 +10,7 @@
 #include "render/canvas/panels.h"
 #include "render/gl/image.h"
 #include "render/movie/frame_overlay.h"
+#include "render/movie/run_figures.h"
 #include "render/movie/stage.h"
 
 namespace gridshell::render {
@@ -27,12 +28,6 @@ Image around(const Image& picture, const Box& shell) {
   for (int y = y0; y < y1; ++y)
     std::copy_n(picture.pixel(x0, y), 4 * std::size_t(part.width), part.pixel(0, y - y0));
   return part;
-}
-
-std::filesystem::path with_suffix(const std::filesystem::path& stem, const std::string& suffix) {
-  std::filesystem::path path = stem;
-  path += suffix;
-  return path;
 }
 
 }  // namespace
@@ -77,13 +72,10 @@ Result<std::vector<std::filesystem::path>> write_stills(
   TRY_DO(check_showable(run, style));
   if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));
   const Stage stage(run.layout, summarise_run(run), style, bar);
-  PanelFigure figure{.title = style.title,
-                     .panels = {},
-                     .columns = std::min(stage.frames(), largest_columns),
-                     .scale_bar_mm = style.scale_bar_mm,
-                     .pixels_per_mm = stage.pixels_per_mm(),
-                     .colour_bar = stage.colour_bar()};
-  if (style.print.width_mm > 0) figure.print = style.print;
+  PanelFigure figure = empty_figure(style, std::min(stage.frames(), largest_columns));
+  figure.scale_bar_mm = style.scale_bar_mm;
+  figure.pixels_per_mm = stage.pixels_per_mm();
+  figure.colour_bar = stage.colour_bar();
   const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
   std::vector<std::filesystem::path> files;
   for (int k = 0; k < stage.frames(); ++k) {
@@ -94,19 +86,18 @@ Result<std::vector<std::filesystem::path>> write_stills(
     const std::string caption =
         captions.empty() ? frame_state_caption(frame) : captions[std::size_t(k)];
     TRY(picture, stage.draw_views(renderer, {frame, k}));
-    figure.panels.push_back(
-        {around(*picture, stage.shell_box()),
-         stage.frames() > 1 && style.look.letters ? std::string(1, char('a' + k % 26)) : "",
-         caption});
+    figure.panels.push_back({around(*picture, stage.shell_box()),
+                             stage.frames() > 1 ? panel_letter(style, std::size_t(k)) : "",
+                             caption});
     draw_over(*picture, [&](Canvas& canvas) {
       draw_still_labels(canvas, stage, {frame, k}, caption);
     });
-    files.push_back(with_suffix(stem, fmt::format("_{}.png", k + 1)));
+    files.push_back(std::filesystem::path(stem) += fmt::format("_{}.png", k + 1));
     TRY_DO(write_png(*picture, files.back(), dpi));
     watch.report(double(k + 1) / (stage.frames() + 1));
   }
   TRY(whole, draw_panels(figure));
-  files.push_back(with_suffix(stem, ".png"));
+  files.push_back(std::filesystem::path(stem) += ".png");
   TRY_DO(write_png(*whole, files.back(), dpi));
   watch.report(1);
   return files;

@@ -121,10 +121,7 @@ std::vector<std::string> cases_of(const SweepTable& table) {
 
 namespace {
 
-using record::SweepTable;
-
 constexpr Colour grey_ink{0.45f, 0.45f, 0.48f, 1};
-constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
 
 /// One run in the picture.
 struct SweepMark {
@@ -179,8 +176,7 @@ Series mean_of(const Curve& curve) {
       x += curve.spots[order[k]].x;
       y += curve.spots[order[k]].y;
     }
-    mean.x.push_back(x / double(n));
-    mean.y.push_back(y / double(n));
+    mean.add(x / double(n), y / double(n));
   }
   // keys may fall while what is on the axis grows
   if (!mean.x.empty() && mean.x.front() > mean.x.back()) {
@@ -197,10 +193,7 @@ Series marks_of(const Curve& curve, Series style, const Wanted& wanted) {
   style.name.clear();
   style.line_width = 0;
   for (const SweepMark& spot : curve.spots)
-    if (wanted(spot)) {
-      style.x.push_back(spot.x);
-      style.y.push_back(spot.y);
-    }
+    if (wanted(spot)) style.add(spot.x, spot.y);
   return style;
 }
 
@@ -210,7 +203,7 @@ void add_curve(const Curve& curve, const std::string& name, std::size_t index, b
   if (line.x.empty()) return;
   line.name = name;
   line.colour = series_colour(index);
-  line.marker = markers[index % std::size(markers)];
+  line.marker = series_marker(index);
   const Series style = line;
   if (seeds) line.marker = Marker::none;
   plot.series.push_back(std::move(line));
@@ -221,49 +214,35 @@ void add_curve(const Curve& curve, const std::string& name, std::size_t index, b
   Series crossed = marks_of(curve, style, [](const SweepMark& spot) { return !spot.stable; });
   crossed.marker = Marker::cross;
   crossed.marker_size += 3;
-  for (Series& more : {std::ref(hollow), std::ref(crossed)})
-    if (!more.x.empty()) plot.series.push_back(std::move(more));
+  plot.add(std::move(hollow));
+  plot.add(std::move(crossed));
 }
 
 /// Rows of the legend that say what the marks mean.
 void add_mark_legend(const std::vector<Curve>& curves, Plot& plot) {
-  std::vector<std::string> limits;
-  bool unstable = false;
+  std::vector<SweepMark> spots;
   for (const Curve& curve : curves)
-    for (const SweepMark& spot : curve.spots) {
-      unstable = unstable || !spot.stable;
-      if (!spot.limit.empty() && std::ranges::find(limits, spot.limit) == limits.end())
-        limits.push_back(spot.limit);
-    }
+    spots.insert(spots.end(), curve.spots.begin(), curve.spots.end());
   const auto row = [&](const std::string& name, Marker marker, bool hollow) {
-    Series series;
-    series.name = name;
-    series.colour = grey_ink;
-    series.line_width = 0;
-    series.marker = marker;
-    series.hollow = hollow;
-    plot.series.push_back(std::move(series));
+    plot.series.push_back(mark_series(name, grey_ink, marker, 4.5, hollow));
   };
   std::string which;
-  for (const auto& limit : limits) which += (which.empty() ? "" : ", ") + limit;
+  for (const auto& limit : distinct(spots, &SweepMark::limit))
+    if (!limit.empty()) which += (which.empty() ? "" : ", ") + limit;
   if (!which.empty()) row("ended early: " + plain(which), Marker::circle, true);
-  if (unstable) row("not stable", Marker::cross, false);
+  if (std::ranges::any_of(spots, std::logical_not(), &SweepMark::stable))
+    row("not stable", Marker::cross, false);
 }
 
 void add_failed(const std::vector<Curve>& curves, Plot& plot) {
-  Series lost;
+  Series lost = mark_series("no state found", grey_ink, Marker::cross);
   double low = std::numeric_limits<double>::infinity();
   for (const Curve& curve : curves) {
     lost.x.insert(lost.x.end(), curve.lost.begin(), curve.lost.end());
     for (const SweepMark& spot : curve.spots) low = std::min(low, spot.y);
   }
-  if (lost.x.empty()) return;
   lost.y.assign(lost.x.size(), std::isfinite(low) ? low : 1);
-  lost.name = "no state found";
-  lost.colour = grey_ink;
-  lost.line_width = 0;
-  lost.marker = Marker::cross;
-  plot.series.push_back(std::move(lost));
+  plot.add(std::move(lost));
 }
 
 void set_axes(const std::vector<Curve>& curves, Plot& plot) {
@@ -286,12 +265,9 @@ void mark_departure(const Series& curve, Colour colour, double share, Plot& plot
   if (!at) return;
   const Stroke stroke{colour, 0.8, {3, 2}};
   plot.references.push_back({.horizontal = false, .at = *at, .label = "", .stroke = stroke});
-  Series row;
-  row.name = fmt::format("{:g} % off at {}", 100 * share, scientific(*at, 2));
-  row.colour = colour;
-  row.line_width = stroke.width;
-  row.dash = stroke.dash;
-  plot.series.push_back(std::move(row));
+  plot.series.push_back(
+      line_series(fmt::format("{:g} % off at {}", 100 * share, scientific(*at, 2)), colour,
+                  stroke.width, stroke.dash));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ constexpr double width = 400, plot_height = 262, margin = 4, head = figure_title
 constexpr double node_radius = 6.6, dot_radius = 2.6;
 // between two nodes, and between two that arrows leave
 constexpr double apart = 3, far_apart = 20, foot_room = 14;
-constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, grey{0.55f, 0.55f, 0.58f, 1};
+constexpr Colour grey{0.55f, 0.55f, 0.58f, 1};
 
 bool is_let_out(const Transition& way) { return way.by == "let out"; }
 Colour colour_of(bool let_out) { return series_colour(let_out ? 0 : 1); }
@@ -114,10 +114,7 @@ class WaysGraph {
     plot.x = {.label = "height (mm)"};
     plot.y = {.label = "energy (mJ)"};
     Series all;
-    for (const Node& node : nodes_) {
-      all.x.push_back(node.row->height_mm);
-      all.y.push_back(node.row->energy_mJ());
-    }
+    for (const Node& node : nodes_) all.add(node.row->height_mm, node.row->energy_mJ());
     // a margin as wide as a node, and something to show where all are alike
     for (const auto& [values, axis] : {std::pair(&all.x, &plot.x), {&all.y, &plot.y}}) {
       const auto [low, high] = std::ranges::minmax(*values);
@@ -248,18 +245,14 @@ class WaysGraph {
     const double scale = 0.5 * thumb / reach;
     const double low = frame.nodes.row(2).minCoeff(),
                  span = std::max(1e-9, frame.nodes.row(2).maxCoeff() - low);
-    const auto place = [&](const Eigen::Vector3d& p) {
-      return Point{middle.x + scale * p.x(), middle.y - scale * p.y()};
-    };
+    const PlanView place{middle, {0, 0}, scale};
     for (const auto& rod : run_.layout.rods)
       for (std::size_t n = 1; n < rod.size(); ++n) {
         const Eigen::Vector3d a = frame.nodes.col(rod[n - 1]), b = frame.nodes.col(rod[n]);
         const float pale = float(0.78 - 0.7 * ((a.z() + b.z()) / 2 - low) / span);
         canvas.line(place(a), place(b), {{pale, pale, pale + 0.03f, 1}, 0.55});
       }
-    std::vector<Point> boundary;
-    for (Eigen::Index n = 0; n < ring.cols(); ++n) boundary.push_back(place(ring.col(n)));
-    canvas.polyline(boundary, {ink, 0.6}, true);
+    canvas.polyline(place.line(ring), {ink, 0.6}, true);
   }
 
   const record::StateTables& states_;

@@ -13,8 +13,7 @@ namespace {
 using record::AccuracyRow;
 using record::RunOutcome;
 
-constexpr Colour ink{0.1f, 0.1f, 0.12f, 1}, front_grey{0.72f, 0.74f, 0.78f, 1};
-constexpr Marker markers[] = {Marker::circle, Marker::square, Marker::triangle, Marker::diamond};
+constexpr Colour front_grey{0.72f, 0.74f, 0.78f, 1};
 
 bool is_auto(const std::string& method) { return method.starts_with(auto_prefix); }
 
@@ -24,21 +23,11 @@ std::string power_of(const std::string& method) {
   return fmt::format("10^{{−{}}}", -std::lround(std::log10(tolerance)));
 }
 
-/// In the order in which they first come, `auto` left out.
-template <class Row>
-std::vector<std::string> methods_of(const std::vector<Row>& rows) {
-  std::vector<std::string> names;
-  for (const Row& row : rows)
-    if (!is_auto(row.method) && std::find(names.begin(), names.end(), row.method) == names.end())
-      names.push_back(row.method);
-  return names;
-}
+bool is_curve(const std::string& method) { return !is_auto(method); }
 
 Series style_of(std::size_t index, const std::string& name) {
-  Series series;
-  series.name = name;
-  series.colour = series_colour(index);
-  series.marker = markers[index % std::size(markers)];
+  Series series = line_series(name, series_colour(index));
+  series.marker = series_marker(index);
   series.marker_size = 4.2;
   // more methods than colours: the second round is dashed
   if (index >= 7) series.dash = {4, 2};
@@ -56,13 +45,12 @@ bool drawn(const AccuracyRow& row) {
   return row.outcome == RunOutcome::right && row.error > 0 && row.cpu_s > 0;
 }
 
-Plot empty_plot(const std::string& title) {
+Plot empty_plot(const std::string& title, const std::string& x, const std::string& y) {
   Plot plot;
   plot.title = title;
-  plot.x.logarithmic = plot.y.logarithmic = true;
-  plot.x.ticks = plot.y.ticks = 9;
+  plot.x = {.label = x, .logarithmic = true, .ticks = 9};
+  plot.y = {.label = y, .logarithmic = true, .ticks = 9};
   plot.font_size = 8;
-  plot.legend = LegendPlace::none;
   return plot;
 }
 
@@ -70,15 +58,23 @@ Series front_of(const std::vector<AccuracyRow>& rows) {
   std::vector<AccuracyRow> methods;
   for (const AccuracyRow& row : rows)
     if (!is_auto(row.method)) methods.push_back(row);
-  Series front;
-  front.name = "Pareto front";
-  front.colour = front_grey;
-  front.line_width = 5;
-  for (std::size_t k : record::pareto_front(methods)) {
-    front.x.push_back(methods[k].cpu_s);
-    front.y.push_back(methods[k].error);
-  }
+  Series front = line_series("Pareto front", front_grey, 5);
+  for (std::size_t k : record::pareto_front(methods)) front.add(methods[k].cpu_s, methods[k].error);
   return front;
+}
+
+/// A curve a method, of the rows that are drawn.
+void add_methods(const std::vector<AccuracyRow>& rows, const std::vector<std::string>& names,
+                 bool over_time, Plot& plot) {
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    Series series = style_of(m, names[m]);
+    for (const AccuracyRow& row : rows) {
+      if (row.method != names[m] || !drawn(row)) continue;
+      series.add(over_time ? row.cpu_s : row.dof, row.error);
+      if (over_time) series.x_span.push_back({row.cpu_min_s, row.cpu_max_s});
+    }
+    plot.add(std::move(series));
+  }
 }
 
 /// Methods that were stopped: hollow, at the limit.
@@ -88,12 +84,8 @@ void add_stopped(const std::vector<AccuracyRow>& rows, const std::vector<std::st
   for (std::size_t m = 0; m < names.size(); ++m)
     for (const AccuracyRow& row : rows) {
       if (row.method != names[m] || row.outcome != RunOutcome::too_slow) continue;
-      Series stopped = style_of(m, "");
-      stopped.hollow = true;
-      stopped.line_width = 0;
-      stopped.marker_size = 5.5;
-      stopped.x = {row.cpu_s};
-      stopped.y = {mesh_error(rows, row.edges_per_segment)};
+      Series stopped = mark_series("", series_colour(m), series_marker(m), 5.5, true);
+      stopped.add(row.cpu_s, mesh_error(rows, row.edges_per_segment));
       if (!(stopped.y[0] > 0)) continue;
       limit = std::max(limit, row.cpu_s);
       plot.series.push_back(std::move(stopped));
@@ -103,13 +95,7 @@ void add_stopped(const std::vector<AccuracyRow>& rows, const std::vector<std::st
 
 /// `auto` in one mark for all tolerances that come to the same meshes.
 void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
-  Series marks;
-  marks.name = "auto, by tolerance";
-  marks.colour = ink;
-  marks.marker = Marker::circle;
-  marks.hollow = true;
-  marks.line_width = 0;
-  marks.marker_size = 9;
+  Series marks = mark_series("auto, by tolerance", ink, Marker::circle, 9, true);
   std::vector<Note> notes;
   for (const AccuracyRow& row : rows) {
     if (!is_auto(row.method) || !drawn(row)) continue;
@@ -119,8 +105,7 @@ void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
       notes.back().text += ", " + label;
       continue;
     }
-    marks.x.push_back(row.cpu_s);
-    marks.y.push_back(row.error);
+    marks.add(row.cpu_s, row.error);
     notes.push_back({.x = row.cpu_s / 1.25,
                      .y = row.error,
                      .text = label,
@@ -135,66 +120,37 @@ void add_auto(const std::vector<AccuracyRow>& rows, Plot& plot) {
 
 }  // namespace
 
+constexpr const char* error_label = "largest joint error over *R*_{o} or *ρ*";
+
 Plot accuracy_plot(const std::vector<AccuracyRow>& rows, const std::string& title) {
-  Plot plot = empty_plot(title);
-  plot.x.label = "processor time from the certified start to the end (s)";
-  plot.y.label = "largest joint error over *R*_{o} or *ρ*";
-  plot.legend = LegendPlace::automatic;
+  Plot plot =
+      empty_plot(title, "processor time from the certified start to the end (s)", error_label);
   plot.series.push_back(front_of(rows));
-  const auto names = methods_of(rows);
-  for (std::size_t m = 0; m < names.size(); ++m) {
-    Series series = style_of(m, names[m]);
-    for (const AccuracyRow& row : rows) {
-      if (row.method != names[m] || !drawn(row)) continue;
-      series.x.push_back(row.cpu_s);
-      series.y.push_back(row.error);
-      series.x_span.push_back({row.cpu_min_s, row.cpu_max_s});
-    }
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
-  }
+  const auto names = distinct(rows, &AccuracyRow::method, is_curve);
+  add_methods(rows, names, true, plot);
   add_stopped(rows, names, plot);
   add_auto(rows, plot);
   return plot;
 }
 
 Plot unknowns_plot(const std::vector<AccuracyRow>& rows, const std::string& title) {
-  Plot plot = empty_plot(title);
-  plot.x.label = "unknowns";
-  plot.y.label = "largest joint error over *R*_{o} or *ρ*";
-  plot.legend = LegendPlace::automatic;
-  const auto names = methods_of(rows);
-  for (std::size_t m = 0; m < names.size(); ++m) {
-    Series series = style_of(m, names[m]);
-    for (const AccuracyRow& row : rows)
-      if (row.method == names[m] && drawn(row)) {
-        series.x.push_back(row.dof);
-        series.y.push_back(row.error);
-      }
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
-  }
+  Plot plot = empty_plot(title, "unknowns", error_label);
+  add_methods(rows, distinct(rows, &AccuracyRow::method, is_curve), false, plot);
   return plot;
 }
 
 Plot scaling_plot(const std::vector<record::ScalingRow>& rows, const std::string& title) {
-  Plot plot = empty_plot(title);
-  plot.x.label = "rods a direction, *n*";
-  plot.y.label = "processor time (s)";
+  Plot plot = empty_plot(title, "rods a direction, *n*", "processor time (s)");
   plot.x.ticks = 12;
-  plot.legend = LegendPlace::automatic;
-  std::vector<std::string> names;
-  for (const auto& row : rows)
-    if (std::find(names.begin(), names.end(), row.method) == names.end())
-      names.push_back(row.method);
+  const auto names = distinct(rows, &record::ScalingRow::method);
   for (std::size_t m = 0; m < names.size(); ++m) {
     Series series = style_of(m, is_auto(names[m]) ? "auto, " + power_of(names[m]) : names[m]);
     for (const auto& row : rows)
-      if (row.method == names[m] && row.outcome == RunOutcome::right) {
-        series.x.push_back(row.rods);
-        series.y.push_back(row.cpu_s);
-      }
+      if (row.method == names[m] && row.outcome == RunOutcome::right)
+        series.add(row.rods, row.cpu_s);
     const double power = record::exponent(series.x, series.y);
     if (std::isfinite(power)) series.name += fmt::format(", *n*^{{{:.1f}}}", power);
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
+    plot.add(std::move(series));
   }
   return plot;
 }
@@ -221,17 +177,9 @@ constexpr double size = 7.5, bar_height = 13, row_height = 18, label_room = 88, 
 
 std::string label(TrustClass found) { return spaced(std::string(word_of(found))); }
 
-std::vector<std::string> kinds_of(const std::vector<TrustRow>& rows) {
-  std::vector<std::string> kinds;
-  for (const TrustRow& row : rows)
-    if (std::find(kinds.begin(), kinds.end(), row.kind) == kinds.end()) kinds.push_back(row.kind);
-  return kinds;
-}
-
 int count(const std::vector<TrustRow>& rows, const std::string& kind, TrustClass found) {
-  return int(std::count_if(rows.begin(), rows.end(), [&](const TrustRow& row) {
-    return row.kind == kind && row.found == found;
-  }));
+  return int(std::ranges::count_if(
+      rows, [&](const TrustRow& row) { return row.kind == kind && row.found == found; }));
 }
 
 void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::string& kind,
@@ -243,7 +191,7 @@ void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::stri
     const int n = count(rows, kind, one.value);
     if (n == 0) continue;
     const double part = box.width * n / all;
-    canvas.rectangle({x, box.y, part, box.height}, trust_colour(one.value), {{1, 1, 1, 1}, 0.8});
+    canvas.rectangle({x, box.y, part, box.height}, trust_colour(one.value), {white, 0.8});
     if (part > 10)
       canvas.text(fmt::format("{}", n), {x + part / 2, box.y + box.height / 2},
                   {.size = size - 1, .align_x = AlignX::centre, .align_y = AlignY::middle});
@@ -251,49 +199,19 @@ void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::stri
   }
 }
 
-void draw_legend(Canvas& canvas, Point at) {
-  Patches patches{.row_width = width - 2 * margin, .row_height = legend_line, .font_size = size};
-  constexpr auto classes = words_of<TrustClass>();
-  patches.draw = [&](std::size_t k, const Box& box) {
-    canvas.rectangle(box, trust_colour(classes[k].value));
-  };
-  for (const auto& one : classes) patches.names.push_back(label(one.value));
-  draw_patches(canvas, {at.x, at.y, 16, 9}, patches);
-}
-
 }  // namespace
 
 Colour trust_colour(TrustClass found) {
-  switch (found) {
-    case TrustClass::right:
-      return hex_colour(0x8CC7A1);
-    case TrustClass::estimate_small:
-      return hex_colour(0xE08A8D);
-    case TrustClass::other_branch:
-      return hex_colour(0xC0262B);
-    case TrustClass::after_snap:
-      return hex_colour(0xF0E2A8);
-    case TrustClass::doubted:
-      return hex_colour(0xE9BE7C);
-    case TrustClass::limited:
-      return hex_colour(0xC9CDD3);
-    case TrustClass::limited_only_default:
-      return hex_colour(0xA3A9B3);
-    case TrustClass::inner_unphysical:
-      return hex_colour(0xB0417C);
-    case TrustClass::frame_dependent:
-      return hex_colour(0x9A6FB0);
-    case TrustClass::refused:
-      return hex_colour(0xE3E5E8);
-    case TrustClass::too_slow:
-      break;
-  }
-  return hex_colour(0xA9C4E6);
+  // from right to too_slow
+  constexpr std::array<long, words(TrustClass{}).size()> colours{
+      0x8CC7A1, 0xE08A8D, 0xC0262B, 0xF0E2A8, 0xE9BE7C, 0xC9CDD3,
+      0xA3A9B3, 0xB0417C, 0x9A6FB0, 0xE3E5E8, 0xA9C4E6};
+  return hex_colour(colours[std::size_t(found)]);
 }
 
 Result<void> write_trust_bars(const std::filesystem::path& stem,
                               const std::vector<TrustRow>& rows) {
-  const auto kinds = kinds_of(rows);
+  const auto kinds = distinct(rows, &TrustRow::kind);
   const double height =
       title_room + row_height * double(kinds.size()) + 3 * legend_line + 3 * margin;
   const auto title =
@@ -310,7 +228,12 @@ Result<void> write_trust_bars(const std::filesystem::path& stem,
                {margin + label_room, y, width - 2 * margin - label_room, bar_height});
       y += row_height;
     }
-    draw_legend(canvas, {margin, y + margin});
+    Patches patches{.row_width = width - 2 * margin, .row_height = legend_line, .font_size = size};
+    patches.draw = [&](std::size_t k, const Box& box) {
+      canvas.rectangle(box, trust_colour(TrustClass(k)));
+    };
+    for (const auto& one : words(TrustClass{})) patches.names.push_back(label(one.value));
+    draw_patches(canvas, {margin, y + margin, 16, 9}, patches);
   });
 }
 
@@ -320,29 +243,20 @@ Plot trust_plot(const std::vector<TrustRow>& rows) {
   plot.x = {.label = "error estimate over the length scale", .logarithmic = true};
   plot.y = {.label = "error over the length scale", .logarithmic = true};
   double low = 1, high = 1e-9;
-  for (const auto& one : words_of<TrustClass>()) {
-    Series series;
-    series.name = label(one.value);
-    series.colour = trust_colour(one.value);
-    series.line_width = 0;
-    series.marker = Marker::circle;
+  for (const auto& one : words(TrustClass{})) {
+    Series series = mark_series(label(one.value), trust_colour(one.value));
     for (const TrustRow& row : rows) {
       if (row.found != one.value || !(row.error > 0) || !(row.estimate > 0)) continue;
-      series.x.push_back(row.estimate);
-      series.y.push_back(row.error);
+      series.add(row.estimate, row.error);
       low = std::min(low, row.estimate);
       high = std::max(high, row.estimate);
     }
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
+    plot.add(std::move(series));
   }
   if (low < high) {
-    Series twice;
-    twice.name = "twice the estimate";
-    twice.x = {low, high};
-    twice.y = {2 * low, 2 * high};
-    twice.colour = {0.3f, 0.3f, 0.3f, 1};
-    twice.dash = {3, 2};
-    plot.series.push_back(std::move(twice));
+    Series twice = line_series("twice the estimate", {0.3f, 0.3f, 0.3f, 1}, 1, {3, 2});
+    for (const double end : {low, high}) twice.add(end, 2 * end);
+    plot.add(std::move(twice));
   }
   return plot;
 }

@@ -13,6 +13,7 @@
 #include "render/movie/run_plots.h"
 #include "render/movie/stage.h"
 #include "render/movie/stills.h"
+#include "tests/render/canvas/ink.h"
 #include "tests/render/synthetic.h"
 #include "tests/temporary_folder.h"
 
@@ -77,10 +78,9 @@ TEST_CASE("in every preset's frames and stills no text leaves the picture or mee
       for (const auto pictures : {app::Pictures::movie, app::Pictures::stills}) {
         MovieStyle style = app::style_of(one.preset, pictures);
         for (const auto& [width, height] :
-             {std::pair{style.width, style.height}, {320, 240}, {720, 1280}, {1920, 500}})
+             {std::pair{style.width(), style.height()}, {320, 240}, {720, 1280}, {1920, 500}})
           for (const double zoom : {1.0, 3.0}) {
-            style.width = width;
-            style.height = height;
+            style.size = {width, height};
             style.zoom = zoom;
             const Stage stage(run, style);
             INFO(embedded.name << " " << one.name << " " << width << " x " << height);
@@ -104,16 +104,15 @@ TEST_CASE("a narrow still has its whole title, in two lines where one is too sho
     const auto presets = app::load_preset(embedded.name, {});
     REQUIRE(presets);
     MovieStyle style = still_style(app::style_of(presets->base, app::Pictures::stills));
-    style.width = 302;
-    style.height = 170;
+    style.size = {302, 170};
     const record::Trajectory run = eventful(true);
     const Stage stage(run, style);
-    const auto words = words_of(style.width, style.height, [&](Canvas& canvas) {
+    const auto words = words_of(style.width(), style.height(), [&](Canvas& canvas) {
       draw_still_labels(canvas, stage, {run.frames[2], 2},
                         "push [-2, -2], a joint far from its middle: *δ* = 10.00 mm");
     });
     INFO(embedded.name);
-    check_apart(words, {0, 0, double(style.width), double(style.height)});
+    check_apart(words, {0, 0, double(style.width()), double(style.height())});
     std::string title;
     for (const std::string& line : stage.layout().title_lines)
       title += (title.empty() ? "" : " ") + line;
@@ -146,7 +145,7 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
       std::mutex mutex;
       std::vector<std::pair<Words, Box>> canvases;
       {
-        const CanvasObserver watch([&](const Canvas& canvas) {
+        const test::CanvasObserver watch([&](const Canvas& canvas) {
           const std::lock_guard lock(mutex);
           canvases.push_back({{canvas.texts(), canvas.text_boxes(), canvas.marker_boxes()},
                               {0, 0, canvas.width(), canvas.height()}});

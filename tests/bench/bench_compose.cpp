@@ -46,8 +46,7 @@ int main(int count, char** arguments) {
   const record::Trajectory run = synthetic::dome(25, 16);
   for (const auto& [width, height] : {std::pair{1280, 720}, std::pair{1920, 1080}}) {
     render::MovieStyle style;
-    style.width = width;
-    style.height = height;
+    style.size = {width, height};
     style.scale_bar_mm = 20;
     style.title = "Actuation of a circular gridshell";
     const render::Stage stage(run, style);

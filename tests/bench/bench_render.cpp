@@ -108,6 +108,7 @@ int main(int count, char** arguments) {
   const auto& words = figures.words();
   const std::string kind = words.empty() ? "auto" : words[0];
   const int frames = words.size() > 1 ? std::max(1, std::atoi(words[1].c_str())) : 15;
+  keep_compiled_shaders();
   const auto context = value(Context::create(kind == "egl"      ? ContextKind::egl
                                              : kind == "osmesa" ? ContextKind::osmesa
                                                                 : ContextKind::automatic));

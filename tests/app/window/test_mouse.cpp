@@ -52,7 +52,8 @@ TEST_CASE("the elevation ends straight above and straight below") {
 TEST_CASE("all points lie in the picture that was fitted to them") {
   Eigen::Matrix3Xd points(3, 4);
   points << 0, 300, 20, -5, 0, 10, 90, 40, 0, 5, -30, 80;
-  for (const ViewFrom& view : {view_top, view_front, view_side, view_iso, view_home}) {
+  for (const render::ViewDirection& view : {render::view_top, render::view_front, render::view_side,
+                                            render::view_corner, render::view_home}) {
     render::Camera camera;
     look_from(camera, view);
     fit(camera, size, points);
@@ -100,7 +101,7 @@ TEST_CASE("a click shows a joint, a rod with the nearest of its nodes, or a cell
   ViewerState viewer({});
   viewer.shell = one_cell();
   viewer.view = {800, 800};
-  look_from(viewer.camera, view_top);
+  look_from(viewer.camera, render::view_top);
   fit(viewer.camera, viewer.view, viewer.shell->frame.nodes);
   Picker picker(viewer);
   const auto click = [&](double x, double y) {

@@ -2,12 +2,48 @@
 #pragma once
 
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cstdlib>
+#include <functional>
+#include <utility>
 
-#include "render/canvas/canvas.h"
+#include "render/canvas/plot.h"
 #include "render/gl/image.h"
 
 namespace gridshell::test {
+
+/// While it lives, it is told of every canvas that is finished.
+struct CanvasObserver {
+  explicit CanvasObserver(std::function<void(const render::Canvas&)> told) {
+    render::Canvas::on_finished = std::move(told);
+  }
+  ~CanvasObserver() { render::Canvas::on_finished = nullptr; }
+  CanvasObserver(const CanvasObserver&) = delete;
+  CanvasObserver& operator=(const CanvasObserver&) = delete;
+};
+
+/// All words lie on the canvas, and no two over one another.
+inline void check_apart(const render::Canvas& canvas) {
+  const std::vector<render::Box>& boxes = canvas.text_boxes();
+  for (std::size_t a = 0; a < boxes.size(); ++a) {
+    INFO(canvas.texts()[a]);
+    CHECK(render::Box{0, 0, canvas.width(), canvas.height()}.contains(boxes[a]));
+    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+      INFO(canvas.texts()[b]);
+      CHECK_FALSE(boxes[a].overlaps(boxes[b]));
+    }
+  }
+}
+
+inline bool has(const std::vector<std::string>& texts, const std::string& text) {
+  return std::ranges::find(texts, text) != texts.end();
+}
+
+/// The series of that name; null: there is none.
+inline const render::Series* series_named(const render::Plot& plot, const std::string& name) {
+  const auto found = std::ranges::find(plot.series, name, &render::Series::name);
+  return found == plot.series.end() ? nullptr : &*found;
+}
 
 /// The smallest box around all pixels that differ from white by more than `level` in any channel.
 inline render::Box ink_box(const render::Image& image, int level = 24) {

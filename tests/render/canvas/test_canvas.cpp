@@ -15,8 +15,6 @@ using gridshell::test::ink_box;
 
 namespace {
 
-constexpr Colour white{1, 1, 1, 1};
-
 // every tag is closed, in order, and there is one root
 bool well_formed(const std::string& xml) {
   std::vector<std::string> open;
@@ -225,7 +223,7 @@ TEST_CASE("the font is chosen by name, and one that is not there is refused") {
 TEST_CASE("a canvas knows where its words and markers are, however it is enlarged or cut off") {
   std::vector<Box> texts, markers;
   {
-    const CanvasObserver watch([&](const Canvas& c) {
+    const test::CanvasObserver watch([&](const Canvas& c) {
       texts = c.text_boxes();
       markers = c.marker_boxes();
     });

@@ -69,14 +69,14 @@ TEST_CASE("the sequential maps darken all the way, in steps that look equal") {
 }
 
 TEST_CASE("a scale for thin lines begins where they can be seen") {
-  const ColourScale lines{ColourMap::sequential, 0, 1, 0.2};
+  const ColourScale lines{sequential, 0, 1, 0.2};
   CHECK(lines(0).b == sequential(0.2).b);
   CHECK(lines(1).b == sequential(1).b);
   CHECK(lines(0.5).b == sequential(0.6).b);
 }
 
 TEST_CASE("a scale maps its ends and clips beyond, the unknown is grey") {
-  const ColourScale scale{ColourMap::diverging, -0.1, 0.1};
+  const ColourScale scale{diverging, -0.1, 0.1};
   CHECK(scale(0.1).r == diverging(1).r);
   CHECK(scale(0.3).r == diverging(1).r);
   CHECK(scale(-0.1).b == diverging(-1).b);

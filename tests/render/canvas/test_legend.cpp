@@ -7,14 +7,8 @@
 using namespace gridshell;
 using namespace gridshell::render;
 
-namespace {
-
-constexpr Colour white{1, 1, 1, 1};
-
-}  // namespace
-
 TEST_CASE("a colour bar stays in its box and shows its scale from end to end") {
-  const ColourBar bar{"*K*_{□} (rad)", {ColourMap::diverging, -0.08, 0.08}, true, true};
+  const ColourBar bar{"*K*_{□} (rad)", {diverging, -0.08, 0.08}, true, true};
   for (double font : {8.0, 14.0, 30.0}) {
     const Box box{10, 10, 0, 16 * font};
     std::vector<std::string> texts;
@@ -51,7 +45,7 @@ TEST_CASE("sign, ticks and words of a colour bar stay apart, on any scale and at
       for (const double font : {7.1, 16.4})
         for (const double lines : {9.0, 12.0, 18.0, 24.0}) {
           const ColourBar bar{
-              "*K*_{□} (rad)", {ColourMap::diverging, low, end}, true, true, "Gauss curvature"};
+              "*K*_{□} (rad)", {diverging, low, end}, true, true, "Gauss curvature"};
           INFO(low << " to " << end << ", font " << font << ", " << lines << " lines");
           draw_picture(20 * font, lines * font + 20, 1, white, [&](Canvas& c) {
             const Box box{10, 10, colour_bar_width(c, bar, font), lines * font};

@@ -18,6 +18,7 @@ struct Studio {
 };
 
 inline Result<Studio> studio(ContextKind kind = ContextKind::automatic) {
+  keep_compiled_shaders();
   auto context = Context::create(kind);
   if (!context) return tl::unexpected(context.error());
   auto renderer = Renderer::create(**context);

@@ -32,8 +32,7 @@ struct Subject {
     });
     run.layout.loaded_joints = {{int(pushed - joints.begin()), -Eigen::Vector3d::UnitZ()}};
     run.frames[3].negative_pivots = 1;
-    style.width = 480;
-    style.height = 270;
+    style.size = {480, 270};
     style.title = "Dome";
     style.scale_bar_mm = 20;
   }
@@ -49,7 +48,7 @@ class Easel {
     Camera camera = stage.camera(subject.at);
     subject.spoil(drawing, camera);
     auto picture = studio_.renderer->draw(drawing, camera, draw_quality(subject.style),
-                                          subject.style.width, subject.style.height);
+                                          subject.style.width(), subject.style.height());
     REQUIRE(picture);
     stage.finish(*picture, {frame, subject.at});
     return std::move(*picture);
@@ -60,42 +59,34 @@ class Easel {
 };
 
 using Change = std::function<void(Subject&)>;
-std::function<void(Drawing&, Camera&)> drawn(std::function<void(Drawing&)> change) {
-  return [change](Drawing& drawing, Camera&) { change(drawing); };
+Change drawing(std::function<void(Drawing&)> change) {
+  return [change](Subject& s) { s.spoil = [change](Drawing& d, Camera&) { change(d); }; };
+}
+Change camera(std::function<void(Camera&)> change) {
+  return [change](Subject& s) { s.spoil = [change](Drawing&, Camera& c) { change(c); }; };
 }
 
 const std::map<std::string, Change>& faults() {
   static const std::map<std::string, Change> all{
       {"a lost rod", [](Subject& s) { s.run.layout.rods.erase(s.run.layout.rods.begin() + 5); }},
-      {"a lost cell",
-       [](Subject& s) { s.spoil = drawn([](Drawing& d) { d.cell_colours[40].a = 0; }); }},
-      {"a wrong cell colour",
-       [](Subject& s) {
-         s.spoil = drawn([](Drawing& d) { d.cell_colours[40] = {0.2f, 0.7f, 0.3f, 0.93f}; });
-       }},
-      {"a wrong rod colour",
-       [](Subject& s) {
-         s.spoil = drawn([](Drawing& d) { d.rod_colour = {0.1f, 0.1f, 0.6f, 1}; });
-       }},
-      {"a wrong joint colour",
-       [](Subject& s) {
-         s.spoil = drawn([](Drawing& d) { d.joint_colour = {0.75f, 0.4f, 0.1f, 1}; });
-       }},
-      {"no ring", [](Subject& s) { s.spoil = drawn([](Drawing& d) { d.rings.pop_back(); }); }},
-      {"no original boundary",
-       [](Subject& s) { s.spoil = drawn([](Drawing& d) { d.rings.erase(d.rings.begin()); }); }},
+      {"a lost cell", drawing([](Drawing& d) { d.cell_colours[40].a = 0; })},
+      {"a wrong cell colour", drawing([](Drawing& d) {
+         d.cell_colours[40] = {0.2f, 0.7f, 0.3f, 0.93f};
+       })},
+      {"a wrong rod colour", drawing([](Drawing& d) {
+         d.rod_colour = {0.1f, 0.1f, 0.6f, 1};
+       })},
+      {"a wrong joint colour", drawing([](Drawing& d) {
+         d.joint_colour = {0.75f, 0.4f, 0.1f, 1};
+       })},
+      {"no ring", drawing([](Drawing& d) { d.rings.pop_back(); })},
+      {"no original boundary", drawing([](Drawing& d) { d.rings.erase(d.rings.begin()); })},
       {"no shadow", [](Subject& s) { s.style.look.shadow = false; }},
-      {"no floor", [](Subject& s) { s.spoil = drawn([](Drawing& d) { d.ground = false; }); }},
-      {"half a pixel to the right",
-       [](Subject& s) {
-         s.spoil = [](Drawing&, Camera& c) {
-           c.target += c.half_extent_mm / 270 * Eigen::Vector3d(-0.64, 0.77, 0);
-         };
-       }},
-      {"half a pixel up",
-       [](Subject& s) {
-         s.spoil = [](Drawing&, Camera& c) { c.target.z() -= c.half_extent_mm / 270; };
-       }},
+      {"no floor", drawing([](Drawing& d) { d.ground = false; })},
+      {"half a pixel to the right", camera([](Camera& c) {
+         c.target += c.half_extent_mm / 270 * Eigen::Vector3d(-0.64, 0.77, 0);
+       })},
+      {"half a pixel up", camera([](Camera& c) { c.target.z() -= c.half_extent_mm / 270; })},
       {"a wrong digit",
        [](Subject& s) {
          s.run.frames[7].boundary_radius_mm += 0.3;
@@ -103,22 +94,19 @@ const std::map<std::string, Change>& faults() {
        }},
       {"a wrong letter", [](Subject& s) { s.style.title = "Dome."; }},
       {"no colour bar", [](Subject& s) { s.style.legends = false; }},
-      {"another colour map", [](Subject& s) { s.style.look.map = ColourMap::grey; }},
+      {"another colour map", [](Subject& s) { s.style.look.map = grey; }},
       {"another colour range",
        [](Subject& s) {
-         s.style.look.range = {{-0.3, 0.3}};
+         s.style.look.range = {-0.3, 0.3};
        }},
       {"no top view", [](Subject& s) { s.style.inset = false; }},
       {"no mark on the timeline", [](Subject& s) { s.run.frames[3].negative_pivots = 0; }},
       {"no scale bar", [](Subject& s) { s.style.scale_bar_mm = 0; }},
-      {"no arrow", [](Subject& s) { s.spoil = drawn([](Drawing& d) { d.arrows.clear(); }); }},
-      {"no mark at the joint",
-       [](Subject& s) { s.spoil = drawn([](Drawing& d) { d.marks.clear(); }); }},
-      {"thicker rods",
-       [](Subject& s) { s.spoil = drawn([](Drawing& d) { d.rod_diameter_mm *= 1.5; }); }},
+      {"no arrow", drawing([](Drawing& d) { d.arrows.clear(); })},
+      {"no mark at the joint", drawing([](Drawing& d) { d.marks.clear(); })},
+      {"thicker rods", drawing([](Drawing& d) { d.rod_diameter_mm *= 1.5; })},
       {"the frame before", [](Subject& s) { s.at = 6; }},
-      {"the camera a degree off",
-       [](Subject& s) { s.spoil = [](Drawing&, Camera& c) { c.azimuth_deg += 1; }; }},
+      {"the camera a degree off", camera([](Camera& c) { c.azimuth_deg += 1; })},
   };
   return all;
 }
@@ -153,7 +141,7 @@ TEST_CASE("the metric catches a single lost joint", "[image]") {
   Easel paint;
   Subject subject;
   const Image good = paint(subject);
-  subject.spoil = drawn([](Drawing& d) { d.joint_diameter_mm = 0; });
+  drawing([](Drawing& d) { d.joint_diameter_mm = 0; })(subject);
   const Image bare = paint(subject);
   // the picture with the joints, but for one
   const Stage stage(subject.run, subject.style);

@@ -48,16 +48,16 @@ std::optional<ColourBar> bar(const std::vector<record::Trajectory>& runs,
 TEST_CASE("K of one sign takes a sequential map, of two signs one about zero") {
   const auto positive = bar({of_K(0, 0.3)});
   REQUIRE(positive);
-  CHECK(positive->scale.map == ColourMap::sequential);
+  CHECK(positive->scale.map == sequential);
   CHECK(positive->scale.low == 0);
   CHECK(positive->scale.high >= 0.3);
   const auto negative = bar({of_K(0, -0.3)});
-  CHECK(negative->scale.map == ColourMap::sequential);
+  CHECK(negative->scale.map == sequential);
   CHECK(negative->scale.high == 0);
   CHECK(negative->scale(0).b == positive->scale(0).b);
   CHECK(negative->scale(negative->scale.low).b == positive->scale(positive->scale.high).b);
   const auto both = bar({of_K(-0.2, 0.3)});
-  CHECK(both->scale.map == ColourMap::diverging);
+  CHECK(both->scale.map == diverging);
   CHECK(both->scale.low == -both->scale.high);
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("runs shown together share one range, so that what is not curved does 
   const auto alone = bar({of_K(0.001, -0.001)});
   const auto shared = bar({of_K(0, 0.4), of_K(0.001, -0.001), of_K(0, -0.4)});
   CHECK(shared->scale.high >= 0.4);
-  CHECK(shared->scale.map == ColourMap::diverging);
+  CHECK(shared->scale.map == diverging);
   // nor alone: a scale never shrinks to noise
   CHECK(alone->scale.high >= 0.02);
 }
@@ -77,7 +77,7 @@ TEST_CASE("the change of K starts at nothing, and the style's range goes before"
   CHECK(change->scale.low <= -0.05);
   CHECK(change->scale.high <= 0.1);
   CHECK(change->label.starts_with("Δ"));
-  style.look.range = {{-0.01, 0.03}};
+  style.look.range = {-0.01, 0.03};
   const auto given = bar({of_K(0.5, 0.45)}, style);
   CHECK(given->scale.low == -0.01);
   CHECK(given->scale.high == 0.03);
@@ -92,14 +92,14 @@ TEST_CASE("axial forces of both signs diverge about zero over all runs, of one s
   REQUIRE(both);
   CHECK(both->label == "*N* (N)");
   CHECK(both->words == "axial force");
-  CHECK(both->scale.map == ColourMap::diverging);
+  CHECK(both->scale.map == diverging);
   CHECK(both->scale.high >= 0.4);
   CHECK(both->scale.low == -both->scale.high);
   // a rod without force is seen on white
   CHECK(both->scale(0).r < 0.9f);
   CHECK(both->scale(0).r == Approx(both->scale(0).b).margin(0.01));
   const auto pressed = bar({of_rods(-0.2, -0.1)}, by(ColourBy::axial_force));
-  CHECK(pressed->scale.map == ColourMap::sequential);
+  CHECK(pressed->scale.map == sequential);
   CHECK(pressed->scale.high == 0);
   CHECK(pressed->scale.low <= -0.2);
   // few that bear more than the scale has
@@ -110,17 +110,17 @@ TEST_CASE("bending energy goes up from zero, and the style's range and map go be
   MovieStyle style = by(ColourBy::energy);
   const auto energy = bar({of_rods(0, 0, 1.5), of_rods(0, 0, 0.2)}, style);
   CHECK(energy->label.find("(mJ/m)") != std::string::npos);
-  CHECK(energy->scale.map == ColourMap::sequential);
+  CHECK(energy->scale.map == sequential);
   CHECK(energy->scale.low == 0);
   CHECK(energy->scale.high >= 1.5);
-  style.look.range = {{0, 1}};
-  style.look.map = ColourMap::grey;
+  style.look.range = {0, 1};
+  style.look.map = grey;
   const auto given = bar({of_rods(0, 0, 1.5)}, style);
   CHECK(given->scale.high == 1);
-  CHECK(given->scale.map == ColourMap::grey);
+  CHECK(given->scale.map == grey);
   CHECK(given->beyond_high);
   // without any, as in the flat
-  CHECK(bar({of_rods(0, 0, 0)}, by(ColourBy::energy))->scale.map == ColourMap::sequential);
+  CHECK(bar({of_rods(0, 0, 0)}, by(ColourBy::energy))->scale.map == sequential);
 }
 
 TEST_CASE("the deviation's scale is that of the shell at the end of its boundary's way") {

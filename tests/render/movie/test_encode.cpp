@@ -18,6 +18,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Six frames at 20 a second, the last one held, after a title.
+preset::Movie of_size(int width, int height) {
+  preset::Movie timing;
+  timing.frames = 6;
+  timing.size = {width, height};
+  timing.fps = 20;
+  timing.hold_s = timing.title_s = 0.5;
+  return timing;
+}
+
 // a PATH of one folder, with a made-up ffmpeg in it or none
 class FakeFfmpeg {
  public:
@@ -107,16 +117,22 @@ TEST_CASE("a shell reads the words back as they were") {
 }
 
 TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
-  const auto line = [](const MovieTiming& timing, const char* file) {
+  const auto line = [](const preset::Movie& timing, const char* file) {
     return shell_line(encode_arguments("frames", timing, file));
   };
   const auto has = [](const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
   };
-  CHECK(has(line({.fps = 30, .hold_s = 1.5}, "m.mp4"), "tpad=stop_mode=clone:stop_duration=1.500"));
-  CHECK(has(line({.fps = 30, .frames = 60, .seconds = 4}, "m.mp4"), "N*0.066667/TB"));
-  CHECK(has(line({.fps = 30, .frames = 60, .pace = Pace::eased}, "m.mp4"), "asin(1-2*N/59)"));
-  CHECK(has(line({.fps = 30, .title_s = 2}, "m.mp4"), "file:frames/title.png"));
+  preset::Movie held, timed, eased, titled;
+  held.hold_s = 1.5;
+  timed.frames = eased.frames = 60;
+  timed.seconds = 4;
+  eased.pace = Pace::eased;
+  titled.title_s = 2;
+  CHECK(has(line(held, "m.mp4"), "tpad=stop_mode=clone:stop_duration=1.500"));
+  CHECK(has(line(timed, "m.mp4"), "N*0.066667/TB"));
+  CHECK(has(line(eased, "m.mp4"), "asin(1-2*N/59)"));
+  CHECK(has(line(titled, "m.mp4"), "file:frames/title.png"));
   CHECK(has(line({}, "m.mp4"), "-color_primaries bt709"));
   CHECK(has(line({}, "m.webm"), "libvpx-vp9"));
   CHECK(has(line({}, "m.gif"), "paletteuse"));
@@ -131,8 +147,7 @@ TEST_CASE("a real ffmpeg makes movies of the length asked for", "[standard]") {
   const fs::path frames = folder.path() / "frames";
   REQUIRE(make_folder(frames));
   MovieStyle style;
-  style.width = 64;
-  style.height = 49;
+  style.size = {64, 49};
   style.title = "a title";
   REQUIRE(write_png(title_card(style), frames / "title.png"));
   for (int k = 0; k < 6; ++k) {
@@ -141,8 +156,9 @@ TEST_CASE("a real ffmpeg makes movies of the length asked for", "[standard]") {
       image.rgba[n] = n % 4 == 3 ? 255 : std::uint8_t(40 * k);
     REQUIRE(write_png(image, frames / frame_name(k)));
   }
-  const MovieTiming timing{
-      .fps = 20, .frames = 6, .seconds = 1, .hold_s = 0.5, .pace = Pace::eased, .title_s = 0.5};
+  preset::Movie timing = of_size(64, 49);
+  timing.seconds = 1;
+  timing.pace = Pace::eased;
   for (const char* name : {"movie.mp4", "movie.webm", "movie.gif"}) {
     INFO(name);
     const auto made = encode_movie(frames, timing, folder.path() / name, {});
@@ -187,11 +203,10 @@ TEST_CASE("a movie made while its frames are drawn is that of the frames, to the
   const fs::path frames = folder.path() / "frames";
   REQUIRE(make_folder(frames));
   MovieStyle style;
-  style.width = 64;
-  style.height = 49;
+  style.size = {64, 49};
   REQUIRE(write_png(title_card(style), frames / "title.png"));
-  const MovieTiming timing{.fps = 20, .frames = 6, .hold_s = 0.5, .title_s = 0.5};
-  auto movie = MovieEncoder::begin(frames, timing, 64, 49, folder.path() / "a.mp4");
+  const preset::Movie timing = of_size(64, 49);
+  auto movie = MovieEncoder::begin(frames, timing, folder.path() / "a.mp4");
   REQUIRE(movie);
   REQUIRE(*movie);
   for (int k = 0; k < 6; ++k) {
@@ -209,12 +224,12 @@ TEST_CASE("without ffmpeg no movie is in the making, and one that stops reading 
   const Image large(800, 600);  // more than a socket holds
   {
     const FakeFfmpeg none("");
-    const auto movie = MovieEncoder::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+    const auto movie = MovieEncoder::begin("frames", of_size(800, 600), folder.path() / "m.mp4");
     REQUIRE(movie);
     CHECK_FALSE(*movie);
   }
   const FakeFfmpeg broken("echo 'No space left on device' >&2\nexit 3\n");
-  auto movie = MovieEncoder::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+  auto movie = MovieEncoder::begin("frames", of_size(800, 600), folder.path() / "m.mp4");
   REQUIRE(movie);
   for (int k = 0; k < 3; ++k) (*movie)->put(large, unwatched);
   const auto ended = (*movie)->finish(unwatched);
@@ -229,10 +244,10 @@ TEST_CASE("a movie that is given up, or cancelled while ffmpeg takes nothing, le
   const FakeFfmpeg slow("exec /bin/sleep 30\n");
   const auto start = std::chrono::steady_clock::now();
   {
-    auto movie = MovieEncoder::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+    auto movie = MovieEncoder::begin("frames", of_size(800, 600), folder.path() / "m.mp4");
     REQUIRE(movie);
   }
-  auto movie = MovieEncoder::begin("frames", {}, 800, 600, folder.path() / "m.mp4");
+  auto movie = MovieEncoder::begin("frames", of_size(800, 600), folder.path() / "m.mp4");
   REQUIRE(movie);
   Watch watch;
   std::thread stopper([&] {

@@ -1,6 +1,9 @@
 #include <catch2/catch.hpp>
+#include <new>
+#include <vector>
 
 #include "render/gl/image.h"
+#include "render/movie/frame_writer.h"
 #include "render/movie/movie_writer.h"
 #include "tests/render/movie/fake_renderer.h"
 #include "tests/render/synthetic.h"
@@ -11,10 +14,10 @@ using namespace gridshell::render;
 
 namespace {
 
-MovieStyle small() {
+MovieStyle small(int width = 160, int height = 120) {
   MovieStyle style;
-  style.width = 160;
-  style.height = 120;
+  style.size = {width, height};
+  style.title = "two shells";
   return style;
 }
 
@@ -129,4 +132,76 @@ TEST_CASE("a movie is drawn from one frame at a time, and is that of the run in 
                              return fail(Fault::io, "the file is gone");
                            }};
   CHECK(summarise_run(broken).error().message == "the file is gone");
+}
+
+TEST_CASE("cases stand beside one another in frames of the size asked, the longest run decides") {
+  const TemporaryFolder folder;
+  const record::Trajectory longer = synthetic::dome(3, 2), shorter = synthetic::dome(2, 2);
+  test::FakeRenderer renderer;
+  Watch watch;
+  const auto report = write_side_by_side({{&longer, "a"}, {&shorter, "b"}}, small(480, 270),
+                                         renderer, folder.path() / "frames", watch);
+  REQUIRE(report);
+  CHECK(report->frames == 3);
+  CHECK(watch.progress() == 1);
+  for (int k = 0; k < 3; ++k) {
+    const auto picture = read_png(folder.path() / "frames" / frame_name(k));
+    REQUIRE(picture);
+    CHECK(picture->width == 480);
+    CHECK(picture->height == 270);
+  }
+  CHECK(renderer.outside == 0);
+}
+
+TEST_CASE("nothing to show beside one another is refused, a stopped movie keeps whole frames") {
+  const TemporaryFolder folder;
+  test::FakeRenderer renderer;
+  Watch watch;
+  CHECK(write_side_by_side({}, small(480, 270), renderer, folder.path(), watch).error().fault ==
+        Fault::bad_input);
+  const record::Trajectory run = synthetic::dome(3, 2);
+  watch.cancel();
+  CHECK(write_side_by_side({{&run, "a"}}, small(480, 270), renderer, folder.path(), watch)
+            .error()
+            .fault == Fault::cancelled);
+}
+
+TEST_CASE("a worker does its jobs on one thread of its own and says how each ended") {
+  Worker worker;
+  REQUIRE(worker.wait());  // of none
+  std::vector<std::thread::id> threads;
+  for (int k = 0; k < 3; ++k) {
+    worker.begin([&]() -> Result<void> {
+      threads.push_back(std::this_thread::get_id());
+      if (k == 1) return fail(Fault::io, "no room");
+      return {};
+    });
+    const auto ended = worker.wait();
+    CHECK(ended.has_value() == (k != 1));
+    CHECK(worker.wait());  // said once
+  }
+  REQUIRE(threads.size() == 3);
+  CHECK(threads[0] == threads[2]);
+  CHECK(threads[0] != std::this_thread::get_id());
+}
+
+TEST_CASE("what a worker's job throws is thrown where it is waited for") {
+  Worker worker;
+  worker.begin([]() -> Result<void> { throw std::bad_alloc(); });
+  CHECK_THROWS_AS(worker.wait(), std::bad_alloc);
+  worker.begin([]() -> Result<void> { return {}; });
+  CHECK(worker.wait());
+}
+
+TEST_CASE("a worker that goes waits for its job") {
+  bool done = false;
+  {
+    Worker worker;
+    worker.begin([&]() -> Result<void> {
+      std::this_thread::sleep_for(std::chrono::milliseconds(30));
+      done = true;
+      return {};
+    });
+  }
+  CHECK(done);
 }

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "render/gl/renderer.h"
 #include "render/movie/frame_overlay.h"
@@ -17,13 +19,28 @@ namespace {
 
 MovieStyle titled(int width, int height) {
   MovieStyle style;
-  style.width = width;
-  style.height = height;
+  style.size = {width, height};
   style.scale_bar_mm = 20;
   style.title =
       "Actuation of a circular_gridshell with a title that is long enough to need cutting "
       "somewhere before its end in most of the sizes";
   return style;
+}
+
+MovieStyle coloured(ColourBy by) {
+  MovieStyle style;
+  style.colour_by = by;
+  return style;
+}
+
+/// The words over frame k.
+std::vector<std::string> texts_of(const Stage& stage, const record::Trajectory& run, int k) {
+  std::vector<std::string> texts;
+  draw_picture(1280, 720, 1, {}, [&](Canvas& canvas) {
+    stage.draw_overlay(canvas, {run.frames[std::size_t(k)], k});
+    texts = canvas.texts();
+  });
+  return texts;
 }
 
 }  // namespace
@@ -36,24 +53,13 @@ TEST_CASE("captions, legends and view of a finished frame neither overlap nor le
   for (const auto& [width, height] :
        {std::pair{320, 240}, {640, 360}, {1280, 720}, {3840, 2160}, {720, 1280}, {500, 500}}) {
     const Stage stage(run, titled(width, height));
-    std::vector<Box> boxes;
-    std::vector<std::string> texts;
-    const Image image = draw_picture(width, height, 1, {1, 1, 1, 1}, [&](Canvas& canvas) {
-      stage.draw_overlay(canvas, {run.frames[8], 8});
-      boxes = canvas.text_boxes();
-      texts = canvas.texts();
-    });
     INFO(width << " x " << height);
+    const Image image = draw_picture(width, height, 1, white, [&](Canvas& canvas) {
+      stage.draw_overlay(canvas, {run.frames[8], 8});
+      test::check_apart(canvas);
+      for (const Box& text : canvas.text_boxes()) CHECK_FALSE(text.overlaps(stage.layout().view));
+    });
     CHECK(test::rim_is_white(image));
-    for (std::size_t a = 0; a < boxes.size(); ++a) {
-      INFO(texts[a]);
-      CHECK(Box{0, 0, double(width), double(height)}.contains(boxes[a]));
-      CHECK_FALSE(boxes[a].overlaps(stage.layout().view));
-      for (std::size_t b = a + 1; b < boxes.size(); ++b) {
-        INFO(texts[b]);
-        CHECK_FALSE(boxes[a].overlaps(boxes[b]));
-      }
-    }
   }
 }
 
@@ -62,28 +68,17 @@ TEST_CASE("a frame says what it is") {
   MovieStyle style = titled(1280, 720);
   style.title = "Movie_S1 *really*";
   const Stage stage(run, style);
-  const auto texts_of = [&](int index) {
-    std::vector<std::string> texts;
-    draw_picture(1280, 720, 1, {}, [&](Canvas& canvas) {
-      stage.draw_overlay(canvas, {run.frames[std::size_t(index)], index});
-      texts = canvas.texts();
-    });
-    return texts;
-  };
-  const auto has = [](const std::vector<std::string>& texts, const std::string& text) {
-    return std::find(texts.begin(), texts.end(), text) != texts.end();
-  };
-  const auto last = texts_of(11);
+  const auto last = texts_of(stage, run, 11);
   for (const std::string text :
        {"Movie_S1 *really*", "Ra = 94.5 mm", "height 66.0 mm", "frame 12 / 12",
         "residual < 1 × 10−6 N, stable", "K□ (rad)", "20 mm"}) {
     INFO(text);
-    CHECK(has(last, text));
+    CHECK(test::has(last, text));
   }
   // an event is told by its own frame alone; the timeline keeps that there was one
   for (int k : {7, 8, 9}) {
-    CHECK(has(texts_of(k), "snap at a radius of 104.9 mm") == (k == 8));
-    CHECK(has(texts_of(k), "snap") == (k >= 8));
+    CHECK(test::has(texts_of(stage, run, k), "snap at a radius of 104.9 mm") == (k == 8));
+    CHECK(test::has(texts_of(stage, run, k), "snap") == (k >= 8));
   }
 }
 
@@ -112,13 +107,8 @@ TEST_CASE("an unstable frame says so once, a stable one never") {
   }
   const Stage stage(run, titled(1280, 720));
   for (int k = 0; k < 12; ++k) {
-    std::vector<std::string> texts;
-    draw_picture(1280, 720, 1, {}, [&](Canvas& canvas) {
-      stage.draw_overlay(canvas, {run.frames[std::size_t(k)], k});
-      texts = canvas.texts();
-    });
     int unstable = 0, stable = 0, sign = 0;
-    for (const std::string& text : texts) {
+    for (const std::string& text : texts_of(stage, run, k)) {
       unstable += text.starts_with("unstable: ");
       stable += text.ends_with(", stable");
       sign += text == "unstable";
@@ -177,10 +167,10 @@ TEST_CASE("zoom is about the shell's own panel, and nothing of the shell leaves 
   for (const double zoom : {1.0, 2.5}) {
     MovieStyle style = titled(640, 360);
     style.zoom = zoom;
-    style.target_mm = Eigen::Vector3d(10, 20, 30);
+    style.target_mm = {10, 20, 30};
     const Stage stage(run, style);
     const Box& view = stage.layout().view;
-    const Eigen::Vector2d at = to_pixel(stage.camera(1), 640, 360, *style.target_mm);
+    const Eigen::Vector2d at = to_pixel(stage.camera(1), 640, 360, Eigen::Vector3d(10, 20, 30));
     CHECK(at.x() == Approx(view.middle().x).margin(0.01));
     CHECK(at.y() == Approx(view.middle().y).margin(0.01));
     test::FakeRenderer renderer;
@@ -225,9 +215,7 @@ TEST_CASE("the colour range is fixed over the movie and symmetric") {
   REQUIRE(last.cell_colours.size() == run.layout.cells.size());
   CHECK(last.cell_colours[7].r == scale(run.frames[5].cell_K[7]).r);
 
-  MovieStyle bare;
-  bare.colour_by = ColourBy::none;
-  const Stage uncoloured(run, bare);
+  const Stage uncoloured(run, coloured(ColourBy::none));
   CHECK_FALSE(uncoloured.colour_bar());
   CHECK(uncoloured.drawing(run.frames[5]).cell_colours.empty());
 }
@@ -287,7 +275,7 @@ TEST_CASE("a run that cannot be shown is refused with its reason") {
   record::Trajectory run = synthetic::dome(3, 2);
   CHECK(check_showable(run, {}));
   MovieStyle style;
-  style.width = 8;
+  style.size[0] = 8;
   CHECK(message(run, style) ==
         "a picture of 8 x 720 pixels cannot be made: both sides must be 16 to 16384");
   run.frames[1].nodes(2, 5) = std::numeric_limits<double>::quiet_NaN();
@@ -302,8 +290,7 @@ TEST_CASE("a run that cannot be shown is refused with its reason") {
 TEST_CASE("what no frame knows cannot be what is coloured") {
   record::Trajectory run = synthetic::dome(3, 2);
   const auto lacks = [&](ColourBy by) {
-    MovieStyle style;
-    style.colour_by = by;
+    const MovieStyle style = coloured(by);
     const auto checked = check_showable(run, style);
     CHECK(bool(check_coloured(summarise_run(run), style)) == bool(checked));
     return checked ? "" : checked.error().message;
@@ -322,8 +309,7 @@ TEST_CASE("rods are coloured by their forces, grey where a frame does not know t
   record::Frame& last = run.frames[2];
   last.axial_force_N.setConstant(record::edges_of_rods(run.layout), -0.1);
   last.axial_force_N.head(4).setConstant(0.1);
-  MovieStyle style;
-  style.colour_by = ColourBy::axial_force;
+  const MovieStyle style = coloured(ColourBy::axial_force);
   const Stage stage(run, style);
   const Drawing known = stage.drawing(run.frames[2]), unknown = stage.drawing(run.frames[1]);
   REQUIRE(long(known.node_colours.size()) == last.nodes.cols());
@@ -342,11 +328,158 @@ TEST_CASE("cells are coloured by how far they lie off the net") {
   record::Trajectory run = synthetic::dome(3, 2);
   run.layout.net_nodes = run.frames[2].nodes;
   run.layout.net_nodes.leftCols(60).row(2).array() += 2;
-  MovieStyle style;
-  style.colour_by = ColourBy::deviation;
-  const Stage stage(run, style);
+  const Stage stage(run, coloured(ColourBy::deviation));
   const Drawing drawing = stage.drawing(run.frames[2]);
   REQUIRE(drawing.cell_colours.size() == run.layout.cells.size());
   CHECK(drawing.node_colours.empty());
   CHECK(drawing.cell_colours.front().r < drawing.cell_colours.back().r);
+}
+
+TEST_CASE("the whole run stays within the view over the whole turn, and fills it") {
+  const record::Trajectory run = synthetic::dome(8, 4);
+  const Eigen::Matrix3Xd points = summarise_run(run).bounds();
+  for (const auto& [width, height] : {std::pair{1280, 720}, {320, 240}, {600, 1200}})
+    for (double elevation : {0.0, 22.0, 60.0, 90.0})
+      for (double turn : {0.0, 40.0, -360.0}) {
+        MovieStyle style;
+        style.size = {width, height};
+        style.elevation_deg = elevation;
+        style.turn_deg = turn;
+        // a view off the picture's middle, as captions leave it
+        const Box view{0.05 * width, 0.2 * height, 0.6 * width, 0.7 * height};
+        const Framing framing(points, style, view);
+        INFO(width << " x " << height << " elevation " << elevation << " turn " << turn);
+        double x0 = 1e9, x1 = -1e9, y0 = 1e9, y1 = -1e9;
+        for (std::size_t k = 0; k < run.frames.size(); ++k) {
+          const Camera camera = framing.camera(double(k) / double(run.frames.size() - 1));
+          for (const Eigen::Matrix3Xd& set : {run.frames[k].nodes, run.layout.original_boundary})
+            for (long n = 0; n < set.cols(); ++n) {
+              const Eigen::Vector2d p = to_pixel(camera, width, height, set.col(n));
+              x0 = std::min(x0, p.x()), x1 = std::max(x1, p.x());
+              y0 = std::min(y0, p.y()), y1 = std::max(y1, p.y());
+            }
+        }
+        // round points are met to within a hundredth
+        const double slack = 0.01 * std::max(view.width, view.height);
+        CHECK(view.inset(-slack).contains({x0, y0, x1 - x0, y1 - y0}));
+        CHECK(std::max((x1 - x0) / view.width, (y1 - y0) / view.height) > 0.93);
+        CHECK(framing.seen().inset(-slack).contains({x0, y0, x1 - x0, y1 - y0}));
+      }
+}
+
+TEST_CASE("the camera turns evenly about one target and keeps its distance") {
+  const record::Trajectory run = synthetic::dome(4, 2);
+  MovieStyle style;
+  style.azimuth_deg = 10;
+  style.turn_deg = 80;
+  const Framing framing(summarise_run(run).bounds(), style, {0, 0, 1280, 720});
+  const Camera first = framing.camera(0), middle = framing.camera(0.5), last = framing.camera(1);
+  CHECK(first.azimuth_deg == Approx(10));
+  CHECK(middle.azimuth_deg == Approx(50));
+  CHECK(last.azimuth_deg == Approx(90));
+  CHECK(first.half_extent_mm == last.half_extent_mm);
+  CHECK(first.elevation_deg == last.elevation_deg);
+}
+
+TEST_CASE("zoom magnifies about the middle of the panel") {
+  const record::Trajectory run = synthetic::dome(4, 2);
+  MovieStyle style;
+  const Framing plain(summarise_run(run).bounds(), style, {0, 0, 1280, 720});
+  style.zoom = 2;
+  const Framing near(summarise_run(run).bounds(), style, {0, 0, 1280, 720});
+  CHECK(near.pixels_per_mm() == Approx(2 * plain.pixels_per_mm()));
+  CHECK((near.camera(0).target - plain.camera(0).target).norm() < 1e-9);
+}
+
+TEST_CASE("zoom and target are about the panel, wherever it stands") {
+  const record::Trajectory run = synthetic::dome(4, 2);
+  const Box panel{300, 50, 400, 600};
+  const auto points = summarise_run(run).bounds();
+  MovieStyle style;
+  const Framing plain(points, style, panel);
+  // the point that stands in the panel's middle
+  const Camera before = plain.camera(0);
+  const CameraAxes axes = camera_axes(before);
+  const double mm = 1 / plain.pixels_per_mm();
+  const Eigen::Vector3d middle = before.target + mm * (panel.middle().x - 640) * axes.right -
+                                 mm * (panel.middle().y - 360) * axes.up;
+  style.zoom = 3;
+  const Eigen::Vector2d after =
+      to_pixel(Framing(points, style, panel).camera(0), 1280, 720, middle);
+  CHECK(after.x() == Approx(panel.middle().x).margin(1));
+  CHECK(after.y() == Approx(panel.middle().y).margin(1));
+  style.target_mm = {20, -30, 10};
+  for (const bool orthographic : {false, true}) {
+    style.orthographic = orthographic;
+    const Eigen::Vector2d at =
+        to_pixel(Framing(points, style, panel).camera(0), 1280, 720, Eigen::Vector3d(20, -30, 10));
+    CHECK(at.x() == Approx(panel.middle().x).margin(0.01));
+    CHECK(at.y() == Approx(panel.middle().y).margin(0.01));
+  }
+}
+
+TEST_CASE("a bar of pixels_per_mm is true in the plane through the target") {
+  const record::Trajectory run = synthetic::dome(4, 2);
+  const Framing framing(summarise_run(run).bounds(), MovieStyle{}, {100, 100, 800, 500});
+  const Camera camera = framing.camera(0.3);
+  const CameraAxes axes = camera_axes(camera);
+  const Eigen::Vector2d a = to_pixel(camera, 1280, 720, camera.target);
+  const Eigen::Vector2d b = to_pixel(camera, 1280, 720, camera.target + 20 * axes.right);
+  CHECK((b - a).norm() == Approx(20 * framing.pixels_per_mm()));
+}
+
+TEST_CASE("parts of a frame lie inside it and never overlap, at any size and aspect") {
+  const ColourBar bar{"*K*_{□} (rad)", {diverging, -0.08, 0.08}, true, true};
+  const std::vector<std::pair<int, int>> sizes = {
+      {320, 240},  {640, 360}, {640, 480}, {1280, 720},  {1920, 1080}, {3840, 2160},
+      {720, 1280}, {500, 500}, {800, 700}, {3840, 240},  {320, 2160},  {1000, 100},
+      {100, 1000}, {64, 48},   {16, 16},   {1150, 1000}, {1149, 1000}};
+  for (const auto& [width, height] : sizes)
+    for (int options = 0; options < 16; ++options) {
+      MovieStyle style;
+      style.size = {width, height};
+      style.captions = options & 1;
+      style.inset = options & 2;
+      style.scale_bar_mm = options & 4 ? 20 : 0;
+      const FrameLayout layout = lay_out_frame(style, options & 8 ? &bar : nullptr);
+      INFO(width << " x " << height << " options " << options);
+      const std::vector<Box> parts = layout.parts();
+      for (std::size_t a = 0; a < parts.size(); ++a) {
+        if (parts[a].empty()) continue;
+        CHECK(Box{0, 0, double(width), double(height)}.contains(parts[a]));
+        for (std::size_t b = a + 1; b < parts.size(); ++b) CHECK_FALSE(parts[a].overlaps(parts[b]));
+      }
+      // most of the picture is the shell's
+      if (width >= 320 && height >= 240)
+        CHECK(layout.view.width * layout.view.height > 0.3 * width * height);
+      else
+        CHECK_FALSE(layout.view.empty());
+    }
+}
+
+TEST_CASE("at the usual sizes nothing is left out, and text grows with the picture") {
+  const ColourBar bar{"*K*_{□} (rad)", {diverging, -0.08, 0.08}};
+  double before = 0;
+  for (const auto& [width, height] :
+       {std::pair{320, 240}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}}) {
+    MovieStyle style;
+    style.size = {width, height};
+    style.scale_bar_mm = 20;
+    const FrameLayout layout = lay_out_frame(style, &bar);
+    INFO(width << " x " << height);
+    for (const Box& part : {layout.title, layout.state, layout.event, layout.progress,
+                            layout.colour_bar, layout.inset, layout.scale_bar, layout.view})
+      CHECK_FALSE(part.empty());
+    CHECK(layout.plot.empty());  // not asked for
+    CHECK(layout.font_size > before);
+    before = layout.font_size;
+  }
+}
+
+TEST_CASE("what is switched off takes no room") {
+  MovieStyle style;
+  style.captions = style.inset = false;
+  const FrameLayout layout = lay_out_frame(style, nullptr);
+  CHECK(layout.view.width > 0.95 * 1280);
+  CHECK(layout.view.height > 0.9 * 720);
 }

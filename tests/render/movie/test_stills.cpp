@@ -17,8 +17,7 @@ TEST_CASE("stills are one picture a frame and one of them all") {
   test::FakeRenderer renderer;
   Watch watch;
   MovieStyle style;
-  style.width = 400;
-  style.height = 300;
+  style.size = {400, 300};
   style.scale_bar_mm = 20;
   style.quality = Quality::figure;
   const auto files = write_stills(run, style, {}, renderer, folder.path() / "fig1", watch);

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/render/canvas/ink.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -30,23 +31,17 @@ SweepTable lines() {
   return table;
 }
 
-const Series* find(const Plot& plot, const std::string& name) {
-  for (const Series& series : plot.series)
-    if (series.name == name) return &series;
-  return nullptr;
-}
-
 }  // namespace
 
 TEST_CASE("a figure over one key: a curve a case, what ended early, what was not found") {
   const Plot plot = sweep_plot(lines(), {.figure = "max_deviation"});
   CHECK(plot.x.label == "rod diameter *D* (mm)");
-  REQUIRE(find(plot, "cap"));
-  CHECK(find(plot, "cap")->x == std::vector<double>{0.2, 2, 4});
-  CHECK(find(plot, "dome")->x == std::vector<double>{0.2, 2});
-  REQUIRE(find(plot, "ended early: locking"));
-  REQUIRE(find(plot, "no state found"));
-  CHECK(find(plot, "no state found")->x == std::vector<double>{4});
+  REQUIRE(test::series_named(plot, "cap"));
+  CHECK(test::series_named(plot, "cap")->x == std::vector<double>{0.2, 2, 4});
+  CHECK(test::series_named(plot, "dome")->x == std::vector<double>{0.2, 2});
+  REQUIRE(test::series_named(plot, "ended early: locking"));
+  REQUIRE(test::series_named(plot, "no state found"));
+  CHECK(test::series_named(plot, "no state found")->x == std::vector<double>{4});
   // 0.2 to 4 is a factor of 20 at most: even axes
   CHECK_FALSE(plot.x.logarithmic);
 }
@@ -56,7 +51,7 @@ TEST_CASE("a figure over a figure, and where it has left its limit") {
       sweep_plot(lines(), {.figure = "max_deviation", .x = "stiffness_ratio", .departure = 0.1});
   CHECK(plot.x.logarithmic);
   CHECK(plot.x.label == "*EA* *d*^{2}/*EI*");
-  CHECK(find(plot, "cap")->x == std::vector<double>{400, 1600, 160000});
+  CHECK(test::series_named(plot, "cap")->x == std::vector<double>{400, 1600, 160000});
   // 10 % below 0.098 lies between 0.08 and 0.098
   REQUIRE(plot.references.size() == 2);
   CHECK(plot.references[0].at > 1600);
@@ -106,13 +101,12 @@ TEST_CASE("a map: all that is written fits, cells without a state are told") {
       }
   const TemporaryFolder folder;
   int drawn = 0;
-  const CanvasObserver watch([&](const Canvas& canvas) {
-    const Box page{0, 0, canvas.width(), canvas.height()};
+  const test::CanvasObserver watch([&](const Canvas& canvas) {
     if (canvas.width() < 2) return;
     ++drawn;
-    for (const Box& text : canvas.text_boxes()) CHECK(page.contains(text));
-    CHECK(std::ranges::find(canvas.texts(), "no state found") != canvas.texts().end());
-    CHECK(std::ranges::find(canvas.texts(), "ended early") != canvas.texts().end());
+    test::check_apart(canvas);
+    CHECK(test::has(canvas.texts(), "no state found"));
+    CHECK(test::has(canvas.texts(), "ended early"));
   });
   REQUIRE(write_sweep_map(folder.path() / "height_mm", table,
                           {.figure = "height_mm", .title = "A map"}));
