@@ -1,9 +1,12 @@
-#include "app/cli/chart.h"
+// The work behind `chart`: studies of methods, their tables and pictures.
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
+#include <memory>
 
+#include "app/cli/commands.h"
 #include "app/cli/console.h"
 #include "app/cli/delivery.h"
 #include "app/cli/preset_library.h"
@@ -15,10 +18,27 @@
 #include "render/movie/validation_charts.h"
 
 namespace gridshell::app {
+namespace fs = std::filesystem;
 namespace {
 
 using record::BranchEvent;
 using record::BranchPoint;
+using record::Json;
+
+/// What to chart and how much to spend on it.
+struct ChartOptions {
+  Options common;
+  std::string kind;            ///< "accuracy", "stability", "branches" or "trust"
+  double limit_s = 0;          ///< of one run; 0: as the study has it
+  int edges = 32;              ///< a segment of the finest mesh that methods are given
+  int scenes = 600, seed = 1;  ///< of a study of trust
+};
+
+/// Lines for the terminal once everything is written, and the summary of a study.
+struct ChartReport {
+  std::string text;
+  record::Json summary = record::Json::object();
+};
 
 std::string place_of(const BranchPoint& point, double original_radius_mm) {
   if (!std::isfinite(point.boundary_radius_mm))
@@ -47,21 +67,17 @@ void tell(const study::BranchDiagram& diagram, ChartReport& findings) {
   }
 }
 
-}  // namespace
-
-Result<ChartReport> draw_branches(const preset::Preset& preset, const std::filesystem::path& folder,
+/// branches.csv and branches.png, .svg, .pdf.
+Result<ChartReport> draw_branches(const preset::Preset& preset, const fs::path& folder,
                                   Watch& watch) {
   TRY(found, study::branches_study(preset, {}, watch));
-  auto written =
-      write_file(folder / "branches.csv", record::branches_csv(found->points)).and_then([&] {
-        return render::write_branches(folder / "branches", found->points, preset.title);
-      });
-  if (!written) return tl::unexpected(written.error());
+  TRY_DO(write_file(folder / "branches.csv", record::branches_csv(found->points)));
+  TRY_DO(render::write_branches(folder / "branches", found->points, preset.title));
   ChartReport findings;
-  findings.summary["edges_per_segment"] = found->edges_per_segment;
-  findings.summary["branches"] = found->points.empty() ? 0 : found->points.back().branch + 1;
-  findings.summary["symmetry_order"] = found->symmetry_order;
-  findings.summary["all_followed"] = found->all_followed;
+  findings.summary = {{"edges_per_segment", found->edges_per_segment},
+                      {"branches", found->points.empty() ? 0 : found->points.back().branch + 1},
+                      {"symmetry_order", found->symmetry_order},
+                      {"all_followed", found->all_followed}};
   findings.text = fmt::format(
       "on {} edges a segment; the amplitude is of what breaks {} of the "
       "symmetries of the square\n",
@@ -71,45 +87,33 @@ Result<ChartReport> draw_branches(const preset::Preset& preset, const std::files
   return findings;
 }
 
-namespace fs = std::filesystem;
-namespace {
-
-using record::Json;
+/// What all studies of methods may spend.
+template <class StudyOptions>
+StudyOptions limited(const ChartOptions& options) {
+  StudyOptions how;
+  if (options.limit_s > 0) how.seconds = options.limit_s;
+  if (options.common.threads > 0) how.threads = options.common.threads;
+  return how;
+}
 
 constexpr double wide_mm = 178, high = 105 / wide_mm, low = 80 / wide_mm;  // of a page
 
 Result<ChartReport> draw_accuracy(const preset::Preset& preset, const ChartOptions& options,
                                   const fs::path& folder, Watch& watch) {
-  study::AccuracyOptions how;
-  if (options.limit_s > 0) how.seconds = options.limit_s;
+  auto how = limited<study::AccuracyOptions>(options);
   how.most_edges = options.edges;
   how.finest = 4 * options.edges;
-  if (options.common.threads > 0) how.threads = options.common.threads;
   TRY(found, study::accuracy_study(preset, how, watch));
-  const auto write = [&](const char* name, const std::string& text) {
-    return write_file(folder / name, text);
-  };
   const std::string title = render::plain(preset.title);
-  auto written =
-      write("accuracy.csv", record::accuracy_csv(found->rows))
-          .and_then([&] { return write("scaling.csv", record::scaling_csv(found->scaling)); })
-          .and_then([&] {
-            return render::write_plot(
-                folder / "accuracy",
-                render::accuracy_plot(found->rows, title + ": error over time"), {wide_mm}, high);
-          })
-          .and_then([&] {
-            return render::write_plot(
-                folder / "unknowns",
-                render::unknowns_plot(found->rows, title + ": error over unknowns"), {wide_mm},
-                high);
-          })
-          .and_then([&] {
-            return render::write_plot(
-                folder / "scaling",
-                render::scaling_plot(found->scaling, title + ": time over size"), {wide_mm}, low);
-          });
-  if (!written) return tl::unexpected(written.error());
+  const auto plot = [&](const char* name, const render::Plot& drawn, double height) {
+    return render::write_plot(folder / name, drawn, {wide_mm}, height);
+  };
+  TRY_DO(write_file(folder / "accuracy.csv", record::accuracy_csv(found->rows)));
+  TRY_DO(write_file(folder / "scaling.csv", record::scaling_csv(found->scaling)));
+  TRY_DO(plot("accuracy", render::accuracy_plot(found->rows, title + ": error over time"), high));
+  TRY_DO(
+      plot("unknowns", render::unknowns_plot(found->rows, title + ": error over unknowns"), high));
+  TRY_DO(plot("scaling", render::scaling_plot(found->scaling, title + ": time over size"), low));
   ChartReport findings;
   findings.summary["reference_error"] = found->reference_error;
   for (const auto& at : found->standings) {
@@ -157,17 +161,10 @@ void count_silent(const std::vector<record::StabilityRow>& rows, ChartReport& fi
 
 Result<ChartReport> draw_stability(const preset::Preset& preset, const ChartOptions& options,
                                    const fs::path& folder, Watch& watch) {
-  study::StabilityOptions how;
-  if (options.limit_s > 0) how.seconds = options.limit_s;
-  if (options.common.threads > 0) how.threads = options.common.threads;
-  TRY(rows, study::stability_study(preset, how, watch));
-  const auto written =
-      write_file(folder / "stability.csv", record::stability_csv(*rows)).and_then([&] {
-        return render::write_outcome_maps(
-            folder / "stability", *rows,
-            render::plain(preset.title) + ": where methods hold and fail");
-      });
-  if (!written) return tl::unexpected(written.error());
+  TRY(rows, study::stability_study(preset, limited<study::StabilityOptions>(options), watch));
+  TRY_DO(write_file(folder / "stability.csv", record::stability_csv(*rows)));
+  TRY_DO(render::write_outcome_maps(folder / "stability", *rows,
+                                    render::plain(preset.title) + ": where methods hold and fail"));
   ChartReport findings;
   count_silent(*rows, findings);
   return findings;
@@ -176,9 +173,8 @@ Result<ChartReport> draw_stability(const preset::Preset& preset, const ChartOpti
 Result<void> draw(const preset::Case& run, const ChartOptions& options, const fs::path& folder,
                   Progress& progress, Json& summary, std::string& text) {
   Watch& watch = progress.next_phase();
-  auto made = make_folder(folder).and_then(
-      [&] { return write_file(folder / "preset.toml", preset::to_toml(run.preset)); });
-  if (!made) return made;
+  TRY_DO(make_folder(folder));
+  TRY_DO(write_file(folder / "preset.toml", preset::to_toml(run.preset)));
   auto findings = options.kind == "accuracy"   ? draw_accuracy(run.preset, options, folder, watch)
                   : options.kind == "branches" ? draw_branches(run.preset, folder, watch)
                                                : draw_stability(run.preset, options, folder, watch);
@@ -192,52 +188,37 @@ Result<void> draw(const preset::Case& run, const ChartOptions& options, const fs
   return write_file(folder / "summary.json", record::text_of(summary));
 }
 
-}  // namespace
-
-int chart(const ChartOptions& options) {
-  const auto presets = load(options.common);
-  if (!presets) return report(presets.error());
-  if (options.common.print_config) {
-    fmt::print("{}", preset::to_toml(*presets));
-    return ExitCode::done;
-  }
+Result<int> chart_preset(const ChartOptions& options) {
+  TRY(presets, load(options.common));
+  if (options.common.print_config) return print_config(*presets);
   const auto runs = runs_of(*presets);
-  const auto name = presets->base.name + "_" + options.kind;
-  const auto folder =
-      options.common.output.empty() ? fs::path("out") / name : options.common.output;
+  const auto folder = output_of(options.common, presets->base, "_" + options.kind);
   std::vector<Phase> phases;
   for (const auto& run : runs)
     phases.push_back({run.name.empty() ? "charting" : "charting " + run.name, 100});
   std::string text;
-  const int code = deliver(
-      folder, phases, options.common.quiet,
-      [&](const fs::path& partial, Progress& progress) -> Result<void> {
-        Json all{{"preset", presets->base.name}, {"chart", options.kind}, {"cases", Json::array()}};
-        for (const auto& run : runs) {
-          Json summary = Json::object();
-          auto drawn = draw(run, options, folder_of(partial, run.name), progress, summary, text);
-          if (!drawn) return drawn;
-          all["cases"].push_back(std::move(summary));
-        }
-        if (runs.front().name.empty()) return {};
-        return write_file(partial / "summary.json", record::text_of(all));
-      });
-  if (code == ExitCode::done && !options.common.quiet)
-    fmt::print("{}: {}\n{}", folder.string(), options.kind, text);
-  return code;
+  const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
+    Json all{{"preset", presets->base.name}, {"chart", options.kind}, {"cases", Json::array()}};
+    for (const auto& run : runs) {
+      Json summary = Json::object();
+      TRY_DO(draw(run, options, folder_of(partial, run.name), progress, summary, text));
+      all["cases"].push_back(std::move(summary));
+    }
+    if (runs.front().name.empty()) return {};
+    return write_file(partial / "summary.json", record::text_of(all));
+  };
+  TRY_DO(deliver(folder, phases, options.common.quiet, work));
+  if (!options.common.quiet) fmt::print("{}: {}\n{}", folder.string(), options.kind, text);
+  return ExitCode::done;
 }
 
-namespace fs = std::filesystem;
-namespace {
-
-using record::Json;
+// `chart trust`: random scenes judged; those that were silently wrong are kept as presets.
 
 Result<void> write_worst(const std::vector<study::TrustScene>& scenes, const fs::path& folder) {
   for (const auto& scene : scenes) {
     if (!record::silently_wrong(scene.row.found)) continue;
-    if (auto made = make_folder(folder); !made) return made;
-    const auto file = folder / (scene.preset.name + ".toml");
-    if (auto written = write_file(file, preset::to_toml(scene.preset)); !written) return written;
+    TRY_DO(make_folder(folder));
+    TRY_DO(write_file(folder / (scene.preset.name + ".toml"), preset::to_toml(scene.preset)));
   }
   return {};
 }
@@ -251,57 +232,81 @@ Json summary_of(const std::vector<record::TrustRow>& rows, int seed) {
     snap_alone += row.snap_alone();
     doubts += row.doubt;
   }
-  Json summary = Json::object();
-  summary["chart"] = "trust";
-  summary["scenes"] = rows.size();
-  summary["seed"] = seed;
-  summary["classes"] = classes;
-  summary["silently_wrong"] = silent;
-  summary["snap_alone"] = snap_alone;
-  summary["doubts"] = doubts;
-  return summary;
+  return {{"chart", "trust"},   {"scenes", rows.size()},    {"seed", seed},
+          {"classes", classes}, {"silently_wrong", silent}, {"snap_alone", snap_alone},
+          {"doubts", doubts}};
 }
 
-}  // namespace
-
-int chart_trust(const ChartOptions& options) {
+Result<int> chart_trust(const ChartOptions& options) {
   const fs::path folder =
       options.common.output.empty() ? fs::path("out") / "trust" : options.common.output;
-  study::TrustOptions how;
+  auto how = limited<study::TrustOptions>(options);
   how.scenes = options.scenes;
   how.seed = options.seed;
-  if (options.limit_s > 0) how.seconds = options.limit_s;
-  if (options.common.threads > 0) how.threads = options.common.threads;
   Json summary;
-  const int code =
-      deliver(folder, {{"judging scenes", 100}}, options.common.quiet,
-              [&](const fs::path& partial, Progress& progress) -> Result<void> {
-                TRY(scenes, study::trust_study(how, progress.next_phase()));
-                std::vector<record::TrustRow> rows;
-                for (const auto& scene : *scenes) rows.push_back(scene.row);
-                summary = summary_of(rows, how.seed);
-                return write_file(partial / "trust.csv", record::trust_csv(rows))
-                    .and_then([&] { return render::write_trust_bars(partial / "trust", rows); })
-                    .and_then([&] {
-                      return render::write_plot(partial / "errors", render::trust_plot(rows));
-                    })
-                    .and_then([&] { return write_worst(*scenes, partial / "worst"); })
-                    .and_then([&] {
-                      return write_file(partial / "summary.json", record::text_of(summary));
-                    });
-              });
-  if (code != ExitCode::done) return code;
-  const int silent = summary["silently_wrong"].get<int>();
+  const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
+    TRY(scenes, study::trust_study(how, progress.next_phase()));
+    std::vector<record::TrustRow> rows;
+    for (const auto& scene : *scenes) rows.push_back(scene.row);
+    summary = summary_of(rows, how.seed);
+    TRY_DO(write_file(partial / "trust.csv", record::trust_csv(rows)));
+    TRY_DO(render::write_trust_bars(partial / "trust", rows));
+    TRY_DO(render::write_plot(partial / "errors", render::trust_plot(rows)));
+    TRY_DO(write_worst(*scenes, partial / "worst"));
+    return write_file(partial / "summary.json", record::text_of(summary));
+  };
+  TRY_DO(deliver(folder, {{"judging scenes", 100}}, options.common.quiet, work));
+  const auto number = [&](const char* key) { return summary[key].get<int>(); };
+  const int silent = number("silently_wrong");
   if (!options.common.quiet) {
     fmt::print("{}: {} scenes, {} silently wrong\n", folder.string(), how.scenes, silent);
     for (const auto& [name, count] : summary["classes"].items())
       fmt::print("  {:22} {}\n", name, count.get<int>());
-    fmt::print("a snap that one family of meshes alone tells of: {}\n",
-               summary["snap_alone"].get<int>());
-    fmt::print("runs that told of leading meshes which do not agree: {}\n",
-               summary["doubts"].get<int>());
+    fmt::print("a snap that one family of meshes alone tells of: {}\n", number("snap_alone"));
+    fmt::print("runs that told of leading meshes which do not agree: {}\n", number("doubts"));
   }
   return silent == 0 ? ExitCode::done : ExitCode::different;
+}
+
+Result<int> chart(const ChartOptions& options) {
+  const bool trust = options.kind == "trust";
+  if (trust == options.common.input.empty())
+    return trust ? chart_trust(options) : chart_preset(options);
+  return fail(Fault::bad_input, trust ? "chart trust takes no PRESET: its scenes are random"
+                                      : "chart " + options.kind + " needs a PRESET");
+}
+
+}  // namespace
+
+void add_chart(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<ChartOptions>();
+  CLI::App& command =
+      add_command(program, action, "chart",
+                  "speed against accuracy; where methods hold and fail; branches; trust",
+                  [options] { return chart(*options); });
+  command
+      .add_option("KIND", options->kind,
+                  "accuracy, stability, branches (the bifurcation diagram), or trust (random "
+                  "scenes, no PRESET)")
+      ->required()
+      ->check(CLI::IsMember({"accuracy", "stability", "branches", "trust"}));
+  add_preset_options(command, options->common);
+  command.get_option("PRESET")->required(false);
+  add_work_options(command, options->common,
+                   "folder to write, by default out/<preset>_<KIND>, or out/trust");
+  command
+      .add_option("--limit", options->limit_s,
+                  "seconds after which a run is too slow: by default 30 for accuracy, 4 for "
+                  "stability, 20 for trust")
+      ->check(CLI::Range(0.01, 1e6));
+  command
+      .add_option("--edges", options->edges,
+                  "edges a segment of the finest mesh that methods are given")
+      ->check(CLI::Range(4, 32));
+  command.add_option("--scenes", options->scenes, "of trust: how many, of ten kinds in turn")
+      ->check(CLI::Range(1, 100000));
+  command.add_option("--seed", options->seed, "of trust: other scenes")
+      ->check(CLI::Range(0, 1 << 30));
 }
 
 }  // namespace gridshell::app

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/cli/chart.h"
 #include "app/cli/console.h"
+#include "app/cli/design.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/produce.h"
@@ -20,20 +20,11 @@
 
 namespace gridshell::app {
 
-void add_commands(CLI::App& program, Action& action) {
-  add_movie(program, action);
-  add_figure(program, action);
-  add_run(program, action);
-  add_render(program, action);
-  add_view(program, action);
-  add_chart(program, action);
-  add_sweep(program, action);
-  add_design(program, action);
-  add_export(program, action);
-  add_scan(program, action);
-  add_check(program, action);
-  add_compare(program, action);
-  add_list(program, action);
+CLI::App& add_command(CLI::App& program, Action& action, const std::string& name,
+                      const std::string& meaning, Action act) {
+  CLI::App* command = program.add_subcommand(name, meaning);
+  command->callback([&action, act = std::move(act)] { action = act; });
+  return *command;
 }
 
 namespace {
@@ -75,82 +66,6 @@ std::vector<CommandEntry> command_table() {
   return table;
 }
 
-// `gridshell movie PRESET`: the main job, an experiment and its movie.
-
-void add_movie(CLI::App& program, Action& action) {
-  const auto options = std::make_shared<Options>();
-  auto* command =
-      program.add_subcommand("movie", "run the experiment and render it: frames and a movie");
-  add_preset_options(*command, *options);
-  add_work_options(*command, *options);
-  add_picture_options(*command, *options);
-  command->callback(
-      [&action, options] { action = [options] { return produce(*options, Pictures::movie); }; });
-}
-
-// `gridshell figure PRESET`: an experiment and its stills.
-
-void add_figure(CLI::App& program, Action& action) {
-  const auto options = std::make_shared<Options>();
-  auto* command = program.add_subcommand("figure", "the stills of a preset");
-  add_preset_options(*command, *options);
-  add_work_options(*command, *options);
-  add_picture_options(*command, *options);
-  command->callback(
-      [&action, options] { action = [options] { return produce(*options, Pictures::stills); }; });
-}
-
-// `gridshell run PRESET`: an experiment without pictures.
-
-void add_run(CLI::App& program, Action& action) {
-  const auto options = std::make_shared<Options>();
-  auto* command = program.add_subcommand("run", "the experiment alone, no pictures");
-  add_preset_options(*command, *options);
-  add_work_options(*command, *options);
-  add_picture_options(*command, *options);
-  command->callback(
-      [&action, options] { action = [options] { return produce(*options, Pictures::none); }; });
-}
-
-// `gridshell chart accuracy|stability|branches PRESET`, `gridshell chart trust`: speed against
-// accuracy; where methods hold and fail; the bifurcation diagram; whether results can be trusted.
-
-void add_chart(CLI::App& program, Action& action) {
-  const auto options = std::make_shared<ChartOptions>();
-  auto* command = program.add_subcommand(
-      "chart", "speed against accuracy; where methods hold and fail; branches; trust");
-  command
-      ->add_option("KIND", options->kind,
-                   "accuracy, stability, branches (the bifurcation diagram), or trust (random "
-                   "scenes, no PRESET)")
-      ->required()
-      ->check(CLI::IsMember({"accuracy", "stability", "branches", "trust"}));
-  add_preset_options(*command, options->common);
-  command->get_option("PRESET")->required(false);
-  add_work_options(*command, options->common,
-                   "folder to write, by default out/<preset>_<KIND>, or out/trust");
-  command
-      ->add_option("--limit", options->limit_s,
-                   "seconds after which a run is too slow: by default 30 for accuracy, 4 for "
-                   "stability, 20 for trust")
-      ->check(CLI::Range(0.01, 1e6));
-  command
-      ->add_option("--edges", options->edges,
-                   "edges a segment of the finest mesh that methods are given")
-      ->check(CLI::Range(4, 32));
-  command->add_option("--scenes", options->scenes, "of trust: how many, of ten kinds in turn")
-      ->check(CLI::Range(1, 100000));
-  command->add_option("--seed", options->seed, "of trust: other scenes")
-      ->check(CLI::Range(0, 1 << 30));
-  command->callback([&action, options] {
-    const bool trust = options->kind == "trust";
-    if (trust != options->common.input.empty())
-      throw CLI::ValidationError(trust ? "chart trust takes no PRESET: its scenes are random"
-                                       : "chart " + options->kind + " needs a PRESET");
-    action = [options, trust] { return trust ? chart_trust(*options) : chart(*options); };
-  });
-}
-
 // `gridshell check PRESET`: validates a preset and explains what would run.
 
 namespace {
@@ -182,12 +97,9 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
              or_unknown(expected_seconds(Pictures::stills, preset), "s"));
 }
 
-Result<void> check(const Options& options) {
+Result<int> check(const Options& options) {
   TRY(presets, load(options));
-  if (options.print_config) {
-    fmt::print("{}", preset::to_toml(*presets));
-    return {};
-  }
+  if (options.print_config) return print_config(*presets);
   // what `run` would say after it
   const auto folder = output_of(options, presets->base);
   if (const auto because = refusal_to_write(folder); !because.empty())
@@ -203,75 +115,94 @@ Result<void> check(const Options& options) {
     }
     print_plan(run.preset, *plan);
   }
-  return {};
+  return printed();
 }
 
-}  // namespace
+// `gridshell list`: the presets that come with the program, and the reference of all keys, options
+// and commands.
 
-void add_check(CLI::App& program, Action& action) {
-  const auto options = std::make_shared<Options>();
-  auto* command = program.add_subcommand("check", "validate a preset and say what would run");
-  add_preset_options(*command, *options);
-  // the command line of a movie can be checked as it stands
-  add_work_options(*command, *options);
-  add_picture_options(*command, *options);
-  command->callback([&action, options] {
-    action = [options]() -> int {
-      const auto checked = check(*options);
-      return checked ? ExitCode::done : report(checked.error());
-    };
-  });
-}
-
-// `gridshell list`: the presets that come with the program, and the reference of
-// all keys, options and commands.
-
-namespace {
-
-int list_presets() {
+Result<std::string> preset_lines() {
   std::size_t longest = 0;
   for (const auto& embedded : embedded_presets()) longest = std::max(longest, embedded.name.size());
+  std::string text;
   for (const auto& embedded : embedded_presets()) {
-    const auto presets = load_preset(embedded.name, {});
-    if (!presets) return report(presets.error());
-    const auto& source = presets->base.source;
-    fmt::print("{:<{}}  {}{}\n", embedded.name, longest, presets->base.title,
-               source.empty() ? "" : " (" + source + ")");
+    TRY(title, title_of(embedded));
+    text += fmt::format("{:<{}}  {}\n", embedded.name, longest, *title);
   }
-  return ExitCode::done;
+  return text;
 }
 
-int print(const Result<std::string>& text) {
-  if (!text) return report(text.error());
-  fmt::print("{}", *text);
-  return ExitCode::done;
+struct ListOptions {
+  std::string keys, completion;
+  bool json = false, man = false;
+};
+
+Result<std::string> listing(const ListOptions& options) {
+  if (!options.keys.empty()) return preset::reference_markdown();
+  if (!options.completion.empty()) return bash_completion();
+  if (options.json) return listing_json();
+  return options.man ? man_page() : preset_lines();
+}
+
+void add_list(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<ListOptions>();
+  CLI::App& command = add_command(program, action, "list", "the presets that come with the program",
+                                  [options]() -> Result<int> {
+                                    TRY(text, listing(*options));
+                                    fmt::print("{}", *text);
+                                    return printed();
+                                  });
+  command
+      .add_option("--keys", options->keys, "instead, the reference of all keys a preset can hold")
+      ->check(CLI::IsMember({"markdown"}));
+  command.add_flag("--json", options->json,
+                   "instead, all commands, options, presets and keys for other programs");
+  command.add_option("--completion", options->completion, "instead, a script for a shell")
+      ->check(CLI::IsMember({"bash"}));
+  command.add_flag("--man", options->man, "instead, the manual page");
+}
+
+/// Those that take a preset, what changes it, where to write and how to draw, and nothing else.
+void add_preset_command(CLI::App& program, Action& action, const char* name, const char* meaning,
+                        Result<int> (*act)(const Options&),
+                        const char* output = "folder to write, by default out/<preset>") {
+  const auto options = std::make_shared<Options>();
+  CLI::App& command =
+      add_command(program, action, name, meaning, [options, act] { return act(*options); });
+  add_preset_options(command, *options);
+  add_work_options(command, *options, output);
+  add_picture_options(command, *options);
+}
+
+template <Pictures pictures>
+Result<int> produce_with(const Options& options) {
+  return produce(options, pictures);
 }
 
 }  // namespace
 
-void add_list(CLI::App& program, Action& action) {
-  struct What {
-    std::string keys, completion;
-    bool json = false, man = false;
-  };
-  const auto what = std::make_shared<What>();
-  auto* command = program.add_subcommand("list", "the presets that come with the program");
-  command->add_option("--keys", what->keys, "instead, the reference of all keys a preset can hold")
-      ->check(CLI::IsMember({"markdown"}));
-  command->add_flag("--json", what->json,
-                    "instead, all commands, options, presets and keys for other programs");
-  command->add_option("--completion", what->completion, "instead, a script for a shell")
-      ->check(CLI::IsMember({"bash"}));
-  command->add_flag("--man", what->man, "instead, the manual page");
-  command->callback([&action, what] {
-    action = [what]() -> int {
-      if (!what->keys.empty()) return print(preset::reference_markdown());
-      if (!what->completion.empty()) return print(bash_completion());
-      if (what->json) return print(listing_json());
-      if (what->man) return print(man_page());
-      return list_presets();
-    };
-  });
+void add_commands(CLI::App& program, Action& action) {
+  add_preset_command(program, action, "movie",
+                     "run the experiment and render it: frames and a movie",
+                     produce_with<Pictures::movie>);
+  add_preset_command(program, action, "figure", "the stills of a preset",
+                     produce_with<Pictures::stills>);
+  add_preset_command(program, action, "run", "the experiment alone, no pictures",
+                     produce_with<Pictures::none>);
+  add_render(program, action);
+  add_view(program, action);
+  add_chart(program, action);
+  add_sweep(program, action);
+  add_preset_command(
+      program, action, "design",
+      "moves pins, legs, held directions or diameters until the shell meets its surface",
+      produce_design, "folder to write, by default out/<preset>_design");
+  add_export(program, action);
+  add_scan(program, action);
+  // the command line of a movie can be checked as it stands
+  add_preset_command(program, action, "check", "validate a preset and say what would run", check);
+  add_compare(program, action);
+  add_list(program, action);
 }
 
 }  // namespace gridshell::app

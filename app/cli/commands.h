@@ -6,27 +6,27 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/result.h"
+
 namespace CLI {
 class App;
 }
 
 namespace gridshell::app {
 
-using Action = std::function<int()>;
+using Action = std::function<Result<int>()>;
 
-void add_movie(CLI::App& program, Action& action);
-void add_figure(CLI::App& program, Action& action);
-void add_run(CLI::App& program, Action& action);
+/// Adds `gridshell name`: where the command line names it, `action` becomes `act`.
+CLI::App& add_command(CLI::App& program, Action& action, const std::string& name,
+                      const std::string& meaning, Action act);
+
 void add_render(CLI::App& program, Action& action);
 void add_view(CLI::App& program, Action& action);
 void add_chart(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
-void add_design(CLI::App& program, Action& action);
 void add_export(CLI::App& program, Action& action);
 void add_scan(CLI::App& program, Action& action);
-void add_check(CLI::App& program, Action& action);
 void add_compare(CLI::App& program, Action& action);
-void add_list(CLI::App& program, Action& action);
 
 /// All of them, in the order of the help.
 void add_commands(CLI::App& program, Action& action);

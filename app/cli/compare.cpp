@@ -21,17 +21,6 @@
 
 namespace gridshell::app {
 
-/// All PNG files of both folders and the folders in them, by their path in the folder, in order.
-/// Errors: io, bad_input for a file that is no PNG.
-Result<std::vector<render::PicturePair>> pictures_of(const std::filesystem::path& before,
-                                                     const std::filesystem::path& after);
-
-/// Puts every picture that is not the same in the place of the kept one, takes away what is gone,
-/// and writes the reason with the names into `before`/WHY.md. Errors: io.
-Result<void> update_baselines(const std::filesystem::path& before,
-                              const std::vector<render::PicturePair>& pairs, double threshold,
-                              const std::string& why);
-
 namespace fs = std::filesystem;
 namespace {
 
@@ -54,25 +43,24 @@ Result<std::optional<render::Image>> picture(const fs::path& folder, const fs::p
   return std::optional(std::move(*image));
 }
 
-}  // namespace
-
+/// All PNG files of both folders and the folders in them, by their path in the folder, in order.
 Result<std::vector<render::PicturePair>> pictures_of(const fs::path& before,
                                                      const fs::path& after) {
-  const auto old_names = names_in(before), new_names = names_in(after);
-  for (const auto* names : {&old_names, &new_names})
-    if (!*names) return tl::unexpected(names->error());
+  TRY(old_names, names_in(before));
+  TRY(new_names, names_in(after));
   std::set<fs::path> all = *old_names;
   all.insert(new_names->begin(), new_names->end());
   std::vector<render::PicturePair> pairs;
   for (const fs::path& name : all) {
-    auto a = picture(before, name, *old_names), b = picture(after, name, *new_names);
-    for (const auto* image : {&a, &b})
-      if (!*image) return tl::unexpected(image->error());
+    TRY(a, picture(before, name, *old_names));
+    TRY(b, picture(after, name, *new_names));
     pairs.push_back({name.generic_string(), std::move(*a), std::move(*b)});
   }
   return pairs;
 }
 
+/// Puts every picture that is not the same in the place of the kept one, takes away what is gone,
+/// and writes the reason with the names into `before`/WHY.md.
 Result<void> update_baselines(const fs::path& before, const std::vector<render::PicturePair>& pairs,
                               double threshold, const std::string& why) {
   std::string names;
@@ -86,10 +74,8 @@ Result<void> update_baselines(const fs::path& before, const std::vector<render::
         return fail(Fault::io, fmt::format("cannot remove '{}'", file.string()));
       continue;
     }
-    auto written = make_folder(file.parent_path()).and_then([&] {
-      return render::write_png(*pair.after, file);
-    });
-    if (!written) return written;
+    TRY_DO(make_folder(file.parent_path()));
+    TRY_DO(render::write_png(*pair.after, file));
   }
   if (names.empty()) return {};
   std::error_code missing;
@@ -105,8 +91,6 @@ Result<void> update_baselines(const fs::path& before, const std::vector<render::
 
 // `gridshell compare A B`: the image-regression metric, on pictures or folders of them.
 
-namespace {
-
 struct CompareOptions {
   std::string a, b, difference, why;
   bool update = false;
@@ -121,9 +105,8 @@ Result<bool> compare_pictures(const CompareOptions& options) {
   fmt::print("{}: worst {} x {} block at ({}, {}) differs by {:.2f} of 255, threshold {}\n",
              same ? "same" : "different", worst->width, worst->height, worst->x, worst->y,
              worst->difference, options.threshold);
-  if (!options.difference.empty()) {
-    TRY(written, render::write_png(render::difference_picture(*a, *b, *worst), options.difference));
-  }
+  if (!options.difference.empty())
+    TRY_DO(render::write_png(render::difference_picture(*a, *b, *worst), options.difference));
   return same;
 }
 
@@ -138,19 +121,16 @@ Result<bool> compare_folders(const CompareOptions& options) {
   }
   fmt::print("{} of {} pictures differ, threshold {}\n", different.size(), pairs->size(),
              options.threshold);
-  if (!options.difference.empty() && !different.empty()) {
-    TRY(written,
+  if (!options.difference.empty() && !different.empty())
+    TRY_DO(
         render::write_png(render::contact_sheet(different, options.threshold), options.difference));
-  }
   if (!options.update) return different.empty();
-  return update_baselines(options.a, *pairs, options.threshold, options.why).map([] {
-    return true;
-  });
+  TRY_DO(update_baselines(options.a, *pairs, options.threshold, options.why));
+  return true;
 }
 
 Result<bool> compare_any(const CompareOptions& options) {
-  const bool a = std::filesystem::is_directory(options.a),
-             b = std::filesystem::is_directory(options.b);
+  const bool a = fs::is_directory(options.a), b = fs::is_directory(options.b);
   if (a != b)
     return fail(
         Fault::bad_input,
@@ -167,26 +147,24 @@ Result<bool> compare_any(const CompareOptions& options) {
 
 void add_compare(CLI::App& program, Action& action) {
   const auto options = std::make_shared<CompareOptions>();
-  auto* command = program.add_subcommand(
-      "compare", "whether two pictures, or folders of them, are the same to the eye");
-  command->add_option("A", options->a, "a PNG, or a folder of kept ones")->required();
-  command->add_option("B", options->b, "another of the same size, or a folder")->required();
+  CLI::App& command =
+      add_command(program, action, "compare",
+                  "whether two pictures, or folders of them, are the same to the eye",
+                  [options]() -> Result<int> {
+                    TRY(same, compare_any(*options));
+                    return *same ? ExitCode::done : ExitCode::different;
+                  });
+  command.add_option("A", options->a, "a PNG, or a folder of kept ones")->required();
+  command.add_option("B", options->b, "another of the same size, or a folder")->required();
   command
-      ->add_option("--threshold", options->threshold,
-                   "largest mean difference of an 8 x 8 block, of 255")
+      .add_option("--threshold", options->threshold,
+                  "largest mean difference of an 8 x 8 block, of 255")
       ->check(CLI::Range(0.0, 255.0))
       ->capture_default_str();
-  command->add_option("--difference", options->difference,
-                      "PNG to write, differences in red; of folders a sheet of all that differ");
-  command->add_flag("--update", options->update, "put B's pictures in the place of A's");
-  command->add_option("--why", options->why, "with --update: the reason, kept in A/WHY.md");
-  command->callback([&action, options] {
-    action = [options]() -> int {
-      const auto same = compare_any(*options);
-      if (!same) return report(same.error());
-      return *same ? ExitCode::done : ExitCode::different;
-    };
-  });
+  command.add_option("--difference", options->difference,
+                     "PNG to write, differences in red; of folders a sheet of all that differ");
+  command.add_flag("--update", options->update, "put B's pictures in the place of A's");
+  command.add_option("--why", options->why, "with --update: the reason, kept in A/WHY.md");
 }
 
 }  // namespace gridshell::app

@@ -11,8 +11,9 @@
 
 namespace gridshell::app {
 
-int exit_code(Fault fault) {
-  switch (fault) {
+int report(const Error& error) {
+  std::fprintf(stderr, "%s\n", error.message.c_str());
+  switch (error.fault) {
     case Fault::bad_input:
       return ExitCode::bad_input;
     case Fault::cancelled:
@@ -22,11 +23,6 @@ int exit_code(Fault fault) {
       break;
   }
   return ExitCode::failed;
-}
-
-int report(const Error& error) {
-  std::fprintf(stderr, "%s\n", error.message.c_str());
-  return exit_code(error.fault);
 }
 
 Error error_of(const std::exception& thrown) {
@@ -92,10 +88,20 @@ InterruptGuard::InterruptGuard() noexcept { guarded = 1; }
 
 InterruptGuard::~InterruptGuard() { guarded = 0; }
 
+namespace {
+bool stdout_was_closed = false;
+}
+
 void open_standard_streams() noexcept {
+  stdout_was_closed = ::fcntl(STDOUT_FILENO, F_GETFD) < 0 && errno == EBADF;
   for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number)
     if (::fcntl(number, F_GETFD) < 0 && errno == EBADF)
       if (::open("/dev/null", O_RDWR) != number) return;
+}
+
+Result<int> printed() {
+  if (!stdout_was_closed) return ExitCode::done;
+  return fail(Fault::io, "cannot write to standard output: it is closed");
 }
 
 bool flush_stdout() {

@@ -15,10 +15,13 @@ enum ExitCode : int {
   interrupted = 130
 };
 
-int exit_code(Fault fault);
-
 /// Prints the error's message on stderr; its exit code.
 int report(const Error& error);
+
+/// The exit code of a command; its error is printed on stderr.
+inline int report(const Result<int>& outcome) {
+  return outcome ? *outcome : report(outcome.error());
+}
 
 /// Why an exception ended some work, as an error of the program: memory that ran out, with what to
 /// do about it, or what the library that threw it says.
@@ -62,5 +65,14 @@ void open_standard_streams() noexcept;
 
 /// Whether all that was printed on stdout arrived; else a line on stderr says why not.
 bool flush_stdout();
+
+/// The exit code of a command that does nothing but print: a stdout that was closed from the
+/// beginning is a failure of it.
+Result<int> printed();
+
+/// "1 frame", "2 frames"
+inline std::string count_text(std::size_t count, const std::string& word) {
+  return std::to_string(count) + " " + word + (count == 1 ? "" : "s");
+}
 
 }  // namespace gridshell::app

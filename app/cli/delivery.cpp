@@ -10,17 +10,13 @@
 
 #include "app/cli/console.h"
 #include "app/cli/staged_folder.h"
+#include "engine/core/try.h"
 #include "engine/gridshell.h"
 #include "render/movie/encode.h"
 
 namespace gridshell::app {
+namespace fs = std::filesystem;
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string time_text(double seconds) {
   const auto whole = static_cast<long>(std::ceil(seconds));
@@ -85,7 +81,7 @@ Progress::~Progress() {
 Watch& Progress::next_phase() {
   const std::lock_guard lock(mutex_);
   watches_.push_back(std::make_unique<Watch>());
-  phase_began_ = Clock::now();
+  phase_began_ = seconds_now();
   if (interrupted_) watches_.back()->cancel();
   return *watches_.back();
 }
@@ -106,12 +102,12 @@ void Progress::loop() {
 void Progress::stop_if_asked() {
   if (!interrupted_ && interrupted_by_signal()) {
     interrupted_ = true;
-    interrupted_at_ = Clock::now();
+    interrupted_at_ = seconds_now();
     if (!watches_.empty()) watches_.back()->cancel();
   }
   // what is finished is whole, so the program may end
   const bool draws = !watches_.empty() && phases_[watches_.size() - 1].draws;
-  if (interrupted_ && draws && seconds_since(interrupted_at_) > 0.5) {
+  if (interrupted_ && draws && seconds_now() - interrupted_at_ > 0.5) {
     if (bar_open_) std::fputs("\r\033[K", stderr);
     try {
       last_words_();
@@ -125,7 +121,7 @@ void Progress::stop_if_asked() {
 void Progress::show_now() {
   const auto current = watches_.size() - 1;
   const auto at =
-      standing(phases_, current, watches_.back()->progress(), seconds_since(phase_began_));
+      standing(phases_, current, watches_.back()->progress(), seconds_now() - phase_began_);
   const auto& label = phases_[current].label;
   if (show_ == Show::bar) {
     std::fprintf(stderr, "\r%s\033[K", bar_text(at, label, 40).c_str());
@@ -138,13 +134,11 @@ void Progress::show_now() {
   }
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 // what is whole in a folder that was not finished
 struct Left {
-  int pictures = 0, runs = 0;
-  std::size_t frames = 0;  // of runs cut short
+  std::size_t pictures = 0, runs = 0, frames = 0;  // frames: of runs cut short
 };
 
 Left left_in(const fs::path& folder) {
@@ -158,10 +152,6 @@ Left left_in(const fs::path& folder) {
     if (at->is_directory(error)) left.frames += record::frames_in_journal(at->path());
   }
   return left;
-}
-
-std::string count(std::size_t n, const char* what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
 std::string near_name(const fs::path& folder) {
@@ -205,23 +195,19 @@ std::string keep_finished_files(const fs::path& partial) {
     fs::remove_all(partial, error);
     return "nothing was finished, so nothing is left behind";
   }
-  if (left.frames == 0)
-    return fmt::format("{} and {}, each whole, are in '{}'", count(left.runs, "run"),
-                       count(left.pictures, "picture"), name);
-  const auto others =
-      left.runs + left.pictures == 0
-          ? ""
-          : fmt::format(", {} and {}", count(left.runs, "run"), count(left.pictures, "picture"));
+  const auto whole = count_text(left.runs, "run") + " and " + count_text(left.pictures, "picture");
+  if (left.frames == 0) return fmt::format("{}, each whole, are in '{}'", whole, name);
+  std::string others;
+  if (left.runs + left.pictures > 0) others = ", " + whole;
   return fmt::format("{} of an unfinished run{}, each whole, are in '{}'; this draws them:\n  {}",
-                     count(left.frames, "frame"), others, name,
+                     count_text(left.frames, "frame"), others, name,
                      render::shell_line({"gridshell", "render", name}));
 }
 
-int deliver(const fs::path& final_folder, const std::vector<Phase>& phases, bool quiet,
-            const Work& work) {
+Result<void> deliver(const fs::path& final_folder, const std::vector<Phase>& phases, bool quiet,
+                     const Work& work) {
   const InterruptGuard guarded;
-  auto staged = StagedFolder::create(final_folder);
-  if (!staged) return report(staged.error());
+  TRY(staged, StagedFolder::create(final_folder));
   if (!quiet) report_left_behind(final_folder);
   const auto on_forced_exit = [&] {
     std::fprintf(stderr, "stopped\n%s\n", keep_finished_files(staged->path()).c_str());
@@ -231,18 +217,18 @@ int deliver(const fs::path& final_folder, const std::vector<Phase>& phases, bool
     Progress progress(phases, Progress::show_for(quiet), on_forced_exit);
     outcome = attempt(work, staged->path(), progress);
   }
-  std::string note;
   if (outcome)
-    outcome = staged->commit().map([&](std::string stayed) { note = std::move(stayed); });
-  if (!note.empty()) std::fprintf(stderr, "%s\n", note.c_str());
-  if (outcome) return ExitCode::done;
+    outcome = staged->commit().map([](const std::string& stayed) {
+      if (!stayed.empty()) std::fprintf(stderr, "%s\n", stayed.c_str());
+    });
+  if (outcome) return {};
   const auto left = keep_finished_files(staged->path());
   // an empty staged folder is gone already; its parents go with it
   if (fs::exists(staged->path())) staged->keep();
-  auto error = outcome.error();
+  Error& error = outcome.error();
   if (error.fault == Fault::cancelled) error.message = "stopped";
   error.message += "\n" + left;
-  return report(error);
+  return outcome;
 }
 
 }  // namespace gridshell::app

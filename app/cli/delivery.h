@@ -2,7 +2,6 @@
 // stop within a second of Ctrl-C.
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <filesystem>
 #include <functional>
@@ -13,7 +12,6 @@
 #include <vector>
 
 #include "app/cli/options.h"
-#include "engine/core/watch.h"
 
 namespace gridshell::app {
 
@@ -73,7 +71,7 @@ class Progress {
   std::condition_variable wake_;
   bool finished_ = false;
   std::vector<std::unique_ptr<Watch>> watches_;
-  std::chrono::steady_clock::time_point phase_began_, interrupted_at_;
+  double phase_began_ = 0, interrupted_at_ = 0;  // seconds_now()
   bool interrupted_ = false;
   int tenth_shown_ = 0;
   bool bar_open_ = false;
@@ -87,9 +85,9 @@ class Progress {
 using Work = std::function<Result<void>(const std::filesystem::path& partial, Progress& progress)>;
 
 /// Runs `work` into a staged folder and gives it the name `final_folder`. On failure, what was
-/// finished stays under the partial name, and a line on stderr says so. The exit code.
-int deliver(const std::filesystem::path& final_folder, const std::vector<Phase>& phases, bool quiet,
-            const Work& work);
+/// finished stays under the partial name. Errors: those of `work`, with what is left.
+Result<void> deliver(const std::filesystem::path& final_folder, const std::vector<Phase>& phases,
+                     bool quiet, const Work& work);
 
 /// Cleans a folder that will not be finished: half-written files go, whole pictures and runs stay;
 /// without any the folder goes too. A sentence that says what is left.

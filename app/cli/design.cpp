@@ -1,38 +1,221 @@
-// Pictures of a design: the shell before and after, over its target, and how it came there.
+#include "app/cli/design.h"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
-#include <filesystem>
-#include <memory>
 
-#include "app/cli/commands.h"
 #include "app/cli/console.h"
 #include "app/cli/delivery.h"
-#include "app/cli/design_files.h"
 #include "app/cli/figures.h"
-#include "app/cli/options.h"
-#include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "app/cli/produce.h"
 #include "engine/core/file_io.h"
-#include "engine/core/result.h"
+#include "engine/core/json.h"
 #include "engine/core/try.h"
-#include "engine/core/watch.h"
 #include "engine/gridshell.h"
 #include "render/canvas/plot.h"
-#include "render/gl/renderer.h"
 
 namespace gridshell::app {
-
-/// `<stem>_net.png`, `<stem>_deviation.png` and the plots of shells on nets, the target in the
-/// place of the net: of every node its nearest point; `<stem>_convergence`. Errors: as
-/// draw_net_pictures.
-Result<void> draw_design(CaseRun before, CaseRun after, const DesignResult& found,
-                         render::Renderer& renderer, const std::filesystem::path& stem,
-                         Watch& watch);
-
 namespace fs = std::filesystem;
 namespace {
+
+using record::Json;
+
+/// Whether the designed shell is also reached from the flat: how far its joints are from there
+/// then.
+struct FlatStartCheck {
+  bool reached = false;
+  double off_mm = 0;
+  std::string why;  ///< it was not
+};
+
+Json json_of(const DesignedState& state, double scale) {
+  Json json{{"edges_per_segment", state.edges_per_segment},
+            {"max", state.max_mm / scale},
+            {"mean", state.mean_mm / scale}};
+  for (const TermName& term : energy_terms)
+    json[fmt::format("energy_{}_mJ", term.name)] = state.energies[term.term];
+  json.update({{"eigenvalue_N_per_mm2", state.eigenvalue},
+               {"largest_leg_force_N", state.largest_leg_force_N},
+               {"largest_leg_compression_N", state.largest_leg_compression_N},
+               {"residual_N", state.residual_N}});
+  return json;
+}
+
+std::string design_json(const DesignResult& found, const FlatStartCheck& from_flat) {
+  const double scale = found.length_scale_mm;
+  const DesignedState &before = found.before.back(), &after = found.after.back();
+  Json json{{"length_scale_mm", scale},
+            {"max_before", before.max_mm / scale},
+            {"mean_before", before.mean_mm / scale},
+            {"max_after", after.max_mm / scale},
+            {"mean_after", after.mean_mm / scale},
+            {"eigenvalue_before", before.eigenvalue},
+            {"eigenvalue_after", after.eigenvalue},
+            {"largest_move_mm", found.largest_move_mm},
+            {"largest_turn_deg", found.largest_turn_deg},
+            {"largest_thickening", found.largest_thickening},
+            {"thinnest_mm", found.thinnest_mm},
+            {"thickest_mm", found.thickest_mm},
+            {"iterations", int(found.steps.size()) - 1},
+            {"cpu_s", found.cpu_s},
+            {"stable", true},  // nothing else is ever delivered
+            {"symmetries", found.symmetries},
+            {"variables", found.q.size()},
+            {"free_variables", found.free_variables}};
+  for (const auto& [name, states] :
+       {std::pair("before", &found.before), std::pair("after", &found.after)}) {
+    json[name] = Json::array();
+    for (const DesignedState& state : *states) json[name].push_back(json_of(state, scale));
+  }
+  if (found.rounded) json["rounded"] = json_of(*found.rounded, scale);
+  json["fabricated"] = Json::array();
+  for (const FabricationErrors& one : found.fabricated) {
+    Json& sample = json["fabricated"].emplace_back(Json::object());
+    sample = {{"sigma_mm", one.sigma_mm}, {"samples", one.samples}, {"lost", one.lost}};
+    if (one.lost < one.samples)
+      sample.update({{"max", one.max_mm / scale},
+                     {"worst", one.worst_mm / scale},
+                     {"mean", one.mean_mm / scale}});
+  }
+  json["from_flat"] = {{"reached", from_flat.reached}, {"why_not", from_flat.why}};
+  json["steps"] = Json::array();
+  for (const DesignStep& step : found.steps)
+    json["steps"].push_back({{"iteration", step.iteration},
+                             {"norm", step.norm},
+                             {"objective", step.objective},
+                             {"max", step.max_mm / scale},
+                             {"mean", step.mean_mm / scale},
+                             {"eigenvalue", step.eigenvalue},
+                             {"largest_move_mm", step.largest_move_mm},
+                             {"taken", step.taken},
+                             {"refused", step.refused}});
+  return record::text_of(json);
+}
+
+/// A line an end, as `[ends] table` reads it.
+std::string ends_csv(const preset::Points& table) {
+  record::CsvWriter csv;
+  csv.line("family", "rod", "end", "x_mm", "y_mm", "z_mm", "leg_mm", "tx", "ty", "tz");
+  for (const auto& row : table) {
+    csv.cell(row[0] == 0 ? "u" : "v");
+    csv.cell(int(row[1]));
+    csv.cell(row[2] == 0 ? "begin" : "end");
+    for (std::size_t k = 3; k < row.size(); ++k) csv.cell(row[k]);
+    csv.end_line();
+  }
+  return std::move(csv).text();
+}
+
+/// A line a rod, as `[rod] table` reads it.
+std::string rods_csv(const preset::Points& table) {
+  record::CsvWriter csv;
+  csv.line("family", "rod", "diameter_mm");
+  for (const auto& row : table) csv.line(row[0] == 0 ? "u" : "v", int(row[1]), row[2]);
+  return std::move(csv).text();
+}
+
+/// A line a variable; legs and diameters before and after are lengths, pins and directions
+/// coordinates along the variable's own axis.
+std::string design_csv(const DesignResult& found, const preset::Points& table) {
+  record::CsvWriter csv;
+  csv.line("kind", "family", "rod", "end", "component", "before", "after");
+  for (std::size_t k = 0; k < found.variables.size(); ++k) {
+    const DesignVariable& one = found.variables[k];
+    if (one.kind == preset::Vary::diameters) {
+      const std::size_t rod = std::size_t(one.end) / 2;
+      const auto& row = found.rod_table[rod];
+      csv.line(std::string(word_of(one.kind)), row[0] == 0 ? "u" : "v", int(row[1]), "", 0,
+               found.rods_before[rod][2], row[2]);
+      continue;
+    }
+    const auto& row = table[std::size_t(found.row_of_end[std::size_t(one.end)])];
+    const double q = found.q[Eigen::Index(k)];
+    const double after = one.kind == preset::Vary::legs ? row[6]
+                         : one.kind == preset::Vary::directions
+                             ? q
+                             : one.way.dot(Eigen::Vector3d(row[3], row[4], row[5]));
+    csv.line(std::string(word_of(one.kind)), row[0] == 0 ? "u" : "v", int(row[1]),
+             row[2] == 0 ? "begin" : "end", one.component, after - q, after);
+  }
+  return std::move(csv).text();
+}
+
+/// The text of a preset whose empty `table` in a section is a file's name instead.
+void put_name(std::string& text, const std::string& section, const std::string& file) {
+  const std::string none = "\ntable = []";
+  const auto at = text.find(none, text.find("\n[" + section + "]"));
+  std::string name;
+  for (const char c : file) {
+    if (c == '"' || c == '\\') name += '\\';
+    name += c;
+  }
+  text.replace(at, none.size(), "\ntable = \"" + name + "\"");
+}
+
+/// The preset with its tables in the files beside it.
+std::string preset_text(preset::Preset designed, const std::string& ends_file,
+                        const std::string& rods_file) {
+  const bool ends = !designed.ends.table.empty(), rods = !designed.rod_table.empty();
+  designed.ends.table.clear();
+  designed.rod_table.clear();
+  std::string text = preset::to_toml(designed);
+  if (ends) put_name(text, "ends", ends_file);
+  if (rods) put_name(text, "rod", rods_file);
+  return text;
+}
+
+/// design.json, design.csv, ends.csv, ends_rounded.csv, rods.csv where diameters were varied, and
+/// preset.toml, which reads them.
+Result<void> write_design(const fs::path& folder, const preset::Preset& designed,
+                          const DesignResult& found, const FlatStartCheck& from_flat) {
+  const auto write = [&](const char* name, const std::string& text) {
+    return write_file(folder / name, text);
+  };
+  TRY_DO(write("design.json", design_json(found, from_flat)));
+  TRY_DO(write("design.csv", design_csv(found, found.table)));
+  TRY_DO(write("ends.csv", ends_csv(found.table)));
+  TRY_DO(write("ends_rounded.csv", ends_csv(found.rounded_table)));
+  if (!designed.rod_table.empty()) TRY_DO(write("rods.csv", rods_csv(designed.rod_table)));
+  return write("preset.toml", preset_text(designed, "ends.csv", "rods.csv"));
+}
+
+/// What a design came to, as a few lines for the terminal.
+std::string design_text(const DesignResult& found, const FlatStartCheck& from_flat) {
+  const double percent = 100 / found.length_scale_mm;
+  std::string text = fmt::format(
+      "{} variables, {} of them free under {} symmetries; {} iterations, {:.1f} s of CPU; moved by "
+      "{:.2f} mm and {:.2f} degrees at most{}\n",
+      found.q.size(), found.free_variables, found.symmetries, found.steps.size() - 1, found.cpu_s,
+      found.largest_move_mm, found.largest_turn_deg,
+      found.largest_thickening > 0
+          ? fmt::format(", diameters by {:.1f} %, to {:.3f} ... {:.3f} mm",
+                        100 * found.largest_thickening, found.thinnest_mm, found.thickest_mm)
+          : "");
+  const auto line = [&](const char* name, const DesignedState& state) {
+    text += fmt::format(
+        "  {:<8} {:>2} edges: largest {:.3f} %, mean {:.3f} % of {:.4g} mm; bend energy {:.3f} mJ, "
+        "smallest eigenvalue {:.3g} N/mm^2, leg force at most {:.3f} N\n",
+        name, state.edges_per_segment, percent * state.max_mm, percent * state.mean_mm,
+        found.length_scale_mm, state.energies[Term::bend], state.eigenvalue,
+        state.largest_leg_force_N);
+  };
+  for (const DesignedState& state : found.before) line("before", state);
+  for (const DesignedState& state : found.after) line("after", state);
+  if (found.rounded) line("rounded", *found.rounded);
+  for (const FabricationErrors& one : found.fabricated) {
+    if (one.lost == one.samples) {
+      text += fmt::format("  built with errors of {:g} mm: all of {} samples lost\n", one.sigma_mm,
+                          one.samples);
+      continue;
+    }
+    text += fmt::format(
+        "  built with errors of {:g} mm: largest {:.2f} % (worst {:.2f} %), mean {:.2f} %{}\n",
+        one.sigma_mm, percent * one.max_mm, percent * one.worst_mm, percent * one.mean_mm,
+        one.lost > 0 ? fmt::format("; {} of {} lost", one.lost, one.samples) : "");
+  }
+  text += from_flat.reached ? "  reached from the flat too\n"
+                            : "  not reached from the flat: " + from_flat.why + "\n";
+  return text;
+}
 
 /// Distances of the joints over the iterations, per cent of the length scale; crosses: refused.
 render::Plot convergence_plot(const DesignResult& found, const std::string& title) {
@@ -76,32 +259,20 @@ Result<void> put_target(CaseRun& one) {
   return {};
 }
 
-}  // namespace
-
-Result<void> draw_design(CaseRun before, CaseRun after, const DesignResult& found,
+/// `<stem>_net.png`, `<stem>_deviation.png` and the plots of shells on nets, the target in the
+/// place of the net: of every node its nearest point; `<stem>_convergence`.
+Result<void> draw_design(Run before, Run after, const DesignResult& found,
                          render::Renderer& renderer, const fs::path& stem, Watch& watch) {
-  std::vector<CaseRun> records;
-  for (CaseRun* one : {&before, &after}) {
-    if (auto put = put_target(*one); !put) return put;
-    records.push_back(std::move(*one));
+  for (Run* run : {&before, &after}) {
+    record::Trajectory& shell = run->trajectory;
+    TRY(nearest, nearest_to(run->preset, shell.layout.flat_nodes, shell.frames.back().nodes));
+    shell.layout.net_nodes = std::move(*nearest);
   }
-  const auto style = style_of(records.front().preset, Pictures::stills);
-  fs::path convergence = stem;
-  convergence += "_convergence";
-  return draw_net_pictures(records, renderer, stem, watch).and_then([&] {
-    return render::write_plot(convergence, convergence_plot(found, render::plain(style.title)),
-                              style.print);
-  });
+  const auto style = style_of(before.preset, Pictures::stills);
+  TRY_DO(draw_net_pictures({&before, &after}, renderer, stem, watch));
+  return render::write_plot(fs::path(stem) += "_convergence",
+                            convergence_plot(found, render::plain(style.title)), style.print);
 }
-
-// The work behind `design`: the ends of a shell moved, the designed shell as a run, what was moved,
-// and pictures of before and after.
-
-/// Designs the shell of a preset and writes its folder. The exit code.
-int produce_design(const Options& options);
-
-namespace fs = std::filesystem;
-namespace {
 
 constexpr double same_state = 4;  // tolerances of the run: how far apart two runs of one state are
 
@@ -113,33 +284,15 @@ Result<preset::Preset> one_of(const Options& options) {
                                             presets->base.name));
 }
 
-/// The final state of a preset, kept in memory.
-Result<record::Trajectory> end_of(const preset::Preset& preset, Watch& watch) {
-  TRY(outcome, simulate::run(preset, true, watch));
-  return std::move(outcome->trajectory);
-}
-
-/// The designed shell as a run of its own.
-Result<record::Trajectory> run_designed(const preset::Preset& preset, const fs::path& folder,
-                                        record::Summary& summary, Watch& watch) {
-  record::FolderSink sink(folder, {preset.name, record::Kind::figure, preset.title});
-  TRY(run, simulate::run(preset, true, sink, watch));
-  summary = *run;
-  summary.kind = record::Kind::figure;
-  return sink.finish(summary);
-}
-
 /// Whether the patient way from the flat ends in the same state.
 FlatStartCheck from_flat(preset::Preset preset, const record::Trajectory& designed, Watch& watch) {
   preset.actuation.start = preset::Start::flat;
   const auto outcome = simulate::run(preset, true, watch);
   FlatStartCheck found;
-  if (!outcome) {
-    found.why = outcome.error().message;
-    return found;
-  }
-  if (outcome->trajectory.frames.size() == 0 || outcome->trajectory.frames.back().progress < 1) {
-    found.why = outcome->summary.limit_reason;
+  const bool ended = outcome && !outcome->trajectory.frames.empty() &&
+                     outcome->trajectory.frames.back().progress >= 1;
+  if (!ended) {
+    found.why = outcome ? outcome->summary.limit_reason : outcome.error().message;
     return found;
   }
   const auto joints = long(designed.layout.joints.size());
@@ -159,32 +312,40 @@ Result<void> work(const preset::Preset& preset, const Options& options, const fs
   preset::Preset designed = preset;
   designed.ends.table = found->table;
   if (found->largest_thickening > 0) designed.rod_table = found->rod_table;
-  TRY(before, end_of(preset, progress.next_phase()));
-  TRY(after, run_designed(designed, folder, summary, progress.next_phase()));
+  TRY(before, simulate::run(preset, true, progress.next_phase()));
+  record::FolderSink sink(folder, {designed.name, record::Kind::figure, designed.title});
+  TRY(run, simulate::run(designed, true, sink, progress.next_phase()));
+  summary = *run;
+  summary.kind = record::Kind::figure;
+  TRY(after, sink.finish(summary));
   Watch& last = progress.next_phase();
   const FlatStartCheck flat = from_flat(designed, *after, last);
   if (last.cancelled()) return stopped();
   text = design_text(*found, flat);
-  return write_design(folder, designed, *found, flat).and_then([&] {
-    auto artist = PictureMaker::create(options.context, preset.style.font);
-    if (!artist) return Result<void>(tl::unexpected(artist.error()));
-    return draw_design({preset, std::move(*before), {}, "before"},
-                       {designed, std::move(*after), {}, "designed"}, *found, artist->renderer(),
-                       folder / fs::path(preset.name).filename(), progress.next_phase());
-  });
+  TRY_DO(write_design(folder, designed, *found, flat));
+  TRY(maker, PictureMaker::create(options.context, preset.style.font));
+  return draw_design(
+      {.preset = preset, .trajectory = std::move(before->trajectory), .label = "before"},
+      {.preset = designed, .trajectory = std::move(*after), .label = "designed"}, *found,
+      maker->renderer(), folder / fs::path(preset.name).filename(), progress.next_phase());
 }
 
 }  // namespace
 
-int produce_design(const Options& options) {
-  const auto preset = one_of(options);
-  if (!preset) return report(preset.error());
-  if (options.print_config) {
-    fmt::print("{}", preset::to_toml(*preset));
-    return ExitCode::done;
-  }
-  const auto folder =
-      options.output.empty() ? fs::path("out") / (preset->name + "_design") : options.output;
+Result<void> write_preset_with_tables(const preset::Preset& preset, const fs::path& file) {
+  const std::string stem = file.stem().string(), ends = stem + "_ends.csv",
+                    rods = stem + "_rods.csv";
+  const fs::path folder = file.parent_path();
+  // the tables first: the preset is whole once it is there
+  if (!preset.ends.table.empty()) TRY_DO(write_file(folder / ends, ends_csv(preset.ends.table)));
+  if (!preset.rod_table.empty()) TRY_DO(write_file(folder / rods, rods_csv(preset.rod_table)));
+  return write_file(file, preset_text(preset, ends, rods));
+}
+
+Result<int> produce_design(const Options& options) {
+  TRY(preset, one_of(options));
+  if (options.print_config) return print_config({*preset, {}});
+  const auto folder = output_of(options, *preset, "_design");
   const std::vector<Phase> phases{{"designing", 5},
                                   {"simulating before", 1},
                                   {"simulating after", 1},
@@ -192,28 +353,13 @@ int produce_design(const Options& options) {
                                   {"drawing", 2 * expected_seconds(Pictures::stills, *preset)}};
   record::Summary summary;
   std::string text;
-  const int code =
-      deliver(folder, phases, options.quiet, [&](const fs::path& partial, Progress& progress) {
-        return work(*preset, options, partial, progress, summary, text);
-      });
-  if (code != ExitCode::done) return code;
+  TRY_DO(deliver(folder, phases, options.quiet, [&](const fs::path& partial, Progress& progress) {
+    return work(*preset, options, partial, progress, summary, text);
+  }));
   if (!options.quiet) fmt::print("{}: {}", folder.string(), text);
   const auto fault = failure_of(summary, preset->allow_unstable);
-  if (!fault.empty()) std::fprintf(stderr, "%s: %s\n", preset->name.c_str(), fault.c_str());
+  if (!fault.empty()) fmt::print(stderr, "{}: {}\n", preset->name, fault);
   return fault.empty() ? ExitCode::done : ExitCode::failed;
-}
-
-// `gridshell design PRESET`: what is moved so that a shell meets its surface.
-
-void add_design(CLI::App& program, Action& action) {
-  const auto options = std::make_shared<Options>();
-  auto* command = program.add_subcommand(
-      "design", "moves pins, legs, held directions or diameters until the shell meets its surface");
-  add_preset_options(*command, *options);
-  add_work_options(*command, *options, "folder to write, by default out/<preset>_design");
-  add_picture_options(*command, *options);
-  command->callback(
-      [&action, options] { action = [options] { return produce_design(*options); }; });
 }
 
 }  // namespace gridshell::app

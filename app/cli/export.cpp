@@ -3,12 +3,13 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <tuple>
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
 #include "app/cli/finished_run.h"
+#include "app/cli/options.h"
 #include "app/cli/preset_library.h"
-#include "app/cli/produce.h"
 #include "app/cli/staged_folder.h"
 #include "engine/core/file_io.h"
 #include "engine/core/text.h"
@@ -20,30 +21,40 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-/// What is exported, and the frame that is asked for.
+struct ExportOptions {
+  std::string input;  ///< RUN; for what is not a shape PRESET too
+  fs::path to;
+  std::string what;       ///< empty: what the extension of `to` is for
+  std::string frame;      ///< its index; empty: the last
+  std::string case_name;  ///< of a run of several cases
+  double seconds = 6;     ///< of an animation
+  bool unsealed = false;
+};
+
+/// A run that is exported, and the frame that is asked for.
 struct Source {
-  FinishedRun run;
+  Run run;
   std::size_t frame = 0;
   fs::path folder;  ///< of the run
 
-  exports::Shape shape() const {
-    return {run.trajectory.layout, run.trajectory.frames[frame], run.trajectory.frames.front(),
-            title()};
+  exports::Shape shape(std::size_t k) const {
+    const auto& [layout, frames] = std::tie(run.trajectory.layout, run.trajectory.frames);
+    return {layout, frames[k], frames.front(), title()};
   }
   const std::string& title() const { return preset::title_or_name(run.preset); }
 };
 
 /// NAME.pvd, and its frames in the folder NAME_frames beside it, which are written.
-Result<std::string> write_series(const Source& source, const fs::path& to) {
+Result<std::string> write_series(const Source& source, const ExportOptions& options) {
+  const fs::path& to = options.to;
   const fs::path name = to.stem().string() + "_frames", folder = to.parent_path() / name;
   TRY_DO(make_folder(folder));
   std::vector<double> progress;
   std::vector<std::string> files;
   const record::FrameList& frames = source.run.trajectory.frames;
-  const record::Frame start = frames.front();
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const fs::path file = fmt::format("frame_{:05}.vtp", k);
-    const exports::Shape shape{source.run.trajectory.layout, frames[k], start, source.title()};
+    const exports::Shape shape = source.shape(k);
     TRY_DO(write_file(folder / file, exports::to_vtp(shape)));
     progress.push_back(shape.frame.progress);
     files.push_back((name / file).string());
@@ -51,101 +62,15 @@ Result<std::string> write_series(const Source& source, const fs::path& to) {
   return exports::to_pvd(progress, files);
 }
 
-Result<std::string> xdmf_of(const Source& source, const fs::path& to) {
+Result<std::string> xdmf_of(const Source& source, const ExportOptions& options) {
   std::error_code error;
   const fs::path trajectory =
-      fs::relative(source.folder / "trajectory.h5", fs::absolute(to).parent_path(), error);
+      fs::relative(source.folder / "trajectory.h5", fs::absolute(options.to).parent_path(), error);
   if (error || !fs::exists(source.folder / "trajectory.h5", error))
     return fail(Fault::bad_input, fmt::format("'{}' has no trajectory.h5, which .xdmf speaks of",
                                               source.folder.string()));
   return exports::to_xdmf(source.run.trajectory.layout, source.run.trajectory.frames,
                           trajectory.string());
-}
-
-/// The text of a file, by the thing and by the extension.
-template <class... Arguments>
-using Formats =
-    std::map<std::string,
-             std::map<std::string, std::function<Result<std::string>(const Arguments&...)>>>;
-
-/// Of what a run is needed for.
-const Formats<Source, ExportOptions>& shape_formats() {
-  const auto frame = [](auto text) {
-    return [text](const Source& source, const ExportOptions&) -> Result<std::string> {
-      return text(source.shape());
-    };
-  };
-  static const Formats<Source, ExportOptions> formats{
-      {"shape",
-       {{".csv", frame(exports::to_csv)},
-        {".dxf", frame([](const exports::Shape& shape) {
-           return exports::to_dxf(exports::rods_in_space(shape));
-         })},
-        {".glb",
-         [](const Source& source, const ExportOptions& options) {
-           return exports::to_glb(source.run.trajectory, source.title(), options.seconds);
-         }},
-        {".html",
-         [](const Source& source, const ExportOptions&) {
-           return exports::to_page(source.run.trajectory, source.title());
-         }},
-        {".obj", frame(exports::to_obj)},
-        {".pvd", [](const Source& source,
-                    const ExportOptions& options) { return write_series(source, options.to); }},
-        {".vtp", frame(exports::to_vtp)},
-        {".xdmf", [](const Source& source,
-                     const ExportOptions& options) { return xdmf_of(source, options.to); }}}},
-      {"tubes", {{".obj", frame(exports::to_obj_tubes)}}}};
-  return formats;
-}
-
-/// Of what is made for the workshop, for which a preset is enough.
-const Formats<exports::FabricationPlan>& workshop_formats() {
-  using exports::FabricationPlan;
-  const auto flat = [](auto text) {
-    return [text](const FabricationPlan& work) -> Result<std::string> {
-      if (work.in_space)
-        return fail(Fault::bad_input,
-                    "a network that is drawn in space has no flat footprint to be cut from; its "
-                    "cut list and the pins of its plate are there: --what cutlist, plate");
-      return text(work);
-    };
-  };
-  static const Formats<FabricationPlan> formats{
-      {"footprint",
-       {{".dxf", flat([](const FabricationPlan& work) {
-           return exports::to_dxf(exports::footprint_drawing(work));
-         })},
-        {".svg", flat([](const FabricationPlan& work) {
-           return exports::to_svg(exports::footprint_drawing(work));
-         })}}},
-      {"plate",
-       {{".csv", exports::pins_csv},
-        {".dxf",
-         [](const FabricationPlan& work) {
-           return exports::plate_drawing(work).map(exports::to_dxf);
-         }},
-        {".svg",
-         [](const FabricationPlan& work) {
-           return exports::plate_drawing(work).map(exports::to_svg);
-         }}}},
-      {"cutlist", {{".csv", exports::cut_list_csv}, {".pdf", render::cut_list_pdf}}},
-      {"sheet", {{".pdf", flat(render::assembly_sheet_pdf)}}}};
-  return formats;
-}
-
-/// What an extension is for where --what does not say.
-std::string usual_for(const std::string& extension) {
-  if (extension == ".svg") return "footprint";
-  if (extension == ".pdf") return "sheet";
-  return "shape";
-}
-
-template <class Formats>
-std::string extensions_of(const Formats& formats) {
-  std::string list;
-  for (const auto& [extension, write] : formats) list += (list.empty() ? "" : " ") + extension;
-  return list;
 }
 
 /// Which of several runs or presets.
@@ -188,6 +113,115 @@ Result<preset::Preset> preset_of(const ExportOptions& options) {
   });
 }
 
+/// The text of a file.
+using TextOf = std::function<Result<std::string>(const ExportOptions&)>;
+
+/// Of a run; `text` takes it and the options.
+TextOf of_run(auto text) {
+  return [text](const ExportOptions& options) -> Result<std::string> {
+    TRY(source, source_of(options));
+    Result<std::string> made = text(*source, options);
+    if (const auto& fault = source->run.trajectory.frames.fault(); made && fault)
+      return tl::unexpected(*fault);
+    return made;
+  };
+}
+
+/// Of the frame that is asked for.
+TextOf of_shape(auto text) {
+  return of_run([text](const Source& source, const ExportOptions&) {
+    return text(source.shape(source.frame));
+  });
+}
+
+/// Of what is made for the workshop, for which a preset is enough.
+TextOf of_plan(auto text) {
+  return [text](const ExportOptions& options) -> Result<std::string> {
+    return preset_of(options).and_then(simulate::fabrication_plan_of).and_then(text);
+  };
+}
+
+/// Of a footprint in the plane.
+TextOf of_flat(auto text) {
+  return of_plan([text](const exports::FabricationPlan& plan) -> Result<std::string> {
+    if (plan.in_space)
+      return fail(Fault::bad_input,
+                  "a network that is drawn in space has no flat footprint to be cut from; its cut "
+                  "list and the pins of its plate are there: --what cutlist, plate");
+    return text(plan);
+  });
+}
+
+/// What can be exported, by its name and by the extension of the file.
+const std::vector<std::pair<std::string, std::map<std::string, TextOf>>>& formats() {
+  using exports::FabricationPlan;
+  const auto drawn = [](auto to) {
+    return of_flat(
+        [to](const FabricationPlan& plan) { return to(exports::footprint_drawing(plan)); });
+  };
+  const auto plate = [](auto to) {
+    return of_plan(
+        [to](const FabricationPlan& plan) { return exports::plate_drawing(plan).map(to); });
+  };
+  static const std::vector<std::pair<std::string, std::map<std::string, TextOf>>> all{
+      {"shape",
+       {{".csv", of_shape(exports::to_csv)},
+        {".dxf", of_shape([](const exports::Shape& shape) {
+           return exports::to_dxf(exports::rods_in_space(shape));
+         })},
+        {".glb", of_run([](const Source& source, const ExportOptions& options) {
+           return exports::to_glb(source.run.trajectory, source.title(), options.seconds);
+         })},
+        {".html", of_run([](const Source& source, const ExportOptions&) {
+           return exports::to_page(source.run.trajectory, source.title());
+         })},
+        {".obj", of_shape(exports::to_obj)},
+        {".pvd", of_run(write_series)},
+        {".vtp", of_shape(exports::to_vtp)},
+        {".xdmf", of_run(xdmf_of)}}},
+      {"tubes", {{".obj", of_shape(exports::to_obj_tubes)}}},
+      {"cutlist",
+       {{".csv", of_plan(exports::cut_list_csv)}, {".pdf", of_plan(render::cut_list_pdf)}}},
+      {"footprint", {{".dxf", drawn(exports::to_dxf)}, {".svg", drawn(exports::to_svg)}}},
+      {"plate",
+       {{".csv", of_plan(exports::pins_csv)},
+        {".dxf", plate(exports::to_dxf)},
+        {".svg", plate(exports::to_svg)}}},
+      {"sheet", {{".pdf", of_flat(render::assembly_sheet_pdf)}}}};
+  return all;
+}
+
+std::string extensions_of(const std::map<std::string, TextOf>& texts) {
+  std::string list;
+  for (const auto& [extension, text] : texts) list += (list.empty() ? "" : " ") + extension;
+  return list;
+}
+
+/// "shape: .csv .dxf ...\n" a line for each thing that can be exported.
+std::string exported_formats() {
+  std::string text;
+  for (const auto& [what, texts] : formats())
+    text += fmt::format("  {:<10} {}\n", what, extensions_of(texts));
+  return text;
+}
+
+Result<std::string> text_of(const ExportOptions& options) {
+  const std::string extension = options.to.extension().string();
+  // what an extension is for where --what does not say
+  const std::string what = !options.what.empty() ? options.what
+                           : extension == ".svg" ? "footprint"
+                           : extension == ".pdf" ? "sheet"
+                                                 : "shape";
+  for (const auto& [name, texts] : formats()) {
+    if (name != what) continue;
+    if (const auto text = texts.find(extension); text != texts.end()) return text->second(options);
+    return fail(Fault::bad_input, fmt::format("--to {}: a {} is written as {}", options.to.string(),
+                                              what, extensions_of(texts)));
+  }
+  return fail(Fault::bad_input,
+              fmt::format("--what {}: must be one of\n{}", what, exported_formats()));
+}
+
 /// A file in a run's folder would be taken for one of the run, or keep it from being replaced.
 Result<void> check_place(const fs::path& to) {
   std::error_code error;
@@ -203,84 +237,38 @@ Result<void> check_place(const fs::path& to) {
   return {};
 }
 
-Result<std::string> shape_text(const ExportOptions& options, const auto& text_of) {
-  TRY(source, source_of(options));
-  auto text = text_of(*source, options);
-  if (const auto& fault = source->run.trajectory.frames.fault(); text && fault)
-    return tl::unexpected(*fault);
-  return text;
-}
-
-Result<std::string> text_of(const ExportOptions& options) {
-  const std::string extension = options.to.extension().string();
-  const std::string what = options.what.empty() ? usual_for(extension) : options.what;
-  const auto with = [&](const auto& formats, const auto& make) -> Result<std::string> {
-    if (const auto format = formats.find(extension); format != formats.end())
-      return make(format->second);
-    return fail(Fault::bad_input, fmt::format("--to {}: a {} is written as {}", options.to.string(),
-                                              what, extensions_of(formats)));
-  };
-  if (const auto shape = shape_formats().find(what); shape != shape_formats().end())
-    return with(shape->second, [&](const auto& text) { return shape_text(options, text); });
-  if (const auto work = workshop_formats().find(what); work != workshop_formats().end())
-    return with(work->second, [&](const auto& text) {
-      return preset_of(options).and_then(simulate::fabrication_plan_of).and_then(text);
-    });
-  return fail(Fault::bad_input,
-              fmt::format("--what {}: must be one of\n{}", what, exported_formats()));
-}
-
-Result<void> write(const ExportOptions& options) {
-  if (auto place = check_place(options.to); !place) return place;
+/// Writes the file, whole or not at all, and says so.
+Result<int> export_file(const ExportOptions& options) {
+  TRY_DO(check_place(options.to));
   TRY(text, text_of(options));
-  const fs::path parent = options.to.parent_path();
-  return (parent.empty() ? Result<void>{} : make_folder(parent)).and_then([&] {
-    return write_file(options.to, *text);
-  });
+  TRY_DO(write_with_folder(options.to, *text));
+  fmt::print("{}: {} bytes\n", options.to.string(), text->size());
+  return ExitCode::done;
 }
 
 }  // namespace
-
-std::string exported_formats() {
-  std::string text;
-  const auto list = [&](const auto& things) {
-    for (const auto& [what, formats] : things)
-      text += fmt::format("  {:<10} {}\n", what, extensions_of(formats));
-  };
-  list(shape_formats());
-  list(workshop_formats());
-  return text;
-}
-
-int export_file(const ExportOptions& options) {
-  if (auto done = write(options); !done) return report(done.error());
-  std::error_code error;
-  fmt::print("{}: {} bytes\n", options.to.string(), fs::file_size(options.to, error));
-  return ExitCode::done;
-}
 
 // `gridshell export RUN --to FILE`: for other programs and for the workshop.
 
 void add_export(CLI::App& program, Action& action) {
   const auto options = std::make_shared<ExportOptions>();
-  auto* command = program.add_subcommand(
-      "export", "a run's shape for other programs, its footprint for the workshop");
+  CLI::App& command = add_command(
+      program, action, "export", "a run's shape for other programs, its footprint for the workshop",
+      [options] { return export_file(*options); });
   command
-      ->add_option("RUN", options->input, "folder of a run; for what is not a shape a PRESET too")
+      .add_option("RUN", options->input, "folder of a run; for what is not a shape a PRESET too")
       ->required();
-  command->add_option("--to", options->to, "the file; its extension is the format")->required();
-  command->add_option("--what", options->what,
-                      "shape, tubes, footprint, plate, cutlist or sheet; by default what the "
-                      "extension is for");
-  command->add_option("--frame", options->frame,
-                      "of a shape: index of its frame, by default the last");
-  command->add_option("--case", options->case_name, "of several cases: which");
-  command->add_option("--seconds", options->seconds, "of an animation (.glb)")
+  command.add_option("--to", options->to, "the file; its extension is the format")->required();
+  command.add_option("--what", options->what,
+                     "shape, tubes, footprint, plate, cutlist or sheet; by default what the "
+                     "extension is for");
+  command.add_option("--frame", options->frame,
+                     "of a shape: index of its frame, by default the last");
+  command.add_option("--case", options->case_name, "of several cases: which");
+  command.add_option("--seconds", options->seconds, "of an animation (.glb)")
       ->check(CLI::Range(0.1, 3600.0));
-  command->add_flag("--unsealed", options->unsealed,
-                    "take a trajectory.h5 that another program wrote or changed");
-  command->footer("What is exported, and how:\n" + exported_formats());
-  command->callback([&action, options] { action = [options] { return export_file(*options); }; });
+  add_unsealed(command, options->unsealed);
+  command.footer("What is exported, and how:\n" + exported_formats());
 }
 
 }  // namespace gridshell::app

@@ -1,12 +1,15 @@
 #include "app/cli/figures.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cstdio>
 
 #include "app/cli/console.h"
 #include "app/cli/paper_page.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
+#include "engine/core/file_io.h"
+#include "engine/core/try.h"
 #include "engine/gridshell.h"
 #include "render/gl/image.h"
 #include "render/movie/encode.h"
@@ -43,23 +46,16 @@ std::string name_of(const preset::Preset& preset) {
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
 
 /// Of one assemblage: its blocks apart, their footprints, and how they meet.
-Result<void> draw_block_pictures(const CaseRun& one, const render::MovieStyle& style,
+Result<void> draw_block_pictures(const record::Trajectory& run, const render::MovieStyle& style,
                                  render::Renderer& renderer, const fs::path& stem, Watch& watch) {
-  return render::draw_blocks(one.run, style, renderer, watch)
-      .and_then(render::draw_panels)
-      .and_then([&](const render::Image& image) {
-        return render::write_png(image, with_suffix(stem, "_blocks.png"));
-      })
-      .and_then([&] {
-        return render::write_block_footprints(with_suffix(stem, "_footprint"), one.run, style.title,
-                                              style.print);
-      })
-      .and_then([&]() -> Result<void> {
-        if (one.run.layout.seam_rods.empty()) return {};
-        render::Plot seams = render::seam_plot(one.run);
-        seams.title = render::plain(style.title);
-        return render::write_plot(with_suffix(stem, "_seams"), seams, style.print);
-      });
+  TRY_DO(save_panels(render::draw_blocks(run, style, renderer, watch),
+                     with_suffix(stem, "_blocks.png")));
+  TRY_DO(render::write_block_footprints(with_suffix(stem, "_footprint"), run, style.title,
+                                        style.print));
+  if (run.layout.seam_rods.empty()) return {};
+  render::Plot seams = render::seam_plot(run);
+  seams.title = render::plain(style.title);
+  return render::write_plot(with_suffix(stem, "_seams"), seams, style.print);
 }
 
 /// "hemisphere: at most 3.10 %", of the joints; where there is room for it, of one shell alone,
@@ -78,137 +74,171 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
 
 }  // namespace
 
-Result<void> draw_net_pictures(const std::vector<CaseRun>& records, render::Renderer& renderer,
-                               const fs::path& stem, Watch& watch) {
-  const auto style = style_of(records.front().preset, Pictures::stills);
+Result<void> save_panels(const Result<render::PanelFigure>& figure, const fs::path& file,
+                         double dpi) {
+  TRY(picture, figure.and_then(render::draw_panels));
+  return render::write_png(*picture, file, dpi);
+}
+
+Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer, const fs::path& stem,
+                               Watch& watch) {
+  const auto style = style_of(runs.front()->preset, Pictures::stills);
+  const record::Trajectory& first = runs.front()->trajectory;
+  const bool alone = runs.size() == 1;
   std::vector<render::NetRun> shells, shades;
   std::vector<render::NamedRun> named;
-  for (const CaseRun& one : records) {
-    const std::string name = one.name.empty() ? name_of(one.preset) : one.name;
-    shells.push_back({&one.run, name, scan_of(one.preset)});
-    shades.push_back({&one.run, caption_of(one.run, name, records.size() == 1)});
-    named.push_back({&one.run, name});
+  for (const Run* run : runs) {
+    const std::string name = run->label.empty() ? name_of(run->preset) : run->label;
+    shells.push_back({&run->trajectory, name, scan_of(run->preset)});
+    shades.push_back({&run->trajectory, caption_of(run->trajectory, name, alone)});
+    named.push_back({&run->trajectory, name});
   }
-  const auto titled = [&](render::Plot plot) {
+  const auto write = [&](const char* suffix, render::Plot plot) {
     plot.title = render::plain(style.title);
-    return plot;
+    return render::write_plot(with_suffix(stem, suffix), plot, style.print);
   };
   const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
-  const auto save = [&, dpi](const char* suffix) {
-    return [&, suffix, dpi](const render::Image& image) {
-      return render::write_png(image, with_suffix(stem, suffix), dpi);
-    };
-  };
-  return render::draw_over_nets(shells, style, renderer, watch)
-      .and_then(render::draw_panels)
-      .and_then(save("_net.png"))
-      .and_then([&] { return render::draw_deviations(shades, style, renderer, watch); })
-      .and_then(render::draw_panels)
-      .and_then(save("_deviation.png"))
-      .and_then([&] {
-        const bool blocks = records.size() == 1 && !records.front().run.layout.parts.empty();
-        return blocks ? draw_block_pictures(records.front(), style, renderer, stem, watch)
-                      : render::write_footprints(with_suffix(stem, "_footprint"), named,
-                                                 style.title, style.print);
-      })
-      .and_then([&] {
-        return render::write_plot(with_suffix(stem, "_K"), titled(render::curvature_plot(named)),
-                                  style.print);
-      })
-      .and_then([&] {
-        return render::write_plot(with_suffix(stem, "_quantiles"),
-                                  titled(render::quantile_plot(named)), style.print);
-      })
-      .and_then([&]() -> Result<void> {
-        if (records.size() > 1 || !render::on_sphere(records.front().run.layout)) return {};
-        return render::write_plot(
-            with_suffix(stem, "_latitude"),
-            titled(render::latitude_plot(named.front(), shells.front().scanned)), style.print);
-      });
+  TRY_DO(save_panels(render::draw_over_nets(shells, style, renderer, watch),
+                     with_suffix(stem, "_net.png"), dpi));
+  TRY_DO(save_panels(render::draw_deviations(shades, style, renderer, watch),
+                     with_suffix(stem, "_deviation.png"), dpi));
+  if (alone && !first.layout.parts.empty())
+    TRY_DO(draw_block_pictures(first, style, renderer, stem, watch));
+  else
+    TRY_DO(
+        render::write_footprints(with_suffix(stem, "_footprint"), named, style.title, style.print));
+  TRY_DO(write("_K", render::curvature_plot(named)));
+  TRY_DO(write("_quantiles", render::quantile_plot(named)));
+  if (!alone || !render::on_sphere(first.layout)) return {};
+  return write("_latitude", render::latitude_plot(named.front(), shells.front().scanned));
 }
 
-namespace fs = std::filesystem;
+namespace {
 
-bool drawn_side_by_side(const preset::Preset& preset, const std::string& case_name) {
-  return preset.movie.beside && !case_name.empty();
+bool is_still(const Run& run) { return run.pictures == Pictures::stills; }
+/// Whether its movie shows it beside the other cases.
+bool drawn_beside(const Run& run) {
+  return run.pictures == Pictures::movie && run.preset.movie.beside && !run.name.empty();
+}
+/// A shell that was designed on a net is shown beside it, a pushed one by itself.
+bool shows_net(const Run& run) {
+  const preset::Preset& preset = run.preset;
+  return is_still(run) && preset.on_net() && !preset.indentation.wanted() &&
+         !preset.jitter.wanted() && preset.step.empty();
+}
+bool shows_push(const Run& run) { return is_still(run) && run.preset.indentation.wanted(); }
+bool has_net(const Run& run) {
+  return shows_net(run) && run.trajectory.layout.net_nodes.size() > 0;
 }
 
-Result<void> draw_beside(const std::vector<CaseRun>& records, const std::string& title,
-                         render::Renderer& renderer, const fs::path& folder, Watch& watch) {
-  auto style = style_of(records.front().preset, Pictures::movie);
+/// folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is on the PATH.
+Result<void> draw_beside(const Runs& runs, const std::string& title, render::Renderer& renderer,
+                         const fs::path& folder, Watch& watch) {
+  auto style = style_of(runs.front()->preset, Pictures::movie);
   style.title = title;
-  std::vector<render::ComparedRun> runs;
-  for (const CaseRun& one : records) runs.push_back({&one.run, one.preset.title});
+  std::vector<render::ComparedRun> compared;
   std::size_t frames = 0;
-  for (const CaseRun& one : records) frames = std::max(frames, one.run.frames.size());
-  return make_movie(folder, records.front().preset, style, int(frames), watch,
+  for (const Run* run : runs) {
+    compared.push_back({&run->trajectory, run->preset.title});
+    frames = std::max(frames, run->trajectory.frames.size());
+  }
+  return make_movie(folder, runs.front()->preset, style, int(frames), watch,
                     [&](const render::FrameCallback& seen) {
-                      return render::write_side_by_side(runs, style, renderer, folder / "frames",
-                                                        watch, seen);
+                      return render::write_side_by_side(compared, style, renderer,
+                                                        folder / "frames", watch, seen);
                     });
 }
 
-Result<void> draw_push_pictures(const std::vector<CaseRun>& records, const std::string& title,
+/// `<stem>_loads.png` and, each as PNG and SVG, `<stem>_force` and `<stem>_bins`.
+Result<void> draw_push_pictures(const Runs& runs, const std::string& title,
                                 render::Renderer& renderer, const fs::path& stem, Watch& watch) {
-  auto style = style_of(records.front().preset, Pictures::stills);
+  auto style = style_of(runs.front()->preset, Pictures::stills);
   // several are the preset's, and each bears its own title
-  const bool several = records.size() > 1;
+  const bool several = runs.size() > 1;
   if (several) style.title = title;
   std::vector<render::NetRun> shells;
   std::vector<render::NamedRun> named;
-  for (const CaseRun& one : records) {
-    shells.push_back({&one.run, one.preset.title});
-    named.push_back({&one.run, one.preset.title});
+  for (const Run* run : runs) {
+    shells.push_back({&run->trajectory, run->preset.title});
+    named.push_back({&run->trajectory, run->preset.title});
   }
   render::Plot force = render::force_plot(named);
   force.title = render::plain(style.title);
+  TRY_DO(save_panels(render::draw_pushes(shells, style, renderer, watch),
+                     with_suffix(stem, "_loads.png")));
+  TRY_DO(render::write_plot(with_suffix(stem, "_force"), force, style.print));
   // one by itself has its title over its own plot
-  const std::string head = several ? title : "";
-  const auto with = [&](const char* suffix) { return fs::path(stem) += suffix; };
-  return render::draw_pushes(shells, style, renderer, watch)
-      .and_then(render::draw_panels)
-      .and_then(
-          [&](const render::Image& image) { return render::write_png(image, with("_loads.png")); })
-      .and_then([&] { return render::write_plot(with("_force"), force, style.print); })
-      .and_then([&] { return render::write_push_bins(with("_bins"), named, head, style.print); });
+  return render::write_push_bins(with_suffix(stem, "_bins"), named, several ? title : "",
+                                 style.print);
 }
 
-bool shown_on_net(const preset::Preset& preset) {
-  return preset.on_net() && !preset.indentation.wanted() && !preset.jitter.wanted() &&
-         preset.step.empty();
+/// What shows several runs.
+Result<void> draw_together(const std::vector<Run>& runs, const std::string& title,
+                           render::Renderer& renderer, const fs::path& stem, Progress& progress) {
+  const auto those = [&](bool (*wanted)(const Run&)) {
+    Runs found;
+    for (const Run& run : runs)
+      if (wanted(run)) found.push_back(&run);
+    return found;
+  };
+  if (const Runs beside = those(drawn_beside); !beside.empty())
+    return draw_beside(beside, title, renderer, stem.parent_path(), progress.next_phase());
+  const Runs stills = those(is_still);
+  if (stills.empty()) return {};
+  if (stills.front()->preset.page.kind != preset::PageKind::none)
+    return draw_page(stills, renderer, stem, progress.next_phase());
+  if (const Runs nets = those(has_net); !nets.empty())
+    TRY_DO(draw_net_pictures(nets, renderer, stem, progress.next_phase()));
+  if (const Runs pushes = those(shows_push); !pushes.empty())
+    TRY_DO(draw_push_pictures(pushes, title, renderer, stem, progress.next_phase()));
+  return {};
 }
 
-Result<void> draw_case_figures(std::vector<CaseRun> records, const std::string& title,
-                               render::Renderer& renderer, const fs::path& stem,
-                               const std::function<Watch&()>& next_phase) {
-  if (records.front().preset.page.kind != preset::PageKind::none)
-    return draw_page(records, renderer, stem, next_phase());
-  std::vector<CaseRun> nets, pushes;
-  for (CaseRun& one : records) {
-    if (one.preset.indentation.wanted())
-      pushes.push_back(std::move(one));
-    else if (shown_on_net(one.preset) && one.run.layout.net_nodes.size() > 0)
-      nets.push_back(std::move(one));
+}  // namespace
+
+std::vector<Phase> drawing_phases(const std::vector<Run>& runs) {
+  std::vector<Phase> phases;
+  double seconds = 0;
+  for (const Run& run : runs) {
+    const double expected = expected_seconds(run.pictures, run.preset);
+    seconds += expected;
+    if (run.pictures != Pictures::none && !drawn_beside(run))
+      phases.push_back(drawing("drawing" + (run.name.empty() ? "" : " " + run.name), expected));
   }
-  if (!nets.empty())
-    if (auto drawn = draw_net_pictures(nets, renderer, stem, next_phase()); !drawn) return drawn;
-  if (pushes.empty()) return {};
-  return draw_push_pictures(pushes, title, renderer, stem, next_phase());
+  const auto any = [&](auto wanted) { return std::ranges::any_of(runs, wanted); };
+  if (any(drawn_beside)) {
+    phases.push_back(drawing("drawing", seconds));
+  } else if (any(is_still) && runs.front().preset.page.kind != preset::PageKind::none) {
+    phases.push_back(drawing("drawing the page", seconds));
+  } else {
+    if (any(shows_net)) phases.push_back(drawing("drawing shells over nets", seconds));
+    if (any(shows_push)) phases.push_back(drawing("drawing point loads", seconds));
+  }
+  return phases;
 }
 
-bool stills_show_ends(const preset::Preset& preset) {
-  constexpr std::size_t most_steps = 8;
-  return preset.indentation.wanted() || preset.step.size() > most_steps;
+Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs::path& stem,
+                      render::Renderer& renderer, const fs::path& folder, Progress& progress) {
+  const bool all_beside = std::ranges::all_of(runs, drawn_beside);
+  const auto bars = all_beside ? std::vector<SharedColourBar>(runs.size()) : shared_bars(runs);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    Run& run = runs[k];
+    if (drawn_beside(run)) continue;
+    const double start = seconds_now();
+    const fs::path to = folder_of(folder, run.name);
+    TRY_DO(make_folder(to));
+    Watch& watch = progress.next_phase();
+    if (run.preset.jitter.wanted())
+      TRY_DO(draw_states(run, renderer, to / fs::path(run.preset.name).filename(), watch));
+    else
+      TRY_DO(draw_run(run, bars[k], renderer, to, watch));
+    run.summary.seconds_render += seconds_now() - start;
+  }
+  const double start = seconds_now();
+  TRY_DO(draw_together(runs, title, renderer, folder / stem, progress));
+  for (Run& run : runs) run.summary.seconds_render += (seconds_now() - start) / double(runs.size());
+  return {};
 }
-
-record::Trajectory ends_of(const record::Trajectory& run) {
-  record::Trajectory ends;
-  ends.layout = run.layout;
-  ends.frames = {run.frames.front(), run.frames.back()};
-  return ends;
-}
-
-namespace fs = std::filesystem;
 
 void draw_refusals(const preset::Presets& presets, const fs::path& folder) {
   for (const auto& run : runs_of(presets)) {

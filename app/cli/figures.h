@@ -1,50 +1,32 @@
-// Pictures of several cases of a preset: a movie beside one another, the figures of point loads.
+// Every picture of a preset's runs, of each by itself and of several together.
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "app/cli/delivery.h"
 #include "app/cli/pictures.h"
-#include "engine/core/result.h"
-#include "engine/core/watch.h"
 #include "engine/gridshell.h"
+#include "render/canvas/panels.h"
 #include "render/gl/renderer.h"
 
 namespace gridshell::app {
 
-/// Whether the movie of these runs is one, the cases beside one another.
-bool drawn_side_by_side(const preset::Preset& preset, const std::string& case_name);
+/// A phase for each picture that draw_all() draws.
+std::vector<Phase> drawing_phases(const std::vector<Run>& runs);
 
-/// folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is on the PATH; the title is
-/// that of the preset without its cases. Errors: io, cancelled, bad_input when a picture cannot be
-/// that size.
-Result<void> draw_beside(const std::vector<CaseRun>& records, const std::string& title,
-                         render::Renderer& renderer, const std::filesystem::path& folder,
-                         Watch& watch);
+/// Every picture of finished runs: of each by itself, in the folder of its case, then of all
+/// together, `folder`/`stem`_...; `title` is that of the preset without its cases. Adds the time
+/// that it took to their summaries. Errors: io, cancelled, bad_input when a picture cannot be that
+/// size.
+Result<void> draw_all(std::vector<Run>& runs, const std::string& title,
+                      const std::filesystem::path& stem, render::Renderer& renderer,
+                      const std::filesystem::path& folder, Progress& progress);
 
-/// `<stem>_loads.png` and, each as PNG and SVG, `<stem>_force` and `<stem>_bins`; `title` is that
-/// of the preset without its cases.
-Result<void> draw_push_pictures(const std::vector<CaseRun>& records, const std::string& title,
-                                render::Renderer& renderer, const std::filesystem::path& stem,
-                                Watch& watch);
-
-/// Whether a shell was designed on a net and is shown beside it; a pushed one is shown by itself.
-bool shown_on_net(const preset::Preset& preset);
-
-/// The figures that `figure` adds to the stills of each case: of shells on nets and of pushed ones,
-/// each with a phase of the progress bar of its own; `title` as above.
-Result<void> draw_case_figures(std::vector<CaseRun> records, const std::string& title,
-                               render::Renderer& renderer, const std::filesystem::path& stem,
-                               const std::function<Watch&()>& next_phase);
-
-/// Whether stills show a run's first and last frame alone: of a push, whose others are for the
-/// curve of its force, and of more steps than a figure holds.
-bool stills_show_ends(const preset::Preset& preset);
-
-/// These two frames.
-record::Trajectory ends_of(const record::Trajectory& run);
+/// Draws panels side by side as a PNG. Errors: those of the figure, io.
+Result<void> save_panels(const Result<render::PanelFigure>& figure,
+                         const std::filesystem::path& file, double dpi = 0);
 
 // The figures of shells that were designed on nets: over their nets, by deviation, footprints, K,
 // r against latitude.
@@ -53,7 +35,7 @@ record::Trajectory ends_of(const record::Trajectory& run);
 /// `<stem>_K`, `<stem>_quantiles`, for one cap alone `<stem>_latitude` with the joints scanned
 /// where the preset has any, and for building blocks `<stem>_blocks.png` and `<stem>_seams`.
 /// Errors: io, cancelled, bad_input when a picture cannot be that size.
-Result<void> draw_net_pictures(const std::vector<CaseRun>& records, render::Renderer& renderer,
+Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer,
                                const std::filesystem::path& stem, Watch& watch);
 
 // Pictures of the states of a shell [Baek 2018, Fig. 2].
@@ -74,7 +56,7 @@ record::Trajectory states_alone(const record::Trajectory& run,
 /// met (`<stem>_energies.*`); how far back along the path they live (`<stem>_lives.*`); which goes
 /// to which (`<stem>_ways.*`) and the barriers between them (`<stem>_barriers.*`), where that was
 /// found out.
-Result<void> draw_states(const CaseRun& one, render::Renderer& renderer,
+Result<void> draw_states(const Run& run, render::Renderer& renderer,
                          const std::filesystem::path& stem, Watch& watch);
 
 // Pictures of what was refused.

@@ -2,11 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "app/cli/commands.h"
 #include "app/cli/console.h"
+#include "app/cli/delivery.h"
+#include "app/cli/figures.h"
 #include "app/cli/preset_library.h"
+#include "app/cli/staged_folder.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/core/system_info.h"
@@ -83,7 +89,7 @@ Result<void> check_name(const fs::path& file, const std::string& name) {
 
 // version 0.1 did not say: a run sampled at the stills' radii, or of a net's end alone, came from
 // `figure`
-Pictures guessed_pictures(const FinishedRun& run, const fs::path& folder) {
+Pictures guessed_pictures(const Run& run, const fs::path& folder) {
   const preset::Preset& preset = run.preset;
   const record::FrameList& frames = run.trajectory.frames;
   // a push is sampled alike for both
@@ -101,7 +107,7 @@ Pictures guessed_pictures(const FinishedRun& run, const fs::path& folder) {
   return Pictures::stills;
 }
 
-Pictures pictures_of(const FinishedRun& run, const fs::path& folder) {
+Pictures pictures_of(const Run& run, const fs::path& folder) {
   switch (run.summary.kind) {
     case record::Kind::figure:
       return Pictures::stills;
@@ -132,7 +138,7 @@ record::Summary summary_of(const record::Journal& journal, const preset::Preset&
   return s;
 }
 
-Result<void> read_journal(const fs::path& folder, FinishedRun& run) {
+Result<void> read_journal(const fs::path& folder, Run& run) {
   TRY(journal, as_input(record::read_journal_of(folder)));
   const record::FrameList& frames = journal->trajectory.frames;
   if (frames.empty()) return no_run(folder, "no frame was finished");
@@ -142,7 +148,7 @@ Result<void> read_journal(const fs::path& folder, FinishedRun& run) {
   return {};
 }
 
-Result<void> read_files(const fs::path& folder, bool unsealed, FinishedRun& run) {
+Result<void> read_files(const fs::path& folder, bool unsealed, Run& run) {
   TRY(summary, as_input(record::read_summary(folder / "summary.json")));
   TRY(trajectory,
       as_input(record::read_trajectory(folder / "trajectory.h5", {.unsealed = unsealed})));
@@ -154,7 +160,7 @@ Result<void> read_files(const fs::path& folder, bool unsealed, FinishedRun& run)
 // triangles of the tubes, measured: the most that drawing asks for
 constexpr double bytes_to_draw_a_node = 2000;
 
-Result<void> check_memory(const fs::path& folder, const FinishedRun& run) {
+Result<void> check_memory(const fs::path& folder, const Run& run) {
   const record::FrameList& frames = run.trajectory.frames;
   if (frames.empty()) return no_run(folder, "its trajectory has no frame");
   const double wanted = 1e-9 * bytes_to_draw_a_node * double(frames.front().nodes.cols());
@@ -168,7 +174,7 @@ Result<void> check_memory(const fs::path& folder, const FinishedRun& run) {
                   folder.string(), frames.front().nodes.cols(), wanted, given));
 }
 
-Result<record::StateTables> read_states_of(const fs::path& folder, const FinishedRun& run) {
+Result<record::StateTables> read_states_of(const fs::path& folder, const Run& run) {
   auto tables = as_input(record::read_state_tables(folder));
   if (tables && tables->rows.size() != run.trajectory.frames.size())
     return no_run(folder,
@@ -177,9 +183,9 @@ Result<record::StateTables> read_states_of(const fs::path& folder, const Finishe
   return tables;
 }
 
-Result<FinishedRun> read_run(const fs::path& folder, const std::string& name,
-                             const std::vector<preset::Override>& overrides, bool unsealed) {
-  FinishedRun run;
+Result<Run> read_run(const fs::path& folder, const std::string& name,
+                     const std::vector<preset::Override>& overrides, bool unsealed) {
+  Run run;
   run.name = name;
   TRY(presets, preset::read_preset_file(folder / "preset.toml", overrides));
   run.preset = std::move(presets->base);
@@ -201,11 +207,10 @@ Result<FinishedRun> read_run(const fs::path& folder, const std::string& name,
 
 }  // namespace
 
-Result<std::vector<FinishedRun>> read_runs(const fs::path& folder,
-                                           const std::vector<preset::Override>& overrides,
-                                           bool unsealed) {
+Result<std::vector<Run>> read_runs(const fs::path& folder,
+                                   const std::vector<preset::Override>& overrides, bool unsealed) {
   TRY(names, case_names(folder));
-  std::vector<FinishedRun> runs;
+  std::vector<Run> runs;
   for (const auto& name : *names) {
     // of cases cut short the last one begun may hold no frame yet
     if (!name.empty() && !holds_run(folder / name)) continue;
@@ -216,12 +221,104 @@ Result<std::vector<FinishedRun>> read_runs(const fs::path& folder,
   return runs;
 }
 
-std::string progress_text(const FinishedRun& run) {
+std::string progress_text(const Run& run) {
   const record::FrameList& frames = run.trajectory.frames;
   double furthest = 0;
   for (const record::Frame& frame : frames) furthest = std::max(furthest, frame.progress);
-  return fmt::format("{} frame{}, up to progress {:.3g}", frames.size(),
-                     frames.size() == 1 ? "" : "s", furthest);
+  return fmt::format("{}, up to progress {:.3g}", count_text(frames.size(), "frame"), furthest);
+}
+
+// `gridshell render RUN`: pictures of a finished run, without simulating again.
+
+namespace {
+
+bool is_picture(const fs::path& path) {
+  const auto kind = path.extension();
+  return path.filename() == "frames" || kind == ".png" || kind == ".svg" || kind == ".pdf" ||
+         kind == ".mp4" || kind == ".webm" || kind == ".gif";
+}
+
+// everything of a run but its pictures; hidden files are someone's half-written ones
+Result<void> copy_data(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  for (fs::directory_iterator at(from, error), end; !error && at != end; at.increment(error)) {
+    const auto name = at->path().filename();
+    if (!at->is_regular_file(error) || at->is_symlink(error) || is_picture(name) ||
+        name.string().starts_with('.') || name == manifest_name)
+      continue;
+    fs::copy_file(at->path(), to / name, fs::copy_options::overwrite_existing, error);
+    if (error) break;
+  }
+  if (!error) return {};
+  return fail(Fault::io, fmt::format("cannot copy '{}' to '{}': {}", from.string(), to.string(),
+                                     error.message()));
+}
+
+// what stands in the run's folder beside its pictures
+Result<void> write_data(Run& run, const fs::path& from, const fs::path& to) {
+  if (run.in_journal) {
+    TRY(text, read_file(from / "preset.toml"));
+    TRY_DO(write_file(to / "preset.toml", *text));
+    TRY_DO(record::write_run(to, run.trajectory, run.summary));
+  } else {
+    TRY_DO(copy_data(from, to));
+  }
+  run.summary.kind = run.pictures == Pictures::stills ? record::Kind::figure : record::Kind::movie;
+  return record::write_summary(to / "summary.json", run.summary);
+}
+
+Result<void> render_runs(std::vector<Run>& runs, const Options& options, const fs::path& to,
+                         Progress& progress) {
+  const fs::path from = options.input, name = runs.front().summary.preset;
+  const bool cases = !runs.front().name.empty();
+  auto stem = cases ? name.parent_path().filename() : name.filename();
+  if (stem.empty()) stem = from.filename();
+  // all cases together are called by the preset that lists them, else by their folder
+  const auto listing = preset::read_preset_file(from / "preset.toml", {});
+  const bool titled = listing && !listing->base.title.empty();
+  TRY(maker,
+      PictureMaker::create(options.context, runs.front().preset.style.font));
+  for (Run& run : runs) run.summary.seconds_render = 0;
+  TRY_DO(draw_all(runs, titled ? listing->base.title : stem.string(), stem, maker->renderer(), to,
+                  progress));
+  for (Run& run : runs) TRY_DO(write_data(run, folder_of(from, run.name), folder_of(to, run.name)));
+  return cases ? copy_data(from, to) : Result<void>{};
+}
+
+Result<int> render(const Options& options, bool unsealed) {
+  TRY(overrides, overrides_of_run(options));
+  TRY(runs, read_runs(options.input, *overrides, unsealed));
+  for (const Run& run : *runs)
+    if (!run.summary.finished)
+      fmt::print(stderr, "'{}' is not finished: {}\n", folder_of(options.input, run.name).string(),
+                 progress_text(run));
+  const fs::path folder = options.output.empty() ? fs::path(options.input) : options.output;
+  TRY_DO(deliver(folder, drawing_phases(*runs), options.quiet,
+                 [&](const fs::path& partial, Progress& progress) {
+                   return render_runs(*runs, options, partial, progress);
+                 }));
+  if (options.quiet) return ExitCode::done;
+  for (const Run& run : *runs) {
+    const auto of_run = folder_of(folder, run.name);
+    fmt::print("{}: {:.1f} s drawn\n{}", of_run.string(), run.summary.seconds_render,
+               how_to_make_movie(of_run, run.preset));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<Options>();
+  const auto unsealed = std::make_shared<bool>(false);
+  CLI::App& command =
+      add_command(program, action, "render", "pictures of a finished run, without simulating again",
+                  [options, unsealed] { return render(*options, *unsealed); });
+  command.add_option("RUN", options->input, "the folder of a finished run")->required();
+  add_changes(command, *options);
+  add_work_options(command, *options, "folder to write, by default RUN itself");
+  add_picture_options(command, *options);
+  add_unsealed(command, *unsealed);
 }
 
 }  // namespace gridshell::app

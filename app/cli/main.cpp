@@ -38,7 +38,7 @@ int run(int argc, char** argv) {
     // help and version come as errors too, with code 0
     return program.exit(error) == 0 ? app::ExitCode::done : app::ExitCode::bad_input;
   }
-  return action();
+  return app::report(action());
 }
 
 }  // namespace

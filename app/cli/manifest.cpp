@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -95,38 +94,24 @@ std::optional<LegacyRunFiles> unlisted(const fs::path& folder) {
 
 bool is_temporary(const std::string& name) { return name.starts_with(".partial-"); }
 
+/// "frames/frame_00012.png", with five digits or more
+bool is_frame(const std::string& name) {
+  const std::string begin = "frames/frame_", end = ".png";
+  if (!name.starts_with(begin) || !name.ends_with(end)) return false;
+  const auto digits = name.substr(begin.size(), name.size() - begin.size() - end.size());
+  return digits.size() >= 5 && digits.find_first_not_of("0123456789") == digits.npos;
+}
+
 bool may_be_of(const LegacyRunFiles& run, const std::string& name) {
-  static const std::set<std::string> data{"summary.json",
-                                          "preset.toml",
-                                          "joints.csv",
-                                          "cells.csv",
-                                          "frames.csv",
-                                          "bins.csv",
-                                          "seams.csv",
-                                          "trajectory.h5",
-                                          "movie.mp4",
-                                          "accuracy.csv",
-                                          "scaling.csv",
-                                          "stability.csv",
-                                          "design.json",
-                                          "design.csv",
-                                          "ends.csv",
-                                          "rods.csv",
-                                          "ends_rounded.csv",
-                                          "branches.csv",
-                                          "scan.json",
-                                          "scan.csv",
-                                          "measured.csv",
-                                          "scan.png",
-                                          record::states_name,
-                                          record::search_name,
-                                          record::transitions_name,
-                                          record::barriers_name,
-                                          record::journal_name,
-                                          record::coarser_journal_name};
-  static const std::regex frame("frames(/frame_[0-9]{5,}\\.png)?");
-  if (data.contains(name) || is_temporary(fs::path(name).filename().string()) ||
-      std::regex_match(name, frame))
+  static const std::string data = fmt::format(
+      " summary.json preset.toml joints.csv cells.csv frames.csv bins.csv seams.csv trajectory.h5 "
+      "movie.mp4 accuracy.csv scaling.csv stability.csv branches.csv design.json design.csv "
+      "ends.csv ends_rounded.csv rods.csv scan.json scan.csv measured.csv scan.png frames "
+      "{} {} {} {} {} {} ",
+      record::states_name, record::search_name, record::transitions_name, record::barriers_name,
+      record::journal_name, record::coarser_journal_name);
+  if ((name.find(' ') == name.npos && data.find(" " + name + " ") != data.npos) ||
+      is_temporary(fs::path(name).filename().string()) || is_frame(name))
     return true;
   const auto kind = fs::path(name).extension();
   if (name.find('/') != std::string::npos || (kind != ".png" && kind != ".svg")) return false;

@@ -4,11 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <regex>
+#include <charconv>
 
-#include "render/gl/context.h"
-
+#include "engine/core/file_io.h"
+#include "engine/core/text.h"
 #include "engine/core/try.h"
+#include "render/gl/context.h"
 
 namespace gridshell::app {
 
@@ -32,13 +33,10 @@ void add_preset_options(CLI::App& command, Options& options) {
                    "print what default < preset < --set came to, as a preset, and stop");
 }
 
-void add_run_options(CLI::App& command, Options& options) {
-  command.add_option("RUN", options.input, "the folder of a finished run")->required();
-  add_changes(command, options);
-}
-
 void add_work_options(CLI::App& command, Options& options, const std::string& output) {
-  command.add_option("-o,--output", options.output, output);
+  command.add_option("-o,--output", options.output, output)->check([](const std::string& path) {
+    return path.empty() ? "must name a folder" : "";
+  });
   command.add_option("--threads", options.threads, "threads to work with; results do not change")
       ->check(CLI::Range(1, 1024))
       // the software rasteriser reads this when its context is made
@@ -49,6 +47,11 @@ void add_work_options(CLI::App& command, Options& options, const std::string& ou
 void add_picture_options(CLI::App& command, Options& options) {
   command.add_option("--context", options.context, "auto, osmesa, egl or window")
       ->check(CLI::IsMember(all_words<render::ContextKind>()));
+}
+
+void add_unsealed(CLI::App& command, bool& unsealed) {
+  command.add_flag("--unsealed", unsealed,
+                   "take a trajectory.h5 that another program wrote or changed");
 }
 
 Result<std::vector<preset::Override>> overrides_of(const Options& options) {
@@ -66,12 +69,15 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
     for (const char* key : {"movie.quality", "figure.quality"})
       overrides.push_back({"--quality", key, options.quality});
   if (!options.width.empty()) {
-    std::smatch part;
-    if (!std::regex_match(options.width, part, std::regex("([0-9]{1,4}(\\.[0-9]+)?)mm")))
+    const auto number = options.width.substr(0, options.width.rfind("mm"));
+    const auto width = parse_number<double>(number, std::chars_format::fixed);
+    if (number == options.width || !width || !(*width > 0 && *width < 10000))
       return fail(
           Fault::bad_input,
-          fmt::format("--width {}: must be in millimetres, for example 85mm", options.width));
-    overrides.push_back({"--width", "figure.width_mm", part[1]});
+          fmt::format("--width {}: must be in millimetres, more than 0 and less than 10000, "
+                      "for example 85mm",
+                      options.width));
+    overrides.push_back({"--width", "figure.width_mm", number});
   }
   if (!options.dpi.empty()) overrides.push_back({"--dpi", "figure.dpi", options.dpi});
   if (!options.size.empty()) {
@@ -82,18 +88,30 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
   return overrides;
 }
 
+std::optional<std::pair<int, int>> two_numbers(std::string_view text, std::string_view between) {
+  const auto at = text.find(between);
+  if (at == text.npos) return std::nullopt;
+  const auto number = [](std::string_view digits) {
+    return digits.size() <= 6 ? parse_number<unsigned>(digits) : std::nullopt;
+  };
+  const auto first = number(text.substr(0, at)), second = number(text.substr(at + between.size()));
+  if (!first || !second) return std::nullopt;
+  return std::pair(int(*first), int(*second));
+}
+
 Result<std::pair<int, int>> size_of(const std::string& text) {
-  std::smatch part;
-  if (!std::regex_match(text, part, std::regex("([0-9]{1,6})x([0-9]{1,6})")))
-    return fail(Fault::bad_input,
-                fmt::format("--size {}: must be WxH, for example 1280x720", text));
-  return std::pair(std::stoi(part[1]), std::stoi(part[2]));
+  if (const auto size = two_numbers(text, "x")) return *size;
+  return fail(Fault::bad_input, fmt::format("--size {}: must be WxH, for example 1280x720", text));
+}
+
+Result<void> write_with_folder(const std::filesystem::path& file, const std::string& text) {
+  if (file.has_parent_path()) TRY_DO(make_folder(file.parent_path()));
+  return write_file(file, text);
 }
 
 Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
                                                        const std::vector<std::string>& also) {
-  auto overrides = overrides_of(options);
-  if (!overrides) return overrides;
+  TRY(overrides, overrides_of(options));
   for (const auto& change : *overrides) {
     if (std::ranges::find(also, change.key) != also.end()) continue;
     const bool shows = change.key.starts_with("movie.") || change.key.starts_with("figure.") ||
@@ -105,7 +123,7 @@ Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
                               "[movie], [style], [figure] and [page] that only show it",
                               change.source, change.key));
   }
-  return overrides;
+  return std::move(*overrides);
 }
 
 }  // namespace gridshell::app

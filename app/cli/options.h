@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,15 +34,15 @@ void add_preset_options(CLI::App& command, Options& options);
 /// What changes a preset or the pictures of a run: --set, --size, --quality, --width, --dpi.
 void add_changes(CLI::App& command, Options& options);
 
-/// RUN and what changes its pictures: --set, --size, --quality.
-void add_run_options(CLI::App& command, Options& options);
-
 /// -o, --threads, --quiet: of commands that work for a while.
 void add_work_options(CLI::App& command, Options& options,
                       const std::string& output = "folder to write, by default out/<preset>");
 
 /// --context: of commands that draw.
 void add_picture_options(CLI::App& command, Options& options);
+
+/// --unsealed: of commands that read a run's trajectory.
+void add_unsealed(CLI::App& command, bool& unsealed);
 
 /// The options that change the preset, in the order in which they are laid over it. Errors:
 /// bad_input for a --set without key or value, a --size that is not WxH.
@@ -53,5 +55,12 @@ Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
 
 /// The width and height that --size names. Errors (bad_input): not WxH.
 Result<std::pair<int, int>> size_of(const std::string& text);
+
+/// Writes a file of the user's choice; the folder that it lies in is made. Errors: io.
+Result<void> write_with_folder(const std::filesystem::path& file, const std::string& text);
+
+/// The whole numbers of at most six digits in "1280x720", 'x' between them; nothing for other
+/// texts.
+std::optional<std::pair<int, int>> two_numbers(std::string_view text, std::string_view between);
 
 }  // namespace gridshell::app

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "app/cli/console.h"
 #include "app/cli/pictures.h"
+#include "engine/core/try.h"
 #include "render/canvas/legend.h"
 #include "render/gl/image.h"
 #include "render/movie/run_figures.h"
@@ -13,8 +15,6 @@
 #include "render/movie/shell_lines.h"
 #include "render/movie/stage.h"
 #include "render/movie/stills.h"
-
-#include "engine/core/try.h"
 
 namespace gridshell::app {
 namespace fs = std::filesystem;
@@ -25,20 +25,21 @@ using render::Canvas;
 
 class PageMaker {
  public:
-  PageMaker(const std::vector<CaseRun>& records, render::Renderer& renderer, Watch& watch)
+  PageMaker(const Runs& records, render::Renderer& renderer, Watch& watch)
       : records_(records), renderer_(renderer), watch_(watch) {
-    style_ = style_of(records.front().preset, Pictures::stills);
+    style_ = style_of(records.front()->preset, Pictures::stills);
     style_.look.letters = false;
     style_.scale_bar_mm = 0;
     style_.title.clear();
     // a floor would end at every panel's edge
-    if (records.front().preset.style.floor == preset::Visibility::automatic)
+    if (records.front()->preset.style.floor == preset::Visibility::automatic)
       style_.look.floor = false;
-    for (const CaseRun& one : records) {
-      const bool push = one.preset.indentation.wanted();
+    for (const Run* one : records) {
+      const bool push = one->preset.indentation.wanted();
       (push ? pushes_ : shells_)
-          .push_back({&one.run, render::plain(one.preset.title), scan_of(one.preset)});
-      (push ? named_pushes_ : named_shells_).push_back({&one.run, render::plain(one.preset.title)});
+          .push_back({&one->trajectory, render::plain(one->preset.title), scan_of(one->preset)});
+      (push ? named_pushes_ : named_shells_)
+          .push_back({&one->trajectory, render::plain(one->preset.title)});
     }
   }
 
@@ -73,19 +74,16 @@ class PageMaker {
   }
 
   render::MovieStyle sized(render::MovieStyle style, double width_mm, double height_mm) const {
-    return at_size(std::move(style), width_mm, height_mm, records_.front().preset.figure.dpi);
+    return at_size(std::move(style), width_mm, height_mm, records_.front()->preset.figure.dpi);
   }
 
   Result<void> add_photo(Page& page, const std::string& letter, const Box& box_mm) {
-    const std::string& file = records_.front().preset.page.photo;
+    const std::string& file = records_.front()->preset.page.photo;
     if (file.empty()) {
-      page.add(letter, "", box_mm, [](Canvas& canvas, const Box& box) {
-        render::draw_empty_frame(canvas, box, "photograph");
-      });
+      page.add_empty(letter, box_mm, "photograph");
       return {};
     }
-    auto photo = render::read_png(file);
-    if (!photo) return tl::unexpected(Error{Fault::bad_input, photo.error().message});
+    TRY(photo, as_input(render::read_png(file)));
     page.add_image(letter, "", box_mm, std::move(*photo));
     return {};
   }
@@ -94,7 +92,7 @@ class PageMaker {
   Result<Page> fig1() {
     Page page{178, 120, {}};
     TRY_DO(add_photo(page, "A", {2, 2, 92, 116}));
-    const record::Trajectory& run = records_.front().run;
+    const record::Trajectory& run = records_.front()->trajectory;
     constexpr double width = 62, caption = 12 * 25.4 / 72;
     const int count = int(run.frames.size());
     const double height = 116.0 / count;
@@ -114,10 +112,8 @@ class PageMaker {
       watch_.report(double(k + 1) / count);
     }
     if (const auto& bar = stage.colour_bar()) page.add_colour_bar({157, 4, 19, 48}, *bar);
-    const double bar_mm = records_.front().preset.figure.scale_bar_mm;
-    page.add("", "", {160, 106, 16, 10}, [bar_mm, units](Canvas& canvas, const Box& box) {
-      render::draw_scale_bar(canvas, box, bar_mm, units, page_font);
-    });
+    const double bar_mm = records_.front()->preset.figure.scale_bar_mm;
+    page.add_scale_bar({160, 106, 16, 10}, bar_mm, units);
     return page;
   }
 
@@ -168,7 +164,7 @@ class PageMaker {
   /// Blocks, their footprints, and the assemblage over them.
   Result<Page> fig5() {
     Page page{178, 116, {}};
-    const record::Trajectory& run = records_.front().run;
+    const record::Trajectory& run = records_.front()->trajectory;
     const Box left{2, 2, 86, 54}, below{2, 58, 112, 57};
     TRY(blocks, render::draw_blocks(run, filling(left, 1), renderer_, watch_));
     page.add_figure("A", left, std::move(*blocks));
@@ -181,7 +177,7 @@ class PageMaker {
     return page;
   }
 
-  const std::vector<CaseRun>& records_;
+  const Runs& records_;
   render::Renderer& renderer_;
   Watch& watch_;
   render::MovieStyle style_;
@@ -191,9 +187,9 @@ class PageMaker {
 
 }  // namespace
 
-Result<void> draw_page(const std::vector<CaseRun>& records, render::Renderer& renderer,
-                       const fs::path& stem, Watch& watch) {
-  const preset::Preset& preset = records.front().preset;
+Result<void> draw_page(const Runs& records, render::Renderer& renderer, const fs::path& stem,
+                       Watch& watch) {
+  const preset::Preset& preset = records.front()->preset;
   if (preset.page.kind == preset::PageKind::none) return {};
   TRY(page, PageMaker(records, renderer, watch).make(preset.page.kind));
   const render::Print print{preset.figure.width_mm, preset.figure.dpi};

@@ -39,6 +39,23 @@ struct Page {
            std::function<void(render::Canvas&, const render::Box&)> draw) {
     panels.push_back({letter, caption, box_mm, std::move(draw)});
   }
+  /// A frame that says what is missing.
+  void add_empty(const std::string& letter, const render::Box& box_mm, const std::string& text) {
+    add(letter, "", box_mm, [text](render::Canvas& canvas, const render::Box& box) {
+      render::draw_empty_frame(canvas, box, text);
+    });
+  }
+  void add_keys(const render::Box& box_mm, std::vector<render::ColourKey> keys) {
+    add("", "", box_mm, [keys = std::move(keys)](render::Canvas& canvas, const render::Box& box) {
+      render::draw_colour_keys(canvas, box, keys, page_font);
+    });
+  }
+  /// `units`: points of a millimetre that the picture beside it shows.
+  void add_scale_bar(const render::Box& box_mm, double length_mm, double units) {
+    add("", "", box_mm, [=](render::Canvas& canvas, const render::Box& box) {
+      render::draw_scale_bar(canvas, box, length_mm, units, page_font);
+    });
+  }
   void add_image(const std::string& letter, const std::string& caption, const render::Box& box_mm,
                  render::Image image) {
     add(letter, caption, box_mm,
@@ -91,7 +108,7 @@ struct Page {
 /// empty frame. C: of each class the state of lowest energy that any record has, or an empty frame.
 /// Errors: bad_input where no record is a search or the sweep cannot be read; the renderer's;
 /// cancelled.
-Result<Page> states_page(const std::vector<CaseRun>& records, const render::MovieStyle& style,
+Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
                          render::Renderer& renderer, Watch& watch);
 
 // The figures of the paper, each on one page.
@@ -99,7 +116,7 @@ Result<Page> states_page(const std::vector<CaseRun>& records, const render::Movi
 /// `<stem>_page.png`, `.svg` and `.pdf` of the preset's [page] kind, from its finished cases; none
 /// where the kind is "none". Errors: io, cancelled, bad_input for a photograph that cannot be read
 /// or cases that the page does not have the place for.
-Result<void> draw_page(const std::vector<CaseRun>& records, render::Renderer& renderer,
+Result<void> draw_page(const Runs& records, render::Renderer& renderer,
                        const std::filesystem::path& stem, Watch& watch);
 
 }  // namespace gridshell::app

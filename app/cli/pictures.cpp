@@ -31,6 +31,10 @@ Eigen::Matrix3Xd scan_of(const preset::Preset& preset) {
 
 Result<PictureMaker> PictureMaker::create(const std::string& context, const std::string& font) {
   TRY_DO(render::use_font(font));
+  return create(context);
+}
+
+Result<PictureMaker> PictureMaker::create(const std::string& context) {
   const auto kind = find_word<render::ContextKind>(context);
   if (!kind) return fail(Fault::bad_input, "--context " + context + ": no such context");
   TRY(made, render::Context::create(*kind));
@@ -74,35 +78,51 @@ std::vector<std::string> captions_of(const preset::Preset& preset, const record:
   return captions;
 }
 
-}  // namespace
-
-Result<void> PictureMaker::draw(Pictures pictures, const preset::Preset& preset,
-                                const record::Trajectory& run, const SharedColourBar& bar,
-                                const fs::path& folder, Watch& watch) {
-  return draw_pictures(pictures, preset, run, bar, folder, watch).and_then([&]() -> Result<void> {
-    // a frame that could not be read was drawn empty
-    if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
-    return {};
-  });
+/// The first and last frame.
+record::Trajectory ends_of(const record::Trajectory& run) {
+  record::Trajectory ends;
+  ends.layout = run.layout;
+  ends.frames = {run.frames.front(), run.frames.back()};
+  return ends;
 }
 
-Result<void> PictureMaker::draw_pictures(Pictures pictures, const preset::Preset& preset,
-                                         const record::Trajectory& run, const SharedColourBar& bar,
-                                         const fs::path& folder, Watch& watch) {
-  const auto style = style_of(preset, pictures);
-  if (pictures == Pictures::stills) {
-    const auto stem = folder / fs::path(preset.name).filename();
-    auto drawn =
-        render::write_stills(run, style, bar, *renderer_, stem, watch, captions_of(preset, run))
-            .map([](const auto&) {});
-    return drawn && style.vector ? write_lines(run, style, stem) : drawn;
-  }
-  if (auto showable = render::check_showable(run, style); !showable) return showable;
-  return make_movie(
-      folder, preset, style, int(run.frames.size()), watch, [&](const render::FrameCallback& seen) {
-        return render::write_movie(render::source_of(run), render::summarise_run(run), style, bar,
-                                   *renderer_, folder / "frames", watch, seen);
-      });
+Result<void> draw_stills(const preset::Preset& preset, const record::Trajectory& run,
+                         const SharedColourBar& bar, render::Renderer& renderer,
+                         const fs::path& folder, Watch& watch) {
+  const auto style = style_of(preset, Pictures::stills);
+  const auto stem = folder / fs::path(preset.name).filename();
+  TRY_DO(render::write_stills(run, style, bar, renderer, stem, watch, captions_of(preset, run)));
+  return style.vector ? write_lines(run, style, stem) : Result<void>{};
+}
+
+Result<void> draw_movie(const Run& run, const SharedColourBar& bar, render::Renderer& renderer,
+                        const fs::path& folder, Watch& watch) {
+  const auto style = style_of(run.preset, Pictures::movie);
+  TRY_DO(render::check_showable(run.trajectory, style));
+  return make_movie(folder, run.preset, style, int(run.trajectory.frames.size()), watch,
+                    [&](const render::FrameCallback& seen) {
+                      return render::write_movie(render::source_of(run.trajectory),
+                                                 render::summarise_run(run.trajectory), style, bar,
+                                                 renderer, folder / "frames", watch, seen);
+                    });
+}
+
+}  // namespace
+
+Result<void> draw_run(const Run& run, const SharedColourBar& bar, render::Renderer& renderer,
+                      const fs::path& folder, Watch& watch) {
+  // the other frames of a push are for the curve of its force
+  constexpr std::size_t most_steps = 8;
+  const bool ends = run.preset.indentation.wanted() || run.preset.step.size() > most_steps;
+  if (run.pictures == Pictures::movie)
+    TRY_DO(draw_movie(run, bar, renderer, folder, watch));
+  else if (ends)
+    TRY_DO(draw_stills(run.preset, ends_of(run.trajectory), bar, renderer, folder, watch));
+  else
+    TRY_DO(draw_stills(run.preset, run.trajectory, bar, renderer, folder, watch));
+  // a frame that could not be read was drawn empty
+  if (const auto& fault = run.trajectory.frames.fault()) return tl::unexpected(*fault);
+  return {};
 }
 
 Result<void> make_movie(const fs::path& folder, const preset::Preset& preset,
@@ -110,18 +130,14 @@ Result<void> make_movie(const fs::path& folder, const preset::Preset& preset,
                         const DrawFrames& draw) {
   const fs::path pictures = folder / "frames";
   style.frames = frames;
-  if (auto made = make_folder(pictures); !made) return made;
+  TRY_DO(make_folder(pictures));
   if (style.title_s > 0)
-    if (auto written = render::write_png(render::title_card(style), pictures / "title.png");
-        !written)
-      return written;
+    TRY_DO(render::write_png(render::title_card(style), pictures / "title.png"));
   TRY(movie, render::MovieEncoder::begin(pictures, style, folder / "movie.mp4"));
-  const auto drawn = draw([&](int, const render::Image& picture) {
+  TRY_DO(draw([&](int, const render::Image& picture) {
     if (*movie) (*movie)->put(picture, watch);
-  });
-  if (!drawn) return tl::unexpected(drawn.error());
-  if (*movie)
-    if (auto made = (*movie)->finish(watch); !made) return made;
+  }));
+  if (*movie) TRY_DO((*movie)->finish(watch));
   if (preset.movie.poster) {
     std::error_code error;
     fs::copy_file(pictures / render::frame_name(frames - 1), folder / "poster.png",
@@ -134,17 +150,17 @@ Result<void> make_movie(const fs::path& folder, const preset::Preset& preset,
   return {};
 }
 
-std::vector<SharedColourBar> shared_bars(const std::vector<CaseRun>& records, Pictures pictures) {
+std::vector<SharedColourBar> shared_bars(const std::vector<Run>& runs) {
   std::vector<render::RunSummary> surveys;
-  for (const CaseRun& one : records) surveys.push_back(render::summarise_run(one.run));
+  for (const Run& run : runs) surveys.push_back(render::summarise_run(run.trajectory));
   std::vector<SharedColourBar> bars;
-  for (const CaseRun& one : records) {
+  for (const Run& run : runs) {
     // what is coloured by something else has a bar of its own
     std::vector<const render::RunSummary*> alike;
-    for (std::size_t k = 0; k < records.size(); ++k)
-      if (records[k].preset.movie.colour_by == one.preset.movie.colour_by)
+    for (std::size_t k = 0; k < runs.size(); ++k)
+      if (runs[k].preset.movie.colour_by == run.preset.movie.colour_by)
         alike.push_back(&surveys[k]);
-    bars.push_back(render::colour_bar_of(alike, style_of(one.preset, pictures)));
+    bars.push_back(render::colour_bar_of(alike, style_of(run.preset, run.pictures)));
   }
   return bars;
 }

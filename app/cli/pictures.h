@@ -1,4 +1,4 @@
-// A finished run of a preset or of one of its cases, kept for the pictures that show several.
+// Pictures of a run as its preset wants them: what joins the renderer to the commands.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/result.h"
-#include "engine/core/watch.h"
 #include "engine/gridshell.h"
 #include "render/canvas/legend.h"
 #include "render/gl/context.h"
@@ -20,24 +18,29 @@
 
 namespace gridshell::app {
 
-struct CaseRun {
-  preset::Preset preset;
-  record::Trajectory run;
-  record::StateTables states = {};  ///< of a search for states
-  std::string name = {};            ///< what pictures call it; empty: after its net
-};
-
-// Pictures of a run as its preset wants them: what joins the renderer, which knows no preset, to
-// the commands.
-
 /// Which pictures a command makes.
 enum class Pictures { none, movie, stills };
+
+/// One run of a preset or of one of its cases: planned, done, or read back from its folder.
+struct Run {
+  std::string name = {};  ///< of the case, and of its folder; empty without cases
+  preset::Preset preset = {};
+  Pictures pictures = Pictures::movie;  ///< that are drawn of it
+  record::Trajectory trajectory = {};
+  record::Summary summary = {};
+  record::StateTables states = {};  ///< of a search for states
+  std::string label = {};           ///< what pictures call it; empty: after its net
+  bool in_journal = false;          ///< it was cut short: its files are still to be made
+};
+
+/// Some runs that one picture shows.
+using Runs = std::vector<const Run*>;
 
 /// A colour bar of several runs; none where each has its own.
 using SharedColourBar = std::optional<render::ColourBar>;
 
 /// One a run: the bar that it shares with all others that are coloured by the same quantity.
-std::vector<SharedColourBar> shared_bars(const std::vector<CaseRun>& records, Pictures pictures);
+std::vector<SharedColourBar> shared_bars(const std::vector<Run>& runs);
 
 /// How the preset wants its run shown.
 render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
@@ -45,31 +48,32 @@ render::MovieStyle style_of(const preset::Preset& preset, Pictures pictures);
 /// The joints that were measured on a real shell, 3 x n, mm.
 Eigen::Matrix3Xd scan_of(const preset::Preset& preset);
 
-/// Draws runs; holds the OpenGL context, so it stays on the thread that made it.
+/// Holds the OpenGL context, so it stays on the thread that made it.
 class PictureMaker {
  public:
   /// `context` as in --context; `font` of all text, empty: the usual one. Errors: io when no
   /// context can be had, naming what was tried; bad_input for a font that is not there.
   static Result<PictureMaker> create(const std::string& context, const std::string& font);
+  /// With the font that is in use. Errors: io, bad_input for no such context.
+  static Result<PictureMaker> create(const std::string& context);
 
-  /// Movie: folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is on the PATH.
-  /// Stills: folder/<preset>_1.png ... and all in one, folder/<preset>.png. Each file is whole or
-  /// absent. Errors: io, cancelled, bad_input when a picture cannot be that size.
-  Result<void> draw(Pictures pictures, const preset::Preset& preset, const record::Trajectory& run,
-                    const SharedColourBar& bar, const std::filesystem::path& folder, Watch& watch);
-
+  render::Context& context() { return *context_; }
   render::Renderer& renderer() { return *renderer_; }
 
  private:
   PictureMaker(std::unique_ptr<render::Context> context, std::unique_ptr<render::Renderer> renderer)
       : context_(std::move(context)), renderer_(std::move(renderer)) {}
-  Result<void> draw_pictures(Pictures pictures, const preset::Preset& preset,
-                             const record::Trajectory& run, const SharedColourBar& bar,
-                             const std::filesystem::path& folder, Watch& watch);
 
   std::unique_ptr<render::Context> context_;  // outlives the renderer
   std::unique_ptr<render::Renderer> renderer_;
 };
+
+/// Movie: folder/frames/frame_00000.png ... and folder/movie.mp4 where ffmpeg is on the PATH.
+/// Stills: folder/<preset>_1.png ... and all in one, folder/<preset>.png; of a push and of very
+/// many steps of their ends alone. Each file is whole or absent. Errors: io, cancelled, bad_input
+/// when a picture cannot be that size.
+Result<void> draw_run(const Run& run, const SharedColourBar& bar, render::Renderer& renderer,
+                      const std::filesystem::path& folder, Watch& watch);
 
 /// Writes the frames of a movie, and shows each to whoever wants to see it.
 using DrawFrames = std::function<Result<render::MovieReport>(const render::FrameCallback& seen)>;

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 #include <filesystem>
+#include <tuple>
 
+#include "app/cli/console.h"
 #include "engine/core/file_io.h"
 #include "engine/core/suggest.h"
+#include "engine/core/try.h"
 
 namespace gridshell::app {
 
@@ -28,6 +31,12 @@ Result<preset::Presets> load_preset(const std::string& argument,
                                             argument, did_you_mean(argument, names)));
 }
 
+Result<std::string> title_of(const EmbeddedPreset& embedded) {
+  TRY(presets, load_preset(embedded.name, {}));
+  const auto& [title, source] = std::tie(presets->base.title, presets->base.source);
+  return title + (source.empty() ? "" : " (" + source + ")");
+}
+
 Result<preset::Presets> load_preset_or_run(const std::string& argument) {
   std::error_code error;
   std::filesystem::path folder(argument);
@@ -42,8 +51,13 @@ Result<preset::Presets> load_preset_or_run(const std::string& argument) {
 }
 
 Result<preset::Presets> load(const Options& options) {
-  return overrides_of(options).and_then(
-      [&](const auto& overrides) { return load_preset(options.input, overrides); });
+  TRY(overrides, overrides_of(options));
+  return load_preset(options.input, *overrides);
+}
+
+Result<int> print_config(const preset::Presets& presets) {
+  fmt::print("{}", preset::to_toml(presets));
+  return printed();
 }
 
 std::vector<preset::Case> runs_of(const preset::Presets& presets) {

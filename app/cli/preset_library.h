@@ -20,6 +20,9 @@ struct EmbeddedPreset {
 /// All of them, sorted by name.
 const std::vector<EmbeddedPreset>& embedded_presets();
 
+/// "Title (source)" of one. Errors: it does not read.
+Result<std::string> title_of(const EmbeddedPreset& embedded);
+
 /// The files that they name, as text, by name.
 const std::map<std::string, std::string>& embedded_files();
 
@@ -39,6 +42,9 @@ Result<preset::Presets> load_preset_or_run(const std::string& argument);
 /// The preset that the options name, with what they lay over it. Errors: bad_input.
 Result<preset::Presets> load(const Options& options);
 
+/// Prints what default < preset < `--set` came to, as a preset; the exit code.
+Result<int> print_config(const preset::Presets& presets);
+
 /// The cases of a preset, or the preset itself as one run without a name.
 std::vector<preset::Case> runs_of(const preset::Presets& presets);
 
@@ -51,9 +57,11 @@ inline std::filesystem::path folder_of(const std::filesystem::path& folder,
   return name.empty() ? folder : folder / name;
 }
 
-/// The folder that a command writes: the one asked for, or out/<preset>.
-inline std::filesystem::path output_of(const Options& options, const preset::Preset& base) {
-  return options.output.empty() ? std::filesystem::path("out") / base.name : options.output;
+/// The folder that a command writes: the one asked for, or out/<preset><suffix>.
+inline std::filesystem::path output_of(const Options& options, const preset::Preset& base,
+                                       const std::string& suffix = "") {
+  return options.output.empty() ? std::filesystem::path("out") / (base.name + suffix)
+                                : options.output;
 }
 
 }  // namespace gridshell::app

@@ -15,70 +15,53 @@ namespace {
 
 using record::Json;
 
-Json commands_json() {
+/// All of a list, each as an object.
+template <class List, class Object>
+Json array_of(const List& list, const Object& object) {
   Json all = Json::array();
-  for (const CommandEntry& command : command_table()) {
-    Json one = Json::object();
-    one["name"] = command.name;
-    one["meaning"] = command.meaning;
-    one["options"] = Json::array();
-    for (const CommandOption& option : command.options) {
-      Json json = Json::object();
-      json["name"] = option.name;
-      if (!option.short_name.empty()) json["short"] = option.short_name;
-      json["meaning"] = option.meaning;
-      if (!option.words.empty()) json["words"] = option.words;
-      json["argument"] = option.argument;
-      json["flag"] = option.flag;
-      json["required"] = option.required;
-      json["many"] = option.many;
-      one["options"].push_back(std::move(json));
-    }
-    all.push_back(std::move(one));
-  }
+  for (const auto& one : list) all.push_back(object(one));
   return all;
 }
 
-Json keys_json() {
-  Json all = Json::array();
-  for (const preset::KeyText& key : preset::key_texts()) {
-    Json one = Json::object();
-    one["table"] = key.table;
-    one["key"] = key.key;
-    one["unit"] = key.unit;
-    one["default"] = key.value;
-    one["allowed"] = key.allowed;
-    one["meaning"] = key.meaning;
-    all.push_back(std::move(one));
-  }
-  return all;
+Json json_of(const CommandOption& option) {
+  Json json{{"name", option.name}};
+  if (!option.short_name.empty()) json["short"] = option.short_name;
+  json["meaning"] = option.meaning;
+  if (!option.words.empty()) json["words"] = option.words;
+  json.update({{"argument", option.argument},
+               {"flag", option.flag},
+               {"required", option.required},
+               {"many", option.many}});
+  return json;
+}
+
+Json json_of(const CommandEntry& command) {
+  return {{"name", command.name},
+          {"meaning", command.meaning},
+          {"options", array_of(command.options, [](const auto& one) { return json_of(one); })}};
 }
 
 }  // namespace
 
 Result<std::string> listing_json() {
-  Json json = Json::object();
-  json["version"] = version();
-  json["commands"] = commands_json();
+  Json json{{"version", version()}};
+  json["commands"] = array_of(command_table(), [](const auto& one) { return json_of(one); });
   json["presets"] = Json::array();
   for (const EmbeddedPreset& embedded : embedded_presets()) {
     TRY(presets, load_preset(embedded.name, {}));
-    Json one = Json::object();
-    one["name"] = embedded.name;
-    one["title"] = presets->base.title;
-    one["description"] = presets->base.description;
-    one["source"] = presets->base.source;
-    json["presets"].push_back(std::move(one));
+    const preset::Preset& base = presets->base;
+    json["presets"].push_back({{"name", embedded.name},
+                               {"title", base.title},
+                               {"description", base.description},
+                               {"source", base.source}});
   }
-  json["tables"] = Json::array();
-  for (const preset::Table& table : preset::tables()) {
-    Json one = Json::object();
-    one["name"] = table.name;
-    one["meaning"] = table.meaning;
-    one["list"] = table.list;
-    json["tables"].push_back(std::move(one));
-  }
-  json["keys"] = keys_json();
+  json["tables"] = array_of(preset::tables(), [](const preset::Table& table) -> Json {
+    return {{"name", table.name}, {"meaning", table.meaning}, {"list", table.list}};
+  });
+  json["keys"] = array_of(preset::key_texts(), [](const preset::KeyText& key) -> Json {
+    return {{"table", key.table},   {"key", key.key},         {"unit", key.unit},
+            {"default", key.value}, {"allowed", key.allowed}, {"meaning", key.meaning}};
+  });
   return record::text_of(json);
 }
 
@@ -132,10 +115,8 @@ std::string section_of(const CommandEntry& command) {
 Result<std::string> presets_section() {
   std::string text = ".SH PRESETS\n";
   for (const EmbeddedPreset& embedded : embedded_presets()) {
-    TRY(presets, load_preset(embedded.name, {}));
-    const std::string& source = presets->base.source;
-    text += entry(bold(embedded.name),
-                  presets->base.title + (source.empty() ? "" : " (" + source + ")"));
+    TRY(title, title_of(embedded));
+    text += entry(bold(embedded.name), *title);
   }
   return text;
 }
@@ -160,8 +141,7 @@ std::string keys_section() {
 }  // namespace
 
 Result<std::string> man_page() {
-  const auto presets = presets_section();
-  if (!presets) return presets;
+  TRY(presets, presets_section());
   std::string text = fmt::format(
       ".TH GRIDSHELL 1 \"\" \"gridshell {}\" \"User Commands\"\n.SH NAME\ngridshell \\- elastic "
       "gridshells: formed, measured and shown\n.SH SYNOPSIS\n{} {} [{}]\n.SH COMMANDS\n",
@@ -182,16 +162,13 @@ namespace {
 
 /// "    movie) options='--set ...' ;;"
 std::string case_of(const CommandEntry& command) {
-  std::vector<std::string> options;
-  bool preset = false;
-  for (const CommandOption& option : command.options) {
-    if (option.argument)
-      preset |= option.name == "PRESET" || option.meaning.find("preset") != std::string::npos;
-    else
-      options.push_back(option.name);
-  }
-  return fmt::format("    {}) options='{}'{} ;;\n", command.name, fmt::join(options, " "),
-                     preset ? " names=$presets" : "");
+  std::string options, names;
+  for (const CommandOption& option : command.options)
+    if (!option.argument)
+      options += (options.empty() ? "" : " ") + option.name;
+    else if (option.name == "PRESET" || option.meaning.find("preset") != std::string::npos)
+      names = " names=$presets";
+  return fmt::format("    {}) options='{}'{} ;;\n", command.name, options, names);
 }
 
 /// "    'render --context') words='auto ...' ;;" of every option that is one of a few words.

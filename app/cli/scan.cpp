@@ -1,4 +1,4 @@
-// What is written of a scan.
+// `gridshell scan`: a cloud of points of a 3D scanner against the joints of runs.
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -14,17 +14,18 @@
 #include "app/cli/delivery.h"
 #include "app/cli/figures.h"
 #include "app/cli/finished_run.h"
-#include "app/cli/options.h"
-#include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
-#include "render/gl/image.h"
 #include "render/movie/run_figures.h"
 
 namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
+
+using record::Json;
 
 using study::Clusters;
 using study::JointCylinder;
@@ -49,33 +50,15 @@ struct ComparedScan {
   const ComparedState& of_best() const { return states[best]; }
 };
 
-/// scan.json: joints_found, joints_missing, outliers, specks, rms_mm, mean_mm, max_mm,
-/// joints_within_two_radii; `state`, null where it is none; the pose from the scan's frame to the
-/// run's; every state that was compared.
-std::string scan_json(const ComparedScan& scan);
-/// scan.csv: `i,j,x_mm,y_mm,z_mm,distance_mm,distance_radii` of every joint in the run's frame,
-/// empty where it is missing.
-std::string scan_csv(const ComparedScan& scan, const record::Layout& layout);
-/// measured.csv: `x_mm,y_mm,z_mm` of the joints found, as [figure] scan takes them.
-std::string measured_csv(const RegisteredScan& scan);
-/// For the terminal.
-std::string scan_text(const ComparedScan& scan);
-
-namespace {
-
-using record::Json;
-
 Json json_of(const RegisteredScan& scan) {
-  Json json = Json::object();
-  json["joints_found"] = scan.found;
-  json["joints_missing"] = scan.missing();
-  json["outliers"] = scan.outliers.cols();
-  json["joints_within_two_radii"] = scan.within_bar;
-  json["rms_mm"] = scan.rms_mm;
-  json["mean_mm"] = scan.mean_mm;
-  json["max_mm"] = scan.max_mm;
-  json["mirrored"] = scan.mirrored;
-  return json;
+  return {{"joints_found", scan.found},
+          {"joints_missing", scan.missing()},
+          {"outliers", scan.outliers.cols()},
+          {"joints_within_two_radii", scan.within_bar},
+          {"rms_mm", scan.rms_mm},
+          {"mean_mm", scan.mean_mm},
+          {"max_mm", scan.max_mm},
+          {"mirrored", scan.mirrored}};
 }
 
 Json json_of(const Pose& pose) {
@@ -87,34 +70,28 @@ Json json_of(const Pose& pose) {
   return json;
 }
 
-}  // namespace
-
+/// scan.json: the joints of the nearest state; `state`, null where it is none; the pose from the
+/// scan's frame to the run's; every state that was compared.
 std::string scan_json(const ComparedScan& scan) {
   const ComparedState& best = scan.of_best();
-  Json json = Json::object();
-  json["points"] = scan.points;
-  if (best.shown)
-    json["state"] = best.name;
-  else
-    json["state"] = nullptr;
-  json["nearest_state"] = best.name;
+  Json json{{"points", scan.points},
+            {"state", best.shown ? Json(best.name) : Json()},
+            {"nearest_state", best.name}};
   json.update(json_of(*best.scan));
-  json["specks"] = scan.clusters.specks;
-  json["clusters_too_wide"] = scan.clusters.others;
-  json["joint_diameter_mm"] = scan.cylinder.diameter_mm;
-  json["joint_height_mm"] = scan.cylinder.height_mm;
-  json["scan_to_run"] = json_of(best.scan->pose);
-  json["states"] = Json::array();
+  json.update({{"specks", scan.clusters.specks},
+               {"clusters_too_wide", scan.clusters.others},
+               {"joint_diameter_mm", scan.cylinder.diameter_mm},
+               {"joint_height_mm", scan.cylinder.height_mm},
+               {"scan_to_run", json_of(best.scan->pose)},
+               {"states", Json::array()}});
   for (const ComparedState& state : scan.states) {
-    Json one = Json::object();
-    one["name"] = state.name;
-    one["shown"] = state.shown;
+    Json& one = json["states"].emplace_back(Json{{"name", state.name}, {"shown", state.shown}});
     if (state.scan) one.update(json_of(*state.scan));
-    json["states"].push_back(std::move(one));
   }
   return record::text_of(json);
 }
 
+/// scan.csv: every joint in the run's frame, empty where it is missing.
 std::string scan_csv(const ComparedScan& scan, const record::Layout& layout) {
   record::CsvWriter csv;
   csv.line("i", "j", "x_mm", "y_mm", "z_mm", "distance_mm", "distance_radii");
@@ -127,6 +104,7 @@ std::string scan_csv(const ComparedScan& scan, const record::Layout& layout) {
   return std::move(csv).text();
 }
 
+/// measured.csv: the joints found, as [figure] scan takes them.
 std::string measured_csv(const RegisteredScan& scan) {
   record::CsvWriter csv;
   csv.line("x_mm", "y_mm", "z_mm");
@@ -135,6 +113,7 @@ std::string measured_csv(const RegisteredScan& scan) {
   return std::move(csv).text();
 }
 
+/// For the terminal.
 std::string scan_text(const ComparedScan& scan) {
   const ComparedState& best = scan.of_best();
   const RegisteredScan& laid = *best.scan;
@@ -150,34 +129,24 @@ std::string scan_text(const ComparedScan& scan) {
   return text;
 }
 
-// `gridshell scan`: a cloud of points of a 3D scanner against the joints of runs.
-
 struct ScanOptions {
   Options common;  ///< output, quiet, context, --set; `input` is the file of points
   std::vector<std::string> runs;
   bool unsealed = false;
 };
 
-/// Writes a folder: scan.json, scan.csv (a line a joint), measured.csv (the joints found, for
-/// [figure] scan) and scan.png (red joints over the black shell). The exit code; a scan that shows
-/// none of the states is `different`.
-int produce_scan(const ScanOptions& options);
-
-namespace fs = std::filesystem;
-namespace {
-
 constexpr long most_clusters_a_joint = 20;
 
 /// A state of a run: one of a search, or the last of a path.
 struct Candidate {
-  const FinishedRun* run = nullptr;
+  const Run* run = nullptr;
   std::size_t frame = 0;
   std::string name;
 };
 
-std::vector<Candidate> candidates_of(const std::vector<FinishedRun>& runs, const fs::path& folder) {
+std::vector<Candidate> candidates_of(const std::vector<Run>& runs, const fs::path& folder) {
   std::vector<Candidate> all;
-  for (const FinishedRun& run : runs) {
+  for (const Run& run : runs) {
     const std::string name = folder_of(folder, run.name).string();
     const std::size_t frames = run.trajectory.frames.size();
     if (frames == 0) continue;
@@ -193,7 +162,7 @@ std::vector<Candidate> candidates_of(const std::vector<FinishedRun>& runs, const
 /// Everything that is read before anything is written.
 struct Scanned {
   Eigen::Matrix3Xd cloud;
-  std::vector<std::vector<FinishedRun>> runs;
+  std::vector<std::vector<Run>> runs;
   std::vector<Candidate> candidates;
   JointCylinder cylinder;
 };
@@ -263,7 +232,7 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
 }
 
 /// Red joints over the black shell [Baek 2018, Figs. 2A, 3C, 5E].
-Result<void> draw(const ComparedScan& scan, const Candidate& one, PictureMaker& artist,
+Result<void> draw(const ComparedScan& scan, const Candidate& one, PictureMaker& maker,
                   const fs::path& folder, Watch& watch) {
   const auto style = style_of(one.run->preset, Pictures::stills);
   const RegisteredScan& laid = *scan.of_best().scan;
@@ -273,71 +242,57 @@ Result<void> draw(const ComparedScan& scan, const Candidate& one, PictureMaker& 
                   scan.of_best().shown ? "" : "not this state: ", laid.found, laid.joints.cols(),
                   laid.rms_mm, laid.max_mm);
   const double dpi = style.print.width_mm > 0 ? style.print.dpi : 0;
-  return render::draw_over_nets({{&shown, caption, laid.measured()}}, style, artist.renderer(),
-                                watch)
-      .and_then(render::draw_panels)
-      .and_then([&](const render::Image& image) {
-        return render::write_png(image, folder / "scan.png", dpi);
-      });
+  return save_panels(
+      render::draw_over_nets({{&shown, caption, laid.measured()}}, style, maker.renderer(), watch),
+      folder / "scan.png", dpi);
 }
 
-Result<void> write(const ComparedScan& scan, const record::Layout& layout, const fs::path& folder) {
-  return make_folder(folder)
-      .and_then([&] { return write_file(folder / "scan.csv", scan_csv(scan, layout)); })
-      .and_then(
-          [&] { return write_file(folder / "measured.csv", measured_csv(*scan.of_best().scan)); })
-      .and_then([&] { return write_file(folder / "scan.json", scan_json(scan)); });
-}
-
-}  // namespace
-
-int produce_scan(const ScanOptions& options) {
-  const auto scanned = read_all(options);
-  if (!scanned) return report(scanned.error());
-  const fs::path points = options.common.input;
-  const auto folder = options.common.output.empty()
-                          ? fs::path("out") / (points.stem().string() + "_scan")
-                          : options.common.output;
+/// scan.json, scan.csv (a line a joint), measured.csv (the joints found, for [figure] scan) and
+/// scan.png (red joints over the black shell). The exit code; a scan that shows none of the states
+/// is `different`.
+Result<int> produce_scan(const ScanOptions& options) {
+  TRY(scanned, read_all(options));
+  const Options& common = options.common;
+  const fs::path points = common.input;
+  const auto folder =
+      common.output.empty() ? fs::path("out") / (points.stem().string() + "_scan") : common.output;
   const preset::Preset& first = scanned->candidates.front().run->preset;
   const std::vector<Phase> phases{drawing("comparing", 0.1 * double(scanned->candidates.size())),
                                   drawing("drawing", expected_seconds(Pictures::stills, first))};
   std::optional<ComparedScan> scan;
-  const int code = deliver(
-      folder, phases, options.common.quiet,
-      [&](const fs::path& partial, Progress& progress) -> Result<void> {
-        TRY(found, compared(*scanned, points.string(), progress.next_phase()));
-        scan = std::move(*found);
-        const Candidate& best = scanned->candidates[scan->best];
-        return write(*scan, best.run->trajectory.layout, partial).and_then([&] {
-          auto artist = PictureMaker::create(options.common.context, best.run->preset.style.font);
-          if (!artist) return Result<void>(tl::unexpected(artist.error()));
-          return draw(*scan, best, *artist, partial, progress.next_phase());
-        });
-      });
-  if (code != ExitCode::done) return code;
-  if (!options.common.quiet) fmt::print("{}: {}", folder.string(), scan_text(*scan));
+  const auto work = [&](const fs::path& partial, Progress& progress) -> Result<void> {
+    TRY(found, compared(*scanned, points.string(), progress.next_phase()));
+    scan = std::move(*found);
+    const Candidate& best = scanned->candidates[scan->best];
+    TRY_DO(write_file(partial / "scan.csv", scan_csv(*scan, best.run->trajectory.layout)));
+    TRY_DO(write_file(partial / "measured.csv", measured_csv(*scan->of_best().scan)));
+    TRY_DO(write_file(partial / "scan.json", scan_json(*scan)));
+    TRY(maker, PictureMaker::create(common.context, best.run->preset.style.font));
+    return draw(*scan, best, *maker, partial, progress.next_phase());
+  };
+  TRY_DO(deliver(folder, phases, common.quiet, work));
+  if (!common.quiet) fmt::print("{}: {}", folder.string(), scan_text(*scan));
   return scan->of_best().shown ? ExitCode::done : ExitCode::different;
 }
 
-// `gridshell scan POINTS RUN...`: a 3D scan against a run's joints.
+}  // namespace
 
 void add_scan(CLI::App& program, Action& action) {
   const auto options = std::make_shared<ScanOptions>();
-  auto* command =
-      program.add_subcommand("scan", "which state a 3D scan shows, and how far its joints are off");
-  command->add_option("POINTS", options->common.input, "cloud of points: .ply, .xyz or .csv, mm")
+  CLI::App& command = add_command(program, action, "scan",
+                                  "which state a 3D scan shows, and how far its joints are off",
+                                  [options] { return produce_scan(*options); });
+  command.add_option("POINTS", options->common.input, "cloud of points: .ply, .xyz or .csv, mm")
       ->required();
-  command->add_option("RUN", options->runs, "folders of runs; of a search all of its states")
+  command.add_option("RUN", options->runs, "folders of runs; of a search all of its states")
       ->required();
-  add_changes(*command, options->common);
-  add_work_options(*command, options->common, "folder to write, by default out/<points>_scan");
-  add_picture_options(*command, options->common);
-  command->add_flag("--unsealed", options->unsealed,
-                    "take a trajectory.h5 that another program wrote or changed");
-  command->footer(
+  add_changes(command, options->common);
+  add_work_options(command, options->common, "folder to write, by default out/<points>_scan");
+  add_picture_options(command, options->common);
+  add_unsealed(command, options->unsealed);
+  command.footer(
       "The exit code is 3 where the scan shows none of the states. Joints are cylinders of\n"
       "[joints] diameter_mm and height_mm, of which the scan sees the tops.");
-  command->callback([&action, options] { action = [options] { return produce_scan(*options); }; });
 }
 
 }  // namespace gridshell::app

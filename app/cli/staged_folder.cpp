@@ -74,13 +74,19 @@ Result<fs::path> make_new(const fs::path& target, const char* kind) {
   }
 }
 
-// a descriptor that holds the folder's lock; -1 when another program holds it
-int lock_of(const fs::path& folder) {
+// a descriptor that holds the folder's lock, or why it cannot be had: EWOULDBLOCK where another
+// program holds it
+struct Lock {
+  int descriptor = -1, failure = 0;
+};
+
+Lock lock_of(const fs::path& folder) {
   const int number = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (number < 0) return -1;
-  if (::flock(number, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return number;
+  if (number < 0) return {-1, errno};
+  if (::flock(number, LOCK_EX | LOCK_NB) == 0) return {number, 0};
+  const int failure = errno;
   ::close(number);
-  return -1;
+  return {-1, failure};
 }
 
 int rename_how(const fs::path& from, const fs::path& to, unsigned flags) {
@@ -129,8 +135,13 @@ Result<StagedFolder> StagedFolder::create(const fs::path& final_folder) {
     remove_empty(parent, first_made);
     return refuse(partial.error().message);
   }
-  const int lock = lock_of(*partial);
-  return StagedFolder(target, *partial, first_made, lock);
+  const Lock lock = lock_of(*partial);
+  if (lock.failure)
+    std::fprintf(stderr,
+                 "'%s' cannot be locked (%s): others may take it for left behind while it is "
+                 "written\n",
+                 partial->c_str(), reason(lock.failure).c_str());
+  return StagedFolder(target, *partial, first_made, lock.descriptor);
 }
 
 StagedFolder::StagedFolder(fs::path final_folder, fs::path partial, fs::path first_made, int lock)
@@ -218,7 +229,8 @@ std::vector<fs::path> left_behind(const fs::path& final_folder) {
        at.increment(error)) {
     const auto other = at->path().filename().string();
     if (!other.starts_with(name + ".partial-") && !other.starts_with(name + ".old-")) continue;
-    const int lock = lock_of(at->path());
+    // where locks cannot be had nobody knows whether it is being written
+    const int lock = lock_of(at->path()).descriptor;
     if (lock < 0) continue;
     ::close(lock);
     found.push_back(at->path());

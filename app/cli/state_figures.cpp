@@ -144,7 +144,7 @@ std::string found_text(const record::StateTables& states) {
   return text;
 }
 
-Result<void> draw_states(const CaseRun& one, render::Renderer& renderer, const fs::path& stem,
+Result<void> draw_states(const Run& one, render::Renderer& renderer, const fs::path& stem,
                          Watch& watch) {
   const auto style = style_of(one.preset, Pictures::stills);
   const record::StateTables& states = one.states;
@@ -156,20 +156,15 @@ Result<void> draw_states(const CaseRun& one, render::Renderer& renderer, const f
     titled.title = render::plain(style.title) + (plot.title.empty() ? "" : "\n") + plot.title;
     return render::write_plot(fs::path(stem) += suffix, titled, style.print, plot_height);
   };
-  return render::write_stills(states_alone(one.run, which), style, {}, renderer, stem, watch,
-                              captions)
-      .map([](const auto&) {})
-      .and_then([&] { return plot_at("_energies", energies_plot(states)); })
-      .and_then([&] { return plot_at("_lives", lives_plot(states)); })
-      .and_then([&]() -> Result<void> {
-        if (states.transitions.empty()) return {};
-        return render::write_transition_graph(fs::path(stem) += "_ways", states, one.run,
-                                              style.title, style.print);
-      })
-      .and_then([&]() -> Result<void> {
-        const auto passes = render::barrier_plot(states);
-        return passes.series.empty() ? Result<void>{} : plot_at("_barriers", passes);
-      });
+  TRY_DO(render::write_stills(states_alone(one.trajectory, which), style, {}, renderer, stem, watch,
+                              captions));
+  TRY_DO(plot_at("_energies", energies_plot(states)));
+  TRY_DO(plot_at("_lives", lives_plot(states)));
+  if (!states.transitions.empty())
+    TRY_DO(render::write_transition_graph(fs::path(stem) += "_ways", states, one.trajectory,
+                                          style.title, style.print));
+  const auto passes = render::barrier_plot(states);
+  return passes.series.empty() ? Result<void>{} : plot_at("_barriers", passes);
 }
 
 namespace {
@@ -186,15 +181,15 @@ constexpr double points_per_mm = 72 / 25.4, caption = 12;  // points
 
 /// A state of a record.
 struct Found {
-  const CaseRun* record = nullptr;
+  const Run* record = nullptr;
   std::size_t at = 0;
 
   const record::StateRow& row() const { return record->states.rows[at]; }
-  const record::Frame& frame() const { return record->run.frames[at]; }
+  const record::Frame& frame() const { return record->trajectory.frames[at]; }
 };
 
 /// The lowest of a class.
-std::optional<Found> lowest_of(StateClass kind, const CaseRun& record) {
+std::optional<Found> lowest_of(StateClass kind, const Run& record) {
   std::optional<Found> lowest;
   for (std::size_t k = 0; k < record.states.rows.size(); ++k) {
     const Found one{&record, k};
@@ -204,10 +199,10 @@ std::optional<Found> lowest_of(StateClass kind, const CaseRun& record) {
   return lowest;
 }
 
-std::optional<Found> lowest_of(StateClass kind, const std::vector<CaseRun>& records) {
+std::optional<Found> lowest_of(StateClass kind, const Runs& records) {
   std::optional<Found> lowest;
-  for (const CaseRun& record : records)
-    if (!lowest) lowest = lowest_of(kind, record);
+  for (const Run* record : records)
+    if (!lowest) lowest = lowest_of(kind, *record);
   return lowest;
 }
 
@@ -236,22 +231,20 @@ int state_measured(const Eigen::Matrix3Xd& measured, const record::Trajectory& s
 
 /// The first record's states ii, iii and iv in space, at one scale and with one colour bar; joints
 /// measured over the one that they lie nearest to.
-Result<void> add_states(Page& page, const CaseRun& one, render::MovieStyle style,
+Result<void> add_states(Page& page, const Run& one, render::MovieStyle style,
                         render::Renderer& renderer, Watch& watch) {
   std::vector<std::size_t> which;
   for (const StateClass kind : {StateClass::ii, StateClass::iii, StateClass::iv})
     if (const auto found = lowest_of(kind, one)) which.push_back(found->at);
   if (which.empty()) {
-    page.add("A", "", above, [](Canvas& canvas, const Box& box) {
-      render::draw_empty_frame(canvas, box, "none of the states ii, iii and iv was found");
-    });
+    page.add_empty("A", above, "none of the states ii, iii and iv was found");
     return {};
   }
   const double width = above.width / 3;
   style = at_size(style, width, above.height - caption / points_per_mm, one.preset.figure.dpi);
   style.captions = style.inset = style.legends = false;
   style.turn_deg = 0;
-  const record::Trajectory run = states_alone(one.run, which);
+  const record::Trajectory run = states_alone(one.trajectory, which);
   const render::Stage stage(run, style);
   const Eigen::Matrix3Xd measured = scan_of(one.preset);
   const int over = state_measured(measured, run);
@@ -272,24 +265,16 @@ Result<void> add_states(Page& page, const CaseRun& one, render::MovieStyle style
     watch.report(double(k + 1) / double(which.size()));
   }
   if (const auto& bar = stage.colour_bar()) page.add_colour_bar({162, 3, 14, 34}, *bar);
-  if (over >= 0)
-    page.add("", "", {128, 1, 32, 4}, [](Canvas& canvas, const Box& box) {
-      render::draw_colour_keys(canvas, box, {render::scan_key()}, page_font);
-    });
+  if (over >= 0) page.add_keys({128, 1, 32, 4}, {render::scan_key()});
   const double units =
       (above.height * points_per_mm - caption) * stage.pixels_per_mm() / style.height();
-  page.add("", "", {158, 38, 18, 8},
-           [units, length = one.preset.figure.scale_bar_mm](Canvas& canvas, const Box& box) {
-             render::draw_scale_bar(canvas, box, length, units, page_font);
-           });
+  page.add_scale_bar({158, 38, 18, 8}, one.preset.figure.scale_bar_mm, units);
   return {};
 }
 
 Result<void> add_diagram(Page& page, const std::string& folder) {
   if (folder.empty()) {
-    page.add("B", "", diagram, [](Canvas& canvas, const Box& box) {
-      render::draw_empty_frame(canvas, box, "phase diagram: [page] sweep names no sweep");
-    });
+    page.add_empty("B", diagram, "phase diagram: [page] sweep names no sweep");
     return {};
   }
   TRY(table, read_finished_sweep(folder));
@@ -318,7 +303,7 @@ void add_foot(Page& page, const preset::Preset& preset) {
 }
 
 /// A state of each class from above, each as large as its place.
-void add_maps(Page& page, const std::vector<CaseRun>& records) {
+void add_maps(Page& page, const Runs& records) {
   const double width = maps.width / 2, height = maps.height / 2;
   int place = 0;
   for (const StateClass kind : {StateClass::i, StateClass::ii, StateClass::iii, StateClass::iv}) {
@@ -336,7 +321,7 @@ void add_maps(Page& page, const std::vector<CaseRun>& records) {
     page.add(letter, words, box,
              [found = *found, where = place_of(found->record->preset)](Canvas& canvas,
                                                                        const Box& inside) {
-               const record::Layout& layout = found.record->run.layout;
+               const record::Layout& layout = found.record->trajectory.layout;
                const Box map{inside.x, inside.y, inside.width, inside.height - caption};
                render::draw_state_map(canvas, map, render::state_map_scale(map, layout), layout,
                                       found.frame(), found.row());
@@ -346,34 +331,28 @@ void add_maps(Page& page, const std::vector<CaseRun>& records) {
                             .align_y = render::AlignY::middle});
              });
   }
-  page.add("", "", {maps.x, maps.y + maps.height, maps.width, 5},
-           [](Canvas& canvas, const Box& box) {
-             render::draw_colour_keys(canvas, box,
-                                      {{render::first_order_ink, "rod of the first order"},
-                                       {render::higher_order_ink, "with inflections"},
-                                       {render::mirror_ink, "symmetry"}},
-                                      page_font);
-           });
+  page.add_keys({maps.x, maps.y + maps.height, maps.width, 5},
+                {{render::first_order_ink, "rod of the first order"},
+                 {render::higher_order_ink, "with inflections"},
+                 {render::mirror_ink, "symmetry"}});
 }
 
 }  // namespace
 
-Result<Page> states_page(const std::vector<CaseRun>& records, const render::MovieStyle& style,
+Result<Page> states_page(const Runs& records, const render::MovieStyle& style,
                          render::Renderer& renderer, Watch& watch) {
-  const CaseRun& first = records.front();
+  const Run& first = *records.front();
   if (first.states.rows.empty())
     return fail(Fault::bad_input,
                 fmt::format("{}: [page] kind = \"fig2\" shows states: must have [jitter] trials or "
                             "confined above 0",
                             first.preset.name));
   Page page{page_width, page_height};
-  return add_states(page, first, style, renderer, watch)
-      .and_then([&] { return add_diagram(page, first.preset.page.sweep); })
-      .map([&] {
-        add_maps(page, records);
-        add_foot(page, first.preset);
-        return std::move(page);
-      });
+  TRY_DO(add_states(page, first, style, renderer, watch));
+  TRY_DO(add_diagram(page, first.preset.page.sweep));
+  add_maps(page, records);
+  add_foot(page, first.preset);
+  return page;
 }
 
 }  // namespace gridshell::app

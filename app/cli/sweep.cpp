@@ -25,6 +25,8 @@
 #include "render/movie/sweep_chart.h"
 
 namespace gridshell::app {
+namespace fs = std::filesystem;
+namespace {
 
 struct SweepOptions {
   Options common;
@@ -32,13 +34,6 @@ struct SweepOptions {
   std::string shard;  ///< "i/N": every N-th point from the i-th on, in DIR/shard_i_of_N; empty: all
   bool merge = false;  ///< gather the shards in DIR instead of computing
 };
-
-/// Computes what is not in the folder's log yet and, once all is there, writes sweep.csv,
-/// preset.toml and the pictures. The exit code.
-int sweep(const SweepOptions& options);
-
-namespace fs = std::filesystem;
-namespace {
 
 constexpr double chart_width_mm = 130, chart_height = 0.62;  // of a line chart
 constexpr const char* classes = "classes";  // the picture of which states were found
@@ -113,11 +108,9 @@ Result<void> draw_classes(const SweepJob& work, const record::SweepTable& table,
   for (const auto& run : runs_of(work.presets)) {
     const auto stem = work.folder / (run.name.empty() ? classes : run.name + "_" + classes);
     const auto diagram = record::phase_diagram_of(table, run.name);
-    auto drawn = render::write_phase_chart(stem, diagram, run.preset.title, print);
-    if (drawn)
-      drawn = write_file(fs::path(stem) += "_by_leg.csv",
-                         record::regions_csv(record::regions_of(diagram)));
-    if (!drawn) return drawn;
+    TRY_DO(render::write_phase_chart(stem, diagram, run.preset.title, print));
+    TRY_DO(write_file(fs::path(stem) += "_by_leg.csv",
+                      record::regions_csv(record::regions_of(diagram))));
   }
   return {};
 }
@@ -129,16 +122,14 @@ Result<void> draw(const SweepJob& work, const record::SweepTable& table) {
   for (const auto& name : plots) {
     const render::SweepView view{name, base.sweep.x, base.sweep.departure, base.title};
     const auto stem = work.folder / name;
-    const double width = base.figure.width_mm > 0 ? base.figure.width_mm : chart_width_mm;
-    if (name == classes) {
-      if (auto drawn = draw_classes(work, table, {width, base.figure.dpi}); !drawn) return drawn;
-      continue;
-    }
-    auto drawn = table.axes.size() == 2
-                     ? render::write_sweep_map(stem, table, view)
-                     : render::write_plot(stem, render::sweep_plot(table, view),
-                                          {width, base.figure.dpi}, chart_height);
-    if (!drawn) return drawn;
+    const render::Print print{base.figure.width_mm > 0 ? base.figure.width_mm : chart_width_mm,
+                              base.figure.dpi};
+    if (name == classes)
+      TRY_DO(draw_classes(work, table, print));
+    else if (table.axes.size() == 2)
+      TRY_DO(render::write_sweep_map(stem, table, view));
+    else
+      TRY_DO(render::write_plot(stem, render::sweep_plot(table, view), print, chart_height));
   }
   return {};
 }
@@ -161,8 +152,7 @@ std::string told(const record::SweepTable& table) {
       limits.insert(*word);
     }
   }
-  auto text = fmt::format("{} point{}: {} done", table.rows.size(),
-                          table.rows.size() == 1 ? "" : "s", done);
+  auto text = fmt::format("{}: {} done", count_text(table.rows.size(), "point"), done);
   if (limited > 0)
     text += fmt::format(", {} of them ended early ({})", limited, fmt::join(limits, ", "));
   if (unstable > 0) text += fmt::format(", {} of them not stable", unstable);
@@ -193,18 +183,11 @@ std::string regions_text(const SweepJob& work, const record::SweepTable& table) 
 
 Result<std::string> finish(const SweepJob& work, const record::SweepLog& log) {
   const auto table = table_of(work.grid, work.points(), log.found());
-  auto written =
-      write_file(work.folder / "sweep.csv", record::sweep_csv(table))
-          .and_then([&] {
-            return write_file(work.folder / "preset.toml", preset::to_toml(work.presets));
-          })
-          // a part of the points makes no picture
-          .and_then([&] {
-            const bool drawable = !work.shard && table.axes.size() <= 2;
-            return drawable ? draw(work, table) : Result<void>{};
-          })
-          .and_then([&] { return write_manifest(work.folder); });
-  if (!written) return tl::unexpected(written.error());
+  TRY_DO(write_file(work.folder / "sweep.csv", record::sweep_csv(table)));
+  TRY_DO(write_file(work.folder / "preset.toml", preset::to_toml(work.presets)));
+  // a part of the points makes no picture
+  if (!work.shard && table.axes.size() <= 2) TRY_DO(draw(work, table));
+  TRY_DO(write_manifest(work.folder));
   const bool any = std::ranges::any_of(
       table.rows, [](const auto& row) { return row.result.outcome == record::PointOutcome::done; });
   if (!any && !work.shard)
@@ -243,9 +226,6 @@ Result<void> compute(const SweepJob& work, record::SweepLog& log) {
   if (!work.quiet() && todo.size() < work.points().size())
     std::fprintf(stderr, "going on: %s\n", standing_of(work, log).c_str());
   const int jobs = thread_count(work.options.jobs);
-  const auto stands = [&] {
-    return "stopped: " + standing_of(work, log) + "; the same command goes on";
-  };
   Result<void> done;
   {
     // what is logged is whole whenever the program ends
@@ -256,7 +236,8 @@ Result<void> compute(const SweepJob& work, record::SweepLog& log) {
         work.grid, todo, jobs, [&](record::PointResult result) { return log.append(result); },
         progress.next_phase());
   }
-  if (!done && done.error().fault == Fault::cancelled) done.error().message = stands();
+  if (!done && done.error().fault == Fault::cancelled)
+    done.error().message = "stopped: " + standing_of(work, log) + "; the same command goes on";
   return done;
 }
 
@@ -270,54 +251,49 @@ Result<std::string> carry_out(const SweepJob& work) {
                   fmt::format("{}; shards go on where they stopped, and without --merge the rest "
                               "is computed here",
                               standing_of(work, *log)));
-  } else if (auto computed = compute(work, *log); !computed) {
-    return tl::unexpected(computed.error());
+  } else {
+    TRY_DO(compute(work, *log));
   }
   return finish(work, *log);
 }
 
-}  // namespace
-
-int sweep(const SweepOptions& options) {
-  const auto presets = load(options.common);
-  if (!presets) return report(presets.error());
-  if (options.common.print_config) {
-    fmt::print("{}", preset::to_toml(*presets));
-    return ExitCode::done;
-  }
+Result<int> sweep(const SweepOptions& options) {
+  TRY(presets, load(options.common));
+  if (options.common.print_config) return print_config(*presets);
   const preset::SweepGrid grid(*presets);
-  if (auto asked = check_asked(*presets, grid); !asked) return report(asked.error());
+  TRY_DO(check_asked(*presets, grid));
   SweepJob work{options, *presets, grid, output_of(options.common, presets->base), std::nullopt};
   if (!options.shard.empty()) {
-    const auto shard = parse_shard(options.shard);
-    if (!shard) return report(shard.error());
+    TRY(shard, parse_shard(options.shard));
     work.shard = *shard;
     work.folder /= shard->folder();
   }
   const InterruptGuard guarded;
-  const auto done = carry_out(work);
-  if (!done) return report(done.error());
+  TRY(done, carry_out(work));
   if (!options.common.quiet) fmt::print("{}: {}\n", work.folder.string(), *done);
   return ExitCode::done;
 }
+
+}  // namespace
 
 // `gridshell sweep PRESET`: many runs of one preset, resumable, on several cores or machines.
 
 void add_sweep(CLI::App& program, Action& action) {
   const auto options = std::make_shared<SweepOptions>();
-  auto* command = program.add_subcommand("sweep", "many runs of one preset, resumable, parallel");
-  add_preset_options(*command, options->common);
-  add_work_options(*command, options->common);
+  CLI::App& command =
+      add_command(program, action, "sweep", "many runs of one preset, resumable, parallel",
+                  [options] { return sweep(*options); });
+  add_preset_options(command, options->common);
+  add_work_options(command, options->common);
   command
-      ->add_option("--jobs", options->jobs,
-                   "points computed at a time, by default as many as there are cores; results do "
-                   "not change")
+      .add_option("--jobs", options->jobs,
+                  "points computed at a time, by default as many as there are cores; results do "
+                  "not change")
       ->check(CLI::Range(1, 1024));
   auto* shard =
-      command->add_option("--shard", options->shard, "i/N: every N-th point, in DIR/shard_i_of_N");
-  command->add_flag("--merge", options->merge, "gather the shards in DIR instead of computing")
+      command.add_option("--shard", options->shard, "i/N: every N-th point, in DIR/shard_i_of_N");
+  command.add_flag("--merge", options->merge, "gather the shards in DIR instead of computing")
       ->excludes(shard);
-  command->callback([&action, options] { action = [options] { return sweep(*options); }; });
 }
 
 }  // namespace gridshell::app

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
 #include <vector>
 
+#include "app/cli/options.h"
 #include "engine/core/file_io.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
@@ -14,9 +14,10 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-const std::regex& shard_folder() {
-  static const std::regex name("shard_[0-9]+_of_[0-9]+");
-  return name;
+/// "shard_2_of_8"
+bool is_shard_folder(const fs::path& path) {
+  const std::string name = path.filename().string(), begin = "shard_";
+  return name.starts_with(begin) && two_numbers(name.substr(begin.size()), "_of_");
 }
 
 record::SweepIdentity name_of(const preset::Presets& presets, const preset::SweepGrid& grid) {
@@ -30,8 +31,7 @@ std::string foreign_in(const fs::path& folder) {
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const auto name = at->path().filename().string();
     // shards of this sweep may be in the making beside it
-    if (!std::regex_match(name, shard_folder()) && !name.starts_with(".partial-"))
-      names.push_back(name);
+    if (!is_shard_folder(name) && !name.starts_with(".partial-")) names.push_back(name);
   }
   std::ranges::sort(names);
   return names.empty() ? "" : names.front();
@@ -42,12 +42,8 @@ std::string foreign_in(const fs::path& folder) {
 std::string Shard::folder() const { return fmt::format("shard_{}_of_{}", index, count); }
 
 Result<Shard> parse_shard(const std::string& text) {
-  std::smatch part;
-  Shard shard;
-  if (std::regex_match(text, part, std::regex("([0-9]{1,6})/([0-9]{1,6})")))
-    shard = {std::stoi(part[1]), std::stoi(part[2])};
-  else
-    shard.index = 0;
+  const auto part = two_numbers(text, "/").value_or(std::pair(0, 0));
+  const Shard shard{part.first, part.second};
   if (shard.index < 1 || shard.index > shard.count)
     return fail(Fault::bad_input,
                 fmt::format("--shard {}: must be i/N with i from 1 to N, for example 2/8", text));
@@ -121,7 +117,7 @@ Result<void> gather_shards(const fs::path& folder, record::SweepLog& log,
   std::vector<fs::path> shards;
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    if (std::regex_match(at->path().filename().string(), shard_folder())) shards.push_back(*at);
+    if (is_shard_folder(*at)) shards.push_back(*at);
   if (shards.empty())
     return fail(Fault::bad_input,
                 fmt::format("'{}' holds no shard: they are written by 'gridshell sweep PRESET "
@@ -139,8 +135,7 @@ Result<void> gather_shards(const fs::path& folder, record::SweepLog& log,
     found.merge(contents->found);
   }
   for (const auto& [point, result] : found)
-    if (!log.found().contains(point))
-      if (auto added = log.append(result); !added) return added;
+    if (!log.found().contains(point)) TRY_DO(log.append(result));
   return {};
 }
 

@@ -13,8 +13,9 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
-#include "app/cli/design_files.h"
+#include "app/cli/design.h"
 #include "app/cli/options.h"
+#include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
 #include "app/window/imgui_painter.h"
 #include "app/window/interface.h"
@@ -41,12 +42,6 @@ struct ViewOptions {
   }
 };
 
-Result<std::unique_ptr<render::Context>> make_context(const std::string& name) {
-  const auto kind = find_word<render::ContextKind>(name);
-  if (!kind) return fail(Fault::bad_input, "--context " + name + ": no such context");
-  return render::Context::create(*kind);
-}
-
 /// Of several cases the first.
 Result<preset::Preset> first_preset_of(const std::string& name) {
   TRY(presets, load_preset_or_run(name));
@@ -63,16 +58,6 @@ Result<void> make_movie(const fs::path& preset, const fs::path& folder,
                                 watch, listener);
 }
 
-/// In a context of its own, which does not hold up the window's.
-Result<void> draw_picture(const window::PictureRequest& request, const fs::path& file,
-                          const std::string& context) {
-  TRY(made, make_context(context));
-  TRY(renderer, render::Renderer::create(**made));
-  return window::picture_of(request, **renderer).and_then([&](const render::Image& image) {
-    return render::write_png(image, file);
-  });
-}
-
 window::Library library_of(const ViewOptions& options) {
   window::Library library;
   for (const EmbeddedPreset& embedded : embedded_presets())
@@ -80,21 +65,17 @@ window::Library library_of(const ViewOptions& options) {
       library.cards.push_back({embedded.name, presets->base.title, embedded_card(embedded.name)});
   library.load = first_preset_of;
   library.make_movie = make_movie;
-  library.draw_picture = [context = options.context](const window::PictureRequest& request,
-                                                     const fs::path& file) {
-    return draw_picture(request, file, context);
+  // in a context of its own, which does not hold up the window's
+  library.draw_picture = [context = options.context](const window::PictureRequest& order,
+                                                     const fs::path& file) -> Result<void> {
+    TRY(maker, PictureMaker::create(context));
+    TRY(image, window::picture_of(order, maker->renderer()));
+    return render::write_png(*image, file);
   };
   library.write_preset = write_preset_with_tables;
   library.save_to = options.output;
   return library;
 }
-
-/// The interface off-screen, with a viewer of its own.
-struct OffscreenInterface {
-  std::unique_ptr<render::Context> context;
-  std::unique_ptr<render::Renderer> renderer;
-  std::unique_ptr<window::Interface> interface;
-};
 
 /// The software rasteriser leaves a processor to the engine.
 void share_processors() {
@@ -102,46 +83,36 @@ void share_processors() {
   setenv("LP_NUM_THREADS", std::to_string(cores - 1).c_str(), 0);
 }
 
-Result<OffscreenInterface> open_aside(const ViewOptions& options, window::ViewerState& viewer) {
-  TRY(context, make_context(options.context));
-  TRY(renderer, render::Renderer::create(**context));
-  TRY(interface, window::Interface::create(**context, **renderer, viewer));
-  return OffscreenInterface{std::move(*context), std::move(*renderer), std::move(*interface)};
-}
-
-int print_bench(const window::BenchFigures& figures) {
-  record::Json line = record::Json::object();
+void print_bench(const window::BenchFigures& figures) {
   const auto rounded = [](double value) { return std::round(10 * value) / 10; };
-  line["interface_fps"] = rounded(figures.interface_fps);
-  line["equilibria_per_s"] = rounded(figures.equilibria_per_s);
-  line["worst_frame_ms"] = rounded(figures.worst_frame_ms);
-  line["frame_cpu_ms"] = rounded(figures.frame_cpu_ms);
-  line["cancel_ms"] = rounded(figures.cancel_ms);
-  fmt::print("{}\n", record::line_of(line));
-  return ExitCode::done;
+  fmt::print("{}\n", record::line_of({{"interface_fps", rounded(figures.interface_fps)},
+                                      {"equilibria_per_s", rounded(figures.equilibria_per_s)},
+                                      {"worst_frame_ms", rounded(figures.worst_frame_ms)},
+                                      {"frame_cpu_ms", rounded(figures.frame_cpu_ms)},
+                                      {"cancel_ms", rounded(figures.cancel_ms)}}));
 }
 
 /// What the engine came to, as a line of JSON: the same for the same recording on every machine.
 void print_state(const window::ViewerState& viewer) {
-  const window::ShellView& shell = *viewer.shell;
-  record::Json line = record::Json::object();
-  line["preset"] = shell.preset.name;
-  line["progress"] = shell.progress;
-  line["boundary_radius_mm"] = shell.frame.boundary_radius_mm;
-  line["height_mm"] = shell.frame.height_mm;
-  line["energy_bend_mJ"] = shell.frame.energies[Term::bend];
-  line["total_K"] = shell.frame.total_K;
-  line["residual_N"] = shell.certificate.residual_N;
-  line["negative_pivots"] = shell.certificate.negative_pivots;
-  line["error_estimate_mm"] = shell.certificate.error_estimate_mm;
-  line["held"] = shell.held.size();
-  line["force_N"] = shell.held.empty() ? 0 : shell.held.back().force_N.norm();
-  line["depth_mm"] = shell.held.empty() ? 0 : shell.held.back().moved_mm.norm();
-  line["gravity"] = viewer.gravity();
-  line["undo_steps"] = shell.undo_steps;
-  line["redo_steps"] = shell.redo_steps;
-  if (shell.design) {
-    const window::DesignProgress& course = *shell.design;
+  const window::ShellView& sight = *viewer.shell;
+  const auto* held = sight.held.empty() ? nullptr : &sight.held.back();
+  record::Json line{{"preset", sight.preset.name},
+                    {"progress", sight.progress},
+                    {"boundary_radius_mm", sight.frame.boundary_radius_mm},
+                    {"height_mm", sight.frame.height_mm},
+                    {"energy_bend_mJ", sight.frame.energies[Term::bend]},
+                    {"total_K", sight.frame.total_K},
+                    {"residual_N", sight.certificate.residual_N},
+                    {"negative_pivots", sight.certificate.negative_pivots},
+                    {"error_estimate_mm", sight.certificate.error_estimate_mm},
+                    {"held", sight.held.size()},
+                    {"force_N", held ? held->force_N.norm() : 0},
+                    {"depth_mm", held ? held->moved_mm.norm() : 0},
+                    {"gravity", viewer.gravity()},
+                    {"undo_steps", sight.undo_steps},
+                    {"redo_steps", sight.redo_steps}};
+  if (sight.design) {
+    const window::DesignProgress& course = *sight.design;
     line["design"] = {
         {"steps", int(course.points.size()) - 1},        {"iterations", course.iterations},
         {"max_before_mm", course.points.front().max_mm}, {"max_mm", course.points.back().max_mm},
@@ -158,34 +129,29 @@ Result<void> draw_alone(const ViewOptions& options, window::ViewerState& viewer)
     viewer.view = {double(viewer.picture.width), double(viewer.picture.height)};
     viewer.fit_view();
   }
-  return draw_picture(viewer.picture_request(), options.picture, options.context);
+  return viewer.library.draw_picture(viewer.picture_request(), options.picture);
 }
 
-int play_aside(const ViewOptions& options, window::ViewerState& viewer) {
+Result<int> play_aside(const ViewOptions& options, window::ViewerState& viewer) {
   std::vector<window::InputEvent> events;
   // a picture of a preset is of its end, pushed as far as it pushes
   if (!options.picture.empty() && options.play.empty())
     events.push_back({.kind = window::InputKind::act, .text = "to_end"});
   if (!options.play.empty()) {
-    const auto text = as_input(read_file(options.play));
-    if (!text) return report(text.error());
-    auto read = window::read_events(*text, options.play);
-    if (!read) return report(read.error());
+    TRY(text, as_input(read_file(options.play)));
+    TRY(read, window::read_events(*text, options.play));
     events = std::move(*read);
   }
-  auto aside = open_aside(options, viewer);
-  if (!aside) return report(aside.error());
+  TRY(maker, PictureMaker::create(options.context));
+  TRY(interface, window::Interface::create(maker->context(), maker->renderer(), viewer));
   if (options.bench > 0) {
-    const auto figures = window::bench(*aside->interface, viewer, options.bench);
-    return figures ? print_bench(*figures) : report(figures.error());
+    TRY(figures, window::bench(**interface, viewer, options.bench));
+    print_bench(*figures);
+    return printed();
   }
-  if (auto played = window::play(*aside->interface, viewer, events); !played)
-    return report(played.error());
-  if (!options.shot.empty())
-    if (auto kept = render::write_png(aside->interface->read(), options.shot); !kept)
-      return report(kept.error());
-  if (!options.picture.empty())
-    if (auto drawn = draw_alone(options, viewer); !drawn) return report(drawn.error());
+  TRY_DO(window::play(**interface, viewer, events));
+  if (!options.shot.empty()) TRY_DO(render::write_png((*interface)->read(), options.shot));
+  if (!options.picture.empty()) TRY_DO(draw_alone(options, viewer));
   print_state(viewer);
   return ExitCode::done;
 }
@@ -211,38 +177,32 @@ void restore(const ViewOptions& options, window::ViewerState& viewer) {
 /// Kept for the next visit.
 void keep(const ViewOptions& options, const window::ViewerState& viewer) {
   if (options.workspace.empty() || !viewer.shell->any()) return;
-  const fs::path folder = options.workspace.parent_path();
-  const auto kept = (folder.empty() ? Result<void>{} : make_folder(folder)).and_then([&] {
-    return write_file(options.workspace, window::workspace_text(viewer));
-  });
+  const auto kept = write_with_folder(options.workspace, window::workspace_text(viewer));
   if (!kept) fmt::print(stderr, "the workspace is not kept: {}\n", kept.error().message);
 }
 
-int show(const ViewOptions& options, window::ViewerState& viewer) {
+Result<int> show(const ViewOptions& options, window::ViewerState& viewer) {
   std::ofstream record;
   if (!options.record.empty()) {
     record.open(options.record);
-    if (!record) return report({Fault::io, "cannot write '" + options.record + "'"});
+    if (!record) return fail(Fault::io, "cannot write '" + options.record + "'");
     if (!options.input.empty()) record << "open " << options.input << "\n";
   }
   const InterruptGuard guarded;
-  const auto done = window::run_desktop(
+  TRY_DO(window::run_desktop(
       viewer,
       [&](const window::InputEvent& event) {
         if (record.is_open()) record << write_event(event) << "\n" << std::flush;
       },
-      interrupted_by_signal);
-  if (!done) return report(done.error());
+      interrupted_by_signal));
   return interrupted_by_signal() ? ExitCode::interrupted : ExitCode::done;
 }
 
-int view(ViewOptions options) {
+Result<int> view(ViewOptions options) {
   if (options.bench > 0 && options.input.empty())
-    return report(
-        {Fault::bad_input, "view --bench S takes a preset: gridshell view PRESET --bench S"});
+    return fail(Fault::bad_input, "view --bench S takes a preset: gridshell view PRESET --bench S");
   if (options.off_screen() && options.play.empty() && options.input.empty())
-    return report(
-        {Fault::bad_input, "view --shot PNG and --picture PNG take a preset or --play FILE"});
+    return fail(Fault::bad_input, "view --shot PNG and --picture PNG take a preset or --play FILE");
   const bool off_screen = options.off_screen();
   // what is played is the same everywhere
   if (options.workspace.empty() && !off_screen && options.record.empty())
@@ -250,14 +210,13 @@ int view(ViewOptions options) {
   share_processors();
   window::ViewerState viewer(library_of(options));
   viewer.timed = !off_screen;
-  if (auto sized = size_picture(options, viewer.picture); !sized) return report(sized.error());
+  TRY_DO(size_picture(options, viewer.picture));
   restore(options, viewer);
   if (!options.input.empty()) {
-    const auto preset = first_preset_of(options.input);
-    if (!preset) return report(preset.error());
+    TRY_DO(first_preset_of(options.input));
     viewer.open(options.input);
   }
-  const int code = off_screen ? play_aside(options, viewer) : show(options, viewer);
+  auto code = off_screen ? play_aside(options, viewer) : show(options, viewer);
   keep(options, viewer);
   return code;
 }
@@ -266,34 +225,34 @@ int view(ViewOptions options) {
 
 void add_view(CLI::App& program, Action& action) {
   const auto options = std::make_shared<ViewOptions>();
-  auto* command =
-      program.add_subcommand("view", "the desktop window, or its input played without one");
-  command->add_option("preset", options->input, "a preset's file or name, or a run's folder");
-  command->add_option("-o,--output", options->output,
-                      "folder that pictures and presets are saved to, by default out");
-  command->add_option(
+  CLI::App& command =
+      add_command(program, action, "view", "the desktop window, or its input played without one",
+                  [options] { return view(*options); });
+  command.add_option("preset", options->input, "a preset's file or name, or a run's folder");
+  command.add_option("-o,--output", options->output,
+                     "folder that pictures and presets are saved to, by default out");
+  command.add_option(
       "--workspace", options->workspace,
       "file that keeps camera, colours and panels from one visit to the next, by "
       "default ~/.local/state/gridshell/workspace.json; off-screen and with --record none");
-  command->add_option("--record", options->record, "keeps the input as text, a line an event");
-  command->add_option("--play", options->play,
-                      "plays recorded input off-screen, each event's equilibrium awaited");
-  command->add_option("--shot", options->shot, "with it, the last frame as a PNG");
-  command->add_option("--picture", options->picture,
-                      "draws the shell alone, off-screen, as 'Save picture' does");
-  command->add_option("--size", options->size,
-                      "width and height of kept pictures: WxH; by default twice the view's");
-  command->add_option("--quality", options->quality, "of kept pictures: draft, movie or figure")
+  command.add_option("--record", options->record, "keeps the input as text, a line an event");
+  command.add_option("--play", options->play,
+                     "plays recorded input off-screen, each event's equilibrium awaited");
+  command.add_option("--shot", options->shot, "with it, the last frame as a PNG");
+  command.add_option("--picture", options->picture,
+                     "draws the shell alone, off-screen, as 'Save picture' does");
+  command.add_option("--size", options->size,
+                     "width and height of kept pictures: WxH; by default twice the view's");
+  command.add_option("--quality", options->quality, "of kept pictures: draft, movie or figure")
       ->check(CLI::IsMember(all_words<render::Quality>()));
-  command->add_flag("--bare", options->bare, "no legend in kept pictures");
+  command.add_flag("--bare", options->bare, "no legend in kept pictures");
   command
-      ->add_option("--bench", options->bench,
-                   "drags the radius to and fro for so many seconds, off-screen, and prints a "
-                   "line of JSON")
+      .add_option("--bench", options->bench,
+                  "drags the radius to and fro for so many seconds, off-screen, and prints a "
+                  "line of JSON")
       ->check(CLI::Range(0.1, 600.0));
-  command->add_option("--context", options->context, "off-screen OpenGL: auto, osmesa or egl")
+  command.add_option("--context", options->context, "off-screen OpenGL: auto, osmesa or egl")
       ->check(CLI::IsMember({"auto", "osmesa", "egl"}));
-  command->callback([&action, options] { action = [options] { return view(*options); }; });
 }
 
 }  // namespace gridshell::app

@@ -86,7 +86,7 @@ constexpr const char* forms[] = {
     "open PRESET",
     "wait SECONDS, at most 60",
 };
-static_assert(std::size(forms) == words(InputKind{}).size());
+static_assert(std::size(forms) == words_of<InputKind>().size());
 
 }  // namespace
 

@@ -25,7 +25,7 @@ constexpr ColourText colour_texts[] = {
     {"bending (mJ/m)", "bending energy a length of rod"},
     {"axial force (N)", "of the rods; below 0 they are compressed"},
 };
-static_assert(std::size(colour_texts) == words(ColourBy{}).size());
+static_assert(std::size(colour_texts) == words_of<ColourBy>().size());
 
 /// Both meshes' nodes lie at other places, but the joints come first in each.
 Eigen::VectorXd displacement(const ShellView& shell) {

@@ -157,7 +157,7 @@ Preset random_preset(SceneKind kind, std::mt19937& random) {
   p.accuracy.tolerance = std::pow(10, draw.between(-4, -2));
   constexpr void (*draw_kind[])(RandomDraw&, Preset&) = {
       circle, curve, cap, revolution, profile, translation, blocks, push, load, rods};
-  static_assert(std::size(draw_kind) == words(SceneKind{}).size());
+  static_assert(std::size(draw_kind) == words_of<SceneKind>().size());
   draw_kind[std::size_t(kind)](draw, p);
   return p;
 }
@@ -271,7 +271,7 @@ TrustClass judge(const Trial& asked, const Trial& fine, const Trial& other, reco
 }
 
 TrustScene judged(int index, const TrustOptions& options, const Watch& watch) {
-  constexpr int kinds = int(words(SceneKind{}).size());
+  constexpr int kinds = int(words_of<SceneKind>().size());
   const auto kind = SceneKind(index % kinds);
   // a generator a scene, so that any scene can be drawn by itself
   std::mt19937 random{std::uint32_t(options.seed) * 100003u + std::uint32_t(index)};

@@ -174,7 +174,7 @@ void draw_panel(Canvas& canvas, const MethodPanel& panel, Point at) {
 
 Colour outcome_colour(RunOutcome outcome) {
   // from right to silent_wrong
-  constexpr std::array<long, words(RunOutcome{}).size()> colours{
+  constexpr std::array<long, words_of<RunOutcome>().size()> colours{
       0x8CC7A1, 0xC9CDD3, 0xF0E2A8, 0xF2B36B, 0xA9C4E6, 0x7A3B8F, 0xB0417C, 0xC0262B};
   return hex_colour(colours[std::size_t(outcome)]);
 }
@@ -211,7 +211,7 @@ void draw_outcome_maps(Canvas& canvas, const Box& box, const std::vector<Stabili
   patches.draw = [&](std::size_t k, const Box& patch) {
     draw_outcome(canvas, patch, RunOutcome(k));
   };
-  for (const auto& [outcome, word] : words(RunOutcome{}))
+  for (const auto& [outcome, word] : words_of<RunOutcome>())
     patches.names.push_back(outcome_label(outcome));
   draw_patches(canvas, {box.x + 4, box.y + height - legend_room + 4, 18, 10}, patches);
 }

@@ -203,7 +203,7 @@ void draw_bar(Canvas& canvas, const std::vector<TrustRow>& rows, const std::stri
 
 Colour trust_colour(TrustClass found) {
   // from right to too_slow
-  constexpr std::array<long, words(TrustClass{}).size()> colours{
+  constexpr std::array<long, words_of<TrustClass>().size()> colours{
       0x8CC7A1, 0xE08A8D, 0xC0262B, 0xF0E2A8, 0xE9BE7C, 0xC9CDD3,
       0xA3A9B3, 0xB0417C, 0x9A6FB0, 0xE3E5E8, 0xA9C4E6};
   return hex_colour(colours[std::size_t(found)]);
@@ -232,7 +232,7 @@ Result<void> write_trust_bars(const std::filesystem::path& stem,
     patches.draw = [&](std::size_t k, const Box& box) {
       canvas.rectangle(box, trust_colour(TrustClass(k)));
     };
-    for (const auto& one : words(TrustClass{})) patches.names.push_back(label(one.value));
+    for (const auto& one : words_of<TrustClass>()) patches.names.push_back(label(one.value));
     draw_patches(canvas, {margin, y + margin, 16, 9}, patches);
   });
 }
@@ -243,7 +243,7 @@ Plot trust_plot(const std::vector<TrustRow>& rows) {
   plot.x = {.label = "error estimate over the length scale", .logarithmic = true};
   plot.y = {.label = "error over the length scale", .logarithmic = true};
   double low = 1, high = 1e-9;
-  for (const auto& one : words(TrustClass{})) {
+  for (const auto& one : words_of<TrustClass>()) {
     Series series = mark_series(label(one.value), trust_colour(one.value));
     for (const TrustRow& row : rows) {
       if (row.found != one.value || !(row.error > 0) || !(row.estimate > 0)) continue;

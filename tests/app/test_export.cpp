@@ -1,5 +1,4 @@
 // `gridshell export`: every format of every thing, and what is refused.
-#include "app/cli/produce.h"
 #include "tests/app/bench.h"
 
 TEST_CASE("export writes a run in every format, and what is for the workshop", "[s1]") {
