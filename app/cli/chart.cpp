@@ -53,7 +53,7 @@ Result<ChartReport> draw_branches(const preset::Preset& preset, const std::files
                                   Watch& watch) {
   TRY(found, study::branches_study(preset, {}, watch));
   auto written =
-      write_file(folder / "branches.csv", record::branches_csv(found->points)).and_then([&] {
+      write_file(folder / "branches.csv", record::csv_table(found->points)).and_then([&] {
         return render::write_branches(folder / "branches", found->points, preset.title);
       });
   if (!written) return tl::unexpected(written.error());
@@ -74,8 +74,6 @@ Result<ChartReport> draw_branches(const preset::Preset& preset, const std::files
 namespace fs = std::filesystem;
 namespace {
 
-using record::Json;
-
 constexpr double wide_mm = 178, high = 105 / wide_mm, low = 80 / wide_mm;  // of a page
 
 Result<ChartReport> draw_accuracy(const preset::Preset& preset, const ChartOptions& options,
@@ -91,8 +89,8 @@ Result<ChartReport> draw_accuracy(const preset::Preset& preset, const ChartOptio
   };
   const std::string title = render::plain(preset.title);
   auto written =
-      write("accuracy.csv", record::accuracy_csv(found->rows))
-          .and_then([&] { return write("scaling.csv", record::scaling_csv(found->scaling)); })
+      write("accuracy.csv", record::csv_table(found->rows))
+          .and_then([&] { return write("scaling.csv", record::csv_table(found->scaling)); })
           .and_then([&] {
             return render::write_plot(
                 folder / "accuracy",
@@ -161,12 +159,10 @@ Result<ChartReport> draw_stability(const preset::Preset& preset, const ChartOpti
   if (options.limit_s > 0) how.seconds = options.limit_s;
   if (options.common.threads > 0) how.threads = options.common.threads;
   TRY(rows, study::stability_study(preset, how, watch));
-  const auto written =
-      write_file(folder / "stability.csv", record::stability_csv(*rows)).and_then([&] {
-        return render::write_outcome_maps(
-            folder / "stability", *rows,
-            render::plain(preset.title) + ": where methods hold and fail");
-      });
+  const auto written = write_file(folder / "stability.csv", record::csv_table(*rows)).and_then([&] {
+    return render::write_outcome_maps(
+        folder / "stability", *rows, render::plain(preset.title) + ": where methods hold and fail");
+  });
   if (!written) return tl::unexpected(written.error());
   ChartReport findings;
   count_silent(*rows, findings);
@@ -189,7 +185,7 @@ Result<void> draw(const preset::Case& run, const ChartOptions& options, const fs
   summary = {{"preset", run.preset.name}, {"chart", options.kind}};
   summary.update(findings->summary);
   text += (run.name.empty() ? "" : run.name + ":\n") + findings->text;
-  return write_file(folder / "summary.json", record::text_of(summary));
+  return write_file(folder / "summary.json", text_of(summary));
 }
 
 }  // namespace
@@ -220,7 +216,7 @@ int chart(const ChartOptions& options) {
           all["cases"].push_back(std::move(summary));
         }
         if (runs.front().name.empty()) return {};
-        return write_file(partial / "summary.json", record::text_of(all));
+        return write_file(partial / "summary.json", text_of(all));
       });
   if (code == ExitCode::done && !options.common.quiet)
     fmt::print("{}: {}\n{}", folder.string(), options.kind, text);
@@ -229,8 +225,6 @@ int chart(const ChartOptions& options) {
 
 namespace fs = std::filesystem;
 namespace {
-
-using record::Json;
 
 Result<void> write_worst(const std::vector<study::TrustScene>& scenes, const fs::path& folder) {
   for (const auto& scene : scenes) {
@@ -273,23 +267,20 @@ int chart_trust(const ChartOptions& options) {
   if (options.limit_s > 0) how.seconds = options.limit_s;
   if (options.common.threads > 0) how.threads = options.common.threads;
   Json summary;
-  const int code =
-      deliver(folder, {{"judging scenes", 100}}, options.common.quiet,
-              [&](const fs::path& partial, Progress& progress) -> Result<void> {
-                TRY(scenes, study::trust_study(how, progress.next_phase()));
-                std::vector<record::TrustRow> rows;
-                for (const auto& scene : *scenes) rows.push_back(scene.row);
-                summary = summary_of(rows, how.seed);
-                return write_file(partial / "trust.csv", record::trust_csv(rows))
-                    .and_then([&] { return render::write_trust_bars(partial / "trust", rows); })
-                    .and_then([&] {
-                      return render::write_plot(partial / "errors", render::trust_plot(rows));
-                    })
-                    .and_then([&] { return write_worst(*scenes, partial / "worst"); })
-                    .and_then([&] {
-                      return write_file(partial / "summary.json", record::text_of(summary));
-                    });
-              });
+  const int code = deliver(
+      folder, {{"judging scenes", 100}}, options.common.quiet,
+      [&](const fs::path& partial, Progress& progress) -> Result<void> {
+        TRY(scenes, study::trust_study(how, progress.next_phase()));
+        std::vector<record::TrustRow> rows;
+        for (const auto& scene : *scenes) rows.push_back(scene.row);
+        summary = summary_of(rows, how.seed);
+        return write_file(partial / "trust.csv", record::csv_table(rows))
+            .and_then([&] { return render::write_trust_bars(partial / "trust", rows); })
+            .and_then(
+                [&] { return render::write_plot(partial / "errors", render::trust_plot(rows)); })
+            .and_then([&] { return write_worst(*scenes, partial / "worst"); })
+            .and_then([&] { return write_file(partial / "summary.json", text_of(summary)); });
+      });
   if (code != ExitCode::done) return code;
   const int silent = summary["silently_wrong"].get<int>();
   if (!options.common.quiet) {

@@ -21,7 +21,7 @@ struct ChartOptions {
 /// Lines for the terminal once everything is written, and the summary of a study.
 struct ChartReport {
   std::string text;
-  record::Json summary = record::Json::object();
+  Json summary = Json::object();
 };
 
 /// Studies a preset, or each of its cases, and writes tables and pictures. The exit code.

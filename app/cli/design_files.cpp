@@ -13,8 +13,6 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-using record::Json;
-
 Json json_of(const DesignedState& state, double scale) {
   Json json = Json::object();
   json["edges_per_segment"] = state.edges_per_segment;
@@ -79,7 +77,7 @@ std::string design_json(const DesignResult& found, const FlatStartCheck& from_fl
                              {"largest_move_mm", step.largest_move_mm},
                              {"taken", step.taken},
                              {"refused", step.refused}});
-  return record::text_of(json);
+  return text_of(json);
 }
 
 /// A line an end, as `[ends] table` reads it.

@@ -307,14 +307,13 @@ std::string failure_of(const record::Summary& summary, bool allow_unstable) {
 
 std::string summary_of_cases(const std::string& preset, const std::vector<std::string>& names,
                              const std::vector<record::Summary>& summaries) {
-  using record::Json;
   Json all{{"preset", preset}, {"cases", Json::array()}};
   for (std::size_t k = 0; k < names.size(); ++k) {
     Json one{{"name", names[k]}};
-    one.update(record::parsed(record::to_json(summaries[k])));
+    one.update(parsed(record::to_json(summaries[k])));
     all["cases"].push_back(std::move(one));
   }
-  return record::text_of(all);
+  return text_of(all);
 }
 
 int produce(const Options& options, Pictures pictures) {

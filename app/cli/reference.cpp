@@ -13,8 +13,6 @@
 namespace gridshell::app {
 namespace {
 
-using record::Json;
-
 Json commands_json() {
   Json all = Json::array();
   for (const CommandEntry& command : command_table()) {
@@ -79,7 +77,7 @@ Result<std::string> listing_json() {
     json["tables"].push_back(std::move(one));
   }
   json["keys"] = keys_json();
-  return record::text_of(json);
+  return text_of(json);
 }
 
 namespace {

@@ -58,8 +58,6 @@ std::string scan_text(const ComparedScan& scan);
 
 namespace {
 
-using record::Json;
-
 Json json_of(const RegisteredScan& scan) {
   Json json = Json::object();
   json["joints_found"] = scan.found;
@@ -107,7 +105,7 @@ std::string scan_json(const ComparedScan& scan) {
     if (state.scan) one.update(json_of(*state.scan));
     json["states"].push_back(std::move(one));
   }
-  return record::text_of(json);
+  return text_of(json);
 }
 
 std::string scan_csv(const ComparedScan& scan, const record::Layout& layout) {

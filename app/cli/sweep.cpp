@@ -116,7 +116,7 @@ Result<void> draw_classes(const SweepJob& work, const record::SweepTable& table,
     auto drawn = render::write_phase_chart(stem, diagram, run.preset.title, print);
     if (drawn)
       drawn = write_file(fs::path(stem) += "_by_leg.csv",
-                         record::regions_csv(record::regions_of(diagram)));
+                         record::csv_table(record::regions_of(diagram)));
     if (!drawn) return drawn;
   }
   return {};

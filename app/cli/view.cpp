@@ -110,21 +110,21 @@ Result<OffscreenInterface> open_aside(const ViewOptions& options, window::Viewer
 }
 
 int print_bench(const ui::BenchFigures& figures) {
-  record::Json line = record::Json::object();
+  Json line = Json::object();
   const auto rounded = [](double value) { return std::round(10 * value) / 10; };
   line["interface_fps"] = rounded(figures.interface_fps);
   line["equilibria_per_s"] = rounded(figures.equilibria_per_s);
   line["worst_frame_ms"] = rounded(figures.worst_frame_ms);
   line["frame_cpu_ms"] = rounded(figures.frame_cpu_ms);
   line["cancel_ms"] = rounded(figures.cancel_ms);
-  fmt::print("{}\n", record::line_of(line));
+  fmt::print("{}\n", line_of(line));
   return ExitCode::done;
 }
 
 /// What the engine came to, as a line of JSON: the same for the same recording on every machine.
 void print_state(const window::ViewerState& viewer) {
   const window::ShellView& sight = *viewer.sight;
-  record::Json line = record::Json::object();
+  Json line = Json::object();
   line["preset"] = sight.preset.name;
   line["progress"] = sight.progress;
   line["boundary_radius_mm"] = sight.frame.boundary_radius_mm;
@@ -148,7 +148,7 @@ void print_state(const window::ViewerState& viewer) {
         {"mean_mm", course.points.back().mean_mm},       {"kept", course.kept}};
   }
   line["message"] = viewer.message;
-  fmt::print("{}\n", record::line_of(line));
+  fmt::print("{}\n", line_of(line));
 }
 
 /// The shell alone, as the view has it; of a preset that nobody turned all of it.

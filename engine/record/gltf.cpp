@@ -13,8 +13,6 @@
 namespace gridshell::exports {
 namespace {
 
-using record::Json;
-
 constexpr std::size_t most_shapes = 60, most_model_bytes = 20'000'000;
 constexpr double joint_radius_mm = 1.5;  // of the paper's joints
 
@@ -292,7 +290,7 @@ class Gltf {
     json_["accessors"] = std::move(buffer_.accessors);
     json_["bufferViews"] = std::move(buffer_.views);
     json_["buffers"] = Json::array({{{"byteLength", buffer_.bytes().size()}}});
-    const std::string body = chunk(record::line_of(json_), "JSON", ' ') +
+    const std::string body = chunk(line_of(json_), "JSON", ' ') +
                              chunk(buffer_.bytes(), std::string("BIN\0", 4).data(), '\0');
     const std::uint32_t header[] = {0x46546C67, 2, std::uint32_t(12 + body.size())};
     return std::string(reinterpret_cast<const char*>(header), 12) + body;

@@ -37,8 +37,6 @@ std::array<double, 3> linear(const std::array<double, 3>& srgb) {
 
 namespace {
 
-using record::Json;
-
 constexpr std::size_t most_page_bytes = 9'000'000;  // of positions, as written
 
 std::string base64(const std::vector<std::uint16_t>& numbers) {
@@ -178,7 +176,7 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
   }
   if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
 
-  std::string data = record::line_of(json, true);
+  std::string data = line_of(json, true);
   // a script ends at the first "</script", whatever it stands in
   for (std::size_t at = 0; (at = data.find("</", at)) != data.npos; at += 3)
     data.replace(at, 2, "<\\/");

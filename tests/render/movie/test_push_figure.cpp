@@ -13,7 +13,7 @@ namespace {
 record::Trajectory pushed() {
   record::Trajectory run = synthetic::dome(3, 2);
   for (int k = 0; k < 3; ++k) {
-    record::Frame& frame = run.frames[std::size_t(k)];
+    record::Frame& frame = run.frames.edit()[std::size_t(k)];
     frame.depth_mm = 2 * k;
     frame.force_N = 0.1 * k * k;
     frame.event.clear();
