@@ -23,7 +23,7 @@ namespace {
 
 using record::BranchEvent;
 using record::BranchPoint;
-using record::Json;
+
 
 /// What to chart and how much to spend on it.
 struct ChartOptions {
@@ -37,7 +37,7 @@ struct ChartOptions {
 /// Lines for the terminal once everything is written, and the summary of a study.
 struct ChartReport {
   std::string text;
-  record::Json summary = record::Json::object();
+  Json summary = Json::object();
 };
 
 std::string place_of(const BranchPoint& point, double original_radius_mm) {
@@ -71,7 +71,7 @@ void tell(const study::BranchDiagram& diagram, ChartReport& findings) {
 Result<ChartReport> draw_branches(const preset::Preset& preset, const fs::path& folder,
                                   Watch& watch) {
   TRY(found, study::branches_study(preset, {}, watch));
-  TRY_DO(write_file(folder / "branches.csv", record::branches_csv(found->points)));
+  TRY_DO(write_file(folder / "branches.csv", record::csv_table(found->points)));
   TRY_DO(render::write_branches(folder / "branches", found->points, preset.title));
   ChartReport findings;
   findings.summary = {{"edges_per_segment", found->edges_per_segment},
@@ -108,8 +108,8 @@ Result<ChartReport> draw_accuracy(const preset::Preset& preset, const ChartOptio
   const auto plot = [&](const char* name, const render::Plot& drawn, double height) {
     return render::write_plot(folder / name, drawn, {wide_mm}, height);
   };
-  TRY_DO(write_file(folder / "accuracy.csv", record::accuracy_csv(found->rows)));
-  TRY_DO(write_file(folder / "scaling.csv", record::scaling_csv(found->scaling)));
+  TRY_DO(write_file(folder / "accuracy.csv", record::csv_table(found->rows)));
+  TRY_DO(write_file(folder / "scaling.csv", record::csv_table(found->scaling)));
   TRY_DO(plot("accuracy", render::accuracy_plot(found->rows, title + ": error over time"), high));
   TRY_DO(
       plot("unknowns", render::unknowns_plot(found->rows, title + ": error over unknowns"), high));
@@ -162,7 +162,7 @@ void count_silent(const std::vector<record::StabilityRow>& rows, ChartReport& fi
 Result<ChartReport> draw_stability(const preset::Preset& preset, const ChartOptions& options,
                                    const fs::path& folder, Watch& watch) {
   TRY(rows, study::stability_study(preset, limited<study::StabilityOptions>(options), watch));
-  TRY_DO(write_file(folder / "stability.csv", record::stability_csv(*rows)));
+  TRY_DO(write_file(folder / "stability.csv", record::csv_table(*rows)));
   TRY_DO(render::write_outcome_maps(folder / "stability", *rows,
                                     render::plain(preset.title) + ": where methods hold and fail"));
   ChartReport findings;
@@ -185,7 +185,7 @@ Result<void> draw(const preset::Case& run, const ChartOptions& options, const fs
   summary = {{"preset", run.preset.name}, {"chart", options.kind}};
   summary.update(findings->summary);
   text += (run.name.empty() ? "" : run.name + ":\n") + findings->text;
-  return write_file(folder / "summary.json", record::text_of(summary));
+  return write_file(folder / "summary.json", text_of(summary));
 }
 
 Result<int> chart_preset(const ChartOptions& options) {
@@ -205,7 +205,7 @@ Result<int> chart_preset(const ChartOptions& options) {
       all["cases"].push_back(std::move(summary));
     }
     if (runs.front().name.empty()) return {};
-    return write_file(partial / "summary.json", record::text_of(all));
+    return write_file(partial / "summary.json", text_of(all));
   };
   TRY_DO(deliver(folder, phases, options.common.quiet, work));
   if (!options.common.quiet) fmt::print("{}: {}\n{}", folder.string(), options.kind, text);
@@ -249,11 +249,11 @@ Result<int> chart_trust(const ChartOptions& options) {
     std::vector<record::TrustRow> rows;
     for (const auto& scene : *scenes) rows.push_back(scene.row);
     summary = summary_of(rows, how.seed);
-    TRY_DO(write_file(partial / "trust.csv", record::trust_csv(rows)));
+    TRY_DO(write_file(partial / "trust.csv", record::csv_table(rows)));
     TRY_DO(render::write_trust_bars(partial / "trust", rows));
     TRY_DO(render::write_plot(partial / "errors", render::trust_plot(rows)));
     TRY_DO(write_worst(*scenes, partial / "worst"));
-    return write_file(partial / "summary.json", record::text_of(summary));
+    return write_file(partial / "summary.json", text_of(summary));
   };
   TRY_DO(deliver(folder, {{"judging scenes", 100}}, options.common.quiet, work));
   const auto number = [&](const char* key) { return summary[key].get<int>(); };

@@ -17,7 +17,7 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-using record::Json;
+
 
 /// Whether the designed shell is also reached from the flat: how far its joints are from there
 /// then.
@@ -88,7 +88,7 @@ std::string design_json(const DesignResult& found, const FlatStartCheck& from_fl
                              {"largest_move_mm", step.largest_move_mm},
                              {"taken", step.taken},
                              {"refused", step.refused}});
-  return record::text_of(json);
+  return text_of(json);
 }
 
 /// A line an end, as `[ends] table` reads it.

@@ -43,7 +43,7 @@ std::vector<std::string> cases_begun(const fs::path& folder) {
 
 // a word of somebody else's, safe to print
 std::string shown(const std::string& word) {
-  const auto text = record::line_of(record::Json(word), true);
+  const auto text = line_of(Json(word), true);
   return text.size() <= 80 ? text : text.substr(0, 77) + "...";
 }
 
@@ -56,7 +56,7 @@ Result<std::vector<std::string>> case_names(const fs::path& folder) {
     if (auto begun = cases_begun(folder); !begun.empty()) return begun;
     return no_run(folder, text.error().message);
   }
-  const auto json = record::parsed(*text);
+  const auto json = parsed(*text);
   if (!json.is_object() || !json.contains("cases")) return std::vector<std::string>{""};
   std::vector<std::string> names;
   for (const auto& one : json["cases"]) {

@@ -59,7 +59,7 @@ std::optional<LegacyRunFiles> named(const fs::path& folder) {
     if (run.stems.contains("")) run.stems.erase("");
   };
   const auto text = read_file(folder / "summary.json", largest_text);
-  const auto json = text ? record::parsed(*text) : record::Json();
+  const auto json = text ? parsed(*text) : Json();
   const auto holds = [&](const char* key) { return json.is_object() && json.contains(key); };
   if (holds("preset") && json["preset"].is_string() &&
       (holds("negative_pivots") || holds("cases") || holds("chart"))) {

@@ -109,14 +109,14 @@ Result<void> simulate(Run& run, int threads, const fs::path& folder, Watch& watc
 
 // of several cases: the preset's name, and each summary after its `name`, which is its folder
 std::string summary_of_cases(const std::string& preset, const std::vector<Run>& runs) {
-  using record::Json;
+  using Json;
   Json all{{"preset", preset}, {"cases", Json::array()}};
   for (const Run& run : runs) {
     Json one{{"name", run.name}};
-    one.update(record::parsed(record::to_json(run.summary)));
+    one.update(parsed(record::to_json(run.summary)));
     all["cases"].push_back(std::move(one));
   }
-  return record::text_of(all);
+  return text_of(all);
 }
 
 Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,

@@ -13,7 +13,7 @@
 namespace gridshell::app {
 namespace {
 
-using record::Json;
+
 
 /// All of a list, each as an object.
 template <class List, class Object>
@@ -62,7 +62,7 @@ Result<std::string> listing_json() {
     return {{"table", key.table},   {"key", key.key},         {"unit", key.unit},
             {"default", key.value}, {"allowed", key.allowed}, {"meaning", key.meaning}};
   });
-  return record::text_of(json);
+  return text_of(json);
 }
 
 namespace {

@@ -25,7 +25,7 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-using record::Json;
+
 
 using study::Clusters;
 using study::JointCylinder;
@@ -88,7 +88,7 @@ std::string scan_json(const ComparedScan& scan) {
     Json& one = json["states"].emplace_back(Json{{"name", state.name}, {"shown", state.shown}});
     if (state.scan) one.update(json_of(*state.scan));
   }
-  return record::text_of(json);
+  return text_of(json);
 }
 
 /// scan.csv: every joint in the run's frame, empty where it is missing.

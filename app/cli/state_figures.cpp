@@ -37,9 +37,9 @@ std::string caption_of(const StateRow& row, const record::StateSearch& search) {
 
 /// "153 states in 900 trials; about 214 in all (186 to 262)"
 std::string completeness_text(const record::StateTables& states) {
-  const record::Completeness& all = states.search.completeness;
+  const RichnessEstimate& all = states.search.completeness;
   return fmt::format("{} states in {} trials; Chao1: {:.0f} in all (95 %: {:.0f} to {:.0f})",
-                     all.seen, states.search.at_rest, all.chao1, all.low, all.high);
+                     all.seen, states.search.at_rest, all.estimate, all.low, all.high);
 }
 
 /// One series a class, in the order of the paper.
@@ -113,12 +113,13 @@ record::Trajectory states_alone(const record::Trajectory& run,
 
 std::string found_text(const record::StateTables& states) {
   const record::StateSearch& search = states.search;
-  const record::Completeness& all = search.completeness;
+  const RichnessEstimate& all = search.completeness;
   std::string text = fmt::format(
       "  {} of {} trials came to rest, in {} states ({} once, {} twice); Chao1: {:.0f} in all, 95 "
       "%: "
       "{:.0f} to {:.0f}\n",
-      search.at_rest, search.trials, all.seen, all.once, all.twice, all.chao1, all.low, all.high);
+      search.at_rest, search.trials, all.seen, all.once, all.twice, all.estimate, all.low,
+      all.high);
   if (search.confined_trials > 0)
     text += fmt::format("  {} of {} begun in symmetric forms; {} states in all\n",
                         search.confined_at_rest, search.confined_trials, states.rows.size());

@@ -85,7 +85,7 @@ void share_processors() {
 
 void print_bench(const window::BenchFigures& figures) {
   const auto rounded = [](double value) { return std::round(10 * value) / 10; };
-  fmt::print("{}\n", record::line_of({{"interface_fps", rounded(figures.interface_fps)},
+  fmt::print("{}\n", line_of({{"interface_fps", rounded(figures.interface_fps)},
                                       {"equilibria_per_s", rounded(figures.equilibria_per_s)},
                                       {"worst_frame_ms", rounded(figures.worst_frame_ms)},
                                       {"frame_cpu_ms", rounded(figures.frame_cpu_ms)},
@@ -96,7 +96,7 @@ void print_bench(const window::BenchFigures& figures) {
 void print_state(const window::ViewerState& viewer) {
   const window::ShellView& sight = *viewer.shell;
   const auto* held = sight.held.empty() ? nullptr : &sight.held.back();
-  record::Json line{{"preset", sight.preset.name},
+  Json line{{"preset", sight.preset.name},
                     {"progress", sight.progress},
                     {"boundary_radius_mm", sight.frame.boundary_radius_mm},
                     {"height_mm", sight.frame.height_mm},
@@ -119,7 +119,7 @@ void print_state(const window::ViewerState& viewer) {
         {"mean_mm", course.points.back().mean_mm},       {"kept", course.kept}};
   }
   line["message"] = viewer.message;
-  fmt::print("{}\n", record::line_of(line));
+  fmt::print("{}\n", line_of(line));
 }
 
 /// The shell alone, as the view has it; of a preset that nobody turned all of it.

@@ -248,8 +248,6 @@ void ViewerState::watch_file(double seconds) {
 
 namespace {
 
-using record::Json;
-
 /// Calls visit(key, value) for what is on or off.
 template <class AnyViewer, class Visit>
 void each_switch(AnyViewer& viewer, const Visit& visit) {
@@ -313,11 +311,11 @@ std::string workspace_text(const ViewerState& viewer) {
   Json shown = Json::object();
   each_switch(viewer, [&](const char* key, bool on) { shown[key] = on; });
   json["shown"] = shown;
-  return record::text_of(json);
+  return text_of(json);
 }
 
 Result<void> take_workspace(ViewerState& viewer, const std::string& text) {
-  const Json json = record::parsed(text);
+  const Json json = parsed(text);
   if (!json.is_object()) return fail(Fault::bad_input, "the workspace is no JSON object");
   Json shown, colour, camera;
   if (take(json, "shown", shown))

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace gridshell::record {
+namespace gridshell {
 
 class Checksum {
  public:
@@ -12,9 +12,14 @@ class Checksum {
     for (const char byte : bytes) sum_ = (sum_ ^ static_cast<unsigned char>(byte)) * 1099511628211u;
   }
   std::uint64_t value() const { return sum_; }
+  static std::uint64_t of(std::string_view bytes) {
+    Checksum sum;
+    sum.add(bytes);
+    return sum.value();
+  }
 
  private:
   std::uint64_t sum_ = 14695981039346656037u;
 };
 
-}  // namespace gridshell::record
+}  // namespace gridshell

@@ -10,26 +10,19 @@
 #include <utility>
 #include <vector>
 
-namespace gridshell {
-namespace {
+#include "engine/core/try.h"
 
-// a descriptor that closes itself
-struct Descriptor {
-  explicit Descriptor(int number) : number(number) {}
-  ~Descriptor() {
-    if (number >= 0) ::close(number);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number;
-};
+namespace gridshell {
 
 tl::unexpected<Error> fail_io(const char* what, const std::filesystem::path& path, int code) {
   return fail(Fault::io, fmt::format("cannot {} '{}': {}", what, path.string(),
                                      std::generic_category().message(code)));
 }
 
-}  // namespace
+int Descriptor::close() {
+  const int number = std::exchange(number_, -1);
+  return number >= 0 && ::close(number) != 0 ? errno : 0;
+}
 
 AtomicFile::AtomicFile(std::filesystem::path final_path) : final_(std::move(final_path)) {
   // the name goes last: encoders choose a format by the extension
@@ -60,38 +53,64 @@ int write_all(int descriptor, std::string_view bytes) {
   return 0;
 }
 
+int append_whole(int descriptor, std::string_view bytes, std::uint64_t& size) {
+  const int code = write_all(descriptor, bytes);
+  if (code == 0) size += bytes.size();
+  // what others find is whole
+  if (code && ::ftruncate(descriptor, off_t(size)) == 0) ::lseek(descriptor, off_t(size), SEEK_SET);
+  return code;
+}
+
 Result<void> write_file(const std::filesystem::path& path, std::string_view bytes) {
   AtomicFile target(path);
   Descriptor file(
       ::open(target.temporary().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.number < 0) return fail_io("write", path, errno);
-  if (const int code = write_all(file.number, bytes)) return fail_io("write", path, code);
-  // what is still on its way may meet the full disk only now
-  if (::close(std::exchange(file.number, -1)) != 0) return fail_io("write", path, errno);
+  if (file < 0) return fail_io("write", path, errno);
+  if (const int code = write_all(file, bytes)) return fail_io("write", path, code);
+  if (const int code = file.close()) return fail_io("write", path, code);
   return target.commit();
 }
 
-Result<std::string> read_file(const std::filesystem::path& path, std::uintmax_t limit) {
+Result<ReadableFile> ReadableFile::open(const std::filesystem::path& path) {
+  ReadableFile opened;
   // without waiting: opening a pipe that nobody writes to would never end
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
-  if (file.number < 0) return fail_io("read", path, errno);
+  opened.file_ = Descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
   struct stat about {};
-  if (::fstat(file.number, &about) != 0) return fail_io("read", path, errno);
+  if (opened.file_ < 0 || ::fstat(opened.file_, &about) != 0) return fail_io("read", path, errno);
   if (S_ISDIR(about.st_mode)) return fail_io("read", path, EISDIR);
-  const auto refuse = [&](const std::string& reason) {
-    return fail(Fault::io, fmt::format("cannot read '{}': {}", path.string(), reason));
+  if (!S_ISREG(about.st_mode))
+    return fail(Fault::io,
+                fmt::format("cannot read '{}': it is a pipe or a device, must be a regular file",
+                            path.string()));
+  opened.size_ = std::uint64_t(about.st_size);
+  return opened;
+}
+
+std::optional<std::string> ReadableFile::read(std::uint64_t at, std::uint64_t size) const {
+  if (at > size_ || size > size_ - at) return std::nullopt;
+  std::string bytes(size, '\0');
+  for (std::size_t got = 0; got < size;) {
+    const ssize_t now = ::pread(file_, bytes.data() + got, size - got, off_t(at + got));
+    if (now < 0 && errno == EINTR) continue;
+    if (now <= 0) return std::nullopt;
+    got += std::size_t(now);
+  }
+  return bytes;
+}
+
+Result<std::string> read_file(const std::filesystem::path& path, std::uintmax_t limit) {
+  TRY(opened, ReadableFile::open(path));
+  const auto too_large = [&] {
+    return fail(Fault::io, fmt::format("cannot read '{}': it is larger than {} MB", path.string(),
+                                       limit >> 20));
   };
-  if (!S_ISREG(about.st_mode)) return refuse("it is a pipe or a device, must be a regular file");
+  if (opened->size() > limit) return too_large();
   // some files of the system say that they are empty, so the count is what decides
   std::string bytes;
-  const auto too_large = [&] {
-    return refuse(fmt::format("it is larger than {} MB", limit >> 20));
-  };
-  if (std::uintmax_t(about.st_size) > limit) return too_large();
-  bytes.reserve(std::size_t(about.st_size));
+  bytes.reserve(std::size_t(opened->size()));
   std::vector<char> block(1 << 16);
   for (;;) {
-    const ssize_t got = ::read(file.number, block.data(), block.size());
+    const ssize_t got = ::read(opened->file_, block.data(), block.size());
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return fail_io("read", path, errno);
     if (got == 0) return bytes;

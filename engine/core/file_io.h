@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "engine/core/result.h"
 
@@ -37,8 +39,47 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+/// A file descriptor that closes itself; negative: none.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  operator int() const { return number_; }
+  /// 0, or the system's error number: what is still on its way may meet the full disk only now.
+  int close();
+
+ private:
+  int number_;
+};
+
+/// Fault::io, "cannot write 'path': reason of the system".
+tl::unexpected<Error> fail_io(const char* what, const std::filesystem::path& path, int code);
+
+/// A regular file open for reading: a pipe or a device, which may never end, is refused.
+class ReadableFile {
+ public:
+  /// Errors: Fault::io, "cannot read 'path': reason".
+  static Result<ReadableFile> open(const std::filesystem::path& path);
+  std::uint64_t size() const { return size_; }
+  /// Exactly so many bytes from `at`, or nothing.
+  std::optional<std::string> read(std::uint64_t at, std::uint64_t size) const;
+
+ private:
+  friend Result<std::string> read_file(const std::filesystem::path&, std::uintmax_t);
+  Descriptor file_;
+  std::uint64_t size_ = 0;
+};
+
 /// Writes all of `bytes` to an open file. 0, or the system's error number, ENOSPC for a full disk.
 int write_all(int descriptor, std::string_view bytes);
+
+/// Appends `bytes` to an open file of `size` bytes, or takes back what was cut short. As above.
+int append_whole(int descriptor, std::string_view bytes, std::uint64_t& size);
 
 /// Writes `bytes` to `path` as one AtomicFile; a full disk is noticed at write, flush or close.
 /// Errors: Fault::io, "cannot write 'path': reason".
@@ -48,8 +89,8 @@ Result<void> write_file(const std::filesystem::path& path, std::string_view byte
 inline constexpr std::uintmax_t largest_text = std::uintmax_t(16) << 20,
                                 largest_file = std::uintmax_t(1) << 30;
 
-/// The whole of a regular file of at most `limit` bytes: a pipe or a device, which may never end,
-/// is refused. Errors: Fault::io, "cannot read 'path': reason".
+/// The whole of a regular file of at most `limit` bytes. Errors: Fault::io, "cannot read 'path':
+/// reason".
 Result<std::string> read_file(const std::filesystem::path& path,
                               std::uintmax_t limit = largest_file);
 

@@ -1,12 +1,17 @@
 // JSON, read and written in one place: its templates take a compiler seconds a file.
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
-namespace gridshell::record {
+#include "engine/core/enum_words.h"
+
+namespace gridshell {
 
 /// Keys keep their order.
 using Json = nlohmann::ordered_json;
@@ -23,4 +28,52 @@ std::string text_of(const Json& json);
 /// The same on one line without a newline; `ascii`: other letters as \uXXXX.
 std::string line_of(const Json& json, bool ascii = false);
 
-}  // namespace gridshell::record
+/// Takes a value of the right kind; says what it must be where it is none, else nothing.
+std::string take(const Json& json, int& value);
+std::string take(const Json& json, bool& value);
+/// null is a number that is not known, NaN.
+std::string take(const Json& json, double& value);
+std::string take(const Json& json, std::string& value);
+std::string take(const Json& json, std::vector<std::string>& value);
+std::string take(const Json& json, std::map<std::string, int>& value);
+template <class Enum>
+requires std::is_enum_v<Enum> std::string take(const Json& json, Enum& value) {
+  if (json.is_string())
+    if (const auto found = find_word<Enum>(json.get<std::string>())) return value = *found, "";
+  std::string expected;
+  for (const auto& [one, word] : words(Enum{}))
+    if (!word.empty())
+      expected.append(expected.empty() ? "one of \"" : ", \"").append(word).append("\"");
+  return expected;
+}
+
+/// A record as an object with the keys that `fields` (core/fields.h) names.
+template <class Record>
+Json json_of(const Record& record) {
+  Json json = Json::object();  // made by [] it would not survive a failed allocation
+  fields(record, [&]<class Value>(const char* key, const Value& value) {
+    if constexpr (std::is_enum_v<Value>)
+      json[key] = word_of(value);
+    else
+      json[key] = value;
+  });
+  return json;
+}
+
+/// Takes the members of a record out of an object; a key that it lacks is left alone where
+/// `may_lack(key)`. What is wrong with the first that is; empty when all is well.
+template <class Record, class MayLack>
+std::string take_fields(const Json& json, Record& record, const MayLack& may_lack) {
+  std::string fault;
+  fields(record, [&](const std::string& key, auto& value) {
+    if (!fault.empty()) return;
+    if (!json.contains(key)) {
+      if (!may_lack(key)) fault = "has no \"" + key + "\"";
+    } else if (const std::string expected = take(json[key], value); !expected.empty()) {
+      fault = "\"" + key + "\" must be " + expected + "; it is " + line_of(json[key]);
+    }
+  });
+  return fault;
+}
+
+}  // namespace gridshell

@@ -6,6 +6,10 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "engine/core/enum_words.h"
 
 namespace gridshell::record {
 
@@ -13,6 +17,7 @@ namespace gridshell::record {
 class CsvWriter {
  public:
   void cell(const char* text) { cell(std::string(text)); }
+  /// A bool is 0 or 1.
   void cell(int value) { start() += fmt::format("{}", value); }
   void cell(double value) {
     std::string& text = start();
@@ -28,6 +33,9 @@ class CsvWriter {
     for (const char c : value) text.append(c == '"' ? 2 : 1, c);
     text += '"';
   }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void cell(Enum value) { cell(word_of(value)); }
   void end_line() {
     text_ += '\n';
     first_ = true;
@@ -35,6 +43,17 @@ class CsvWriter {
   template <class... Cells>
   void line(const Cells&... cells) {
     (cell(cells), ...);
+    end_line();
+  }
+  /// What `fields` (core/fields.h) says of a row: the names, or the members.
+  template <class Row>
+  void names_of(const Row& row) {
+    fields(row, [&](const char* name, const auto&) { cell(name); });
+    end_line();
+  }
+  template <class Row>
+  void members_of(const Row& row) {
+    fields(row, [&](const char*, const auto& value) { cell(value); });
     end_line();
   }
   std::string text() && { return std::move(text_); }
@@ -48,5 +67,14 @@ class CsvWriter {
   std::string text_;
   bool first_ = true;
 };
+
+/// The text of a table whose columns `fields` names; an unknown number is an empty cell.
+template <class Row>
+std::string csv_table(const std::vector<Row>& rows) {
+  CsvWriter csv;
+  csv.names_of(Row());
+  for (const Row& row : rows) csv.members_of(row);
+  return std::move(csv).text();
+}
 
 }  // namespace gridshell::record

@@ -5,7 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include "engine/formats/hdf5_file.h"
 
@@ -214,14 +216,14 @@ Lists Reader::lists(const std::string& name) {
 namespace gridshell::record {
 namespace {
 
-constexpr rlim_t seconds = 60;
+constexpr int seconds = 20;
 
 // no words, no core file, no end but its own
 void restrict_subprocess() {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGHUP})
     std::signal(signal, SIG_DFL);
-  const rlimit none{0, 0}, time{seconds, seconds};
+  const rlimit none{0, 0}, time{rlim_t(seconds), rlim_t(seconds)};
   ::setrlimit(RLIMIT_CORE, &none);
   ::setrlimit(RLIMIT_CPU, &time);
   const int nowhere = ::open("/dev/null", O_WRONLY);
@@ -243,8 +245,18 @@ Result<void> read_in_subprocess(const std::function<void()>& reading) {
     }
     _exit(0);
   }
+  // a lock that another thread held at the fork is never opened in the child: wait by the clock
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  for (pid_t ended = 0; ended != child; ended = ::waitpid(child, &status, WNOHANG)) {
+    if (std::chrono::steady_clock::now() > end) {
+      ::kill(child, SIGKILL);
+      ::waitpid(child, &status, 0);
+      return fail(
+          Fault::bad_input,
+          fmt::format("it is damaged: the HDF5 library takes more than {} s to read it", seconds));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   return fail(Fault::bad_input, "it is damaged: the HDF5 library does not survive reading it");

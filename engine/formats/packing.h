@@ -54,19 +54,17 @@ class ByteReader {
     return take(size) ? std::string(taken_) : std::string();
   }
   template <class Matrix>
-  void matrix(Matrix& values, std::int64_t rows_wanted = -1) {
+  void matrix(Matrix& values) {
     const auto rows = number<std::int64_t>(), cols = number<std::int64_t>();
     const auto most = std::int64_t(left_.size() / sizeof(double));
-    // an empty one may have rows or columns still
-    if (rows < 0 || cols < 0 || rows > std::max<std::int64_t>(most, 3) ||
-        cols > std::max<std::int64_t>(most, 3) || (rows_wanted >= 0 && rows != rows_wanted) ||
-        (cols > 0 && rows > most / cols))
-      good_ = false;
+    const auto fits = [&](std::int64_t extent, int wanted) {
+      // an empty one may have rows or columns still
+      return wanted >= 0 ? extent == wanted
+                         : extent >= 0 && extent <= std::max<std::int64_t>(most, 3);
+    };
+    good_ = good_ && fits(rows, Matrix::RowsAtCompileTime) &&
+            fits(cols, Matrix::ColsAtCompileTime) && (cols == 0 || rows <= most / cols);
     if (!good_ || !take(sizeof(double) * std::size_t(rows * cols))) return;
-    if (Matrix::ColsAtCompileTime >= 0 && cols != Matrix::ColsAtCompileTime) {
-      good_ = false;
-      return;
-    }
     values.resize(rows, cols);
     if (values.size() > 0) std::memcpy(values.data(), taken_.data(), taken_.size());
   }

@@ -47,15 +47,30 @@ struct Frame {
   double actuation = 0;  ///< in [0, 1]
 };
 
+/// visit("energy_bend_mJ", energy) for every term.
+template <class EnergiesType, class Visit>
+void visit_energies(EnergiesType& energies, const Visit& visit) {
+  for (const TermName& term : energy_terms)
+    visit((std::string("energy_") + term.name + "_mJ").c_str(), energies[term.term]);
+}
+
+/// visit(matrix) for all that hangs on nodes, cells, bins and rods.
+template <class FrameType, class Visit>
+void visit_matrices(FrameType& frame, const Visit& visit) {
+  visit(frame.nodes);
+  visit(frame.cell_K);
+  visit(frame.K_bins);
+  visit(frame.axial_force_N);
+  visit(frame.curvature_per_mm);
+  visit(frame.reactions_N);
+  visit(frame.bending_mJ_per_m);
+}
+
 /// The frame's numbers, words and bins alone: what may stay in memory of any number of frames.
 inline Frame without_nodes(const Frame& frame) {
   Frame head = frame;
-  head.nodes.resize(3, 0);
-  head.cell_K.resize(0);
-  head.axial_force_N.resize(0);
-  head.curvature_per_mm.resize(0);
-  head.bending_mJ_per_m.resize(0);
-  head.reactions_N.resize(3, 0);
+  visit_matrices(head, []<class Matrix>(Matrix& values) { values = Matrix(); });
+  head.K_bins = frame.K_bins;
   return head;
 }
 

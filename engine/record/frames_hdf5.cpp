@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -64,18 +63,18 @@ void write_bins(hdf5::Writer& file, const std::vector<Frame>& heads) {
                values.data(), "rad, rad, cells");
 }
 
-/// What a frame may lack, with the size that it has otherwise: visit(name, unit, size, meaning,
-/// field).
+using SizeOf = Eigen::Index (*)(const Layout&);
+
+/// What a frame may lack: visit(name, unit, size by the layout, meaning, field).
 template <class Visit>
-void each_rod_field(const Layout& layout, Visit visit) {
-  visit("/axial_force_N", "N", edges_of_rods(layout), "of each edge, rod after rod",
-        &Frame::axial_force_N);
-  visit("/curvature_per_mm", "1/mm", points_of_rods(layout), "at each point, rod after rod",
+void each_rod_field(const Visit& visit) {
+  visit("/axial_force_N", "N", edges_of_rods, "of each edge, rod after rod", &Frame::axial_force_N);
+  visit("/curvature_per_mm", "1/mm", points_of_rods, "at each point, rod after rod",
         &Frame::curvature_per_mm);
-  visit("/bending_mJ_per_m", "mJ/m", points_of_rods(layout), "energy over length, at each point",
+  visit("/bending_mJ_per_m", "mJ/m", points_of_rods, "energy over length, at each point",
         &Frame::bending_mJ_per_m);
-  visit("/reactions_N", "N", Eigen::Index(layout.supports.size()), "on each of /layout/supports",
-        &Frame::reactions_N);
+  const SizeOf supports = [](const Layout& layout) { return Eigen::Index(layout.supports.size()); };
+  visit("/reactions_N", "N", supports, "on each of /layout/supports", &Frame::reactions_N);
 }
 
 template <class Values>
@@ -93,53 +92,19 @@ Dims dims_of(std::size_t frames, Eigen::Index size) {
   return dims;
 }
 
-/// Fields of frames that hang on the rods, those of them that a run knows; its end knows them all.
-class RodFieldsWriter {
- public:
-  RodFieldsWriter(hdf5::Writer& file, const Layout& layout, const FrameList& frames) {
-    if (frames.empty()) return;
-    const Frame last = frames.back();
-    each_rod_field(layout, [&]<class Values>(const char* name, const char* unit, Eigen::Index size,
-                                             const char* meaning, Values Frame::*field) {
-      if (size == 0 || (last.*field).size() == 0) return;
-      file.dataset(name, H5T_NATIVE_DOUBLE, dims_of<Values>(frames.size(), size), nullptr, unit);
-      file.attribute(name, "meaning",
-                     std::string(meaning) +
-                         "; of the finest mesh itself, never extrapolated, so that "
-                         "with the loads they balance to residual_N; NaN: unknown");
-      puts_.push_back([&file, name, size, field](hsize_t k, const Frame& frame) {
-        const Values& known = frame.*field;
-        file.write_slice(name, H5T_NATIVE_DOUBLE, k,
-                         (known.size() > 0 ? known : sized<Values>(size)).eval().data());
-      });
-    });
-  }
-  void put(hsize_t k, const Frame& frame) const {
-    for (const auto& put : puts_) put(k, frame);
-  }
-
- private:
-  std::vector<std::function<void(hsize_t, const Frame&)>> puts_;
-};
-
 /// Frames that stay in the file; the columns, which are small, are in memory.
 class StoredFrames : public FrameSource {
  public:
   StoredFrames(std::shared_ptr<hdf5::Reader> file, std::vector<Frame> heads, Eigen::Index nodes,
                Eigen::Index cells, const Layout& layout)
       : file_(std::move(file)), heads_(std::move(heads)), nodes_(nodes), cells_(cells) {
-    each_rod_field(layout, [&]<class Values>(const char* name, const char*, Eigen::Index size,
-                                             const char*, Values Frame::*field) {
+    each_rod_field([&]<class Values>(const char* name, const char*, SizeOf size, const char*,
+                                     Values Frame::*) {
       if (!file_->has(name)) return;
-      const Dims wanted = dims_of<Values>(heads_.size(), size);
+      const Dims wanted = dims_of<Values>(heads_.size(), size(layout));
       const Dims dims = file_->dims(name, wanted.size());
       if (file_->good() && dims != wanted)
         file_->fail_because(std::string(name) + " does not fit the rods and the frames");
-      of_rods_.push_back([name, size, field](hdf5::Reader& from, std::size_t k, Frame& frame) {
-        Values& values = frame.*field = sized<Values>(size);
-        from.read_slice(name, H5T_NATIVE_DOUBLE, k, values.data());
-        if (values.array().isNaN().all()) values = sized<Values>(0);
-      });
     });
   }
 
@@ -151,7 +116,15 @@ class StoredFrames : public FrameSource {
     frame.cell_K.resize(cells_);
     file_->read_slice("/nodes", H5T_NATIVE_DOUBLE, k, frame.nodes.data());
     file_->read_slice("/cell_K", H5T_NATIVE_DOUBLE, k, frame.cell_K.data());
-    for (const auto& take : of_rods_) take(*file_, k, frame);
+    each_rod_field([&]<class Values>(const char* name, const char*, SizeOf, const char*,
+                                     Values Frame::*field) {
+      if (!file_->has(name)) return;
+      const Dims dims = file_->dims(name, dims_of<Values>(0, 0).size());
+      if (!file_->good()) return;
+      Values& values = frame.*field = sized<Values>(Eigen::Index(dims[1]));
+      file_->read_slice(name, H5T_NATIVE_DOUBLE, k, values.data());
+      if (values.array().isNaN().all()) values = Values();
+    });
     if (!file_->good()) return fail(Fault::io, "cannot read a frame: " + file_->reason());
     return frame;
   }
@@ -160,7 +133,6 @@ class StoredFrames : public FrameSource {
   std::shared_ptr<hdf5::Reader> file_;
   std::vector<Frame> heads_;
   Eigen::Index nodes_, cells_;
-  std::vector<std::function<void(hdf5::Reader&, std::size_t, Frame&)>> of_rods_;
 };
 
 void make_unknown(int& value) { value = -1; }
@@ -214,13 +186,32 @@ void write_frames(hdf5::Writer& file, const Layout& layout, const FrameList& fra
                        "and pivots are those of the finest mesh"
                      : "of the finest mesh");
   file.dataset("/cell_K", H5T_NATIVE_DOUBLE, {count, hsize_t(layout.cells.size())}, nullptr, "rad");
-  const RodFieldsWriter of_rods(file, layout, frames);
+  // its end knows all that a run knows
+  const Frame last = frames.empty() ? Frame() : frames.back();
+  const auto each_known_field = [&](const auto& visit) {
+    each_rod_field(
+        [&](const char* name, const char* unit, SizeOf size, const char* meaning, auto field) {
+          if ((last.*field).size() > 0) visit(name, unit, size(layout), meaning, field);
+        });
+  };
+  each_known_field([&]<class Values>(const char* name, const char* unit, Eigen::Index size,
+                                     const char* meaning, Values Frame::*) {
+    file.dataset(name, H5T_NATIVE_DOUBLE, dims_of<Values>(count, size), nullptr, unit);
+    file.attribute(name, "meaning",
+                   std::string(meaning) +
+                       "; of the finest mesh itself, never extrapolated, so that "
+                       "with the loads they balance to residual_N; NaN: unknown");
+  });
   std::vector<Frame> heads;
-  hsize_t k = 0;
   for (const Frame& frame : frames) {
+    const hsize_t k = heads.size();
     file.write_slice("/nodes", H5T_NATIVE_DOUBLE, k, frame.nodes.data());
     file.write_slice("/cell_K", H5T_NATIVE_DOUBLE, k, frame.cell_K.data());
-    of_rods.put(k++, frame);
+    each_known_field([&]<class Values>(const char* name, const char*, Eigen::Index size,
+                                       const char*, Values Frame::*field) {
+      const Values values = (frame.*field).size() > 0 ? frame.*field : sized<Values>(size);
+      file.write_slice(name, H5T_NATIVE_DOUBLE, k, values.data());
+    });
     heads.push_back(without_nodes(frame));
   }
   write_bins(file, heads);

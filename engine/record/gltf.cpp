@@ -13,8 +13,6 @@
 namespace gridshell::exports {
 namespace {
 
-using record::Json;
-
 constexpr std::size_t most_shapes = 60, most_model_bytes = 20'000'000;
 constexpr double joint_radius_mm = 1.5;  // of the paper's joints
 
@@ -140,13 +138,6 @@ Surface ball(double radius_mm) {
   return all;
 }
 
-Eigen::Matrix3Xd joint_places(const record::Layout& layout, const record::Frame& frame) {
-  Eigen::Matrix3Xd places(3, Eigen::Index(layout.joints.size()));
-  for (std::size_t k = 0; k < layout.joints.size(); ++k)
-    places.col(Eigen::Index(k)) = frame.nodes.col(layout.joints[k].node);
-  return places;
-}
-
 /// How fine it may be so that it stays under most_model_bytes: positions and normals of each shape.
 struct ModelDetail {
   int sides = 0;
@@ -209,14 +200,6 @@ class MorphingMesh {
   Buffer& buffer_;
   Json targets_ = Json::array();
 };
-
-/// Which frames are the key shapes: evenly, the first and the last among them.
-std::vector<std::size_t> keys_of(std::size_t frames, std::size_t shapes) {
-  std::vector<std::size_t> keys;
-  for (std::size_t k = 0; k < shapes; ++k)
-    keys.push_back(shapes == 1 ? frames - 1 : k * (frames - 1) / (shapes - 1));
-  return keys;
-}
 
 std::string chunk(const std::string& content, const char* type, char padding) {
   const std::string padded = content + std::string((4 - content.size() % 4) % 4, padding);
@@ -292,7 +275,7 @@ class Gltf {
     json_["accessors"] = std::move(buffer_.accessors);
     json_["bufferViews"] = std::move(buffer_.views);
     json_["buffers"] = Json::array({{{"byteLength", buffer_.bytes().size()}}});
-    const std::string body = chunk(record::line_of(json_), "JSON", ' ') +
+    const std::string body = chunk(line_of(json_), "JSON", ' ') +
                              chunk(buffer_.bytes(), std::string("BIN\0", 4).data(), '\0');
     const std::uint32_t header[] = {0x46546C67, 2, std::uint32_t(12 + body.size())};
     return std::string(reinterpret_cast<const char*>(header), 12) + body;
@@ -330,13 +313,14 @@ Result<std::string> to_glb(const record::Trajectory& run, const std::string& tit
   const record::Layout& layout = run.layout;
   Gltf gltf(layout, title);
   std::vector<Eigen::Matrix3Xd> places;
-  const auto keys = keys_of(run.frames.size(), fine->shapes);
-  const record::Frame start = run.frames[keys.front()];
+  const auto keys = even_frames(run.frames.size(), fine->shapes);
+  const std::vector<int> joints = nodes_of_joints(layout);
+  const record::Frame& start = run.frames[keys.front()];
   MorphingMesh rods("rods", tubes(layout, start, fine->sides), 0, gltf.buffer()),
       skin("cells", cells(layout, start), 2, gltf.buffer());
   for (const std::size_t key : keys) {
     const record::Frame& frame = run.frames[key];
-    places.push_back(joint_places(layout, frame));
+    places.push_back(frame.nodes(Eigen::all, joints));
     if (key == keys.front()) continue;
     rods.add(tubes(layout, frame, fine->sides));
     if (!layout.cells.empty()) skin.add(cells(layout, frame));

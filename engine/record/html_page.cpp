@@ -28,6 +28,13 @@ ColourRange range_of(const Eigen::VectorXd& K) {
   return {end > 0 ? end : 1};
 }
 
+std::vector<std::size_t> even_frames(std::size_t frames, std::size_t shown) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < shown; ++k)
+    chosen.push_back(shown == 1 ? frames - 1 : k * (frames - 1) / (shown - 1));
+  return chosen;
+}
+
 std::array<double, 3> linear(const std::array<double, 3>& srgb) {
   std::array<double, 3> light{};
   for (std::size_t k = 0; k < 3; ++k)
@@ -36,8 +43,6 @@ std::array<double, 3> linear(const std::array<double, 3>& srgb) {
 }
 
 namespace {
-
-using record::Json;
 
 constexpr std::size_t most_page_bytes = 9'000'000;  // of positions, as written
 
@@ -128,12 +133,12 @@ Json layout_json(const record::Layout& layout) {
   json["rods"] = layout.rods;
   json["boundary"] = {boundary_json(layout.original_boundary),
                       boundary_json(layout.actuated_boundary)};
-  json["joints"] = Json::array();
-  for (const record::Joint& joint : layout.joints) json["joints"].push_back(joint.node);
+  const std::vector<int> joints = nodes_of_joints(layout);
+  json["joints"] = joints;
   json["cells"] = Json::array();
   for (const record::Cell& cell : layout.cells) {
     Json corners = Json::array();
-    for (const int joint : cell.joints) corners.push_back(layout.joints[std::size_t(joint)].node);
+    for (const int joint : cell.joints) corners.push_back(joints[std::size_t(joint)]);
     json["cells"].push_back(std::move(corners));
   }
   return json;
@@ -148,12 +153,10 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
     return fail(Fault::bad_input,
                 fmt::format("one frame of {} nodes takes more than {} MB in a page", nodes,
                             most_page_bytes / 1'000'000));
-  const std::size_t kept = std::min(run.frames.size(), most_page_bytes / a_frame);
-  const auto index = [&](std::size_t k) {
-    return kept == 1 ? run.frames.size() - 1 : k * (run.frames.size() - 1) / (kept - 1);
-  };
+  const auto shown =
+      even_frames(run.frames.size(), std::min(run.frames.size(), most_page_bytes / a_frame));
   Extent extent;
-  for (std::size_t k = 0; k < kept; ++k) extent.take(run.frames[index(k)]);
+  for (const std::size_t k : shown) extent.take(run.frames[k]);
 
   Json json = layout_json(run.layout);
   json["title"] = title;
@@ -166,8 +169,8 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
                      {"unknown", ColourRange::unknown}};
   json["rod_mm"] = run.layout.rod_diameter_mm;
   json["frames"] = Json::array();
-  for (std::size_t k = 0; k < kept; ++k) {
-    const record::Frame& frame = run.frames[index(k)];
+  for (const std::size_t k : shown) {
+    const record::Frame& frame = run.frames[k];
     Json K = Json::array();
     for (const double value : frame.cell_K) K.push_back(rounded(value, 3));
     json["frames"].push_back({{"index", frame.index},
@@ -178,7 +181,7 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
   }
   if (run.frames.fault()) return tl::unexpected(*run.frames.fault());
 
-  std::string data = record::line_of(json, true);
+  std::string data = line_of(json, true);
   // a script ends at the first "</script", whatever it stands in
   for (std::size_t at = 0; (at = data.find("</", at)) != data.npos; at += 3)
     data.replace(at, 2, "<\\/");

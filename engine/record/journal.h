@@ -10,12 +10,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/core/file_io.h"
 #include "engine/core/result.h"
 #include "engine/record/frame.h"
 #include "engine/record/summary.h"
@@ -41,26 +42,20 @@ class JournalWriter {
   /// A new journal, in the place of one that stood there. Errors: io with path and reason.
   static Result<JournalWriter> create(const std::filesystem::path& path, const RunIdentity& name,
                                       const Layout& layout);
-  JournalWriter(JournalWriter&& other) noexcept;
-  JournalWriter& operator=(JournalWriter&& other) noexcept;
-  ~JournalWriter();
 
   /// Errors: io with path and reason; what was cut short is taken back.
   Result<void> append(const Frame& frame);
 
   /// how many different frames it holds
-  std::size_t frames() const { return indices_; }
+  std::size_t frames() const { return indices_.size(); }
 
  private:
-  JournalWriter(std::filesystem::path path, int descriptor)
-      : path_(std::move(path)), descriptor_(descriptor) {}
   Result<void> put(std::uint32_t kind, const std::string& payload);
 
   std::filesystem::path path_;
-  int descriptor_ = -1;
-  std::uint64_t end_ = 0;
-  std::size_t indices_ = 0;
-  std::vector<bool> seen_;  // by index
+  Descriptor file_;
+  std::uint64_t size_ = 0;
+  std::set<int> indices_;
 };
 
 /// What a journal holds: frames in order of their index, read one at a time.
@@ -84,11 +79,6 @@ std::optional<std::string> preset_of_journal(const std::filesystem::path& folder
 std::size_t frames_in_journal(const std::filesystem::path& folder);
 
 // What the records of a journal hold: the head, then frames, packed.
-
-/// Of the whole file, before its records.
-inline constexpr std::string_view journal_first_line = "gridshell journal 1\n";
-
-enum RecordKind : std::uint32_t { head_record = 1, frame_record = 2 };
 
 /// Whose frames they are, the names of their columns, and the layout as layout_of_image() reads it.
 struct JournalHead {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <string>
-#include <utility>
+#include <vector>
+
+#include "engine/core/fields.h"
 
 namespace gridshell::record {
 namespace {
@@ -13,7 +15,10 @@ namespace {
 using hdf5::Dims;
 using hdf5::Handle;
 
-Handle joint_type() {
+Handle type_of(int) { return Handle(H5Tcopy(H5T_NATIVE_INT), H5Tclose); }
+Handle type_of(double) { return Handle(H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose); }
+
+Handle type_of(const Joint&) {
   Handle type(H5Tcreate(H5T_COMPOUND, sizeof(Joint)), H5Tclose);
   H5Tinsert(type, "i", HOFFSET(Joint, i), H5T_NATIVE_INT);
   H5Tinsert(type, "j", HOFFSET(Joint, j), H5T_NATIVE_INT);
@@ -23,7 +28,7 @@ Handle joint_type() {
   return type;
 }
 
-Handle cell_type() {
+Handle type_of(const Cell&) {
   const hsize_t four = 4;
   const Handle joints(H5Tarray_create2(H5T_NATIVE_INT, 1, &four), H5Tclose);
   Handle type(H5Tcreate(H5T_COMPOUND, sizeof(Cell)), H5Tclose);
@@ -35,6 +40,74 @@ Handle cell_type() {
   return type;
 }
 
+template <class Value>
+void put(hdf5::Writer& file, const std::string& name, const std::vector<Value>& values,
+         const char* unit) {
+  file.dataset(name, type_of(Value{}), {values.size()}, values.data(), unit);
+}
+void put(hdf5::Writer& file, const std::string& name, const std::vector<std::string>& values,
+         const char*) {
+  file.strings(name, values);
+}
+void put(hdf5::Writer& file, const std::string& name, const hdf5::Lists& lists, const char*) {
+  file.lists(name, lists);
+}
+// a 3 x n matrix by columns lies in memory as n x 3 by rows
+void put(hdf5::Writer& file, const std::string& name, const Eigen::Matrix3Xd& points,
+         const char* unit) {
+  file.dataset(name, H5T_NATIVE_DOUBLE, {hsize_t(points.cols()), 3}, points.data(), unit);
+}
+
+template <class Value>
+void take(hdf5::Reader& file, const std::string& name, std::vector<Value>& values) {
+  values = file.vector<Value>(name, type_of(Value{}));
+}
+void take(hdf5::Reader& file, const std::string& name, std::vector<std::string>& values) {
+  values = file.strings(name);
+}
+void take(hdf5::Reader& file, const std::string& name, hdf5::Lists& lists) {
+  lists = file.lists(name);
+}
+void take(hdf5::Reader& file, const std::string& name, Eigen::Matrix3Xd& points) {
+  const Dims dims = file.dims(name, 2);
+  if (!file.good()) return;
+  if (dims[1] != 3) file.fail_because(fmt::format("{} has {} coordinates a point", name, dims[1]));
+  points.resize(3, file.good() ? Eigen::Index(dims[0]) : 0);
+  file.read(name, H5T_NATIVE_DOUBLE, points.data());
+}
+
+enum Presence { always, where_known };
+
+/// visit(name, member, unit, presence) for all that is one dataset.
+template <RecordOf<Layout> LayoutType, class Visit>
+void each_dataset(LayoutType& layout, const Visit& visit) {
+  visit("/layout/diameters", layout.diameters_mm, "mm", where_known);
+  visit("/rods", layout.rods, "1", always);
+  visit("/layout/families", layout.families, "", where_known);
+  visit("/layout/supports", layout.supports, "1", where_known);
+  visit("/joints", layout.joints, "mm", always);
+  visit("/cells", layout.cells, "mm", always);
+  visit("/layout/edge_points", layout.edge_points, "1", always);
+  visit("/layout/original_boundary", layout.original_boundary, "mm", always);
+  visit("/layout/actuated_boundary", layout.actuated_boundary, "mm", always);
+  visit("/layout/net_nodes", layout.net_nodes, "mm", always);
+  visit("/layout/flat_nodes", layout.flat_nodes, "mm", always);
+}
+
+template <RecordOf<Layout> LayoutType, class Visit>
+void each_attribute(LayoutType& layout, const Visit& visit) {
+  visit_each(visit, "spacing_mm", layout.spacing_mm, "rod_diameter_mm", layout.rod_diameter_mm,
+             "length_scale_mm", layout.length_scale_mm);
+}
+
+/// A building block in its group.
+template <RecordOf<Part> PartType, class Visit>
+void each_dataset(PartType& part, const Visit& visit) {
+  visit("/rods", part.rods, "1");
+  visit("/net", part.net, "mm");
+  visit("/flat", part.flat, "mm");
+}
+
 void write_parts(hdf5::Writer& file, const Layout& layout) {
   std::vector<std::string> names, seams, families;
   std::vector<std::array<double, 3>> numbers;
@@ -43,10 +116,9 @@ void write_parts(hdf5::Writer& file, const Layout& layout) {
     const std::string group = fmt::format("/parts/{}", names.size());
     names.push_back(part.name);
     file.group(group);
-    file.lists(group + "/rods", part.rods);
-    for (const auto& [name, points] : {std::pair("/net", &part.net), {"/flat", &part.flat}})
-      file.dataset(group + name, H5T_NATIVE_DOUBLE, {static_cast<hsize_t>(points->cols()), 3},
-                   points->data(), "mm");
+    each_dataset(part, [&](const char* name, const auto& values, const char* unit) {
+      put(file, group + name, values, unit);
+    });
   }
   for (const SeamRod& rod : layout.seam_rods) {
     seams.push_back(rod.seam);
@@ -60,69 +132,12 @@ void write_parts(hdf5::Writer& file, const Layout& layout) {
                "mm, mm, degrees");
 }
 
-void write_loads(hdf5::Writer& file, const Layout& layout) {
-  std::vector<int> joints, at_times;
-  Eigen::Matrix3Xd directions(3, layout.loaded_joints.size());
-  for (const LoadedJoint& load : layout.loaded_joints) {
-    directions.col(long(joints.size())) = load.direction;
-    joints.push_back(load.joint);
-    at_times.push_back(load.at_times);
-  }
-  file.dataset("/layout/load_joints", H5T_NATIVE_INT, {joints.size()}, joints.data(), "1");
-  if (std::ranges::count(at_times, 0) < long(at_times.size()))
-    file.dataset("/layout/load_at_times", H5T_NATIVE_INT, {joints.size()}, at_times.data(), "1");
-  file.dataset("/layout/load_directions", H5T_NATIVE_DOUBLE, {joints.size(), 3}, directions.data(),
-               "1");
-}
-
-}  // namespace
-
-void write_layout(hdf5::Writer& file, const Layout& layout) {
-  file.group("/layout");
-  file.attribute("/layout", "spacing_mm", layout.spacing_mm);
-  file.attribute("/layout", "rod_diameter_mm", layout.rod_diameter_mm);
-  file.attribute("/layout", "length_scale_mm", layout.length_scale_mm);
-  if (!layout.diameters_mm.empty())
-    file.dataset("/layout/diameters", H5T_NATIVE_DOUBLE, {layout.diameters_mm.size()},
-                 layout.diameters_mm.data(), "mm");
-  file.lists("/rods", layout.rods);
-  if (!layout.families.empty()) file.strings("/layout/families", layout.families);
-  if (!layout.supports.empty())
-    file.dataset("/layout/supports", H5T_NATIVE_INT, {layout.supports.size()},
-                 layout.supports.data(), "1");
-  file.dataset("/joints", joint_type(), {layout.joints.size()}, layout.joints.data(), "mm");
-  file.dataset("/cells", cell_type(), {layout.cells.size()}, layout.cells.data(), "mm");
-  file.dataset("/layout/edge_points", H5T_NATIVE_INT, {layout.edge_points.size()},
-               layout.edge_points.data(), "1");
-  // a 3 x n matrix by columns lies in memory as n x 3 by rows
-  const auto boundary = [&](const char* name, const Eigen::Matrix3Xd& points) {
-    file.dataset(name, H5T_NATIVE_DOUBLE, {static_cast<hsize_t>(points.cols()), 3}, points.data(),
-                 "mm");
-  };
-  boundary("/layout/original_boundary", layout.original_boundary);
-  boundary("/layout/actuated_boundary", layout.actuated_boundary);
-  boundary("/layout/net_nodes", layout.net_nodes);
-  boundary("/layout/flat_nodes", layout.flat_nodes);
-  if (!layout.parts.empty()) write_parts(file, layout);
-  if (!layout.loaded_joints.empty()) write_loads(file, layout);
-}
-
-namespace {
-
-Eigen::Matrix3Xd read_points(hdf5::Reader& file, const std::string& name) {
-  const Dims dims = file.dims(name, 2);
-  if (!file.good()) return {};
-  if (dims[1] != 3) file.fail_because(fmt::format("{} has {} coordinates a point", name, dims[1]));
-  Eigen::Matrix3Xd points(3, file.good() ? dims[0] : 0);
-  file.read(name, H5T_NATIVE_DOUBLE, points.data());
-  return points;
-}
-
 void read_parts(hdf5::Reader& file, Layout& layout) {
   for (const std::string& name : file.strings("/parts/names")) {
     const std::string group = fmt::format("/parts/{}", layout.parts.size());
-    layout.parts.push_back({name, file.lists(group + "/rods"), read_points(file, group + "/net"),
-                            read_points(file, group + "/flat")});
+    each_dataset(
+        layout.parts.emplace_back(Part{name, {}, {}, {}}),
+        [&](const char* of, auto& values, const char*) { take(file, group + of, values); });
   }
   const auto seams = file.strings("/parts/seams");
   const auto families = file.strings("/parts/families");
@@ -136,14 +151,29 @@ void read_parts(hdf5::Reader& file, Layout& layout) {
         {seams[k], families[k] == "u" ? 'u' : 'v', numbers[k][0], numbers[k][1], numbers[k][2]});
 }
 
+void write_loads(hdf5::Writer& file, const Layout& layout) {
+  std::vector<int> joints, at_times;
+  Eigen::Matrix3Xd directions(3, layout.loaded_joints.size());
+  for (const LoadedJoint& load : layout.loaded_joints) {
+    directions.col(long(joints.size())) = load.direction;
+    joints.push_back(load.joint);
+    at_times.push_back(load.at_times);
+  }
+  put(file, "/layout/load_joints", joints, "1");
+  if (std::ranges::count(at_times, 0) < long(at_times.size()))
+    put(file, "/layout/load_at_times", at_times, "1");
+  put(file, "/layout/load_directions", directions, "1");
+}
+
 void read_loads(hdf5::Reader& file, Layout& layout) {
-  const auto joints = file.vector<int>("/layout/load_joints", H5T_NATIVE_INT);
-  const Eigen::Matrix3Xd directions = read_points(file, "/layout/load_directions");
+  std::vector<int> joints;
+  Eigen::Matrix3Xd directions;
+  take(file, "/layout/load_joints", joints);
+  take(file, "/layout/load_directions", directions);
+  std::vector<int> at_times(joints.size(), 0);  // as older versions wrote
+  if (file.has("/layout/load_at_times")) take(file, "/layout/load_at_times", at_times);
   if (file.good() && directions.cols() != long(joints.size()))
     file.fail_because("/layout has not one direction a joint that is pushed");
-  std::vector<int> at_times(joints.size(), 0);  // as older versions wrote
-  if (file.has("/layout/load_at_times"))
-    at_times = file.vector<int>("/layout/load_at_times", H5T_NATIVE_INT);
   if (file.good() && at_times.size() != joints.size())
     file.fail_because("/layout/load_at_times has not one number a joint that is pushed");
   for (std::size_t k = 0; file.good() && k < joints.size(); ++k)
@@ -152,24 +182,23 @@ void read_loads(hdf5::Reader& file, Layout& layout) {
 
 }  // namespace
 
+void write_layout(hdf5::Writer& file, const Layout& layout) {
+  file.group("/layout");
+  each_attribute(layout, [&](auto& name, double value) { file.attribute("/layout", name, value); });
+  each_dataset(layout, [&](const char* name, const auto& values, const char* unit, Presence when) {
+    if (when == always || values.size() > 0) put(file, name, values, unit);
+  });
+  if (!layout.parts.empty()) write_parts(file, layout);
+  if (!layout.loaded_joints.empty()) write_loads(file, layout);
+}
+
 Layout read_layout(hdf5::Reader& file) {
   Layout layout;
-  layout.spacing_mm = file.attribute("/layout", "spacing_mm");
-  layout.rod_diameter_mm = file.attribute("/layout", "rod_diameter_mm");
-  layout.length_scale_mm = file.attribute("/layout", "length_scale_mm");
-  if (file.has("/layout/diameters"))
-    layout.diameters_mm = file.vector<double>("/layout/diameters", H5T_NATIVE_DOUBLE);
-  layout.rods = file.lists("/rods");
-  if (file.has("/layout/families")) layout.families = file.strings("/layout/families");
-  if (file.has("/layout/supports"))
-    layout.supports = file.vector<int>("/layout/supports", H5T_NATIVE_INT);
-  layout.joints = file.vector<Joint>("/joints", joint_type());
-  layout.cells = file.vector<Cell>("/cells", cell_type());
-  layout.edge_points = file.vector<int>("/layout/edge_points", H5T_NATIVE_INT);
-  layout.original_boundary = read_points(file, "/layout/original_boundary");
-  layout.actuated_boundary = read_points(file, "/layout/actuated_boundary");
-  layout.net_nodes = read_points(file, "/layout/net_nodes");
-  layout.flat_nodes = read_points(file, "/layout/flat_nodes");
+  each_attribute(layout,
+                 [&](auto& name, double& value) { value = file.attribute("/layout", name); });
+  each_dataset(layout, [&](const char* name, auto& values, const char*, Presence when) {
+    if (when == always || file.has(name)) take(file, name, values);
+  });
   if (file.has("/parts")) read_parts(file, layout);
   if (file.has("/layout/load_joints")) read_loads(file, layout);
   return layout;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/formats/csv.h"
-
 namespace gridshell::record {
 namespace {
 
@@ -38,7 +36,7 @@ Figures search_figures(const StateSearch& search, const std::vector<StateRow>& r
                   {"confined_at_rest", double(search.confined_at_rest)},
                   {"states", double(rows.size())},
                   {"seen", double(search.completeness.seen)},
-                  {"chao1", search.completeness.chao1}};
+                  {"chao1", search.completeness.estimate}};
   for (const auto& [kind, word] : words_of<StateClass>()) {
     StateCount count;
     for (const StateRow& row : rows)
@@ -147,28 +145,6 @@ std::string name_of(const PhaseRegion& region) {
   if (!std::isfinite(region.to)) return fmt::format("l_d > {}", region.above);
   if (!std::isfinite(region.above)) return fmt::format("l_d <= {}", region.to);
   return fmt::format("{} < l_d <= {}", region.above, region.to);
-}
-
-std::string regions_csv(const std::vector<PhaseRegion>& regions) {
-  CsvWriter csv;
-  for (const char* name :
-       {"shortest_leg", "points", "first_order_alone", "symmetry_broken", "several_states"})
-    csv.cell(name);
-  for (const auto& [kind, word] : words_of<StateClass>()) csv.cell("with_" + std::string(word));
-  for (const char* name : {"at_rest", "met_first_order", "with_more_than_paper", "states_more"})
-    csv.cell(name);
-  csv.end_line();
-  for (const PhaseRegion& region : regions) {
-    csv.cell(name_of(region));
-    for (const int number : {region.points, region.dome_alone, region.broken, region.several})
-      csv.cell(number);
-    for (const int number : region.with) csv.cell(number);
-    for (const int number :
-         {region.at_rest, region.met_first_order, region.with_more, region.more_states})
-      csv.cell(number);
-    csv.end_line();
-  }
-  return std::move(csv).text();
 }
 
 }  // namespace gridshell::record

@@ -106,7 +106,16 @@ std::vector<PhaseRegion> regions_of(const PhaseDiagram& diagram);
 /// "l_d > 1", "0 < l_d <= 1", "l_d <= -1".
 std::string name_of(const PhaseRegion& region);
 
-/// The text of regions.csv: a row a region.
-std::string regions_csv(const std::vector<PhaseRegion>& regions);
+/// A line of regions.csv.
+template <RecordOf<PhaseRegion> Region, class Visit>
+void fields(Region& region, const Visit& visit) {
+  const std::string name = name_of(region);
+  visit_each(visit, "shortest_leg", name, "points", region.points, "first_order_alone",
+             region.dome_alone, "symmetry_broken", region.broken, "several_states", region.several);
+  for (const auto& [kind, word] : words(StateClass{}))
+    visit(("with_" + std::string(word)).c_str(), region.with[std::size_t(kind)]);
+  visit_each(visit, "at_rest", region.at_rest, "met_first_order", region.met_first_order,
+             "with_more_than_paper", region.with_more, "states_more", region.more_states);
+}
 
 }  // namespace gridshell::record

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "engine/formats/csv.h"
 #include "engine/record/frame_values.h"
@@ -13,11 +14,13 @@ namespace gridshell::exports {
 
 Eigen::Matrix3Xd rod_points(const record::Layout& layout, const record::Frame& frame,
                             std::size_t rod) {
-  const std::vector<int>& nodes = layout.rods[rod];
-  Eigen::Matrix3Xd points(3, Eigen::Index(nodes.size()));
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    points.col(Eigen::Index(k)) = frame.nodes.col(nodes[k]);
-  return points;
+  return frame.nodes(Eigen::all, layout.rods[rod]);
+}
+
+std::vector<int> nodes_of_joints(const record::Layout& layout) {
+  std::vector<int> nodes;
+  for (const record::Joint& joint : layout.joints) nodes.push_back(joint.node);
+  return nodes;
 }
 
 Eigen::Matrix3Xd reactions_N(const record::Layout& layout, const record::Frame& frame) {
@@ -96,54 +99,36 @@ void put_vertex(const Eigen::Vector3d& at, std::string& text) {
   fmt::format_to(into(text), "v {:.9f} {:.9f} {:.9f}\n", at.x(), at.y(), at.z());
 }
 
-/// A <DataArray> of numbers.
-class VtkArray {
- public:
-  VtkArray(std::string& text, const char* type, const char* name, int components = 1)
-      : text_(text) {
-    fmt::format_to(into(text_),
-                   "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
-                   "format=\"ascii\">\n",
-                   type, name, components);
-  }
-  ~VtkArray() { text_ += "\n</DataArray>\n"; }
-  VtkArray(const VtkArray&) = delete;
-  VtkArray& operator=(const VtkArray&) = delete;
-
-  void put(double value) { fmt::format_to(into(text_), "{} ", value); }
-  void put(long value) { fmt::format_to(into(text_), "{} ", value); }
-  void put(const Eigen::Vector3d& v) {
-    fmt::format_to(into(text_), "{} {} {}\n", v.x(), v.y(), v.z());
-  }
-
- private:
-  std::string& text_;
-};
-
-std::vector<double> curvature_of(const record::Layout& layout, const record::Frame& frame,
-                                 std::size_t rod) {
-  return record::curvature_per_mm(layout, frame, rod);
+/// A <DataArray>: numbers, or vectors.
+void put_array(std::string& text, const char* type, const char* name, int components,
+               const std::string& values) {
+  fmt::format_to(into(text),
+                 "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
+                 "format=\"ascii\">\n{}\n</DataArray>\n",
+                 type, name, components, values);
+}
+template <class Number>
+void put_array(std::string& text, const char* name, const std::vector<Number>& values) {
+  std::string numbers;
+  for (const Number value : values) fmt::format_to(into(numbers), "{} ", value);
+  put_array(text, std::is_same_v<Number, double> ? "Float64" : "Int64", name, 1, numbers);
+}
+void put_array(std::string& text, const char* name, const Eigen::Matrix3Xd& values) {
+  std::string vectors;
+  for (const auto& v : values.colwise())
+    fmt::format_to(into(vectors), "{} {} {}\n", v.x(), v.y(), v.z());
+  put_array(text, "Float64", name, 3, vectors);
 }
 
 /// Of the points of rods; the cells' corners have none.
-void put_along_rods(const Shape& shape, const char* name, auto values_of, std::string& text) {
-  VtkArray array(text, "Float64", name);
-  for (std::size_t rod = 0; rod < shape.layout.rods.size(); ++rod)
-    for (const double value : values_of(shape.layout, shape.frame, rod)) array.put(value);
-  for (std::size_t k = 0; k < shape.layout.joints.size(); ++k) array.put(record::unknown);
-}
-
-/// What holds a joint stands once, at the cells' corner, not at both of its rods.
-void put_reactions(const Shape& shape, std::string& text) {
-  const Eigen::Matrix3Xd on = reactions_N(shape.layout, shape.frame);
-  Eigen::Matrix3Xd on_rods = on;
-  for (const record::Joint& joint : shape.layout.joints)
-    if (on.col(joint.node).allFinite()) on_rods.col(joint.node).setZero();
-  VtkArray array(text, "Float64", "reaction_N", 3);
-  for (const auto& rod : shape.layout.rods)
-    for (const int node : rod) array.put(Eigen::Vector3d(on_rods.col(node)));
-  for (const record::Joint& joint : shape.layout.joints)
-    array.put(Eigen::Vector3d(on.col(joint.node)));
+std::vector<double> along_rods(const Shape& shape, auto values_of) {
+  std::vector<double> all;
+  for (std::size_t rod = 0; rod < shape.layout.rods.size(); ++rod) {
+    const std::vector<double> values = values_of(shape.layout, shape.frame, rod);
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  all.insert(all.end(), shape.layout.joints.size(), record::unknown);
+  return all;
 }
 
 /// Of one frame of a dataset of trajectory.h5, all of its `values`, of `components` each (0: one).
@@ -182,8 +167,8 @@ std::string to_obj(const Shape& shape) {
   for (Eigen::Index k = 0; k < shape.frame.nodes.cols(); ++k)
     put_vertex(shape.frame.nodes.col(k), text);
   // joints once more, in their order: faces name them
-  for (const record::Joint& joint : shape.layout.joints)
-    put_vertex(shape.frame.nodes.col(joint.node), text);
+  for (const int node : nodes_of_joints(shape.layout))
+    put_vertex(shape.frame.nodes.col(node), text);
   text += "g rods\n";
   for (const auto& rod : shape.layout.rods) {
     text += "l";
@@ -213,8 +198,8 @@ std::string to_obj_tubes(const Shape& shape) {
       fmt::format_to(into(text), "f {0}//{0} {1}//{1} {2}//{2}\n", first + a, first + b, first + c);
     first += tube.vertices.cols();
   }
-  for (const record::Joint& joint : shape.layout.joints)
-    put_vertex(shape.frame.nodes.col(joint.node), text);
+  for (const int node : nodes_of_joints(shape.layout))
+    put_vertex(shape.frame.nodes.col(node), text);
   put_faces_of_cells(shape.layout, first, text);
   return text;
 }
@@ -237,72 +222,59 @@ Drawing rods_in_space(const Shape& shape) {
 
 std::string to_vtp(const Shape& shape) {
   const record::Layout& layout = shape.layout;
-  std::vector<Eigen::Matrix3Xd> rods;
-  long points = 0;
-  for (std::size_t rod = 0; rod < layout.rods.size(); ++rod) {
-    rods.push_back(rod_points(layout, shape.frame, rod));
-    points += rods.back().cols();
+  const std::vector<int> joints = nodes_of_joints(layout);
+  // points of rods, each with its own, then the cells' corners
+  std::vector<int> nodes;
+  std::vector<long> rod_of(layout.rods.size()), rod_ends, cell_ends, corners;
+  for (const auto& rod : layout.rods) {
+    nodes.insert(nodes.end(), rod.begin(), rod.end());
+    rod_ends.push_back(long(nodes.size()));
   }
-  const long joints = long(layout.joints.size());
+  const std::size_t points = nodes.size();
+  nodes.insert(nodes.end(), joints.begin(), joints.end());
+  for (const record::Cell& cell : layout.cells) {
+    for (const int joint : cell.joints) corners.push_back(long(points) + joint);
+    cell_ends.push_back(long(corners.size()));
+  }
+  std::vector<long> in_order(points);
+  std::iota(in_order.begin(), in_order.end(), 0);
+  std::iota(rod_of.begin(), rod_of.end(), 0);
+  rod_of.resize(rod_of.size() + layout.cells.size(), -1);
+  std::vector<double> K(layout.rods.size(), record::unknown);
+  K.insert(K.end(), shape.frame.cell_K.begin(), shape.frame.cell_K.end());
+  K.resize(rod_of.size(), record::unknown);
+  // what holds a joint stands once, at the cells' corner, not at both of its rods
+  const Eigen::Matrix3Xd on = reactions_N(layout, shape.frame);
+  Eigen::Matrix3Xd on_rods = on;
+  for (const int node : joints)
+    if (on.col(node).allFinite()) on_rods.col(node).setZero();
+  Eigen::Matrix3Xd held = on(Eigen::all, nodes);
+  held.leftCols(long(points)) = on_rods(Eigen::all, nodes).leftCols(long(points));
+
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
       "byte_order=\"LittleEndian\">\n<PolyData>\n<FieldData>\n<DataArray type=\"Float64\" "
       "Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n</FieldData>\n"
       "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"{}\">\n<PointData>\n",
-      shape.frame.progress, points + joints, rods.size(), layout.cells.size());
-  const auto moved = [&](int node) -> Eigen::Vector3d {
-    return shape.frame.nodes.col(node) - shape.start.nodes.col(node);
-  };
-  {
-    VtkArray array(text, "Float64", "displacement_mm", 3);
-    for (const auto& rod : layout.rods)
-      for (const int node : rod) array.put(moved(node));
-    for (const record::Joint& joint : layout.joints) array.put(moved(joint.node));
-  }
-  put_along_rods(shape, "curvature_per_mm", curvature_of, text);
-  put_along_rods(shape, "axial_force_N", record::axial_force_N, text);
-  put_reactions(shape, text);
+      shape.frame.progress, nodes.size(), layout.rods.size(), layout.cells.size());
+  const Eigen::Matrix3Xd moved = shape.frame.nodes - shape.start.nodes;
+  put_array(text, "displacement_mm", Eigen::Matrix3Xd(moved(Eigen::all, nodes)));
+  put_array(text, "curvature_per_mm",
+            along_rods(shape, [](const auto&... of) { return record::curvature_per_mm(of...); }));
+  put_array(text, "axial_force_N", along_rods(shape, record::axial_force_N));
+  put_array(text, "reaction_N", held);
   text += "</PointData>\n<CellData>\n";
-  {
-    VtkArray array(text, "Int64", "rod");
-    for (long rod = 0; rod < long(rods.size()); ++rod) array.put(rod);
-    for (std::size_t k = 0; k < layout.cells.size(); ++k) array.put(-1L);
-  }
-  {
-    VtkArray array(text, "Float64", "K_rad");
-    for (std::size_t rod = 0; rod < rods.size(); ++rod) array.put(record::unknown);
-    for (Eigen::Index k = 0; k < Eigen::Index(layout.cells.size()); ++k)
-      array.put(k < shape.frame.cell_K.size() ? shape.frame.cell_K[k] : record::unknown);
-  }
+  put_array(text, "rod", rod_of);
+  put_array(text, "K_rad", K);
   text += "</CellData>\n<Points>\n";
-  {
-    VtkArray array(text, "Float64", "Points", 3);
-    for (const auto& rod : rods)
-      for (Eigen::Index k = 0; k < rod.cols(); ++k) array.put(Eigen::Vector3d(rod.col(k)));
-    for (const record::Joint& joint : layout.joints)
-      array.put(Eigen::Vector3d(shape.frame.nodes.col(joint.node)));
-  }
+  put_array(text, "Points", Eigen::Matrix3Xd(shape.frame.nodes(Eigen::all, nodes)));
   text += "</Points>\n<Lines>\n";
-  {
-    VtkArray array(text, "Int64", "connectivity");
-    for (long k = 0; k < points; ++k) array.put(k);
-  }
-  {
-    VtkArray array(text, "Int64", "offsets");
-    long end = 0;
-    for (const auto& rod : rods) array.put(end += rod.cols());
-  }
+  put_array(text, "connectivity", in_order);
+  put_array(text, "offsets", rod_ends);
   text += "</Lines>\n<Polys>\n";
-  {
-    VtkArray array(text, "Int64", "connectivity");
-    for (const record::Cell& cell : layout.cells)
-      for (const int joint : cell.joints) array.put(points + joint);
-  }
-  {
-    VtkArray array(text, "Int64", "offsets");
-    for (std::size_t k = 1; k <= layout.cells.size(); ++k) array.put(4 * long(k));
-  }
+  put_array(text, "connectivity", corners);
+  put_array(text, "offsets", cell_ends);
   return text + "</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 

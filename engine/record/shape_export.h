@@ -23,6 +23,9 @@ struct Shape {
 Eigen::Matrix3Xd rod_points(const record::Layout& layout, const record::Frame& frame,
                             std::size_t rod);
 
+/// The node of each joint.
+std::vector<int> nodes_of_joints(const record::Layout& layout);
+
 /// The force that holds each node of the frame, N: 0 where nothing does, NaN where the run did not
 /// record it.
 Eigen::Matrix3Xd reactions_N(const record::Layout& layout, const record::Frame& frame);

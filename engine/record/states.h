@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/enum_words.h"
+#include "engine/core/fields.h"
 #include "engine/core/result.h"
 #include "engine/record/frame.h"
 
@@ -56,12 +57,16 @@ struct StateRow {
   /// The potential; terms that the files of an earlier version do not tell count for nothing.
   double energy_mJ() const;
 };
-
-/// How many states there are, from how often each was met.
-struct Completeness {
-  int seen = 0, once = 0, twice = 0;    ///< of the trials that are counted
-  double chao1 = 0, low = 0, high = 0;  ///< estimate of all, and its interval of 95 %
-};
+template <RecordOf<StateRow> Row, class Visit>
+void fields(Row& row, const Visit& visit) {
+  visit_each(visit, "state", row.state, "class", row.kind, "group", row.group);
+  visit_energies(row.energies, visit);
+  visit_each(visit, "height_mm", row.height_mm, "z_max_mm", row.z_max_mm, "z_min_mm", row.z_min_mm,
+             "inflections", row.inflections, "count", row.count, "count_confined",
+             row.count_confined, "lives_to", row.lives_to, "lives_to_radius_mm",
+             row.lives_to_radius_mm, "eigenvalue_N_per_mm2", row.eigenvalue_N_per_mm2,
+             "error_estimate_mm", row.error_estimate_mm, "barrier_mJ", row.barrier_mJ);
+}
 
 /// The search as a whole.
 struct StateSearch {
@@ -74,10 +79,24 @@ struct StateSearch {
   int found = 0;                               ///< states on it
   int finer_lost = 0;                          ///< of them, that finer meshes do not have
   int finer_merged = 0;                        ///< and that are one on finer meshes
-  Completeness completeness;
-  double cpu_s = 0;                         ///< of all trials
-  int ways_followed = 0, passes_found = 0;  ///< from state to state, for the barriers
+  RichnessEstimate completeness;               ///< of the trials that are counted
+  double cpu_s = 0;                            ///< of all trials
+  int ways_followed = 0, passes_found = 0;     ///< from state to state, for the barriers
 };
+template <RecordOf<StateSearch> Search, class Visit>
+void fields(Search& search, const Visit& visit) {
+  auto& seen = search.completeness;
+  visit_each(visit, "mode", search.mode, "seed", search.seed, "trials", search.trials, "at_rest",
+             search.at_rest, "confined_trials", search.confined_trials, "confined_at_rest",
+             search.confined_at_rest, "ended_otherwise", search.ended_otherwise,
+             "judged_edges_per_segment", search.judged_edges, "states_found", search.found,
+             "states_that_finer_meshes_lose", search.finer_lost, "states_that_finer_meshes_merge",
+             search.finer_merged);
+  visit_each(visit, "seen", seen.seen, "seen_once", seen.once, "seen_twice", seen.twice, "chao1",
+             seen.estimate, "chao1_low_95", seen.low, "chao1_high_95", seen.high, "cpu_s",
+             search.cpu_s, "ways_followed_for_barriers", search.ways_followed, "passes_found",
+             search.passes_found);
+}
 
 /// A way from state to state.
 struct Transition {
@@ -85,6 +104,10 @@ struct Transition {
   std::string by;        ///< "let out" or "poked"
   int count = 0;
 };
+template <RecordOf<Transition> Row, class Visit>
+void fields(Row& row, const Visit& visit) {
+  visit_each(visit, "from", row.from, "to", row.to, "by", row.by, "count", row.count);
+}
 
 /// A pass between two states: a saddle of the energy with one way down to either side, on the mesh
 /// that tells states apart.
@@ -95,6 +118,11 @@ struct Barrier {
   double back_mJ = unknown;     ///< and above `to`
   double residual_N = unknown;  ///< of the saddle
 };
+template <RecordOf<Barrier> Row, class Visit>
+void fields(Row& row, const Visit& visit) {
+  visit_each(visit, "from", row.from, "to", row.to, "energy_mJ", row.energy_mJ, "barrier_mJ",
+             row.barrier_mJ, "back_mJ", row.back_mJ, "residual_N", row.residual_N);
+}
 
 /// Everything of a search but the shapes.
 struct StateTables {
@@ -107,11 +135,6 @@ struct StateTables {
 /// Which of the states are drawn: of each of the paper's classes the lowest in energy, then those
 /// met most often, `most` in all. Indices of `rows`, ascending.
 std::vector<std::size_t> states_to_draw(const std::vector<StateRow>& rows, int most);
-
-std::string states_csv(const std::vector<StateRow>& rows);
-std::string transitions_csv(const std::vector<Transition>& rows);
-std::string barriers_csv(const std::vector<Barrier>& rows);
-std::string to_json(const StateSearch& search);
 
 inline constexpr const char* states_name = "states.csv";
 inline constexpr const char* search_name = "states.json";

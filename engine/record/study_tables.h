@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/core/enum_words.h"
+#include "engine/core/fields.h"
 #include "engine/record/frame.h"
-#include "engine/record/trajectory.h"
 
 namespace gridshell::record {
 
@@ -37,6 +37,12 @@ struct AccuracyRow {
   double cpu_min_s = unknown, cpu_max_s = unknown;
   RunOutcome outcome = RunOutcome::right;
 };
+template <RecordOf<AccuracyRow> Row, class Visit>
+void fields(Row& row, const Visit& visit) {
+  visit_each(visit, "method", row.method, "edges_per_segment", row.edges_per_segment, "dof",
+             row.dof, "error", row.error, "cpu_s", row.cpu_s, "cpu_min_s", row.cpu_min_s,
+             "cpu_max_s", row.cpu_max_s, "outcome", row.outcome);
+}
 
 /// How a method's time grows with the number of rods.
 struct ScalingRow {
@@ -46,6 +52,12 @@ struct ScalingRow {
   double cpu_s = unknown, cpu_min_s = unknown, cpu_max_s = unknown;
   RunOutcome outcome = RunOutcome::right;
 };
+template <RecordOf<ScalingRow> Row, class Visit>
+void fields(Row& row, const Visit& visit) {
+  visit_each(visit, "method", row.method, "rods", row.rods, "edges_per_segment",
+             row.edges_per_segment, "dof", row.dof, "cpu_s", row.cpu_s, "cpu_min_s", row.cpu_min_s,
+             "cpu_max_s", row.cpu_max_s, "outcome", row.outcome);
+}
 
 /// One cell of a map.
 struct StabilityRow {
@@ -56,11 +68,11 @@ struct StabilityRow {
   double y = 0;
   RunOutcome outcome = RunOutcome::right;
 };
-
-/// The texts of accuracy.csv, scaling.csv and stability.csv; unknown numbers are empty.
-std::string accuracy_csv(const std::vector<AccuracyRow>& rows);
-std::string scaling_csv(const std::vector<ScalingRow>& rows);
-std::string stability_csv(const std::vector<StabilityRow>& rows);
+template <RecordOf<StabilityRow> Row, class Visit>
+void fields(Row& row, const Visit& visit) {
+  visit_each(visit, "map", row.map, "method", row.method, "x_name", row.x_name, "x", row.x,
+             "y_name", row.y_name, "y", row.y, "outcome", row.outcome);
+}
 
 /// Slope of log(y) over log(x) by least squares; NaN for fewer than two positive points.
 double exponent(const std::vector<double>& x, const std::vector<double>& y);
@@ -108,9 +120,12 @@ struct TrustRow {
     return exit_default == 0 && exit_fine == 0 && snap_default != snap_fine;
   }
 };
-
-/// The text of trust.csv; unknown numbers are empty.
-std::string trust_csv(const std::vector<TrustRow>& rows);
+template <RecordOf<TrustRow> Row, class Visit>
+void fields(Row& row, const Visit& visit) {
+  visit_each(visit, "scene", row.scene, "kind", row.kind, "class", row.found, "error", row.error,
+             "estimate", row.estimate, "exit_default", row.exit_default, "exit_fine", row.exit_fine,
+             "snap_default", row.snap_default, "snap_fine", row.snap_fine, "doubt", row.doubt);
+}
 
 // A bifurcation diagram: the points of a path and of the branches that leave it.
 
@@ -139,8 +154,12 @@ struct BranchPoint {
 
   bool stable() const { return negative_pivots == 0; }
 };
-
-/// The text of branches.csv; unknown numbers are empty.
-std::string branches_csv(const std::vector<BranchPoint>& points);
+template <RecordOf<BranchPoint> Row, class Visit>
+void fields(Row& row, const Visit& visit) {
+  visit_each(visit, "branch", row.branch, "progress", row.progress, "boundary_radius_mm",
+             row.boundary_radius_mm, "height_mm", row.height_mm, "amplitude", row.amplitude,
+             "energy_mJ", row.energy_mJ, "negative_pivots", row.negative_pivots, "event",
+             row.event);
+}
 
 }  // namespace gridshell::record

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/enum_words.h"
+#include "engine/core/fields.h"
 #include "engine/core/result.h"
 #include "engine/record/sweep_results.h"
 #include "engine/record/trajectory.h"
@@ -55,6 +56,23 @@ struct Summary {
   /// Takes over what the last frame says of its state.
   void take_state(const Frame& last);
 };
+template <RecordOf<Summary> Run, class Visit>
+void fields(Run& run, const Visit& visit) {
+  visit_each(visit, "preset", run.preset, "model", run.model, "model_reason", run.model_reason,
+             "edges_per_segment", run.edges_per_segment, "rods", run.rods, "joints", run.joints,
+             "cells", run.cells, "dof", run.dof, "stable", run.stable, "negative_pivots",
+             run.negative_pivots, "limit", run.limit, "limit_reason", run.limit_reason, "doubt",
+             run.doubt, "residual_N", run.residual_N, "largest_strain", run.largest_strain,
+             "error_estimate_mm", run.error_estimate_mm);
+  visit_energies(run.energies, visit);
+  visit_each(visit, "height_mm", run.height_mm, "total_K", run.total_K, "max_deviation",
+             run.max_deviation, "mean_deviation", run.mean_deviation, "median_deviation",
+             run.median_deviation, "deviation_p90", run.deviation_p90, "max_seam_gap_mm",
+             run.max_seam_gap_mm, "max_seam_kink_deg", run.max_seam_kink_deg, "newton_iterations",
+             run.newton_iterations, "factorizations", run.factorizations, "seconds_setup",
+             run.seconds_setup, "seconds_simulation", run.seconds_simulation, "seconds_render",
+             run.seconds_render, "steps", run.steps, "kind", run.kind, "finished", run.finished);
+}
 
 // summary.json: the figures of a run as one JSON object, keys as in Summary, in its order.
 

@@ -30,16 +30,9 @@ std::vector<std::string> names_of(const SweepTable& table) {
   return names;
 }
 
-void put(CsvWriter& csv, const Figure* figure) {
-  if (!figure || std::holds_alternative<std::monostate>(*figure))
-    csv.cell("");
-  else if (const auto* flag = std::get_if<bool>(figure))
-    csv.cell(*flag ? "true" : "false");
-  else if (const auto* number = std::get_if<double>(figure))
-    csv.cell(*number);
-  else
-    csv.cell(std::get<std::string>(*figure));
-}
+void put(CsvWriter& csv, std::monostate) { csv.cell(""); }
+void put(CsvWriter& csv, bool flag) { csv.cell(flag ? "true" : "false"); }
+void put(CsvWriter& csv, const auto& value) { csv.cell(value); }
 
 /// A string of TOML without its quotes.
 std::string bare(const std::string& value) {
@@ -48,6 +41,13 @@ std::string bare(const std::string& value) {
 }
 
 }  // namespace
+
+Figure figure_of(const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number()) return json.get<double>();
+  if (json.is_string()) return json.get<std::string>();
+  return {};
+}
 
 double number_of(const Figure& figure) {
   if (const auto* number = std::get_if<double>(&figure)) return *number;
@@ -78,7 +78,10 @@ std::string sweep_csv(const SweepTable& table) {
     for (const auto& value : keys.values) csv.cell(bare(value));
     if (table.has_seeds) csv.cell(keys.seed);
     csv.cell(std::string(word_of(result.outcome)));
-    for (const auto& name : names) put(csv, result.figure(name));
+    for (const auto& name : names) {
+      const Figure* figure = result.figure(name);
+      std::visit([&](const auto& value) { put(csv, value); }, figure ? *figure : Figure());
+    }
     csv.cell(result.reason);
     csv.end_line();
   }
@@ -90,23 +93,22 @@ namespace {
 
 constexpr std::size_t sum_length = 26;  // of ,"sum":"0123456789abcdef"}
 
+std::string ending_of(std::string_view text) {
+  return fmt::format(",\"sum\":\"{:016x}\"}}", Checksum::of(text));
+}
+
 /// A JSON object as a line that ends with the checksum of all before it.
 std::string sealed(const Json& json) {
   std::string text = line_of(json);
   text.pop_back();
-  Checksum sum;
-  sum.add(text);
-  return text + fmt::format(",\"sum\":\"{:016x}\"}}\n", sum.value());
+  return text + ending_of(text) + "\n";
 }
 
 /// The object of a line, or nothing where its checksum is wrong.
 std::optional<Json> unsealed(std::string_view line) {
   if (line.size() <= sum_length) return std::nullopt;
   const auto text = line.substr(0, line.size() - sum_length);
-  Checksum sum;
-  sum.add(text);
-  if (line.substr(text.size()) != fmt::format(",\"sum\":\"{:016x}\"}}", sum.value()))
-    return std::nullopt;
+  if (line.substr(text.size()) != ending_of(text)) return std::nullopt;
   Json json = parsed(line);
   if (!json.is_object()) return std::nullopt;
   return json;
@@ -117,19 +119,8 @@ bool has(const Json& json, const char* key, bool (Json::*kind)() const noexcept)
   return json.contains(key) && (json.at(key).*kind)();
 }
 
-Json json_of(const Figure& figure) {
-  if (const auto* flag = std::get_if<bool>(&figure)) return *flag;
-  if (const auto* number = std::get_if<double>(&figure)) return *number;
-  if (const auto* text = std::get_if<std::string>(&figure)) return *text;
-  return nullptr;
-}
-
-Figure figure_of(const Json& json) {
-  if (json.is_boolean()) return json.get<bool>();
-  if (json.is_number()) return json.get<double>();
-  if (json.is_string()) return json.get<std::string>();
-  return {};
-}
+Json value_of(std::monostate) { return nullptr; }
+Json value_of(const auto& value) { return value; }
 
 std::string first_line(const SweepIdentity& name) {
   Json json = Json::object();
@@ -166,7 +157,8 @@ std::string point_line(const std::vector<std::string>& axes, const PointKeys& ke
   json["outcome"] = word_of(result.outcome);
   if (!result.reason.empty()) json["reason"] = result.reason;
   json["figures"] = Json::object();
-  for (const auto& [name, figure] : result.figures) json["figures"][name] = json_of(figure);
+  for (const auto& [name, figure] : result.figures)
+    json["figures"][name] = std::visit([](const auto& value) { return value_of(value); }, figure);
   return sealed(json);
 }
 
@@ -219,10 +211,11 @@ Result<SweepContents> read_sweep_log(const fs::path& file) {
 
 Result<SweepLog> SweepLog::open(const fs::path& file, const SweepIdentity& name,
                                 std::vector<std::string> axes, KeysOf keys) {
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  SweepLog log(file, descriptor);
-  if (descriptor < 0) return log.refuse(Fault::io, std::generic_category().message(errno));
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+  SweepLog log;
+  log.file_ = file;
+  log.descriptor_ = Descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+  if (log.descriptor_ < 0) return fail_io("write", file, errno);
+  if (::flock(log.descriptor_, LOCK_EX | LOCK_NB) != 0)
     return log.refuse(Fault::bad_input, errno == EWOULDBLOCK
                                             ? "another sweep is writing it"
                                             : std::generic_category().message(errno));
@@ -247,8 +240,8 @@ Result<void> SweepLog::resume_log(const SweepIdentity& name) {
                               "choose another folder with -o",
                               contents_.name.preset, contents_.name.points));
   }
-  if (contents_.cut_off && ::ftruncate(fd_, off_t(contents_.whole_bytes)) != 0)
-    return refuse(Fault::io, std::generic_category().message(errno));
+  if (contents_.cut_off && ::ftruncate(descriptor_, off_t(contents_.whole_bytes)) != 0)
+    return fail_io("write", file_, errno);
   if (contents_.whole_bytes == 0) return put(first_line(name));
   return {};
 }
@@ -260,30 +253,14 @@ Result<void> SweepLog::append(const PointResult& result) {
 }
 
 Result<void> SweepLog::put(const std::string& line) {
-  if (const int code = write_all(fd_, line)) {
-    // what others find is whole
-    if (::ftruncate(fd_, off_t(contents_.whole_bytes)) != 0) contents_.cut_off = true;
-    return refuse(Fault::io, std::generic_category().message(code));
-  }
-  contents_.whole_bytes += line.size();
-  if (::fdatasync(fd_) != 0 && errno != EINVAL)
-    return refuse(Fault::io, std::generic_category().message(errno));
+  if (const int code = append_whole(descriptor_, line, contents_.whole_bytes))
+    return fail_io("write", file_, code);
+  if (::fdatasync(descriptor_) != 0 && errno != EINVAL) return fail_io("write", file_, errno);
   return {};
 }
 
 tl::unexpected<Error> SweepLog::refuse(Fault fault, const std::string& why) const {
   return fail(fault, fmt::format("cannot write '{}': {}", file_.string(), why));
-}
-
-SweepLog::SweepLog(SweepLog&& other) noexcept
-    : file_(std::move(other.file_)),
-      fd_(std::exchange(other.fd_, -1)),
-      contents_(std::move(other.contents_)),
-      axes_(std::move(other.axes_)),
-      keys_(std::move(other.keys_)) {}
-
-SweepLog::~SweepLog() {
-  if (fd_ >= 0) ::close(fd_);
 }
 
 }  // namespace gridshell::record

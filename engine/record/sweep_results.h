@@ -5,12 +5,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "engine/core/enum_words.h"
+#include "engine/core/file_io.h"
 #include "engine/core/result.h"
 
 namespace gridshell::record {
@@ -21,6 +23,9 @@ enum class PointOutcome { done, no_equilibrium, refused };
 /// One figure of a run; nothing where it is not known.
 using Figure = std::variant<std::monostate, bool, double, std::string>;
 using Figures = std::vector<std::pair<std::string, Figure>>;
+
+/// A value of JSON as a figure, nothing where it is none.
+Figure figure_of(const nlohmann::ordered_json& value);
 
 /// A figure as a number, NaN where it is none.
 double number_of(const Figure& figure);
@@ -80,7 +85,7 @@ struct SweepContents {
   std::map<std::size_t, PointResult> found;  ///< by the point; the first line of one counts
   std::size_t damaged = 0;                   ///< lines whose checksum is wrong
   bool cut_off = false;                      ///< the last line was not written to its end
-  std::uintmax_t whole_bytes = 0;            ///< up to the end of the last whole line
+  std::uint64_t whole_bytes = 0;             ///< up to the end of the last whole line
 };
 
 /// Reads a log that others may be writing. Errors (bad_input): no log of a sweep, naming the file.
@@ -97,10 +102,6 @@ class SweepLog {
   static Result<SweepLog> open(const std::filesystem::path& file, const SweepIdentity& name,
                                std::vector<std::string> axes, KeysOf keys);
 
-  SweepLog(SweepLog&& other) noexcept;
-  SweepLog& operator=(SweepLog&&) = delete;
-  ~SweepLog();
-
   const std::map<std::size_t, PointResult>& found() const { return contents_.found; }
   std::size_t damaged() const { return contents_.damaged; }
   bool cut_off() const { return contents_.cut_off; }
@@ -109,13 +110,12 @@ class SweepLog {
   Result<void> append(const PointResult& result);
 
  private:
-  SweepLog(std::filesystem::path file, int descriptor) : file_(std::move(file)), fd_(descriptor) {}
   Result<void> resume_log(const SweepIdentity& name);
   Result<void> put(const std::string& line);
   tl::unexpected<Error> refuse(Fault fault, const std::string& why) const;
 
   std::filesystem::path file_;
-  int fd_ = -1;
+  Descriptor descriptor_;
   SweepContents contents_;
   std::vector<std::string> axes_;
   KeysOf keys_;

@@ -12,11 +12,10 @@ namespace {
 constexpr std::size_t kept_bytes = std::size_t(64) << 20, kept_frames = 8;
 
 std::size_t bytes_of(const Frame& frame) {
-  return sizeof(Frame) +
-         sizeof(double) *
-             std::size_t(frame.nodes.size() + frame.cell_K.size() + frame.K_bins.size() +
-                         frame.axial_force_N.size() + frame.curvature_per_mm.size() +
-                         frame.bending_mJ_per_m.size() + frame.reactions_N.size());
+  std::size_t bytes = sizeof(Frame);
+  visit_matrices(frame,
+                 [&](const auto& values) { bytes += sizeof(double) * std::size_t(values.size()); });
+  return bytes;
 }
 
 }  // namespace
@@ -55,10 +54,10 @@ std::shared_ptr<const Frame> FrameList::fetch(std::size_t k) const {
   return std::make_shared<const Frame>();
 }
 
-std::vector<Frame>& FrameList::in_memory() {
+std::vector<Frame>& FrameList::edit() {
   if (!source_) return frames_;
   std::vector<Frame> all;
-  for (std::size_t k = 0; k < size(); ++k) all.push_back(std::as_const(*this)[k]);
+  for (std::size_t k = 0; k < size(); ++k) all.push_back((*this)[k]);
   auto fault = std::move(fault_);
   *this = FrameList(std::move(all));
   fault_ = std::move(fault);

@@ -30,7 +30,7 @@ class FrameSource {
 
 /// Behaves as a const vector of frames whichever way they are kept, for one thread at a time.
 /// References into a list with a source hold until some other eight frames have been asked for;
-/// those to its first and last frame hold always. Whoever changes a list brings it into memory.
+/// those to its first and last frame hold always. Only edit() brings them all into memory.
 class FrameList {
  public:
   class const_iterator {
@@ -68,18 +68,9 @@ class FrameList {
   /// Why a frame could not be read, the first time that happened; it then stood for an empty one.
   const std::optional<Error>& fault() const { return fault_; }
 
-  Frame& operator[](std::size_t k) { return in_memory()[k]; }
-  Frame& front() { return in_memory().front(); }
-  Frame& back() { return in_memory().back(); }
-  auto begin() { return in_memory().begin(); }
-  auto end() { return in_memory().end(); }
-  void push_back(Frame frame) { in_memory().push_back(std::move(frame)); }
-  void insert(std::vector<Frame>::iterator before, Frame frame) {
-    in_memory().insert(before, std::move(frame));
-  }
-  void pop_back() { in_memory().pop_back(); }
-  void resize(std::size_t size) { in_memory().resize(size); }
-  void clear() { *this = FrameList(); }
+  /// All of them to change, which brings those of a source into memory.
+  std::vector<Frame>& edit();
+  void push_back(Frame frame) { edit().push_back(std::move(frame)); }
 
  private:
   struct Kept {
@@ -87,7 +78,6 @@ class FrameList {
     std::shared_ptr<const Frame> frame;
   };
 
-  std::vector<Frame>& in_memory();
   std::shared_ptr<const Frame> fetch(std::size_t k) const;
 
   std::vector<Frame> frames_;  // without a source
@@ -237,7 +227,7 @@ class MemorySink final : public Sink {
     return {};
   }
   Result<void> take(Frame frame) override {
-    auto& frames = trajectory_.frames;
+    auto& frames = trajectory_.frames.edit();
     const auto after =
         std::upper_bound(frames.begin(), frames.end(), frame.index,
                          [](int index, const Frame& other) { return index < other.index; });

@@ -1,21 +1,13 @@
-// The 512 bytes before the HDF5 part of trajectory.h5: its size and checksum, which HDF5 programs
-// skip.
-
 #include "engine/record/trajectory_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
-#include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <new>
-#include <string>
+#include <optional>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include "engine/core/checksum.h"
 #include "engine/core/file_io.h"
@@ -26,64 +18,42 @@
 
 namespace gridshell::record {
 
-/// What a trajectory says that it is, in its seal and as an attribute.
-inline constexpr const char* trajectory_format = "gridshell trajectory 1";
-
-/// HDF5 looks for its own beginning at 0, 512, 1024 ...: what lies before is the program's to use.
-inline constexpr std::size_t trajectory_header_size = 512;
-
-/// The seal that a file should bear, from the bytes after its first 512; empty when it cannot be
-/// read.
-std::string expected_header(const std::filesystem::path& path);
-
-/// Why a file is not to be trusted, or empty. A file without a seal was written by another program:
-/// it is trusted where `unsealed` is wanted.
-std::string header_fault(const std::filesystem::path& path, bool unsealed);
-
 namespace {
 
-/// Name and checksum of the HDF5 bytes that follow.
-std::string header_text(std::uintmax_t bytes, const Checksum& sum) {
-  std::string seal =
-      fmt::format("{}\n{} bytes, FNV-1a {:016x}\n", trajectory_format, bytes, sum.value());
-  seal.resize(trajectory_header_size, '\0');
-  return seal;
-}
+/// What a trajectory says that it is, in its header and as an attribute.
+constexpr const char* trajectory_format = "gridshell trajectory 1";
 
-}  // namespace
+/// The bytes before the HDF5 part, its size and checksum. HDF5 looks for its own beginning at 0,
+/// 512, 1024 ...: what lies before is the program's to use.
+constexpr std::size_t header_size = 512;
 
-std::string expected_header(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(trajectory_header_size);
+/// The header that a file should bear, from the bytes after it; nothing when they cannot be read.
+std::optional<std::string> expected_header(const ReadableFile& file) {
+  constexpr std::uint64_t block = 1 << 18;
   Checksum sum;
-  std::uintmax_t bytes = 0;
-  std::vector<char> block(1 << 18);
-  while (file) {
-    file.read(block.data(), std::streamsize(block.size()));
-    const auto got = std::size_t(file.gcount());
-    sum.add({block.data(), got});
-    bytes += got;
+  for (std::uint64_t at = header_size; at < file.size(); at += block) {
+    const auto bytes = file.read(at, std::min(block, file.size() - at));
+    if (!bytes) return std::nullopt;
+    sum.add(*bytes);
   }
-  return file.eof() ? header_text(bytes, sum) : std::string();
+  const std::string header = fmt::format("{}\n{} bytes, FNV-1a {:016x}\n", trajectory_format,
+                                         file.size() - header_size, sum.value());
+  return header + std::string(header_size - header.size(), '\0');
 }
 
-std::string header_fault(const std::filesystem::path& path, bool unsealed) {
-  std::string start(trajectory_header_size, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), trajectory_header_size);
-  const auto got = std::size_t(file.gcount());
-  start.resize(got);
-  if (start.starts_with("\x89HDF\r\n\x1a\n"))
+/// Why a file is not to be trusted, or empty. One without a header was written by another program:
+/// it is trusted where `unsealed` is wanted.
+std::string header_fault(const ReadableFile& file, bool unsealed) {
+  const auto start = file.read(0, std::min<std::uint64_t>(header_size, file.size()));
+  if (start && start->starts_with("\x89HDF\r\n\x1a\n"))
     return unsealed ? ""
                     : "it bears no seal, so another program wrote it ('render --unsealed' reads it "
                       "all the same)";
-  if (!start.starts_with(trajectory_format)) return "it is not an HDF5 file";
-  if (got < trajectory_header_size) return "it is cut short";
-  if (start == expected_header(path) || unsealed) return "";
+  if (!start || !start->starts_with(trajectory_format)) return "it is not an HDF5 file";
+  if (start->size() < header_size) return "it is cut short";
+  if (unsealed || start == expected_header(file)) return "";
   return "it is cut short, damaged or was changed: its checksum does not match";
 }
-
-namespace {
 
 constexpr std::size_t longest_word = 60000;  // what an attribute takes
 
@@ -99,26 +69,24 @@ Origin read_origin(hdf5::Reader& file) {
   return {text("title"), text("preset"), text("program")};
 }
 
-/// The HDF5 part onto a descriptor, then the seal before it; errno of what failed, or 0.
-Result<void> write_sealed(int descriptor, const AtomicFile& target, const Trajectory& trajectory) {
-  hdf5::Stream stream{descriptor, trajectory_header_size, 0};
+/// The HDF5 part onto a descriptor, then the header before it; why that failed, or empty.
+std::string write_fault(int descriptor, const AtomicFile& target, const Trajectory& trajectory) {
+  hdf5::Stream stream{descriptor, header_size, 0};
   hdf5::Writer file(stream);
   file.attribute("/", "format", trajectory_format);
   write_origin(file, trajectory.origin);
   write_layout(file, trajectory.layout);
   write_frames(file, trajectory.layout, trajectory.frames);
   file.finish();
-  const auto failed = [](int code) {
-    return fail(Fault::io, std::generic_category().message(code));
-  };
-  if (stream.failure) return failed(stream.failure);
-  if (!file.good()) return fail(Fault::io, file.reason());
-  if (trajectory.frames.fault()) return tl::unexpected(*trajectory.frames.fault());
-  const std::string seal = expected_header(target.temporary());
-  if (seal.empty()) return fail(Fault::io, "it cannot be read back");
-  const ssize_t put = ::pwrite(descriptor, seal.data(), seal.size(), 0);
-  if (put != ssize_t(seal.size())) return failed(put < 0 ? errno : ENOSPC);
-  return {};
+  const auto words_of = [](int code) { return std::generic_category().message(code); };
+  if (stream.failure) return words_of(stream.failure);
+  if (!file.good()) return file.reason();
+  if (trajectory.frames.fault()) return trajectory.frames.fault()->message;
+  const auto written = ReadableFile::open(target.temporary());
+  const auto header = written ? expected_header(*written) : std::nullopt;
+  if (!header) return "it cannot be read back";
+  const ssize_t put = ::pwrite(descriptor, header->data(), header->size(), 0);
+  return put == ssize_t(header->size()) ? "" : words_of(put < 0 ? errno : ENOSPC);
 }
 
 Result<Trajectory> read_checked(const std::filesystem::path& path) {
@@ -139,39 +107,16 @@ Result<Trajectory> read_checked(const std::filesystem::path& path) {
   return check_frame(read.layout, first, 0, first.nodes.cols()).map([&] { return trajectory; });
 }
 
-/// A regular file that can be opened, or why not.
-Result<void> readable(const std::filesystem::path& path) {
-  const auto refuse = [&](const std::string& reason) {
-    return fail(Fault::io, fmt::format("cannot read '{}': {}", path.string(), reason));
-  };
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (error || !std::filesystem::exists(status))
-    return refuse(std::generic_category().message(error ? error.value() : ENOENT));
-  if (std::filesystem::is_directory(status)) return refuse("Is a directory");
-  if (!std::filesystem::is_regular_file(status))
-    return refuse("it is a pipe or a device, must be a regular file");
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return refuse(std::generic_category().message(errno));
-  ::close(descriptor);
-  return {};
-}
-
 }  // namespace
 
 Result<void> write_trajectory(const std::filesystem::path& path, const Trajectory& trajectory) {
-  if (auto fits = check_consistency(trajectory); !fits) return fits;
-  const auto refuse = [&](const std::string& reason) {
-    return fail(Fault::io, fmt::format("cannot write '{}': {}", path.string(), reason));
-  };
+  TRY_DO(check_consistency(trajectory));
   AtomicFile target(path);
-  const int descriptor =
-      ::open(target.temporary().c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) return refuse(std::generic_category().message(errno));
-  const auto written = write_sealed(descriptor, target, trajectory);
-  // what is still on its way may meet the full disk only now
-  if (::close(descriptor) != 0 && written) return refuse(std::generic_category().message(errno));
-  if (!written) return refuse(written.error().message);
+  Descriptor file(::open(target.temporary().c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (file < 0) return fail_io("write", path, errno);
+  if (const std::string fault = write_fault(file, target, trajectory); !fault.empty())
+    return fail(Fault::io, fmt::format("cannot write '{}': {}", path.string(), fault));
+  if (const int code = file.close()) return fail_io("write", path, code);
   return target.commit();
 }
 
@@ -181,8 +126,8 @@ Result<Trajectory> read_trajectory(const std::filesystem::path& path,
     return fail(Fault::bad_input,
                 fmt::format("'{}' is no trajectory of a run: {}", path.string(), reason));
   };
-  TRY_DO(readable(path));
-  if (const auto reason = header_fault(path, how.unsealed); !reason.empty()) return refuse(reason);
+  TRY(file, ReadableFile::open(path));
+  if (const auto reason = header_fault(*file, how.unsealed); !reason.empty()) return refuse(reason);
   try {
     if (how.trial)
       if (auto survived = read_in_subprocess([&] { (void)read_checked(path); }); !survived)

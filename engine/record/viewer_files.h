@@ -28,6 +28,9 @@ ColourRange range_of(const Eigen::VectorXd& K);
 /// From sRGB to linear light.
 std::array<double, 3> linear(const std::array<double, 3>& srgb);
 
+/// Which frames of a run stand for all: evenly, the first and the last among them.
+std::vector<std::size_t> even_frames(std::size_t frames, std::size_t shown);
+
 // A run as one binary glTF 2.0 file (.glb), which Blender, browsers and slides play.
 
 /// Rods as tubes and cells in the colour of their last K, both as morph targets of up to 60 key

@@ -151,11 +151,10 @@ void keep(const Scene& scene, const preset::SearchSettings& jitter,
   }
 }
 
-record::Completeness completeness_of(const std::vector<ShellState>& states) {
+RichnessEstimate completeness_of(const std::vector<ShellState>& states) {
   std::vector<int> counts;
   for (const ShellState& state : states) counts.push_back(state.row.count);
-  const RichnessEstimate all = chao1(counts);
-  return {all.seen, all.once, all.twice, all.estimate, all.low, all.high};
+  return chao1(counts);
 }
 
 /// Measures what was met and lays it into the library.

@@ -155,7 +155,7 @@ std::uint64_t config_of(const preset::Presets& presets) {
   };
   strip(computed.base);
   for (auto& one : computed.cases) strip(one.preset);
-  record::Checksum sum;
+  Checksum sum;
   sum.add(preset::to_toml(computed));
   return sum.value();
 }

@@ -74,8 +74,7 @@ void check_near(const fs::path& a, const fs::path& b) {
   REQUIRE(two);
   REQUIRE(one->frames.size() == two->frames.size());
   for (std::size_t k = 0; k < one->frames.size(); ++k) {
-    const gridshell::record::Frame &f = std::as_const(one->frames)[k],
-                                   &g = std::as_const(two->frames)[k];
+    const gridshell::record::Frame &f = one->frames[k], &g = two->frames[k];
     CHECK((f.nodes - g.nodes).cwiseAbs().maxCoeff() < 1e-9 * one->layout.length_scale_mm);
     CHECK(f.energies.total() == Approx(g.energies.total()).epsilon(1e-9).margin(1e-9));
     CHECK(f.negative_pivots == g.negative_pivots);

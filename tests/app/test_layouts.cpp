@@ -26,7 +26,7 @@ namespace {
 record::Trajectory eventful(bool pushed) {
   record::Trajectory run = synthetic::dome(9, 1);
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
-    record::Frame& frame = run.frames[k];
+    record::Frame& frame = run.frames.edit()[k];
     frame.K_bins.resize(5, 3);
     for (int bin = 0; bin < 5; ++bin) frame.K_bins.row(bin) << 0.03 + 0.004 * bin, 0.01, 20;
     if (!pushed) continue;
@@ -34,9 +34,9 @@ record::Trajectory eventful(bool pushed) {
     frame.force_N = -0.1234 * double(k);
   }
   if (pushed) run.layout.loaded_joints = {{50, -Eigen::Vector3d::UnitZ()}};
-  run.frames[2].negative_pivots = 12;
-  run.frames[4].event = "snap at depth 12.34 mm";
-  run.frames[8].event = "locking";
+  run.frames.edit()[2].negative_pivots = 12;
+  run.frames.edit()[4].event = "snap at depth 12.34 mm";
+  run.frames.edit()[8].event = "locking";
   return run;
 }
 

@@ -38,7 +38,7 @@ TEST_CASE("list --json has every command, preset and key") {
   const auto printed = gridshell_program("list --json", folder.path());
   REQUIRE(printed.code == 0);
   CHECK(printed.out == app::listing_json().value());
-  const auto json = record::parsed(printed.out);
+  const auto json = parsed(printed.out);
   REQUIRE(json.is_object());
   CHECK(json["presets"].size() == app::embedded_presets().size());
   CHECK(json["keys"].size() == preset::key_texts().size());

@@ -48,7 +48,7 @@ TEST_CASE("a scan of a run shows that run, with its joints, its picture and what
   REQUIRE(scan.code == 0);
   CHECK_THAT(scan.out, Contains("out/cloud_scan: shows run\n"));
   const fs::path out = at / "out" / "cloud_scan";
-  const auto json = record::parsed(text_of(out / "scan.json"));
+  const auto json = parsed(text_of(out / "scan.json"));
   CHECK(json["state"] == "run");
   CHECK(json["states"].size() == 2);
   CHECK(json["joints_found"].get<int>() + json["joints_missing"].get<int>() ==

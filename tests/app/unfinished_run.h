@@ -19,5 +19,5 @@ inline void cut_short(const std::filesystem::path& whole, const std::filesystem:
   auto journal = gridshell::record::JournalWriter::create(partial / gridshell::record::journal_name,
                                                           {"small", kind}, run->layout);
   REQUIRE(journal);
-  for (std::size_t k = 0; k < count; ++k) REQUIRE(journal->append(std::as_const(run->frames)[k]));
+  for (std::size_t k = 0; k < count; ++k) REQUIRE(journal->append(run->frames[k]));
 }

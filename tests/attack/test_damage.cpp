@@ -29,7 +29,7 @@ const std::string small =
 
 // as trajectory_file.cpp seals its files: this damage is meant
 std::string sealed(const std::string& hdf5) {
-  gridshell::record::Checksum sum;
+  gridshell::Checksum sum;
   sum.add(hdf5);
   auto seal =
       fmt::format("gridshell trajectory 1\n{} bytes, FNV-1a {:016x}\n", hdf5.size(), sum.value());

@@ -55,7 +55,7 @@ inline Trajectory sample_trajectory() {
     run.frames.push_back(frame);
   }
   // the frame between does not know them
-  for (Frame* frame : {&run.frames[0], &run.frames[2]}) {
+  for (Frame* frame : {&run.frames.edit()[0], &run.frames.edit()[2]}) {
     frame->axial_force_N = Eigen::VectorXd::Random(12);
     frame->curvature_per_mm = Eigen::VectorXd::Random(16);
     frame->bending_mJ_per_m = Eigen::VectorXd::Random(16);
@@ -63,7 +63,7 @@ inline Trajectory sample_trajectory() {
   }
   run.origin = {"Sample \xC3\xA9", "s1_actuation", "gridshell 0.0"};
   // a NaN that carries bits of its own
-  run.frames[1].nodes(0, 0) = std::nan("42");
+  run.frames.edit()[1].nodes(0, 0) = std::nan("42");
   return run;
 }
 

@@ -3,19 +3,23 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/formats/csv.h"
+
 using namespace gridshell::record;
 
 TEST_CASE("charts: columns, and empty where nothing is known") {
-  CHECK(accuracy_csv({{"bend", 4, 2736, 2.5e-3, 0.5, 0.25, 1, RunOutcome::right},
-                      {"explicit", 8, 5904, unknown, 30, 30, 30, RunOutcome::too_slow}}) ==
-        "method,edges_per_segment,dof,error,cpu_s,cpu_min_s,cpu_max_s,outcome\n"
-        "bend,4,2736,0.0025,0.5,0.25,1,right\n"
-        "explicit,8,5904,,30,30,30,too_slow\n");
-  CHECK(stability_csv({{"newton", "full steps", "load_steps", 5, "edges_per_segment", 2,
-                        RunOutcome::planar_saddle}}) ==
+  CHECK(
+      csv_table<AccuracyRow>({{"bend", 4, 2736, 2.5e-3, 0.5, 0.25, 1, RunOutcome::right},
+                              {"explicit", 8, 5904, unknown, 30, 30, 30, RunOutcome::too_slow}}) ==
+      "method,edges_per_segment,dof,error,cpu_s,cpu_min_s,cpu_max_s,outcome\n"
+      "bend,4,2736,0.0025,0.5,0.25,1,right\n"
+      "explicit,8,5904,,30,30,30,too_slow\n");
+  CHECK(csv_table<StabilityRow>({{"newton", "full steps", "load_steps", 5, "edges_per_segment", 2,
+                                  RunOutcome::planar_saddle}}) ==
         "map,method,x_name,x,y_name,y,outcome\n"
         "newton,full steps,load_steps,5,edges_per_segment,2,planar_saddle\n");
-  CHECK(scaling_csv({}) == "method,rods,edges_per_segment,dof,cpu_s,cpu_min_s,cpu_max_s,outcome\n");
+  CHECK(csv_table<ScalingRow>({}) ==
+        "method,rods,edges_per_segment,dof,cpu_s,cpu_min_s,cpu_max_s,outcome\n");
 }
 
 TEST_CASE("charts: the Pareto front holds what nothing beats in both") {

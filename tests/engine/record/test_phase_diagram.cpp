@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/formats/csv.h"
+
 using namespace gridshell::record;
 
 namespace {
@@ -81,5 +83,5 @@ TEST_CASE("a diagram tells by the shortest leg where domes are alone and where m
   CHECK(regions[2].points + regions[3].points == 2);
   CHECK(regions[3].with[std::size_t(StateClass::iii)] == 1);
   CHECK(regions[3].more_states == 3);
-  CHECK_FALSE(regions_csv(regions).empty());
+  CHECK_FALSE(csv_table(regions).empty());
 }

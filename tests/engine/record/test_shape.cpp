@@ -105,7 +105,7 @@ TEST_CASE("a GLB holds its chunks, as many key shapes as frames, and a way for e
   CHECK(word(8) == glb->size());
   const std::size_t json_size = word(12);
   CHECK(glb->substr(16, 4) == "JSON");
-  const record::Json gltf = record::parsed(glb->substr(20, json_size));
+  const Json gltf = parsed(glb->substr(20, json_size));
   REQUIRE(gltf.is_object());
   CHECK(word(20 + json_size) == glb->size() - 28 - json_size);
   CHECK(gltf["buffers"][0]["byteLength"] <= word(20 + json_size));
@@ -133,8 +133,7 @@ TEST_CASE("a page holds the run, and a title cannot end its script") {
   CHECK(count(*page, "</script>") == 2);
   CHECK(page->find("/*RUN*/") == page->npos);
   const std::size_t from = page->find("application/json\">") + 18;
-  const record::Json json =
-      record::parsed(page->substr(from, page->find("</script>", from) - from));
+  const Json json = parsed(page->substr(from, page->find("</script>", from) - from));
   REQUIRE(json.is_object());
   CHECK(json["frames"].size() == run.frames.size());
   CHECK(json["rods"].size() == run.layout.rods.size());
@@ -155,7 +154,7 @@ TEST_CASE("XDMF speaks of forces where the run's end has them") {
   const auto xdmf = [&] { return to_xdmf(run.layout, run.frames, "run/trajectory.h5"); };
   CHECK(count(xdmf(), ":/axial_force_N") == 3);
   CHECK(count(xdmf(), ":/reactions_N") == 3);
-  for (record::Frame& frame : run.frames) frame.axial_force_N.resize(0);
+  for (record::Frame& frame : run.frames.edit()) frame.axial_force_N.resize(0);
   CHECK(count(xdmf(), ":/axial_force_N") == 0);
   CHECK(count(xdmf(), ":/nodes") == 3);
 }

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/file_io.h"
+#include "engine/core/json.h"
+#include "engine/formats/csv.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -41,13 +43,13 @@ TEST_CASE("state tables: what is written is read back, what is unknown stays so"
   REQUIRE(record::write_state_tables(folder.path(), written));
   const auto read = record::read_state_tables(folder.path());
   REQUIRE(read);
-  CHECK(record::states_csv(read->rows) == record::states_csv(written.rows));
-  CHECK(record::transitions_csv(read->transitions) == record::transitions_csv(written.transitions));
-  CHECK(record::barriers_csv(read->barriers) == record::barriers_csv(written.barriers));
+  CHECK(record::csv_table(read->rows) == record::csv_table(written.rows));
+  CHECK(record::csv_table(read->transitions) == record::csv_table(written.transitions));
+  CHECK(record::csv_table(read->barriers) == record::csv_table(written.barriers));
   CHECK(std::isnan(read->barriers[1].back_mJ));
   CHECK(read->rows[1].barrier_mJ == 0.25);
   CHECK(std::isnan(read->rows[0].barrier_mJ));
-  CHECK(record::to_json(read->search) == record::to_json(written.search));
+  CHECK(text_of(json_of(read->search)) == text_of(json_of(written.search)));
   CHECK(std::isnan(read->rows[0].eigenvalue_N_per_mm2));
   CHECK(read->rows[0].lives_to == 0.0325);
 }
@@ -67,13 +69,13 @@ TEST_CASE("state tables of earlier versions: a number that has no column is unkn
   written.barriers.clear();
   REQUIRE(record::write_state_tables(folder.path(), written));
   // as it was before there were barriers
-  std::string table = record::states_csv(written.rows), older;
+  std::string table = record::csv_table(written.rows), older;
   for (std::size_t from = 0; from < table.size();) {
     const std::size_t end = table.find('\n', from);
     older += table.substr(from, table.rfind(',', end) - from) + "\n";
     from = end + 1;
   }
-  std::string search = record::to_json(written.search);
+  std::string search = text_of(json_of(written.search));
   const auto cut = search.find(",", search.find("cpu_s"));
   REQUIRE(write_file(folder.path() / "states.csv", older));
   REQUIRE(write_file(folder.path() / "states.json", search.substr(0, cut) + "}"));
@@ -114,7 +116,7 @@ TEST_CASE("state tables: damaged ones are refused with file and line") {
     CHECK(read.error().message.find(says) != std::string::npos);
     REQUIRE(record::write_state_tables(folder.path(), written));
   };
-  const std::string table = record::states_csv(written.rows);
+  const std::string table = record::csv_table(written.rows);
   refused("states.csv", "", "first line");
   refused("states.csv", table + "3,iv\n", "line 4");
   refused("states.csv", table + table.substr(table.find('\n') + 1) + "x", "line 6");
@@ -124,7 +126,7 @@ TEST_CASE("state tables: damaged ones are refused with file and line") {
   refused("states.json", "{", "states.json");
   refused("states.json", R"({"mode": 3})", "states.json");
   for (const char* number : {"1e300", "2.5", "4000000000", "18446744073709551615", "true"}) {
-    std::string search = record::to_json(written.search);
+    std::string search = text_of(json_of(written.search));
     const auto at = search.find("900", search.find("\"trials\""));
     REQUIRE(at != std::string::npos);
     refused("states.json", search.replace(at, 3, number), "\"trials\" must be a whole number");

@@ -130,17 +130,17 @@ TEST_CASE("parts that do not fit each other are neither written nor read") {
   CHECK(folder.entries().empty());
 
   run = sample_trajectory();
-  run.frames[2].nodes.conservativeResize(3, 11);
+  run.frames.edit()[2].nodes.conservativeResize(3, 11);
   CHECK(write_trajectory(path, run).error().message == "frame 2 has 11 nodes, the first one 12");
   run = sample_trajectory();
   run.layout.cells[0].joints[3] = -1;
   CHECK(write_trajectory(path, run).error().message == "cell 0 names joint -1 of 4");
   run = sample_trajectory();
-  run.frames[0].cell_K.resize(0);
+  run.frames.edit()[0].cell_K.resize(0);
   CHECK(write_trajectory(path, run).error().message ==
         "frame 0 has 0 values of cell_K for 1 cells");
   run = sample_trajectory();
-  run.frames[2].axial_force_N.resize(11);
+  run.frames.edit()[2].axial_force_N.resize(11);
   CHECK(write_trajectory(path, run).error().message ==
         "frame 2 has 11 values of axial_force_N, must be 12");
   run = sample_trajectory();
@@ -172,7 +172,7 @@ TEST_CASE("a column that an older version did not write is unknown") {
   REQUIRE(write_file(path, changed(without)));
   const auto back = read_trajectory(path, {.unsealed = true});
   REQUIRE(back);
-  const Frame& frame = std::as_const(back->frames)[1];
+  const Frame& frame = back->frames[1];
   CHECK(std::isnan(frame.energies[Term::load]));
   CHECK_FALSE(std::isnan(frame.energies[Term::bend]));
   CHECK(frame.newton_iterations == -1);
@@ -206,7 +206,7 @@ TEST_CASE("a trajectory that cannot be written says why and leaves the old one")
   REQUIRE(write_trajectory(path, sample_trajectory()));
   const std::string before = read_file(path).value();
   Trajectory large = sample_trajectory();
-  for (Frame& frame : large.frames) frame.nodes = Eigen::Matrix3Xd::Zero(3, 10000);
+  for (Frame& frame : large.frames.edit()) frame.nodes = Eigen::Matrix3Xd::Zero(3, 10000);
   for (const rlim_t limit : {100, 3000, 100000, 700000}) {
     INFO(limit);
     const FileSizeLimit full_disk(limit);

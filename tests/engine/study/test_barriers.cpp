@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/formats/csv.h"
+
 using namespace gridshell;
 using namespace gridshell::study;
 
@@ -37,5 +39,5 @@ TEST_CASE("barriers: passes lie above the states that their two sides lead to") 
   }
   const auto same = barriers_between(again, scene, p.jitter, 2, 0, 1, watch);
   REQUIRE(same);
-  CHECK(record::barriers_csv(*same) == record::barriers_csv(*found));
+  CHECK(record::csv_table(*same) == record::csv_table(*found));
 }

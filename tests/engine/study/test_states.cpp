@@ -2,7 +2,9 @@
 #include "engine/study/state_library.h"
 
 #include <catch2/catch.hpp>
+
 #include <set>
+#include "engine/formats/csv.h"
 
 using namespace gridshell;
 using study::find_states;
@@ -46,7 +48,7 @@ TEST_CASE("states: the same whatever the threads, each once, in the order of ene
   std::vector<record::StateRow> rows, others;
   for (const auto& state : one.states) rows.push_back(state.row);
   for (const auto& state : two.states) others.push_back(state.row);
-  CHECK(record::states_csv(rows) == record::states_csv(others));
+  CHECK(record::csv_table(rows) == record::csv_table(others));
   int met = 0, confined = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     CHECK(rows[k].state == int(k) + 1);

@@ -31,7 +31,7 @@ struct Subject {
       return joint.i == 2 && joint.j == 1;
     });
     run.layout.loaded_joints = {{int(pushed - joints.begin()), -Eigen::Vector3d::UnitZ()}};
-    run.frames[3].negative_pivots = 1;
+    run.frames.edit()[3].negative_pivots = 1;
     style.size = {480, 270};
     style.title = "Dome";
     style.scale_bar_mm = 20;
@@ -89,8 +89,8 @@ const std::map<std::string, Change>& faults() {
       {"half a pixel up", camera([](Camera& c) { c.target.z() -= c.half_extent_mm / 270; })},
       {"a wrong digit",
        [](Subject& s) {
-         s.run.frames[7].boundary_radius_mm += 0.3;
-         s.run.frames[7].height_mm += 0.5;
+         s.run.frames.edit()[7].boundary_radius_mm += 0.3;
+         s.run.frames.edit()[7].height_mm += 0.5;
        }},
       {"a wrong letter", [](Subject& s) { s.style.title = "Dome."; }},
       {"no colour bar", [](Subject& s) { s.style.legends = false; }},
@@ -100,7 +100,7 @@ const std::map<std::string, Change>& faults() {
          s.style.look.range = {-0.3, 0.3};
        }},
       {"no top view", [](Subject& s) { s.style.inset = false; }},
-      {"no mark on the timeline", [](Subject& s) { s.run.frames[3].negative_pivots = 0; }},
+      {"no mark on the timeline", [](Subject& s) { s.run.frames.edit()[3].negative_pivots = 0; }},
       {"no scale bar", [](Subject& s) { s.style.scale_bar_mm = 0; }},
       {"no arrow", drawing([](Drawing& d) { d.arrows.clear(); })},
       {"no mark at the joint", drawing([](Drawing& d) { d.marks.clear(); })},
@@ -116,7 +116,7 @@ Change shaken(double size_mm, int seed) {
   return [=](Subject& s) {
     std::mt19937 random(static_cast<unsigned>(seed));
     std::uniform_real_distribution<double> off(-size_mm, size_mm);
-    for (record::Frame& frame : s.run.frames)
+    for (record::Frame& frame : s.run.frames.edit())
       for (long k = 0; k < frame.nodes.size(); ++k) frame.nodes.data()[k] += off(random);
   };
 }

@@ -20,7 +20,7 @@ record::Trajectory of_K(double first, double last) {
 // two frames whose rods all bear these forces and energies, whose joints lie that far off a net
 record::Trajectory of_rods(double force_N, double other_N, double energy = 0) {
   record::Trajectory run = synthetic::dome(2, 1);
-  for (record::Frame& frame : run.frames) {
+  for (record::Frame& frame : run.frames.edit()) {
     frame.axial_force_N.setConstant(record::edges_of_rods(run.layout), force_N);
     frame.axial_force_N[0] = other_N;
     frame.bending_mJ_per_m.setConstant(record::points_of_rods(run.layout), energy);

@@ -47,9 +47,9 @@ std::vector<std::string> texts_of(const Stage& stage, const record::Trajectory& 
 
 TEST_CASE("captions, legends and view of a finished frame neither overlap nor leave the picture") {
   record::Trajectory run = synthetic::dome(12, 2);
-  run.frames[8].depth_mm = 12.3;
-  run.frames[8].force_N = -0.214;
-  run.frames[8].negative_pivots = 12;
+  run.frames.edit()[8].depth_mm = 12.3;
+  run.frames.edit()[8].force_N = -0.214;
+  run.frames.edit()[8].negative_pivots = 12;
   for (const auto& [width, height] :
        {std::pair{320, 240}, {640, 360}, {1280, 720}, {3840, 2160}, {720, 1280}, {500, 500}}) {
     const Stage stage(run, titled(width, height));
@@ -102,8 +102,8 @@ TEST_CASE("captions name only what is known") {
 TEST_CASE("an unstable frame says so once, a stable one never") {
   record::Trajectory run = synthetic::dome(12, 2);
   for (int k : {4, 5}) {
-    run.frames[std::size_t(k)].negative_pivots = 2;
-    run.frames[std::size_t(k)].event = "unstable: 2 negative pivots";
+    run.frames.edit()[std::size_t(k)].negative_pivots = 2;
+    run.frames.edit()[std::size_t(k)].event = "unstable: 2 negative pivots";
   }
   const Stage stage(run, titled(1280, 720));
   for (int k = 0; k < 12; ++k) {
@@ -238,7 +238,7 @@ TEST_CASE("the drawing shows both boundaries, thick enough rods and a ground bel
   }
   // a shell that hangs below its boundary keeps its ground below
   record::Trajectory hanging = run;
-  for (record::Frame& frame : hanging.frames) frame.nodes.row(2) *= -1;
+  for (record::Frame& frame : hanging.frames.edit()) frame.nodes.row(2) *= -1;
   CHECK(Stage(hanging, MovieStyle{}).drawing(hanging.frames[0]).ground_z_mm < -65);
 }
 
@@ -283,7 +283,7 @@ TEST_CASE("a run that cannot be shown is refused with its reason") {
   run = synthetic::dome(3, 2);
   run.frames[2].cell_K.resize(5);
   CHECK(message(run, {}) == "frame 2 of the run has K of 5 cells instead of 97");
-  run.frames.clear();
+  run.frames = {};
   CHECK(message(run, {}) == "the run has no frame to show");
 }
 
@@ -306,7 +306,7 @@ TEST_CASE("what no frame knows cannot be what is coloured") {
 
 TEST_CASE("rods are coloured by their forces, grey where a frame does not know them") {
   record::Trajectory run = synthetic::dome(3, 2);
-  record::Frame& last = run.frames[2];
+  record::Frame& last = run.frames.edit()[2];
   last.axial_force_N.setConstant(record::edges_of_rods(run.layout), -0.1);
   last.axial_force_N.head(4).setConstant(0.1);
   const MovieStyle style = coloured(ColourBy::axial_force);
