@@ -24,7 +24,6 @@ namespace {
 using record::BranchEvent;
 using record::BranchPoint;
 
-
 /// What to chart and how much to spend on it.
 struct ChartOptions {
   Options common;

@@ -17,8 +17,6 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-
-
 /// Whether the designed shell is also reached from the flat: how far its joints are from there
 /// then.
 struct FlatStartCheck {

@@ -276,8 +276,7 @@ Result<void> render_runs(std::vector<Run>& runs, const Options& options, const f
   // all cases together are called by the preset that lists them, else by their folder
   const auto listing = preset::read_preset_file(from / "preset.toml", {});
   const bool titled = listing && !listing->base.title.empty();
-  TRY(maker,
-      PictureMaker::create(options.context, runs.front().preset.style.font));
+  TRY(maker, PictureMaker::create(options.context, runs.front().preset.style.font));
   for (Run& run : runs) run.summary.seconds_render = 0;
   TRY_DO(draw_all(runs, titled ? listing->base.title : stem.string(), stem, maker->renderer(), to,
                   progress));

@@ -13,8 +13,6 @@
 namespace gridshell::app {
 namespace {
 
-
-
 /// All of a list, each as an object.
 template <class List, class Object>
 Json array_of(const List& list, const Object& object) {

@@ -25,8 +25,6 @@ namespace gridshell::app {
 namespace fs = std::filesystem;
 namespace {
 
-
-
 using study::Clusters;
 using study::JointCylinder;
 using study::Pose;

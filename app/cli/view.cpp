@@ -86,10 +86,10 @@ void share_processors() {
 void print_bench(const window::BenchFigures& figures) {
   const auto rounded = [](double value) { return std::round(10 * value) / 10; };
   fmt::print("{}\n", line_of({{"interface_fps", rounded(figures.interface_fps)},
-                                      {"equilibria_per_s", rounded(figures.equilibria_per_s)},
-                                      {"worst_frame_ms", rounded(figures.worst_frame_ms)},
-                                      {"frame_cpu_ms", rounded(figures.frame_cpu_ms)},
-                                      {"cancel_ms", rounded(figures.cancel_ms)}}));
+                              {"equilibria_per_s", rounded(figures.equilibria_per_s)},
+                              {"worst_frame_ms", rounded(figures.worst_frame_ms)},
+                              {"frame_cpu_ms", rounded(figures.frame_cpu_ms)},
+                              {"cancel_ms", rounded(figures.cancel_ms)}}));
 }
 
 /// What the engine came to, as a line of JSON: the same for the same recording on every machine.
@@ -97,20 +97,20 @@ void print_state(const window::ViewerState& viewer) {
   const window::ShellView& sight = *viewer.shell;
   const auto* held = sight.held.empty() ? nullptr : &sight.held.back();
   Json line{{"preset", sight.preset.name},
-                    {"progress", sight.progress},
-                    {"boundary_radius_mm", sight.frame.boundary_radius_mm},
-                    {"height_mm", sight.frame.height_mm},
-                    {"energy_bend_mJ", sight.frame.energies[Term::bend]},
-                    {"total_K", sight.frame.total_K},
-                    {"residual_N", sight.certificate.residual_N},
-                    {"negative_pivots", sight.certificate.negative_pivots},
-                    {"error_estimate_mm", sight.certificate.error_estimate_mm},
-                    {"held", sight.held.size()},
-                    {"force_N", held ? held->force_N.norm() : 0},
-                    {"depth_mm", held ? held->moved_mm.norm() : 0},
-                    {"gravity", viewer.gravity()},
-                    {"undo_steps", sight.undo_steps},
-                    {"redo_steps", sight.redo_steps}};
+            {"progress", sight.progress},
+            {"boundary_radius_mm", sight.frame.boundary_radius_mm},
+            {"height_mm", sight.frame.height_mm},
+            {"energy_bend_mJ", sight.frame.energies[Term::bend]},
+            {"total_K", sight.frame.total_K},
+            {"residual_N", sight.certificate.residual_N},
+            {"negative_pivots", sight.certificate.negative_pivots},
+            {"error_estimate_mm", sight.certificate.error_estimate_mm},
+            {"held", sight.held.size()},
+            {"force_N", held ? held->force_N.norm() : 0},
+            {"depth_mm", held ? held->moved_mm.norm() : 0},
+            {"gravity", viewer.gravity()},
+            {"undo_steps", sight.undo_steps},
+            {"redo_steps", sight.redo_steps}};
   if (sight.design) {
     const window::DesignProgress& course = *sight.design;
     line["design"] = {

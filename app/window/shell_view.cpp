@@ -112,7 +112,7 @@ void EditSession::update_layout() {
   const NestedShell& shell = session_->shell();
   const RodMesh& coarsest = shell.mesh(0);
   symmetries_ = study::symmetries_of_shell(*now_.scene, coarsest,
-                                                symmetries_of(coarsest, shell.motion(0).at(1)));
+                                           symmetries_of(coarsest, shell.motion(0).at(1)));
 }
 
 /// Of the shape, whatever holds it. A square that is mapped onto itself alone has none to tell of.

@@ -41,7 +41,7 @@ requires std::is_enum_v<Enum> std::string take(const Json& json, Enum& value) {
   if (json.is_string())
     if (const auto found = find_word<Enum>(json.get<std::string>())) return value = *found, "";
   std::string expected;
-  for (const auto& [one, word] : words(Enum{}))
+  for (const auto& [one, word] : words_of<Enum>())
     if (!word.empty())
       expected.append(expected.empty() ? "one of \"" : ", \"").append(word).append("\"");
   return expected;

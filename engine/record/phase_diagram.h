@@ -112,7 +112,7 @@ void fields(Region& region, const Visit& visit) {
   const std::string name = name_of(region);
   visit_each(visit, "shortest_leg", name, "points", region.points, "first_order_alone",
              region.dome_alone, "symmetry_broken", region.broken, "several_states", region.several);
-  for (const auto& [kind, word] : words(StateClass{}))
+  for (const auto& [kind, word] : words_of<StateClass>())
     visit(("with_" + std::string(word)).c_str(), region.with[std::size_t(kind)]);
   visit_each(visit, "at_rest", region.at_rest, "met_first_order", region.met_first_order,
              "with_more_than_paper", region.with_more, "states_more", region.more_states);

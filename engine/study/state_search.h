@@ -63,7 +63,8 @@ class StateSearcher {
 
  private:
   StateSearcher(std::shared_ptr<const Scene> scene, const preset::SearchSettings& jitter,
-                const std::vector<StartForm>& forms, MultilevelRelaxation cascade, Simulation session);
+                const std::vector<StartForm>& forms, MultilevelRelaxation cascade,
+                Simulation session);
   Result<State> pull_start(const StartForm& form, std::mt19937& random, const Watch& watch);
   Result<State> push_start(const StartForm& form, std::mt19937& random, const Watch& watch);
   Result<State> go_from(double from, const State& rest, double t, const Watch& watch);

@@ -164,8 +164,8 @@ Preset random_preset(SceneKind kind, std::mt19937& random) {
 
 namespace {
 
-using simulate::ExperimentResult;
 using record::TrustClass;
+using simulate::ExperimentResult;
 
 constexpr int frames = 5, fine_frames = 9, other_frames = 8;
 
@@ -202,7 +202,7 @@ Trial try_scene(preset::Preset preset, int count, bool fine, const TrustOptions&
   }
   record::MemorySink sink;
   auto summary = simulate::run(preset, std::make_shared<const Scene>(std::move(*scene)), false,
-                                 sink, limit.watch());
+                               sink, limit.watch());
   trial.too_slow = limit.ran_out();
   if (!summary) {
     trial.exit = summary.error().fault == Fault::bad_input ? 2 : 1;

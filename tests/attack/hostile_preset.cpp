@@ -131,71 +131,45 @@ void add_key(Lines& lines, Draw& draw) {
 
 void rearrange(Lines& lines, Draw& draw) {
   const auto a = some_line(lines, draw), b = some_line(lines, draw);
-  switch (draw.below(4)) {
-    case 0:
-      lines.erase(lines.begin() + std::ptrdiff_t(a));
-      break;
-    case 1:
-      lines.insert(lines.begin() + std::ptrdiff_t(b), lines[a]);
-      break;
-    case 2:
-      std::swap(lines[a], lines[b]);
-      break;
-    case 3:
-      lines[a] = lines[a].substr(0, draw.below(lines[a].size() + 1));
-      break;
-  }
+  draw.one_of({[&] { lines.erase(lines.begin() + std::ptrdiff_t(a)); },
+               [&] { lines.insert(lines.begin() + std::ptrdiff_t(b), std::string(lines[a])); },
+               [&] { std::swap(lines[a], lines[b]); },
+               [&] { lines[a] = lines[a].substr(0, draw.below(lines[a].size() + 1)); }});
   if (lines.empty()) lines.emplace_back();
 }
 
 void add_tables(Lines& lines, Draw& draw) {
   const std::size_t many = draw.one_in(10) ? 3000 : 3;
-  switch (draw.below(6)) {
-    case 0:
-      for (std::size_t k = 0; k < many; ++k)
-        lines.emplace_back(fmt::format("[[case]]\nname = \"c{}\"", k));
-      break;
-    case 1:
-      for (std::size_t k = 0; k < many; ++k) lines.emplace_back("[[block]]\nname = \"b\"");
-      break;
-    case 2:
-      lines.emplace_back(
-          "[[case]]\nname = \"../x\"\n[[case]]\nname = \"..\"\n[[case]]\nname = \"\"");
-      break;
-    case 3:
-      lines.emplace_back(fmt::format("[{}a]\nb = 1", repeated("a.", many)));
-      break;
-    case 4:
-      lines.emplace_back("[footprint]\n[footprint]\n[[footprint]]");
-      break;
-    case 5:
-      lines.emplace_back(fmt::format("[[case]]\nname = \"a\"\n{}.x = {}",
-                                     draw.of(gridshell::preset::field_table()).table,
-                                     hostile_value(draw)));
-      break;
-  }
+  const auto add = [&](std::string text) { lines.push_back(std::move(text)); };
+  draw.one_of(
+      {[&] {
+         for (std::size_t k = 0; k < many; ++k) add(fmt::format("[[case]]\nname = \"c{}\"", k));
+       },
+       [&] {
+         for (std::size_t k = 0; k < many; ++k) add("[[block]]\nname = \"b\"");
+       },
+       [&] { add("[[case]]\nname = \"../x\"\n[[case]]\nname = \"..\"\n[[case]]\nname = \"\""); },
+       [&] { add(fmt::format("[{}a]\nb = 1", repeated("a.", many))); },
+       [&] { add("[footprint]\n[footprint]\n[[footprint]]"); },
+       [&] {
+         add(fmt::format("[[case]]\nname = \"a\"\n{}.x = {}",
+                         draw.of(gridshell::preset::field_table()).table, hostile_value(draw)));
+       }});
 }
 
 // what is no TOML any more, and perhaps no text
 void damage(std::string& text, Draw& draw) {
-  switch (draw.below(5)) {
-    case 0:
-      for (std::size_t k = 1 + draw.below(20); k > 0 && !text.empty(); --k)
-        text[draw.below(text.size())] = draw.byte();
-      break;
-    case 1:
-      text.resize(draw.below(text.size() + 1));
-      break;
-    case 2:
-      text.insert(draw.below(text.size() + 1), repeated(draw.one_in(2) ? "{" : "[", 20000));
-      break;
-    case 3:
-      text = "\xef\xbb\xbf" + text;
-      break;
-    case 4:
-      text.insert(draw.below(text.size() + 1), std::string("\0\r\n\x1b[2J\"\"\"", 10));
-      break;
-  }
+  const auto put_in = [&](const std::string& what) {
+    text.insert(draw.below(text.size() + 1), what);
+  };
+  draw.one_of({[&] {
+                 for (std::size_t k = 1 + draw.below(20); k > 0 && !text.empty(); --k)
+                   text[draw.below(text.size())] = draw.byte();
+               },
+               [&] { text.resize(draw.below(text.size() + 1)); },
+               [&] { put_in(repeated(draw.one_in(2) ? "{" : "[", 20000)); },
+               [&] { text = "\xef\xbb\xbf" + text; },
+               [&] { put_in(std::string("\0\r\n\x1b[2J\"\"\"", 10)); }});
 }
 
 }  // namespace
@@ -204,26 +178,15 @@ std::string hostile_preset(Draw& draw) {
   Lines lines;
   std::istringstream text(draw.of(shipped()));
   for (std::string line; std::getline(text, line);) lines.emplace_back(line);
-  for (std::size_t ways = 1 + draw.below(3); ways > 0; --ways) switch (draw.below(18)) {
-      case 0:
-      case 1:
-        change_value(lines, draw);
-        break;
-      case 2:
-      case 3:
-      case 4:
-      case 5:
-        add_key(lines, draw);
-        break;
-      case 6:
-        rearrange(lines, draw);
-        break;
-      case 7:
-        add_tables(lines, draw);
-        break;
-      default:
-        scale_value(lines, draw);
-    }
+  for (std::size_t ways = 1 + draw.below(3); ways > 0; --ways) {
+    const auto way = draw.below(18);
+    const auto change = way < 2    ? change_value
+                        : way < 6  ? add_key
+                        : way == 6 ? rearrange
+                        : way == 7 ? add_tables
+                                   : scale_value;
+    change(lines, draw);
+  }
   std::string whole;
   for (const auto& line : lines) whole += line + "\n";
   if (draw.one_in(20)) damage(whole, draw);

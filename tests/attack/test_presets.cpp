@@ -2,46 +2,23 @@
 // sentence that names the file, memory under its budget, nothing left behind.
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
 
 #include "engine/core/file_io.h"
-#include "tests/app/program.h"
+#include "tests/attack/answers.h"
 #include "tests/attack/hostile_preset.h"
-#include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using gridshell::write_file;
 
 namespace {
 
-// what a program does that takes too long: it answers a signal, within a second where the machine
-// is its own (tests/app/test_interrupt.cpp)
+// what takes too long answers a signal, within a second where the machine is its own
+// (tests/app/test_interrupt.cpp)
 Ended run_and_stop(const std::vector<std::string>& arguments, const fs::path& folder,
                    double seconds) {
-  const Running running(arguments, folder);
-  if (!running.ends_within(seconds)) {
-    running.signal(SIGINT);
-    const bool answered = running.ends_within(5);
-    CHECK(answered);
-    if (!answered) running.signal(SIGKILL);
-    auto ended = running.wait();
-    CHECK(ended.code == 130);
-    return ended;
-  }
-  return running.wait();
-}
-
-// a sentence of the program's, not of a library's
-void check_told(const Ended& ended) {
-  INFO(ended.err.substr(0, 2000));
-  CHECK_FALSE(ended.err.empty());
-  for (const char* raw :
-       {"filesystem error", "std::", "basic_string", "vector::", "what():", "Assertion", "nan mm"})
-    CHECK(ended.err.find(raw) == std::string::npos);
-  // a terminal must not be steered by what stands in a file
-  CHECK(std::ranges::all_of(ended.err, [](unsigned char c) { return c == '\n' || c >= 0x20; }));
+  return ended_within(Running(arguments, folder), seconds, SIGINT);
 }
 
 constexpr double allowed_MB = 500;
@@ -84,12 +61,8 @@ TEST_CASE("hostile presets are answered", "[standard][presets]") {
     if (seen.code == 2) CHECK(run.code == 2);
     if (seen.code == 0 && run.code == 2) CHECK(run.err.find("memory_GB") != std::string::npos);
     CHECK((run.code == 0 || run.code == 1 || !fs::exists(at / "out")));
-    for (const auto& name : folder.entries()) {
-      if (name == "fifo" || name == "hostile.toml") continue;
-      INFO(name);
-      CHECK((name == "out" || name.starts_with("out.partial-")));
-      fs::remove_all(at / name);
-    }
+    clear(folder, {"fifo", "hostile.toml"},
+          [](const auto& name) { return name == "out" || name.starts_with("out.partial-"); });
   }
   tell(checked, "check");
   tell(ran, "run");

@@ -7,11 +7,10 @@
 #include "engine/core/file_io.h"
 #include "engine/record/journal.h"
 #include "render/gl/image.h"
-#include "tests/app/program.h"
+#include "tests/attack/answers.h"
 #include "tests/attack/trials.h"
 #include "tests/folder_contents.h"
 #include "tests/small_preset.h"
-#include "tests/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using gridshell::write_file;
@@ -74,13 +73,10 @@ TEST_CASE("signals at any moment are answered, and nothing is lost", "[standard]
     CHECK(gridshell::app::why_not_a_run(at / "old").empty());
     if (ended.code != 0 && !killed) CHECK(contents(at / "old") == before);
     check_left(at, killed);
-    for (const auto& name : folder.entries()) {
-      if (name == "small.toml" || name == "old") continue;
-      INFO(name);
-      CHECK((name == "new" || name.find(".partial-") != name.npos ||
-             name.find(".old-") != name.npos));
-      fs::remove_all(at / name);
-    }
+    clear(folder, {"small.toml", "old"}, [](const auto& name) {
+      return name == "new" || name.find(".partial-") != name.npos ||
+             name.find(".old-") != name.npos;
+    });
   }
   tell(codes, "slowest answer " + std::to_string(slowest) + " s; codes");
 }

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <random>
 #include <string>
@@ -44,6 +45,10 @@ class Draw {
   template <class T>
   const T& of(const std::vector<T>& all) {
     return all[below(all.size())];
+  }
+  /// Does one of them; one that stands there twice is drawn twice as often.
+  void one_of(std::initializer_list<std::function<void()>> ways) {
+    ways.begin()[below(ways.size())]();
   }
 
  private:

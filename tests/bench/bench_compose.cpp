@@ -1,9 +1,5 @@
 // CPU time of what a movie frame costs beside its 3D picture: captions, colour bar, top view, PNG.
 // `--json` writes the figures as JSON.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <ctime>
 #include <vector>
 
 #include "render/gl/image.h"
@@ -14,12 +10,6 @@
 using namespace gridshell;
 
 namespace {
-
-double cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
-}
 
 // as smooth as a ground and as busy as a net: grey ramps crossed by fine dark lines
 render::Image busy_picture(int width, int height) {
@@ -32,11 +22,6 @@ render::Image busy_picture(int width, int height) {
       p[3] = 255;
     }
   return image;
-}
-
-double median(std::vector<double> times) {
-  std::nth_element(times.begin(), times.begin() + long(times.size() / 2), times.end());
-  return times[times.size() / 2];
 }
 
 }  // namespace
@@ -62,9 +47,8 @@ int main(int count, char** arguments) {
       encode.push_back(cpu_ms() - finished);
       if (!bytes) return 1;
     }
-    fmt::print(figures.lines(),
-               "{} x {}: overlay {:.1f} ms, PNG {:.1f} ms CPU (medians of {} frames)\n", width,
-               height, median(overlay), median(encode), overlay.size());
+    figures.say("{} x {}: overlay {:.1f} ms, PNG {:.1f} ms CPU (medians of {} frames)\n", width,
+                height, median(overlay), median(encode), overlay.size());
     figures.add(fmt::format("{} x {}, overlay, ms", width, height), median(overlay));
     figures.add(fmt::format("{} x {}, PNG, ms", width, height), median(encode));
   }

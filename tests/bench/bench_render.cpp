@@ -1,11 +1,8 @@
 // CPU time of a frame by quality, off-screen: medians in ms, their ratios to a plain frame, and the
 // way back from the graphics side. Usage: bench_render [auto|osmesa|egl] [frames]
 // [--json]
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdlib>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -22,12 +19,6 @@ using namespace gridshell;
 using namespace gridshell::render;
 
 namespace {
-
-double cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);  // of all threads, the rasteriser's too
-  return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
-}
 
 /// What a result holds; the end of the program when it holds an error.
 template <class T>
@@ -47,11 +38,6 @@ struct Case {
   DrawQuality quality;
   std::vector<double> ms = {};
   std::unique_ptr<Renderer> renderer = nullptr;  // of its own: a movie keeps its targets
-
-  double median() {
-    std::nth_element(ms.begin(), ms.begin() + long(ms.size() / 2), ms.end());
-    return ms[ms.size() / 2];
-  }
 };
 
 void measure(Context& context, int width, int height, int frames, Figures& figures) {
@@ -73,11 +59,11 @@ void measure(Context& context, int width, int height, int frames, Figures& figur
       value(c.renderer->draw(drawing, camera, c.quality, width, height));
       if (frame >= 0) c.ms.push_back(cpu_ms() - before);
     }
-  const double plain = cases[0].median();
+  const double plain = median(cases[0].ms);
   for (Case& c : cases) {
-    fmt::print(figures.lines(), "{:>5} x {:<5} {:<14} {:8.1f} ms {:6.2f} of plain\n", width, height,
-               c.name, c.median(), c.median() / plain);
-    figures.add(fmt::format("{} x {}, {}, ms", width, height, c.name), c.median());
+    figures.say("{:>5} x {:<5} {:<14} {:8.1f} ms {:6.2f} of plain\n", width, height, c.name,
+                median(c.ms), median(c.ms) / plain);
+    figures.add(fmt::format("{} x {}, {}, ms", width, height, c.name), median(c.ms));
   }
 }
 
@@ -96,9 +82,7 @@ void measure_read_back(Context& context, int width, int height, int frames, Figu
     gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
     ms.push_back(cpu_ms() - before);
   }
-  std::nth_element(ms.begin(), ms.begin() + frames / 2, ms.end());
-  fmt::print(figures.lines(), "{:>5} x {:<5} {:<14} {:8.1f} ms\n", width, height, "read-back",
-             ms[frames / 2]);
+  figures.say("{:>5} x {:<5} {:<14} {:8.1f} ms\n", width, height, "read-back", median(ms));
 }
 
 }  // namespace
@@ -112,9 +96,8 @@ int main(int count, char** arguments) {
   const auto context = value(Context::create(kind == "egl"      ? ContextKind::egl
                                              : kind == "osmesa" ? ContextKind::osmesa
                                                                 : ContextKind::automatic));
-  fmt::print(figures.lines(),
-             "{}: 4896 rod segments, 289 joints, 256 cells; median CPU time of {} frames\n",
-             context->kind_name(), frames);
+  figures.say("{}: 4896 rod segments, 289 joints, 256 cells; median CPU time of {} frames\n",
+              context->kind_name(), frames);
   measure(*context, 1280, 720, frames, figures);
   measure_read_back(*context, 1280, 720, frames, figures);
   measure(*context, 1920, 1080, std::max(1, frames / 3), figures);

@@ -2,9 +2,6 @@
 // factorisation (its own nested dissection) of the Fig. 1 shell at 4 edges a segment, 2736 degrees
 // of freedom. CPU time of this process, medians. `bench_solver sizes` adds the table over n,
 // `bench_solver rests` rests from rough states.
-#include <fmt/format.h>
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -19,12 +16,6 @@ using namespace gridshell;
 
 namespace {
 
-double cpu_now() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
 double median(
     int runs, const std::function<void()>& work, const std::function<void()>& prepare = [] {}) {
   std::vector<double> times;
@@ -34,8 +25,7 @@ double median(
     work();
     times.push_back(cpu_now() - begin);
   }
-  std::nth_element(times.begin(), times.begin() + runs / 2, times.end());
-  return times[std::size_t(runs / 2)];
+  return gridshell::median(times);
 }
 
 struct Case {
@@ -54,11 +44,9 @@ Case circle(int rods) {
   c.motion.begin = Eigen::Matrix3Xd::Zero(3, 2 * Eigen::Index(c.footprint.rods.size()));
   for (std::size_t r = 0; r < c.footprint.rods.size(); ++r) {
     const FootprintRod& rod = c.footprint.rods[r];
-    const double ends[] = {rod.span.begin, rod.span.end};
-    for (int e = 0; e < 2; ++e)
-      c.motion.begin.col(Eigen::Index(2 * r) + e) = rod.family == Family::u
-                                                        ? Eigen::Vector3d(ends[e], rod.line(), 0)
-                                                        : Eigen::Vector3d(rod.line(), ends[e], 0);
+    for (int e : {0, 1})
+      c.motion.begin.col(Eigen::Index(2 * r) + e).head<2>() =
+          rod.at(e == 0 ? rod.span.begin : rod.span.end);
   }
   c.motion.end = 0.75 * c.motion.begin;
   return c;
@@ -78,21 +66,24 @@ NestedShell shell_of(const Case& c, const LevelPlan& plan, double tolerance) {
       .value();
 }
 
+State begun(NestedShell& shell) {
+  return first_buckled(shell.system(0), shell.mesh(0), shell.motion(0), parameter(0.98), {}, {},
+                       unwatched)
+      .value();
+}
+
 double largest_joint_error(const NestedShell& shell, const NestedShell& reference) {
   const int joints = shell.mesh(0).joints;
   return max_column_norm(shell.state().x.leftCols(joints) - reference.state().x.leftCols(joints));
 }
 
 void paper_shell(int runs, Figures& figures) {
-  const Watch watch;
   const Case c = circle(12);
   const LevelPlan fine{{4, 8, 16, 32, 64}, true};
   NestedShell reference = shell_of(c, fine, 1e-9);
-  const State first = first_buckled(reference.system(0), reference.mesh(0), reference.motion(0),
-                                    parameter(0.98), {}, {}, watch)
-                          .value();
+  const State first = begun(reference);
   reference.place(parameter(0.98), first);
-  reference.advance(1, watch);
+  reference.advance(1, unwatched);
 
   // F, on the Hessian of a state of the path
   Linearisation system(reference.model(0));
@@ -104,8 +95,8 @@ void paper_shell(int runs, Figures& figures) {
   cholmod->factor(hessian, 0);
   const double F = median(20 * runs, [&] { cholmod->factor(hessian, 0); });
   const double block_factor = median(20 * runs, [&] { block->factor(hessian, 0); });
-  fmt::print(figures.lines(), "F = {:.3f} ms (dof {})   block factorisation {:.2f} F\n", 1e3 * F,
-             reference.model(0).dof(), block_factor / F);
+  figures.say("F = {:.3f} ms (dof {})   block factorisation {:.2f} F\n", 1e3 * F,
+              reference.model(0).dof(), block_factor / F);
   figures.add("block factorisation, F", block_factor / F);
 
   const auto path = [&](const char* name, const LevelPlan& plan, double tolerance, int frames,
@@ -120,17 +111,17 @@ void paper_shell(int runs, Figures& figures) {
         [&] {
           for (int k = 1; k <= frames; ++k) {
             const double ratio = 0.98 - 0.23 * k / frames;
-            reached &=
-                shell->advance(k == frames ? 1 : parameter(ratio), watch).end == Outcome::reached;
+            reached &= shell->advance(k == frames ? 1 : parameter(ratio), unwatched).end ==
+                       Outcome::reached;
           }
         },
         [&] { shell->place(begin, first); });
-    fmt::print(figures.lines(),
-               "{:34} {:6.2f} F (goal {:g}), a frame {:.2f} F, set-up {:.2f} F, error {:.2e} R_o, "
-               "estimate {:.2e} R_o{}\n",
-               name, time / F, goal, time / F / frames, setup / F,
-               largest_joint_error(*shell, reference) / c.radius,
-               shell->state().error_estimate_mm / c.radius, reached ? "" : "  NOT REACHED");
+    figures.say(
+        "{:34} {:6.2f} F (goal {:g}), a frame {:.2f} F, set-up {:.2f} F, error {:.2e} R_o, "
+        "estimate {:.2e} R_o{}\n",
+        name, time / F, goal, time / F / frames, setup / F,
+        largest_joint_error(*shell, reference) / c.radius,
+        shell->state().error_estimate_mm / c.radius, reached ? "" : "  NOT REACHED");
     figures.add(fmt::format("{}, F", name), time / F);
     figures.add(fmt::format("{}, set-up, F", name), setup / F);
   };
@@ -139,31 +130,20 @@ void paper_shell(int runs, Figures& figures) {
   path("0.98 -> 0.75 to 1e-3, 40 frames", plan_levels(1e-3), 1e-3, 40, 40);
 
   NestedShell coarse = shell_of(c, plan_levels(1e-3), 1e-3);
-  const double flat = median(runs, [&] {
-    first_buckled(coarse.system(0), coarse.mesh(0), coarse.motion(0), parameter(0.98), {}, {},
-                  watch)
-        .value();
-  });
-  fmt::print(figures.lines(), "first buckled equilibrium, 4 edges {:6.2f} F (goal 20)\n", flat / F);
-  figures.add("first buckled equilibrium, 4 edges, F", flat / F);
+  const double flat = median(runs, [&] { begun(coarse); });
+  figures.tell("first buckled equilibrium, 4 edges, F", flat / F, "goal 20");
   const double all = median(runs, [&] {
-    const State state = first_buckled(coarse.system(0), coarse.mesh(0), coarse.motion(0),
-                                      parameter(0.98), {}, {}, watch)
-                            .value();
+    const State state = begun(coarse);
     coarse.place(parameter(0.98), state);
-    coarse.advance(1, watch);
+    coarse.advance(1, unwatched);
   });
-  fmt::print(figures.lines(), "flat -> 0.75 in all, 1e-3          {:6.2f} F (goal 40)\n", all / F);
-  figures.add("flat -> 0.75 in all, 1e-3, F", all / F);
+  figures.tell("flat -> 0.75 in all, 1e-3, F", all / F, "goal 40");
 }
 
 void sizes(Figures& figures) {
-  const Watch watch;
   std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
-  fmt::print(figures.lines(),
-             "\n{:>4} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}  (seconds, 4 edges)\n", "n", "dof",
-             "set-up", "assembly", "factor", "first", "path");
-  std::vector<std::array<double, 6>> rows;
+  figures.say("\n{:>4} {:>8} {:>10} {:>10} {:>10} {:>10} {:>10}  (seconds, 4 edges)\n", "n", "dof",
+              "set-up", "assembly", "factor", "first", "path");
   for (int n : {6, 12, 24, 48, 96, 192}) {
     const bool follow = n < 192;  // the largest comes to its first equilibrium alone
     const Case c = circle(n);
@@ -180,66 +160,53 @@ void sizes(Figures& figures) {
     const double factor = median(3, [&] { shell.system(0).shifted(0); });
     double start = cpu_now();
     const auto first = first_buckled(shell.system(0), shell.mesh(0), shell.motion(0),
-                                     parameter(0.98), {}, {}, watch);
+                                     parameter(0.98), {}, {}, unwatched);
     const double buckle = cpu_now() - start;
     start = cpu_now();
     bool reached = first.has_value();
     if (first && follow) {
       shell.place(parameter(0.98), *first);
-      reached = shell.advance(1, watch).end == Outcome::reached;
+      reached = shell.advance(1, unwatched).end == Outcome::reached;
     }
     const double path = cpu_now() - start;
-    fmt::print(figures.lines(), "{:4} {:8} {:10.4f} {:10.4f} {:10.4f} {:10.4f} {:10.4f}{}\n", n,
-               shell.model(0).dof(), setup, assemble, factor, buckle, path,
-               reached ? "" : "  not reached");
+    figures.say("{:4} {:8} {:10.4f} {:10.4f} {:10.4f} {:10.4f} {:10.4f}{}\n", n,
+                shell.model(0).dof(), setup, assemble, factor, buckle, path,
+                reached ? "" : "  not reached");
     figures.add(fmt::format("{} rods, factorisation, s", n), factor);
     figures.add(fmt::format("{} rods, first equilibrium, s", n), buckle);
-    if (!follow) continue;
-    figures.add(fmt::format("{} rods, path, s", n), path);
-    rows.push_back({double(n), setup, assemble, factor, buckle, path});
+    if (follow) figures.add(fmt::format("{} rods, path, s", n), path);
   }
-  fmt::print(figures.lines(), "{:>13}", "exponent");
-  for (int column = 1; column < 6; ++column)
-    fmt::print(
-        figures.lines(), " {:10.2f}",
-        std::log(rows.back()[column] / rows[1][column]) / std::log(rows.back()[0] / rows[1][0]));
-  fmt::print(figures.lines(), "\n");
 }
 
 /// A hand that draws the boundary in from 0.95 to 0.76 R_o by one per cent a time, each state on
 /// meshes of 4, 8, 16 edges.
 void drag(Figures& figures) {
-  const Watch watch;
   for (int n : {12, 24}) {
     const Case c = circle(n);
     NestedShell shell = shell_of(c, {{4, 8, 16}, false}, 1e-3);
-    const State first = first_buckled(shell.system(0), shell.mesh(0), shell.motion(0),
-                                      parameter(0.98), {}, {}, watch)
-                            .value();
+    const State first = begun(shell);
     constexpr int moves = 19;
     bool reached = true;
     const double seconds = median(
         7,
         [&] {
           for (int k = 1; k <= moves; ++k)
-            reached &= shell.advance(parameter(0.95 - 0.01 * k), watch).end == Outcome::reached;
+            reached &= shell.advance(parameter(0.95 - 0.01 * k), unwatched).end == Outcome::reached;
         },
         [&] {
           shell.place(parameter(0.98), first);
-          shell.advance(parameter(0.95), watch);
+          shell.advance(parameter(0.95), unwatched);
         });
-    fmt::print(figures.lines(), "radius less by 1 %, {} rods, meshes 4, 8, 16: {:.2f} ms{}\n", n,
-               1e3 * seconds / moves, reached ? "" : "  NOT REACHED");
-    figures.add(fmt::format("radius less by 1 %, {} rods, ms", n), 1e3 * seconds / moves);
+    figures.tell(fmt::format("radius less by 1 %, {} rods, ms", n), 1e3 * seconds / moves,
+                 reached ? "meshes 4, 8, 16" : "NOT REACHED");
   }
 }
 
 /// Rests from random throws of every joint by up to one spacing, over meshes of 1, 2, 4 edges.
 void rests(Figures& figures) {
-  const Watch watch;
   std::setvbuf(figures.lines(), nullptr, _IOLBF, 0);
-  fmt::print(figures.lines(), "\n{:>4} {:>12} {:>8}  (random throws of one spacing)\n", "n",
-             "s per 1000", "at rest");
+  figures.say("\n{:>4} {:>12} {:>8}  (random throws of one spacing)\n", "n", "s per 1000",
+              "at rest");
   for (const auto& [n, throws] : {std::pair{8, 400}, {12, 200}, {20, 60}}) {
     const Case c = circle(n);
     MultilevelRelaxation cascade =
@@ -252,10 +219,10 @@ void rests(Figures& figures) {
     for (int k = 0; k < throws; ++k) {
       Eigen::Matrix3Xd nodes = cascade.stretched_flat(1);
       for (double& x : nodes.reshaped()) x += c.footprint.spacing * symmetric_uniform(random);
-      reached += cascade.rest(1, nodes, watch).has_value();
+      reached += cascade.rest(1, nodes, unwatched).has_value();
     }
     const double seconds = 1000 * (cpu_now() - begin) / throws, share = double(reached) / throws;
-    fmt::print(figures.lines(), "{:4} {:12.1f} {:7.1f} %\n", n, seconds, 100 * share);
+    figures.say("{:4} {:12.1f} {:7.1f} %\n", n, seconds, 100 * share);
     figures.add(fmt::format("{} rods, 1000 rests, s", n), seconds);
     figures.add(fmt::format("{} rods, at rest", n), share);
   }

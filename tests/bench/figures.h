@@ -1,12 +1,30 @@
-// What a bench measures: lines for a reader, or with --json an object for tests/bench/compare.
+// What a bench measures: CPU time; lines for a reader, or with --json an object for
+// tests/bench/compare.
 #pragma once
 
+#include <fmt/format.h>
+#include <time.h>
+
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 namespace gridshell {
+
+/// CPU time of this process, of all its threads, s.
+inline double cpu_now() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+inline double cpu_ms() { return 1e3 * cpu_now(); }
+
+inline double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
 
 /// Figures by name, the smaller the better. With --json among the arguments the lines go to stderr
 /// and the figures to stdout, as {"name": number, ...}.
@@ -25,6 +43,15 @@ class Figures {
   /// The other arguments.
   const std::vector<std::string>& words() const { return words_; }
   std::FILE* lines() const { return json_ ? stderr : stdout; }
+  template <class... Values>
+  void say(fmt::format_string<Values...> line, Values&&... values) const {
+    fmt::print(lines(), line, std::forward<Values>(values)...);
+  }
+  /// A line for a figure, with a remark on it.
+  void tell(const std::string& name, double value, const char* remark) {
+    say("{:40} {:8.2f} ({})\n", name, value, remark);
+    add(name, value);
+  }
   void add(const std::string& name, double value) { figures_[name] = value; }
 
  private:

@@ -17,6 +17,30 @@ namespace {
   std::abort();
 }
 
+/// Refused, with its reason.
+template <class T>
+bool refused(const Result<T>& result, const std::string& text) {
+  if (!result && result.error().message.empty()) complain("refused without a word", text);
+  return !result;
+}
+
+/// The first line, which is taken off.
+std::string name_before(std::string_view& bytes) {
+  const auto end = bytes.find('\n');
+  std::string name(bytes.substr(0, end));
+  bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
+  return name;
+}
+
+/// As columns.
+template <class Points>
+Eigen::Matrix3Xd columns(const Points& points) {
+  Eigen::Matrix3Xd all(3, Eigen::Index(points.size()));
+  for (Eigen::Index k = 0; k < all.cols(); ++k)
+    all.col(k) = Eigen::Vector3d::Map(points[std::size_t(k)].data());
+  return all;
+}
+
 }  // namespace
 
 void preset(std::string_view bytes) {
@@ -30,10 +54,7 @@ void preset(std::string_view bytes) {
   // no file beside it: points by name are looked for in a folder that is not there
   const auto read =
       preset::read_preset_text(std::string(bytes), "/nonexistent/x.toml", "x", overrides);
-  if (!read) {
-    if (read.error().message.empty()) complain("refused without a word", std::string(bytes));
-    return;
-  }
+  if (refused(read, std::string(bytes))) return;
   const std::string text = preset::to_toml(*read);
   const auto again = preset::read_preset_text(text, "/nonexistent/x.toml", "x");
   if (!again) complain("does not read its own text", again.error().message + "\n" + text);
@@ -47,62 +68,42 @@ void points(std::string_view bytes) {
   (void)preset::read_points(file.path(), {"family", "x"}, {{"u", "v"}, {}});
 }
 
-namespace {
-
-/// The first line, which is taken off.
-std::string name_before(std::string_view& bytes) {
-  const auto end = bytes.find('\n');
-  std::string name(bytes.substr(0, end));
-  bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
-  return name;
-}
-
-}  // namespace
-
 void cloud(std::string_view bytes) {
   const std::string name = name_before(bytes);
   const auto read = preset::read_cloud(bytes, name);
-  if (!read && read.error().message.empty()) complain("refused without a word", name);
-  if (read && !(read->cols() > 0 && read->allFinite())) complain("holds no points", name);
+  if (!refused(read, name) && !(read->cols() > 0 && read->allFinite()))
+    complain("holds no points", name);
 }
 
 void surface(std::string_view bytes) {
   constexpr std::size_t largest = 50;  // vertices: what comes after is tried by tests
   const std::string name = name_before(bytes);
   const auto read = preset::read_surface(bytes, name);
-  if (!read && read.error().message.empty()) complain("refused without a word", name);
-  if (!read) return;
+  if (refused(read, name)) return;
   if (const auto wrong = preset::surface_fault(*read); !wrong.empty())
     complain("does not agree with its own check", wrong);
   if (!read->is_mesh() || read->vertices.size() > largest) return;
-  Eigen::Matrix3Xd vertices(3, Eigen::Index(read->vertices.size()));
-  for (Eigen::Index k = 0; k < vertices.cols(); ++k)
-    vertices.col(k) = Eigen::Vector3d::Map(read->vertices[std::size_t(k)].data());
-  if (const auto mesh = TriangleMesh::make(vertices, read->triangles))
+  if (const auto mesh = TriangleMesh::make(columns(read->vertices), read->triangles))
     (void)MeshSurface::fit(*mesh, 20);
 }
 
 void network(std::string_view bytes) {
   const std::string name = name_before(bytes);
   const auto read = preset::read_network(bytes, name);
-  if (!read && read.error().message.empty()) complain("refused without a word", name);
-  if (!read) return;
+  if (refused(read, name)) return;
   if (const auto wrong = preset::network_fault(*read); !wrong.empty())
     complain("does not agree with its own check", wrong);
   const auto again = preset::read_network(preset::network_json(*read), "again.json");
   if (!again) complain("does not read its own text", again.error().message);
   if (again->rods != read->rods) complain("comes back as another network", name);
   RodNetwork rods;
-  rods.points.resize(3, Eigen::Index(read->points.size()));
-  for (Eigen::Index k = 0; k < rods.points.cols(); ++k)
-    rods.points.col(k) = Eigen::Vector3d::Map(read->points[std::size_t(k)].data());
+  rods.points = columns(read->points);
   rods.rods = read->rods;
   rods.supported.assign(read->points.size(), 0);
   rods.free = rods.supported;
   for (const auto& row : read->supports) rods.supported[std::size_t(row[0])] = 1;
   for (const int point : read->free) rods.free[std::size_t(point)] = 1;
-  if (const auto made = network_footprint(rods); !made && made.error().message.empty())
-    complain("refused without a word", name);
+  refused(network_footprint(rods), name);
 }
 
 }  // namespace gridshell::fuzz

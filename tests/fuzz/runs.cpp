@@ -61,30 +61,15 @@ constexpr std::array names{"/nodes",
                            "/parts"};
 
 hid_t some_type(Directions& in) {
-  switch (in.byte() % 8) {
-    case 0:
-      return H5Tcopy(H5T_NATIVE_DOUBLE);
-    case 1:
-      return H5Tcopy(H5T_NATIVE_INT);
-    case 2:
-      return H5Tcopy(H5T_NATIVE_FLOAT);
-    case 3: {
-      const hid_t text = H5Tcopy(H5T_C_S1);
-      H5Tset_size(text, 1 + in.byte());
-      return text;
-    }
-    case 4: {
-      const hid_t text = H5Tcopy(H5T_C_S1);
-      H5Tset_size(text, H5T_VARIABLE);
-      return text;
-    }
-    case 5:
-      return H5Tvlen_create(H5T_NATIVE_INT);
-    case 6:
-      return H5Tvlen_create(H5T_NATIVE_DOUBLE);
-    default:
-      break;
+  const auto kind = std::size_t(in.byte() % 8);
+  if (kind < 3)
+    return H5Tcopy(std::array{H5T_NATIVE_DOUBLE, H5T_NATIVE_INT, H5T_NATIVE_FLOAT}[kind]);
+  if (kind < 5) {
+    const hid_t text = H5Tcopy(H5T_C_S1);
+    H5Tset_size(text, kind == 3 ? std::size_t(1 + in.byte()) : H5T_VARIABLE);
+    return text;
   }
+  if (kind < 7) return H5Tvlen_create(kind == 5 ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE);
   const hid_t compound = H5Tcreate(H5T_COMPOUND, 40);
   H5Tinsert(compound, "i", 0, H5T_NATIVE_INT);
   H5Tinsert(compound, in.byte() % 2 ? "j" : "k", 8, H5T_NATIVE_DOUBLE);
@@ -135,20 +120,12 @@ void overwrite(hid_t file, const char* name, Directions& in) {
 
 void change(hid_t file, Directions& in) {
   const char* name = names[in.byte() % names.size()];
-  switch (in.byte() % 4) {
-    case 0:
-      H5Ldelete(file, name, H5P_DEFAULT);
-      break;
-    case 1:
-      replace(file, name, in);
-      break;
-    case 2:
-      overwrite(file, name, in);
-      break;
-    default:
-      H5Ldelete(file, name, H5P_DEFAULT);
-      H5Lcreate_soft(names[in.byte() % names.size()], file, name, H5P_DEFAULT, H5P_DEFAULT);
-  }
+  const auto way = in.byte() % 4;
+  if (way == 1) return replace(file, name, in);
+  if (way == 2) return overwrite(file, name, in);
+  H5Ldelete(file, name, H5P_DEFAULT);
+  if (way == 3)
+    H5Lcreate_soft(names[in.byte() % names.size()], file, name, H5P_DEFAULT, H5P_DEFAULT);
 }
 
 void look_at(const Trajectory& run) {

@@ -21,109 +21,110 @@ std::shared_ptr<BenchmarkProblem> small_case() {
   return made;
 }
 
-/// Runs a map; "method x y outcome" of every cell.
-std::vector<record::StabilityRow> outcomes_of(Cells cells, double seconds = 10) {
-  Watch watch;
-  StabilityOptions options;
-  options.seconds = seconds;
-  options.threads = 1;
-  REQUIRE(run_cells(cells, options, watch));
-  std::vector<record::StabilityRow> rows;
-  for (Cell& cell : cells) rows.push_back(cell.row);
-  for (const auto& row : rows)
-    UNSCOPED_INFO(row.map << " " << row.method << " " << row.x_name << " " << row.x << " "
-                          << row.y_name << " " << row.y << " " << word_of(row.outcome));
-  return rows;
-}
+/// What the cells of a map came to.
+class Map {
+ public:
+  explicit Map(Cells cells) {
+    Watch watch;
+    StabilityOptions options;
+    options.seconds = 10;
+    options.threads = 1;
+    REQUIRE(run_cells(cells, options, watch));
+    for (Cell& cell : cells) {
+      rows_.push_back(cell.row);
+      UNSCOPED_INFO(cell.row.method << " " << cell.row.x << " " << cell.row.y << " "
+                                    << word_of(cell.row.outcome));
+    }
+  }
+  RunOutcome operator()(const char* method, double x, double y) const {
+    for (const auto& row : rows_)
+      if (row.method == method && row.x == x && row.y == y) return row.outcome;
+    FAIL("no such cell");
+    return {};
+  }
+  bool right(const char* method, double x, double y) const {
+    return (*this)(method, x, y) == RunOutcome::right;
+  }
 
-RunOutcome at(const std::vector<record::StabilityRow>& rows, const std::string& method, double x,
-              double y) {
-  for (const auto& row : rows)
-    if (row.method == method && row.x == x && row.y == y) return row.outcome;
-  FAIL("no such cell");
-  return {};
-}
+ private:
+  std::vector<record::StabilityRow> rows_;
+};
 
 }  // namespace
 
 TEST_CASE("stability: the explicit integrator holds below l_min/c and blows up above") {
-  const auto rows = outcomes_of(explicit_map(small_case(), {0.5, 0.8, 1.2, 1.8}, {4}));
-  CHECK(at(rows, "explicit", 0.5, 4) == RunOutcome::right);
-  CHECK(at(rows, "explicit", 0.8, 4) == RunOutcome::right);
-  CHECK(at(rows, "explicit", 1.2, 4) == RunOutcome::blow_up);
-  CHECK(at(rows, "explicit", 1.8, 4) == RunOutcome::blow_up);
+  const Map at(explicit_map(small_case(), {0.5, 0.8, 1.2, 1.8}, {4}));
+  for (const double step : {0.5, 0.8, 1.2, 1.8})
+    CHECK(at("explicit", step, 4) == (step < 1 ? RunOutcome::right : RunOutcome::blow_up));
 }
 
 TEST_CASE("stability: dynamic relaxation holds to its limit step") {
-  const auto rows = outcomes_of(relaxation_map(small_case(), {0.95, 1.2, 1.8}, {1, 2}));
+  const Map at(relaxation_map(small_case(), {0.95, 1.2, 1.8}, {1, 2}));
   for (double edges : {1.0, 2.0}) {
-    CHECK(at(rows, "dynamic relaxation", 0.95, edges) == RunOutcome::right);
-    CHECK(at(rows, "dynamic relaxation", 1.8, edges) == RunOutcome::blow_up);
+    CHECK(at.right("dynamic relaxation", 0.95, edges));
+    CHECK(at("dynamic relaxation", 1.8, edges) == RunOutcome::blow_up);
   }
-  CHECK(at(rows, "dynamic relaxation", 1.2, 2) == RunOutcome::blow_up);
+  CHECK(at("dynamic relaxation", 1.2, 2) == RunOutcome::blow_up);
 }
 
 TEST_CASE("stability: Newton's full steps need many load steps, a shift fewer, the default none",
           "[standard]") {
   // on 2 edges a segment it hangs on round-off whether three full steps arrive
-  const auto rows = outcomes_of(newton_map(small_case(), {1, 3, 30}, {4, 8}));
+  const Map at(newton_map(small_case(), {1, 3, 30}, {4, 8}));
   for (double edges : {4.0, 8.0}) {
-    for (double steps : {1.0, 3.0, 30.0})
-      CHECK(at(rows, default_solver, steps, edges) == RunOutcome::right);
+    for (double steps : {1.0, 3.0, 30.0}) CHECK(at.right(default_solver, steps, edges));
     // in one step both come to rest elsewhere, and say nothing
-    CHECK(record::silently_wrong(at(rows, "full steps", 1, edges)));
-    CHECK(record::silently_wrong(at(rows, "shifted", 1, edges)));
-    CHECK(at(rows, "full steps", 3, edges) != RunOutcome::right);
-    CHECK(at(rows, "shifted", 3, edges) == RunOutcome::right);
+    CHECK(record::silently_wrong(at("full steps", 1, edges)));
+    CHECK(record::silently_wrong(at("shifted", 1, edges)));
+    CHECK_FALSE(at.right("full steps", 3, edges));
+    CHECK(at.right("shifted", 3, edges));
     for (const char* method : {"full steps", "line search", "shifted"})
-      CHECK(at(rows, method, 30, edges) == RunOutcome::right);
+      CHECK(at.right(method, 30, edges));
   }
 }
 
 TEST_CASE(
     "stability: without a seed Newton's method finds the planar saddle and calls it success") {
-  const auto rows = outcomes_of(seed_map(small_case(), {0, 1e-12, 10}, {2}));
+  const Map at(seed_map(small_case(), {0, 1e-12, 10}, {2}));
   for (double seed : {0.0, 1e-12}) {
-    CHECK(at(rows, "full steps", seed, 2) == RunOutcome::planar_saddle);
-    CHECK(at(rows, "line search", seed, 2) == RunOutcome::planar_saddle);
-    CHECK(at(rows, "shifted", seed, 2) != RunOutcome::planar_saddle);
-    CHECK(at(rows, default_solver, seed, 2) == RunOutcome::right);
+    CHECK(at("full steps", seed, 2) == RunOutcome::planar_saddle);
+    CHECK(at("line search", seed, 2) == RunOutcome::planar_saddle);
+    CHECK(at("shifted", seed, 2) != RunOutcome::planar_saddle);
+    CHECK(at.right(default_solver, seed, 2));
   }
 }
 
-TEST_CASE("stability: stiff rods stop full steps, not the default") {
-  const auto rows = outcomes_of(stiffness_map(small_scene(), {1, 1e4}, {3}, 2));
-  CHECK(at(rows, default_solver, 1, 3) == RunOutcome::right);
-  CHECK(at(rows, default_solver, 1e4, 3) == RunOutcome::right);
-  CHECK(at(rows, "shifted", 1, 3) == RunOutcome::right);
-  CHECK(at(rows, "full steps", 1e4, 3) != RunOutcome::right);
-}
-
-TEST_CASE("stability: legs of a hundredth of a cell stop full steps, not the default") {
-  const auto rows = outcomes_of(leg_map(small_scene(), {1e-2}, {10}, 4));
-  CHECK(at(rows, default_solver, 1e-2, 10) == RunOutcome::right);
-  CHECK(at(rows, "shifted", 1e-2, 10) == RunOutcome::right);
-  CHECK(at(rows, "full steps", 1e-2, 10) != RunOutcome::right);
+TEST_CASE(
+    "stability: stiff rods and legs of a hundredth of a cell stop full steps, not the default") {
+  const Map stiff(stiffness_map(small_scene(), {1, 1e4}, {3}, 2));
+  CHECK(stiff.right(default_solver, 1, 3));
+  CHECK(stiff.right(default_solver, 1e4, 3));
+  CHECK(stiff.right("shifted", 1, 3));
+  CHECK_FALSE(stiff.right("full steps", 1e4, 3));
+  const Map legs(leg_map(small_scene(), {1e-2}, {10}, 4));
+  CHECK(legs.right(default_solver, 1e-2, 10));
+  CHECK(legs.right("shifted", 1e-2, 10));
+  CHECK_FALSE(legs.right("full steps", 1e-2, 10));
 }
 
 TEST_CASE("stability: the default promises the tolerance of the joints, and keeps it") {
-  const auto rows = outcomes_of(tolerance_map(small_case(), {1e-4, 1e-2, 1}, {3}, 2));
+  const Map at(tolerance_map(small_case(), {1e-4, 1e-2, 1}, {3}, 2));
   int wrong = 0;
   for (double tolerance : {1e-4, 1e-2, 1.0}) {
-    CHECK(at(rows, default_solver, tolerance, 3) == RunOutcome::right);
-    wrong += at(rows, "full steps", tolerance, 3) != RunOutcome::right;
+    CHECK(at.right(default_solver, tolerance, 3));
+    wrong += !at.right("full steps", tolerance, 3);
   }
   // at which of them hangs on how sums round
   CHECK(wrong > 0);
 }
 
 TEST_CASE("stability: with spring joints full steps find another state, shifted ones do not") {
-  const auto rows = outcomes_of(joint_map(small_case(), {1, 1e6}, {3, 5}, 1));
+  const Map at(joint_map(small_case(), {1, 1e6}, {3, 5}, 1));
   for (double stiffness : {1.0, 1e6}) {
     int wrong = 0;
     for (double steps : {3.0, 5.0}) {
-      CHECK(at(rows, "shifted", stiffness, steps) == RunOutcome::right);
-      wrong += at(rows, "full steps", stiffness, steps) != RunOutcome::right;
+      CHECK(at.right("shifted", stiffness, steps));
+      wrong += !at.right("full steps", stiffness, steps);
     }
     CHECK(wrong > 0);
   }

@@ -28,8 +28,7 @@ TEST_CASE("every colouring has an action") {
 
 TEST_CASE("the colours' range is of a state, of all states, or stays as it was set") {
   for (const std::string& word : all_words<RangeOf>()) CHECK(find_action("range_" + word));
-  const render::ColourScale before{render::diverging, -2, 1},
-      now{render::diverging, -1, 3};
+  const render::ColourScale before{render::diverging, -2, 1}, now{render::diverging, -1, 3};
   CHECK(next_scale(before, now, RangeOf::state) == now);
   const render::ColourScale all = next_scale(before, now, RangeOf::run);
   CHECK((all.low == -2 && all.high == 3));

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/core/file_io.h"
+#include "tests/results.h"
 #include "tests/temporary_folder.h"
 
 using namespace gridshell;
@@ -35,22 +36,16 @@ TEST_CASE("a file that is not committed leaves the old one and no temporary") {
 TEST_CASE("errors of files name the path and the reason") {
   TemporaryFolder folder;
   const fs::path missing = folder.path() / "no" / "such" / "a.txt";
-  const auto written = write_file(missing, "x");
-  REQUIRE_FALSE(written);
-  CHECK(written.error().fault == Fault::io);
-  CHECK(written.error().message ==
+  CHECK(refusal(write_file(missing, "x"), Fault::io) ==
         "cannot write '" + missing.string() + "': No such file or directory");
 
-  const auto read = read_file(folder.path());
-  REQUIRE_FALSE(read);
-  CHECK(read.error().message == "cannot read '" + folder.path().string() + "': Is a directory");
+  CHECK(refusal(read_file(folder.path()), Fault::io) ==
+        "cannot read '" + folder.path().string() + "': Is a directory");
 
   // a file where a folder is wanted
   const fs::path file = folder.path() / "file";
   REQUIRE(write_file(file, "x"));
-  const auto made = make_folder(file / "run");
-  REQUIRE_FALSE(made);
-  CHECK(made.error().message ==
+  CHECK(refusal(make_folder(file / "run"), Fault::io) ==
         "cannot make folder '" + (file / "run").string() + "': Not a directory");
   // a folder where a file is wanted
   REQUIRE(make_folder(folder.path() / "sub" / "deep"));
@@ -63,9 +58,8 @@ TEST_CASE("a disk that fills up while writing is noticed, and the old file stays
   const fs::path path = folder.path() / "big.txt";
   REQUIRE(write_file(path, "old"));
   const FileSizeLimit limit(4096);
-  const auto written = write_file(path, std::string(100000, 'x'));
-  REQUIRE_FALSE(written);
-  CHECK(written.error().message == "cannot write '" + path.string() + "': File too large");
+  CHECK(refusal(write_file(path, std::string(100000, 'x')), Fault::io) ==
+        "cannot write '" + path.string() + "': File too large");
   CHECK(read_file(path).value() == "old");
   CHECK(folder.entries() == std::vector<std::string>{"big.txt"});
 }

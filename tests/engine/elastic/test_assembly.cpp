@@ -1,96 +1,136 @@
+// The assembly of both rungs against differences of the energy.
+#include "engine/elastic/assembly.h"
+
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/elastic/assembly.h"
-#include "engine/elastic/shell_rods.h"
+#include "tests/engine/elastic/bent_dome.h"
+#include "tests/engine/elastic/differences.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 
 namespace {
 
-struct Bent {
-  Model model;
-  Eigen::Matrix3Xd x;
-};
-
-State at(const Bent& bent, const Eigen::Matrix3Xd& x) { return start_state(bent.model, x); }
-
-/// A small dome with noise: every term of the energy is at work.
-Bent bent_shell(int edges) {
-  const Footprint net = circular_footprint(52.0, 4, 20.0, Placement::half).value();
-  Bent bent{build_model(mesh_rods(net, edges), circular_section(0.254, 83)).value(), {}};
+/// A small dome with noise: every term of the bend rung's energy is at work.
+BentDome noisy_dome(int edges) {
+  BentDome dome = bent_dome(52, 4, edges);
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
-  bent.x.resize(3, bent.model.nodes);
-  for (int k = 0; k < bent.model.nodes; ++k) {
-    const Eigen::Vector2d p = bent.model.flat.col(k);
-    bent.x.col(k) << 0.97 * p, 12 * (1 - p.squaredNorm() / 2704);
-    bent.x.col(k) += 0.05 * Eigen::Vector3d(normal(random), normal(random), normal(random));
-  }
-  return bent;
+  Eigen::Matrix3Xd x = dome.state.x;
+  for (double& value : x.reshaped()) value += 0.05 * normal(random);
+  dome.state = start_state(dome.model, x);
+  return dome;
+}
+
+const RodMaterial strip{900, 5, 12, 4, {0.02, -0.01}, 0.03};
+const RodMaterial wire{700, 6, 6, 3, {0, 0}, 0};
+const ExternalLoads outside{.load = 0.7};
+
+/// Two rods that share a node, one of them clamped, with axes and a shape at rest, sheared at the
+/// joint; a third hung on by a spring; loads and ground.
+Model sample_model() {
+  const ModelRod a{{0, 1, 2, 3, 4}, {0, 4, 9, 13, 18}, strip, RodEnd::clamped, RodEnd::pinned};
+  const ModelRod b{{5, 6, 2, 7, 8}, {0, 5, 9, 14, 18}, wire, RodEnd::tangent, RodEnd::free};
+  const ModelRod c{{9, 10, 11}, {0, 5, 10}, wire, RodEnd::free, RodEnd::pinned};
+  Model model = build_model(12, {a, b, c}, RodModel::twist).value();
+  model.springs.push_back({{3, 9, {40, 40, 40}}});
+  model.springs.push_back({{10, 8, {3, 0, 5}, Term::support}});
+  add_joint_shear(model, 0, 2, 1, 2, 7.5, 1.4);
+  add_joint_spin(model, 0, 2, 1, 2, 3.5);
+  for (int node = 0; node < 12; ++node) model.loads.push_back({node, {0, 0, -0.1}});
+  model.ground.push_back({6, {0, 0, 0}, {2, 3, 4}, {1, -1, 0.5}});
+  finish(model);
+  return model;
+}
+
+State sample_state(const Model& model) {
+  Eigen::Matrix3Xd x(3, 12);
+  x << -9, -5, 0, 4, 9, 0.1, 0, 0, 0, 4, 9, 14,  //
+      0, 0, 0, 0, 0, -9, -4, 5, 9, 0, 0, 0,      //
+      0, 1, 1.5, 1, 0, 0, 1, 1, 0, 1.2, 1, 0;
+  State state = start_state(model, x);
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  Eigen::Matrix3Xd moved = state.x;
+  for (int k = 0; k < 3 * model.nodes; ++k) moved.data()[k] += 0.3 * normal(random);
+  for (int place : model.spin) moved.data()[place] += model.spin_length * normal(random);
+  move_to(model, moved, state);
+  return state;
 }
 
 }  // namespace
 
-TEST_CASE("assembly: gradient is the derivative of the energy") {
-  Bent bent = bent_shell(3);
+TEST_CASE("assembly: gradient and Hessian are the energy's derivatives by every unknown") {
+  const BentDome dome = noisy_dome(3);
+  check_derivatives(dome.model, dome.state, {}, 1e-6, 1e-6, 1e-6);
+  const Model model = sample_model();
+  const State state = sample_state(model);
   Assembly assembly;
-  assemble_gradient(bent.model, at(bent, bent.x), {}, assembly);
-  const double h = 1e-5;
-  for (int node = 0; node < bent.model.nodes; node += 3)
-    for (int c = 0; c < 3; ++c) {
-      Eigen::Matrix3Xd x = bent.x;
-      x(c, node) += h;
-      const double up = energies_of(bent.model, at(bent, x)).total();
-      x(c, node) -= 2 * h;
-      const double down = energies_of(bent.model, at(bent, x)).total();
-      CHECK(std::abs((up - down) / (2 * h) - assembly.gradient(c, node)) <=
-            1e-6 * assembly.gradient.cwiseAbs().maxCoeff());
-    }
-}
-
-TEST_CASE("assembly: Hessian is the derivative of the gradient, in all blocks") {
-  Bent bent = bent_shell(3);
-  Assembly assembly, up, down;
-  assemble_hessian(bent.model, at(bent, bent.x), {}, {}, assembly);
-  std::mt19937 random(3);
-  std::normal_distribution<double> normal;
-  for (int trial = 0; trial < 5; ++trial) {
-    Eigen::Matrix3Xd d(3, bent.model.nodes), along;
-    for (Eigen::Index k = 0; k < d.size(); ++k) d.data()[k] = normal(random);
-    multiply(bent.model, assembly.hessian, d, along);
-    const double h = 1e-5;
-    assemble_gradient(bent.model, at(bent, bent.x + h * d), {}, up);
-    assemble_gradient(bent.model, at(bent, bent.x - h * d), {}, down);
-    const Eigen::Matrix3Xd difference = (up.gradient - down.gradient) / (2 * h);
-    CHECK((difference - along).norm() <= 1e-6 * along.norm());
+  assemble_gradient(model, state, outside, assembly);
+  const Energies alone = energies_of(model, state, outside);
+  for (const TermName& term : energy_terms) {
+    CAPTURE(term.name);
+    CHECK(assembly.energies[term.term] == Approx(alone[term.term]).epsilon(1e-13));
+    CHECK(std::abs(alone[term.term]) > 1e-6);  // every term is at work
   }
+  check_derivatives(model, state, outside, 1e-8, 1e-6, 1e-7);
 }
 
 TEST_CASE("assembly: both ways give one gradient, the mixed residual is it where N = EA strain") {
-  Bent bent = bent_shell(4);
+  const BentDome dome = noisy_dome(4);
   Assembly with_hessian, alone, mixed;
-  assemble_hessian(bent.model, at(bent, bent.x), {}, {}, with_hessian);
-  assemble_gradient(bent.model, at(bent, bent.x), {}, alone);
+  assemble_hessian(dome.model, dome.state, {}, {}, with_hessian);
+  assemble_gradient(dome.model, dome.state, {}, alone);
   CHECK((with_hessian.gradient - alone.gradient).norm() <= 1e-12 * alone.gradient.norm());
   CHECK(with_hessian.energies.total() == Approx(alone.energies.total()).epsilon(1e-14));
-  CHECK(energies_of(bent.model, at(bent, bent.x)).total() ==
+  CHECK(energies_of(dome.model, dome.state).total() ==
         Approx(alone.energies.total()).epsilon(1e-13));
-  const Eigen::Matrix3Xd any = Eigen::Matrix3Xd::Random(3, Eigen::Index(bent.model.edges.size()));
-  State state = at(bent, bent.x);
+  const Eigen::Matrix3Xd any = Eigen::Matrix3Xd::Random(3, Eigen::Index(dome.model.edges.size()));
+  State state = dome.state;
   state.force = alone.force;
-  assemble_mixed_residual(bent.model, state, {}, any, mixed);
+  assemble_mixed_residual(dome.model, state, {}, any, mixed);
   CHECK((mixed.gradient - alone.gradient).norm() <= 1e-12 * alone.gradient.norm());
 }
 
 TEST_CASE("assembly: a rigid motion costs nothing, forces and moments balance") {
-  Bent bent = bent_shell(2);
+  const BentDome dome = noisy_dome(2);
   Assembly assembly;
-  assemble_gradient(bent.model, at(bent, bent.x), {}, assembly);
+  assemble_gradient(dome.model, dome.state, {}, assembly);
   CHECK(assembly.gradient.rowwise().sum().norm() <= 1e-9 * assembly.gradient.norm());
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  for (int k = 0; k < bent.model.nodes; ++k)
-    moment += Eigen::Vector3d(bent.x.col(k)).cross(Eigen::Vector3d(assembly.gradient.col(k)));
+  for (int k = 0; k < dome.model.nodes; ++k)
+    moment += Eigen::Vector3d(dome.state.x.col(k)).cross(assembly.gradient.col(k).eval());
   CHECK(moment.norm() <= 1e-9 * assembly.gradient.norm() * 50);
+
+  const ModelRod rod{{0, 1, 2, 3}, {0, 4, 9, 13}, strip, RodEnd::free, RodEnd::free};
+  const Model model = build_model(4, {rod}, RodModel::twist).value();
+  Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Random(3, 4);
+  x.row(0) += Eigen::RowVector4d(0, 4, 9, 13);
+  const State state = start_state(model, x);
+  assemble_gradient(model, state, {}, assembly);
+  CHECK(assembly.gradient.leftCols(4).rowwise().sum().norm() < 1e-11 * assembly.gradient.norm());
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 2).normalized()).toRotationMatrix();
+  State turned = state;
+  turned.x.leftCols(4) = turn * state.x.leftCols(4);
+  turned.director = turn * state.director;
+  CHECK(energies_of(model, turned).total() ==
+        Approx(energies_of(model, state).total()).epsilon(1e-12));
+}
+
+TEST_CASE("twist model: bad rods are refused with their reason") {
+  const ModelRod rod{{0, 1, 2}, {0, 5, 10}, wire};
+  CHECK(build_model(3, {rod}, RodModel::twist));
+  const auto refused = [&](const char* reason, const auto& change) {
+    ModelRod bad = rod;
+    change(bad);
+    CHECK_THAT(refusal(build_model(3, {bad}, RodModel::twist)), Catch::Contains(reason));
+  };
+  refused("GJ", [](ModelRod& bad) { bad.material.GJ = 0; });
+  refused("EI", [](ModelRod& bad) { bad.material.EI1 = -1; });
+  refused("EA", [](ModelRod& bad) { bad.material.EA = std::nan(""); });
+  refused("ascend", [](ModelRod& bad) { bad.position = {0, 5, 5}; });
+  refused("node 7", [](ModelRod& bad) { bad.nodes = {0, 1, 7}; });
 }

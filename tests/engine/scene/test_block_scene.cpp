@@ -1,8 +1,6 @@
 // Shells of building blocks, from a preset to a certified state.
 #include <catch2/catch.hpp>
 
-#include "engine/preset/preset_file.h"
-#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -10,9 +8,7 @@ using namespace gridshell;
 namespace {
 
 preset::Preset read(const std::string& text) {
-  const auto presets = preset::read_preset_text(text, "blocks.toml", "blocks");
-  if (!presets) FAIL(presets.error().message);
-  return presets->base;
+  return value_of(preset::read_preset_text(text, "blocks.toml", "blocks")).base;
 }
 
 const std::string two_quarters = R"(
@@ -38,11 +34,7 @@ start = "net"
 
 TEST_CASE("two quarter-spheres come to rest as the hemisphere does") {
   const auto joined = run_stills(read(two_quarters)).summary;
-  preset::Preset hemisphere;
-  hemisphere.footprint.kind = preset::FootprintKind::net;
-  hemisphere.footprint.placement = preset::Placement::on_axis;
-  hemisphere.actuation.start = preset::Start::net;
-  const auto whole = run_stills(hemisphere);
+  const auto whole = run_stills(on_net());
   const double scale = run_stills(read(two_quarters)).trajectory.layout.length_scale_mm;
   CHECK(joined.stable);
   CHECK(joined.joints == whole.summary.joints);
@@ -72,10 +64,8 @@ second = "middle.west"
   // a closed end, a cylinder, and no end: its cut side is not joined
   auto open = two_quarters;
   open.replace(open.find("second = \"b.west\""), 17, "second = \"middle.west\"");
-  Watch watch;
-  auto refused = simulate::run(read(open + text.substr(0, text.find("[[join]]"))), true, watch);
-  REQUIRE_FALSE(refused);
-  CHECK_THAT(refused.error().message, Catch::Contains("is cut and not joined"));
+  CHECK_THAT(refused_run(read(open + text.substr(0, text.find("[[join]]")))),
+             Catch::Contains("is cut and not joined"));
 
   auto stadium = read(open + text.substr(0, text.find("[[join]]")) +
                       "[[join]]\nfirst = \"middle.east\"\nsecond = \"b.west\"\n");
@@ -93,8 +83,5 @@ second = "middle.west"
   stadium.actuation.start = preset::Start::flat;
   const auto flat = run_stills(stadium);
   CHECK(flat.summary.limit == record::Limit::none);
-  const Eigen::Index joints = outcome.summary.joints;
-  const Eigen::Matrix3Xd off = flat.trajectory.frames.back().nodes.leftCols(joints) -
-                               outcome.trajectory.frames.back().nodes.leftCols(joints);
-  CHECK(off.colwise().norm().maxCoeff() < 1e-3);
+  CHECK(distance(flat, outcome) < 1e-3);
 }

@@ -4,10 +4,8 @@
 
 #include "engine/formats/drawing.h"
 #include "engine/formats/network_file.h"
-#include "engine/preset/preset_file.h"
 #include "engine/record/fabrication.h"
 #include "engine/simulate/fabrication_plan.h"
-#include "engine/simulate/simulation.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -15,10 +13,7 @@ using namespace gridshell;
 namespace {
 
 preset::Preset fig1() {
-  preset::Preset p;
-  p.footprint.rods = 12;
-  p.footprint.radius_mm = 126;
-  p.actuation.radius_mm = 0.75 * 126;
+  preset::Preset p = circle(12, 126, 0.75 * 126);
   p.accuracy.edges_per_segment = 8;
   return p;
 }
@@ -49,10 +44,7 @@ preset::NetworkData as_file(const Scene& scene, double turn, double scale) {
 }
 
 Simulation open(const preset::Preset& p) {
-  auto scene = scene_of(p);
-  if (!scene) FAIL(scene.error().message);
-  const LevelPlan plan = plan_of_mesh(p.accuracy.edges_per_segment);
-  return Simulation::open(std::make_shared<const Scene>(std::move(*scene)), plan).value();
+  return value_of(Simulation::open(shared_scene(p), plan_of_mesh(p.accuracy.edges_per_segment)));
 }
 
 /// For every node of `to` the node of `from` at its place of the flat, turned.
@@ -69,17 +61,9 @@ std::vector<int> same_nodes(const RodMesh& from, const RodMesh& to, double turn)
   return nodes;
 }
 
-preset::Preset shipped(const std::string& name) {
-  const auto read =
-      preset::read_preset_file(std::string(GRIDSHELL_SOURCE_DIR) + "/presets/" + name + ".toml");
-  if (!read) FAIL(read.error().message);
-  return read->base;
-}
-
 }  // namespace
 
 TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[standard]") {
-  const Watch watch;
   Simulation circle = open(fig1());
   for (const double turn : {0.0, 0.3}) {
     preset::Preset p = fig1();
@@ -98,8 +82,8 @@ TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[st
     const auto coarse_nodes = same_nodes(circle.shell().mesh(0), network.shell().mesh(0), turn);
     const auto fine = same_nodes(circle.shell().finest(), network.shell().finest(), turn);
     for (const double shortening : {0.02, 0.05}) {
-      circle.begin_buckled(shortening, watch).value();
-      REQUIRE(circle.move_to(1, watch).end == Outcome::reached);
+      circle.begin_buckled(shortening, unwatched).value();
+      REQUIRE(circle.move_to(1, unwatched).end == Outcome::reached);
       // both begin at the same state of the coarsest mesh, a little off its rest
       const State& coarse = circle.shell().state().levels[0];
       Eigen::Matrix3Xd off = coarse.x;
@@ -108,7 +92,7 @@ TEST_CASE("the circle of Fig. 1 as a network comes to the circle's states", "[st
         const Model& model = session.shell().model(0);
         State state = start_state(model, x);
         session.shell().motion(0).impose(session.shell().system(0), 1, state);
-        const Report report = session.begin_at(1, state, watch);
+        const Report report = session.begin_at(1, state, unwatched);
         REQUIRE(report.end == Outcome::reached);
         CHECK(report.certificate.stable());
         return Eigen::Matrix3Xd(session.nodes());
@@ -143,13 +127,11 @@ TEST_CASE("a footprint drawn as DXF reads back as the same network") {
   const auto work = simulate::fabrication_plan_of(p);
   REQUIRE(scene);
   REQUIRE(work);
-  const auto read =
-      preset::read_network(exports::to_dxf(exports::footprint_drawing(*work)), "triaxial.dxf");
-  if (!read) FAIL(read.error().message);
-  p.footprint.file = *read;
-  const auto again = scene_of(p);
-  if (!again) FAIL(again.error().message);
-  const Footprint &a = scene->footprint, &b = again->footprint;
+  const auto read = value_of(
+      preset::read_network(exports::to_dxf(exports::footprint_drawing(*work)), "triaxial.dxf"));
+  p.footprint.file = read;
+  const auto again = value_of(scene_of(p));
+  const Footprint &a = scene->footprint, &b = again.footprint;
   REQUIRE(b.rods.size() == a.rods.size());
   CHECK(b.joints.size() == a.joints.size());
   CHECK(b.spacing == Approx(a.spacing).epsilon(1e-6));
@@ -158,23 +140,19 @@ TEST_CASE("a footprint drawn as DXF reads back as the same network") {
     for (std::size_t k = 0; k < a.rods[r].marks.size(); ++k)
       CHECK(b.rods[r].marks[k] == Approx(a.rods[r].marks[k]).margin(2e-3));
   }
-  CHECK((again->motion.end - scene->motion.end).cwiseAbs().maxCoeff() < 1e-5);
+  CHECK((again.motion.end - scene->motion.end).cwiseAbs().maxCoeff() < 1e-5);
 }
 
 TEST_CASE("rods with sections of their own, springs and shearing joints work on a network") {
   preset::Preset p = shipped("network_triaxial");
   auto& file = p.footprint.file;
-  const auto plain = scene_of(p);
-  REQUIRE(plain);
-  CHECK(plain->footprint.rods.size() == file.rods.size());
+  const auto plain = value_of(scene_of(p));
+  CHECK(plain.footprint.rods.size() == file.rods.size());
   file.diameters.assign(file.rods.size(), 0);
   file.diameters[2] = 2 * p.rod.diameter_mm;
-  const auto thick = scene_of(p);
-  REQUIRE(thick);
-  CHECK(thick->rods.material(2).EI1 == Approx(16 * plain->rods.material(2).EI1));
-  CHECK(thick->rods.material(1).EI1 == plain->rods.material(1).EI1);
+  const auto thick = value_of(scene_of(p));
+  CHECK(thick.rods.material(2).EI1 == Approx(16 * plain.rods.material(2).EI1));
+  CHECK(thick.rods.material(1).EI1 == plain.rods.material(1).EI1);
   file.diameters[2] = 31;
-  const auto fat = scene_of(p);
-  REQUIRE_FALSE(fat);
-  CHECK(fat.error().message.find("rods[2]: a diameter of 31 mm") != std::string::npos);
+  CHECK_THAT(refusal(scene_of(p)), Catch::Contains("rods[2]: a diameter of 31 mm"));
 }

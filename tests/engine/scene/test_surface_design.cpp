@@ -1,27 +1,17 @@
 // Footprints of surfaces that a preset gives by an expression.
 #include <catch2/catch.hpp>
 
-#include "engine/preset/preset_file.h"
 #include "engine/scene/net_design.h"
 #include "engine/scene/scene.h"
 #include "tests/engine/geometry/dome_mesh.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 
 namespace {
 
-preset::Preset on_net() {
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::net;
-  p.footprint.placement = preset::Placement::on_axis;
-  p.net.radius_mm = 120;
-  p.net.cut_height = 0.3;
-  p.actuation.start = preset::Start::net;
-  return p;
-}
-
 preset::Preset on_surface() {
-  auto p = on_net();
+  auto p = cap(0.3);
   p.net.kind = preset::NetKind::surface;
   p.net.implicit = "x^2 + y^2 + z^2 - 120^2";
   p.net.apex_mm = {0, 0, 120};
@@ -30,10 +20,7 @@ preset::Preset on_surface() {
 }
 
 void refused(const preset::Preset& p, const std::string& reason) {
-  const auto scene = scene_of(p);
-  REQUIRE_FALSE(scene.has_value());
-  INFO(scene.error().message);
-  CHECK(scene.error().message.find(reason) != std::string::npos);
+  CHECK_THAT(refusal(scene_of(p)), Catch::Contains(reason));
 }
 
 void same_scene(const Scene& here, const Scene& there) {
@@ -46,7 +33,7 @@ void same_scene(const Scene& here, const Scene& there) {
 }  // namespace
 
 TEST_CASE("a cap of a sphere by expression has the sphere's own footprint and boundary") {
-  const auto here = scene_of(on_surface()), there = scene_of(on_net());
+  const auto here = scene_of(on_surface()), there = scene_of(cap(0.3));
   REQUIRE(here.has_value());
   REQUIRE(there.has_value());
   same_scene(*here, *there);
@@ -57,9 +44,8 @@ TEST_CASE("a cap of a sphere by expression has the sphere's own footprint and bo
   other.net.height = "sqrt(120^2 - x^2 - y^2)";
   other.net.apex_mm = {0, 0};
   other.net.within = "x^2 + y^2 - 120^2 + 36^2";
-  const auto by_height = scene_of(other);
-  REQUIRE(by_height.has_value());
-  same_scene(*by_height, *there);
+  const auto by_height = value_of(scene_of(other));
+  same_scene(by_height, *there);
 }
 
 TEST_CASE("rods on a saddle leave along its principal directions, or along x") {
@@ -69,9 +55,8 @@ TEST_CASE("rods on a saddle leave along its principal directions, or along x") {
   p.net.apex_mm = {0, 0};
   p.net.within = "x^2 + y^2 - 100^2";
   const auto along = [&] {
-    const auto scene = scene_of(p);
-    REQUIRE(scene.has_value());
-    const Eigen::Vector3d way = scene->net->at(0, 0)->tangent_u;
+    const auto scene = value_of(scene_of(p));
+    const Eigen::Vector3d way = scene.net->at(0, 0)->tangent_u;
     return std::atan2(way.y(), way.x()) * 180 / M_PI;
   };
   CHECK(std::abs(along()) == Approx(45).margin(1e-3));
@@ -103,8 +88,7 @@ TEST_CASE("a surface that makes no net is refused with what is wrong") {
 
 TEST_CASE("heights and meshes of a cap have the sphere's own footprint and boundary",
           "[standard]") {
-  const auto there = scene_of(on_net());
-  REQUIRE(there.has_value());
+  const auto there = value_of(scene_of(cap(0.3)));
   auto p = on_surface();
   p.net.implicit.clear();
   p.net.apex_mm = {0, 0};
@@ -112,9 +96,8 @@ TEST_CASE("heights and meshes of a cap have the sphere's own footprint and bound
   for (const auto& v : dome.vertices.colwise())
     p.net.file.vertices.push_back({v.x(), v.y(), v.z()});
   p.net.file.triangles = dome.triangles;
-  const auto by_mesh = scene_of(p);
-  if (!by_mesh) FAIL(by_mesh.error().message);
-  same_scene(*by_mesh, *there);
+  const auto by_mesh = value_of(scene_of(p));
+  same_scene(by_mesh, there);
   // its own rim, where the surface is gone
   p.net.cut_mm = 20;
   refused(p, "the surface ends");
@@ -135,9 +118,7 @@ TEST_CASE("heights and meshes of a cap have the sphere's own footprint and bound
                                                        : 37.5 - (square - 114 * 114) / 75);
     }
   }
-  auto cap = on_net();
-  cap.net.cut_height = 0.7;
-  const auto by_grid = scene_of(p), exact = scene_of(cap);
+  const auto by_grid = scene_of(p), exact = scene_of(cap(0.7));
   if (!by_grid) FAIL(by_grid.error().message);
   same_scene(*by_grid, *exact);
 }
@@ -146,21 +127,19 @@ TEST_CASE("of a net that is refused there is a picture to draw, of another there
   auto p = on_surface();
   CHECK_FALSE(refused_net(p).has_value());
   p.net.cut_mm = -100;
-  const auto net = refused_net(p);
-  REQUIRE(net.has_value());
-  CHECK(net->lines.size() > 20);
-  CHECK(net->narrow.cols() > 10);
-  CHECK(net->end.norm() == Approx(120).margin(1e-3));
-  CHECK(net->end.z() < 0);
+  const auto net = value_of(refused_net(p));
+  CHECK(net.lines.size() > 20);
+  CHECK(net.narrow.cols() > 10);
+  CHECK(net.end.norm() == Approx(120).margin(1e-3));
+  CHECK(net.end.z() < 0);
 }
 
 TEST_CASE("a preset names the surface once, and a point of it") {
   const auto wrong = [](const std::string& net, const char* reason) {
-    const auto read = preset::read_preset_text(
-        "[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\n" + net, "p.toml", "p");
-    REQUIRE_FALSE(read.has_value());
-    INFO(read.error().message);
-    CHECK(read.error().message.find(reason) != std::string::npos);
+    CHECK_THAT(
+        refusal(preset::read_preset_text(
+            "[footprint]\nkind = \"net\"\n[net]\nkind = \"surface\"\n" + net, "p.toml", "p")),
+        Catch::Contains(reason));
   };
   wrong("", "needs an expression");
   wrong("implicit = \"x\"\nheight = \"x\"\napex_mm = [0, 0, 0]\n", "given twice");

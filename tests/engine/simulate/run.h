@@ -1,23 +1,54 @@
 // Runs of presets that must come to an outcome; where one does not, the test fails with the reason.
 #pragma once
 
-#include <catch2/catch.hpp>
-
 #include "engine/simulate/run.h"
+#include "engine/simulate/simulation.h"
+#include "tests/presets.h"
 
 namespace gridshell {
 
 /// With the frames of a movie.
 inline simulate::ExperimentResult run(const preset::Preset& preset, bool stills = false) {
   Watch watch;
-  auto outcome = simulate::run(preset, stills, watch);
-  if (!outcome) FAIL(outcome.error().message);
-  return std::move(*outcome);
+  return value_of(simulate::run(preset, stills, watch));
 }
 
 /// With the frames of a figure.
 inline simulate::ExperimentResult run_stills(const preset::Preset& preset) {
   return run(preset, true);
+}
+
+/// Why the run is refused.
+inline std::string refused_run(const preset::Preset& preset, Fault fault = Fault::bad_input) {
+  Watch watch;
+  return refusal(simulate::run(preset, false, watch), fault);
+}
+
+inline const record::Frame& last_frame(const simulate::ExperimentResult& outcome) {
+  return outcome.trajectory.frames.back();
+}
+
+/// Where the joints are at the end.
+inline Eigen::Matrix3Xd joints_of(const record::Trajectory& trajectory) {
+  return trajectory.frames.back().nodes.leftCols(Eigen::Index(trajectory.layout.joints.size()));
+}
+
+/// The largest distance of a joint at the end of two runs, mm.
+inline double distance(const simulate::ExperimentResult& a, const simulate::ExperimentResult& b) {
+  return max_column_norm(joints_of(a.trajectory) - joints_of(b.trajectory));
+}
+
+inline std::shared_ptr<const Scene> shared_scene(const preset::Preset& preset) {
+  return std::make_shared<const Scene>(value_of(scene_of(preset)));
+}
+
+/// A shell at rest beside its net, on one mesh and those that nest in it.
+inline Simulation on_its_net(std::shared_ptr<const Scene> scene, int edges) {
+  Simulation session = value_of(Simulation::open(std::move(scene), plan_of_mesh(edges)));
+  const Report begun = value_of(session.begin_on_net(unwatched));
+  CHECK(begun.end == Outcome::reached);
+  CHECK(begun.certificate.stable());
+  return session;
 }
 
 }  // namespace gridshell

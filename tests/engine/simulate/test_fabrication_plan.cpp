@@ -3,8 +3,8 @@
 
 #include "engine/footprint/mesh.h"
 #include "engine/record/fabrication.h"
-#include "engine/scene/scene.h"
 #include "engine/simulate/fabrication_plan.h"
+#include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
 using exports::CutRod;
@@ -13,36 +13,24 @@ using exports::Pin;
 
 namespace {
 
-preset::Preset paper_circle() {
-  preset::Preset preset;
-  preset.footprint.rods = 12;
-  preset.footprint.radius_mm = 126;
-  preset.footprint.spacing_mm = 20;
-  preset.actuation.radius_mm = 94.5;
-  return preset;
-}
+preset::Preset paper_circle() { return circle(12, 126, 94.5); }
 
-preset::Preset cap(double second_ring_mm) {
-  preset::Preset preset;
-  preset.footprint.kind = preset::FootprintKind::net;
-  preset.net.kind = preset::NetKind::sphere;
-  preset.net.radius_mm = 120;
-  preset.net.cut_height = 0.3;
-  preset.footprint.spacing_mm = 20;
-  preset.ends.second_ring_mm = second_ring_mm;
-  return preset;
+preset::Preset ringed_cap(double second_ring_mm) {
+  preset::Preset p = cap(0.3);
+  p.footprint.placement = preset::Placement::half;
+  p.actuation.start = preset::Start::flat;
+  p.ends.second_ring_mm = second_ring_mm;
+  return p;
 }
 
 FabricationPlan made(const preset::Preset& preset) {
-  auto work = simulate::fabrication_plan_of(preset);
-  if (!work) FAIL(work.error().message);
-  return std::move(*work);
+  return value_of(simulate::fabrication_plan_of(preset));
 }
 
 }  // namespace
 
 TEST_CASE("the cut list's total is the rest length of the model, marks are its joints") {
-  for (const auto& preset : {paper_circle(), cap(0), cap(10)}) {
+  for (const auto& preset : {paper_circle(), ringed_cap(0), ringed_cap(10)}) {
     const FabricationPlan work = made(preset);
     const Scene scene = scene_of(preset).value();
     const RodMesh mesh = mesh_rods(scene.footprint, 4);
@@ -70,7 +58,7 @@ TEST_CASE("pins lie on the actuated boundary, those of the second ring do not") 
     CHECK(pin.in_ring);
     CHECK(pin.at.head<2>().norm() == Approx(94.5).epsilon(1e-9));
   }
-  const FabricationPlan ring = made(cap(10));
+  const FabricationPlan ring = made(ringed_cap(10));
   CHECK(ring.pins.size() == 4 * ring.rods.size());
   CHECK(std::ranges::count(ring.pins, false, &Pin::in_ring) == long(2 * ring.rods.size()));
   for (const CutRod& rod : ring.rods) {
@@ -87,20 +75,17 @@ TEST_CASE("drawings of a circle: lines as long as its rods, true circles, one ho
   for (std::size_t r = 0; r < rods.lines.size(); ++r)
     CHECK((rods.lines[r].points[1] - rods.lines[r].points[0]).norm() ==
           Approx(work.rods[r].length_mm).epsilon(1e-12));
-  const auto plate = exports::plate_drawing(work);
-  REQUIRE(plate);
-  CHECK(plate->layers[0].circles.at(0).radius_mm == 94.5);
-  CHECK(plate->layers[1].circles.size() == work.pins.size());
+  const auto plate = value_of(exports::plate_drawing(work));
+  CHECK(plate.layers[0].circles.at(0).radius_mm == 94.5);
+  CHECK(plate.layers[1].circles.size() == work.pins.size());
 }
 
 TEST_CASE("a plate is refused where the edge points do not lie in a plane") {
-  preset::Preset preset = cap(0);
+  preset::Preset preset = ringed_cap(0);
   preset.net.kind = preset::NetKind::cylinder;
   preset.net.radius_mm = 100;
   preset.net.length_mm = 125;
-  const auto plate = exports::plate_drawing(made(preset));
-  REQUIRE_FALSE(plate);
-  CHECK(plate.error().message.find("no flat plate") != std::string::npos);
+  CHECK_THAT(refusal(exports::plate_drawing(made(preset))), Catch::Contains("no flat plate"));
 }
 
 TEST_CASE("legs too short to build are named in the cut list") {

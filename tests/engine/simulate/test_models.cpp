@@ -1,9 +1,11 @@
 // The rungs from a preset on: each where it is exact, against one another.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
-#include "engine/simulate/run.h"
+#include "engine/simulate/actuation.h"
 #include "tests/engine/simulate/run.h"
+#include "tests/engine/solve/rod_cases.h"
 
 using namespace gridshell;
 
@@ -11,34 +13,63 @@ namespace {
 
 constexpr double shear_GPa = 31;
 
-preset::Preset circle(int rods, int edges) {
-  preset::Preset p;
-  p.footprint.rods = rods;
-  p.footprint.radius_mm = rods * 10.5;
-  p.actuation.radius_mm = 0.85 * p.footprint.radius_mm;
+preset::Preset four_rods() {
+  preset::Preset p = circle(4, 42, 0.85 * 42);
   p.rod.shear_GPa = shear_GPa;
-  p.movie.frames = 2;
-  p.accuracy.edges_per_segment = edges;
+  p.accuracy.edges_per_segment = 4;
   return p;
 }
 
-double distance(const simulate::ExperimentResult& a, const simulate::ExperimentResult& b) {
-  const Eigen::Index joints = a.summary.joints;
-  return (a.trajectory.frames.back().nodes.leftCols(joints) -
-          b.trajectory.frames.back().nodes.leftCols(joints))
-      .colwise()
-      .norm()
-      .maxCoeff();
+/// The largest joint distance between the two rungs at rest, over the shell's scale: on the twist
+/// rung from random edge angles.
+double distance_of_rungs(preset::Preset preset, int edges) {
+  preset.accuracy.tolerance = 1e-6;
+  const auto scene = shared_scene(preset);
+  const auto bend =
+      value_of(simulate::follow_actuation(scene, plan_of_mesh(edges), false, 1, unwatched));
+  REQUIRE(bend.limit == record::Limit::none);
+  const RodMesh& mesh = bend.session.shell().finest();
+  const Eigen::Matrix3Xd& rest = bend.session.shell().state().levels.back().x;
+
+  const Model model =
+      build_model(mesh, circular_material(0.254, 83, shear_GPa), RodModel::twist).value();
+  State state = start_state(model, columns_of(mesh, model, rest));
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  Eigen::Matrix3Xd x = state.x;
+  for (int node = 0; node < mesh.joints; ++node)  // and off the bend rung's rest
+    x.col(node) += 0.2 * Eigen::Vector3d(normal(random), normal(random), normal(random));
+  move_to(model, x, state);
+  turn_edges(model, random, state);
+  CHECK(energies_of(model, state)[Term::twist] > bend.session.energies()[Term::bend]);
+  Linearisation system(model);
+  settle(system, state);
+  CHECK(energies_of(model, state)[Term::twist] < 1e-12);
+  return max_column_norm(state.x.leftCols(mesh.joints) - rest.leftCols(mesh.joints)) /
+         scene->length_scale_mm;
 }
 
 }  // namespace
 
+TEST_CASE("twist rung: hemisphere, saddle and circle from random angles are the bend rung's") {
+  preset::Preset fig1 = circle(12, 126, 0.9 * 126);
+  fig1.imperfection.size = 0;
+  for (const preset::Preset& preset : {on_net(), spool(), fig1})
+    CHECK(distance_of_rungs(preset, 4) < 1e-8);
+}
+
+TEST_CASE("twist rung: the circle from random angles is the bend rung's, 16 edges", "[standard]") {
+  preset::Preset fig1 = circle(12, 126, 0.9 * 126);
+  fig1.imperfection.size = 0;
+  CHECK(distance_of_rungs(fig1, 16) < 1e-7);
+}
+
 TEST_CASE("a circle on the twist rung ends where it does on the bend rung, without twist") {
-  preset::Preset p = circle(4, 4);
+  preset::Preset p = four_rods();
   p.accuracy.tolerance = 1e-6;
-  const simulate::ExperimentResult bend = run(p);
+  const auto bend = run(p);
   p.accuracy.model = RodModel::twist;
-  const simulate::ExperimentResult twist = run(p);
+  const auto twist = run(p);
   CHECK(bend.summary.model == "bend");
   CHECK(twist.summary.model == "twist");
   CHECK(twist.summary.stable);
@@ -51,39 +82,36 @@ TEST_CASE("a circle on the twist rung ends where it does on the bend rung, witho
 }
 
 TEST_CASE("loads on the bend rung are those of the twist rung, and lower the shell") {
-  preset::Preset p = circle(4, 4);
+  preset::Preset p = four_rods();
   p.accuracy.tolerance = 1e-6;
-  const simulate::ExperimentResult unloaded = run(p);
+  const auto unloaded = run(p);
   p.rod.density_kg_m3 = 6450;
   p.loads.gravity_m_s2 = 200;
   p.loads.points = {{0, 0, 0, 0.01, -0.02}};
-  const simulate::ExperimentResult bend = run(p);
+  const auto bend = run(p);
   CHECK(bend.summary.model == "bend");
   CHECK(bend.summary.stable);
   const auto lowered = [](const simulate::ExperimentResult& outcome) {
-    return outcome.trajectory.frames.back().nodes.row(2).leftCols(outcome.summary.joints).sum();
+    return last_frame(outcome).nodes.row(2).leftCols(outcome.summary.joints).sum();
   };
   CHECK(lowered(bend) < lowered(unloaded) - 0.5);
   CHECK(bend.trajectory.frames.front().residual_N < 1e-9);  // no load on the flat
   p.accuracy.model = RodModel::twist;
   CHECK(distance(bend, run(p)) < 1e-6 * p.footprint.radius_mm);
   p.loads.points = {{7, 0, 0, 0, 1}};
-  Watch watch;
-  const auto refused = simulate::run(p, false, watch);
-  REQUIRE_FALSE(refused);
-  CHECK(refused.error().fault == Fault::bad_input);
-  CHECK(refused.error().message == "[loads] points: the footprint has no joint [7, 0]");
+  CHECK(refused_run(p) == "[loads] points: the footprint has no joint [7, 0]");
 }
 
-TEST_CASE("spring joints from a preset come to the shared ones as they stiffen") {
-  preset::Preset p = circle(4, 4);
+TEST_CASE("spring joints come to the shared ones as they stiffen, on both rungs") {
+  preset::Preset p = four_rods();
+  p.accuracy.model = GENERATE(RodModel::bend, RodModel::twist);
   p.accuracy.tolerance = 1e-5;
-  const simulate::ExperimentResult shared = run(p);
+  const auto shared = run(p);
   p.joints.kind = preset::JointKind::spring;
   double before = 0;
   for (double stiffness : {1.0, 10.0, 100.0}) {
     p.joints.stiffness_N_per_mm = stiffness;
-    const simulate::ExperimentResult spring = run(p);
+    const auto spring = run(p);
     CHECK(spring.summary.stable);
     const double off = distance(shared, spring);
     CAPTURE(stiffness, off);
@@ -93,11 +121,11 @@ TEST_CASE("spring joints from a preset come to the shared ones as they stiffen")
 }
 
 TEST_CASE("joints that pass twist twist the rods, the more the stiffer they are") {
-  preset::Preset p = circle(4, 4);
+  preset::Preset p = four_rods();
   double before = 0;
   for (double stiffness : {0.05, 0.5, 5.0}) {
     p.joints.twist_Nmm = stiffness;
-    const simulate::ExperimentResult outcome = run(p);
+    const auto outcome = run(p);
     CHECK(outcome.summary.stable);
     CHECK(outcome.summary.energies[Term::twist] > 1.2 * before);
     CHECK(outcome.summary.energies[Term::twist] > 1e-4);
@@ -105,34 +133,32 @@ TEST_CASE("joints that pass twist twist the rods, the more the stiffer they are"
   }
 }
 
-TEST_CASE("a cylinder with clamped ends is its net, to second order, with rods that are twisted") {
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::net;
-  p.net.kind = preset::NetKind::cylinder;
-  p.net.radius_mm = 60;
-  p.net.length_mm = 280;
-  p.actuation.start = preset::Start::net;
-  p.rod.shear_GPa = shear_GPa;
-  p.ends.kind = preset::EndKind::clamped;
-  p.movie.frames = 2;
-  double before = 0;
-  for (int edges : {4, 8}) {
-    p.accuracy.edges_per_segment = edges;
-    const record::Summary s = run(p).summary;
-    CHECK(s.model == "twist");
-    CHECK(s.stable);
-    CHECK(s.energies[Term::twist] > 0.02);
-    if (before > 0) CHECK(std::log2(before / s.max_deviation) == Approx(2).margin(0.15));
-    before = s.max_deviation;
+TEST_CASE("a cylinder whose ends are held along the helices is its net, to second order") {
+  // held against spin as well its rods are twisted
+  for (const auto hold : {preset::EndKind::tangent, preset::EndKind::clamped}) {
+    const bool clamped = hold == preset::EndKind::clamped;
+    preset::Preset p = on_net(preset::NetKind::cylinder, clamped ? 60 : 80, clamped ? 280 : 200);
+    if (clamped) p.footprint.placement = preset::Placement::half, p.rod.shear_GPa = shear_GPa;
+    p.ends.kind = hold;
+    double before = 0;
+    for (int edges = 4; edges <= (clamped ? 8 : 16); edges *= 2) {
+      p.accuracy.edges_per_segment = edges;
+      const record::Summary s = run(p).summary;
+      CHECK(s.model == (clamped ? "twist" : "bend"));
+      CHECK(s.stable);
+      CHECK((s.energies[Term::twist] > 0.02) == clamped);
+      if (before > 0) CHECK(std::log2(before / s.max_deviation) == Approx(2).margin(0.15));
+      before = s.max_deviation;
+    }
+    CHECK(before < 1e-4);
   }
-  CHECK(before < 1e-4);
 }
 
 TEST_CASE("a strip lies down or stands up, and an arched rod rises by itself") {
-  preset::Preset p = circle(4, 4);
+  preset::Preset p = four_rods();
   const double round = run(p).summary.height_mm;
   p.rod.curvature_per_mm = 0.005;
-  const simulate::ExperimentResult arched = run(p);
+  const auto arched = run(p);
   CHECK(arched.summary.stable);
   // curved as the dome is, it has less to bend; in the flat it is not at rest straight
   CHECK(arched.trajectory.frames.front().height_mm > 0.01);
@@ -144,7 +170,7 @@ TEST_CASE("a strip lies down or stands up, and an arched rod rises by itself") {
   p.rod.curvature_per_mm = 0;
   p.rod.width_mm = 0.5;
   p.rod.thickness_mm = 0.15;
-  const simulate::ExperimentResult flat = run(p);
+  const auto flat = run(p);
   CHECK(flat.summary.stable);
   CHECK(flat.summary.energies[Term::twist] > 1e-3);
   CHECK(flat.summary.height_mm != Approx(round).epsilon(1e-3));
@@ -155,7 +181,7 @@ TEST_CASE("the net rung says that nothing was solved for") {
   p.footprint.kind = preset::FootprintKind::net;
   p.accuracy.tolerance = 0.05;
   p.movie.frames = 3;
-  const simulate::ExperimentResult net = run(p);
+  const auto net = run(p);
   CHECK(net.summary.model == "net");
   CHECK_FALSE(net.summary.solved);
   CHECK(net.summary.limit == record::Limit::none);
@@ -179,7 +205,7 @@ TEST_CASE("a push that snaps is followed in time to the rest that ends it", "[st
   p.indentation.depth_mm = 36;
   p.dynamics.snap = true;
   p.movie.frames = 10;
-  const simulate::ExperimentResult outcome = run(p);
+  const auto outcome = run(p);
   CHECK(outcome.summary.limit == record::Limit::snap);
   CHECK(outcome.summary.stable);
   CHECK(outcome.summary.residual_N < 1e-6);

@@ -3,20 +3,12 @@
 #include <catch2/catch.hpp>
 #include <numbers>
 
-#include "engine/preset/preset_file.h"
 #include "engine/simulate/actuation.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
 
 namespace {
-
-preset::Preset shipped() {
-  const auto read =
-      preset::read_preset_file(std::string(GRIDSHELL_SOURCE_DIR) + "/presets/network_space.toml");
-  if (!read) FAIL(read.error().message);
-  return read->base;
-}
 
 preset::Preset network(const preset::NetworkData& file, int edges) {
   preset::Preset p;
@@ -49,7 +41,7 @@ preset::NetworkData turned(preset::NetworkData file, const Eigen::Matrix3d& by) 
 
 /// The shipped vault, every foot with the place that it goes to.
 preset::NetworkData vault(double scale) {
-  preset::NetworkData file = shipped().footprint.file;
+  preset::NetworkData file = shipped("network_space").footprint.file;
   for (std::size_t k = 0; k < file.points.size(); ++k) {
     const auto& at = file.points[k];
     if (at[2] == 0) file.supports.push_back({double(k), scale * at[0], scale * at[1], 0});
@@ -63,8 +55,8 @@ TEST_CASE("a tent of two rods drawn in space rests as the arches that a flat cro
   const double a = 50, foot = 0.9 * a, height = std::sqrt(a * a - foot * foot);
   preset::Preset flat = network(cross(a, 0), 8);
   flat.actuation.scale = 0.9;
-  const simulate::ExperimentResult actuated = run(flat);
-  const simulate::ExperimentResult relaxed = run(network(cross(foot, height), 8));
+  const auto actuated = run(flat);
+  const auto relaxed = run(network(cross(foot, height), 8));
   CHECK(relaxed.summary.stable);
   CHECK(relaxed.summary.limit == record::Limit::none);
   CHECK(relaxed.summary.energies[Term::bend] ==
@@ -73,14 +65,13 @@ TEST_CASE("a tent of two rods drawn in space rests as the arches that a flat cro
   // a level one is the flat one, at any height
   preset::NetworkData raised = cross(a, 0);
   for (auto& point : raised.points) point[2] = 7;
-  const auto scene = scene_of(network(raised, 8));
-  REQUIRE(scene);
-  CHECK_FALSE(scene->drawn_in_space);
-  CHECK(mesh_rods(scene->footprint, 8).height.size() == 0);
+  const auto scene = value_of(scene_of(network(raised, 8)));
+  CHECK_FALSE(scene.drawn_in_space);
+  CHECK(mesh_rods(scene.footprint, 8).height.size() == 0);
 }
 
 TEST_CASE("a vault drawn in space is the same however it is turned, moved supports and all") {
-  const simulate::ExperimentResult upright = run(network(vault(0.92), 4));
+  const auto upright = run(network(vault(0.92), 4));
   CHECK(upright.summary.stable);
   CHECK(upright.summary.limit == record::Limit::none);
   // from the rest as drawn on: every frame is certified
@@ -92,7 +83,7 @@ TEST_CASE("a vault drawn in space is the same however it is turned, moved suppor
     CHECK(frame.negative_pivots == 0);
   }
   // the feet moved by keys are those moved by the file
-  preset::Preset scaled = shipped();
+  preset::Preset scaled = shipped("network_space");
   scaled.accuracy.edges_per_segment = 4;
   CHECK(run_stills(scaled).summary.energies[Term::bend] ==
         Approx(upright.summary.energies[Term::bend]).epsilon(1e-9));
@@ -100,7 +91,7 @@ TEST_CASE("a vault drawn in space is the same however it is turned, moved suppor
     const Eigen::Matrix3d by =
         Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Eigen::Vector3d(1, 0.3, 0).normalized())
             .toRotationMatrix();
-    const simulate::ExperimentResult other = run(network(turned(vault(0.92), by), 4));
+    const auto other = run(network(turned(vault(0.92), by), 4));
     CAPTURE(degrees, other.summary.limit_reason);
     CHECK(other.summary.stable);
     CHECK(other.summary.energies[Term::bend] ==
@@ -109,15 +100,12 @@ TEST_CASE("a vault drawn in space is the same however it is turned, moved suppor
 }
 
 TEST_CASE("what a network in space cannot have is refused with the reason") {
-  const auto refusal = [](const preset::Preset& p) {
-    const auto scene = scene_of(p);
-    return scene ? "none" : scene.error().message;
-  };
-  preset::Preset p = shipped();
+  preset::Preset p = shipped("network_space");
   p.ends.kind = preset::EndKind::tangent;
-  CHECK_THAT(refusal(p), Catch::Contains("[ends] kind") && Catch::Contains("drawn in space"));
-  p = shipped();
+  CHECK_THAT(refusal(scene_of(p)),
+             Catch::Contains("[ends] kind") && Catch::Contains("drawn in space"));
+  p = shipped("network_space");
   p.rod.shear_GPa = 30;
   p.accuracy.model = RodModel::twist;
-  CHECK_THAT(refusal(p), Catch::Contains("bend rung alone"));
+  CHECK_THAT(refusal(scene_of(p)), Catch::Contains("bend rung alone"));
 }

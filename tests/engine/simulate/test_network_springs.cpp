@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include "engine/footprint/symmetry.h"
-#include "engine/preset/preset_file.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/simulation.h"
 #include "tests/engine/simulate/run.h"
@@ -13,12 +12,7 @@ using simulate::frame_of;
 
 namespace {
 
-preset::Preset triaxial() {
-  const auto read = preset::read_preset_file(std::string(GRIDSHELL_SOURCE_DIR) +
-                                             "/presets/network_triaxial.toml");
-  if (!read) FAIL(read.error().message);
-  return read->base;
-}
+preset::Preset triaxial() { return shipped("network_triaxial"); }
 
 /// Every end of the triaxial dome on a spring; what a file says nothing of is a support.
 preset::Preset on_springs(const Eigen::Vector3d& k) {
@@ -33,13 +27,9 @@ preset::Preset on_springs(const Eigen::Vector3d& k) {
 }
 
 Simulation formed(const preset::Preset& p, const LevelPlan& plan, double shortening = 0.02) {
-  auto scene = scene_of(p);
-  if (!scene) FAIL(scene.error().message);
-  const Watch watch;
-  Simulation session =
-      Simulation::open(std::make_shared<const Scene>(std::move(*scene)), plan).value();
-  REQUIRE(session.begin_buckled(shortening, watch).value().end == Outcome::reached);
-  REQUIRE(session.move_to(1, watch).end == Outcome::reached);
+  Simulation session = value_of(Simulation::open(shared_scene(p), plan));
+  REQUIRE(value_of(session.begin_buckled(shortening, unwatched)).end == Outcome::reached);
+  REQUIRE(session.move_to(1, unwatched).end == Outcome::reached);
   CHECK(session.certificate().stable());
   CHECK(session.certificate().residual_N < 1e-6);
   return session;
@@ -82,19 +72,18 @@ TEST_CASE("forces of springs are k times what the ends stay behind, and balance"
   Simulation session = formed(on_springs(k), {{4, 8}, false});
   const record::Frame frame = frame_of(session);
   const RodMesh& mesh = session.shell().finest();
-  const auto layout = simulate::layout_of(session.scene(), mesh);
-  REQUIRE(layout);
+  const auto layout = value_of(simulate::layout_of(session.scene(), mesh));
   const Eigen::Matrix3Xd& goes_to = session.scene().motion.end;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), moment = sum;
   double energy = 0, largest = 0, furthest = 0;
   int ends = 0;
-  for (std::size_t s = 0; s < layout->supports.size(); ++s) {
+  for (std::size_t s = 0; s < layout.supports.size(); ++s) {
     const Eigen::Vector3d force = frame.reactions_N.col(Eigen::Index(s));
-    const Eigen::Vector3d at = frame.nodes.col(layout->supports[s]);
+    const Eigen::Vector3d at = frame.nodes.col(layout.supports[s]);
     sum += force;
     moment += at.cross(force);
     largest = std::max(largest, force.norm());
-    const int end = layout->supports[s] - mesh.joints;
+    const int end = layout.supports[s] - mesh.joints;
     if (end < 0 || end >= mesh.edge_points) continue;
     ++ends;
     const Eigen::Vector3d behind = goes_to.col(end) - at;
@@ -137,7 +126,7 @@ TEST_CASE("a joint inside rods on a spring gives way, and may be pushed") {
   CHECK(height > 1);
   CHECK((reaction() - Eigen::Vector3d(0, 0, -1e-4 * height)).norm() < 1e-9);
   // pushed by the hand: what holds it is hand and spring
-  REQUIRE(session.push(joint, {0, 0, -0.5}, Across::free, Watch()).end == Outcome::reached);
+  REQUIRE(session.push(joint, {0, 0, -0.5}, Across::free, unwatched).end == Outcome::reached);
   CHECK(session.nodes()(2, joint) == Approx(height - 0.5));
   CHECK(reaction().z() ==
         Approx(session.force(0).z() - 1e-4 * session.nodes()(2, joint)).epsilon(1e-6));
@@ -145,10 +134,9 @@ TEST_CASE("a joint inside rods on a spring gives way, and may be pushed") {
 
 TEST_CASE("symmetries of a mesh keep what is held, and how stiffly") {
   const auto count = [](const preset::Preset& p) {
-    const auto scene = scene_of(p);
-    if (!scene) FAIL(scene.error().message);
-    const RodMesh mesh = mesh_rods(scene->footprint, 4);
-    return symmetries_of(mesh, pinned_motion(mesh, scene->motion).at(1)).size();
+    const auto scene = value_of(scene_of(p));
+    const RodMesh mesh = mesh_rods(scene.footprint, 4);
+    return symmetries_of(mesh, pinned_motion(mesh, scene.motion).at(1)).size();
   };
   const std::size_t all = count(triaxial());
   CHECK(all > 1);

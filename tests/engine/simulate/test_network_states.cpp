@@ -3,30 +3,26 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "engine/preset/preset_file.h"
 #include "engine/study/state_library.h"
 #include "engine/study/state_measures.h"
+#include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
 
 namespace {
 
-preset::Preset shipped(const std::string& name, preset::SearchMode mode, int trials) {
-  const auto read =
-      preset::read_preset_file(std::string(GRIDSHELL_SOURCE_DIR) + "/presets/" + name + ".toml");
-  if (!read) FAIL(read.error().message);
-  preset::Preset p = read->base;
+preset::Preset searched(const std::string& name, preset::SearchMode mode, int trials) {
+  preset::Preset p = shipped(name);
   p.jitter.mode = mode;
   p.jitter.trials = trials;
   return p;
 }
 
-study::StateLibrary states_of(const preset::Preset& preset) {
-  const auto scene = std::make_shared<const Scene>(scene_of(preset).value());
+simulate::StateLibrary states_of(const preset::Preset& preset) {
   Watch watch;
-  auto found = study::find_states(scene, preset.jitter, {.threads = 2}, watch);
-  if (!found) FAIL(found.error().message);
-  return std::move(*found);
+  auto found =
+      value_of(simulate::find_states(shared_scene(preset), preset.jitter, {.threads = 2}, watch));
+  return found;
 }
 
 void check(const study::StateLibrary& library, int trials) {
@@ -54,22 +50,17 @@ TEST_CASE("states of shipped networks are found, stable and in the order of ener
     for (const auto mode :
          {preset::SearchMode::random, preset::SearchMode::gravity, preset::SearchMode::poke}) {
       CAPTURE(name, int(mode));
-      check(states_of(shipped(name, mode, 6)), 6);
+      check(states_of(searched(name, mode, 6)), 6);
     }
 }
 
 TEST_CASE("a shell has the symmetries that take rods to rods of their kind") {
-  preset::Preset p = shipped("network_triaxial", preset::SearchMode::random, 1);
-  const RodMesh mesh = [&] {
-    const auto scene = scene_of(p);
-    if (!scene) FAIL(scene.error().message);
-    return mesh_rods(scene->footprint, 4);
-  }();
+  preset::Preset p = shipped("network_triaxial");
+  const RodMesh mesh = mesh_rods(value_of(scene_of(p)).footprint, 4);
   const auto symmetries = [&] {
-    const auto scene = scene_of(p);
-    if (!scene) FAIL(scene.error().message);
-    return study::symmetries_of_shell(
-        *scene, mesh, symmetries_of(mesh, pinned_motion(mesh, scene->motion).at(1)));
+    const Scene scene = value_of(scene_of(p));
+    return simulate::symmetries_of_shell(
+        scene, mesh, symmetries_of(mesh, pinned_motion(mesh, scene.motion).at(1)));
   };
   const auto keeps = [&](const MeshSymmetry& symmetry, std::size_t rod) {
     std::set<int> there, nodes(mesh.rods[rod].begin(), mesh.rods[rod].end());

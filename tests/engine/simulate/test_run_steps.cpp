@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "engine/preset/preset_file.h"
-#include "engine/simulate/run.h"
 #include "tests/engine/simulate/run.h"
 #include "tests/small_shell.h"
 
@@ -62,7 +60,7 @@ TEST_CASE("a push let go is the shell before, and every step says what it came t
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), of(StepKind::release)};
   preset.movie.frames = 6;
-  const simulate::ExperimentResult outcome = run(preset);
+  const auto outcome = run(preset);
   const auto& frames = outcome.trajectory.frames;
   REQUIRE(frames.size() == 6);
   CHECK(outcome.summary.limit == record::Limit::none);
@@ -95,7 +93,7 @@ TEST_CASE("a push is as deep as it is asked to be, however many meshes follow") 
   preset.movie.frames = 3;
   for (const double depth : {0.5, 4.0}) {
     preset.step = {push(0, 0, depth)};
-    const simulate::ExperimentResult finished = run(preset);
+    const auto finished = run(preset);
     CAPTURE(depth, finished.summary.limit_reason);
     REQUIRE(finished.summary.edges_per_segment > 4);
     CHECK(finished.trajectory.frames.back().depth_mm == Approx(depth).epsilon(1e-6));
@@ -105,9 +103,9 @@ TEST_CASE("a push is as deep as it is asked to be, however many meshes follow") 
 TEST_CASE("frames only sample the steps, which end where they end") {
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, 3), move(0.9), push(1, -1, 2)};
-  const simulate::ExperimentResult few = run(preset);
+  const auto few = run(preset);
   preset.movie.frames = 17;
-  const simulate::ExperimentResult many = run(preset);
+  const auto many = run(preset);
   CHECK(few.trajectory.frames.size() == 4);
   CHECK(many.trajectory.frames.size() == 17);
   CHECK(difference(few.trajectory.frames.back(), many.trajectory.frames.back()) == 0);
@@ -134,7 +132,7 @@ TEST_CASE("loads, a held joint, edge points, a jitter and a rest are steps") {
   edge.edge_points = {{3, 1.5, -1, 0}};
   preset.step = {
       light, hold, edge, of(StepKind::release), of(StepKind::jitter), of(StepKind::rest)};
-  const simulate::ExperimentResult outcome = run(preset);
+  const auto outcome = run(preset);
   const auto& frames = outcome.trajectory.frames;
   REQUIRE(frames.size() == 7);
   CHECK(frames[0].energies[Term::load] != 0);
@@ -150,7 +148,7 @@ TEST_CASE("a step that ends early ends the run, and both say so") {
   preset::Preset preset = small_shell_on_four_edges();
   preset.step = {push(0, 0, -60),
                  of(StepKind::release)};  // outward, further than the rods are long
-  const simulate::ExperimentResult outcome = run(preset);
+  const auto outcome = run(preset);
   CHECK(outcome.summary.limit == record::Limit::locking);
   CHECK_THAT(outcome.summary.limit_reason, Catch::StartsWith("step 1 (push [0, 0]): "));
   REQUIRE(outcome.summary.steps.size() == 1);
@@ -162,17 +160,13 @@ TEST_CASE("steps on what is not there are errors with their number") {
   preset::Preset preset = small_shell_on_four_edges();
   const auto refused = [&](const preset::Step& step) {
     preset.step = {move(0.95), step};
-    Watch watch;
-    const auto outcome = simulate::run(preset, false, watch);
-    return outcome ? std::string() : outcome.error().message;
+    return refused_run(preset);
   };
   CHECK_THAT(refused(push(40, 0, 1)), Catch::Contains("[[step]] 2") &&
                                           Catch::Contains("joint = [40, 0]: the footprint has no"));
   CHECK_THAT(refused(of(StepKind::release)), Catch::Contains("[[step]] 2: no joint is held"));
   // which `check` says as well
-  const auto plan = simulate::plan(preset);
-  REQUIRE_FALSE(plan);
-  CHECK_THAT(plan.error().message, Catch::StartsWith("[[step]] 2: no joint is held"));
+  CHECK_THAT(refusal(simulate::plan(preset)), Catch::StartsWith("[[step]] 2: no joint is held"));
   preset::Step edge = of(StepKind::move);
   edge.edge_points = {{400, 1, 0, 0}};
   CHECK_THAT(refused(edge), Catch::Contains("there is no edge point 400, they go from 0 to 23"));

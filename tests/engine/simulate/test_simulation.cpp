@@ -8,25 +8,23 @@
 #include <thread>
 
 #include "engine/core/system_info.h"
+#include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
 
 namespace {
 
 preset::Preset six_rods(double tolerance, RodModel model = RodModel::bend) {
-  preset::Preset p;
+  preset::Preset p = circle(6, 66, 0.8 * 66);
   p.accuracy.model = model;
   if (model == RodModel::twist) p.rod.shear_GPa = 31;
-  p.footprint.rods = 6;
-  p.footprint.radius_mm = 20 * (2.5 + 0.8);
-  p.actuation.radius_mm = 0.8 * p.footprint.radius_mm;
   p.rod.density_kg_m3 = 6450;
   p.accuracy.tolerance = tolerance;
   return p;
 }
 
 std::shared_ptr<const Scene> scene(double tolerance = 1e-3, RodModel model = RodModel::bend) {
-  return std::make_shared<const Scene>(scene_of(six_rods(tolerance, model)).value());
+  return shared_scene(six_rods(tolerance, model));
 }
 
 Simulation open(const std::shared_ptr<const Scene>& scene) {
@@ -35,9 +33,8 @@ Simulation open(const std::shared_ptr<const Scene>& scene) {
 
 Simulation actuated(const std::shared_ptr<const Scene>& scene) {
   Simulation session = open(scene);
-  const Watch watch;
-  REQUIRE(session.begin_buckled(0.02, watch).value().end == Outcome::reached);
-  REQUIRE(session.move_to(1, watch).end == Outcome::reached);
+  REQUIRE(session.begin_buckled(0.02, unwatched).value().end == Outcome::reached);
+  REQUIRE(session.move_to(1, unwatched).end == Outcome::reached);
   return session;
 }
 
@@ -70,7 +67,6 @@ TEST_CASE("a session goes through all that a hand does, and back by its checkpoi
   CAPTURE(word_of(model));
   const auto shell = scene(1e-3, model);
   Simulation session = open(shell);
-  const Watch watch;
   std::vector<Checkpoint> kept;
   std::vector<Eigen::Matrix3Xd> nodes;
   std::vector<double> energies;
@@ -80,29 +76,29 @@ TEST_CASE("a session goes through all that a hand does, and back by its checkpoi
     nodes.push_back(session.nodes());
     energies.push_back(session.energies().total());
   };
-  keep(session.begin_buckled(0.02, watch).value());
-  keep(session.move_to(1, watch));
-  keep(session.move_edge_points(ellipse(*shell), watch));
+  keep(session.begin_buckled(0.02, unwatched).value());
+  keep(session.move_to(1, unwatched));
+  keep(session.move_edge_points(ellipse(*shell), unwatched));
   const Eigen::Vector3d down(0, 0, -0.4);
-  keep(session.push(7, down, Across::free, watch));
+  keep(session.push(7, down, Across::free, unwatched));
   CHECK((session.nodes().col(7) - nodes[2].col(7)).z() == Approx(-0.4).margin(1e-2));
-  keep(session.push(12, down, Across::held, watch));
+  keep(session.push(12, down, Across::held, unwatched));
   CHECK(session.holds().size() == 2);
   CHECK(std::abs(session.force(0).z()) > 1e-4);
-  keep(session.release(7, watch));
+  keep(session.release(7, unwatched));
   CHECK(session.holds().size() == 1);
-  keep(session.release(12, watch));
+  keep(session.release(12, unwatched));
   CHECK(session.holds().empty());
   // let go, it is where it was before it was pushed
   CHECK(max_column_norm(session.nodes() - nodes[2]) < 1e-3);
   std::vector<NodeAction> field;
   for (int joint = 0; joint < 12; ++joint) field.push_back({joint, {0, 2e-5, -1e-4}});
-  keep(session.set_field(field, watch));
+  keep(session.set_field(field, unwatched));
   CHECK(max_column_norm(session.nodes() - nodes[2]) > 1e-2);
   CHECK(session.energies()[Term::load] != 0);
-  keep(session.rest(watch));
+  keep(session.rest(unwatched));
   CHECK(max_column_norm(session.nodes() - nodes[7]) < 1e-4);
-  keep(session.set_field({}, watch));
+  keep(session.set_field({}, unwatched));
   CHECK(max_column_norm(session.nodes() - nodes[2]) < 1e-3);
 
   for (std::size_t k = kept.size(); k-- > 0;) {
@@ -114,27 +110,25 @@ TEST_CASE("a session goes through all that a hand does, and back by its checkpoi
   }
   // and on from there as before
   session.restore(kept[1]);
-  certified(session, session.move_edge_points(ellipse(*shell), watch));
+  certified(session, session.move_edge_points(ellipse(*shell), unwatched));
   CHECK(max_column_norm(session.nodes() - nodes[2]) < 1e-6);
 }
 
 TEST_CASE("a session refines on request and takes other rods from where it is") {
   const auto shell = scene(1e-2);
   Simulation session = actuated(shell);
-  const Watch watch;
   const double coarse = session.certificate().error_estimate_mm;
   const Checkpoint before = session.save();
-  certified(session, session.refine(1e-2 * coarse, watch));
+  certified(session, session.refine(1e-2 * coarse, unwatched));
   CHECK(session.certificate().error_estimate_mm <= 1e-2 * coarse);
   session.restore(before);
   CHECK(session.certificate().error_estimate_mm == coarse);
   const double bend = session.energies()[Term::bend];
-  const auto thicker = session.set_rods(circular_section(0.3, 83), watch);
-  REQUIRE(thicker);
-  certified(session, *thicker);
+  const auto thicker = value_of(session.set_rods(circular_section(0.3, 83), unwatched));
+  certified(session, thicker);
   CHECK(session.energies()[Term::bend] == Approx(bend * std::pow(0.3 / 0.254, 4)).epsilon(1e-2));
-  CHECK_FALSE(session.set_rods(RodSection{-1, 1}, watch));
-  certified(session, session.move_to(0.95, watch));
+  CHECK_FALSE(session.set_rods(RodSection{-1, 1}, unwatched));
+  certified(session, session.move_to(0.95, unwatched));
 }
 
 TEST_CASE("what fails leaves the last certified state, what is cancelled says so") {
@@ -146,8 +140,8 @@ TEST_CASE("what fails leaves the last certified state, what is cancelled says so
   CHECK(session.push(7, {0, 0, -5}, Across::free, watch).end == Outcome::cancelled);
   CHECK(max_column_norm(session.nodes() - before) < 1e-6);
   // outwards the rods come to their length: it stops there, certified
-  const Watch patient;
-  const Report pulled = session.push(0, {0, 0, 60}, Across::free, patient);
+
+  const Report pulled = session.push(0, {0, 0, 60}, Across::free, unwatched);
   CHECK(pulled.end == Outcome::locked);
   CHECK(pulled.t < 1);
   CHECK(pulled.certificate.stable());
@@ -157,15 +151,14 @@ TEST_CASE("what fails leaves the last certified state, what is cancelled says so
 TEST_CASE("a shell in motion comes to rest where the static solver finds it") {
   const auto shell = scene();
   Simulation session = actuated(shell);
-  const Watch watch;
   const Eigen::Matrix3Xd before = session.nodes();
-  certified(session, session.set_field({{3, {0, 0, -0.15}}}, watch));
+  certified(session, session.set_field({{3, {0, 0, -0.15}}}, unwatched));
   CHECK(max_column_norm(session.nodes() - before) > 0.3);
   // the weight is gone, and the shell not yet back
   session.shell().set_fields({}, {});
   int seen = 0;
   double moved = 0;
-  certified(session, session.rest_in_time(watch, [&](const MovingState& now) {
+  certified(session, session.rest_in_time(unwatched, [&](const MovingState& now) {
     ++seen;
     moved = std::max(moved, max_column_norm(now.velocity));
   }));
@@ -177,10 +170,9 @@ TEST_CASE("a shell in motion comes to rest where the static solver finds it") {
 TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and takes more load") {
   preset::Preset p = six_rods(1e-3);
   p.loads.gravity_m_s2 = 9.81;
-  const auto light = std::make_shared<const Scene>(scene_of(p).value());
+  const auto light = shared_scene(p);
   p.loads.gravity_m_s2 *= 40;
-  const auto heavy = std::make_shared<const Scene>(scene_of(p).value());
-  const Watch watch;
+  const auto heavy = shared_scene(p);
   Simulation session = open(light);
   const Report flat = session.begin_flat();
   CHECK(flat.end == Outcome::reached);
@@ -189,30 +181,29 @@ TEST_CASE("a session begins flat, on other meshes, holds a joint where it is and
 
   session = actuated(light);
   const Eigen::Matrix3Xd plain = session.nodes();
-  certified(session, session.load(40, watch));
+  certified(session, session.load(40, unwatched));
   CHECK(max_column_norm(session.nodes() - plain) > 1e-2);
   CHECK(max_column_norm(session.nodes() - actuated(heavy).nodes()) < 1e-3);
-  certified(session, session.load(1, watch));
+  certified(session, session.load(1, unwatched));
   CHECK(max_column_norm(session.nodes() - plain) < 1e-3);
 
   // on other meshes the same shell
   const double estimate = session.certificate().error_estimate_mm;
-  const auto finer = session.remesh({{8, 16, 32}, true}, watch);
-  REQUIRE(finer);
-  certified(session, *finer);
+  const auto finer = value_of(session.remesh({{8, 16, 32}, true}, unwatched));
+  certified(session, finer);
   CHECK(session.shell().plan().edges_per_segment == std::vector<int>{8, 16, 32});
   const Eigen::Index joints = session.shell().finest().joints;
   CHECK(max_column_norm(session.nodes().leftCols(joints) - plain.leftCols(joints)) < 2 * estimate);
 
   // a joint that is held stays while the boundary moves, and lets the shell back when it is let go
   const Eigen::Vector3d place = session.nodes().col(5);
-  certified(session, session.push(5, {0, 0, 0}, Across::held, watch));
+  certified(session, session.push(5, {0, 0, 0}, Across::held, unwatched));
   CHECK(session.force(0).norm() < 1e-5);
-  certified(session, session.move_to(shell_progress(*light, 0.805), watch));
+  certified(session, session.move_to(shell_progress(*light, 0.805), unwatched));
   CHECK((session.nodes().col(5) - place).norm() < 1e-6);
   CHECK(session.force(0).norm() > 1e-4);
-  certified(session, session.release(5, watch));
-  certified(session, session.move_to(1, watch));
+  certified(session, session.release(5, unwatched));
+  certified(session, session.move_to(1, unwatched));
   CHECK(max_column_norm(session.nodes().leftCols(joints) - plain.leftCols(joints)) < 2 * estimate);
 }
 
@@ -222,12 +213,12 @@ TEST_CASE("a session of 24 rods answers a wish to stop within 0.2 s on both rung
   p.footprint.rods = 24;
   p.footprint.radius_mm = 20 * (11.5 + 0.8);
   p.actuation.radius_mm = 0.8 * p.footprint.radius_mm;
-  const auto shell = std::make_shared<const Scene>(scene_of(p).value());
+  const auto shell = shared_scene(p);
   Simulation session = open(shell);
-  const Watch patient;
-  REQUIRE(session.begin_buckled(0.02, patient).value().end == Outcome::reached);
+
+  REQUIRE(session.begin_buckled(0.02, unwatched).value().end == Outcome::reached);
   const Checkpoint begun = session.save();
-  REQUIRE(session.move_to(0.3, patient).end == Outcome::reached);
+  REQUIRE(session.move_to(0.3, unwatched).end == Outcome::reached);
   const Checkpoint formed = session.save();
   clockid_t clock{};
   REQUIRE(pthread_getcpuclockid(pthread_self(), &clock) == 0);

@@ -63,7 +63,7 @@ inline void settle(Linearisation& system, State& state, double tolerance = 1e-7)
   MinimiseOptions options;
   options.tolerance_mm = tolerance;
   options.most_iterations = 3000;
-  const NewtonReport report = minimise(system, state, options, Watch());
+  const NewtonReport report = minimise(system, state, options, unwatched);
   CAPTURE(int(report.outcome), report.iterations, report.last_move_mm);
   REQUIRE(report.outcome == Outcome::reached);
   system.gradient_at(state);

@@ -1,4 +1,4 @@
-// One rod without joints, pinned at its ends.
+// One rod without joints, pinned at its ends, on the bend rung.
 #pragma once
 
 #include "engine/elastic/shell_rods.h"
@@ -19,6 +19,15 @@ inline RodMesh single_rod(int edges, double length) {
     mesh.flat(0, node) = length * k / edges;
   }
   return mesh;
+}
+
+/// Its nodes in a line, `stretch` times as long as at rest, with a bump of this height in z.
+inline Eigen::Matrix3Xd straight(const Model& rod, double stretch = 1, double bump = 0) {
+  Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, rod.nodes);
+  const Eigen::RowVectorXd u = rod.flat.row(0);
+  x.row(0) = stretch * u;
+  x.row(2) = (bump * (M_PI / u.maxCoeff() * u).array().sin()).matrix();
+  return x;
 }
 
 }  // namespace gridshell

@@ -19,9 +19,7 @@ double force_at(const Model& unloaded, State state, double height) {
   constexpr int steps = 60;
   for (int k = 1; k <= steps; ++k) {
     state.x(2, 0) = begin + (height - begin) * k / steps;
-    NewtonOptions options;
-    options.tolerance_mm = 1e-9;
-    REQUIRE(newton(system, state, options).last_move_mm < 1e-6);
+    REQUIRE(newton(system, state, {.tolerance_mm = 1e-9}).last_move_mm < 1e-6);
   }
   system.gradient_at(state);
   return -system.reaction(held).z();
@@ -36,7 +34,7 @@ TEST_CASE("by arc length an arch is followed over the limit of its load and back
   Linearisation system(model);
   State arch = crossing_arch(model);
   system.outside.load = 0;
-  REQUIRE(minimise(system, arch, {}, Watch()).outcome == Outcome::reached);
+  REQUIRE(minimise(system, arch, {}, unwatched).outcome == Outcome::reached);
   const double height = arch.x(2, 0);
   const PinnedMotion motion{arch.x, Eigen::Matrix3Xd::Zero(3, model.nodes), PathLaw::even};
   ArcFollower path(system, motion, {.step_mm = 0.1, .largest_mm = 0.2, .parameter_mm = 20});

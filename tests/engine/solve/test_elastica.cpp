@@ -19,21 +19,13 @@ struct Found {
 Found elastica(int edges, double shortening, double stretch_scale) {
   RodSection section = circular_section(0.254, 83);
   section.EA *= stretch_scale;
-  const RodMesh mesh = single_rod(edges, length);
-  const Model model = build_model(mesh, section).value();
+  const Model model = build_model(single_rod(edges, length), section).value();
   Linearisation system(model);
-  State state;
-  state.x = Eigen::Matrix3Xd::Zero(3, model.nodes);
-  state.force.setZero(edges);
-  for (int k = 0; k < model.nodes; ++k) {
-    const double s = mesh.flat(0, k) / length;
-    state.x.col(k) << length * (1 - shortening) * s, 0,
-        0.6 * std::sqrt(shortening) * length * std::sin(M_PI * s);
-  }
-  const Watch watch;
-  MinimiseOptions options;
-  options.tolerance_mm = 1e-5;  // what round-off in EA x strain leaves
-  const NewtonReport report = minimise(system, state, options, watch);
+  State state =
+      start_state(model, straight(model, 1 - shortening, 0.6 * std::sqrt(shortening) * length));
+  state.force.setZero();
+  // what round-off in EA x strain leaves
+  const NewtonReport report = minimise(system, state, {.tolerance_mm = 1e-5}, unwatched);
   REQUIRE(report.outcome == Outcome::reached);
   system.gradient_at(state);
   return {state.x.row(2).maxCoeff(), std::abs(system.assembly().gradient(0, 0))};

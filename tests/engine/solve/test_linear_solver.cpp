@@ -2,31 +2,20 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "engine/elastic/assembly.h"
-#include "engine/elastic/shell_rods.h"
 #include "engine/solve/linear_solver.h"
+#include "tests/engine/elastic/bent_dome.h"
 
 using namespace gridshell;
 
 namespace {
 
-struct System {
-  Model model;
+struct System : BentDome {
   Assembly assembly;
-};
 
-System bent(double radius, int rods, int edges) {
-  const auto placement = rods % 2 ? Placement::on_axis : Placement::half;
-  const Footprint net = circular_footprint(radius, rods, 20.0, placement).value();
-  System system{build_model(mesh_rods(net, edges), circular_section(0.254, 83)).value(), {}};
-  Eigen::Matrix3Xd x(3, system.model.nodes);
-  for (int k = 0; k < system.model.nodes; ++k) {
-    const Eigen::Vector2d p = system.model.flat.col(k);
-    x.col(k) << 0.99 * p, 15 * (1 - p.squaredNorm() / (radius * radius)) + 1e-3 * p.x() * p.y();
+  System(double radius, int rods, int edges) : BentDome(bent_dome(radius, rods, edges)) {
+    assemble_hessian(model, state, {}, {}, assembly);
   }
-  assemble_hessian(system.model, start_state(system.model, x), {}, {}, system.assembly);
-  return system;
-}
+};
 
 double residual(const System& system, const LinearSolver& solver, double shift) {
   Eigen::Matrix3Xd b = system.assembly.gradient;
@@ -44,19 +33,11 @@ double residual(const System& system, const LinearSolver& solver, double shift) 
 }  // namespace
 
 TEST_CASE("factorisations: solve, and count negative pivots as dense eigenvalues do") {
-  const System system = bent(70, 6, 2);
-  const int n = system.model.dof();
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
-  Eigen::Matrix3Xd unit = Eigen::Matrix3Xd::Zero(3, system.model.nodes), column;
-  for (int k = 0; k < n; ++k) {
-    unit.setZero();
-    unit(k % 3, system.model.free_columns[k / 3]) = 1;
-    multiply(system.model, system.assembly.hessian, unit, column);
-    for (int r = 0; r < n; ++r) dense(r, k) = column(r % 3, system.model.free_columns[r / 3]);
-  }
-  CHECK((dense - dense.transpose()).norm() <= 1e-12 * dense.norm());
+  const System system(70, 6, 2);
+  const Eigen::MatrixXd full = dense(system.model, system.assembly.hessian);
+  CHECK((full - full.transpose()).norm() <= 1e-12 * full.norm());
   const Eigen::VectorXd eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense).eigenvalues();
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(full).eigenvalues();
 
   const auto solvers = {make_block_cholesky(system.model), make_cholmod(system.model),
                         make_cholmod(system.model, {.supernodal = false, .own_ordering = false})};
@@ -73,7 +54,7 @@ TEST_CASE("factorisations: solve, and count negative pivots as dense eigenvalues
 }
 
 TEST_CASE("factorisations: what one left does not stand in the next, on long chains") {
-  const System system = bent(70, 6, 12);
+  const System system(70, 6, 12);
   const auto solver = make_block_cholesky(system.model), other = make_cholmod(system.model);
   for (double shift : {0.0, 500.0, 0.3, 500.0}) {
     const Inertia inertia = solver->factor(system.assembly.hessian, shift);
@@ -84,7 +65,7 @@ TEST_CASE("factorisations: what one left does not stand in the next, on long cha
 }
 
 TEST_CASE("factorisations: a singular or infinite matrix is not usable") {
-  System system = bent(70, 6, 2);
+  System system(70, 6, 2);
   const auto solver = make_block_cholesky(system.model);
   for (double bad : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
     for (auto& block : system.assembly.hessian.diagonal) block.matrix().setConstant(bad);
@@ -95,7 +76,7 @@ TEST_CASE("factorisations: a singular or infinite matrix is not usable") {
 
 TEST_CASE("ordering: a permutation, with about the fill of CHOLMOD's nested dissection") {
   for (int edges : {2, 4, 8}) {
-    const System system = bent(126, 12, edges);
+    const System system(126, 12, edges);
     const auto graph = hessian_graph(system.model);
     std::vector<int> order = nested_dissection(system.model, graph);
     std::sort(order.begin(), order.end());

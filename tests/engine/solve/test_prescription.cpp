@@ -3,46 +3,27 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "engine/elastic/shell_rods.h"
 #include "engine/solve/equilibrium.h"
+#include "tests/engine/elastic/bent_dome.h"
 
 using namespace gridshell;
 
 namespace {
 
-struct Bent {
-  RodMesh mesh;
-  Model model;
-  State state;
-};
-
-/// A small dome, not at rest, with rods in tension and compression.
-Bent bent() {
-  const Footprint net = circular_footprint(70, 6, 20.0, Placement::half).value();
-  Bent bent;
-  bent.mesh = mesh_rods(net, 2);
-  bent.model = build_model(bent.mesh, circular_section(0.254, 83)).value();
-  bent.state.x.resize(3, bent.model.nodes);
-  for (int k = 0; k < bent.model.nodes; ++k) {
-    const Eigen::Vector2d p = bent.model.flat.col(k);
-    bent.state.x.col(k) << 0.99 * p, 15 * (1 - p.squaredNorm() / 4900) + 1e-3 * p.x() * p.y();
-  }
-  bent.state.force.setZero(Eigen::Index(bent.model.edges.size()));
-  return bent;
+BentDome unstrained_dome() {
+  BentDome dome = bent_dome(70, 6, 2);
+  dome.state.force.setZero();
+  return dome;
 }
 
 Eigen::MatrixXd dense_hessian(const Model& model, const State& state) {
   Assembly assembly;
   assemble_hessian(model, state, {}, {}, assembly);
-  Eigen::MatrixXd dense(model.dof(), model.dof());
-  Eigen::Matrix3Xd unit, column;
-  for (int k = 0; k < model.dof(); ++k) {
-    unit.setZero(3, model.nodes);
-    unit(k % 3, model.free_columns[k / 3]) = 1;
-    multiply(model, assembly.hessian, unit, column);
-    for (int r = 0; r < model.dof(); ++r) dense(r, k) = column(r % 3, model.free_columns[r / 3]);
-  }
-  return dense;
+  return dense(model, assembly.hessian);
+}
+
+Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues();
 }
 
 /// The bordered matrix [K -B; B^T 0].
@@ -65,7 +46,7 @@ Constraint pushed(int directions) {
 
 TEST_CASE(
     "a prescribed joint: corrections, tangent, stiffness and inertia of the bordered system") {
-  const Bent shell = bent();
+  const BentDome shell = unstrained_dome();
   const Model& model = shell.model;
   const Eigen::MatrixXd K = dense_hessian(model, shell.state);
   for (const int directions : {1, 3}) {
@@ -78,8 +59,7 @@ TEST_CASE(
 
     Eigen::MatrixXd symmetric = whole;
     symmetric.topRightCorner(n, m) *= -1;
-    const Eigen::VectorXd own =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues();
+    const Eigen::VectorXd own = eigenvalues(symmetric);
     REQUIRE(inertia.usable);
     CHECK(inertia.negative_pivots == int((own.array() < 0).count()) - directions);
 
@@ -111,10 +91,10 @@ TEST_CASE(
 
 TEST_CASE("a joint held along a direction that K does not resist is found stable") {
   // at a limit point K is singular along the push; shifted there, it has one negative pivot beyond
-  const Bent shell = bent();
+  const BentDome shell = unstrained_dome();
   Linearisation free(shell.model);
   State rest = shell.state;
-  REQUIRE(minimise(free, rest, {}, Watch()).outcome == Outcome::reached);
+  REQUIRE(minimise(free, rest, {}, unwatched).outcome == Outcome::reached);
   const Eigen::MatrixXd K = dense_hessian(shell.model, rest);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(K);
   const double beyond = -0.5 * (own.eigenvalues()[0] + own.eigenvalues()[1]);
@@ -130,8 +110,7 @@ TEST_CASE("a joint held along a direction that K does not resist is found stable
   shifted.diagonal().array() += beyond;
   Eigen::MatrixXd symmetric = bordered(shell.model, shifted, held);
   symmetric.topRightCorner(K.rows(), 1) *= -1;
-  const Eigen::VectorXd pivots =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues();
+  const Eigen::VectorXd pivots = eigenvalues(symmetric);
   CHECK(inertia.negative_pivots == int((pivots.array() < 0).count()) - 1);
   CHECK(inertia.negative_pivots == 0);
 }

@@ -5,30 +5,25 @@
 
 #include "engine/scene/scene.h"
 #include "engine/solve/equilibrium_path.h"
+#include "tests/presets.h"
 
 using namespace gridshell;
 
 namespace {
 
 std::vector<MeshSymmetry> found(const preset::Preset& preset, int edges) {
-  const Scene scene = scene_of(preset).value();
+  const Scene scene = value_of(scene_of(preset));
   const RodMesh mesh = mesh_rods(scene.footprint, edges);
   return symmetries_of(mesh, pinned_motion(mesh, scene.motion).at(1));
 }
 
-preset::Preset circle() {
-  preset::Preset p;
-  p.footprint.rods = 6;
-  p.footprint.radius_mm = 66;
-  p.actuation.radius_mm = 55;
-  return p;
-}
+preset::Preset six_rods() { return circle(6, 66, 55); }
 
 }  // namespace
 
 TEST_CASE("mesh symmetries: a circle has all sixteen, on every mesh, the identity first") {
   for (const int edges : {1, 2, 4}) {
-    const auto all = found(circle(), edges);
+    const auto all = found(six_rods(), edges);
     REQUIRE(all.size() == 16);
     CHECK(all.front().map.isIdentity(0));
     for (const MeshSymmetry& one : all) {
@@ -51,14 +46,11 @@ TEST_CASE("mesh symmetries: an ellipse has eight, a cap of a net does not turn o
   CHECK(oval.size() == 8);
   for (const MeshSymmetry& one : oval) CHECK(one.map(0, 0) != 0);
   // the hemisphere's boundary is level: what is known of its ends alone does not tell up from down
-  preset::Preset cap;
-  cap.footprint.kind = preset::FootprintKind::net;
-  cap.net.cut_height = 0.5;
-  CHECK(found(cap, 1).size() == 16);
+  CHECK(found(cap(0.5), 1).size() == 16);
 }
 
 TEST_CASE("mesh symmetries: the symmetric part is what all of them leave") {
-  const auto all = found(circle(), 2);
+  const auto all = found(six_rods(), 2);
   const Eigen::Matrix3Xd rough = Eigen::Matrix3Xd::Random(3, Eigen::Index(all[0].image.size()));
   const Eigen::Matrix3Xd part = symmetric_part(rough, all);
   for (const MeshSymmetry& one : all) {

@@ -64,3 +64,14 @@ TEST_CASE("along a path finer meshes take one correction a state, and it is the 
     CHECK(spent.newton_iterations <= 1.5 * steps);
   }
 }
+
+TEST_CASE("a finer leader doubles all meshes, or is the second where the finest is fine enough") {
+  CHECK(with_finer_leader({{4, 8}, false})->edges_per_segment == std::vector<int>{8, 16});
+  CHECK(with_finer_leader({{16, 32, 64}, true})->edges_per_segment ==
+        std::vector<int>{32, 64, 128});
+  CHECK(with_finer_leader({{5, 10, 20, 40, 80}, true})->edges_per_segment ==
+        std::vector<int>{10, 20, 40, 80});
+  // what is left knows no error
+  CHECK_FALSE(with_finer_leader({{32, 64, 128}, true}));
+  CHECK_FALSE(with_finer_leader({{64, 128}, false}));
+}

@@ -1,7 +1,9 @@
+// Where grid lines lie inside curves, caps and halves of surfaces; maps from boundary to boundary.
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "engine/footprint/domains.h"
+#include "tests/results.h"
 
 using namespace gridshell;
 
@@ -109,16 +111,15 @@ TEST_CASE("closed curves: lengths, nearest points, and what is refused") {
   }
   CHECK(ClosedCurve::polygon(points({{0, 0}, {3, 0}, {3, 4}})).value().length() == Approx(12));
 
-  CHECK(ClosedCurve::polygon(points({{0, 0}, {10, 10}, {10, 0}, {0, 8}}))
-            .error()
-            .message.find("the closed curve crosses itself near (") == 0);
-  CHECK(ClosedCurve::polygon(points({{0, 0}, {1, 1}})).error().message ==
+  CHECK_THAT(refusal(ClosedCurve::polygon(points({{0, 0}, {10, 10}, {10, 0}, {0, 8}}))),
+             Catch::StartsWith("the closed curve crosses itself near ("));
+  CHECK(refusal(ClosedCurve::polygon(points({{0, 0}, {1, 1}}))) ==
         "a closed curve needs at least 3 points, not 2");
-  CHECK(ClosedCurve::spline(points({{0, 0}, {1, 1}, {1, 1}, {0, 3}})).error().message ==
+  CHECK(refusal(ClosedCurve::spline(points({{0, 0}, {1, 1}, {1, 1}, {0, 3}}))) ==
         "points 2 and 3 of the closed curve are the same");
-  CHECK(ClosedCurve::polygon(points({{0, 0}, {1, NAN}, {1, 2}})).error().message ==
+  CHECK(refusal(ClosedCurve::polygon(points({{0, 0}, {1, NAN}, {1, 2}}))) ==
         "point 2 of the closed curve is not finite");
-  CHECK(ClosedCurve::ellipse(0, 1).error().message ==
+  CHECK(refusal(ClosedCurve::ellipse(0, 1)) ==
         "the half axes are 0 and 1 mm, they must be positive");
   CHECK_FALSE(ClosedCurve::superellipse(1, 1, 0.5));
 }
@@ -150,15 +151,129 @@ TEST_CASE("boundary maps: by arc length and by angle") {
   CHECK((scale({-10, -3}) - Eigen::Vector2d(-5, -1.5)).norm() < 1e-12);
 
   const auto away = ClosedCurve::polygon(points({{1, 1}, {3, 1}, {2, 3}})).value();
-  CHECK(BoundaryMap::make(circle, away, Correspondence::angle).error().message ==
+  CHECK(refusal(BoundaryMap::make(circle, away, Correspondence::angle)) ==
         "the origin is not inside the actuated boundary");
   const auto hook =
       ClosedCurve::polygon(points({{-1, -1}, {9, -1}, {9, 9}, {3, 9}, {6, 6}, {6, 2}, {-1, 2}}))
           .value();
-  CHECK(BoundaryMap::make(hook, circle, Correspondence::angle)
-            .error()
-            .message.find(
-                "meets the original boundary more than once: use correspondence \"arc_length\"") !=
-        std::string::npos);
+  CHECK_THAT(refusal(BoundaryMap::make(hook, circle, Correspondence::angle)),
+             Catch::Contains("meets the original boundary more than once: use correspondence "
+                             "\"arc_length\""));
   CHECK(BoundaryMap::make(hook, circle, Correspondence::arc_length));
+}
+
+TEST_CASE("cap domain: rods of the published hemisphere, on its axes") {
+  const double radius = 120 / M_PI_2;  // 76.394 mm
+  CHECK(radius == Approx(76.394).margin(5e-4));
+  const SphereNet net(radius);
+  const auto hemisphere = cap_of(net, 0).value();
+  const double half_lengths[] = {120.0, 116.0, 104.9, 89.0, 69.7, 46.8};
+  const double ends[][2] = {{0.0, 76.4},  {19.3, 73.9}, {35.0, 67.9},
+                            {46.9, 60.3}, {56.3, 51.6}, {65.4, 39.4}};
+  for (int k = 0; k < 6; ++k) {
+    // the rod u = 20 k runs along v
+    const double u = 20 * k;
+    const auto pieces = hemisphere->intervals(Family::v, u);
+    REQUIRE(pieces.size() == 1);
+    CHECK(pieces[0].begin == -pieces[0].end);
+    CHECK(std::abs(pieces[0].end - half_lengths[k]) <= 0.05);
+    const Eigen::Vector3d end = net.at(u, pieces[0].end)->position;
+    CHECK(std::abs(end.x() - ends[k][0]) <= 0.05);
+    CHECK(std::abs(end.y() - ends[k][1]) <= 0.05);
+    CHECK(std::abs(end.z()) < 1e-12);
+  }
+  CHECK(hemisphere->intervals(Family::u, 120.1).empty());
+  CHECK(hemisphere->reach() == Approx(120));
+}
+
+TEST_CASE("cap domain: contours and smallest shear angles of the caps") {
+  const SphereNet net(1);
+  const double table[][4] = {{0, 1.570796, 0.980507, 37.575},   {0.3, 1.266104, 0.815285, 52.823},
+                             {0.5, 1.047198, 0.690070, 63.054}, {0.7, 0.795399, 0.537725, 73.510},
+                             {0.8, 0.643501, 0.441154, 78.873}, {0.9, 0.451027, 0.313850, 84.359}};
+  for (const auto& [height, axis, diagonal, angle] : table) {
+    const auto cap = cap_of(net, height).value();
+    const double on_axis = cap->intervals(Family::u, 0)[0].end;
+    CHECK(std::abs(on_axis - axis) <= 0.6e-6);
+    CHECK(std::abs(on_axis - std::acos(height)) < 1e-15);
+    const Eigen::Matrix2Xd ring = cap->boundary(360);
+    CHECK(std::abs(ring(0, 45) - diagonal) <= 0.6e-6);
+    CHECK(std::abs(ring(0, 45) - ring(1, 45)) < 1e-15);
+    double smallest = M_PI, off_plane = 0, off_circle = 0;
+    for (const auto& uv : ring.colwise()) {
+      const NetPoint p = net.at(uv[0], uv[1]).value();
+      smallest = std::min(smallest, p.omega);
+      off_plane = std::max(off_plane, std::abs(p.position.z() - height));
+      off_circle = std::max(off_circle,
+                            std::abs(p.position.head<2>().norm() - std::sqrt(1 - height * height)));
+    }
+    CHECK(std::abs(smallest * 180 / M_PI - angle) <= 0.6e-3);
+    CHECK(off_plane < 1e-14);
+    CHECK(off_circle < 1e-14);
+  }
+}
+
+TEST_CASE("cap domain: grid lines end on the plane, to 1e-14, also short ones") {
+  const double radius = 120;
+  const SphereNet net(radius);
+  for (const double height : {0.0, 0.28, 0.9, 0.999}) {
+    const auto cap = cap_of(net, height).value();
+    for (const double part : {0.0, 0.3, 0.7, 0.95, 0.999, 0.999999}) {
+      const double v = part * cap->reach();
+      const auto pieces = cap->intervals(Family::u, v);
+      REQUIRE(pieces.size() == 1);
+      CHECK(std::abs(net.at(pieces[0].end, v)->position.z() / radius - height) < 1e-14);
+      // the middle is inside
+      CHECK(net.at(0, v)->position.z() > height * radius);
+    }
+  }
+  CHECK(cap_of(net, 1).error().message ==
+        "the cap's cut height is 1 of the radius, it must lie in [0, 1)");
+  CHECK_FALSE(cap_of(net, -0.1));
+  CHECK_FALSE(cap_of(net, std::nan("")));
+}
+
+TEST_CASE("half of a surface of revolution: long edges in z = 0, rings at the ends") {
+  for (const auto& profile : {cylinder_profile(40, 75).value(), spool_profile(100, 0.5).value()}) {
+    const RevolutionNet net =
+        RevolutionNet::make(profile, RevolutionNet::right_angled(profile)).value();
+    const double length = 150;
+    const auto half = half_of(net, length).value();
+    // on the base, on a ring, or on both
+    const auto at_edge = [&](double u, double v) {
+      const Eigen::Vector3d p = net.at(u, v).value().position;
+      CHECK(p.z() > -1e-11);
+      CHECK(std::abs(p.x()) < length / 2 + 1e-11);
+      return int(std::abs(p.z()) < 1e-11) + int(std::abs(std::abs(p.x()) - length / 2) < 1e-11);
+    };
+    for (const Family family : {Family::u, Family::v}) {
+      for (double c = -0.99 * half->reach(); c < half->reach(); c += 7.3) {
+        const auto pieces = half->intervals(family, c);
+        REQUIRE(pieces.size() == 1);
+        for (const double at : {pieces[0].begin, pieces[0].end})
+          CHECK((family == Family::u ? at_edge(at, c) : at_edge(c, at)) > 0);
+      }
+      CHECK(half->intervals(family, 1.001 * half->reach()).empty());
+    }
+    const Eigen::Matrix2Xd ring = half->boundary(100);
+    REQUIRE(ring.cols() == 100);
+    int corners = 0;
+    for (const auto& uv : ring.colwise()) {
+      const int edges = at_edge(uv[0], uv[1]);
+      CHECK(edges > 0);
+      corners += edges == 2;
+    }
+    CHECK(corners == 4);
+  }
+}
+
+TEST_CASE("half of a surface of revolution: too long says where the net ends") {
+  const Profile spool = spool_profile(100, 0.5).value();
+  const RevolutionNet net = RevolutionNet::make(spool, RevolutionNet::right_angled(spool)).value();
+  const auto half = half_of(net, 1000);
+  REQUIRE_FALSE(half);
+  CHECK(half.error().message.find("folds (shear angle 180 degrees) where u + v = -18") !=
+        std::string::npos);
+  CHECK(half.error().message.find("-500 mm lies beyond") != std::string::npos);
+  CHECK_FALSE(half_of(net, 0));
 }

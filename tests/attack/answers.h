@@ -1,0 +1,45 @@
+// What the program may say when it is attacked.
+#pragma once
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "tests/app/program.h"
+#include "tests/temporary_folder.h"
+
+/// A sentence of the program's, not of a library's, that steers no terminal.
+inline void check_told(const Ended& ended) {
+  INFO(ended.err.substr(0, 2000));
+  CHECK_FALSE(ended.err.empty());
+  for (const char* raw : {"filesystem error", "std::", "basic_string", "vector::", "what():",
+                          "Assertion", "nan mm", "json.exception", "HDF5-DIAG"})
+    CHECK(ended.err.find(raw) == std::string::npos);
+  CHECK(std::ranges::all_of(ended.err, [](unsigned char c) { return c == '\n' || c >= 0x20; }));
+}
+
+/// Ends what does not end by itself by that signal, and if need be by force.
+inline Ended ended_within(const Running& running, double seconds, int signal) {
+  if (!running.ends_within(seconds)) {
+    running.signal(signal);
+    const bool answered = signal != SIGKILL && running.ends_within(5);
+    CHECK(answered);
+    if (!answered) running.signal(SIGKILL);
+    auto ended = running.wait();
+    if (answered) CHECK(ended.code == 130);
+    return ended;
+  }
+  return running.wait();
+}
+
+/// Takes away what an attack left beside the files that were there: `may` says what it may leave.
+template <class May>
+void clear(const TemporaryFolder& folder, std::initializer_list<const char*> there,
+           const May& may) {
+  for (const auto& name : folder.entries()) {
+    if (std::find(there.begin(), there.end(), name) != there.end()) continue;
+    INFO(name);
+    CHECK(may(name));
+    std::filesystem::remove_all(folder.path() / name);
+  }
+}
