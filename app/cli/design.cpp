@@ -250,13 +250,6 @@ render::Plot convergence_plot(const DesignResult& found, const std::string& titl
   return plot;
 }
 
-/// A run whose net is what it is to meet: of every node the nearest point of the target.
-Result<void> put_target(CaseRun& one) {
-  TRY(nearest, nearest_to(one.preset, one.run.layout.flat_nodes, one.run.frames.back().nodes));
-  one.run.layout.net_nodes = std::move(*nearest);
-  return {};
-}
-
 /// `<stem>_net.png`, `<stem>_deviation.png` and the plots of shells on nets, the target in the
 /// place of the net: of every node its nearest point; `<stem>_convergence`.
 Result<void> draw_design(Run before, Run after, const DesignResult& found,

@@ -137,7 +137,9 @@ TextOf of_shape(auto text) {
 /// Of what is made for the workshop, for which a preset is enough.
 TextOf of_plan(auto text) {
   return [text](const ExportOptions& options) -> Result<std::string> {
-    return preset_of(options).and_then(simulate::fabrication_plan_of).and_then(text);
+    TRY(preset, preset_of(options));
+    TRY(plan, simulate::fabrication_plan_of(*preset));
+    return text(*plan);
   };
 }
 

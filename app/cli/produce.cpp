@@ -109,7 +109,6 @@ Result<void> simulate(Run& run, int threads, const fs::path& folder, Watch& watc
 
 // of several cases: the preset's name, and each summary after its `name`, which is its folder
 std::string summary_of_cases(const std::string& preset, const std::vector<Run>& runs) {
-  using Json;
   Json all{{"preset", preset}, {"cases", Json::array()}};
   for (const Run& run : runs) {
     Json one{{"name", run.name}};

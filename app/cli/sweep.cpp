@@ -110,7 +110,7 @@ Result<void> draw_classes(const SweepJob& work, const record::SweepTable& table,
     const auto diagram = record::phase_diagram_of(table, run.name);
     TRY_DO(render::write_phase_chart(stem, diagram, run.preset.title, print));
     TRY_DO(write_file(fs::path(stem) += "_by_leg.csv",
-                      record::regions_csv(record::regions_of(diagram))));
+                      record::csv_table(record::regions_of(diagram))));
   }
   return {};
 }

@@ -17,7 +17,7 @@ namespace {
 std::vector<double> xyz_of(const Eigen::Vector3d& vector) {
   std::vector<double> xyz;
   for (const double value : vector)
-    xyz.push_back(std::abs(value) < simulate::nearest_mm ? 0 : value);
+    xyz.push_back(std::abs(value) < nearest_mm ? 0 : value);
   return xyz;
 }
 
@@ -111,7 +111,7 @@ Result<void> EditSession::act(const DragEdge& command, const Watch& watch) {
   const BoundaryMotion& motion = now_.scene->motion;
   const double progress = session_->boundary.progress;
   dragged.col(k) = command.to - motion.begin.col(k) - progress * (motion.end - motion.begin).col(k);
-  if ((dragged - session_->boundary.dragged).norm() < simulate::nearest_mm) return {};
+  if ((dragged - session_->boundary.dragged).norm() < nearest_mm) return {};
   return move_boundary(progress, dragged, watch);
 }
 
@@ -137,7 +137,7 @@ Result<void> EditSession::act(const Push& command, const Watch& watch) {
   step.lateral = free ? preset::Lateral::free : preset::Lateral::held;
   // a joint that is held already and does not move makes no step
   const Eigen::Vector3d way = command.to - session_->nodes().col(command.joint);
-  const bool still = (free ? std::abs(way.dot(command.along)) : way.norm()) < simulate::nearest_mm;
+  const bool still = (free ? std::abs(way.dot(command.along)) : way.norm()) < nearest_mm;
   if (still && session_->grip_origins.contains(command.joint)) return {};
   return do_step(std::move(step), watch);
 }

@@ -55,7 +55,7 @@ Method auto_method(double tolerance);
 /// the residual falls; a Hessian shifted until it is positive definite, and a line search.
 enum class Globalisation { none, line_search, shifted };
 constexpr auto words(Globalisation) {
-  return word_table<Globalisation>({{Globalisation::none, "full steps"},
+  return names_except<Globalisation>({{Globalisation::none, "full steps"},
                                     {Globalisation::line_search, "line search"},
                                     {Globalisation::shifted, "shifted"}});
 }
@@ -73,7 +73,7 @@ Method textbook_method(int edges);
 /// Methods that move in time, to rest after every load step.
 enum class Relaxation { kinetic, explicit_damped, implicit_euler };
 constexpr auto words(Relaxation) {
-  return word_table<Relaxation>({{Relaxation::kinetic, "dynamic relaxation"},
+  return names_except<Relaxation>({{Relaxation::kinetic, "dynamic relaxation"},
                                  {Relaxation::explicit_damped, "explicit"},
                                  {Relaxation::implicit_euler, "implicit Euler"}});
 }

@@ -278,7 +278,7 @@ Result<BranchDiagram> branches_study(const preset::Preset& preset, const Branche
   if (preset.indentation.wanted())
     course = simulate::hold_to_push(scene, preset.indentation, plan, watch)
                  .map([](simulate::HeldShell held) {
-                   return BranchStart{std::move(held.course.session), 0, 1, true};
+                   return BranchStart{std::move(held.simulation), 0, 1, true};
                  });
   else
     course = begin_actuation(scene, plan, watch);

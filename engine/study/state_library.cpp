@@ -15,7 +15,7 @@
 
 namespace gridshell::study {
 
-using namespace experiment;
+using namespace simulate;
 
 namespace {
 

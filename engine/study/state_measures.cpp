@@ -18,7 +18,7 @@
 
 namespace gridshell::study {
 
-using namespace experiment;
+using namespace simulate;
 
 namespace {
 

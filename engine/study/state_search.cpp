@@ -14,7 +14,7 @@
 
 namespace gridshell::study {
 
-using namespace experiment;
+using namespace simulate;
 
 namespace {
 

@@ -16,7 +16,7 @@
 
 namespace gridshell::study {
 
-using namespace experiment;
+using namespace simulate;
 
 namespace {
 
