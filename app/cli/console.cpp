@@ -1,6 +1,7 @@
 #include "app/cli/console.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <cerrno>
 #include <csignal>
@@ -34,18 +35,34 @@ Error error_of(const std::exception& thrown) {
       "edges_per_segment, a larger tolerance or a smaller [movie] size take less"};
 }
 
+namespace {
+
+constexpr const char* out_of_memory =
+    "memory ran out; what was finished stays under its partial name\n";
+
+/// Of signal handlers too: nothing is left to do where even these words cannot be written.
+[[noreturn]] void end_at_once(const char* words, ExitCode code) {
+  if (::write(STDERR_FILENO, words, std::strlen(words)) < 0) _exit(code);
+  _exit(code);
+}
+
+}  // namespace
+
 void install_terminate_handler() {
   std::set_terminate([] {
     const char* words = "ended by an error that nothing expected\n";
     try {
       if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
     } catch (const std::bad_alloc&) {
-      words = "memory ran out; what was finished stays under its partial name\n";
+      words = out_of_memory;
     } catch (...) {
     }
-    if (::write(STDERR_FILENO, words, std::strlen(words)) < 0) _exit(ExitCode::failed);
-    _exit(ExitCode::failed);
+    end_at_once(words, ExitCode::failed);
   });
+  // under `ulimit -v` OpenGL's libraries use memory that they were refused
+  rlimit space{};
+  if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
+    std::signal(SIGSEGV, [](int) { end_at_once(out_of_memory, ExitCode::failed); });
 }
 
 namespace {
@@ -53,15 +70,8 @@ namespace {
 // a signal handler can reach nothing but what is static
 volatile std::sig_atomic_t came = 0, guarded = 0;
 
-void end_at_once() {
-  const char words[] = "stopped\n";
-  // nothing is left to do where even this cannot be said
-  if (::write(STDERR_FILENO, words, sizeof words - 1) < 0) _exit(ExitCode::interrupted);
-  _exit(ExitCode::interrupted);
-}
-
 void on_signal(int) {
-  if (came || !guarded) end_at_once();
+  if (came || !guarded) end_at_once("stopped\n", ExitCode::interrupted);
   came = 1;
 }
 

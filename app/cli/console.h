@@ -29,7 +29,8 @@ Error error_of(const std::exception& thrown);
 inline int report_exception(const std::exception& thrown) { return report(error_of(thrown)); }
 
 /// From now on an exception that nothing catches (memory that runs out where the standard library
-/// promises not to throw) ends the program with a sentence and the exit code of a failure.
+/// promises not to throw) ends the program with a sentence and the exit code of a failure; so does
+/// what a library does with memory that it was refused, where the address space is limited.
 void install_terminate_handler();
 
 /// A path of the user's that cannot be read is bad input, whatever the system's reason.

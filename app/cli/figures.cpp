@@ -223,10 +223,10 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title, const fs
   const auto bars = all_beside ? std::vector<SharedColourBar>(runs.size()) : shared_bars(runs);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Run& run = runs[k];
-    if (drawn_beside(run)) continue;
-    const double start = seconds_now();
     const fs::path to = folder_of(folder, run.name);
     TRY_DO(make_folder(to));
+    if (drawn_beside(run)) continue;
+    const double start = seconds_now();
     Watch& watch = progress.next_phase();
     if (run.preset.jitter.wanted())
       TRY_DO(draw_states(run, renderer, to / fs::path(run.preset.name).filename(), watch));

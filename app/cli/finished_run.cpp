@@ -87,37 +87,14 @@ Result<void> check_name(const fs::path& file, const std::string& name) {
       fmt::format("'{}': its preset's name cannot be the name of a picture", file.string()));
 }
 
-// version 0.1 did not say: a run sampled at the stills' radii, or of a net's end alone, came from
-// `figure`
-Pictures guessed_pictures(const Run& run, const fs::path& folder) {
-  const preset::Preset& preset = run.preset;
-  const record::FrameList& frames = run.trajectory.frames;
-  // a push is sampled alike for both
-  const auto still = fs::path(preset.name).filename().string() + ".png";
-  std::error_code error;
-  if (preset.indentation.wanted())
-    return fs::exists(folder / still, error) ? Pictures::stills : Pictures::movie;
-  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
-  if (!circle) return frames.size() == 1 ? Pictures::stills : Pictures::movie;
-  const auto& radii = preset.figure.radii_mm;
-  if (radii.size() != frames.size()) return Pictures::movie;
-  for (std::size_t k = 0; k < radii.size(); ++k)
-    if (!(std::abs(radii[k] - frames[k].boundary_radius_mm) < 1e-6 * radii[k]))
-      return Pictures::movie;
-  return Pictures::stills;
-}
-
+// version 0.1 did not say: what has its stills came from `figure`
 Pictures pictures_of(const Run& run, const fs::path& folder) {
-  switch (run.summary.kind) {
-    case record::Kind::figure:
-      return Pictures::stills;
-    case record::Kind::run:
-    case record::Kind::movie:
-      return Pictures::movie;
-    case record::Kind::unknown:
-      break;
-  }
-  return guessed_pictures(run, folder);
+  const auto still = fs::path(run.preset.name).filename().string() + ".png";
+  std::error_code error;
+  const bool stills = run.summary.kind == record::Kind::unknown
+                          ? fs::exists(folder / still, error)
+                          : run.summary.kind == record::Kind::figure;
+  return stills ? Pictures::stills : Pictures::movie;
 }
 
 // what is known of a run whose end never came

@@ -16,7 +16,7 @@ namespace {
 /// A run read back; frames come from its file as they are asked for.
 class Run {
  public:
-  explicit Run(app::FinishedRun run)
+  explicit Run(app::Run run)
       : run_(std::move(run)),
         preset_(std::make_shared<const preset::Preset>(run_.preset)),
         layout_(std::make_shared<const record::Layout>(run_.trajectory.layout)) {
@@ -24,7 +24,7 @@ class Run {
   }
 
   std::size_t size() const { return run_.trajectory.frames.size(); }
-  const app::FinishedRun& read() const { return run_; }
+  const app::Run& read() const { return run_; }
   const std::vector<record::Frame>& heads() const { return heads_; }
   const std::shared_ptr<const record::Layout>& layout() const { return layout_; }
 
@@ -57,7 +57,7 @@ class Run {
   }
 
  private:
-  app::FinishedRun run_;
+  app::Run run_;
   std::shared_ptr<const preset::Preset> preset_;
   std::shared_ptr<const record::Layout> layout_;
   std::vector<record::Frame> heads_;
@@ -77,7 +77,7 @@ Run load(const std::filesystem::path& folder, const std::optional<std::string>& 
   auto runs =
       value_of(interruptible([&](const Watch&) { return app::read_runs(folder, {}, false); }));
   std::string names;
-  for (app::FinishedRun& run : runs) {
+  for (app::Run& run : runs) {
     names.append(names.empty() ? "" : ", ").append(run.name);
     if (name ? run.name != *name : runs.size() > 1) continue;
     if (!run.summary.finished && !unfinished)

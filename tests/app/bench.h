@@ -43,6 +43,14 @@ void check_refused(const Arguments& arguments, const fs::path& at, const Matcher
   CHECK_THAT(ended.err, why);
 }
 
+/// Runs the program there, and shows why when it does not end well.
+inline Ended good(const Arguments& arguments, const fs::path& at) {
+  const auto ended = gridshell_program(arguments, at);
+  INFO(ended.out << ended.err);
+  REQUIRE(ended.code == 0);
+  return ended;
+}
+
 struct Bench {
   TemporaryFolder folder;
   fs::path at = folder.path();
@@ -50,11 +58,5 @@ struct Bench {
   /// A folder with this preset as small.toml in it.
   explicit Bench(const std::string& preset) { REQUIRE(write_file(at / "small.toml", preset)); }
   Ended run(const Arguments& arguments) const { return gridshell_program(arguments, at); }
-  /// Runs, and shows why when it does not end well.
-  Ended good(const Arguments& arguments) const {
-    const auto ended = run(arguments);
-    INFO(ended.err);
-    REQUIRE(ended.code == 0);
-    return ended;
-  }
+  Ended good(const Arguments& arguments) const { return ::good(arguments, at); }
 };

@@ -28,6 +28,8 @@ movie s1_actuation --set actuation.radius_mm=130.0 => --set: [actuation] radius_
 movie bad.toml => bad.toml:2:10: [movie] frames = 0: out of range, must be an integer from 2 to 100000
 movie s1_actuation --frames 0 => --frames: [movie] frames = 0: out of range, must be an integer from 2 to 100000
 movie s1_actuation --size wide => --size wide: must be WxH, for example 1280x720
+figure s1_actuation --width 0mm => --width 0mm: must be in millimetres, more than 0 and less than 10000, for example 85mm
+figure s1_actuation --width 8.5cm => --width 8.5cm: must be in millimetres, more than 0 and less than 10000, for example 85mm
 movie s1_actuation --quality best => --quality best: must be draft, movie or figure
 run s1_actuation -o bad.toml => cannot write the folder 'bad.toml': it is a file
 run s1_actuation -o bad.toml/x => cannot write the folder 'bad.toml/x': Not a directory
@@ -95,9 +97,8 @@ TEST_CASE("a folder that may not be written is refused") {
 
 TEST_CASE("a footprint that cannot be built is refused before anything runs") {
   const TemporaryFolder folder;
-  const auto ended = gridshell_program("movie s1_actuation --set footprint.rods=1", folder.path());
-  CHECK(ended.code == 2);
-  CHECK_THAT(ended.err, Catch::StartsWith("s1_actuation: "));
+  check_refused("movie s1_actuation --set footprint.rods=1", folder.path(),
+                Catch::StartsWith("s1_actuation: "));
   CHECK(folder.entries().empty());
 }
 

@@ -151,7 +151,7 @@ TEST_CASE("in what `figure` and `movie` make of every preset no text meets anoth
                               {0, 0, canvas.width(), canvas.height()}});
         });
         // some end early, which is not what is looked at here
-        CHECK(app::produce(options, pictures) <= app::ExitCode::failed);
+        CHECK(app::report(app::produce(options, pictures)) <= app::ExitCode::failed);
       }
       std::size_t words = 0;
       for (const auto& [there, panel] : canvases) {

@@ -35,8 +35,7 @@ std::set<std::string> offered(const std::vector<std::string>& words, const fs::p
 
 TEST_CASE("list --json has every command, preset and key") {
   const TemporaryFolder folder;
-  const auto printed = gridshell_program("list --json", folder.path());
-  REQUIRE(printed.code == 0);
+  const auto printed = good("list --json", folder.path());
   CHECK(printed.out == app::listing_json().value());
   const auto json = parsed(printed.out);
   REQUIRE(json.is_object());

@@ -15,9 +15,7 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
   REQUIRE(write_file(at / "shell.toml", search));
-  const Ended one = gridshell_program("figure shell.toml --threads 1", at);
-  CAPTURE(one.err);
-  REQUIRE(one.code == 0);
+  good("figure shell.toml --threads 1", at);
   const fs::path run = at / "out" / "shell";
   const auto tables = gridshell::record::read_state_tables(run);
   REQUIRE(tables);
@@ -26,14 +24,11 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
   CHECK(tables->search.at_rest >= 7);
   for (const char* name : {"shell.png", "shell_1.png", "shell_energies.svg", "shell_lives.png"})
     CHECK(fs::exists(run / name));
-  const Ended two = gridshell_program("figure shell.toml --threads 2 -o two", at);
-  REQUIRE(two.code == 0);
+  good("figure shell.toml --threads 2 -o two", at);
   for (const char* name : {"states.csv", "transitions.csv", "barriers.csv", "frames.csv",
                            "shell.png", "shell_ways.svg", "shell_barriers.svg"})
     if (fs::exists(run / name)) CHECK(text_of(run / name) == text_of(at / "two" / name));
-  const Ended again = gridshell_program("render out/shell -o again", at);
-  CAPTURE(again.err);
-  REQUIRE(again.code == 0);
+  good("render out/shell -o again", at);
   for (const char* name : {"shell.png", "shell_energies.png", "states.csv", "states.json"})
     CHECK(text_of(run / name) == text_of(at / "again" / name));
 }
@@ -55,21 +50,15 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[sta
                                                    "[sweep.over]\nfootprint.rods = [4]\n"
                                                    "footprint.longest_leg = [0.8, 2.0]\n"));
   // without a sweep its place is an empty frame that says so
-  const Ended bare = gridshell_program("figure page.toml --quiet", at);
-  CAPTURE(bare.err);
-  REQUIRE(bare.code == 0);
+  const Ended bare = good("figure page.toml --quiet", at);
   const std::string empty = text_of(at / "out/page/page_page.svg");
-  CHECK(empty.find("names no sweep") != std::string::npos);
-  CHECK(empty.find("longest leg") == std::string::npos);
-  REQUIRE(gridshell_program("sweep sweep.toml --quiet", at).code == 0);
+  CHECK_THAT(empty, Contains("names no sweep") && !Contains("longest leg"));
+  good("sweep sweep.toml --quiet", at);
   // drawn again with the sweep, shells as lines too
-  const Ended drawn = gridshell_program(
+  const Ended drawn = good(
       "render out/page -o again --quiet --set page.sweep=out/sweep --set figure.vector=true", at);
-  CAPTURE(drawn.err);
-  REQUIRE(drawn.code == 0);
   const std::string page = text_of(at / "again/page_page.svg");
-  CHECK(page.find("longest leg") != std::string::npos);
-  CHECK(page.find("names no sweep") == std::string::npos);
+  CHECK_THAT(page, Contains("longest leg") && !Contains("names no sweep"));
   CHECK(fs::exists(at / "again/page_page.pdf"));
   CHECK(fs::exists(at / "again/page_page_lines.svg"));
   // a folder that holds none, and one that is not finished
@@ -95,13 +84,11 @@ TEST_CASE("joints measured lie over a state of a page of states", "[standard]") 
       "[footprint]\nkind = \"circle\"\nrods = 6\nlongest_leg = 0.4\n[actuation]\nratio = 0.75\n"
       "[accuracy]\nedges_per_segment = 4\n[jitter]\ntrials = 2\nconfined = 7\n"
       "[page]\nkind = \"fig2\"\n[movie]\nsize = [320, 240]\n[figure]\nquality = \"draft\"\n"));
-  REQUIRE(gridshell_program("figure page.toml --quiet", at).code == 0);
+  good("figure page.toml --quiet", at);
   CHECK(text_of(at / "out/page/page_page.svg").find("joints measured") == std::string::npos);
-  const Ended drawn = gridshell_program({"render", "out/page", "-o", "again", "--quiet", "--set",
-                                         "figure.scan=[[0, 0, 20], [10, 10, 18]]"},
-                                        at);
-  CAPTURE(drawn.err);
-  REQUIRE(drawn.code == 0);
+  const Ended drawn = good({"render", "out/page", "-o", "again", "--quiet", "--set",
+                            "figure.scan=[[0, 0, 20], [10, 10, 18]]"},
+                           at);
   CHECK(text_of(at / "again/page_page.svg").find("joints measured") != std::string::npos);
 }
 
@@ -109,20 +96,14 @@ TEST_CASE("a search for states has no movie, and damaged tables are refused") {
   const TemporaryFolder folder;
   const fs::path& at = folder.path();
   REQUIRE(write_file(at / "shell.toml", search));
-  const Ended movie = gridshell_program("movie shell.toml", at);
-  CHECK(movie.code == 2);
-  CHECK(movie.err.find("gridshell figure") != std::string::npos);
-  REQUIRE(gridshell_program("run shell.toml", at).code == 0);
+  check_refused("movie shell.toml", at, Contains("gridshell figure"));
+  good("run shell.toml", at);
   REQUIRE(write_file(at / "out/shell/states.csv", "state\n"));
-  const Ended damaged = gridshell_program("render out/shell -o again", at);
-  CHECK(damaged.code == 2);
-  CHECK(damaged.err.find("states.csv") != std::string::npos);
+  check_refused("render out/shell -o again", at, Contains("states.csv"));
 }
 
 TEST_CASE("keys of a search that its mode does not use are refused with the reason") {
   const TemporaryFolder folder;
   REQUIRE(write_file(folder.path() / "shell.toml", search + "field_N_per_mm = 0.5\n"));
-  const Ended idle = gridshell_program("check shell.toml", folder.path());
-  CHECK(idle.code == 2);
-  CHECK(idle.err.find("gravity") != std::string::npos);
+  check_refused("check shell.toml", folder.path(), Contains("gravity"));
 }

@@ -37,6 +37,24 @@ Ended sweep(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   return gridshell_program(arguments, folder.path());
 }
 
+/// Kills the sweep into cut/ so often, each after `least` to `least` + `range` milliseconds; whole
+/// lines of its log stand where they stood. The log in the end.
+std::string killed_at_random(const fs::path& folder, int kills, unsigned seed, unsigned least,
+                             unsigned range) {
+  std::mt19937 random(seed);
+  std::string before;
+  for (int kill = 0; kill < kills; ++kill) {
+    const Running running("sweep small.toml -o cut --jobs 2 --quiet", folder);
+    std::this_thread::sleep_for(std::chrono::milliseconds(least + random() % range));
+    running.signal(SIGKILL);
+    running.wait();
+    const auto now = text_if_any(folder / "cut/sweep.jsonl");
+    REQUIRE(now.starts_with(before.substr(0, before.rfind('\n') + 1)));
+    before = now;
+  }
+  return before;
+}
+
 }  // namespace
 
 TEST_CASE("a sweep is the same with one job or more, and finished it draws again at once") {
@@ -61,19 +79,7 @@ TEST_CASE("killing a sweep at any moment loses nothing that was logged") {
   write_sweep(folder.path(), 24);
   REQUIRE(sweep(folder, {"-o", "whole"}).code == 0);
   const auto log = folder.path() / "cut/sweep.jsonl";
-  std::mt19937 random(15);
-  std::string before;
-  for (int kill = 0; kill < 20; ++kill) {
-    const Running running("sweep small.toml -o cut --jobs 2 --quiet", folder.path());
-    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 60));
-    running.signal(SIGKILL);
-    running.wait();
-    // whole lines of before stand where they stood
-    const auto now = text_if_any(log);
-    const auto whole = before.substr(0, before.rfind('\n') + 1);
-    REQUIRE(now.starts_with(whole));
-    before = now;
-  }
+  const auto before = killed_at_random(folder.path(), 20, 15, 0, 60);
   REQUIRE(sweep(folder, {"-o", "cut"}).code == 0);
   CHECK(text_if_any(log).starts_with(before.substr(0, before.rfind('\n') + 1)));
   CHECK(products(folder.path() / "cut") == products(folder.path() / "whole"));
@@ -126,18 +132,8 @@ footprint.rods = [4, 6]
   REQUIRE(sweep(folder, {"-o", "whole", "--jobs", "1"}).code == 0);
   for (const auto& text : found("whole")) CHECK_FALSE(text.empty());
   // four times -9 at random moments, then Ctrl-C once a point is there
-  std::mt19937 random(2);
   const auto log = at / "cut/sweep.jsonl";
-  std::string before;
-  for (int kill = 0; kill < 4; ++kill) {
-    const Running running("sweep small.toml -o cut --jobs 2 --quiet", at);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50 + random() % 200));
-    running.signal(SIGKILL);
-    running.wait();
-    const auto whole = before.substr(0, before.rfind('\n') + 1);
-    REQUIRE(text_if_any(log).starts_with(whole));
-    before = text_if_any(log);
-  }
+  killed_at_random(at, 4, 2, 50, 200);
   const std::size_t there = std::max<std::size_t>(1, lines_in(log));
   if (there < 5) {
     const Running running("sweep small.toml -o cut --jobs 1 --quiet", at);
@@ -194,11 +190,9 @@ TEST_CASE("two sweeps into one folder do not meet, another preset is refused") {
 TEST_CASE("what a sweep is asked for in vain is told") {
   const TemporaryFolder folder;
   write_sweep(folder.path(), 3);
-  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& why) {
-    const auto ended = sweep(folder, arguments);
-    INFO(ended.err);
-    CHECK(ended.code == 2);
-    CHECK_THAT(ended.err, Contains(why));
+  const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {
+    arguments.insert(arguments.begin(), {"sweep", "small.toml"});
+    check_refused(arguments, folder.path(), Contains(why));
   };
   refused({"--set", "sweep.plot=[\"height\"]"}, "did you mean 'height_mm'?");
   refused({"--set", "sweep.over={}"}, "sweeps nothing");

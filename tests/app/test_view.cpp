@@ -23,17 +23,13 @@ json played(const TemporaryFolder& folder, const std::string& input,
   REQUIRE(write_file(folder.path() / "visit.txt", input));
   std::vector<std::string> arguments{"view", "small.toml", "--play", "visit.txt"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  const Ended ended = gridshell_program(arguments, folder.path());
-  INFO(ended.err);
-  REQUIRE(ended.code == 0);
+  const Ended ended = good(arguments, folder.path());
   return json::parse(ended.out);
 }
 
 /// What `run` makes of the preset that was kept, which has the energy that was told of the shell.
 json run_of_kept(const TemporaryFolder& folder, const json& told) {
-  const Ended ran = gridshell_program("run kept/small_1.toml -o ran", folder.path());
-  INFO(ran.err);
-  REQUIRE(ran.code == 0);
+  const Ended ran = good("run kept/small_1.toml -o ran", folder.path());
   json summary = json::parse(text_of(folder.path() / "ran/summary.json"));
   CHECK(summary["energy_bend_mJ"].get<double>() ==
         Approx(told["energy_bend_mJ"].get<double>()).epsilon(1e-9));
@@ -199,9 +195,7 @@ TEST_CASE("a shell is designed in the window, kept and saved with its tables, an
   CHECK(kept["design"]["kept"] == true);
   CHECK(fs::exists(folder.path() / "kept/small_1_ends.csv"));
   CHECK(fs::exists(folder.path() / "kept/small_1_rods.csv"));
-  const Ended ran = gridshell_program("run kept/small_1.toml -o ran", folder.path());
-  INFO(ran.err);
-  REQUIRE(ran.code == 0);
+  const Ended ran = good("run kept/small_1.toml -o ran", folder.path());
   const json summary = json::parse(text_of(folder.path() / "ran/summary.json"));
   CHECK(summary["energy_bend_mJ"].get<double>() ==
         Approx(kept["energy_bend_mJ"].get<double>()).epsilon(1e-7));
@@ -321,8 +315,7 @@ TEST_CASE("without a display the window says what to do instead") {
 TEST_CASE("a bench drags by itself and prints its four figures") {
   const TemporaryFolder folder;
   REQUIRE(write_file(folder.path() / "small.toml", shell));
-  const Ended ended = gridshell_program("view small.toml --bench 0.5", folder.path());
-  REQUIRE(ended.code == 0);
+  const Ended ended = good("view small.toml --bench 0.5", folder.path());
   const json line = json::parse(ended.out);
   CHECK(line["interface_fps"].get<double>() > 0);
   CHECK(line["equilibria_per_s"].get<double>() > 0);

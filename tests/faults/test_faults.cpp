@@ -56,7 +56,7 @@ Outcome produce_failing(const fs::path& folder, app::Pictures pictures, Call kin
     app::install_terminate_handler();
     fail_call(kind, k);
     try {
-      code = app::produce(options, pictures);
+      code = app::report(app::produce(options, pictures));
     } catch (const std::exception& error) {
       code = app::report_exception(error);
     }
