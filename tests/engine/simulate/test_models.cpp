@@ -28,8 +28,8 @@ double distance_of_rungs(preset::Preset preset, int edges) {
   const auto bend =
       value_of(simulate::follow_actuation(scene, plan_of_mesh(edges), false, 1, unwatched));
   REQUIRE(bend.limit == record::Limit::none);
-  const RodMesh& mesh = bend.session.shell().finest();
-  const Eigen::Matrix3Xd& rest = bend.session.shell().state().levels.back().x;
+  const RodMesh& mesh = bend.simulation.shell().finest();
+  const Eigen::Matrix3Xd& rest = bend.simulation.shell().state().levels.back().x;
 
   const Model model =
       build_model(mesh, circular_material(0.254, 83, shear_GPa), RodModel::twist).value();
@@ -41,7 +41,7 @@ double distance_of_rungs(preset::Preset preset, int edges) {
     x.col(node) += 0.2 * Eigen::Vector3d(normal(random), normal(random), normal(random));
   move_to(model, x, state);
   turn_edges(model, random, state);
-  CHECK(energies_of(model, state)[Term::twist] > bend.session.energies()[Term::bend]);
+  CHECK(energies_of(model, state)[Term::twist] > bend.simulation.energies()[Term::bend]);
   Linearisation system(model);
   settle(system, state);
   CHECK(energies_of(model, state)[Term::twist] < 1e-12);

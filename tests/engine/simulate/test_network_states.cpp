@@ -18,10 +18,10 @@ preset::Preset searched(const std::string& name, preset::SearchMode mode, int tr
   return p;
 }
 
-simulate::StateLibrary states_of(const preset::Preset& preset) {
+study::StateLibrary states_of(const preset::Preset& preset) {
   Watch watch;
   auto found =
-      value_of(simulate::find_states(shared_scene(preset), preset.jitter, {.threads = 2}, watch));
+      value_of(study::find_states(shared_scene(preset), preset.jitter, {.threads = 2}, watch));
   return found;
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("a shell has the symmetries that take rods to rods of their kind") {
   const RodMesh mesh = mesh_rods(value_of(scene_of(p)).footprint, 4);
   const auto symmetries = [&] {
     const Scene scene = value_of(scene_of(p));
-    return simulate::symmetries_of_shell(
+    return study::symmetries_of_shell(
         scene, mesh, symmetries_of(mesh, pinned_motion(mesh, scene.motion).at(1)));
   };
   const auto keeps = [&](const MeshSymmetry& symmetry, std::size_t rod) {

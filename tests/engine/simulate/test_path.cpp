@@ -204,7 +204,7 @@ TEST_CASE("a saddle from flat loses its branch where two leading meshes say", "[
   const auto events = [](const LevelPlan& plan) {
     return value_of(simulate::follow_actuation(shared_scene(spool(preset::Start::flat)), plan,
                                                false, 1, unwatched))
-        .legs.back()
+        .segments.back()
         .report.events.size();
   };
   REQUIRE(events({{8, 16}, false}) == events({{16, 32}, false}));
