@@ -51,8 +51,7 @@ class FakeFfmpeg {
 TEST_CASE("without ffmpeg the command line is told instead, ready for a shell") {
   const FakeFfmpeg none("");
   const TemporaryFolder folder;
-  const auto encoding =
-      encode_movie("out/my run/frames", {.fps = 30}, folder.path() / "movie.mp4", {});
+  const auto encoding = encode_movie("out/my run/frames", {}, folder.path() / "movie.mp4", {});
   REQUIRE(encoding);
   CHECK_FALSE(encoding->made);
   CHECK(encoding->command.find("ffmpeg -nostdin -y") == 0);
@@ -65,8 +64,9 @@ TEST_CASE("with ffmpeg the movie appears whole, under its name") {
   // the last argument is the file; everything it was given goes into it
   const FakeFfmpeg ffmpeg("for last; do :; done\nprintf '%s\\n' \"$@\" > \"${last#file:}\"\n");
   const TemporaryFolder folder;
-  const auto encoding =
-      encode_movie("frames of 100%", {.fps = 25}, folder.path() / "movie.mp4", {});
+  preset::Movie slow;
+  slow.fps = 25;
+  const auto encoding = encode_movie("frames of 100%", slow, folder.path() / "movie.mp4", {});
   REQUIRE(encoding);
   CHECK(encoding->made);
   CHECK(folder.entries() == std::vector<std::string>{"movie.mp4"});
@@ -81,7 +81,7 @@ TEST_CASE("a failing ffmpeg is an error with its last words and leaves nothing")
       "for last; do :; done\necho half > \"${last#file:}\"\n"
       "echo 'first line' >&2\necho 'Unknown encoder libx264' >&2\nexit 8\n");
   const TemporaryFolder folder;
-  const auto encoding = encode_movie("frames", {.fps = 30}, folder.path() / "movie.mp4", {});
+  const auto encoding = encode_movie("frames", {}, folder.path() / "movie.mp4", {});
   REQUIRE_FALSE(encoding);
   CHECK(encoding.error().fault == Fault::io);
   CHECK(encoding.error().message.find("failed with exit code 8: Unknown encoder libx264") !=
@@ -98,7 +98,7 @@ TEST_CASE("a cancel ends ffmpeg before its time") {
     std::this_thread::sleep_for(std::chrono::milliseconds(150));
     watch.cancel();
   });
-  const auto encoding = encode_movie("frames", {.fps = 30}, folder.path() / "movie.mp4", watch);
+  const auto encoding = encode_movie("frames", {}, folder.path() / "movie.mp4", watch);
   stopper.join();
   REQUIRE_FALSE(encoding);
   CHECK(encoding.error().fault == Fault::cancelled);
