@@ -32,6 +32,15 @@ Eigen::Matrix3d symmetric_product(const Eigen::Vector3d& a, const Eigen::Vector3
   return m + m.transpose();
 }
 
+namespace {
+
+/// I - t t^T of a unit tangent.
+Eigen::Matrix3d normal_projector(const Eigen::Vector3d& t) {
+  return Eigen::Matrix3d::Identity() - t * t.transpose();
+}
+
+}  // namespace
+
 CurvatureBinormal curvature_binormal(const Eigen::Vector3d& t, const Eigen::Vector3d& s) {
   const double chi = 1 + t.dot(s);
   return {t, s, 2 / chi * t.cross(s), chi};
@@ -39,8 +48,8 @@ CurvatureBinormal curvature_binormal(const Eigen::Vector3d& t, const Eigen::Vect
 
 BinormalSlopes binormal_with_slopes(const Eigen::Vector3d& t, const Eigen::Vector3d& s) {
   BinormalSlopes b{curvature_binormal(t, s), {}, {}, {}, {}};
-  b.P = Eigen::Matrix3d::Identity() - t * t.transpose();
-  b.Q = Eigen::Matrix3d::Identity() - s * s.transpose();
+  b.P = normal_projector(t);
+  b.Q = normal_projector(s);
   b.by_p.noalias() = -(2 * cross_matrix(s) + b.kb * s.transpose()) / b.chi * b.P;
   b.by_q.noalias() = (2 * cross_matrix(t) - b.kb * t.transpose()) / b.chi * b.Q;
   return b;
@@ -58,8 +67,7 @@ void add_cosine(double by_c, double by_cc, const EdgeGeometry& e, const EdgeGeom
   const Eigen::Vector3d &t = e.tangent, &s = f.tangent;
   const double c = t.dot(s), i = 1 / e.length, j = 1 / f.length;
   const Eigen::Vector3d p = i * (s - c * t), q = j * (t - c * s);
-  const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - t * t.transpose(),
-                        Q = Eigen::Matrix3d::Identity() - s * s.transpose();
+  const Eigen::Matrix3d P = normal_projector(t), Q = normal_projector(s);
   out.gradient.head<3>() += by_c * p;
   out.gradient.segment<3>(3) += by_c * q;
   out.hessian.block<3, 3>(0, 0) +=
@@ -215,8 +223,7 @@ double add_joint_spin(double stiffness, int side, double theta, const EdgeGeomet
                     std::complex<double>(0, 1) * t.cross(director).cast<std::complex<double>>();
   const std::complex<double> sd(s.dot(director), s.dot(t.cross(director)));
   const Complex z = d / sd;
-  const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - t * t.transpose(),
-                        Q = Eigen::Matrix3d::Identity() - s * s.transpose();
+  const Eigen::Matrix3d P = normal_projector(t), Q = normal_projector(s);
   const Complex gp = -c * z, gq = Q * z;
   const Eigen::Vector3d zi = z.imag(), qzi = gq.imag(), ps = P * s, qt = Q * t;
 

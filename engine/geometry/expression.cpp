@@ -4,9 +4,21 @@
 #include <muParser.h>
 
 #include <limits>
-#include <regex>
+#include <string_view>
 
 namespace gridshell {
+namespace {
+
+/// Whether a sign of equality stands in it that is no part of ==, <=, >= or !=.
+bool is_equation(std::string_view text) {
+  for (std::size_t k = 1; k + 1 < text.size(); ++k)
+    if (text[k] == '=' && text[k + 1] != '=' &&
+        std::string_view("=<>!").find(text[k - 1]) == std::string_view::npos)
+      return true;
+  return false;
+}
+
+}  // namespace
 
 struct Expression::Parsed {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -14,9 +26,7 @@ struct Expression::Parsed {
 };
 
 Result<Expression> Expression::parse(const std::string& text) {
-  static const std::regex assignment("[^=<>!]=[^=]");
-  if (std::regex_search(text, assignment))
-    return fail(Fault::bad_input, "an equation, must be one side of it alone");
+  if (is_equation(text)) return fail(Fault::bad_input, "an equation, must be one side of it alone");
   auto parsed = std::make_shared<Parsed>();
   try {
     parsed->parser.DefineVar("x", &parsed->point.x());

@@ -215,7 +215,8 @@ Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm)
     for (int corner = 0; corner < 8; ++corner) {
       const Eigen::Vector3d to(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
       const auto* near = vertices.at(x.col(centre) + reach * to);
-      for (const int other : near ? *near : std::vector<int>())
+      if (!near) continue;
+      for (const int other : *near)
         if (mark[std::size_t(other)] != centre && (x.col(other) - x.col(centre)).norm() < reach)
           return mesh_fault(
               fmt::format("two parts of the mesh come within {:.3g} mm of one another", reach),
@@ -224,22 +225,24 @@ Result<MeshSurface> MeshSurface::fit(const TriangleMesh& mesh, double detail_mm)
     TRY_DO(surface.add_patch(mesh, centre, around));
   }
   int worst = 0;
+  double farthest = 0;
   for (int k = 0; k < int(x.cols()); ++k) {
     const double off = std::abs(surface.at(x.col(k)));
-    if (!(off <= surface.farthest_)) surface.farthest_ = off, worst = k;
+    if (!(off <= farthest)) farthest = off, worst = k;
   }
-  if (!(surface.farthest_ <= rough * detail_mm))
+  if (!(farthest <= rough * detail_mm))
     return mesh_fault(fmt::format("the mesh is not smooth: a vertex lies {:.2g} mm off the smooth "
                                   "surface through those around it, must be less than {:.2g} mm,",
-                                  surface.farthest_, rough * detail_mm),
+                                  farthest, rough * detail_mm),
                       x.col(worst));
   return surface;
 }
 
 double MeshSurface::at(const Eigen::Vector3d& p) const {
   const auto* near = near_.at(p);
+  if (!near) return std::numeric_limits<double>::quiet_NaN();
   double sum = 0, weights = 0;
-  for (const int k : near ? *near : std::vector<int>()) {
+  for (const int k : *near) {
     const Patch& patch = patches_[std::size_t(k)];
     const double weight = falling((p - patch.centre).squaredNorm() / (patch.reach * patch.reach));
     if (weight == 0) continue;

@@ -58,8 +58,7 @@ class MeshSurface {
   /// no polynomial tells them apart; too large a mesh for its details, or too uneven a one.
   static Result<MeshSurface> fit(const TriangleMesh& mesh, double detail_mm);
 
-  double at(const Eigen::Vector3d& p) const;            ///< not a number far from the mesh
-  double farthest_vertex() const { return farthest_; }  ///< off the surface, mm
+  double at(const Eigen::Vector3d& p) const;  ///< not a number far from the mesh
 
  private:
   static constexpr int degree = 4, terms = (degree + 1) * (degree + 2) / 2;
@@ -79,7 +78,6 @@ class MeshSurface {
   double reach_, rim_reach_, fit_radius_;
   std::vector<Patch> patches_;
   BoxGrid near_;
-  double farthest_ = 0;
 };
 
 /// The highest point of the mesh above or below (x, y); nothing: it has none.

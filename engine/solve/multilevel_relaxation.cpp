@@ -159,7 +159,7 @@ Result<State> MultilevelRelaxation::rest_confined(double t, const Eigen::Matrix3
 }
 
 /// Off an equilibrium that is not stable along its softest mode, and down. Which of the states
-/// below it that leads to does not matter, so it need not be the slow way of settle().
+/// below it that leads to does not matter, so it need not be the slow way of leave_saddle().
 Result<State> MultilevelRelaxation::let_go(Level& level, State state, const Watch& watch) const {
   Eigen::Matrix3Xd mode = softest_mode(*level.system, {}, watch);
   mode *= push_off * spacing_mm_ / max_column_norm(mode);

@@ -92,15 +92,12 @@ void NestedShell::back_to(const NestedState& state) {
 
 void NestedShell::restore(const NestedState& state, const std::vector<PinnedMotion>& motions,
                           const std::vector<Constraint>& holds) {
-  state_ = state;
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     levels_[k]->motion = motions[k];
     levels_[k]->system->hold(holds);
   }
   reset_path();
-  place(state.t, state.levels[0]);
-  set_corrections(beyond());
-  apply_loads();
+  back_to(state);
 }
 
 void NestedShell::forget() {
