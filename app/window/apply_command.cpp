@@ -16,8 +16,7 @@ namespace {
 /// As a preset takes it: what round-off left of a zero is none.
 std::vector<double> xyz_of(const Eigen::Vector3d& vector) {
   std::vector<double> xyz;
-  for (const double value : vector)
-    xyz.push_back(std::abs(value) < nearest_mm ? 0 : value);
+  for (const double value : vector) xyz.push_back(std::abs(value) < nearest_mm ? 0 : value);
   return xyz;
 }
 

@@ -128,7 +128,9 @@ void Picker::drag(double x, double y) {
       return viewer_.post(
           DragEdge{edge_, place_ + dragged_level(camera, viewer_.view, place_, from_x, from_y)},
           true);
-    default:
+    case Gesture::let_go_joint:
+    case Gesture::zoom:
+    case Gesture::pick:
       return;
   }
 }

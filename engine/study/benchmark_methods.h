@@ -56,8 +56,8 @@ Method auto_method(double tolerance);
 enum class Globalisation { none, line_search, shifted };
 constexpr auto words(Globalisation) {
   return names_except<Globalisation>({{Globalisation::none, "full steps"},
-                                    {Globalisation::line_search, "line search"},
-                                    {Globalisation::shifted, "shifted"}});
+                                      {Globalisation::line_search, "line search"},
+                                      {Globalisation::shifted, "shifted"}});
 }
 
 /// Newton's method on the energy's own Hessian, factorised by supernodal CHOLMOD in its own order:
@@ -74,8 +74,8 @@ Method textbook_method(int edges);
 enum class Relaxation { kinetic, explicit_damped, implicit_euler };
 constexpr auto words(Relaxation) {
   return names_except<Relaxation>({{Relaxation::kinetic, "dynamic relaxation"},
-                                 {Relaxation::explicit_damped, "explicit"},
-                                 {Relaxation::implicit_euler, "implicit Euler"}});
+                                   {Relaxation::explicit_damped, "explicit"},
+                                   {Relaxation::implicit_euler, "implicit Euler"}});
 }
 struct RelaxationOptions {
   Relaxation kind = Relaxation::kinetic;

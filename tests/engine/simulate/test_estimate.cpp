@@ -46,7 +46,8 @@ TEST_CASE("random circles: the error estimate is honest and useful, the toleranc
                                                   plan, false, 1, watch);
     if (!finer || finer->limit != limit) continue;
     const Eigen::Matrix3Xd joints = joints_of(asked->trajectory);
-    const double truth = max_column_norm(joints - finer->simulation.nodes().leftCols(joints.cols())),
+    const double truth =
+                     max_column_norm(joints - finer->simulation.nodes().leftCols(joints.cols())),
                  estimate = last_frame(*asked).error_estimate_mm, radius = p.footprint.radius_mm;
     // which state a snap leads to is told, and judged by the chart of trust
     if (limit == record::Limit::snap && truth > 1e-2 * radius) continue;

@@ -59,8 +59,8 @@ TEST_CASE("a shell has the symmetries that take rods to rods of their kind") {
   const RodMesh mesh = mesh_rods(value_of(scene_of(p)).footprint, 4);
   const auto symmetries = [&] {
     const Scene scene = value_of(scene_of(p));
-    return study::symmetries_of_shell(
-        scene, mesh, symmetries_of(mesh, pinned_motion(mesh, scene.motion).at(1)));
+    return study::symmetries_of_shell(scene, mesh,
+                                      symmetries_of(mesh, pinned_motion(mesh, scene.motion).at(1)));
   };
   const auto keeps = [&](const MeshSymmetry& symmetry, std::size_t rod) {
     std::set<int> there, nodes(mesh.rods[rod].begin(), mesh.rods[rod].end());

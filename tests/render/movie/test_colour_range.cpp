@@ -12,8 +12,8 @@ namespace {
 // a run of two frames whose cells all have these K
 record::Trajectory of_K(double first, double last) {
   record::Trajectory run = synthetic::dome(2, 1);
-  run.frames[0].cell_K.setConstant(first);
-  run.frames[1].cell_K.setConstant(last);
+  run.frames.edit()[0].cell_K.setConstant(first);
+  run.frames.edit()[1].cell_K.setConstant(last);
   return run;
 }
 

@@ -48,7 +48,7 @@ TEST_CASE("the deviation of a shell two per cent inside its sphere is two per ce
 
 TEST_CASE("K is plotted at the centroid of the cell over the half-span") {
   record::Trajectory run = one_cell();
-  run.frames[0].nodes.row(0).array() += 5;
+  run.frames.edit()[0].nodes.row(0).array() += 5;
   const Plot plot = curvature_plot({{&run, "shell"}});
   REQUIRE(plot.series.size() == 1);
   REQUIRE(plot.series[0].x.size() == 1);
@@ -77,7 +77,7 @@ TEST_CASE("scanned joints are one more series of the latitude plot") {
 
 TEST_CASE("quantiles of the deviation run from the nearest joint to the farthest") {
   record::Trajectory run = one_cell();
-  run.frames[0].nodes.col(2) = 0.95 * run.layout.net_nodes.col(2);
+  run.frames.edit()[0].nodes.col(2) = 0.95 * run.layout.net_nodes.col(2);
   const Plot plot = quantile_plot({{&run, "shell"}});
   REQUIRE(plot.series.size() == 1);
   const Series& series = plot.series[0];
@@ -132,7 +132,7 @@ namespace {
 record::Trajectory pushed() {
   record::Trajectory run = synthetic::dome(3, 2);
   for (int k = 0; k < 3; ++k) {
-    record::Frame& frame = run.frames[std::size_t(k)];
+    record::Frame& frame = run.frames.edit()[std::size_t(k)];
     frame.depth_mm = 2 * k;
     frame.force_N = 0.1 * k * k;
     frame.event.clear();
@@ -158,7 +158,7 @@ TEST_CASE("a snap is a dashed line from the state before to the one after, with 
   record::Trajectory run = pushed();
   record::Frame snapped = run.frames[2];
   snapped.event = "snap at depth 3.1 mm";
-  run.frames.back() = snapped;
+  run.frames.edit().back() = snapped;
   const Plot plot = force_plot({{&run, "a"}, {&run, "b"}});
   REQUIRE(plot.series.size() == 4);
   const Series &way = plot.series[0], &snap = plot.series[1];

@@ -278,10 +278,10 @@ TEST_CASE("a run that cannot be shown is refused with its reason") {
   style.size[0] = 8;
   CHECK(message(run, style) ==
         "a picture of 8 x 720 pixels cannot be made: both sides must be 16 to 16384");
-  run.frames[1].nodes(2, 5) = std::numeric_limits<double>::quiet_NaN();
+  run.frames.edit()[1].nodes(2, 5) = std::numeric_limits<double>::quiet_NaN();
   CHECK(message(run, {}).find("frame 1 of the run has") == 0);
   run = synthetic::dome(3, 2);
-  run.frames[2].cell_K.resize(5);
+  run.frames.edit()[2].cell_K.resize(5);
   CHECK(message(run, {}) == "frame 2 of the run has K of 5 cells instead of 97");
   run.frames = {};
   CHECK(message(run, {}) == "the run has no frame to show");
@@ -300,7 +300,7 @@ TEST_CASE("what no frame knows cannot be what is coloured") {
   CHECK(lacks(ColourBy::deviation).find("no net") != std::string::npos);
   run.layout.net_nodes = run.frames[0].nodes;
   CHECK(lacks(ColourBy::deviation).empty());
-  run.frames[2].axial_force_N.setConstant(record::edges_of_rods(run.layout), -0.1);
+  run.frames.edit()[2].axial_force_N.setConstant(record::edges_of_rods(run.layout), -0.1);
   CHECK(lacks(ColourBy::axial_force).empty());
 }
 
