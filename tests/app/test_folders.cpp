@@ -65,7 +65,7 @@ TEST_CASE("where memory is short a command ends with a sentence, wherever it run
   for (const char* kilobytes : {"150000", "300000", "400000"}) {
     INFO(kilobytes);
     const int code = shell(bench, std::string("ulimit -v ") + kilobytes +
-                                      " && gridshell movie small.toml > out 2> err");
+                                      " && gridshell movie small.toml > said 2> err");
     CHECK(code <= 1);
     if (code == 1) CHECK_THAT(text_of(bench.at / "err"), Contains("memory") || Contains("cannot"));
   }

@@ -27,11 +27,11 @@ const std::map<std::string, std::string> member_names{{"points_mm", "points"},
 std::set<std::string> members_read() {
   static const std::regex member("(?:\\.|->)([A-Za-z_]\\w*)");
   std::set<std::string> found;
-  for (const char* folder : {"engine", "app"})
+  for (const char* folder : {"engine", "render", "app"})
     for (const auto& file : files_under(fs::path(GRIDSHELL_SOURCE_DIR) / folder, ".cpp")) {
       const auto text = text_of(file);
       if (file.string().find("/engine/preset/") != std::string::npos ||
-          text.find("preset::") == std::string::npos)
+          (text.find("preset::") == std::string::npos && folder != std::string("render")))
         continue;
       for (std::sregex_iterator at(text.begin(), text.end(), member), end; at != end; ++at)
         found.insert((*at)[1]);
@@ -84,7 +84,9 @@ bool same(const render::MovieStyle& a, const render::MovieStyle& b) {
     return std::tuple(l.rod_mm, l.joint_mm, l.ring_mm, l.rod, l.joint, l.ring, l.background, l.map,
                       l.range, l.cells, l.rings, l.floor, l.shadow, l.sheen, l.far_fade, l.letters);
   };
-  return movie(a) == movie(b) && beside(a) == beside(b) && look(a.look) == look(b.look);
+  // what counts with bins alone is not written without them
+  return movie(a) == movie(b) && a.bins_range == b.bins_range && beside(a) == beside(b) &&
+         look(a.look) == look(b.look);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST_CASE("a design that is stopped leaves the step in hand that was seen last")
   CHECK((shell.nodes() - last.frame.nodes).cwiseAbs().maxCoeff() < 1e-6);
   // a hand that goes on has kept it
   const Eigen::Vector3d up(0, 0, 1);
-  shell.act(Push{0, shell.node(0) - up});
+  shell.attempt(Push{0, shell.node(0) - up});
   CHECK(shell.view().design->kept);
   CHECK(why_not_designed(shell.view()) != "");
   CHECK(shell.attempt(DiscardDesign{}).find("undone first") != std::string::npos);

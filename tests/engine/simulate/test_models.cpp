@@ -51,17 +51,9 @@ double distance_of_rungs(preset::Preset preset, int edges) {
 
 }  // namespace
 
-TEST_CASE("twist rung: hemisphere, saddle and circle from random angles are the bend rung's") {
-  preset::Preset fig1 = circle(12, 126, 0.9 * 126);
-  fig1.imperfection.size = 0;
-  for (const preset::Preset& preset : {on_net(), spool(), fig1})
+TEST_CASE("twist rung: hemisphere and saddle from random angles are the bend rung's") {
+  for (const preset::Preset& preset : {on_net(), spool()})
     CHECK(distance_of_rungs(preset, 4) < 1e-8);
-}
-
-TEST_CASE("twist rung: the circle from random angles is the bend rung's, 16 edges", "[standard]") {
-  preset::Preset fig1 = circle(12, 126, 0.9 * 126);
-  fig1.imperfection.size = 0;
-  CHECK(distance_of_rungs(fig1, 16) < 1e-7);
 }
 
 TEST_CASE("a circle on the twist rung ends where it does on the bend rung, without twist") {
