@@ -78,7 +78,7 @@ tidy() {
     printf '%s\n' $without_git >"$scratch/files"
   fi
   # the commands that compile each file by itself
-  cmake -S . -B "$scratch" -DCMAKE_BUILD_TYPE=Release -DGRIDSHELL_FOLDERS_AS_ONE=OFF >"$scratch/said" ||
+  cmake -S . -B "$scratch" -DCMAKE_BUILD_TYPE=Release >"$scratch/said" ||
     { cat "$scratch/said"; return 1; }
   # a file that this build leaves out has no command to look at
   while read -r file; do
