@@ -14,7 +14,7 @@ set -u
 cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}
 limit=${LIMIT:-10}
-without_git="engine/core/file_io.cpp engine/footprint/mesh.cpp engine/preset/toml_values.cpp
+without_git="engine/core/file_io.cpp engine/footprint/mesh.cpp engine/preset/field_values.cpp
   render/gl/png.cpp app/cli/staged_folder.cpp"
 
 need() {
