@@ -24,9 +24,7 @@ target_include_directories(gridshell_version SYSTEM PRIVATE ${EIGEN_INCLUDE_DIR}
 target_compile_definitions(gridshell_version PRIVATE EIGEN_DONT_PARALLELIZE)
 target_link_libraries(gridshell_version PRIVATE fmt::fmt)
 gridshell_position_independent(gridshell_version)
-target_precompile_headers(gridshell_version PRIVATE <Eigen/Core> <Eigen/Geometry> <fmt/format.h>
-  <tl/expected.hpp> <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional> <set>
-  <span> <string> <vector>)
+target_precompile_headers(gridshell_version PRIVATE ${read_by_all})
 
 file(GLOB_RECURSE ENGINE_SOURCES CONFIGURE_DEPENDS engine/*.cpp engine/*.h)
 list(FILTER ENGINE_SOURCES EXCLUDE REGEX "/core/version\\.cpp$")

@@ -34,8 +34,7 @@ function(gridshell_tests folder)
   target_compile_definitions(${target} PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # the first test program makes the precompiled header of all
   if(folder STREQUAL engine)
-    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <fmt/format.h>
-      <tl/expected.hpp> <catch2/catch.hpp> <filesystem> <functional> <map> <set>)
+    gridshell_read_once(${target} <catch2/catch.hpp> ${PROJECT_SOURCE_DIR}/engine/gridshell.h)
   else()
     target_precompile_headers(${target} REUSE_FROM test_engine)
   endif()
@@ -91,7 +90,7 @@ if(GRIDSHELL_PICTURES)
     # the program with the plain one of all clones, which no processor of today would choose
     if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       add_executable(gridshell_baseline app/cli/main.cpp tests/app/baseline_processor.cpp)
-      target_link_libraries(gridshell_baseline PRIVATE gridshell_app CLI11::CLI11)
+      target_link_libraries(gridshell_baseline PRIVATE gridshell_app)
       add_dependencies(test_app gridshell_baseline)
       target_compile_definitions(test_app PRIVATE
         GRIDSHELL_BASELINE_PROGRAM="$<TARGET_FILE:gridshell_baseline>")

@@ -1,7 +1,6 @@
 // The work behind `chart`: studies of methods, their tables and pictures.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -277,35 +276,33 @@ Result<int> chart(const ChartOptions& options) {
 
 }  // namespace
 
-void add_chart(CLI::App& program, Action& action) {
+void add_chart(CommandLine& program) {
   const auto options = std::make_shared<ChartOptions>();
-  CLI::App& command =
-      add_command(program, action, "chart",
-                  "speed against accuracy; where methods hold and fail; branches; trust",
+  CommandArguments command =
+      program.add("chart", "speed against accuracy; where methods hold and fail; branches; trust",
                   [options] { return chart(*options); });
   command
-      .add_option("KIND", options->kind,
-                  "accuracy, stability, branches (the bifurcation diagram), or trust (random "
-                  "scenes, no PRESET)")
-      ->required()
-      ->check(CLI::IsMember({"accuracy", "stability", "branches", "trust"}));
+      .option("KIND", options->kind,
+              "accuracy, stability, branches (the bifurcation diagram), or trust (random "
+              "scenes, no PRESET)")
+      .required()
+      .one_of({"accuracy", "stability", "branches", "trust"});
   add_preset_options(command, options->common);
-  command.get_option("PRESET")->required(false);
+  command.declared("PRESET").required(false);
   add_work_options(command, options->common,
                    "folder to write, by default out/<preset>_<KIND>, or out/trust");
   command
-      .add_option("--limit", options->limit_s,
-                  "seconds after which a run is too slow: by default 30 for accuracy, 4 for "
-                  "stability, 20 for trust")
-      ->check(CLI::Range(0.01, 1e6));
+      .option("--limit", options->limit_s,
+              "seconds after which a run is too slow: by default 30 for accuracy, 4 for "
+              "stability, 20 for trust")
+      .in_range(0.01, 1e6);
   command
-      .add_option("--edges", options->edges,
-                  "edges a segment of the finest mesh that methods are given")
-      ->check(CLI::Range(4, 32));
-  command.add_option("--scenes", options->scenes, "of trust: how many, of ten kinds in turn")
-      ->check(CLI::Range(1, 100000));
-  command.add_option("--seed", options->seed, "of trust: other scenes")
-      ->check(CLI::Range(0, 1 << 30));
+      .option("--edges", options->edges,
+              "edges a segment of the finest mesh that methods are given")
+      .in_range(4, 32);
+  command.option("--scenes", options->scenes, "of trust: how many, of ten kinds in turn")
+      .in_range(1, 100000);
+  command.option("--seed", options->seed, "of trust: other scenes").in_range(0, 1 << 30);
 }
 
 }  // namespace gridshell::app

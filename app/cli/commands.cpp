@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,50 +19,10 @@
 
 namespace gridshell::app {
 
-CLI::App& add_command(CLI::App& program, Action& action, const std::string& name,
-                      const std::string& meaning, Action act) {
-  CLI::App* command = program.add_subcommand(name, meaning);
-  command->callback([&action, act = std::move(act)] { action = act; });
-  return *command;
-}
-
-namespace {
-
-/// "TEXT:{auto,osmesa}" names the words of a choice.
-std::vector<std::string> words_in(const std::string& type) {
-  const auto begin = type.find('{'), end = type.find('}');
-  if (begin == type.npos || end == type.npos || end < begin) return {};
-  return CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
-}
-
-CommandOption entry_of(const CLI::Option& option) {
-  CommandOption entry;
-  entry.argument = option.get_positional();
-  entry.name = entry.argument ? option.get_name(true) : option.get_name();
-  if (!entry.argument && !option.get_lnames().empty()) entry.name = "--" + option.get_lnames()[0];
-  if (!option.get_snames().empty()) entry.short_name = "-" + option.get_snames()[0];
-  entry.meaning = option.get_description();
-  entry.words = words_in(option.get_type_name());
-  entry.flag = option.get_items_expected_max() == 0;
-  entry.required = option.get_required();
-  entry.many = option.get_items_expected_max() > 1;
-  return entry;
-}
-
-}  // namespace
-
 std::vector<CommandEntry> command_table() {
-  CLI::App program;
-  Action action;
-  add_commands(program, action);
-  std::vector<CommandEntry> table;
-  for (const CLI::App* command : program.get_subcommands({})) {
-    CommandEntry entry{command->get_name(), command->get_description(), command->get_footer(), {}};
-    for (const CLI::Option* option : command->get_options())
-      entry.options.push_back(entry_of(*option));
-    table.push_back(std::move(entry));
-  }
-  return table;
+  CommandLine program;
+  add_commands(program);
+  return program.table();
 }
 
 // `gridshell check PRESET`: validates a preset and explains what would run.
@@ -144,31 +103,29 @@ Result<std::string> listing(const ListOptions& options) {
   return options.man ? man_page() : preset_lines();
 }
 
-void add_list(CLI::App& program, Action& action) {
+void add_list(CommandLine& program) {
   const auto options = std::make_shared<ListOptions>();
-  CLI::App& command = add_command(program, action, "list", "the presets that come with the program",
-                                  [options]() -> Result<int> {
-                                    TRY(text, listing(*options));
-                                    fmt::print("{}", *text);
-                                    return printed();
-                                  });
-  command
-      .add_option("--keys", options->keys, "instead, the reference of all keys a preset can hold")
-      ->check(CLI::IsMember({"markdown"}));
-  command.add_flag("--json", options->json,
-                   "instead, all commands, options, presets and keys for other programs");
-  command.add_option("--completion", options->completion, "instead, a script for a shell")
-      ->check(CLI::IsMember({"bash"}));
-  command.add_flag("--man", options->man, "instead, the manual page");
+  CommandArguments command =
+      program.add("list", "the presets that come with the program", [options]() -> Result<int> {
+        TRY(text, listing(*options));
+        fmt::print("{}", *text);
+        return printed();
+      });
+  command.option("--keys", options->keys, "instead, the reference of all keys a preset can hold")
+      .one_of({"markdown"});
+  command.flag("--json", options->json,
+               "instead, all commands, options, presets and keys for other programs");
+  command.option("--completion", options->completion, "instead, a script for a shell")
+      .one_of({"bash"});
+  command.flag("--man", options->man, "instead, the manual page");
 }
 
 /// Those that take a preset, what changes it, where to write and how to draw, and nothing else.
-void add_preset_command(CLI::App& program, Action& action, const char* name, const char* meaning,
+void add_preset_command(CommandLine& program, const char* name, const char* meaning,
                         Result<int> (*act)(const Options&),
                         const char* output = "folder to write, by default out/<preset>") {
   const auto options = std::make_shared<Options>();
-  CLI::App& command =
-      add_command(program, action, name, meaning, [options, act] { return act(*options); });
+  CommandArguments command = program.add(name, meaning, [options, act] { return act(*options); });
   add_preset_options(command, *options);
   add_work_options(command, *options, output);
   add_picture_options(command, *options);
@@ -181,28 +138,26 @@ Result<int> produce_with(const Options& options) {
 
 }  // namespace
 
-void add_commands(CLI::App& program, Action& action) {
-  add_preset_command(program, action, "movie",
-                     "run the experiment and render it: frames and a movie",
+void add_commands(CommandLine& program) {
+  add_preset_command(program, "movie", "run the experiment and render it: frames and a movie",
                      produce_with<Pictures::movie>);
-  add_preset_command(program, action, "figure", "the stills of a preset",
-                     produce_with<Pictures::stills>);
-  add_preset_command(program, action, "run", "the experiment alone, no pictures",
+  add_preset_command(program, "figure", "the stills of a preset", produce_with<Pictures::stills>);
+  add_preset_command(program, "run", "the experiment alone, no pictures",
                      produce_with<Pictures::none>);
-  add_render(program, action);
-  add_view(program, action);
-  add_chart(program, action);
-  add_sweep(program, action);
+  add_render(program);
+  add_view(program);
+  add_chart(program);
+  add_sweep(program);
   add_preset_command(
       program, action, "design",
       "moves pins, legs, held directions or diameters until the shell meets its surface",
       produce_design, "folder to write, by default out/<preset>_design");
-  add_export(program, action);
-  add_scan(program, action);
+  add_export(program);
+  add_scan(program);
   // the command line of a movie can be checked as it stands
-  add_preset_command(program, action, "check", "validate a preset and say what would run", check);
-  add_compare(program, action);
-  add_list(program, action);
+  add_preset_command(program, "check", "validate a preset and say what would run", check);
+  add_compare(program);
+  add_list(program);
 }
 
 }  // namespace gridshell::app

@@ -2,7 +2,6 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
@@ -145,26 +144,25 @@ Result<bool> compare_any(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& program, Action& action) {
+void add_compare(CommandLine& program) {
   const auto options = std::make_shared<CompareOptions>();
-  CLI::App& command =
-      add_command(program, action, "compare",
-                  "whether two pictures, or folders of them, are the same to the eye",
+  CommandArguments command =
+      program.add("compare", "whether two pictures, or folders of them, are the same to the eye",
                   [options]() -> Result<int> {
                     TRY(same, compare_any(*options));
                     return *same ? ExitCode::done : ExitCode::different;
                   });
-  command.add_option("A", options->a, "a PNG, or a folder of kept ones")->required();
-  command.add_option("B", options->b, "another of the same size, or a folder")->required();
+  command.option("A", options->a, "a PNG, or a folder of kept ones").required();
+  command.option("B", options->b, "another of the same size, or a folder").required();
   command
-      .add_option("--threshold", options->threshold,
-                  "largest mean difference of an 8 x 8 block, of 255")
-      ->check(CLI::Range(0.0, 255.0))
-      ->capture_default_str();
-  command.add_option("--difference", options->difference,
-                     "PNG to write, differences in red; of folders a sheet of all that differ");
-  command.add_flag("--update", options->update, "put B's pictures in the place of A's");
-  command.add_option("--why", options->why, "with --update: the reason, kept in A/WHY.md");
+      .option("--threshold", options->threshold,
+              "largest mean difference of an 8 x 8 block, of 255")
+      .in_range(0.0, 255.0)
+      .show_default();
+  command.option("--difference", options->difference,
+                 "PNG to write, differences in red; of folders a sheet of all that differ");
+  command.flag("--update", options->update, "put B's pictures in the place of A's");
+  command.option("--why", options->why, "with --update: the reason, kept in A/WHY.md");
 }
 
 }  // namespace gridshell::app

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <map>
 #include <memory>
@@ -252,23 +251,20 @@ Result<int> export_file(const ExportOptions& options) {
 
 // `gridshell export RUN --to FILE`: for other programs and for the workshop.
 
-void add_export(CLI::App& program, Action& action) {
+void add_export(CommandLine& program) {
   const auto options = std::make_shared<ExportOptions>();
-  CLI::App& command = add_command(
-      program, action, "export", "a run's shape for other programs, its footprint for the workshop",
-      [options] { return export_file(*options); });
-  command
-      .add_option("RUN", options->input, "folder of a run; for what is not a shape a PRESET too")
-      ->required();
-  command.add_option("--to", options->to, "the file; its extension is the format")->required();
-  command.add_option("--what", options->what,
-                     "shape, tubes, footprint, plate, cutlist or sheet; by default what the "
-                     "extension is for");
-  command.add_option("--frame", options->frame,
-                     "of a shape: index of its frame, by default the last");
-  command.add_option("--case", options->case_name, "of several cases: which");
-  command.add_option("--seconds", options->seconds, "of an animation (.glb)")
-      ->check(CLI::Range(0.1, 3600.0));
+  CommandArguments command =
+      program.add("export", "a run's shape for other programs, its footprint for the workshop",
+                  [options] { return export_file(*options); });
+  command.option("RUN", options->input, "folder of a run; for what is not a shape a PRESET too")
+      .required();
+  command.option("--to", options->to, "the file; its extension is the format").required();
+  command.option("--what", options->what,
+                 "shape, tubes, footprint, plate, cutlist or sheet; by default what the "
+                 "extension is for");
+  command.option("--frame", options->frame, "of a shape: index of its frame, by default the last");
+  command.option("--case", options->case_name, "of several cases: which");
+  command.option("--seconds", options->seconds, "of an animation (.glb)").in_range(0.1, 3600.0);
   add_unsealed(command, options->unsealed);
   command.footer("What is exported, and how:\n" + exported_formats());
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -284,13 +283,12 @@ Result<int> render(const Options& options, bool unsealed) {
 
 }  // namespace
 
-void add_render(CLI::App& program, Action& action) {
+void add_render(CommandLine& program) {
   const auto options = std::make_shared<Options>();
   const auto unsealed = std::make_shared<bool>(false);
-  CLI::App& command =
-      add_command(program, action, "render", "pictures of a finished run, without simulating again",
-                  [options, unsealed] { return render(*options, *unsealed); });
-  command.add_option("RUN", options->input, "the folder of a finished run")->required();
+  CommandArguments command = program.add("render", "pictures of a finished run, without simulating again",
+                                [options, unsealed] { return render(*options, *unsealed); });
+  command.option("RUN", options->input, "the folder of a finished run").required();
   add_changes(command, *options);
   add_work_options(command, *options, "folder to write, by default RUN itself");
   add_picture_options(command, *options);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 
@@ -13,45 +12,41 @@
 
 namespace gridshell::app {
 
-void add_changes(CLI::App& command, Options& options) {
-  command
-      .add_option("--set", options.set, "a key of the preset, any number of times: table.key=value")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_option("--size", options.size, "width and height of a picture: WxH");
-  command.add_option("--quality", options.quality, "draft, movie or figure");
-  command.add_option("--width", options.width, "width of a figure as printed: 85mm");
-  command.add_option("--dpi", options.dpi, "pixels of an inch, with --width");
+void add_changes(CommandArguments command, Options& options) {
+  command.option("--set", options.set, "a key of the preset, any number of times: table.key=value")
+      .one_each_time();
+  command.option("--size", options.size, "width and height of a picture: WxH");
+  command.option("--quality", options.quality, "draft, movie or figure");
+  command.option("--width", options.width, "width of a figure as printed: 85mm");
+  command.option("--dpi", options.dpi, "pixels of an inch, with --width");
 }
 
-void add_preset_options(CLI::App& command, Options& options) {
-  command.add_option("PRESET", options.input, "a preset file, or a name of 'gridshell list'")
-      ->required();
+void add_preset_options(CommandArguments command, Options& options) {
+  command.option("PRESET", options.input, "a preset file, or a name of 'gridshell list'")
+      .required();
   add_changes(command, options);
-  command.add_option("--frames", options.frames, "frames of the movie");
-  command.add_flag("--print-config", options.print_config,
-                   "print what default < preset < --set came to, as a preset, and stop");
+  command.option("--frames", options.frames, "frames of the movie");
+  command.flag("--print-config", options.print_config,
+               "print what default < preset < --set came to, as a preset, and stop");
 }
 
-void add_work_options(CLI::App& command, Options& options, const std::string& output) {
-  command.add_option("-o,--output", options.output, output)->check([](const std::string& path) {
-    return path.empty() ? "must name a folder" : "";
-  });
-  command.add_option("--threads", options.threads, "threads to work with; results do not change")
-      ->check(CLI::Range(1, 1024))
+void add_work_options(CommandArguments command, Options& options, const std::string& output) {
+  command.option("-o,--output", options.output, output).not_empty("must name a folder");
+  command.option("--threads", options.threads, "threads to work with; results do not change")
+      .in_range(1, 1024)
       // the software rasteriser reads this when its context is made
-      ->each([](const std::string& count) { setenv("LP_NUM_THREADS", count.c_str(), 1); });
-  command.add_flag("--quiet", options.quiet, "print nothing but errors");
+      .each([](const std::string& count) { setenv("LP_NUM_THREADS", count.c_str(), 1); });
+  command.flag("--quiet", options.quiet, "print nothing but errors");
 }
 
-void add_picture_options(CLI::App& command, Options& options) {
-  command.add_option("--context", options.context, "auto, osmesa, egl or window")
-      ->check(CLI::IsMember(all_words<render::ContextKind>()));
+void add_picture_options(CommandArguments command, Options& options) {
+  command.option("--context", options.context, "auto, osmesa, egl or window")
+      .one_of(all_words<render::ContextKind>());
 }
 
-void add_unsealed(CLI::App& command, bool& unsealed) {
-  command.add_flag("--unsealed", unsealed,
-                   "take a trajectory.h5 that another program wrote or changed");
+void add_unsealed(CommandArguments command, bool& unsealed) {
+  command.flag("--unsealed", unsealed,
+               "take a trajectory.h5 that another program wrote or changed");
 }
 
 Result<std::vector<preset::Override>> overrides_of(const Options& options) {

@@ -8,11 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/cli/command_line.h"
 #include "engine/gridshell.h"
-
-namespace CLI {
-class App;
-}
 
 namespace gridshell::app {
 
@@ -29,20 +26,20 @@ struct Options {
 };
 
 /// PRESET and everything that changes it: --set, --frames, --size, --quality, --print-config.
-void add_preset_options(CLI::App& command, Options& options);
+void add_preset_options(CommandArguments command, Options& options);
 
 /// What changes a preset or the pictures of a run: --set, --size, --quality, --width, --dpi.
-void add_changes(CLI::App& command, Options& options);
+void add_changes(CommandArguments command, Options& options);
 
 /// -o, --threads, --quiet: of commands that work for a while.
-void add_work_options(CLI::App& command, Options& options,
+void add_work_options(CommandArguments command, Options& options,
                       const std::string& output = "folder to write, by default out/<preset>");
 
 /// --context: of commands that draw.
-void add_picture_options(CLI::App& command, Options& options);
+void add_picture_options(CommandArguments command, Options& options);
 
 /// --unsealed: of commands that read a run's trajectory.
-void add_unsealed(CLI::App& command, bool& unsealed);
+void add_unsealed(CommandArguments command, bool& unsealed);
 
 /// The options that change the preset, in the order in which they are laid over it. Errors:
 /// bad_input for a --set without key or value, a --size that is not WxH.

@@ -1,7 +1,6 @@
 // `gridshell scan`: a cloud of points of a 3D scanner against the joints of runs.
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -275,15 +274,14 @@ Result<int> produce_scan(const ScanOptions& options) {
 
 }  // namespace
 
-void add_scan(CLI::App& program, Action& action) {
+void add_scan(CommandLine& program) {
   const auto options = std::make_shared<ScanOptions>();
-  CLI::App& command = add_command(program, action, "scan",
-                                  "which state a 3D scan shows, and how far its joints are off",
-                                  [options] { return produce_scan(*options); });
-  command.add_option("POINTS", options->common.input, "cloud of points: .ply, .xyz or .csv, mm")
-      ->required();
-  command.add_option("RUN", options->runs, "folders of runs; of a search all of its states")
-      ->required();
+  CommandArguments command =
+      program.add("scan", "which state a 3D scan shows, and how far its joints are off",
+                  [options] { return produce_scan(*options); });
+  command.option("POINTS", options->common.input, "cloud of points: .ply, .xyz or .csv, mm")
+      .required();
+  command.option("RUN", options->runs, "folders of runs; of a search all of its states").required();
   add_changes(command, options->common);
   add_work_options(command, options->common, "folder to write, by default out/<points>_scan");
   add_picture_options(command, options->common);

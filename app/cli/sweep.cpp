@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -278,22 +277,21 @@ Result<int> sweep(const SweepOptions& options) {
 
 // `gridshell sweep PRESET`: many runs of one preset, resumable, on several cores or machines.
 
-void add_sweep(CLI::App& program, Action& action) {
+void add_sweep(CommandLine& program) {
   const auto options = std::make_shared<SweepOptions>();
-  CLI::App& command =
-      add_command(program, action, "sweep", "many runs of one preset, resumable, parallel",
-                  [options] { return sweep(*options); });
+  CommandArguments command = program.add("sweep", "many runs of one preset, resumable, parallel",
+                                [options] { return sweep(*options); });
   add_preset_options(command, options->common);
   add_work_options(command, options->common);
   command
-      .add_option("--jobs", options->jobs,
-                  "points computed at a time, by default as many as there are cores; results do "
-                  "not change")
-      ->check(CLI::Range(1, 1024));
-  auto* shard =
-      command.add_option("--shard", options->shard, "i/N: every N-th point, in DIR/shard_i_of_N");
-  command.add_flag("--merge", options->merge, "gather the shards in DIR instead of computing")
-      ->excludes(shard);
+      .option("--jobs", options->jobs,
+              "points computed at a time, by default as many as there are cores; results do "
+              "not change")
+      .in_range(1, 1024);
+  const auto shard =
+      command.option("--shard", options->shard, "i/N: every N-th point, in DIR/shard_i_of_N");
+  command.flag("--merge", options->merge, "gather the shards in DIR instead of computing")
+      .excludes(shard);
 }
 
 }  // namespace gridshell::app

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 #include "engine/elastic/edge_energies.h"
 #include "engine/elastic/state.h"
@@ -344,12 +344,12 @@ double DesignShell::smallest_eigenvalue(const Watch& watch) {
       }
     stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
     inertia = (0.5 * (inertia + inertia.transpose())).eval();
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> own(stiffness, inertia);
-    smallest = own.eigenvalues()[0];
+    const auto own = eigen_pairs(stiffness, inertia);
+    smallest = own.values[0];
     for (int a = 0; a < modes; ++a) {
       modes_[std::size_t(a)].setZero();
       for (int b = 0; b < modes; ++b)
-        modes_[std::size_t(a)] += own.eigenvectors()(b, a) * found[std::size_t(b)];
+        modes_[std::size_t(a)] += own.vectors(b, a) * found[std::size_t(b)];
     }
   }
   return smallest;

@@ -1,15 +1,16 @@
 #include "engine/design/optimise.h"
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 #include "engine/scene/net_design.h"
 
 namespace gridshell {
+
+Eigen::VectorXd Distances::size() const { return vector.colwise().norm(); }
 
 Result<DesignTarget> DesignTarget::make(std::shared_ptr<const ChebyshevNet> net,
                                         Eigen::Matrix2Xd uv, preset::Target kind) {
@@ -20,6 +21,10 @@ Result<DesignTarget> DesignTarget::make(std::shared_ptr<const ChebyshevNet> net,
   target.uv_ = std::move(uv);
   target.places_ = std::move(*places);
   return target;
+}
+
+Eigen::Matrix3Xd DesignTarget::nearest(const Eigen::Matrix3Xd& joints) {
+  return joints - distances(joints).vector;
 }
 
 Distances DesignTarget::distances(const Eigen::Matrix3Xd& joints) {
@@ -160,7 +165,7 @@ class Optimiser {
                                     variables_.basis(), moved_, p, options_.weights);
     Eigen::MatrixXd damped = now.curvature;
     damped.diagonal().array() += damping_ * now.curvature.diagonal().mean();
-    const Eigen::VectorXd wanted = -damped.ldlt().solve(now.gradient);
+    const Eigen::VectorXd wanted = -solved_definite(damped, now.gradient);
     const Eigen::VectorXd q =
         variables_.limited(q_ + variables_.basis() * wanted, options_.move_limit_mm);
     const std::string refused = attempt(q, now.value, p);

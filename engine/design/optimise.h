@@ -21,7 +21,7 @@ struct Distances {
   Eigen::Matrix3Xd vector;
   Eigen::Matrix3Xd normal;  ///< unit; empty: every move counts
 
-  Eigen::VectorXd size() const { return vector.colwise().norm(); }
+  Eigen::VectorXd size() const;
 };
 
 class DesignTarget {
@@ -34,9 +34,7 @@ class DesignTarget {
   /// found last; where the net ends before, its tangent plane takes the surface's place.
   Distances distances(const Eigen::Matrix3Xd& joints);
   /// The nearest points themselves, 3 x joints.
-  Eigen::Matrix3Xd nearest(const Eigen::Matrix3Xd& joints) {
-    return joints - distances(joints).vector;
-  }
+  Eigen::Matrix3Xd nearest(const Eigen::Matrix3Xd& joints);
 
  private:
   std::shared_ptr<const ChebyshevNet> net_;

@@ -1,13 +1,11 @@
 #include "engine/design/variables.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "engine/core/dense.h"
 #include "engine/footprint/symmetry.h"
 
 namespace gridshell {
@@ -41,15 +39,12 @@ std::optional<std::vector<int>> permutation_of(const Eigen::Matrix2Xd& places, E
   return to;
 }
 
-/// The rotation or reflection that takes points to others best [Kabsch 1976], if it takes them
-/// there.
+/// The rotation or reflection that takes points to others, if one does.
 std::optional<Eigen::Matrix3d> motion_between(const Eigen::Matrix3Xd& from,
                                               const Eigen::Matrix3Xd& to, double near_mm) {
   const Eigen::Vector3d a = from.rowwise().mean(), b = to.rowwise().mean();
   const Eigen::Matrix3Xd x = from.colwise() - a, y = to.colwise() - b;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(y * x.transpose(),
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d turn = svd.matrixU() * svd.matrixV().transpose();
+  const Eigen::Matrix3d turn = best_turn(x, y, true);
   if ((turn * x - y).colwise().norm().maxCoeff() > near_mm) return std::nullopt;
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   if ((turn * up - up).norm() > 1e-3) return std::nullopt;
@@ -172,10 +167,10 @@ DesignVariables::DesignVariables(const Scene& scene, const std::vector<Vary>& va
     }
   if (all_.empty()) return;
   const Eigen::MatrixXd mean = projector(all_, symmetries);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(0.5 * (mean + mean.transpose()));
+  const auto own = eigen_pairs(Eigen::MatrixXd(0.5 * (mean + mean.transpose())));
   // eigenvalues of a projector are 0 and 1, in ascending order
-  const Eigen::Index free = (own.eigenvalues().array() > 0.5).count();
-  basis_ = own.eigenvectors().rightCols(free);
+  const Eigen::Index free = (own.values.array() > 0.5).count();
+  basis_ = own.vectors.rightCols(free);
 }
 
 ShellEnds DesignVariables::ends_at(const Eigen::VectorXd& q) const {

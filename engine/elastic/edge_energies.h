@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "engine/core/block3.h"
-#include "engine/elastic/rod_frame.h"
+#include "engine/elastic/element_energies.h"
 
 namespace gridshell {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "engine/core/energies.h"
-#include "engine/elastic/rod_frame.h"
 
 namespace gridshell {
 
@@ -37,6 +36,12 @@ struct NodeSpring {
 
 // What energies of two edges share: their eight local unknowns and the curvature binormal with its
 // derivatives.
+
+/// An edge vector with what every energy needs of it.
+struct EdgeGeometry {
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  ///< unit
+  double length = 0;                                   ///< current length, mm
+};
 
 /// What an energy of two edges e, f may read of a state.
 struct PairGeometry {

@@ -1,4 +1,4 @@
-// An edge of a rod in a state.
+// Reference frames of edges, carried in time by parallel transport [Bergou 2010].
 #pragma once
 
 #include <Eigen/Core>
@@ -6,14 +6,6 @@
 #include <cmath>
 
 namespace gridshell {
-
-/// An edge vector with what every energy needs of it.
-struct EdgeGeometry {
-  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  ///< unit
-  double length = 0;                                   ///< current length, mm
-};
-
-// Reference frames of edges, carried in time by parallel transport [Bergou 2010].
 
 /// Vector `v` carried from unit tangent a to unit tangent b by the rotation about a x b that takes
 /// one to the other. Undefined at b = -a.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "engine/core/algorithms.h"
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 
 namespace gridshell {
@@ -221,9 +221,7 @@ bool hold_all(const std::vector<HeldPlace>& places) {
       moves.row(3 * Eigen::Index(k) + axis) << e.transpose(), arm.cross(e).transpose();
     }
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(on_a_line);
-  return qr.compute(moves).rank() == 6;
+  return rank_of(moves, on_a_line) == 6;
 }
 
 /// Every piece that hangs together is held where it cannot turn.

@@ -1,14 +1,13 @@
 #include "engine/geometry/surface.h"
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 
 namespace gridshell {
@@ -62,14 +61,13 @@ Surface::Curvature Surface::curvature(const Eigen::Vector3d& p) const {
   plane.col(0) = normal.unitOrthogonal();
   plane.col(1) = normal.cross(plane.col(0));
   const Eigen::Matrix2d form = -plane.transpose() * second * plane / slope.norm();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> own(form);
-  const int larger =
-      std::abs(own.eigenvalues()[1]) >= as_large * std::abs(own.eigenvalues()[0]) ? 1 : 0;
+  const auto own = eigen_pairs(form);
+  const int larger = std::abs(own.values[1]) >= as_large * std::abs(own.values[0]) ? 1 : 0;
   Curvature found;
-  found.first = own.eigenvalues()[larger];
-  found.second = own.eigenvalues()[1 - larger];
-  found.axes.col(0) = plane * own.eigenvectors().col(larger);
-  found.axes.col(1) = plane * own.eigenvectors().col(1 - larger);
+  found.first = own.values[larger];
+  found.second = own.values[1 - larger];
+  found.axes.col(0) = plane * own.vectors.col(larger);
+  found.axes.col(1) = plane * own.vectors.col(1 - larger);
   found.axes.col(2) = normal;
   found.umbilic = std::abs(found.first - found.second) <= alike * std::abs(found.first);
   return found;
@@ -179,9 +177,7 @@ Result<void> MeshSurface::add_patch(const TriangleMesh& mesh, int vertex,
     heights[k] = weight * local.z();
   }
   // the shortest of all best coefficients: beside a rim not all of them may be told apart
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-  solver.setThreshold(1e-7);
-  patch.height = solver.compute(rows).solve(heights);
+  patch.height = shortest_least_squares(rows, heights, 1e-7);
   patch.slope = std::hypot(1.0, patch.height[1] / fit_radius_, patch.height[2] / fit_radius_);
   const bool beside_rim = std::ranges::any_of(around, [&](int k) { return mesh.on_rim(k); });
   patch.reach = beside_rim ? rim_reach_ : reach_;

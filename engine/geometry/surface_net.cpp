@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 
 namespace gridshell {
@@ -32,7 +32,7 @@ std::optional<Eigen::Vector3d> solved(const Surface& surface, const Eigen::Vecto
   for (int k = 0; k < most_iterations; ++k) {
     residual[0] = surface.at(p) / scale;
     rest(p, residual, slope);
-    const Eigen::Vector3d step = slope.partialPivLu().solve(residual);
+    const Eigen::Vector3d step = solved(slope, residual);
     p -= step;
     if (!((p - guess).norm() < astray * chord)) return std::nullopt;
     if (step.norm() <= exact * chord + 1e-15 * p.norm()) return p;

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "engine/core/dense.h"
 #include "engine/formats/csv.h"
 #include "engine/record/frame_values.h"
 
@@ -52,7 +53,7 @@ Tube tube_around(const Eigen::Matrix3Xd& points, double radius_mm, int sides) {
     const Eigen::Vector3d chord =
         points.col(std::min(k + 1, n - 1)) - points.col(std::max<Eigen::Index>(k - 1, 0));
     const Eigen::Vector3d next = chord.normalized();
-    side = Eigen::Quaterniond::FromTwoVectors(tangent, next) * side;
+    side = turn_between(tangent, next) * side;
     side = (side - side.dot(next) * next).normalized();
     tangent = next;
     const Eigen::Vector3d other = tangent.cross(side);

@@ -1,12 +1,12 @@
 #include "engine/scene/drawn_footprint.h"
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 #include "engine/footprint/domains.h"
 #include "engine/footprint/network.h"
@@ -149,8 +149,8 @@ void put_motion(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, co
 Eigen::Matrix2Xd seen_across(const Eigen::Matrix3Xd& places) {
   const Eigen::Vector3d middle = places.rowwise().mean();
   const Eigen::Matrix3Xd about = places.colwise() - middle;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(about * about.transpose());
-  return axes.eigenvectors().rightCols<2>().transpose() * about;
+  const auto axes = eigen_pairs(Eigen::Matrix3d(about * about.transpose()));
+  return axes.vectors.rightCols<2>().transpose() * about;
 }
 
 /// What is held around the rods, of a network in the plane the corners alone. Half the diagonal of

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/dense.h"
+
 namespace gridshell {
 
 Eigen::Vector3d EndRotation::at(double t) const {
@@ -17,7 +19,7 @@ Eigen::Vector3d EndRotation::rate(double t) const {
 
 EndRotation rotation_between(int node, int about, const Eigen::Vector3d& from,
                              const Eigen::Vector3d& to) {
-  const Eigen::AngleAxisd way(Eigen::Quaterniond::FromTwoVectors(from, to));
+  const Eigen::AngleAxisd way(turn_between(from, to));
   return {node, about, from, way.axis(), way.angle(), to.norm() / from.norm() - 1};
 }
 

@@ -1,8 +1,8 @@
 #include "engine/solve/multilevel_relaxation.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/equilibrium.h"
@@ -77,8 +77,7 @@ Eigen::Matrix3Xd MultilevelRelaxation::stretched_flat(double t) const {
     // what lies in the plane may be lifted off it by its ends; heights go with the plane
     if (mesh.height.size() > 0) ends(2, Eigen::Index(k)) -= mesh.height[on_boundary[k]];
   }
-  const Eigen::MatrixXd affine =
-      with_one(flat).colPivHouseholderQr().solve(Eigen::MatrixXd(ends.transpose()));
+  const Eigen::MatrixXd affine = least_squares(with_one(flat), ends.transpose());
   Eigen::Matrix3Xd nodes = (with_one(mesh.flat) * affine).transpose();
   if (mesh.height.size() > 0) nodes.row(2) += mesh.height;
   return nodes;

@@ -1,11 +1,10 @@
 #include "engine/solve/newton.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "engine/core/dense.h"
 #include "engine/elastic/edge_energies.h"
 
 namespace gridshell {
@@ -69,9 +68,7 @@ void Linearisation::border(Inertia& inertia) {
   compliance_.resize(m, m);
   for (Eigen::Index k = 0; k < m; ++k) compliance_.col(k) = held_part(border_[std::size_t(k)]);
   compliance_ = (0.5 * (compliance_ + compliance_.transpose())).eval();
-  const Eigen::VectorXd own =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(compliance_, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const Eigen::VectorXd own = eigenvalues(compliance_);
   inertia.usable = own.allFinite() && (own.array() != 0).all();
   inertia.negative_pivots += int((own.array() > 0).count()) - int(m);
 }
@@ -79,13 +76,13 @@ void Linearisation::border(Inertia& inertia) {
 void Linearisation::solve(Eigen::Matrix3Xd& right_hand_side) const {
   solver_->solve(right_hand_side);
   if (holds_.empty()) return;
-  const Eigen::VectorXd force = compliance_.partialPivLu().solve(held_part(right_hand_side));
+  const Eigen::VectorXd force = solved(compliance_, held_part(right_hand_side));
   for (std::size_t k = 0; k < border_.size(); ++k)
     right_hand_side -= force[Eigen::Index(k)] * border_[k];
 }
 
 Eigen::MatrixXd Linearisation::held_stiffness() const {
-  Eigen::MatrixXd stiffness = compliance_.inverse();
+  Eigen::MatrixXd stiffness = inverse(compliance_);
   stiffness.diagonal().array() -= border_stiffness;
   return stiffness;
 }

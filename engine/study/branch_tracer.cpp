@@ -1,6 +1,6 @@
+#include "engine/core/dense.h"
 #include "engine/study/bifurcation_diagram.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -175,16 +175,15 @@ std::vector<Eigen::Matrix3Xd> crossing_modes(Linearisation& system, const Pinned
     for (Eigen::Index row = 0; row < basis.rows(); ++row)
       basis(row, k) = std::sin(1 + double(row) * (1.3 + 0.61 * double(k)));
   for (int round = 0; round < rounds && !watch.cancelled(); ++round) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis);
-    basis = qr.householderQ() * Eigen::MatrixXd::Identity(basis.rows(), basis.cols());
+    basis = orthonormal(basis);
     for (Eigen::Index k = 0; k < basis.cols(); ++k) {
       Eigen::Matrix3Xd column = basis.col(k).reshaped(3, columns);
       system.solve(column);
       turned.col(k) = column.reshaped();
     }
     // the largest of the inverse are the softest
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> inner(basis.transpose() * turned);
-    basis = turned * inner.eigenvectors().rowwise().reverse();
+    const auto inner = eigen_pairs(Eigen::MatrixXd(basis.transpose() * turned));
+    basis = turned * inner.vectors.rowwise().reverse();
   }
   std::vector<Eigen::Matrix3Xd> modes;
   for (int k = low; k < high; ++k)

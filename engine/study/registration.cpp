@@ -1,3 +1,4 @@
+#include "engine/core/dense.h"
 #include "engine/study/scan.h"
 
 #include <Eigen/Geometry>
@@ -10,6 +11,11 @@
 #include "engine/core/box_grid.h"
 
 namespace gridshell::study {
+
+Eigen::Matrix3Xd Pose::of(const Eigen::Matrix3Xd& points) const {
+  return (turn * points).colwise() + shift;
+}
+
 namespace {
 
 constexpr int most_triples = 80, least_points = 4;
@@ -34,8 +40,9 @@ double extent_of(const Eigen::Matrix3Xd& points) {
 
 /// The rotation and shift that bring `from` nearest to `to`.
 Pose fit(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
-  const Eigen::Matrix4d moved = Eigen::umeyama(from, to, false);
-  return {moved.topLeftCorner<3, 3>(), moved.topRightCorner<3, 1>()};
+  const Eigen::Vector3d a = from.rowwise().mean(), b = to.rowwise().mean();
+  const Eigen::Matrix3d turn = best_turn(from.colwise() - a, to.colwise() - b, false);
+  return {turn, b - turn * a};
 }
 
 /// The places of a shape, found by where they are.

@@ -1,9 +1,7 @@
 #include "engine/study/scan.h"
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <optional>
 
 #include "engine/core/algorithms.h"
+#include "engine/core/dense.h"
 #include "engine/core/try.h"
 #include "engine/footprint/symmetry.h"
 
@@ -109,8 +108,8 @@ std::optional<Eigen::Vector3d> middle_of(const Eigen::Matrix3Xd& points, double 
   if ((points.colwise() - mean).colwise().norm().maxCoeff() > 2 * radius) return std::nullopt;
   if (points.cols() < 3) return mean;
   const Eigen::Matrix3Xd about = points.colwise() - mean;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(about * about.transpose());
-  const Eigen::Matrix<double, 3, 2> plane = axes.eigenvectors().rightCols<2>();
+  const auto axes = eigen_pairs(Eigen::Matrix3d(about * about.transpose()));
+  const Eigen::Matrix<double, 3, 2> plane = axes.vectors.rightCols<2>();
   const Eigen::Vector3d middle = plane * disc_around(plane.transpose() * about, radius);
   const auto off = (about.colwise() - middle).colwise().norm().array().eval();
   const auto beyond = double((off > wide_rim * radius).count());

@@ -34,9 +34,7 @@ struct Pose {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
 
-  Eigen::Matrix3Xd of(const Eigen::Matrix3Xd& points) const {
-    return (turn * points).colwise() + shift;
-  }
+  Eigen::Matrix3Xd of(const Eigen::Matrix3Xd& points) const;
 };
 
 /// How points lie on the places of a shape.

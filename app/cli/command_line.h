@@ -1,0 +1,107 @@
+// The command line: what commands declare of their arguments, read by CLI11 in command_line.cpp
+// alone, as reading its header takes longer than compiling a command.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace gridshell::app {
+
+/// What a command does; returns the exit code (console.h).
+using Action = std::function<Result<int>()>;
+
+/// An argument or an option that was declared.
+class Argument {
+ public:
+  Argument(CLI::Option* option) : option_(option) {}
+  Argument required(bool must = true);
+  Argument in_range(int least, int most);
+  Argument in_range(double least, double most);
+  Argument one_of(const std::vector<std::string>& words);
+  /// Not an empty text: `message` says what it must be.
+  Argument not_empty(const std::string& message);
+  /// Called with each text that is given.
+  Argument each(std::function<void(const std::string&)> act);
+  Argument excludes(Argument other);
+  /// The value it has by default stands in the help.
+  Argument show_default();
+  /// One value each time that it is given, any number of times.
+  Argument one_each_time();
+
+ private:
+  CLI::Option* option_;
+};
+
+/// What a command takes. Names are "-o,--output" of an option, "PRESET" of an argument.
+class CommandArguments {
+ public:
+  CommandArguments(CLI::App* command) : command_(command) {}
+  Argument option(const std::string& names, std::string& value, const std::string& meaning);
+  Argument option(const std::string& names, std::filesystem::path& value,
+                  const std::string& meaning);
+  Argument option(const std::string& names, std::vector<std::string>& value,
+                  const std::string& meaning);
+  Argument option(const std::string& names, int& value, const std::string& meaning);
+  Argument option(const std::string& names, double& value, const std::string& meaning);
+  Argument flag(const std::string& names, bool& value, const std::string& meaning);
+  /// One that was declared before.
+  Argument declared(const std::string& name);
+  /// What its help ends with.
+  void footer(const std::string& text);
+
+ private:
+  CLI::App* command_;
+};
+
+// The commands as data, read off what they declare: for whatever lists them.
+
+/// An argument or an option of a command.
+struct CommandOption {
+  std::string name;        ///< "--to"; of an argument "PRESET"
+  std::string short_name;  ///< "-o", or empty
+  std::string meaning;
+  std::vector<std::string> words;  ///< that it can be; empty: anything
+  bool argument = false;           ///< stands by its place
+  bool flag = false;               ///< takes no value
+  bool required = false;
+  bool many = false;  ///< any number of times
+};
+
+struct CommandEntry {
+  std::string name, meaning;
+  std::string footer;  ///< what its help ends with
+  std::vector<CommandOption> options;
+};
+
+class CommandLine {
+ public:
+  CommandLine();
+  ~CommandLine();
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+
+  /// Adds `gridshell name`, which does `act`.
+  CommandArguments add(const std::string& name, const std::string& meaning, Action act);
+
+  /// Does what the command line asks for and returns the exit code; faults are reported.
+  int run(int argc, char** argv);
+
+  /// All commands, in the order of the help.
+  std::vector<CommandEntry> table() const;
+
+ private:
+  std::unique_ptr<CLI::App> program_;
+  Action action_;
+};
+
+}  // namespace gridshell::app

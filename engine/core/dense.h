@@ -1,0 +1,56 @@
+// Small dense problems. Eigen's decompositions are compiled here once: a file that uses one itself
+// takes seconds longer to compile.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace gridshell {
+
+/// Eigenvalues of a symmetric n x n matrix in ascending order, and its unit eigenvectors as
+/// columns.
+template <int n>
+struct EigenPairs {
+  Eigen::Matrix<double, n, 1> values;
+  Eigen::Matrix<double, n, n> vectors;
+};
+
+EigenPairs<2> eigen_pairs(const Eigen::Matrix2d& symmetric);
+EigenPairs<3> eigen_pairs(const Eigen::Matrix3d& symmetric);
+EigenPairs<Eigen::Dynamic> eigen_pairs(const Eigen::MatrixXd& symmetric);
+
+/// Those of A v = lambda B v, A symmetric, B symmetric and positive definite.
+EigenPairs<Eigen::Dynamic> eigen_pairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric);
+
+/// A^-1 and A^-1 b of a square A that has an inverse.
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
+Eigen::Vector3d solved(const Eigen::Matrix3d& A, const Eigen::Vector3d& b);
+Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
+/// A^-1 b of a symmetric positive definite A.
+Eigen::VectorXd solved_definite(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
+/// X that makes |A X - B| least, A of full rank.
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// The shortest x of those that make |A x - b| least; pivots below `threshold` of the largest count
+/// as zero.
+Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
+                                       double threshold);
+
+/// The rank of A, with that threshold.
+Eigen::Index rank_of(const Eigen::MatrixXd& A, double threshold);
+
+/// As many orthonormal columns as those of A span.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& A);
+
+/// R that makes |R x - y| least, columns of x and y being points about their means [Kabsch 1976]: a
+/// rotation, or, where mirrors count too, a reflection.
+Eigen::Matrix3d best_turn(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y, bool mirrors);
+
+/// The shortest rotation that takes the direction of `from` to that of `to`.
+Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+}  // namespace gridshell
