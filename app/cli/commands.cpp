@@ -149,7 +149,7 @@ void add_commands(CommandLine& program) {
   add_chart(program);
   add_sweep(program);
   add_preset_command(
-      program, action, "design",
+      program, "design",
       "moves pins, legs, held directions or diameters until the shell meets its surface",
       produce_design, "folder to write, by default out/<preset>_design");
   add_export(program);

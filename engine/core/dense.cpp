@@ -5,25 +5,16 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <cmath>
 
 namespace gridshell {
-namespace {
 
-template <int n>
-EigenPairs<n> pairs_of(const Eigen::Matrix<double, n, n>& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, n, n>> own(symmetric);
+EigenPairs eigen_pairs(const Eigen::MatrixXd& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(symmetric);
   return {own.eigenvalues(), own.eigenvectors()};
 }
 
-}  // namespace
-
-EigenPairs<2> eigen_pairs(const Eigen::Matrix2d& symmetric) { return pairs_of<2>(symmetric); }
-EigenPairs<3> eigen_pairs(const Eigen::Matrix3d& symmetric) { return pairs_of<3>(symmetric); }
-EigenPairs<Eigen::Dynamic> eigen_pairs(const Eigen::MatrixXd& symmetric) {
-  return pairs_of<Eigen::Dynamic>(symmetric);
-}
-
-EigenPairs<Eigen::Dynamic> eigen_pairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+EigenPairs eigen_pairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> own(A, B);
   return {own.eigenvalues(), own.eigenvectors()};
 }
@@ -35,15 +26,11 @@ Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric) {
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& A) { return A.inverse(); }
 
-Eigen::Vector3d solved(const Eigen::Matrix3d& A, const Eigen::Vector3d& b) {
+Eigen::VectorXd solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   return A.partialPivLu().solve(b);
 }
 
-Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-  return A.partialPivLu().solve(b);
-}
-
-Eigen::VectorXd solved_definite(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+Eigen::VectorXd definite_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   return A.ldlt().solve(b);
 }
 
@@ -70,7 +57,9 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& A) {
 }
 
 Eigen::Matrix3d best_turn(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y, bool mirrors) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(y * x.transpose() / double(x.cols()),
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (Eigen::Index k = 0; k < x.cols(); ++k) covariance += y.col(k) * x.col(k).transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector3d sign = Eigen::Vector3d::Ones();
   if (!mirrors && svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign[2] = -1;
@@ -78,7 +67,15 @@ Eigen::Matrix3d best_turn(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y, 
 }
 
 Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to);
+  const Eigen::Vector3d a = from.normalized(), b = to.normalized();
+  const double c = a.dot(b);
+  // half a turn about any axis across
+  if (c < -1 + 1e-12) return Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, a.unitOrthogonal()));
+  Eigen::Quaterniond turn;
+  const double s = std::sqrt(2 * (1 + c));
+  turn.w() = 0.5 * s;
+  turn.vec() = a.cross(b) / s;
+  return turn;
 }
 
 }  // namespace gridshell

@@ -7,30 +7,25 @@
 
 namespace gridshell {
 
-/// Eigenvalues of a symmetric n x n matrix in ascending order, and its unit eigenvectors as
-/// columns.
-template <int n>
+/// Eigenvalues of a symmetric matrix in ascending order, and its unit eigenvectors as columns.
 struct EigenPairs {
-  Eigen::Matrix<double, n, 1> values;
-  Eigen::Matrix<double, n, n> vectors;
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
 };
 
-EigenPairs<2> eigen_pairs(const Eigen::Matrix2d& symmetric);
-EigenPairs<3> eigen_pairs(const Eigen::Matrix3d& symmetric);
-EigenPairs<Eigen::Dynamic> eigen_pairs(const Eigen::MatrixXd& symmetric);
+EigenPairs eigen_pairs(const Eigen::MatrixXd& symmetric);
 
 /// Those of A v = lambda B v, A symmetric, B symmetric and positive definite.
-EigenPairs<Eigen::Dynamic> eigen_pairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+EigenPairs eigen_pairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric);
 
 /// A^-1 and A^-1 b of a square A that has an inverse.
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
-Eigen::Vector3d solved(const Eigen::Matrix3d& A, const Eigen::Vector3d& b);
-Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+Eigen::VectorXd solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// A^-1 b of a symmetric positive definite A.
-Eigen::VectorXd solved_definite(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+Eigen::VectorXd definite_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// X that makes |A X - B| least, A of full rank.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);

@@ -165,7 +165,7 @@ class Optimiser {
                                     variables_.basis(), moved_, p, options_.weights);
     Eigen::MatrixXd damped = now.curvature;
     damped.diagonal().array() += damping_ * now.curvature.diagonal().mean();
-    const Eigen::VectorXd wanted = -solved_definite(damped, now.gradient);
+    const Eigen::VectorXd wanted = -definite_solution(damped, now.gradient);
     const Eigen::VectorXd q =
         variables_.limited(q_ + variables_.basis() * wanted, options_.move_limit_mm);
     const std::string refused = attempt(q, now.value, p);

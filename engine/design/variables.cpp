@@ -167,7 +167,7 @@ DesignVariables::DesignVariables(const Scene& scene, const std::vector<Vary>& va
     }
   if (all_.empty()) return;
   const Eigen::MatrixXd mean = projector(all_, symmetries);
-  const auto own = eigen_pairs(Eigen::MatrixXd(0.5 * (mean + mean.transpose())));
+  const auto own = eigen_pairs(0.5 * (mean + mean.transpose()));
   // eigenvalues of a projector are 0 and 1, in ascending order
   const Eigen::Index free = (own.values.array() > 0.5).count();
   basis_ = own.vectors.rightCols(free);

@@ -61,7 +61,7 @@ Surface::Curvature Surface::curvature(const Eigen::Vector3d& p) const {
   plane.col(0) = normal.unitOrthogonal();
   plane.col(1) = normal.cross(plane.col(0));
   const Eigen::Matrix2d form = -plane.transpose() * second * plane / slope.norm();
-  const auto own = eigen_pairs(form);
+  const EigenPairs own = eigen_pairs(form);
   const int larger = std::abs(own.values[1]) >= as_large * std::abs(own.values[0]) ? 1 : 0;
   Curvature found;
   found.first = own.values[larger];

@@ -32,7 +32,7 @@ std::optional<Eigen::Vector3d> solved(const Surface& surface, const Eigen::Vecto
   for (int k = 0; k < most_iterations; ++k) {
     residual[0] = surface.at(p) / scale;
     rest(p, residual, slope);
-    const Eigen::Vector3d step = solved(slope, residual);
+    const Eigen::Vector3d step = solution(slope, residual);
     p -= step;
     if (!((p - guess).norm() < astray * chord)) return std::nullopt;
     if (step.norm() <= exact * chord + 1e-15 * p.norm()) return p;

@@ -149,7 +149,7 @@ void put_motion(const NetworkFootprint& made, const Eigen::Matrix3Xd& points, co
 Eigen::Matrix2Xd seen_across(const Eigen::Matrix3Xd& places) {
   const Eigen::Vector3d middle = places.rowwise().mean();
   const Eigen::Matrix3Xd about = places.colwise() - middle;
-  const auto axes = eigen_pairs(Eigen::Matrix3d(about * about.transpose()));
+  const auto axes = eigen_pairs(about * about.transpose());
   return axes.vectors.rightCols<2>().transpose() * about;
 }
 

@@ -76,7 +76,7 @@ void Linearisation::border(Inertia& inertia) {
 void Linearisation::solve(Eigen::Matrix3Xd& right_hand_side) const {
   solver_->solve(right_hand_side);
   if (holds_.empty()) return;
-  const Eigen::VectorXd force = solved(compliance_, held_part(right_hand_side));
+  const Eigen::VectorXd force = solution(compliance_, held_part(right_hand_side));
   for (std::size_t k = 0; k < border_.size(); ++k)
     right_hand_side -= force[Eigen::Index(k)] * border_[k];
 }

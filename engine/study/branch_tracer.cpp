@@ -182,7 +182,7 @@ std::vector<Eigen::Matrix3Xd> crossing_modes(Linearisation& system, const Pinned
       turned.col(k) = column.reshaped();
     }
     // the largest of the inverse are the softest
-    const auto inner = eigen_pairs(Eigen::MatrixXd(basis.transpose() * turned));
+    const auto inner = eigen_pairs(basis.transpose() * turned);
     basis = turned * inner.vectors.rowwise().reverse();
   }
   std::vector<Eigen::Matrix3Xd> modes;

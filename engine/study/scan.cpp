@@ -108,7 +108,7 @@ std::optional<Eigen::Vector3d> middle_of(const Eigen::Matrix3Xd& points, double 
   if ((points.colwise() - mean).colwise().norm().maxCoeff() > 2 * radius) return std::nullopt;
   if (points.cols() < 3) return mean;
   const Eigen::Matrix3Xd about = points.colwise() - mean;
-  const auto axes = eigen_pairs(Eigen::Matrix3d(about * about.transpose()));
+  const auto axes = eigen_pairs(about * about.transpose());
   const Eigen::Matrix<double, 3, 2> plane = axes.vectors.rightCols<2>();
   const Eigen::Vector3d middle = plane * disc_around(plane.transpose() * about, radius);
   const auto off = (about.colwise() - middle).colwise().norm().array().eval();
