@@ -1,10 +1,11 @@
 #!/bin/sh
 # tests/style.sh format [--fix]  every source file stands as .clang-format says; --fix makes it so
 # tests/style.sh tidy [--all]    clang-tidy with the checks of .clang-tidy, on what changed or on all
+# tests/style.sh clang [--all]   clang takes every source file without a warning, what changed or all
 # tests/style.sh warnings        every source file is built with warnings as errors, none silenced
 # tests/style.sh equal           no 50 tokens stand twice in engine/ but where equal_tokens.txt says why
 #
-# BUILD (default build) is a folder that cmake has configured. `tidy` takes the files that differ
+# BUILD (default build) is a folder that cmake has configured. `tidy` and `clang` take the files that differ
 # from the merge base with the main branch (BASE, default main), where that is this commit itself
 # those of the last commit, and those not committed; of them the ten with the most changed lines
 # (LIMIT), a header by the source of its name. Without git or without a commit to compare with it
@@ -63,8 +64,8 @@ changed_sources() {
   done | awk '!seen[$0]++'
 }
 
-tidy() {
-  need clang-tidy
+# each of the chosen files and its command, "FILE", in $scratch/built; compile commands for clang
+choose_files() {
   scratch=$(mktemp -d)
   trap 'rm -rf "$scratch"' EXIT
   if [ "${1:-}" = --all ]; then
@@ -72,7 +73,7 @@ tidy() {
   elif changed_sources >"$scratch/all"; then
     head -n "$limit" "$scratch/all" >"$scratch/files"
     left=$(($(wc -l <"$scratch/all") - limit))
-    [ "$left" -gt 0 ] && echo "$left more changed files are left to 'tests/style.sh tidy --all'"
+    [ "$left" -gt 0 ] && echo "$left more changed files are left to --all"
   else
     echo "no commit to compare with: a few files of each kind"
     printf '%s\n' $without_git >"$scratch/files"
@@ -86,12 +87,29 @@ tidy() {
   done <"$scratch/files" >"$scratch/built"
   # GCC's precompiled headers are nothing to clang; a file includes what it uses
   sed -i 's/-Winvalid-pch -include [^ ]*cmake_pch\.hxx//' "$scratch/compile_commands.json"
+}
+
+tidy() {
+  need clang-tidy
+  choose_files "${1:-}" || return 1
   echo "clang-tidy on $(wc -l <"$scratch/built") files"
   xargs -r -P "$(nproc)" -n 1 clang-tidy --quiet -p "$scratch" <"$scratch/built" 2>"$scratch/said"
   status=$?
   # counts of what was left out of the headers of libraries say nothing
   grep -vE '^[0-9]+ warnings? (generated|treated)|^Suppressed|^Use -header' "$scratch/said"
   return $status
+}
+
+clang() {
+  need clang++ clang
+  choose_files "${1:-}" || return 1
+  echo "clang on $(wc -l <"$scratch/built") files"
+  while read -r file; do
+    # "command": "/usr/bin/c++ OPTIONS -o X.o -c FILE"
+    grep -F -B 1 "\"file\": \"$PWD/$file\"" "$scratch/compile_commands.json" |
+      sed -n 's/^ *"command": "[^ ]* \(.*\) -o [^ ]* -c \([^ ]*\)",$/\1 \2/p' | sed 's/\\"/"/g; q'
+  done <"$scratch/built" >"$scratch/commands"
+  (cd "$scratch" && xargs -P "$(nproc)" -d '\n' -I {} sh -c 'clang++ -fsyntax-only {}' <commands)
 }
 
 warnings() {
@@ -139,7 +157,8 @@ equal() {
 case ${1:-} in
   format) format "${2:-}" ;;
   tidy) tidy "${2:-}" ;;
+  clang) clang "${2:-}" ;;
   warnings) warnings ;;
   equal) equal ;;
-  *) sed -n '2,5p' "$0"; exit 2 ;;
+  *) sed -n '2,6p' "$0"; exit 2 ;;
 esac

@@ -34,7 +34,7 @@ function(gridshell_tests folder)
   target_compile_definitions(${target} PRIVATE GRIDSHELL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # the first test program makes the precompiled header of all
   if(folder STREQUAL engine)
-    gridshell_read_once(${target} <catch2/catch.hpp> ${PROJECT_SOURCE_DIR}/engine/gridshell.h)
+    gridshell_read_once(${target} <catch2/catch.hpp>)
   else()
     target_precompile_headers(${target} REUSE_FROM test_engine)
   endif()
@@ -122,7 +122,7 @@ endif()
 
 # How the source stands: format, clang-tidy on what changed, warnings as errors, nothing that stands
 # twice (tests/style.sh).
-foreach(check format tidy warnings equal)
+foreach(check format tidy clang warnings equal)
   add_test(NAME "style: ${check}" COMMAND ${PROJECT_SOURCE_DIR}/tests/style.sh ${check})
   set_tests_properties("style: ${check}" PROPERTIES LABELS style TIMEOUT 600 SKIP_RETURN_CODE 77
     ENVIRONMENT BUILD=${PROJECT_BINARY_DIR})

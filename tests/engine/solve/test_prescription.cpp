@@ -1,8 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
+#include "engine/core/dense.h"
 #include "engine/solve/equilibrium.h"
 #include "tests/engine/elastic/bent_dome.h"
 
@@ -20,10 +18,6 @@ Eigen::MatrixXd dense_hessian(const Model& model, const State& state) {
   Assembly assembly;
   assemble_hessian(model, state, {}, {}, assembly);
   return dense(model, assembly.hessian);
-}
-
-Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues();
 }
 
 /// The bordered matrix [K -B; B^T 0].
@@ -66,7 +60,7 @@ TEST_CASE(
     Eigen::VectorXd right = Eigen::VectorXd::Zero(n + m);
     for (int k = 0; k < n; ++k)
       right[k] = -system.assembly().gradient(k % 3, model.free_columns[k / 3]);
-    const Eigen::VectorXd expected = whole.partialPivLu().solve(right);
+    const Eigen::VectorXd expected = solution(whole, right);
     Eigen::Matrix3Xd dx;
     system.correction(dx);
     for (int k = 0; k < n; ++k)
@@ -78,7 +72,7 @@ TEST_CASE(
     // unit speed along the first direction: B^T dx = e, and the force that grows with it
     right.setZero();
     right[n] = 1;
-    const Eigen::VectorXd moving = whole.partialPivLu().solve(right);
+    const Eigen::VectorXd moving = solution(whole, right);
     Eigen::Matrix3Xd pinned = Eigen::Matrix3Xd::Zero(3, model.nodes), velocity;
     pinned.col(held.node) = held.directions.col(0);
     system.tangent(pinned, {.load = 0}, shell.state, velocity);
@@ -96,11 +90,11 @@ TEST_CASE("a joint held along a direction that K does not resist is found stable
   State rest = shell.state;
   REQUIRE(minimise(free, rest, {}, unwatched).outcome == Outcome::reached);
   const Eigen::MatrixXd K = dense_hessian(shell.model, rest);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(K);
-  const double beyond = -0.5 * (own.eigenvalues()[0] + own.eigenvalues()[1]);
+  const EigenPairs own = eigen_pairs(K);
+  const double beyond = -0.5 * (own.values[0] + own.values[1]);
   REQUIRE(free.at(rest, false, beyond).negative_pivots == 1);
   int strongest = 0;
-  own.eigenvectors().col(0).cwiseAbs().maxCoeff(&strongest);
+  own.vectors.col(0).cwiseAbs().maxCoeff(&strongest);
   Constraint held{shell.model.free_columns[strongest / 3], Eigen::Matrix3Xd::Zero(3, 1)};
   held.directions(strongest % 3, 0) = 1;
   Linearisation system(shell.model);
