@@ -9,7 +9,7 @@ packages="
   libgl-dev libegl-dev libegl1 libgl1-mesa-dri libosmesa6-dev libosmesa6 libglfw3-dev
   libimgui-dev libfontconfig-dev
   pybind11-dev python3-dev python3-numpy python3-pytest
-  catch2 ffmpeg parallel qemu-user clang-format clang-tidy
+  catch2 ffmpeg parallel qemu-user clang clang-format clang-tidy
   similarity-tester
 "
 

@@ -2,6 +2,12 @@
 # presets and, where it is built, the program with its manual page and completion.
 include(CMakePackageConfigHelpers)
 
+# what is installed is built first where it was not
+add_custom_target(installed)
+add_dependencies(installed gridshell_engine)
+install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --target installed
+  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)")
+
 install(TARGETS gridshell_engine EXPORT gridshell-targets)
 install(DIRECTORY engine/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gridshell/engine
   FILES_MATCHING PATTERN "*.h")
@@ -36,12 +42,14 @@ if(TARGET gridshell)
     COMMAND gridshell list --completion bash > ${completion}
     DEPENDS gridshell VERBATIM)
   add_custom_target(manual ALL DEPENDS ${manual} ${completion})
+  add_dependencies(installed gridshell manual)
   install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
   install(FILES ${completion} RENAME gridshell
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 endif()
 
 if(TARGET gridshell_python)
+  add_dependencies(installed gridshell_python)
   # where the Python of the prefix looks: of /usr and /usr/local one of its own folders
   install(CODE "
     execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/app/python/folder.py

@@ -36,7 +36,7 @@ function(gridshell_tests folder)
   if(folder STREQUAL engine)
     gridshell_read_once(${target} <catch2/catch.hpp>)
   else()
-    target_precompile_headers(${target} REUSE_FROM test_engine)
+    gridshell_read_once(${target} test_engine)
   endif()
   gridshell_compile_lightly(${target} -O1)
   # a name that CMake tears apart (at a semicolon) must fail instead of matching no test
