@@ -115,6 +115,22 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
   return moved;
 }
 
+bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& last, double there,
+                    const State& rest, const Watch& watch) {
+  constexpr double share = 1.0 / 16;  // of the way, where a quarter of the distance should be left
+  const double near = last.t + share * (there - last.t);
+  PathOptions options;
+  options.spacing_mm = scene.footprint.spacing;
+  PathFollower back(shell.system(0), shell.motion(0), options);
+  if (back.start(there, rest, watch).end != Outcome::reached) return false;
+  if (back.advance(near, watch).end != Outcome::reached) return false;
+  const auto off = [&](const State& state, double t) {
+    const Eigen::Matrix3Xd path = last.state.x + (t - last.t) * last.velocity.x;
+    return max_column_norm((state.x - path).leftCols(shell.model(0).nodes));
+  };
+  return off(back.point().state, near) < 2 * std::sqrt(share) * off(rest, there);
+}
+
 Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& from,
                            const RestOptions& rest,
                            const std::function<void(const MovingState&)>& seen,

@@ -236,4 +236,64 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
   return path;
 }
 
+SharedPath led_by_finer(SharedPath path, const Follow& follow, const Watch& watch) {
+  LevelPlan plan = path->asked;
+  while (!whole(*path) && plan.edges_per_segment.size() > 1 && !watch.cancelled()) {
+    plan.edges_per_segment.erase(plan.edges_per_segment.begin());
+    auto fine = follow(plan, watch);
+    if (!fine || !whole(**fine)) continue;
+    (*fine)->asked = plan;
+    (*fine)->simulation.charge(path->simulation.effort());
+    (*fine)->seconds_setup += path->seconds_setup;
+    (*fine)->mesh_disagreement = fmt::format(
+        "meshes coarser than {} edges a segment did not come so far", leading_edges_of(**fine));
+    return *fine;
+  }
+  return path;
+}
+
+namespace {
+
+/// Where a mesh of the path ends a branch that its leader leaves at t; empty: not within reach.
+std::optional<double> end_of_branch_on(int level, EquilibriumPath& path, const PathSegment& segment,
+                                       double t, const Watch& watch) {
+  constexpr double reach = 0.1;  // in the path parameter
+  Simulation& simulation = path.simulation;
+  NestedShell& shell = simulation.shell();
+  PathOptions options;
+  options.spacing_mm = simulation.scene().footprint.spacing;
+  for (auto step = segment.load_steps.rbegin(); step != segment.load_steps.rend(); ++step) {
+    const double begin = step->point.t;
+    if (segment.sign() * (t - begin) < 0) continue;
+    if (std::abs(t - begin) > reach || watch.cancelled()) break;
+    if (simulation.sample(begin, *step, false, watch).end != Outcome::reached) continue;
+    PathFollower path_there(shell.system(level), shell.motion(level), options);
+    const State state = shell.state().levels[std::size_t(level)];
+    if (path_there.start(begin, state, watch).end != Outcome::reached) continue;
+    const PathReport there = path_there.advance(t + segment.sign() * reach, watch);
+    if (there.end == Outcome::reached) break;
+    return path_there.point().t;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void locate_on_meshes(EquilibriumPath& path, const Watch& watch) {
+  const int last = path.simulation.shell().levels() - 1;
+  if (!path.single_motion || last == 0) return;
+  const Checkpoint end = path.simulation.save();
+  for (PathSegment& segment : path.segments)
+    for (Event& event : segment.report.events) {
+      if (event.error || event.kind == Event::Kind::locked) continue;
+      const auto fine = end_of_branch_on(last, path, segment, event.t, watch);
+      const auto coarse = last == 1 ? std::optional(event.t)
+                                    : end_of_branch_on(last - 1, path, segment, event.t, watch);
+      if (!fine || !coarse) continue;
+      event.error = std::abs(*fine - *coarse) / 3;
+      event.t = *fine + (*fine - *coarse) / 3;
+    }
+  path.simulation.restore(end);
+}
+
 }  // namespace gridshell::simulate

@@ -40,9 +40,15 @@ Inertia Linearisation::at(const State& state, bool mixed, double shift, double E
 
 Inertia Linearisation::shifted(double shift) {
   ++effort_.factorizations;
-  Inertia inertia = solver_->factor(assembly_.hessian, shift);
+  Inertia inertia = solver_->factor(assembly_.hessian, shift + neutral_shift_);
   if (!holds_.empty() && inertia.usable) border(inertia);
   return inertia;
+}
+
+void Linearisation::bear_neutral_directions() {
+  constexpr double round_off = 1e-13;  // of the largest stiffness
+  for (const ModelEdge& edge : model_.edges)
+    neutral_shift_ = std::max(neutral_shift_, round_off * 2 * edge.EA / edge.rest_length);
 }
 
 Eigen::VectorXd Linearisation::held_part(const Eigen::Matrix3Xd& x) const {
