@@ -1,10 +1,15 @@
 #include "engine/simulate/branch_switch.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <random>
+#include <set>
 
 #include "engine/core/algorithms.h"
 #include "engine/core/try.h"
+#include "engine/solve/buckling.h"
 #include "engine/solve/equilibrium.h"
 #include "engine/solve/newton.h"
 
@@ -12,6 +17,29 @@ namespace gridshell {
 namespace {
 
 constexpr double still_mm = 0.01;  // what an unstable rest is pushed by in a snap in time
+
+/// On rods that buckle between joints which stay where they are: waves drawn a rod, the same on
+/// every mesh.
+void add_waves(const Footprint& footprint, const RodMesh& mesh, std::mt19937& random,
+               Eigen::Matrix3Xd& direction) {
+  constexpr int waves = 3;
+  const std::set<int> held(footprint.held_joints.begin(), footprint.held_joints.end());
+  const auto turning = turning_rods(footprint);
+  for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
+    const bool turns = std::ranges::find(turning, r) != turning.end();
+    if (!turns && !std::ranges::all_of(footprint.rods[r].joints,
+                                       [&](int joint) { return held.contains(joint); }))
+      continue;
+    const std::vector<int>& node = mesh.rods[r];
+    for (int wave = 1; wave <= waves; ++wave)
+      for (int axis = 0; axis < 3; ++axis) {
+        const double height = symmetric_uniform(random);
+        for (std::size_t k = 1; k + 1 < node.size(); ++k)
+          direction(axis, node[k]) +=
+              height * std::sin(wave * std::numbers::pi * double(k) / double(node.size() - 1));
+      }
+  }
+}
 
 /// The side of `mode` that a departure takes; of sides that are alike that on which the energy
 /// falls.
@@ -83,6 +111,7 @@ BranchSwitch departure_of(const Scene& scene, const RodMesh& mesh, const Model& 
   departure.start = Eigen::Matrix3Xd::Zero(3, model.columns());
   for (int joint = 0; joint < mesh.joints; ++joint)
     for (int axis = 0; axis < 3; ++axis) departure.start(axis, joint) = symmetric_uniform(random);
+  add_waves(scene.footprint, mesh, random, departure.start);
   return departure;
 }
 

@@ -1,28 +1,11 @@
 #include "engine/solve/mesh_levels.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "engine/core/try.h"
+#include "engine/solve/buckling.h"
 
 namespace gridshell {
-namespace {
-
-/// Whether a rod hangs on two hinges at most: round, it may turn about the line between them.
-bool has_turning_rod(const Footprint& footprint) {
-  std::vector<int> rods(footprint.joints.size());
-  for (const FootprintRod& rod : footprint.rods)
-    for (const int joint : rod.joints) ++rods[std::size_t(joint)];
-  for (const int joint : footprint.held_joints) ++rods[std::size_t(joint)];
-  return std::ranges::any_of(footprint.rods, [&](const FootprintRod& rod) {
-    if (rod.closed() || holds_direction(rod.begin) || holds_direction(rod.end)) return false;
-    const auto shared =
-        std::ranges::count_if(rod.joints, [&](int joint) { return rods[std::size_t(joint)] > 1; });
-    return shared + is_held(rod.begin) + is_held(rod.end) <= 2;
-  });
-}
-
-}  // namespace
 
 Result<void> MeshLevel::build(const Footprint& footprint, const ShellRods& rods, RodModel rung,
                               const BoundaryMotion& boundary, int edges_per_segment) {
@@ -31,7 +14,7 @@ Result<void> MeshLevel::build(const Footprint& footprint, const ShellRods& rods,
   model = std::move(*built);
   motion = pinned_motion(mesh, boundary);
   system = std::make_unique<Linearisation>(model);
-  if (rung == RodModel::bend && has_turning_rod(footprint)) system->bear_neutral_directions();
+  if (rung == RodModel::bend && !turning_rods(footprint).empty()) system->bear_neutral_directions();
   return {};
 }
 
