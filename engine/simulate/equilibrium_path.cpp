@@ -136,7 +136,8 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
   const auto done = [&](const Report& report) {
     return report.end == Outcome::reached || watch.cancelled();
   };
-  if (const LoadStep* still = last_of_a_branch_left_early(segment, t))
+  const LoadStep* still = last_of_a_branch_left_early(segment, t);
+  if (still)
     for (const bool leader_unstable : {false, true}) {
       const Report held = from(*still, leader_unstable);
       if (done(held) && held.certificate.stable()) return {held, still->point.t};
@@ -152,7 +153,10 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
     report = path.simulation.certify_rest_at(t, before, watch);
   if (done(report)) return {report, after.point.t};
   // or any equilibrium, which says what it is
-  return {from(before, true), t};
+  report = from(before, true);
+  // beside a bifurcation the meshes lie apart on the branch that leaves there
+  if (still && !done(report)) return {from(*still, true), still->point.t};
+  return {report, t};
 }
 
 namespace {

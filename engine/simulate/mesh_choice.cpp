@@ -110,14 +110,15 @@ void extrapolate_events(std::vector<PathSegment>& coarse, std::vector<PathSegmen
   }
 }
 
-/// Whether a path turns back clearly further on where a finer leader leads.
-bool turns_later(const std::vector<PathSegment>& coarse, const std::vector<PathSegment>& fine) {
+/// Whether a path turns back, or branches, clearly further on where a finer leader leads.
+bool ends_later(const std::vector<PathSegment>& coarse, const std::vector<PathSegment>& fine) {
   for (std::size_t k = 0; k < coarse.size(); ++k) {
     const auto &early = coarse[k].report.events, &late = fine[k].report.events;
-    for (std::size_t e = 0; e < early.size(); ++e)
-      if (early[e].kind == Event::Kind::turned_back &&
-          coarse[k].sign() * (late[e].t - early[e].t) > same_t)
-        return true;
+    for (std::size_t e = 0; e < early.size(); ++e) {
+      const bool turns = early[e].kind == Event::Kind::turned_back;
+      const double clearly = turns ? same_t : early[e].leap ? near_t : 2 * same_t;
+      if (coarse[k].sign() * (late[e].t - early[e].t) > clearly) return true;
+    }
   }
   return false;
 }
@@ -202,7 +203,7 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
     if (!differs) differs = only_on_leaders(*path, **fine, watch);
     if (!differs) {
       const bool later = path->single_motion && !scene.leader_asked &&
-                         turns_later(path->segments, (*fine)->segments);
+                         ends_later(path->segments, (*fine)->segments);
       extrapolate_events(path->segments, (*fine)->segments);
       extrapolate_events(path->earlier, (*fine)->earlier);
       if (later)
