@@ -76,8 +76,8 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
   LevelPlan plan = initial_levels(scene);
   const double allowed = scene.tolerance * scene.length_scale_mm;
   const bool asked = scene.edges_per_segment > 0;
-  const auto located = [](Result<SharedPath> path, const Watch& watch) {
-    if (path) locate_on_meshes(**path, watch);
+  const auto located = [&](Result<SharedPath> path, const Watch& watch) {
+    if (path) locate_on_meshes(**path, follow, watch);
     return path;
   };
   Effort spent;

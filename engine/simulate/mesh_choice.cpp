@@ -96,6 +96,13 @@ std::optional<std::string> leg_disagreement(const PathSegment& a, const PathSegm
   return std::nullopt;
 }
 
+/// Whether two meshes tell the same events, wherever.
+bool same_events(const std::vector<PathSegment>& coarse, const std::vector<PathSegment>& fine) {
+  return std::ranges::equal(coarse, fine, [](const PathSegment& a, const PathSegment& b) {
+    return std::ranges::equal(a.report.events, b.report.events, {}, &Event::kind, &Event::kind);
+  });
+}
+
 /// The places of events in both, extrapolated from those of two leaders, the finer of twice the
 /// edges.
 void extrapolate_events(std::vector<PathSegment>& coarse, std::vector<PathSegment>& fine) {
@@ -258,7 +265,7 @@ namespace {
 /// Where a mesh of the path ends a branch that its leader leaves at t; empty: not within reach.
 std::optional<double> end_of_branch_on(int level, EquilibriumPath& path, const PathSegment& segment,
                                        double t, const Watch& watch) {
-  constexpr double reach = 0.1;  // in the path parameter
+  constexpr double reach = 0.25;  // in the path parameter
   Simulation& simulation = path.simulation;
   NestedShell& shell = simulation.shell();
   PathOptions options;
@@ -280,16 +287,21 @@ std::optional<double> end_of_branch_on(int level, EquilibriumPath& path, const P
 
 }  // namespace
 
-void locate_on_meshes(EquilibriumPath& path, const Watch& watch) {
+void locate_on_meshes(EquilibriumPath& path, const Follow& follow, const Watch& watch) {
   const int last = path.simulation.shell().levels() - 1;
-  if (!path.single_motion || last == 0) return;
+  if (last == 0 && path.has_events()) {
+    const auto fine = follow({{2 * leading_edges_of(path)}, false}, watch);
+    if (!fine || !same_events(path.segments, (*fine)->segments)) return;
+    path.simulation.charge((*fine)->simulation.effort());
+    extrapolate_events(path.segments, (*fine)->segments);
+  }
+  if (last == 0 || !path.single_motion) return;
   const Checkpoint end = path.simulation.save();
   for (PathSegment& segment : path.segments)
     for (Event& event : segment.report.events) {
       if (event.error || event.kind == Event::Kind::locked) continue;
       const auto fine = end_of_branch_on(last, path, segment, event.t, watch);
-      const auto coarse = last == 1 ? std::optional(event.t)
-                                    : end_of_branch_on(last - 1, path, segment, event.t, watch);
+      const auto coarse = end_of_branch_on(last - 1, path, segment, event.t, watch);
       if (!fine || !coarse) continue;
       event.error = std::abs(*fine - *coarse) / 3;
       event.t = *fine + (*fine - *coarse) / 3;

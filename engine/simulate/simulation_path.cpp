@@ -122,6 +122,10 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
       shell_->back_to(good);
       continue;
     }
+    // what it finds beside a leader that it followed with trouble alone is another state
+    const bool led = shell_->followed().t == next;
+    if (nested.end == Outcome::unstable && led && halvings >= most_halvings)
+      return end(Outcome::meshes_disagree);
     const bool branch_ended = nested.end == Outcome::unstable || nested.end == Outcome::lost;
     if (!leaving.wanted || !branch_ended || events.size() >= most_events) return end(nested.end);
     const auto kind =
