@@ -176,8 +176,12 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
                                                const Watch& watch) {
   auto actuated = follow_actuation(scene, plan, false, 1, watch);
   if (actuated && actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
-    return fail(Fault::no_equilibrium, fmt::format("there is no actuated shell {}: {}", wanted_for,
-                                                   actuated->limit_reason));
+    return fail(
+        Fault::no_equilibrium,
+        fmt::format("there is no actuated shell {}: {}{}", wanted_for, actuated->limit_reason,
+                    actuated->limit == record::Limit::locking
+                        ? "; a larger actuated boundary, or more [limits] max_strain, goes further"
+                        : ""));
   return actuated;
 }
 

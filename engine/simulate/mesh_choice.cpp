@@ -290,10 +290,18 @@ std::optional<double> end_of_branch_on(int level, EquilibriumPath& path, const P
 void locate_on_meshes(EquilibriumPath& path, const Follow& follow, const Watch& watch) {
   const int last = path.simulation.shell().levels() - 1;
   if (last == 0 && path.has_events()) {
-    const auto fine = follow({{2 * leading_edges_of(path)}, false}, watch);
-    if (!fine || !same_events(path.segments, (*fine)->segments)) return;
+    const LevelPlan plan{{2 * leading_edges_of(path)}, false};
+    if (!fits_memory(path.simulation.scene(), plan)) return;
+    const auto fine = follow(plan, watch);
+    if (!fine) return;
+    (*fine)->asked = plan;
     path.simulation.charge((*fine)->simulation.effort());
-    extrapolate_events(path.segments, (*fine)->segments);
+    if (same_events(path.segments, (*fine)->segments))
+      extrapolate_events(path.segments, (*fine)->segments);
+    else if (path.mesh_disagreement.empty())
+      path.mesh_disagreement = fmt::format(
+          "a mesh of {} edges a segment does not tell the same: {}", leading_edges_of(**fine),
+          mesh_disagreement(path, **fine).value_or("events of another kind"));
   }
   if (last == 0 || !path.single_motion) return;
   const Checkpoint end = path.simulation.save();
