@@ -76,7 +76,8 @@ std::string help_for(const preset::Preset& preset, record::Limit limit) {
   }
   if (preset.actuation.start == preset::Start::net)
     return "what may help: --set actuation.start=flat, the patient way from the flat footprint";
-  return "what may help: --set accuracy.edges_per_segment=8";
+  return fmt::format("what may help: --set accuracy.edges_per_segment={}",
+                     std::max(8, 2 * preset.accuracy.edges_per_segment));
 }
 
 // one run, a path's or a search for states

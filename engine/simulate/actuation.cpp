@@ -9,6 +9,7 @@
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/simulate/equilibrium_path.h"
+#include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/solve/buckling.h"
 
@@ -115,7 +116,8 @@ Result<EquilibriumPath> follow_actuation(const std::shared_ptr<const Scene>& sce
     return fail(Fault::no_equilibrium,
                 fmt::format("{} is not certified: {}", which, words_of(first->end).what));
   };
-  if (scene->drawn_in_space) {
+  const NestedShell& shell = path.simulation.shell();
+  if (begins_as_drawn(*scene, shell.mesh(0), shell.motion(0))) {
     TRY(begun, certified(path.simulation.begin_as_drawn(watch), "the network as drawn"));
     follow_segment(path, parameter_at(to), {}, watch);
   } else if (to == 0) {
@@ -174,8 +176,12 @@ Result<EquilibriumPath> follow_whole_actuation(const std::shared_ptr<const Scene
                                                const Watch& watch) {
   auto actuated = follow_actuation(scene, plan, false, 1, watch);
   if (actuated && actuated->limit != record::Limit::none && actuated->limit != record::Limit::snap)
-    return fail(Fault::no_equilibrium, fmt::format("there is no actuated shell {}: {}", wanted_for,
-                                                   actuated->limit_reason));
+    return fail(
+        Fault::no_equilibrium,
+        fmt::format("there is no actuated shell {}: {}{}", wanted_for, actuated->limit_reason,
+                    actuated->limit == record::Limit::locking
+                        ? "; a larger actuated boundary, or more [limits] max_strain, goes further"
+                        : ""));
   return actuated;
 }
 

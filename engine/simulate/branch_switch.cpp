@@ -1,10 +1,15 @@
 #include "engine/simulate/branch_switch.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <random>
+#include <set>
 
 #include "engine/core/algorithms.h"
 #include "engine/core/try.h"
+#include "engine/solve/buckling.h"
 #include "engine/solve/equilibrium.h"
 #include "engine/solve/newton.h"
 
@@ -12,6 +17,29 @@ namespace gridshell {
 namespace {
 
 constexpr double still_mm = 0.01;  // what an unstable rest is pushed by in a snap in time
+
+/// On rods that buckle between joints which stay where they are: waves drawn a rod, the same on
+/// every mesh.
+void add_waves(const Footprint& footprint, const RodMesh& mesh, std::mt19937& random,
+               Eigen::Matrix3Xd& direction) {
+  constexpr int waves = 3;
+  const std::set<int> held(footprint.held_joints.begin(), footprint.held_joints.end());
+  const auto turning = turning_rods(footprint);
+  for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
+    const bool turns = std::ranges::find(turning, r) != turning.end();
+    if (!turns && !std::ranges::all_of(footprint.rods[r].joints,
+                                       [&](int joint) { return held.contains(joint); }))
+      continue;
+    const std::vector<int>& node = mesh.rods[r];
+    for (int wave = 1; wave <= waves; ++wave)
+      for (int axis = 0; axis < 3; ++axis) {
+        const double height = symmetric_uniform(random);
+        for (std::size_t k = 1; k + 1 < node.size(); ++k)
+          direction(axis, node[k]) +=
+              height * std::sin(wave * std::numbers::pi * double(k) / double(node.size() - 1));
+      }
+  }
+}
 
 /// The side of `mode` that a departure takes; of sides that are alike that on which the energy
 /// falls.
@@ -83,6 +111,7 @@ BranchSwitch departure_of(const Scene& scene, const RodMesh& mesh, const Model& 
   departure.start = Eigen::Matrix3Xd::Zero(3, model.columns());
   for (int joint = 0; joint < mesh.joints; ++joint)
     for (int axis = 0; axis < 3; ++axis) departure.start(axis, joint) = symmetric_uniform(random);
+  add_waves(scene.footprint, mesh, random, departure.start);
   return departure;
 }
 
@@ -113,6 +142,24 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
   if (minimise(system, *moved, {}, watch).outcome != Outcome::reached)
     return fail(Fault::no_equilibrium, "the motion did not end near a rest");
   return moved;
+}
+
+bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& last, double there,
+                    const State& rest, const Watch& watch) {
+  constexpr double share = 1.0 / 16;  // of the way, where a quarter of the distance should be left
+  const double near = last.t + share * (there - last.t);
+  PathOptions options;
+  options.spacing_mm = scene.footprint.spacing;
+  options.allow_unstable = true;  // where two modes go soft a branch may be so next to the other
+  PathFollower back(shell.system(0), shell.motion(0), options);
+  if (back.start(there, rest, watch).end != Outcome::reached) return false;
+  // a second mode may cut the way short, next to the path
+  back.advance(near, watch);
+  const auto off = [&](const State& state, double t) {
+    const Eigen::Matrix3Xd path = last.state.x + (t - last.t) * last.velocity.x;
+    return max_column_norm((state.x - path).leftCols(shell.model(0).nodes));
+  };
+  return off(back.point().state, back.point().t) < 2 * std::sqrt(share) * off(rest, there);
 }
 
 Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& from,

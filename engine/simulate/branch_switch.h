@@ -31,6 +31,12 @@ Result<State> rest_after_bifurcation(NestedShell& shell, const Scene& scene, con
                                      Event::Kind kind, double there,
                                      std::vector<TimedState>& moments, const Watch& watch);
 
+/// Whether a rest at `there` lies on a branch that leaves the path at its last state, where it lost
+/// its stability: followed back, its distance from the path falls as the root of what is left of
+/// the way. Else the shell leapt. On the coarsest mesh.
+bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& last, double there,
+                    const State& rest, const Watch& watch);
+
 /// Moves in time from a state of the coarsest mesh, with the scene's damping, until it rests.
 /// Errors: as rest_after_bifurcation().
 Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& from,

@@ -76,6 +76,10 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
   LevelPlan plan = initial_levels(scene);
   const double allowed = scene.tolerance * scene.length_scale_mm;
   const bool asked = scene.edges_per_segment > 0;
+  const auto located = [&](Result<SharedPath> path, const Watch& watch) {
+    if (path) locate_on_meshes(**path, follow, watch);
+    return path;
+  };
   Effort spent;
   double setup = 0;
   for (;;) {
@@ -86,8 +90,9 @@ Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follo
     (*path)->seconds_setup += setup;
     (*path)->simulation.charge(spent);
     const double worst = worst_estimate_mm(**path);
-    if (asked) return path;
-    if (!(worst > allowed)) return confirm_on_finer_meshes(scene, std::move(*path), follow, watch);
+    if (asked) return located(led_by_finer(std::move(*path), follow, watch), watch);
+    if (!(worst > allowed))
+      return located(confirm_on_finer_meshes(scene, std::move(*path), follow, watch), watch);
     const auto next = finer(plan);
     const auto fits = next ? fits_memory(scene, *next) : Result<void>{};
     if (!next || !fits)
@@ -131,7 +136,8 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
   const auto done = [&](const Report& report) {
     return report.end == Outcome::reached || watch.cancelled();
   };
-  if (const LoadStep* still = last_of_a_branch_left_early(segment, t))
+  const LoadStep* still = last_of_a_branch_left_early(segment, t);
+  if (still)
     for (const bool leader_unstable : {false, true}) {
       const Report held = from(*still, leader_unstable);
       if (done(held) && held.certificate.stable()) return {held, still->point.t};
@@ -147,7 +153,10 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample,
     report = path.simulation.certify_rest_at(t, before, watch);
   if (done(report)) return {report, after.point.t};
   // or any equilibrium, which says what it is
-  return {from(before, true), t};
+  report = from(before, true);
+  // beside a bifurcation the meshes lie apart on the branch that leaves there
+  if (still && !done(report)) return {from(*still, true), still->point.t};
+  return {report, t};
 }
 
 namespace {
@@ -190,17 +199,19 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
 
 }  // namespace
 
-std::string branch_loss_places(std::span<const PathSegment> segments, const At& at) {
+std::string branch_loss_places(std::span<const PathSegment> segments, const At& at, bool leap) {
   std::string places;
   for (const PathSegment& segment : segments)
     for (const Event& event : segment.report.events)
-      if (event.to) places += (places.empty() ? "" : " and ") + at(event.t, event.error);
+      if (event.to && event.leap == leap)
+        places += (places.empty() ? "" : " and ") + at(event.t, event.error);
   return places;
 }
 
 void set_limit(EquilibriumPath& path, const At& at) {
   path.limit = record::Limit::none;
   path.limit_reason.clear();
+  std::string told;
   for (const PathSegment& segment : path.segments) {
     const auto ended = limit_of(segment.report.end);
     if (ended != record::Limit::none) {
@@ -209,13 +220,20 @@ void set_limit(EquilibriumPath& path, const At& at) {
       path.limit_reason = how_it_ended(segment, at);
       break;
     }
+    const char* way = segment.back ? "on the way back to the flat " : "";
+    const auto branches = branch_loss_places({&segment, 1}, at, false);
+    if (!branches.empty())
+      told += fmt::format(
+          "{}{}the path branches {} and goes on without a leap to the side that the imperfection "
+          "chose",
+          told.empty() ? "" : "; ", way, branches);
     const auto places = branch_loss_places({&segment, 1}, at);
     if (places.empty() || path.limit != record::Limit::none) continue;
     path.limit = record::Limit::snap;
-    path.limit_reason =
-        fmt::format("{}the path lost its stability {} and came to rest in another state",
-                    segment.back ? "on the way back to the flat " : "", places);
+    told += fmt::format("{}{}the path lost its stability {} and came to rest in another state",
+                        told.empty() ? "" : "; ", way, places);
   }
+  if (path.limit_reason.empty()) path.limit_reason = told;
   if (path.mesh_disagreement.empty()) return;
   path.limit_reason += (path.limit_reason.empty() ? "" : "; ") + path.mesh_disagreement;
 }
@@ -294,7 +312,8 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
     if (!event.to) continue;
     const double seen = segment.back ? event.t : *event.to;
     if (way * (seen - before) <= 0 || way * (past - seen) < 0) continue;
-    text += (text.empty() ? "snap " : " and ") + caption_.at(event.t, {});
+    const char* what = event.leap ? "snap " : "branches ";
+    text += (text.empty() ? what : " and ") + caption_.at(event.t, {});
   }
   return text;
 }

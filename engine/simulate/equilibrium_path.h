@@ -119,12 +119,14 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample, 
 /// error where it is known.
 using At = std::function<std::string(double t, std::optional<double> error)>;
 
-/// Where segments left a branch for a rest further on: "at progress 0.0183 and at ..."; empty:
-/// nowhere.
-std::string branch_loss_places(std::span<const PathSegment> segments, const At& at);
+/// Where segments left a branch for a rest further on, by a leap or along another branch that
+/// leaves there: "at progress 0.0183 and at ..."; empty: nowhere.
+std::string branch_loss_places(std::span<const PathSegment> segments, const At& at,
+                               bool leap = true);
 
 /// Tells as a limit and a sentence how the segments ended and what they came past: the first that
-/// ended before its end, else the snaps.
+/// ended before its end, else the snaps. A path that branches has no limit, and the sentence says
+/// where.
 void set_limit(EquilibriumPath& path, const At& at);
 
 // Frames of a path, one a sample, handed to a sink in order.

@@ -12,6 +12,7 @@
 namespace gridshell {
 namespace {
 
+constexpr double least_shortening = 1e-3;  // of rods that buckle
 constexpr int choosing_edges = 4;  // a segment, of the mesh that finds the first buckled state
 
 /// By how much the joints far out on y = -x lie higher than those on y = x, mm.
@@ -72,6 +73,12 @@ Result<State> chosen(FindShape& find, NestedShell& shell, const Scene& scene, co
 Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellRods& rods, double t,
                             const Watch& watch) {
   return chosen(buckled_dome, shell, scene, rods, t, watch);
+}
+
+bool begins_as_drawn(const Scene& scene, const RodMesh& mesh, const PinnedMotion& motion) {
+  if (scene.drawn_in_space) return true;
+  return !scene.from_net && scene.rods.loaded() &&
+         !parameter_of_shortening(mesh, motion, least_shortening);
 }
 
 Result<State> state_as_drawn(NestedShell& shell, const Scene& scene, const ShellRods& rods,

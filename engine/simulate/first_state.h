@@ -1,5 +1,5 @@
-// Where a path begins: a buckled state out of the flat, the rest beside a net, or that of a network
-// as it is drawn in space.
+// Where a path begins: a buckled state out of the flat, the rest beside a net, or that of what is
+// drawn, in space or under loads alone.
 #pragma once
 
 #include "engine/core/result.h"
@@ -18,8 +18,12 @@ namespace gridshell {
 Result<State> buckled_state(NestedShell& shell, const Scene& scene, const ShellRods& rods, double t,
                             const Watch& watch);
 
-/// The rest that a network drawn in space comes to, its supports where they are drawn; found on the
-/// same mesh. Errors: as buckled_state().
+/// Whether a path begins at the rest of what is drawn: of a network in space, and in the flat where
+/// loads bend the rods and no boundary shortens them.
+bool begins_as_drawn(const Scene& scene, const RodMesh& mesh, const PinnedMotion& motion);
+
+/// The rest that what is drawn comes to, its supports where they are drawn; found on the same mesh.
+/// Errors: as buckled_state().
 Result<State> state_as_drawn(NestedShell& shell, const Scene& scene, const ShellRods& rods,
                              const Watch& watch);
 

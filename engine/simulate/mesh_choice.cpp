@@ -96,6 +96,13 @@ std::optional<std::string> leg_disagreement(const PathSegment& a, const PathSegm
   return std::nullopt;
 }
 
+/// Whether two meshes tell the same events, wherever.
+bool same_events(const std::vector<PathSegment>& coarse, const std::vector<PathSegment>& fine) {
+  return std::ranges::equal(coarse, fine, [](const PathSegment& a, const PathSegment& b) {
+    return std::ranges::equal(a.report.events, b.report.events, {}, &Event::kind, &Event::kind);
+  });
+}
+
 /// The places of events in both, extrapolated from those of two leaders, the finer of twice the
 /// edges.
 void extrapolate_events(std::vector<PathSegment>& coarse, std::vector<PathSegment>& fine) {
@@ -110,14 +117,15 @@ void extrapolate_events(std::vector<PathSegment>& coarse, std::vector<PathSegmen
   }
 }
 
-/// Whether a path turns back clearly further on where a finer leader leads.
-bool turns_later(const std::vector<PathSegment>& coarse, const std::vector<PathSegment>& fine) {
+/// Whether a path turns back, or branches, clearly further on where a finer leader leads.
+bool ends_later(const std::vector<PathSegment>& coarse, const std::vector<PathSegment>& fine) {
   for (std::size_t k = 0; k < coarse.size(); ++k) {
     const auto &early = coarse[k].report.events, &late = fine[k].report.events;
-    for (std::size_t e = 0; e < early.size(); ++e)
-      if (early[e].kind == Event::Kind::turned_back &&
-          coarse[k].sign() * (late[e].t - early[e].t) > same_t)
-        return true;
+    for (std::size_t e = 0; e < early.size(); ++e) {
+      const bool turns = early[e].kind == Event::Kind::turned_back;
+      const double clearly = turns ? same_t : early[e].leap ? near_t : 2 * same_t;
+      if (coarse[k].sign() * (late[e].t - early[e].t) > clearly) return true;
+    }
   }
   return false;
 }
@@ -202,7 +210,7 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
     if (!differs) differs = only_on_leaders(*path, **fine, watch);
     if (!differs) {
       const bool later = path->single_motion && !scene.leader_asked &&
-                         turns_later(path->segments, (*fine)->segments);
+                         ends_later(path->segments, (*fine)->segments);
       extrapolate_events(path->segments, (*fine)->segments);
       extrapolate_events(path->earlier, (*fine)->earlier);
       if (later)
@@ -234,6 +242,79 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
     if (!chose()) path->mesh_disagreement.clear();
   }
   return path;
+}
+
+SharedPath led_by_finer(SharedPath path, const Follow& follow, const Watch& watch) {
+  LevelPlan plan = path->asked;
+  while (!whole(*path) && plan.edges_per_segment.size() > 1 && !watch.cancelled()) {
+    plan.edges_per_segment.erase(plan.edges_per_segment.begin());
+    auto fine = follow(plan, watch);
+    if (!fine || !whole(**fine)) continue;
+    (*fine)->asked = plan;
+    (*fine)->simulation.charge(path->simulation.effort());
+    (*fine)->seconds_setup += path->seconds_setup;
+    (*fine)->mesh_disagreement = fmt::format(
+        "meshes coarser than {} edges a segment did not come so far", leading_edges_of(**fine));
+    return *fine;
+  }
+  return path;
+}
+
+namespace {
+
+/// Where a mesh of the path ends a branch that its leader leaves at t; empty: not within reach.
+std::optional<double> end_of_branch_on(int level, EquilibriumPath& path, const PathSegment& segment,
+                                       double t, const Watch& watch) {
+  constexpr double reach = 0.25;  // in the path parameter
+  Simulation& simulation = path.simulation;
+  NestedShell& shell = simulation.shell();
+  PathOptions options;
+  options.spacing_mm = simulation.scene().footprint.spacing;
+  for (auto step = segment.load_steps.rbegin(); step != segment.load_steps.rend(); ++step) {
+    const double begin = step->point.t;
+    if (segment.sign() * (t - begin) < 0) continue;
+    if (std::abs(t - begin) > reach || watch.cancelled()) break;
+    if (simulation.sample(begin, *step, false, watch).end != Outcome::reached) continue;
+    PathFollower path_there(shell.system(level), shell.motion(level), options);
+    const State state = shell.state().levels[std::size_t(level)];
+    if (path_there.start(begin, state, watch).end != Outcome::reached) continue;
+    const PathReport there = path_there.advance(t + segment.sign() * reach, watch);
+    if (there.end == Outcome::reached) break;
+    return path_there.point().t;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void locate_on_meshes(EquilibriumPath& path, const Follow& follow, const Watch& watch) {
+  const int last = path.simulation.shell().levels() - 1;
+  if (last == 0 && path.has_events()) {
+    const LevelPlan plan{{2 * leading_edges_of(path)}, false};
+    if (!fits_memory(path.simulation.scene(), plan)) return;
+    const auto fine = follow(plan, watch);
+    if (!fine) return;
+    (*fine)->asked = plan;
+    path.simulation.charge((*fine)->simulation.effort());
+    if (same_events(path.segments, (*fine)->segments))
+      extrapolate_events(path.segments, (*fine)->segments);
+    else if (path.mesh_disagreement.empty())
+      path.mesh_disagreement = fmt::format(
+          "a mesh of {} edges a segment does not tell the same: {}", leading_edges_of(**fine),
+          mesh_disagreement(path, **fine).value_or("events of another kind"));
+  }
+  if (last == 0 || !path.single_motion) return;
+  const Checkpoint end = path.simulation.save();
+  for (PathSegment& segment : path.segments)
+    for (Event& event : segment.report.events) {
+      if (event.error || event.kind == Event::Kind::locked) continue;
+      const auto fine = end_of_branch_on(last, path, segment, event.t, watch);
+      const auto coarse = end_of_branch_on(last - 1, path, segment, event.t, watch);
+      if (!fine || !coarse) continue;
+      event.error = std::abs(*fine - *coarse) / 3;
+      event.t = *fine + (*fine - *coarse) / 3;
+    }
+  path.simulation.restore(end);
 }
 
 }  // namespace gridshell::simulate

@@ -41,4 +41,13 @@ std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
 Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
                                            const Follow& follow, const Watch& watch);
 
+/// A path on the meshes asked for that did not come to its end, followed once more without its
+/// leading mesh, and again: the first that does, else the path as it was.
+SharedPath led_by_finer(SharedPath path, const Follow& follow, const Watch& watch);
+
+/// Places of events that one leader alone tells, looked for on the finer meshes of the path too:
+/// extrapolated from the last two, with an error. One mesh alone is followed beside one of twice
+/// the edges. Of motions that are over they stay as they are.
+void locate_on_meshes(EquilibriumPath& path, const Follow& follow, const Watch& watch);
+
 }  // namespace gridshell::simulate

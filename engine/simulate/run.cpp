@@ -15,6 +15,7 @@
 #include "engine/record/trajectory.h"
 #include "engine/scene/scene.h"
 #include "engine/simulate/actuation.h"
+#include "engine/simulate/first_state.h"
 #include "engine/simulate/frames.h"
 #include "engine/simulate/indentation.h"
 #include "engine/simulate/mesh_choice.h"
@@ -232,6 +233,7 @@ Result<void> check_motion(const Scene& scene) {
   MeshLevel flat;
   const int edges = initial_levels(scene).edges_per_segment.front();
   TRY_DO(flat.build(scene.footprint, scene.rods, RodModel::bend, scene.motion, edges));
+  if (begins_as_drawn(scene, flat.mesh, flat.motion)) return {};
   return parameter_of_shortening(flat.mesh, flat.motion, flat_shortening).map([](double) {});
 }
 

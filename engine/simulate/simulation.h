@@ -34,6 +34,7 @@ struct Event {
   double t = 0;                 ///< where: as one mesh says, or extrapolated where two say it
   std::optional<double> error;  ///< of t, where two meshes say it
   std::optional<double> to;     ///< where the next rest stands, if one was found
+  bool leap = true;             ///< whether that lies apart; else on a branch that leaves there
 };
 
 /// How a step ended: what was reached, why no more, what it cost. Where not all was reached the
@@ -213,6 +214,7 @@ class Simulation {
   void set_progress(double progress);
   LoadFactor steady_load() const;
   double load_step() const;
+  double parameter_scale(double t) const;
   bool leave(double t, Event& event, PathRecord* record, const Watch& watch);
   Result<Outcome> replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch);
   double push_stiffness() const;

@@ -58,6 +58,7 @@ constexpr double push_step = 0.02;       // of the length scale: the largest loa
 constexpr double actuation_step = 0.05;  // in the path parameter
 constexpr double locate_mm = 5e-3;       // of prescribed move: to which a limit is located
 constexpr int most_halvings = 5;         // of a load step that a finer mesh does not follow
+constexpr double loads_ways = 4;         // of the loads, what counts as the length scale of a move
 constexpr std::size_t most_events = 8;   // branches left on one way
 
 }  // namespace
@@ -121,6 +122,10 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
       shell_->back_to(good);
       continue;
     }
+    // what it finds beside a leader that it followed with trouble alone is another state
+    const bool led = shell_->followed().t == next;
+    if (nested.end == Outcome::unstable && led && halvings >= most_halvings)
+      return end(Outcome::meshes_disagree);
     const bool branch_ended = nested.end == Outcome::unstable || nested.end == Outcome::lost;
     if (!leaving.wanted || !branch_ended || events.size() >= most_events) return end(nested.end);
     const auto kind =
@@ -170,15 +175,24 @@ void Simulation::bisect_to_last_accepted(double beyond, const NestedState& good,
   shell_->back_to(last);
 }
 
+/// By how much the path parameter changes while the boundary moves by the length scale, or, where
+/// that is sooner, the loads by what they are.
+double Simulation::parameter_scale(double t) const {
+  const PinnedMotion& motion = shell_->motion(0);
+  const double speed = motion.speed(t);
+  const double boundary = scene_->length_scale_mm / std::max(shell_->reach_mm() * speed, 0.1);
+  const double rate = std::abs(speed * motion.load.change);
+  if (rate == 0 || shell_->model(0).loads.empty()) return boundary;
+  return std::min(boundary, loads_ways * std::abs(motion.factor_at(motion.load, t)) / rate);
+}
+
 /// The branch ended: comes to rest again a little further on. The meshes lose it at slightly
 /// different places; beyond the last of them all find the new state.
 bool Simulation::leave(double t, Event& event, PathRecord* record, const Watch& watch) {
   const PathPoint last = shell_->followed();
   const double way = t > last.t ? 1 : -1;
-  const double speed =
-      std::max(shell_->reach_mm() * shell_->motion(0).speed(last.t), 0.1);  // mm by t
   for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
-    double there = last.t + way * beyond * scene_->length_scale_mm / speed;
+    double there = last.t + way * beyond * parameter_scale(last.t);
     if (way * (there - t) > 0) there = t;
     std::vector<TimedState> moments;
     const auto rest =
@@ -186,6 +200,8 @@ bool Simulation::leave(double t, Event& event, PathRecord* record, const Watch& 
     if (watch.cancelled()) return false;
     if (rest && shell_->start(there, *rest, watch).end == Outcome::reached) {
       event.to = there;
+      event.leap = event.kind != Event::Kind::stability_lost ||
+                   !on_branch_from(*shell_, *scene_, last, there, *rest, watch);
       if (record && !moments.empty())
         record->snaps.push_back({record->load_steps.size() - 1, std::move(moments)});
       return true;

@@ -66,6 +66,22 @@ Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& 
   return high;
 }
 
+std::vector<std::size_t> turning_rods(const Footprint& footprint) {
+  std::vector<int> hold(footprint.joints.size());
+  for (const FootprintRod& rod : footprint.rods)
+    for (const int joint : rod.joints) ++hold[std::size_t(joint)];
+  for (const int joint : footprint.held_joints) ++hold[std::size_t(joint)];
+  std::vector<std::size_t> turning;
+  for (std::size_t r = 0; r < footprint.rods.size(); ++r) {
+    const FootprintRod& rod = footprint.rods[r];
+    if (rod.closed() || holds_direction(rod.begin) || holds_direction(rod.end)) continue;
+    const auto hinges =
+        std::ranges::count_if(rod.joints, [&](int joint) { return hold[std::size_t(joint)] > 1; });
+    if (hinges + is_held(rod.begin) + is_held(rod.end) <= 2) turning.push_back(r);
+  }
+  return turning;
+}
+
 State flat_state(const Model& model, const RodMesh& mesh, const PinnedMotion& motion,
                  const FlatFrame& flat) {
   Eigen::Matrix3Xd nodes = drawn_nodes(mesh, flat);

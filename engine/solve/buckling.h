@@ -1,10 +1,13 @@
 // The first buckled equilibrium out of the flat.
 #pragma once
 
+#include <vector>
+
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/elastic/shell_rods.h"
 #include "engine/footprint/actuation.h"
+#include "engine/footprint/footprint.h"
 #include "engine/footprint/mesh.h"
 #include "engine/solve/equilibrium_path.h"
 
@@ -24,6 +27,10 @@ Result<double> parameter_of_shortening(const RodMesh& mesh, const PinnedMotion& 
 Result<State> first_buckled(Linearisation& system, const RodMesh& mesh, const PinnedMotion& motion,
                             double t, const BuckleSeed& seed, const FlatFrame& flat,
                             const Watch& watch);
+
+/// Rods that hang on two hinges at most: round, each may turn about the line between them without
+/// any force, and buckles to any side.
+std::vector<std::size_t> turning_rods(const Footprint& footprint);
 
 /// The flat footprint as a state, at the begin of a motion: no rod is bent, every first director
 /// stands up; ghosts and supports of springs are where the motion begins.

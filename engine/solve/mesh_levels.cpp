@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/core/try.h"
+#include "engine/solve/buckling.h"
 
 namespace gridshell {
 
@@ -13,6 +14,7 @@ Result<void> MeshLevel::build(const Footprint& footprint, const ShellRods& rods,
   model = std::move(*built);
   motion = pinned_motion(mesh, boundary);
   system = std::make_unique<Linearisation>(model);
+  if (rung == RodModel::bend && !turning_rods(footprint).empty()) system->bear_neutral_directions();
   return {};
 }
 

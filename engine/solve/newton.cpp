@@ -39,9 +39,26 @@ Inertia Linearisation::at(const State& state, bool mixed, double shift, double E
 
 Inertia Linearisation::shifted(double shift) {
   ++effort_.factorizations;
-  Inertia inertia = solver_->factor(assembly_.hessian, shift);
+  Inertia inertia = solver_->factor(assembly_.hessian, shift + neutral_shift_);
   if (!holds_.empty() && inertia.usable) border(inertia);
   return inertia;
+}
+
+void Linearisation::bear_neutral_directions() {
+  // of the softest rod's stiffness against one half wave, EI (pi/L)^4 l a node: what a state that
+  // is corrected once leaves of a direction without any
+  constexpr double share = 5e-5;
+  double softest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < model_.bends.size();) {
+    const ModelBend& first = model_.bends[k];
+    const auto length = [&](int edge) { return model_.edges[std::size_t(edge)].rest_length; };
+    const double l = 0.5 * (length(first.e) + length(first.f));
+    double rod = length(first.e);
+    for (int e = first.e; k < model_.bends.size() && model_.bends[k].e == e; ++k)
+      rod += length(e = model_.bends[k].f);
+    softest = std::min(softest, 0.5 * first.stiffness * l * std::pow(M_PI / rod, 4) * l);
+  }
+  if (std::isfinite(softest)) neutral_shift_ = share * softest;
 }
 
 Eigen::VectorXd Linearisation::held_part(const Eigen::Matrix3Xd& x) const {

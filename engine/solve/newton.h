@@ -59,6 +59,11 @@ class Linearisation {
   /// Factorises the assembled Hessian again with another shift.
   Inertia shifted(double shift);
 
+  /// From here on a direction without stiffness, as of a rod that turns about the line between its
+  /// two hinges, does not count as unstable: every matrix has so much more on its diagonal as
+  /// round-off may take from it.
+  void bear_neutral_directions();
+
   /// From the next at() on these are held: corrections leave them as they are, the inertia is that
   /// of the constrained system.
   void hold(std::vector<Constraint> holds) { holds_ = std::move(holds); }
@@ -126,6 +131,7 @@ class Linearisation {
   Eigen::MatrixXd compliance_;            // B^T (K + g B B^T)^-1 B
   Eigen::Matrix3Xd tangents_;             // unit tangent of each edge at the linearisation point
   double EA_scale_ = 1;
+  double neutral_shift_ = 0;  // N/mm
   Effort effort_;
 };
 

@@ -1,0 +1,295 @@
+// Equilibria under loads: a column that buckles under its own weight, a pinched ring, beams, a
+// grillage and a cable net formed by loads alone, each beside a closed form or an elastica.
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <regex>
+
+#include "tests/engine/simulate/run.h"
+
+using namespace gridshell;
+
+namespace {
+
+constexpr double EI = 83e3 * std::numbers::pi * 0.254 * 0.254 * 0.254 * 0.254 / 64;  // N mm^2
+constexpr double L = 200;                                                            // mm
+constexpr double stiff = 1000;                                                       // N/mm
+
+preset::Preset network(preset::NetworkData file) {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::network;
+  p.footprint.file = std::move(file);
+  p.movie.frames = 2;
+  return p;
+}
+
+/// A rod from a held crossing of two others to `tip`, which is sprung.
+preset::NetworkData rod_on_cross(const std::vector<double>& tip, const Eigen::Vector3d& spring) {
+  preset::NetworkData file;
+  file.points = {{0, 0, 0}, {20, 0, 0}, {-20, 0, 0}, {0, 20, 0}, {0, -20, 0}, tip};
+  file.rods = {{1, 0, 2}, {3, 0, 4}, {0, 5}};
+  file.supports = {{0}, {5}};
+  file.springs = {{5, spring.x(), spring.y(), spring.z()}};
+  return file;
+}
+
+/// So many times its critical weight, 18.568 EI/L^3 a length, on a column of which the top may only
+/// move up and down.
+preset::Preset column(double times) {
+  preset::Preset p = network(rod_on_cross({0, 0, L}, {stiff, stiff, 0}));
+  p.loads.field_N_per_mm = times * 18.568 * EI / (L * L * L);
+  return p;
+}
+
+/// The end of the third rod, in the order of edge points.
+Eigen::Vector3d tip_of(const record::Trajectory& trajectory, std::size_t frame) {
+  return trajectory.frames[frame].nodes.col(Eigen::Index(trajectory.layout.joints.size()) + 5);
+}
+
+/// Angle, its slope and the place of a rod: d/ds of them is (slope, turn(s, angle)/EI, direction).
+using Elastica = std::array<double, 4>;
+Elastica elastica(double angle, double length, const std::function<double(double, double)>& turn) {
+  constexpr int steps = 1000;
+  const double h = length / steps;
+  const auto rate = [&](double s, const Elastica& y) -> Elastica {
+    return {y[1], turn(s, y[0]) / EI, std::sin(y[0]), std::cos(y[0])};
+  };
+  const auto on = [](const Elastica& y, double way, const Elastica& by) {
+    Elastica next = y;
+    for (int k = 0; k < 4; ++k) next[std::size_t(k)] += way * by[std::size_t(k)];
+    return next;
+  };
+  Elastica y{angle, 0, 0, 0};
+  for (int k = 0; k < steps; ++k) {
+    const double s = k * h;
+    const Elastica a = rate(s, y), b = rate(s + h / 2, on(y, h / 2, a)),
+                   c = rate(s + h / 2, on(y, h / 2, b)), d = rate(s + h, on(y, h, c));
+    for (int i = 0; i < 4; ++i) {
+      const auto n = std::size_t(i);
+      y[n] += h / 6 * (a[n] + 2 * b[n] + 2 * c[n] + d[n]);
+    }
+  }
+  return y;
+}
+
+/// Where a function that changes its sign between two places is zero.
+double zero_of(const std::function<double(double)>& f, double low, double high) {
+  const bool rises = f(high) > 0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    ((f(middle) > 0) == rises ? high : low) = middle;
+  }
+  return low;
+}
+
+/// How high the top of the buckled column stands: a moment without a horizontal force H would bring
+/// it off the axis.
+double top_of_elastica(double times) {
+  const double q = times * 18.568 * EI / (L * L * L);
+  const auto shape = [&](double angle, double H) {
+    return elastica(angle, L, [&](double s, double theta) {
+      return -q * (L - s) * std::sin(theta) - H * std::cos(theta);
+    });
+  };
+  const auto H_at = [&](double angle) {
+    return zero_of([&](double H) { return shape(angle, H)[2]; }, -12 * EI / (L * L), 0);
+  };
+  const double angle = zero_of([&](double of) { return shape(of, H_at(of))[1]; }, 0.1, 1.7);
+  return shape(angle, H_at(angle))[3];
+}
+
+/// What is told of an event: "at progress 0.6668 ± 0.0006".
+struct Place {
+  double at = 0, error = 0;
+};
+std::vector<Place> places_of(const std::string& reason) {
+  const std::regex place("at progress ([0-9.]+) ± ([0-9.e-]+)");
+  std::vector<Place> places;
+  for (std::sregex_iterator k(reason.begin(), reason.end(), place), none; k != none; ++k)
+    places.push_back({std::stod((*k)[1]), std::stod((*k)[2])});
+  return places;
+}
+
+double bend(const simulate::ExperimentResult& outcome) {
+  return outcome.summary.energies[Term::bend];
+}
+
+}  // namespace
+
+TEST_CASE("a heavy column branches at its critical weight and is the elastica beyond") {
+  for (const double times : {1.02, 1.1}) {
+    const auto outcome = run(column(times));
+    CAPTURE(times, outcome.summary.limit_reason);
+    CHECK(outcome.summary.limit == record::Limit::none);
+    CHECK(outcome.summary.stable);
+    const auto places = places_of(outcome.summary.limit_reason);
+    REQUIRE(places.size() == 1);
+    CHECK(std::abs(places[0].at - 1 / times) <= places[0].error);
+    CHECK(places[0].error < 0.02);
+    const auto top = [&](int edges) {
+      preset::Preset p = column(times);
+      p.accuracy.edges_per_segment = edges;
+      return tip_of(run(p).trajectory, 1).z();
+    };
+    CHECK((4 * top(64) - top(32)) / 3 == Approx(top_of_elastica(times)).margin(0.02));
+  }
+}
+
+TEST_CASE("a column's state at a load does not hang on how much more was asked for") {
+  // past a load of 1.2160 there is no arch left: it turns over and hangs below its base
+  preset::Preset less = column(1.1), more = column(1.5), most = column(11);
+  for (preset::Preset* p : {&less, &more, &most}) p->accuracy.edges_per_segment = 32;
+  more.movie.frames = 16;
+  most.movie.frames = 11;
+  const auto at_1 = run(less), to_1_5 = run(more), to_11 = run(most);
+  const double top = tip_of(at_1.trajectory, 1).z();
+  CHECK(tip_of(to_1_5.trajectory, 11).z() == Approx(top).epsilon(1e-6));
+  CHECK(tip_of(to_11.trajectory, 1).z() == Approx(top).epsilon(1e-6));
+  for (const auto* outcome : {&to_1_5, &to_11}) {
+    const double times = outcome == &to_1_5 ? 1.5 : 11;
+    CAPTURE(outcome->summary.limit_reason);
+    CHECK(outcome->summary.limit == record::Limit::snap);
+    CHECK_THAT(outcome->summary.limit_reason, Catch::StartsWith("the path branches"));
+    const auto places = places_of(outcome->summary.limit_reason);
+    REQUIRE(places.size() == 2);
+    CHECK(std::abs(places[0].at - 1 / times) <= places[0].error);
+    CHECK(std::abs(places[1].at - 1.2160 / times) <= places[1].error);
+    const auto last = outcome->trajectory.frames.size() - 1;
+    CHECK(tip_of(outcome->trajectory, last).z() == Approx(-L).margin(0.1));
+  }
+}
+
+TEST_CASE("a straight column without an imperfection tells where it is not stable") {
+  preset::Preset p = column(1.5);
+  p.imperfection.size = 0;
+  p.accuracy.edges_per_segment = 16;
+  p.movie.frames = 21;
+  const auto outcome = run(p);
+  CHECK(outcome.trajectory.frames[13].negative_pivots == 0);
+  CHECK(outcome.trajectory.frames[14].negative_pivots == 2);
+}
+
+TEST_CASE("a column buckles to any side, each as stable as the others") {
+  std::vector<double> sides;
+  double first = 0;
+  for (const int seed : {1, 2, 3, 4}) {
+    preset::Preset p = column(1.1);
+    p.accuracy.edges_per_segment = 16;
+    p.imperfection.seed = seed;
+    const auto outcome = run(p);
+    CAPTURE(seed, outcome.summary.limit_reason);
+    CHECK(outcome.summary.limit == record::Limit::none);
+    CHECK(outcome.summary.stable);
+    if (seed == 1) first = bend(outcome);
+    CHECK(bend(outcome) == Approx(first).epsilon(1e-7));
+    const auto& x = last_frame(outcome).nodes;
+    Eigen::Index far = 0;
+    x.topRows(2).rightCols(x.cols() - 11).colwise().norm().maxCoeff(&far);
+    sides.push_back(std::atan2(x(1, far + 11), x(0, far + 11)));
+  }
+  CHECK(std::abs(sides[0] - sides[1]) > 0.01);
+}
+
+TEST_CASE("a pinched ring goes on past its double mode on every mesh", "[standard]") {
+  preset::NetworkData file;
+  file.rods.resize(1);
+  for (int k = 0; k < 24; ++k) {
+    const double angle = k * std::numbers::pi / 12;
+    file.points.push_back({80 * std::cos(angle), 80 * std::sin(angle), 0});
+    file.rods[0].push_back(k);
+    if (k % 6 == 0)
+      file.supports.push_back({double(k), 72 * std::cos(angle), 72 * std::sin(angle), 0});
+  }
+  file.rods[0].push_back(0);
+  preset::Preset p = network(file);
+  const auto usual = run(p);
+  const auto place = places_of(usual.summary.limit_reason);
+  REQUIRE(place.size() == 1);
+  for (const int edges : {4, 8, 16}) {
+    p.accuracy.edges_per_segment = edges;
+    const auto outcome = run(p);
+    CAPTURE(edges, outcome.summary.limit_reason);
+    CHECK(outcome.summary.limit == record::Limit::none);
+    CHECK(outcome.summary.stable);
+    CHECK(bend(outcome) == Approx(bend(usual)).epsilon(3e-3));
+    const auto found = places_of(outcome.summary.limit_reason);
+    REQUIRE(found.size() == 1);
+    CHECK(std::abs(found[0].at - place[0].at) <= found[0].error + place[0].error);
+  }
+}
+
+TEST_CASE("beams bend under transverse loads as their closed forms and elasticas say") {
+  // uniform, from one per cent of a diameter to a third of the length
+  for (const double q : {1e-8, 1.5e-5}) {
+    preset::Preset p = network(rod_on_cross({L, 0, 0}, {0, stiff, stiff}));
+    p.loads.field_N_per_mm = q;
+    p.accuracy.edges_per_segment = 64;
+    const auto outcome = run(p);
+    CAPTURE(q, outcome.summary.limit_reason);
+    CHECK(outcome.summary.limit == record::Limit::none);
+    CHECK(outcome.summary.stable);
+    // the angle is that with the vertical, pointing down
+    const auto half = [&](double angle) {
+      return elastica(angle, L / 2,
+                      [&](double s, double theta) { return q * (L / 2 - s) * std::sin(theta); });
+    };
+    const double angle = zero_of([&](double of) { return half(of)[0] - std::numbers::pi / 2; }, 0.3,
+                                 std::numbers::pi / 2);
+    const double sag = -last_frame(outcome).nodes.row(2).minCoeff();
+    CHECK(sag == Approx(half(angle)[3]).epsilon(1e-3));
+    const double linear = 5 * q * std::pow(L, 4) / 384 / EI;
+    if (q < 1e-6)
+      CHECK(sag == Approx(linear).epsilon(1e-3));
+    else
+      CHECK(std::abs(sag - linear) > 0.02 * linear);
+  }
+}
+
+TEST_CASE("a grillage shares the force at its joint as its beams are stiff, at any deflection") {
+  const auto sag_of = [](double a, double b, double P) {
+    preset::NetworkData file;
+    file.points = {{-a / 2, 0, 0}, {a / 2, 0, 0}, {0, -b / 2, 0}, {0, b / 2, 0}, {0, 0, 0}};
+    file.rods = {{0, 4, 1}, {2, 4, 3}};
+    file.supports = {{0}, {1}, {2}, {3}};
+    file.springs = {
+        {0, 0, stiff, stiff}, {1, 0, stiff, stiff}, {2, stiff, 0, stiff}, {3, stiff, 0, stiff}};
+    preset::Preset p = network(file);
+    p.loads.points = {{0, 0, 0, 0, -P}};
+    p.accuracy.edges_per_segment = 32;
+    const auto outcome = run(p);
+    CAPTURE(P, outcome.summary.limit_reason);
+    CHECK(outcome.summary.limit == record::Limit::none);
+    CHECK(outcome.summary.stable);
+    return -last_frame(outcome).nodes(2, 0);
+  };
+  const auto beam = [](double length) { return 48 * EI / std::pow(length, 3); };
+  CHECK(sag_of(200, 160, 1e-5) == Approx(1e-5 / (beam(200) + beam(160))).epsilon(1e-3));
+  // of two alike each carries a half, and each support a quarter
+  constexpr double P = 8e-3;
+  const auto half = [&](double angle) {
+    return elastica(angle, L / 2, [&](double, double theta) { return P / 4 * std::sin(theta); });
+  };
+  const double angle = zero_of([&](double of) { return half(of)[0] - std::numbers::pi / 2; }, 0.1,
+                               std::numbers::pi / 2);
+  CHECK(sag_of(L, L, P) == Approx(half(angle)[3]).epsilon(1e-3));
+  CHECK(sag_of(L, L, P) > 0.1 * L);
+}
+
+TEST_CASE("a cable net hangs as its lengths allow") {
+  constexpr double d = 0.05, P = 0.1, EA = 83e3 * std::numbers::pi * d * d / 4;
+  preset::NetworkData file;
+  file.points = {{-100, 0, 0}, {100, 0, 0}, {0, -100, 0}, {0, 100, 0}, {0, 0, 0}};
+  file.rods = {{0, 4, 1}, {2, 4, 3}};
+  preset::Preset p = network(file);
+  p.rod.diameter_mm = d;
+  p.limits.max_strain = 0.05;
+  p.loads.points = {{0, 0, 0, 0, -P}};
+  const auto outcome = run(p);
+  CHECK(outcome.summary.limit == record::Limit::none);
+  // four straight halves carry it
+  const double angle =
+      zero_of([&](double of) { return 4 * EA * (1 / std::cos(of) - 1) * std::sin(of) - P; }, 0, 1);
+  CHECK(-last_frame(outcome).nodes(2, 0) == Approx(100 * std::tan(angle)).epsilon(1e-3));
+}
