@@ -74,8 +74,14 @@ class Builder {
     if (holds_direction(rod.end))
       entry.ghost_end =
           add_edge(entry, rod.nodes.back(), ghost(rod.ghost_end), s[edges] - s[edges - 1], 0);
-    for (std::size_t k = 1; k < entry.edges.size(); ++k)
-      add_bend(rod.material, entry, entry.edges[k - 1], entry.edges[k]);
+    for (std::size_t k = 1; k < entry.edges.size(); ++k) {
+      const int e = entry.edges[k - 1], f = entry.edges[k];
+      // an end that lets the spin go has the frame of the edge beside it
+      double share = 0.5;
+      if (e == entry.ghost_begin) share = rod.begin == RodEnd::clamped ? 0 : 1;
+      if (f == entry.ghost_end) share = rod.end == RodEnd::clamped ? 1 : 0;
+      add_bend(rod.material, entry, e, f, share);
+    }
     if (entry.closed) rings_.push_back({int(model_.rods.size()), rod.material});
     model_.rods.push_back(std::move(entry));
   }
@@ -84,7 +90,7 @@ class Builder {
     // after all others, as they join edges that do not follow one another in the list
     for (const auto& [rod, material] : rings_)
       add_bend(material, model_.rods[rod], model_.rods[rod].edges.back(),
-               model_.rods[rod].edges.front());
+               model_.rods[rod].edges.front(), 0.5);
     crossings.resize(std::size_t(model_.nodes), 0);
     mark_shared(rods, crossings);
     model_.held.assign(std::size_t(model_.nodes), 0);
@@ -105,21 +111,26 @@ class Builder {
     return entry.edges.back();
   }
 
-  void add_bend(const RodMaterial& m, const Model::Rod& entry, int e, int f) {
+  /// `share`: MaterialBend's.
+  void add_bend(const RodMaterial& m, const Model::Rod& entry, int e, int f, double share) {
     // at a held end only the half edge on the rod's side bends
     const double before = e == entry.ghost_begin ? 0 : model_.edges[std::size_t(e)].rest_length,
                  after = f == entry.ghost_end ? 0 : model_.edges[std::size_t(f)].rest_length;
-    const double length = 0.5 * (before + after);
-    const bool plain = !twist_ || m.round_and_straight();
+    const double length = 0.5 * (before + after), round = 2 * std::min(m.EI1, m.EI2) / length;
+    const bool plain = !twist_ || m.round_and_straight(), at_end = share != 0.5;
     const int bend = int(model_.bends.size());
-    model_.bends.push_back({e, f, plain ? 2 * std::min(m.EI1, m.EI2) / length : 0});
+    model_.bends.push_back({e, f, plain && !at_end ? round : 0});
+    if (plain && at_end)
+      std::get<std::vector<Pair<EndBending>>>(model_.pairs).push_back({e, f, bend, {round}});
     if (!twist_) return;
     std::get<std::vector<Pair<Torsion>>>(model_.pairs)
         .push_back({e, f, bend, {m.GJ / length, length * m.twist}});
     if (!plain)
       std::get<std::vector<Pair<SectionBending>>>(model_.pairs)
-          .push_back(
-              {e, f, bend, {{Eigen::Vector2d(m.EI1, m.EI2) / length, length * m.curvature}}});
+          .push_back({e,
+                      f,
+                      bend,
+                      {{Eigen::Vector2d(m.EI1, m.EI2) / length, length * m.curvature, share}}});
   }
 
   /// nodes that rods share

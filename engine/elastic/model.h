@@ -82,7 +82,7 @@ struct ModelEdge {
 struct ModelBend {
   int e = 0, f = 0;
   double stiffness =
-      0;  ///< 2 EI/l, l the mean rest length of the two edges (mJ); 0: SectionBending
+      0;  ///< 2 EI/l, l the mean rest length of the two edges (mJ); 0: one of PairLists
   BlockSlot slot = 0;
 };
 
@@ -111,12 +111,13 @@ struct Pair {
 
 /// All energies of two edges beside plain bending: an energy more is one list more.
 using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<SectionBending>>,
-                             std::vector<Pair<JointShear>>, std::vector<Pair<JointSpin>>>;
+                             std::vector<Pair<EndBending>>, std::vector<Pair<JointShear>>,
+                             std::vector<Pair<JointSpin>>>;
 
 /// A rod: its nodes and their arc lengths at rest. A closed rod has one arc length more than nodes.
 /// Ends that hold a direction (`tangent`, `clamped`) hold it at the end point itself, by a ghost
-/// edge beyond it: its bend counts over half an edge, so the hold is second order [the symmetric
-/// ghost of beam theory].
+/// edge beyond it: its bend counts over half an edge, as EndBending says, so the hold is second
+/// order [the symmetric ghost of beam theory].
 struct ModelRod {
   std::vector<int> nodes;
   std::vector<double> position;  ///< mm, ascending
