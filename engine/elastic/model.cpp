@@ -236,6 +236,33 @@ std::vector<int> edges_beside(const Model& model, int rod, int node) {
   return edges;
 }
 
+/// The law of a bend that is no plain one; they stand in the order of the bends.
+template <class Law>
+const Law* law_of(const Model& model, int bend) {
+  const auto& pairs = std::get<std::vector<Pair<Law>>>(model.pairs);
+  const auto at = std::ranges::lower_bound(pairs, bend, {}, &Pair<Law>::bend);
+  return at != pairs.end() && at->bend == bend ? &at->law : nullptr;
+}
+
+/// l/EI of a bend in the flat plane, l its length, 1/(N mm).
+double give_of(const Model& model, int bend) {
+  const auto* end = law_of<EndBending>(model, bend);
+  if (const auto* section = law_of<SectionBending>(model, bend))
+    return 1 / section->bend.stiffness[0];
+  return 2 / (end ? end->stiffness : model.bends[std::size_t(bend)].stiffness);
+}
+
+/// How far a couple of 1 N mm turns a rod at a joint beyond what its edges there turn, rad, as a
+/// joint holds the rod itself and its energy the edges beside, whose tangents lie half an edge off:
+/// l/(4 EI) of a rod that goes on, l/(2 EI) of one that ends there.
+double turn_between(const Model& model, int rod, const std::vector<int>& beside) {
+  const Model::Rod& one = model.rods[std::size_t(rod)];
+  const int at = beside.front() - one.edges.front(), last = int(one.edges.size()) - 1;
+  if (last == 0) return 0;  // nothing bends
+  const double give = give_of(model, one.first_bend + std::clamp(at, 0, last - 1));
+  return give / (beside.size() == 1 ? 2 : 4);
+}
+
 /// add(e, f, share) for every pair of edges where two rods cross
 template <class Add>
 void at_crossing(const Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
@@ -285,6 +312,9 @@ Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel
 
 void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
                      double rest_angle) {
+  const double between = turn_between(model, rod_a, edges_beside(model, rod_a, node_a)) +
+                         turn_between(model, rod_b, edges_beside(model, rod_b, node_b));
+  stiffness /= 1 + stiffness * between;
   at_crossing(model, rod_a, node_a, rod_b, node_b, stiffness, [&](int e, int f, double share) {
     std::get<std::vector<Pair<JointShear>>>(model.pairs).push_back({e, f, -1, {share, rest_angle}});
   });
