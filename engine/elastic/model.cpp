@@ -252,15 +252,25 @@ double give_of(const Model& model, int bend) {
   return 2 / (end ? end->stiffness : model.bends[std::size_t(bend)].stiffness);
 }
 
+/// What each of the edges beside a node counts for the rod's tangent there: the nearer middle more.
+std::vector<double> shares_of(const Model& model, const std::vector<int>& beside) {
+  if (beside.size() == 1) return {1};
+  const double first = model.edges[std::size_t(beside[0])].rest_length,
+               second = model.edges[std::size_t(beside[1])].rest_length;
+  return {second / (first + second), first / (first + second)};
+}
+
 /// How far a couple of 1 N mm turns a rod at a joint beyond what its edges there turn, rad, as a
 /// joint holds the rod itself and its energy the edges beside, whose tangents lie half an edge off:
-/// l/(4 EI) of a rod that goes on, l/(2 EI) of one that ends there.
+/// l/(4 EI) of a rod that goes on (of edges of other lengths l l'/(2 EI (l + l'))), l/(2 EI) of one
+/// that ends there.
 double turn_between(const Model& model, int rod, const std::vector<int>& beside) {
   const Model::Rod& one = model.rods[std::size_t(rod)];
   const int at = beside.front() - one.edges.front(), last = int(one.edges.size()) - 1;
   if (last == 0) return 0;  // nothing bends
   const double give = give_of(model, one.first_bend + std::clamp(at, 0, last - 1));
-  return give / (beside.size() == 1 ? 2 : 4);
+  const std::vector<double> share = shares_of(model, beside);
+  return give * (share.size() == 1 ? 0.5 : share[0] * share[1]);
 }
 
 /// add(e, f, share) for every pair of edges where two rods cross
@@ -269,9 +279,11 @@ void at_crossing(const Model& model, int rod_a, int node_a, int rod_b, int node_
                  Add add) {
   const std::vector<int> first = edges_beside(model, rod_a, node_a),
                          second = edges_beside(model, rod_b, node_b);
-  const double share = stiffness / double(first.size() * second.size());
-  for (int e : first)
-    for (int f : second) add(e, f, share);
+  const std::vector<double> of_first = shares_of(model, first),
+                            of_second = shares_of(model, second);
+  for (std::size_t e = 0; e < first.size(); ++e)
+    for (std::size_t f = 0; f < second.size(); ++f)
+      add(first[e], second[f], stiffness * of_first[e] * of_second[f]);
 }
 
 /// where the blocks of a pair of edges stand
