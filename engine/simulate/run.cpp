@@ -18,6 +18,7 @@
 #include "engine/simulate/frames.h"
 #include "engine/simulate/indentation.h"
 #include "engine/simulate/mesh_choice.h"
+#include "engine/simulate/shell_symmetry.h"
 #include "engine/simulate/steps.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/mesh_levels.h"
@@ -148,6 +149,24 @@ void put_seams(const Scene& scene, record::Summary& s) {
   }
 }
 
+/// Of a state that its own image under a symmetry of the shell lies next to, by more than its
+/// error: a sentence. Meshes agree on such states, as each takes one for the other.
+std::string near_image(const EquilibriumPath& path) {
+  const Simulation& simulation = path.simulation;
+  const Scene& scene = simulation.scene();
+  if (!path.single_motion || !simulation.holds().empty()) return "";
+  constexpr double not_told_apart = 0.02;  // of d
+  double least = scene.tolerance * scene.length_scale_mm / 4;
+  if (const double error = simulation.certificate().error_estimate_mm; 2 * error > least)
+    least = 2 * error;
+  const double off = distance_of_image(simulation, least);
+  if (!(off < not_told_apart * scene.footprint.spacing)) return "";
+  return fmt::format(
+      "the state lies {:.2g} mm from its own image under a symmetry of the shell, as "
+      "good a state: others lie as near, and which of them is found is chance",
+      off);
+}
+
 /// What was followed, and on which meshes.
 void put_path(const EquilibriumPath& path, record::Summary& s) {
   const NestedShell& shell = path.simulation.shell();
@@ -156,6 +175,7 @@ void put_path(const EquilibriumPath& path, record::Summary& s) {
   s.limit = path.limit;
   s.limit_reason = path.limit_reason;
   s.doubt = path.mesh_disagreement;
+  if (s.doubt.empty()) s.doubt = near_image(path);
   s.largest_strain = path.simulation.certificate().largest_strain;
   const Effort effort = path.simulation.effort();
   s.newton_iterations = effort.newton_iterations;
