@@ -27,16 +27,8 @@ double lengths_at(const Model& model, const ModelBend& bend) {
   return (e.EA > 0 ? e.rest_length : 0) + (f.EA > 0 ? f.rest_length : 0);
 }
 
-/// The law of the bend at an end that holds its direction; null: it is a plain one.
-template <class Shell>
-auto* end_law(Shell& model, int bend) {
-  auto& ends = std::get<std::vector<Pair<EndBending>>>(model.pairs);
-  const auto at = std::ranges::lower_bound(ends, bend, {}, &Pair<EndBending>::bend);
-  return at != ends.end() && at->bend == bend ? &at->law : nullptr;
-}
-
 double& stiffness_of(Model& model, int bend) {
-  const auto end = end_law(model, bend);
+  const auto end = law_of<EndBending>(model, bend);
   return end ? end->stiffness : model.bends[std::size_t(bend)].stiffness;
 }
 
@@ -244,7 +236,7 @@ void DesignShell::add_bend_gradient(int k, double share, Eigen::Matrix3Xd& minus
   const ModelEdge &e = model_.edges[std::size_t(bend.e)], &f = model_.edges[std::size_t(bend.f)];
   const EdgeGeometry at_e = geometry_of(state_.x, e), at_f = geometry_of(state_.x, f);
   BendEnergy energy;
-  if (const auto end = end_law(model_, k)) {
+  if (const auto end = law_of<EndBending>(model_, k)) {
     PairGeometry at;
     PairEnergy pair;
     at.e = at_e, at.f = at_f;

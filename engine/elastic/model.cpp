@@ -236,14 +236,6 @@ std::vector<int> edges_beside(const Model& model, int rod, int node) {
   return edges;
 }
 
-/// The law of a bend that is no plain one; they stand in the order of the bends.
-template <class Law>
-const Law* law_of(const Model& model, int bend) {
-  const auto& pairs = std::get<std::vector<Pair<Law>>>(model.pairs);
-  const auto at = std::ranges::lower_bound(pairs, bend, {}, &Pair<Law>::bend);
-  return at != pairs.end() && at->bend == bend ? &at->law : nullptr;
-}
-
 /// l/EI of a bend in the flat plane, l its length, 1/(N mm).
 double give_of(const Model& model, int bend) {
   const auto* end = law_of<EndBending>(model, bend);

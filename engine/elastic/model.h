@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <tuple>
 #include <utility>
@@ -191,9 +192,18 @@ struct Model {
 Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rung,
                           const std::vector<char>& crossings = {});
 
+/// The law of a bend of which `bends` has no stiffness, if it is one of these; else null.
+template <class Law, class AnyModel>
+auto* law_of(AnyModel& model, int bend) {
+  auto& pairs = std::get<std::vector<Pair<Law>>>(model.pairs);  // in the order of the bends
+  const auto at = std::ranges::lower_bound(pairs, bend, {}, &Pair<Law>::bend);
+  return at != pairs.end() && at->bend == bend ? &at->law : nullptr;
+}
+
 /// Adds the resistance to shear `stiffness` (N mm/rad) where rods `a` and `b` of the model cross
 /// at a node (or at two nodes that a spring joins): the edges before and after it on each rod.
-/// finish() afterwards; so for the two below.
+/// It acts on the rods' tangents at the joint, which lie between those of the edges: what these
+/// turn less than the joint is put in series with it. finish() afterwards; so for the two below.
 void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
                      double rest_angle);
 
