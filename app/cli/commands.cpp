@@ -50,6 +50,7 @@ void print_plan(const preset::Preset& preset, const simulate::Plan& plan) {
                preset.jitter.trials, word_of(preset.jitter.mode), preset.jitter.confined);
   fmt::print("  memory          about {:.1g} GB\n", plan.memory_GB);
   fmt::print("  expected error  {}\n", or_unknown(plan.expected_error_mm, "mm"));
+  for (const auto& sentence : plan.left_out) fmt::print("  left out        {}\n", sentence);
   fmt::print("  expected time   {} to simulate, {} to draw the movie, {} the figure\n",
              or_unknown(plan.expected_seconds, "s"),
              or_unknown(expected_seconds(Pictures::movie, preset), "s"),

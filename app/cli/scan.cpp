@@ -1,11 +1,13 @@
 // `gridshell scan`: a cloud of points of a 3D scanner against the joints of runs.
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/cli/commands.h"
@@ -43,6 +45,9 @@ struct ComparedScan {
   JointCylinder cylinder;
   std::vector<ComparedState> states;
   std::size_t best = 0;  ///< the one that it lies on best
+  /// Where it shows none: the height of the joints' cylinders, mm, with which it shows a state, and
+  /// which.
+  std::optional<std::pair<double, std::string>> with_height = {};
 
   const ComparedState& of_best() const { return states[best]; }
 };
@@ -75,12 +80,14 @@ std::string scan_json(const ComparedScan& scan) {
             {"state", best.shown ? Json(best.name) : Json()},
             {"nearest_state", best.name}};
   json.update(json_of(*best.scan));
-  json.update({{"specks", scan.clusters.specks},
-               {"clusters_too_wide", scan.clusters.others},
-               {"joint_diameter_mm", scan.cylinder.diameter_mm},
-               {"joint_height_mm", scan.cylinder.height_mm},
-               {"scan_to_run", json_of(best.scan->pose)},
-               {"states", Json::array()}});
+  json.update(
+      {{"specks", scan.clusters.specks},
+       {"clusters_too_wide", scan.clusters.others},
+       {"joint_diameter_mm", scan.cylinder.diameter_mm},
+       {"joint_height_mm", scan.cylinder.height_mm},
+       {"joint_height_that_fits_mm", scan.with_height ? Json(scan.with_height->first) : Json()},
+       {"scan_to_run", json_of(best.scan->pose)},
+       {"states", Json::array()}});
   for (const ComparedState& state : scan.states) {
     Json& one = json["states"].emplace_back(Json{{"name", state.name}, {"shown", state.shown}});
     if (state.scan) one.update(json_of(*state.scan));
@@ -123,6 +130,14 @@ std::string scan_text(const ComparedScan& scan) {
       laid.found, laid.joints.cols(), laid.outliers.cols(), scan.clusters.specks,
       laid.mirrored ? ", mirrored" : "", laid.rms_mm, laid.max_mm, laid.within_bar,
       scan.cylinder.diameter_mm);
+  if (scan.with_height)
+    text += fmt::format(
+        "  all tops lie {:.2f} mm further {} along the normals than [joints] height_mm = {:g} "
+        "says: "
+        "with --set joints.height_mm={:.3g} it shows {}\n",
+        std::abs(scan.with_height->first - scan.cylinder.height_mm),
+        scan.with_height->first > scan.cylinder.height_mm ? "out" : "in", scan.cylinder.height_mm,
+        scan.with_height->first, scan.with_height->second);
   return text;
 }
 
@@ -185,6 +200,31 @@ Result<Scanned> read_all(const ScanOptions& options) {
   return scanned;
 }
 
+/// Whether a scan shows a state once the tops lie higher or lower: that height of the cylinders and
+/// the state, of several the one on which it lies best.
+std::optional<std::pair<double, std::string>> height_that_fits(const Scanned& scanned,
+                                                               const ComparedScan& scan) {
+  std::optional<std::pair<double, std::string>> fits;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < scan.states.size(); ++k) {
+    const record::Trajectory& run = scanned.candidates[k].run->trajectory;
+    const auto form = study::form_of(run.layout, run.frames[scanned.candidates[k].frame]);
+    JointCylinder cylinder = scan.cylinder;
+    std::optional<RegisteredScan> laid = scan.states[k].scan;
+    // other tops may belong to its joints with the first height found
+    for (int turn = 0; turn < 2 && laid; ++turn) {
+      cylinder.height_mm += study::beyond_height(*laid, form);
+      laid = study::register_points(scan.clusters, form, cylinder);
+    }
+    const bool shown = laid && cylinder.height_mm >= 0 && study::scan_matches(*laid, cylinder);
+    const double cost = laid ? laid->cost / double(run.layout.joints.size()) : least;
+    if (!shown || !(cost < least)) continue;
+    least = cost;
+    fits = {cylinder.height_mm, scan.states[k].name};
+  }
+  return fits;
+}
+
 /// Errors: bad_input when the cloud holds no joints or far too many, or cannot be laid on any
 /// state.
 Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, Watch& watch) {
@@ -219,7 +259,11 @@ Result<ComparedScan> compared(const Scanned& scanned, const std::string& file, W
     scan.states.push_back(std::move(state));
     watch.report(double(scan.states.size()) / double(scanned.candidates.size()));
   }
-  if (std::isfinite(least)) return scan;
+  if (std::isfinite(least)) {
+    if (std::ranges::none_of(scan.states, &ComparedState::shown))
+      scan.with_height = height_that_fits(scanned, scan);
+    return scan;
+  }
   return fail(Fault::bad_input,
               fmt::format("{}: {} clusters of points as wide as joints of {:g} mm ([joints] "
                           "diameter_mm), {} specks and {} wider ones; they lie like the "

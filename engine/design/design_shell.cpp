@@ -27,6 +27,11 @@ double lengths_at(const Model& model, const ModelBend& bend) {
   return (e.EA > 0 ? e.rest_length : 0) + (f.EA > 0 ? f.rest_length : 0);
 }
 
+double& stiffness_of(Model& model, int bend) {
+  const auto end = law_of<EndBending>(model, bend);
+  return end ? end->stiffness : model.bends[std::size_t(bend)].stiffness;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<DesignShell>> DesignShell::make(const Scene& scene, int edges_per_segment,
@@ -94,7 +99,7 @@ void DesignShell::set_diameters(const ShellEnds& ends) {
     if (wanted == now) continue;
     const double square = wanted * wanted / (now * now);
     for (const int edge : model_.rods[r].edges) model_.edges[std::size_t(edge)].EA *= square;
-    for (const int bend : bends_[r]) model_.bends[std::size_t(bend)].stiffness *= square * square;
+    for (const int bend : bends_[r]) stiffness_of(model_, bend) *= square * square;
     now = wanted;
   }
 }
@@ -109,10 +114,9 @@ void DesignShell::set_legs(const ShellEnds& ends) {
     for (const int bend : leg.bends)
       before.push_back(lengths_at(model_, model_.bends[std::size_t(bend)]));
     for (const int edge : leg.edges) model_.edges[std::size_t(edge)].rest_length = share;
-    for (std::size_t b = 0; b < leg.bends.size(); ++b) {
-      ModelBend& bend = model_.bends[std::size_t(leg.bends[b])];
-      bend.stiffness *= before[b] / lengths_at(model_, bend);
-    }
+    for (std::size_t b = 0; b < leg.bends.size(); ++b)
+      stiffness_of(model_, leg.bends[b]) *=
+          before[b] / lengths_at(model_, model_.bends[std::size_t(leg.bends[b])]);
   }
 }
 
@@ -223,16 +227,24 @@ void DesignShell::add_diameter_gradient(std::size_t rod, double change,
     minus_dg.col(edge.to) -= pull;
     minus_dg.col(edge.from) += pull;
   }
-  for (const int k : bends_[rod])
-    add_bend_gradient(model_.bends[std::size_t(k)], -4 * change, minus_dg);
+  for (const int k : bends_[rod]) add_bend_gradient(k, -4 * change, minus_dg);
 }
 
 /// A share of a bend's gradient, taken away from dg.
-void DesignShell::add_bend_gradient(const ModelBend& bend, double share,
-                                    Eigen::Matrix3Xd& minus_dg) const {
+void DesignShell::add_bend_gradient(int k, double share, Eigen::Matrix3Xd& minus_dg) const {
+  const ModelBend& bend = model_.bends[std::size_t(k)];
   const ModelEdge &e = model_.edges[std::size_t(bend.e)], &f = model_.edges[std::size_t(bend.f)];
+  const EdgeGeometry at_e = geometry_of(state_.x, e), at_f = geometry_of(state_.x, f);
   BendEnergy energy;
-  bend_gradient(bend.stiffness, geometry_of(state_.x, e), geometry_of(state_.x, f), energy);
+  if (const auto end = law_of<EndBending>(model_, k)) {
+    PairGeometry at;
+    PairEnergy pair;
+    at.e = at_e, at.f = at_f;
+    end->add(at, pair);
+    energy.gradient_e = pair.gradient.head<3>(), energy.gradient_f = pair.gradient.segment<3>(3);
+  } else {
+    bend_gradient(bend.stiffness, at_e, at_f, energy);
+  }
   minus_dg.col(e.from) -= share * energy.gradient_e;
   minus_dg.col(e.to) += share * (energy.gradient_e - energy.gradient_f);
   minus_dg.col(f.to) += share * energy.gradient_f;
@@ -258,7 +270,7 @@ void DesignShell::add_leg_gradient(int end, double change, Eigen::Matrix3Xd& min
       return std::find(leg.edges.begin(), leg.edges.end(), edge) != leg.edges.end();
     };
     const double longer = share * (int(within(bend.e)) + int(within(bend.f)));
-    add_bend_gradient(bend, longer / lengths_at(model_, bend), minus_dg);
+    add_bend_gradient(k, longer / lengths_at(model_, bend), minus_dg);
   }
 }
 

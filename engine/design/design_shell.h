@@ -83,7 +83,7 @@ class DesignShell {
   Result<void> settle(const ShellEnds& ends, double farthest_mm, const Watch& watch);
   void add_leg_gradient(int end, double change, Eigen::Matrix3Xd& minus_dg) const;
   void add_diameter_gradient(std::size_t rod, double change, Eigen::Matrix3Xd& minus_dg) const;
-  void add_bend_gradient(const ModelBend& bend, double share, Eigen::Matrix3Xd& minus_dg) const;
+  void add_bend_gradient(int bend, double share, Eigen::Matrix3Xd& minus_dg) const;
 
   const Scene& scene_;
   RodMesh mesh_;

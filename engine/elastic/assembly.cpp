@@ -309,8 +309,11 @@ Eigen::VectorXd bending_of(const Model& model, const State& state) {
       [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
         energy[next++] = bend_value(bend.stiffness, e, f);
       });
-  for (const Pair<SectionBending>& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs))
-    energy[pair.bend] += pair.law.value(pair_geometry(model, state, pair));
+  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
+    if constexpr (Law::term == Term::bend)
+      for (const Pair<Law>& pair : list)
+        energy[pair.bend] += pair.law.value(pair_geometry(model, state, pair));
+  });
   return energy;
 }
 

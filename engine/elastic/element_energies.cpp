@@ -110,8 +110,44 @@ double Torsion::add(const PairGeometry& at, PairEnergy& out) const {
 
 namespace {
 
-HalfwayFrame frame_of(const PairGeometry& at) {
-  return halfway_frame(at.e.tangent, at.director_e, at.angle_e + at.twist() / 2);
+HalfwayFrame frame_of(const PairGeometry& at, double share) {
+  return halfway_frame(at.e.tangent, at.director_e, at.angle_e + share * at.twist());
+}
+
+/// s of EndBending, and how it grows with c.
+struct EndScale {
+  double s, by_c, by_cc;
+
+  explicit EndScale(double c) {
+    const double w = 1 / (1 + c);
+    s = (3 + c * c) * w * w;
+    by_c = (2 * c - 6) * w * w * w;
+    by_cc = (20 - 4 * c) * w * w * w * w;
+  }
+};
+
+/// By how much the curvature binormal counts.
+double scale_of(const MaterialBend& bend, const CurvatureBinormal& b) {
+  return bend.at_end() ? EndScale(b.chi - 1).s : 1;
+}
+
+/// Gradient (increments) and Hessian of chi = 1 + t.s
+PairVector chi_slope(const BinormalSlopes& b) {
+  PairVector slope = PairVector::Zero();
+  slope.head<3>() = b.P * b.s;
+  slope.segment<3>(3) = b.Q * b.t;
+  return slope;
+}
+
+PairMatrix chi_curvature(const BinormalSlopes& b) {
+  const PairVector slope = chi_slope(b);
+  const double c = b.chi - 1;
+  PairMatrix curvature = PairMatrix::Zero();
+  curvature.block<3, 3>(0, 0) = -2 * symmetric_product(slope.head<3>(), b.t) - c * b.P;
+  curvature.block<3, 3>(3, 3) = -2 * symmetric_product(slope.segment<3>(3), b.s) - c * b.Q;
+  curvature.block<3, 3>(0, 3) = b.P * b.Q;
+  curvature.block<3, 3>(3, 0) = b.Q * b.P;
+  return curvature;
 }
 
 }  // namespace
@@ -148,42 +184,68 @@ void add_binormal_curvature(const Eigen::Vector3d& Y, const BinormalSlopes& b, P
 
 double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const BinormalSlopes& b,
                          PairEnergy& out) {
+  const double scale = scale_of(bend, b);
   const Eigen::Vector2d w = mu.transpose() * b.kb;
-  const Eigen::Vector2d g = bend.stiffness.array() * (w - bend.rest).array();
+  Eigen::Vector2d g = bend.stiffness.array() * (scale * w - bend.rest).array();
   PairVector phi;
-  phi << 0.25 * b.kb, 0.25 * b.kb, 0.5, 0.5;
+  phi << 0.5 * bend.share * b.kb, 0.5 * bend.share * b.kb, 1 - bend.share, bend.share;
   Eigen::Matrix<double, 8, 2> along = Eigen::Matrix<double, 8, 2>::Zero();  // mu.kb'
   along.topRows<3>() = b.by_p.transpose() * mu;
   along.middleRows<3>(3) = b.by_q.transpose() * mu;
   Eigen::Matrix<double, 8, 2> slope = along;
   slope.col(0) += w[1] * phi;
   slope.col(1) -= w[0] * phi;
+  if (bend.at_end()) {  // (s w)' = s w' + w s'
+    const EndScale end(b.chi - 1);
+    const PairVector by_c = chi_slope(b), pull = slope * g;
+    out.hessian += end.by_c * (by_c * pull.transpose() + pull * by_c.transpose());
+    out.hessian += g.dot(w) * (end.by_cc * by_c * by_c.transpose() + end.by_c * chi_curvature(b));
+    slope = (scale * slope + end.by_c * by_c * w.transpose()).eval();
+  }
   out.gradient += slope * g;
   out.hessian.noalias() += slope * bend.stiffness.asDiagonal() * slope.transpose();
 
   // the second derivatives of w, weighted by g
+  g *= scale;
   const Eigen::Vector3d Y = mu * g;
   add_binormal_curvature(Y, b, out.hessian);
   out.hessian.block<3, 3>(0, 0) += symmetric_product(Y, b.kb);
   const PairVector across = g[0] * along.col(1) - g[1] * along.col(0);
   out.hessian += phi * across.transpose() + across * phi.transpose();
   out.hessian -= g.dot(w) * phi * phi.transpose();
-  add_twist_curvature(0.5 * (g[0] * w[1] - g[1] * w[0]), b, out.hessian);
-  return material_bend_value(bend, w);
+  add_twist_curvature(bend.share * (g[0] * w[1] - g[1] * w[0]), b, out.hessian);
+  return material_bend_value(bend, scale * w);
 }
 
 double SectionBending::value(const PairGeometry& at) const {
-  return material_bend_value(
-      bend, frame_of(at).transpose() * curvature_binormal(at.e.tangent, at.f.tangent).kb);
+  const CurvatureBinormal b = curvature_binormal(at.e.tangent, at.f.tangent);
+  return material_bend_value(bend,
+                             frame_of(at, bend.share).transpose() * (scale_of(bend, b) * b.kb));
 }
 
 double SectionBending::add(const PairGeometry& at, PairEnergy& out) const {
   PairEnergy here;
-  const double value =
-      add_material_bend(bend, frame_of(at), binormal_with_slopes(at.e.tangent, at.f.tangent), here);
+  const double value = add_material_bend(bend, frame_of(at, bend.share),
+                                         binormal_with_slopes(at.e.tangent, at.f.tangent), here);
   scale_to_edges(at.e.length, at.f.length, here);
   out += here;
   return value;
+}
+
+double EndBending::value(const PairGeometry& at) const {
+  const double c = at.e.tangent.dot(at.f.tangent);
+  return stiffness * (1 - c) / (1 + c) * std::pow(EndScale(c).s, 2);
+}
+
+double EndBending::add(const PairGeometry& at, PairEnergy& out) const {
+  const double c = at.e.tangent.dot(at.f.tangent), w = 1 / (1 + c);
+  const EndScale end(c);
+  const double x = (1 - c) * w, x_by_c = -2 * w * w, x_by_cc = 4 * w * w * w;  // u^2
+  add_cosine(stiffness * end.s * (x_by_c * end.s + 2 * x * end.by_c),
+             stiffness * (x_by_cc * end.s * end.s + 4 * x_by_c * end.s * end.by_c +
+                          2 * x * (end.by_c * end.by_c + end.s * end.by_cc)),
+             at.e, at.f, out);
+  return value(at);
 }
 
 namespace {

@@ -131,15 +131,20 @@ struct Torsion {
 /// [Bergou 2008] averages the energies of both frames, [Bergou 2010] the frames; the frame half way
 /// keeps a round rod's energy free of its twist, whatever that is, and lets a rod with curvature
 /// and twist at rest be a helix without energy.
+/// At an end that holds its direction w is s times as much (EndBending), in the frame of the ghost
+/// where the end holds the spin, else in that of the edge beside it.
 struct MaterialBend {
   Eigen::Vector2d stiffness;  ///< EI1/l, EI2/l (mJ)
   Eigen::Vector2d rest;       ///< w_0 = l * curvature at rest
+  double share = 0.5;         ///< of the twist, from e on, where the frame stands; at an end 0 or 1
+
+  bool at_end() const { return share != 0.5; }
 };
 
 /// mu: columns m1, m2 of e turned by half the twist, in 3D.
 using HalfwayFrame = Eigen::Matrix<double, 3, 2>;
 
-/// The frame half way: e's reference director turned by angle + tau/2 about e's tangent.
+/// The frame half way: e's reference director turned by its angle + share * tau about e's tangent.
 HalfwayFrame halfway_frame(const Eigen::Vector3d& tangent, const Eigen::Vector3d& director,
                            double angle);
 
@@ -148,7 +153,7 @@ double material_bend_value(const MaterialBend& bend, const Eigen::Vector2d& w);
 /// Y.kb'' for a fixed Y normal to t, as a symmetric matrix (increments), added to `out`.
 void add_binormal_curvature(const Eigen::Vector3d& Y, const BinormalSlopes& b, PairMatrix& out);
 
-/// Adds gradient and Hessian in increments; returns the value. With phi' = theta_e' + tau'/2,
+/// Adds gradient and Hessian in increments; returns the value. With phi' = theta_e' + share tau',
 ///   w'  = mu.kb' - i phi' w,
 ///   w'' = mu.kb'' + (mu.p)(kb.p) - 2i phi' mu.kb' - i phi'' w - phi'^2 w.
 double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const BinormalSlopes& b,
@@ -159,6 +164,19 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const
 struct SectionBending {
   static constexpr Term term = Term::bend;
   MaterialBend bend;
+
+  double value(const PairGeometry& at) const;
+  double add(const PairGeometry& at, PairEnergy& out) const;
+};
+
+/// Bending of a round rod between the direction that its end holds (a ghost edge) and its first
+/// edge, half an edge long. Of the edge and its mirror image beyond the end, which turn by 2 phi,
+/// it is one half, (EI/2l) tan^2 phi, l = |e|/2: so what is left out goes with even powers of the
+/// edge length, as inside a rod. Without the pole at 90 degrees, and the same up to phi^6:
+///   E = 4k (1 - c)/(1 + c)^3 = (EI/2l) |2 kb/chi|^2, k = 2EI/l, c = cos phi.
+struct EndBending {
+  static constexpr Term term = Term::bend;
+  double stiffness = 0;  ///< k, mJ
 
   double value(const PairGeometry& at) const;
   double add(const PairGeometry& at, PairEnergy& out) const;

@@ -74,8 +74,14 @@ class Builder {
     if (holds_direction(rod.end))
       entry.ghost_end =
           add_edge(entry, rod.nodes.back(), ghost(rod.ghost_end), s[edges] - s[edges - 1], 0);
-    for (std::size_t k = 1; k < entry.edges.size(); ++k)
-      add_bend(rod.material, entry, entry.edges[k - 1], entry.edges[k]);
+    for (std::size_t k = 1; k < entry.edges.size(); ++k) {
+      const int e = entry.edges[k - 1], f = entry.edges[k];
+      // an end that lets the spin go has the frame of the edge beside it
+      double share = 0.5;
+      if (e == entry.ghost_begin) share = rod.begin == RodEnd::clamped ? 0 : 1;
+      if (f == entry.ghost_end) share = rod.end == RodEnd::clamped ? 1 : 0;
+      add_bend(rod.material, entry, e, f, share);
+    }
     if (entry.closed) rings_.push_back({int(model_.rods.size()), rod.material});
     model_.rods.push_back(std::move(entry));
   }
@@ -84,7 +90,7 @@ class Builder {
     // after all others, as they join edges that do not follow one another in the list
     for (const auto& [rod, material] : rings_)
       add_bend(material, model_.rods[rod], model_.rods[rod].edges.back(),
-               model_.rods[rod].edges.front());
+               model_.rods[rod].edges.front(), 0.5);
     crossings.resize(std::size_t(model_.nodes), 0);
     mark_shared(rods, crossings);
     model_.held.assign(std::size_t(model_.nodes), 0);
@@ -105,21 +111,26 @@ class Builder {
     return entry.edges.back();
   }
 
-  void add_bend(const RodMaterial& m, const Model::Rod& entry, int e, int f) {
+  /// `share`: MaterialBend's.
+  void add_bend(const RodMaterial& m, const Model::Rod& entry, int e, int f, double share) {
     // at a held end only the half edge on the rod's side bends
     const double before = e == entry.ghost_begin ? 0 : model_.edges[std::size_t(e)].rest_length,
                  after = f == entry.ghost_end ? 0 : model_.edges[std::size_t(f)].rest_length;
-    const double length = 0.5 * (before + after);
-    const bool plain = !twist_ || m.round_and_straight();
+    const double length = 0.5 * (before + after), round = 2 * std::min(m.EI1, m.EI2) / length;
+    const bool plain = !twist_ || m.round_and_straight(), at_end = share != 0.5;
     const int bend = int(model_.bends.size());
-    model_.bends.push_back({e, f, plain ? 2 * std::min(m.EI1, m.EI2) / length : 0});
+    model_.bends.push_back({e, f, plain && !at_end ? round : 0});
+    if (plain && at_end)
+      std::get<std::vector<Pair<EndBending>>>(model_.pairs).push_back({e, f, bend, {round}});
     if (!twist_) return;
     std::get<std::vector<Pair<Torsion>>>(model_.pairs)
         .push_back({e, f, bend, {m.GJ / length, length * m.twist}});
     if (!plain)
       std::get<std::vector<Pair<SectionBending>>>(model_.pairs)
-          .push_back(
-              {e, f, bend, {{Eigen::Vector2d(m.EI1, m.EI2) / length, length * m.curvature}}});
+          .push_back({e,
+                      f,
+                      bend,
+                      {{Eigen::Vector2d(m.EI1, m.EI2) / length, length * m.curvature, share}}});
   }
 
   /// nodes that rods share
@@ -225,15 +236,46 @@ std::vector<int> edges_beside(const Model& model, int rod, int node) {
   return edges;
 }
 
+/// l/EI of a bend in the flat plane, l its length, 1/(N mm).
+double give_of(const Model& model, int bend) {
+  const auto* end = law_of<EndBending>(model, bend);
+  if (const auto* section = law_of<SectionBending>(model, bend))
+    return 1 / section->bend.stiffness[0];
+  return 2 / (end ? end->stiffness : model.bends[std::size_t(bend)].stiffness);
+}
+
+/// What each of the edges beside a node counts for the rod's tangent there: the nearer middle more.
+std::vector<double> shares_of(const Model& model, const std::vector<int>& beside) {
+  if (beside.size() == 1) return {1};
+  const double first = model.edges[std::size_t(beside[0])].rest_length,
+               second = model.edges[std::size_t(beside[1])].rest_length;
+  return {second / (first + second), first / (first + second)};
+}
+
+/// How far a couple of 1 N mm turns a rod at a joint beyond what its edges there turn, rad, as a
+/// joint holds the rod itself and its energy the edges beside, whose tangents lie half an edge off:
+/// l/(4 EI) of a rod that goes on (of edges of other lengths l l'/(2 EI (l + l'))), l/(2 EI) of one
+/// that ends there.
+double turn_between(const Model& model, int rod, const std::vector<int>& beside) {
+  const Model::Rod& one = model.rods[std::size_t(rod)];
+  const int at = beside.front() - one.edges.front(), last = int(one.edges.size()) - 1;
+  if (last == 0) return 0;  // nothing bends
+  const double give = give_of(model, one.first_bend + std::clamp(at, 0, last - 1));
+  const std::vector<double> share = shares_of(model, beside);
+  return give * (share.size() == 1 ? 0.5 : share[0] * share[1]);
+}
+
 /// add(e, f, share) for every pair of edges where two rods cross
 template <class Add>
 void at_crossing(const Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
                  Add add) {
   const std::vector<int> first = edges_beside(model, rod_a, node_a),
                          second = edges_beside(model, rod_b, node_b);
-  const double share = stiffness / double(first.size() * second.size());
-  for (int e : first)
-    for (int f : second) add(e, f, share);
+  const std::vector<double> of_first = shares_of(model, first),
+                            of_second = shares_of(model, second);
+  for (std::size_t e = 0; e < first.size(); ++e)
+    for (std::size_t f = 0; f < second.size(); ++f)
+      add(first[e], second[f], stiffness * of_first[e] * of_second[f]);
 }
 
 /// where the blocks of a pair of edges stand
@@ -274,6 +316,9 @@ Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel
 
 void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
                      double rest_angle) {
+  const double between = turn_between(model, rod_a, edges_beside(model, rod_a, node_a)) +
+                         turn_between(model, rod_b, edges_beside(model, rod_b, node_b));
+  stiffness /= 1 + stiffness * between;
   at_crossing(model, rod_a, node_a, rod_b, node_b, stiffness, [&](int e, int f, double share) {
     std::get<std::vector<Pair<JointShear>>>(model.pairs).push_back({e, f, -1, {share, rest_angle}});
   });

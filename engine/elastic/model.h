@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <tuple>
 #include <utility>
@@ -82,7 +83,7 @@ struct ModelEdge {
 struct ModelBend {
   int e = 0, f = 0;
   double stiffness =
-      0;  ///< 2 EI/l, l the mean rest length of the two edges (mJ); 0: SectionBending
+      0;  ///< 2 EI/l, l the mean rest length of the two edges (mJ); 0: one of PairLists
   BlockSlot slot = 0;
 };
 
@@ -111,12 +112,13 @@ struct Pair {
 
 /// All energies of two edges beside plain bending: an energy more is one list more.
 using PairLists = std::tuple<std::vector<Pair<Torsion>>, std::vector<Pair<SectionBending>>,
-                             std::vector<Pair<JointShear>>, std::vector<Pair<JointSpin>>>;
+                             std::vector<Pair<EndBending>>, std::vector<Pair<JointShear>>,
+                             std::vector<Pair<JointSpin>>>;
 
 /// A rod: its nodes and their arc lengths at rest. A closed rod has one arc length more than nodes.
 /// Ends that hold a direction (`tangent`, `clamped`) hold it at the end point itself, by a ghost
-/// edge beyond it: its bend counts over half an edge, so the hold is second order [the symmetric
-/// ghost of beam theory].
+/// edge beyond it: its bend counts over half an edge, as EndBending says, so the hold is second
+/// order [the symmetric ghost of beam theory].
 struct ModelRod {
   std::vector<int> nodes;
   std::vector<double> position;  ///< mm, ascending
@@ -190,9 +192,18 @@ struct Model {
 Result<Model> build_model(int nodes, const std::vector<ModelRod>& rods, RodModel rung,
                           const std::vector<char>& crossings = {});
 
+/// The law of a bend of which `bends` has no stiffness, if it is one of these; else null.
+template <class Law, class AnyModel>
+auto* law_of(AnyModel& model, int bend) {
+  auto& pairs = std::get<std::vector<Pair<Law>>>(model.pairs);  // in the order of the bends
+  const auto at = std::ranges::lower_bound(pairs, bend, {}, &Pair<Law>::bend);
+  return at != pairs.end() && at->bend == bend ? &at->law : nullptr;
+}
+
 /// Adds the resistance to shear `stiffness` (N mm/rad) where rods `a` and `b` of the model cross
 /// at a node (or at two nodes that a spring joins): the edges before and after it on each rod.
-/// finish() afterwards; so for the two below.
+/// It acts on the rods' tangents at the joint, which lie between those of the edges: what these
+/// turn less than the joint is put in series with it. finish() afterwards; so for the two below.
 void add_joint_shear(Model& model, int rod_a, int node_a, int rod_b, int node_b, double stiffness,
                      double rest_angle);
 

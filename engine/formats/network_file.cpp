@@ -82,9 +82,13 @@ Result<int> NetworkBuilder::point(long number, const std::string& at) const {
 
 Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm,
                                      const std::string& at) {
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 2)
+  if (std::ranges::count(points, points.empty() ? 0 : points.front()) == long(points.size()))
     return fail(Fault::bad_input, at + ": a rod of one point, must have at least two, apart");
+  if (const auto same = std::ranges::adjacent_find(points); same != points.end())
+    return fail(Fault::bad_input,
+                fmt::format("{}: a stretch of no length: the points of a rod must lie apart, and "
+                            "point {} follows itself, or another point at its place",
+                            at, *same));
   entries_ += points.size();
   if (network_.rods.size() == most || entries_ > most_entries)
     return fail(Fault::bad_input, fmt::format("{}: must be at most {} rods through {} points", at,
@@ -325,7 +329,8 @@ Result<NetworkData> read_network_dxf(std::string_view bytes, const std::string& 
       TRY(point, draft.place(xyz, place));
       points.push_back(*point);
     }
-    if (curve.closed && !points.empty()) points.push_back(points.front());
+    if (curve.closed && !points.empty() && points.back() != points.front())
+      points.push_back(points.front());
     TRY_DO(draft.add_rod(std::move(points), 0, place));
   }
   return draft.join_crossings(name).and_then([&] { return draft.take(name); });

@@ -35,7 +35,8 @@ inline constexpr double softest_spring = 1e-6, stiffest_spring = 1e6;
 /// name the same point or place, or points of one listed joint.
 /// Points [x, y] lie at z = 0, others [x, y, z] in space; a rod that ends where it begins is a
 /// ring. Errors (bad_input), with `name` and the line: not of the format, NaN, a point that is not
-/// there, more than 100 000 points or rods, another ending.
+/// there, in JSON one named by its number that lies where an earlier one does, a stretch of no
+/// length, more than 100 000 points or rods, another ending.
 Result<NetworkData> read_network(std::string_view bytes, const std::string& name);
 
 /// The text of a .json file that reads back as the same network.
@@ -59,8 +60,8 @@ class NetworkBuilder {
   Result<void> add_point(const std::vector<double>& xyz, const std::string& at);
   /// The earliest point at the place of point `number`. Errors (bad_input): there is no such point.
   Result<int> point(long number, const std::string& at) const;
-  /// A rod through points; those that follow themselves are one. Errors (bad_input): fewer than
-  /// two points apart, too many rods.
+  /// A rod through points. Errors (bad_input): fewer than two points apart, a point that follows
+  /// itself, too many rods.
   Result<void> add_rod(std::vector<int> points, double diameter_mm, const std::string& at);
   void add_support(std::vector<double> row) { network_.supports.push_back(std::move(row)); }
   /// The spring of a support, along x, y, z, N/mm.

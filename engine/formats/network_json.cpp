@@ -142,16 +142,34 @@ class Reader {
     return draft_.add_point(*xyz, at_);
   }
 
-  /// The number of a point, or its place.
-  Result<int> point_of(const Json& value) {
+  /// The number of a point, or its place. Who names one that lies where another does may not know
+  /// that it is the same, but in a list of joints.
+  Result<int> point_of(const Json& value, bool in_joint = false) {
     if (value.is_number_integer()) {
       if (value.is_number_unsigned() && value.get<std::uint64_t>() > draft_.points())
         return wrong("names a point that is not there");
-      return draft_.point(value.get<long>(), at_);
+      const long number = value.get<long>();
+      TRY(point, draft_.point(number, at_));
+      if (*point != number && !in_joint && !is_listed(value))
+        return wrong(fmt::format("point {} lies where point {} does, must be named by that number, "
+                                 "or moved away",
+                                 number, *point)
+                         .c_str());
+      return *point;
     }
     const auto xyz = numbers_in(value);
     if (!xyz) return wrong("a point must be its number, or its place [x, y] or [x, y, z]");
     return draft_.place(*xyz, at_);
+  }
+
+  /// Whether "joints" lists a point by its number.
+  bool is_listed(const Json& number) const {
+    const auto joints = document_.json.find("joints");
+    return joints != document_.json.end() &&
+           std::any_of(joints->begin(), joints->end(), [&](const Json& joint) {
+             return joint.is_array() &&
+                    std::find(joint.begin(), joint.end(), number) != joint.end();
+           });
   }
 
   Result<void> rod(const Json& value) {
@@ -182,7 +200,7 @@ class Reader {
       return wrong("must be a list of 2 to 100 points, by number or place");
     std::vector<int> points;
     for (std::size_t k = 0; k < value.size(); ++k) {
-      TRY(point, point_of(value[k]));
+      TRY(point, point_of(value[k], true));
       if (std::find(value.begin(), value.begin() + std::ptrdiff_t(k), value[k]) !=
           value.begin() + std::ptrdiff_t(k))
         return wrong("lists a point twice, must list each once");

@@ -19,6 +19,7 @@
 #include "engine/simulate/frames.h"
 #include "engine/simulate/indentation.h"
 #include "engine/simulate/mesh_choice.h"
+#include "engine/simulate/shell_symmetry.h"
 #include "engine/simulate/steps.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/mesh_levels.h"
@@ -149,6 +150,24 @@ void put_seams(const Scene& scene, record::Summary& s) {
   }
 }
 
+/// Of a state that its own image under a symmetry of the shell lies next to, by more than its
+/// error: a sentence. Meshes agree on such states, as each takes one for the other.
+std::string near_image(const EquilibriumPath& path) {
+  const Simulation& simulation = path.simulation;
+  const Scene& scene = simulation.scene();
+  if (!path.single_motion || !simulation.holds().empty()) return "";
+  constexpr double not_told_apart = 0.02;  // of d
+  double least = scene.tolerance * scene.length_scale_mm / 4;
+  if (const double error = simulation.certificate().error_estimate_mm; 2 * error > least)
+    least = 2 * error;
+  const double off = distance_of_image(simulation, least);
+  if (!(off < not_told_apart * scene.footprint.spacing)) return "";
+  return fmt::format(
+      "the state lies {:.2g} mm from its own image under a symmetry of the shell, as "
+      "good a state: others lie as near, and which of them is found is chance",
+      off);
+}
+
 /// What was followed, and on which meshes.
 void put_path(const EquilibriumPath& path, record::Summary& s) {
   const NestedShell& shell = path.simulation.shell();
@@ -157,6 +176,7 @@ void put_path(const EquilibriumPath& path, record::Summary& s) {
   s.limit = path.limit;
   s.limit_reason = path.limit_reason;
   s.doubt = path.mesh_disagreement;
+  if (s.doubt.empty()) s.doubt = near_image(path);
   s.largest_strain = path.simulation.certificate().largest_strain;
   const Effort effort = path.simulation.effort();
   s.newton_iterations = effort.newton_iterations;
@@ -237,6 +257,21 @@ Result<void> check_motion(const Scene& scene) {
   return parameter_of_shortening(flat.mesh, flat.motion, flat_shortening).map([](double) {});
 }
 
+/// Of thick rods: rods are lines that meet in points. A round rod of Poisson's ratio 0.3 between
+/// joints bends by a share of 12 EI/(kappa G A L^2) = 2.2 (d/L)^2 more by its shear [Timoshenko].
+std::vector<std::string> left_out_of(const Scene& scene) {
+  constexpr double slender = 20;  // diameters from joint to joint; the share is then 0.5 %
+  const auto& diameters = scene.drawn_diameters_mm;
+  const double thickest = diameters.empty() ? 0 : std::ranges::max(diameters),
+               long_by = scene.footprint.spacing / thickest;
+  if (scene.rung == RodModel::net || !(long_by < slender)) return {};
+  return {
+      fmt::format("rods of {:.3g} mm are {:.2g} diameters long from joint to joint, and lines in "
+                  "this model: shear, which bends such a piece by some {:.2g} % more, and the "
+                  "{:.3g} mm between the axes of rods that cross are not in the expected error",
+                  thickest, long_by, 100 * 2.2 / (long_by * long_by), thickest)};
+}
+
 }  // namespace
 
 Result<Plan> plan(const preset::Preset& preset) {
@@ -262,6 +297,7 @@ Result<Plan> plan(const preset::Preset& preset) {
   plan.expected_error_mm =
       (scene->rung == RodModel::net ? net_error : expected_error(levels)) * scene->length_scale_mm;
   plan.expected_seconds = seconds_for(*scene, preset);
+  plan.left_out = left_out_of(*scene);
   plan.footprint = fmt::format("{} rods, {} joints, {} cells", plan.rods, plan.joints, plan.cells);
   // a ring has no legs
   if (const double d = scene->footprint.spacing; scene->footprint.longest_leg() > 0)

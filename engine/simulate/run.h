@@ -33,6 +33,7 @@ struct Plan {
   double expected_seconds = record::unknown;
   double memory_GB = record::unknown;  ///< that its meshes take, at most
   std::vector<std::string> seams;      ///< of building blocks, a sentence each
+  std::vector<std::string> left_out;   ///< by the model, that is seen here: a sentence each
   std::string footprint;               ///< "12 + 12 rods, longest leg 0.80 d, corner leg -0.15 d"
 };
 

@@ -89,7 +89,7 @@ Eigen::Vector2d disc_around(const Eigen::Matrix2Xd& points, double radius) {
       normal += way * way.transpose();
       slope += beyond * way;
     }
-    const Eigen::Vector2d move = normal.inverse() * slope;
+    const Eigen::Vector2d move = solution(normal, slope);
     middle += move;
     if (move.norm() < 1e-6 * radius) break;
   }
@@ -295,6 +295,25 @@ std::optional<RegisteredScan> register_points(const Clusters& clusters, const Sc
   RegisteredScan scan = laid(clusters.tops, form, cylinder, *best);
   scan.mirrored = mirrored;
   return scan;
+}
+
+double beyond_height(const RegisteredScan& scan, const ScanTarget& form) {
+  constexpr int unknowns = 7;
+  if (scan.found <= unknowns) return 0;
+  Eigen::MatrixXd moves(3 * scan.found, unknowns);
+  Eigen::VectorXd off(3 * scan.found);
+  const Eigen::Vector3d middle = form.joints.rowwise().mean();
+  int row = 0;
+  for (Eigen::Index k = 0; k < form.joints.cols(); ++k) {
+    if (scan.joints.col(k).hasNaN()) continue;
+    const Eigen::Vector3d arm = form.joints.col(k) - middle;
+    for (int axis = 0; axis < 3; ++axis, ++row) {
+      const Eigen::Vector3d e = Eigen::Vector3d::Unit(axis);
+      moves.row(row) << form.normals(axis, k), arm.cross(e).transpose(), e.transpose();
+      off[row] = scan.joints(axis, k) - form.joints(axis, k);
+    }
+  }
+  return least_squares(moves, off)(0);
 }
 
 bool scan_matches(const RegisteredScan& scan, const JointCylinder& cylinder) {

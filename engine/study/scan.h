@@ -105,6 +105,11 @@ struct RegisteredScan {
 std::optional<RegisteredScan> register_points(const Clusters& clusters, const ScanTarget& form,
                                               const JointCylinder& cylinder);
 
+/// By how much further out along the normals all tops lie than the cylinder's height says, mm,
+/// beside a small move and turn w, s of the scan: the least squares of r = b n + w x p + s over the
+/// joints found, r from the simulated joint p to the measured one. 0 of fewer than eight of them.
+double beyond_height(const RegisteredScan& scan, const ScanTarget& form);
+
 /// Whether a scan laid so shows that state: nine tenths of the joints found lie within two radii of
 /// the simulated ones, as do seven tenths of what could (of the joints or of the tops, whichever
 /// are fewer), and their rms is at most a radius.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "engine/core/try.h"
@@ -45,51 +44,7 @@ std::string modes_told(const std::vector<int>& modes, const Footprint& footprint
   return fmt::format("{} | {}", fmt::join(u, " "), fmt::join(v, " "));
 }
 
-/// To round-off, which a designed shell's diameters have.
-bool alike(const ShellRods& rods, std::size_t a, std::size_t b) {
-  const auto same = [](double one, double other) {
-    return std::abs(one - other) <= 1e-6 * std::abs(one);
-  };
-  const RodMaterial &one = rods.material(a), &other = rods.material(b);
-  const bool weigh_alike =
-      rods.weight_N_per_mm.empty() || same(rods.weight_N_per_mm[a], rods.weight_N_per_mm[b]);
-  return same(one.EA, other.EA) && same(one.EI1, other.EI1) && same(one.EI2, other.EI2) &&
-         same(one.GJ, other.GJ) && weigh_alike;
-}
-
-/// Whether every edge goes to an edge of a rod of the same kind.
-bool keeps_kinds(const ShellRods& rods, const RodMesh& mesh, const MeshSymmetry& symmetry) {
-  const auto edge = [](int a, int b) { return std::pair(std::min(a, b), std::max(a, b)); };
-  std::map<std::pair<int, int>, std::size_t> rod_of;
-  for (std::size_t r = 0; r < mesh.rods.size(); ++r)
-    for (std::size_t k = 1; k < mesh.rods[r].size(); ++k)
-      rod_of[edge(mesh.rods[r][k - 1], mesh.rods[r][k])] = r;
-  return std::ranges::all_of(rod_of, [&](const auto& at) {
-    const auto [a, b] = at.first;
-    const auto there =
-        rod_of.find(edge(symmetry.image[std::size_t(a)], symmetry.image[std::size_t(b)]));
-    return there != rod_of.end() && alike(rods, at.second, there->second);
-  });
-}
-
 }  // namespace
-
-std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh& mesh,
-                                              const std::vector<MeshSymmetry>& of_mesh) {
-  const ShellRods& rods = scene.rods;
-  const bool shaped = std::ranges::any_of(rods.materials, [](const RodMaterial& material) {
-    return !material.curvature.isZero(0) || material.twist != 0;
-  });
-  std::vector<MeshSymmetry> kept;
-  for (const MeshSymmetry& symmetry : of_mesh) {
-    const bool identity = symmetry.index == 0;
-    const bool allowed = !shaped && rods.points.empty() &&
-                         (!rods.loaded() || !symmetry.turns_over()) &&
-                         keeps_kinds(rods, mesh, symmetry);
-    if (identity || allowed) kept.push_back(symmetry);
-  }
-  return kept;
-}
 
 LevelPlan measuring_plan(const Scene& scene) {
   // trials end on the mesh that leads here

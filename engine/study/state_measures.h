@@ -8,14 +8,12 @@
 #include "engine/record/frame.h"
 #include "engine/record/shape_symmetry.h"
 #include "engine/record/states.h"
+#include "engine/simulate/shell_symmetry.h"
 #include "engine/simulate/simulation.h"
 
 namespace gridshell::study {
 
-/// The symmetries of a mesh that its shell has: none of those that would exchange rods of different
-/// kinds, or turn over or move loads and rods that are curved at rest.
-std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh& mesh,
-                                              const std::vector<MeshSymmetry>& of_mesh);
+using simulate::symmetries_of_shell;
 
 /// The meshes that the accuracy asks for, but two at least, of which energies are extrapolated.
 LevelPlan measuring_plan(const Scene& scene);

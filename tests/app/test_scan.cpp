@@ -66,6 +66,16 @@ TEST_CASE("a scan of a run shows that run, with its joints, its picture and what
   const auto other = gridshell_program("scan cloud.csv wide --size 320x240 -o other", at);
   CHECK(other.code == 3);
   CHECK_THAT(other.out, Contains("other: does not show wide\n"));
+  CHECK(parsed(text_of(at / "other" / "scan.json"))["joint_height_that_fits_mm"].is_null());
+  // joints of another height: the key that is wrong, and what it should be
+  how.cylinder.height_mm = 7.5;
+  write_cloud(make_scan(shell, how).cloud, at / "high.csv");
+  const auto high = gridshell_program("scan high.csv run --size 320x240 -o high", at);
+  CHECK(high.code == 3);
+  CHECK_THAT(high.out, Contains("further out along the normals than [joints] height_mm = 5 says") &&
+                           Contains("with --set joints.height_mm=7.5") && Contains("it shows run"));
+  CHECK(parsed(text_of(at / "high" / "scan.json"))["joint_height_that_fits_mm"].get<double>() ==
+        Approx(7.5).margin(0.1));
 }
 
 TEST_CASE("clouds and runs that are none leave a sentence and no folder") {

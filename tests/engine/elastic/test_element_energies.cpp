@@ -85,9 +85,9 @@ std::vector<Sample> samples(unsigned seed, int count) {
 }
 
 /// the definitions, frames carried from the sample's edges to wherever e and f are; `round` is
-/// EI/(2l) |kb|^2
+/// EI/(2l) |kb|^2, `end` the same at a held end
 struct Definitions {
-  T bend, twist, round;
+  T bend, twist, round, end;
 };
 Definitions definitions(const Sample& at) {
   const V e{unknown(at.e.x(), 0), unknown(at.e.y(), 1), unknown(at.e.z(), 2)};
@@ -100,13 +100,16 @@ Definitions definitions(const Sample& at) {
   const T m = atan2(dot(s, cross(here, d_f)), dot(here, d_f));
   const T tau = theta_f - theta_e + m;
   const V kb = (T(2) / (T(1) + dot(t, s))) * cross(t, s);
-  const T phi = theta_e + T(0.5) * tau;
+  const T phi = theta_e + T(at.bend.share) * tau, u2 = (T(1) - dot(t, s)) / (T(1) + dot(t, s)),
+          grown = at.bend.at_end() ? T(1) + u2 + u2 * u2 : T(1);
   const V across = cross(t, d_e);
   const T w1 = dot(kb, cos(phi) * d_e + sin(phi) * across);
   const T w2 = dot(kb, cos(phi) * across + (T(-1) * sin(phi)) * d_e);
-  const T x1 = w1 - T(at.bend.rest[0]), x2 = w2 - T(at.bend.rest[1]), y = tau - T(at.tau_0);
+  const T x1 = grown * w1 - T(at.bend.rest[0]), x2 = grown * w2 - T(at.bend.rest[1]),
+          y = tau - T(at.tau_0);
   return {T(0.5 * at.bend.stiffness[0]) * x1 * x1 + T(0.5 * at.bend.stiffness[1]) * x2 * x2,
-          T(0.5 * at.GJ_l) * y * y, T(0.25 * 7.3) * dot(kb, kb)};
+          T(0.5 * at.GJ_l) * y * y, T(0.25 * 7.3) * dot(kb, kb),
+          T(0.25 * 7.3) * grown * grown * dot(kb, kb)};
 }
 
 template <class Vector, class Matrix>
@@ -121,7 +124,8 @@ void check(const Vector& gradient, const Matrix& hessian, const T& exact, double
 
 /// Value and derivatives of the bending in material axes.
 double material_bend(const Sample& at, PairEnergy& out) {
-  const HalfwayFrame mu = halfway_frame(at.t(), at.director_e, at.theta_e + at.tau() / 2);
+  const HalfwayFrame mu =
+      halfway_frame(at.t(), at.director_e, at.theta_e + at.bend.share * at.tau());
   const double value = add_material_bend(at.bend, mu, binormal_with_slopes(at.t(), at.s()), out);
   scale_to_edges(at.e.norm(), at.f.norm(), out);
   return value;
@@ -158,11 +162,31 @@ TEST_CASE("twist: gradient and Hessian agree with automatic differentiation") {
 }
 
 TEST_CASE("material bend: value, gradient and Hessian agree with automatic differentiation") {
-  for (const Sample& at : samples(6, 60)) {
+  for (const double share : {0.5, 0.0, 1.0})
+    for (Sample at : samples(6, 60)) {
+      at.bend.share = share;
+      PairEnergy out;
+      const T exact = definitions(at).bend;
+      CHECK(material_bend(at, out) == Approx(exact.value().value()).epsilon(1e-12));
+      check(out.gradient, out.hessian, exact, 1e-11);
+    }
+}
+
+TEST_CASE("bend at a held end: derivatives, and half of what the edge and its mirror image bend") {
+  for (Sample at : samples(8, 40)) {
+    at.bend.share = 0;
     PairEnergy out;
-    const T exact = definitions(at).bend;
-    CHECK(material_bend(at, out) == Approx(exact.value().value()).epsilon(1e-12));
+    const T exact = definitions(at).end;
+    const EndBending law{7.3};
+    PairGeometry edges;
+    edges.e = at.edge_e(), edges.f = at.edge_f();
+    CHECK(law.add(edges, out) == Approx(exact.value().value()).epsilon(1e-12));
     check(out.gradient, out.hessian, exact, 1e-11);
+    const double c = at.t().dot(at.s()), mirrored = 2 * c * c - 1;
+    // of the length of both half edges, so half as stiff
+    const double half = 0.5 * 7.3 / 2 * (1 - mirrored) / (1 + mirrored);
+    const double eighth = std::pow(1 - c, 4);  // as phi^8
+    if (c > 0.9) CHECK(law.value(edges) == Approx(half).margin(40 * eighth));
   }
 }
 

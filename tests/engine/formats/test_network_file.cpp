@@ -30,7 +30,7 @@ const std::string crossed = R"({
   "points_mm": [[-10, 0], [10, 0], [0, -10], [0, 10], [0, 0], [0.0005, 0]],
   "rods": [
     [0, 4, 1],
-    {"points": [2, 5, [0, 10]], "diameter_mm": 0.5}
+    {"points": [2, [0.0005, 0], [0, 10]], "diameter_mm": 0.5}
   ],
   "supports": [
     {"point": 0, "to_mm": [-8, 0, 1], "spring_N_per_mm": [2, 0.125, 0]},
@@ -116,7 +116,13 @@ TEST_CASE("files of networks that are broken say where") {
         "n.json:4: rods[0]: point 6, must be from 0 to 5");
   wrong(with("[0, 4, 1]", "[0, -1]"), "n.json", "point -1, must be from 0");
   wrong(with("[0, 4, 1]", "[0]"), "n.json", "n.json:4: rods[0]: a rod of one point");
-  wrong(with("[0, 4, 1]", "[4, 5]"), "n.json", "a rod of one point");
+  wrong(with("[0, 4, 1]", "[4, [0, 0.0005]]"), "n.json", "a rod of one point");
+  wrong(with("[0, 4, 1]", "[0, 5, 1]"), "n.json",
+        "n.json:4: rods[0]: point 5 lies where point 4 does, must be named by that number");
+  wrong(with("\"point\": 3", "\"point\": 5"), "n.json",
+        "n.json:10: supports[2]: point 5 lies where");
+  wrong(with("[0, 4, 1]", "[0, 4, 4, 1]"), "n.json", "n.json:4: rods[0]: a stretch of no length");
+  wrong(with("[0, 4, 1]", "[0, 4, [0, 0], 1]"), "n.json", "and point 4 follows itself");
   wrong(with("[0, 4, 1]", "[]"), "n.json", "a rod of one point");
   wrong(with("[0, 4, 1]", "[[[[[[[[[[1]]]]]]]]]]"), "n.json", "rods[0]");
   wrong(with("0.5}", "-1}"), "n.json", "n.json:5: rods[1]");
@@ -140,6 +146,7 @@ TEST_CASE("files of networks that are broken say where") {
   wrong("v 0 0 nan\n", "n.obj", "n.obj:1: a vertex");
   wrong("v 0 0 0\nl 1 2\n", "n.obj", "n.obj:2: point 1, must be from 0 to 0");
   wrong("v 0 0 0\nv 1 0 0\nl 1 x\n", "n.obj", "n.obj:3: 'x' is no vertex");
+  wrong("v 0 0 0\nv 9 0 0\nv 9 0 0\nl 1 2 3\n", "n.obj", "n.obj:4: a stretch of no length");
   wrong("v 0 0 0\n", "n.obj", "holds no rods");
   wrong("hello\nworld\n", "n.dxf", "n.dxf:1: is no DXF");
   wrong("", "n.dxf", "holds no rods");
@@ -148,6 +155,8 @@ TEST_CASE("files of networks that are broken say where") {
         "n.dxf:12: an arc");
   wrong("0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n1\n20\n1\n11\n1\n21\n1\n", "n.dxf",
         "n.dxf:6: a rod of one point");
+  wrong("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n10\n1\n20\n1\n10\n1\n20\n1\n10\n9\n20\n1\n",
+        "n.dxf", "n.dxf:6: a stretch of no length");
   wrong("x", "n.txt", "must end in .json");
 }
 

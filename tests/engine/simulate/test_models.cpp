@@ -125,6 +125,25 @@ TEST_CASE("joints that pass twist twist the rods, the more the stiffer they are"
   }
 }
 
+TEST_CASE("joints that resist shear: joints and energies at second order, beside short legs too") {
+  preset::Preset p = circle(5, 48, 40);  // legs of 0.4 d and less
+  p.rod.shear_GPa = shear_GPa;
+  p.joints.shear_Nmm = 2;
+  p.imperfection.size = 0;
+  std::vector<simulate::ExperimentResult> on;
+  for (const int edges : {8, 16, 32, 64}) {
+    p.accuracy.edges_per_segment = edges;
+    on.push_back(run(p));
+    CHECK(on.back().summary.limit == record::Limit::none);
+  }
+  const auto energy = [&](std::size_t k) { return on[k].summary.energies.total(); };
+  CAPTURE(energy(0), energy(1), energy(2), energy(3), distance(on[1], on[2]),
+          distance(on[2], on[3]));
+  // at first order it would be 2
+  CHECK(distance(on[1], on[2]) / distance(on[2], on[3]) == Approx(4).epsilon(0.1));
+  CHECK((energy(1) - energy(2)) / (energy(2) - energy(3)) == Approx(4).epsilon(0.1));
+}
+
 TEST_CASE("a cylinder whose ends are held along the helices is its net, to second order") {
   // held against spin as well its rods are twisted
   for (const auto hold : {preset::EndKind::tangent, preset::EndKind::clamped}) {

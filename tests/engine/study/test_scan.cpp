@@ -94,3 +94,22 @@ TEST_CASE("a joint that lies elsewhere is told with its distance") {
   CHECK(scan->max_mm == Approx(1.2).margin(0.15));
   CHECK(scan_matches(*scan, {}));
 }
+
+TEST_CASE("tops that all lie further out along the normals tell by how much") {
+  for (const ScanTarget* form : {&circle(), &hemisphere()})
+    for (const double height : {7.5, 3.2}) {
+      ScanMaking how;
+      how.cylinder.height_mm = height;
+      how.missing = 0.1;
+      const MadeScan made = make_scan(*form, how);
+      const auto scan = laid(made, *form);
+      REQUIRE(scan);
+      double told = JointCylinder{}.height_mm + beyond_height(*scan, *form);
+      CAPTURE(height, told);
+      CHECK(told == Approx(height).margin(0.15));
+    }
+  // of the height known nothing is left
+  const auto known = laid(make_scan(hemisphere(), {}), hemisphere());
+  REQUIRE(known);
+  CHECK(std::abs(beyond_height(*known, hemisphere())) < 0.05);
+}

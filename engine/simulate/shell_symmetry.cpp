@@ -1,0 +1,72 @@
+#include "engine/simulate/shell_symmetry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace gridshell::simulate {
+namespace {
+
+/// To round-off, which a designed shell's diameters have.
+bool alike(const ShellRods& rods, std::size_t a, std::size_t b) {
+  const auto same = [](double one, double other) {
+    return std::abs(one - other) <= 1e-6 * std::abs(one);
+  };
+  const RodMaterial &one = rods.material(a), &other = rods.material(b);
+  const bool weigh_alike =
+      rods.weight_N_per_mm.empty() || same(rods.weight_N_per_mm[a], rods.weight_N_per_mm[b]);
+  return same(one.EA, other.EA) && same(one.EI1, other.EI1) && same(one.EI2, other.EI2) &&
+         same(one.GJ, other.GJ) && weigh_alike;
+}
+
+/// Whether every edge goes to an edge of a rod of the same kind.
+bool keeps_kinds(const ShellRods& rods, const RodMesh& mesh, const MeshSymmetry& symmetry) {
+  const auto edge = [](int a, int b) { return std::pair(std::min(a, b), std::max(a, b)); };
+  std::map<std::pair<int, int>, std::size_t> rod_of;
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r)
+    for (std::size_t k = 1; k < mesh.rods[r].size(); ++k)
+      rod_of[edge(mesh.rods[r][k - 1], mesh.rods[r][k])] = r;
+  return std::ranges::all_of(rod_of, [&](const auto& at) {
+    const auto [a, b] = at.first;
+    const auto there =
+        rod_of.find(edge(symmetry.image[std::size_t(a)], symmetry.image[std::size_t(b)]));
+    return there != rod_of.end() && alike(rods, at.second, there->second);
+  });
+}
+
+}  // namespace
+
+std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh& mesh,
+                                              const std::vector<MeshSymmetry>& of_mesh) {
+  const ShellRods& rods = scene.rods;
+  const bool shaped = std::ranges::any_of(rods.materials, [](const RodMaterial& material) {
+    return !material.curvature.isZero(0) || material.twist != 0;
+  });
+  std::vector<MeshSymmetry> kept;
+  for (const MeshSymmetry& symmetry : of_mesh) {
+    const bool identity = symmetry.index == 0;
+    const bool allowed = !shaped && rods.points.empty() &&
+                         (!rods.loaded() || !symmetry.turns_over()) &&
+                         keeps_kinds(rods, mesh, symmetry);
+    if (identity || allowed) kept.push_back(symmetry);
+  }
+  return kept;
+}
+
+double distance_of_image(const Simulation& simulation, double least_mm) {
+  const Scene& scene = simulation.scene();
+  // joints have the same numbers on every mesh: the smallest tells what goes where
+  const RodMesh mesh = mesh_rods(scene.footprint, 1);
+  const Eigen::Matrix3Xd ends = pinned_motion(mesh, scene.motion).at(simulation.shell().state().t);
+  const Eigen::Matrix3Xd joints = simulation.nodes().leftCols(mesh.joints);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const MeshSymmetry& symmetry : symmetries_of_shell(scene, mesh, symmetries_of(mesh, ends))) {
+    const double off = distance_under(symmetry, joints, joints);
+    if (off > least_mm) nearest = std::min(nearest, off);
+  }
+  return nearest;
+}
+
+}  // namespace gridshell::simulate

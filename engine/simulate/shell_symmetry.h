@@ -1,0 +1,23 @@
+// Which symmetries of its mesh a shell has, and how far its state is from its own images under
+// them.
+#pragma once
+
+#include <vector>
+
+#include "engine/footprint/symmetry.h"
+#include "engine/simulate/simulation.h"
+
+namespace gridshell::simulate {
+
+/// The symmetries of a mesh that its shell has: none of those that would exchange rods of different
+/// kinds, or turn over or move loads and rods that are curved at rest.
+std::vector<MeshSymmetry> symmetries_of_shell(const Scene& scene, const RodMesh& mesh,
+                                              const std::vector<MeshSymmetry>& of_mesh);
+
+/// Of a shell in the scene's own motion, nothing else held or moved: the largest distance between a
+/// joint and that of the state's image under a symmetry of the shell, mm; of all symmetries the
+/// least that is more than `least_mm`, infinity where there is none. The image is another
+/// equilibrium, as stable and of the same energy.
+double distance_of_image(const Simulation& simulation, double least_mm);
+
+}  // namespace gridshell::simulate

@@ -1,0 +1,33 @@
+// States that nearly coincide with their own images.
+#include <catch2/catch.hpp>
+
+#include "tests/engine/simulate/run.h"
+
+using namespace gridshell;
+
+TEST_CASE("a state next to its own image is told as doubtful", "[standard]") {
+  // legs of a sixth of the spacing give way sideways, each to either side by 0.006 mm
+  preset::Preset p = circle(5, 18.288596114, 12.958769254);
+  p.footprint.spacing_mm = 8.419622877;
+  p.actuation.seed = preset::Seed::down;
+  p.rod.shear_GPa = 31;
+  p.joints.shear_Nmm = 0.065755932;
+  for (const double tolerance : {1e-3, 1e-5}) {
+    p.accuracy.tolerance = tolerance;
+    const record::Summary s = run(p).summary;
+    CAPTURE(tolerance, s.limit_reason);
+    CHECK_FALSE(s.doubt.empty());
+    if (tolerance > 1e-4)
+      CHECK_THAT(s.doubt, Catch::Contains("mm from its own image under a symmetry of the shell"));
+  }
+}
+
+TEST_CASE("symmetric states, and those that are clearly not, are not doubtful") {
+  const auto doubt = [](const preset::Preset& p) { return run(p).summary.doubt; };
+  CHECK(doubt(on_net()).empty());
+  preset::Preset dome = circle(4, 42, 36);
+  CHECK(doubt(dome).empty());
+  // a load of its own leaves it no symmetry
+  dome.loads.points = {{0, 0, 0, 0, -1e-4}};
+  CHECK(doubt(dome).empty());
+}

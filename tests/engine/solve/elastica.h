@@ -1,0 +1,65 @@
+// The exact elastica, of a rod that stretches too: what a discrete rod must come to.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <utility>
+
+#include "engine/elastic/rod_material.h"
+
+namespace gridshell {
+
+/// Between its ends a rod of one arch is made of equal quarters, each from a point without
+/// curvature to one where it runs level: two where its ends are pinned, four where they are held
+/// level.
+struct Elastica {
+  double height = 0;  ///< of the middle above the ends, mm
+  double thrust = 0;  ///< N
+};
+
+/// One quarter under a thrust P, with k = sin(alpha/2), alpha its steepest slope: rest length, span
+/// and height. With the strain -P cos(theta)/EA,
+///   EI theta'^2 = 2P (cos theta - cos alpha)(1 - P (cos theta + cos alpha)/(2 EA)),
+/// and sin(theta/2) = k sin(phi); over phi in (0, pi/2) the trapezoidal rule is exact to round-off.
+struct ElasticaQuarter {
+  double length = 0, span = 0, height = 0;
+
+  ElasticaQuarter(double P, double k, const RodSection& rod) {
+    constexpr int points = 200;
+    const auto stiffer = [&](double cosines) { return std::sqrt(1 - P * cosines / (2 * rod.EA)); };
+    for (int n = 0; n <= points; ++n) {
+      const double half = k * std::sin(M_PI / 2 * n / points), c = 1 - 2 * half * half;
+      const double by_phi =
+          1 / (std::sqrt(P / rod.EI) * std::sqrt(1 - half * half) * stiffer(c + 1 - 2 * k * k));
+      const double ds = M_PI / 2 / points * by_phi * (n == 0 || n == points ? 0.5 : 1);
+      length += ds;
+      span += ds * c * (1 - P * c / rod.EA);
+    }
+    // the moment P height where it runs level is EI theta'
+    height = 2 * k * std::sqrt(rod.EI / P) * stiffer(2 - 2 * k * k);
+  }
+};
+
+/// The arch of a rod of this length over a span, by Newton's method in (P, k).
+inline Elastica elastica(double length, double span, const RodSection& rod, int quarters) {
+  double P = 1.1 * std::pow(quarters * M_PI / (2 * length), 2) * rod.EI, k = 0.5;
+  for (int n = 0; n < 100; ++n) {
+    const double by_P = 1e-6 * P, by_k = 1e-6;
+    const auto off = [&](double force, double slope) {
+      const ElasticaQuarter at(force, slope, rod);
+      return Eigen::Vector2d(at.length - length / quarters, at.span - span / quarters);
+    };
+    Eigen::Matrix2d slopes;
+    slopes << (off(P + by_P, k) - off(P, k)) / by_P, (off(P, k + by_k) - off(P, k)) / by_k;
+    Eigen::Vector2d change = slopes.inverse() * off(P, k);
+    if (std::abs(change[1]) < 1e-13) break;
+    while (k - change[1] < 0.01 || k - change[1] > 0.98 || change[0] > 0.7 * P) change /= 2;
+    P -= change[0], k -= change[1];
+  }
+  const ElasticaQuarter found(P, k, rod);
+  REQUIRE(found.length == Approx(length / quarters).epsilon(1e-12));
+  REQUIRE(found.span == Approx(span / quarters).epsilon(1e-12));
+  return {found.height * (quarters == 4 ? 2 : 1), P};
+}
+
+}  // namespace gridshell
