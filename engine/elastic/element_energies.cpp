@@ -172,6 +172,10 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const
   return material_bend_value(bend, w);
 }
 
+Eigen::Vector2d SectionBending::excess(const PairGeometry& at) const {
+  return frame_of(at).transpose() * curvature_binormal(at.e.tangent, at.f.tangent).kb - bend.rest;
+}
+
 double SectionBending::value(const PairGeometry& at) const {
   return material_bend_value(
       bend, frame_of(at).transpose() * curvature_binormal(at.e.tangent, at.f.tangent).kb);
