@@ -70,6 +70,13 @@ std::string help_for(const preset::Preset& preset, record::Limit limit) {
                  ? "less depth, or more [limits] max_strain, would end before that"
                  : "a larger actuated boundary, or more [limits] max_strain, would end "
                    "before that";
+    case record::Limit::strength:
+      return preset.indentation.wanted()
+                 ? "less depth, thinner rods, or more [limits] max_bending_strain, would end "
+                   "before "
+                   "that"
+                 : "a larger actuated boundary, thinner rods, or more [limits] max_bending_strain, "
+                   "would end before that";
     case record::Limit::branch_lost:
     case record::Limit::no_equilibrium:
       break;
@@ -145,9 +152,34 @@ Result<void> write_runs(std::vector<Run>& runs, const preset::Presets& presets,
 
 std::string state_text(const record::Summary& at) {
   if (!at.solved) return "the net itself, no equilibrium";
-  return fmt::format("bend energy {:.3f} mJ, {}, residual {:.1e} N", at.energies[Term::bend],
+  return fmt::format("bend energy {}, {}, residual {:.1e} N",
+                     record::with_error(at.energies[Term::bend], at.energy_error_mJ, "mJ"),
                      at.stable ? "stable" : fmt::format("{} negative pivots", at.negative_pivots),
                      at.residual_N);
+}
+
+/// In as many digits as hold.
+void print_forces(const record::Summary& at) {
+  if (std::isfinite(at.force_N))
+    fmt::print("\n  force of the push {}, growing by {}",
+               record::with_error(at.force_N, at.push_error_N, "N"),
+               record::with_error(at.stiffness_N_per_mm, at.stiffness_error_N_per_mm, "N/mm"));
+  if (at.largest_force_N > 0)
+    fmt::print("\n  largest force on a support {}{}",
+               record::with_error(at.largest_force_N, at.force_error_N, "N"),
+               std::isfinite(at.force_error_N)
+                   ? fmt::format(", {:.2g} %", 100 * at.force_error_N / at.largest_force_N)
+                   : "");
+}
+
+/// Where no limit is set, what a builder wants to know.
+void print_bending_strain(const record::Summary& at, const preset::Limits& limits) {
+  constexpr double worth_telling = 0.01;
+  if (limits.max_bending_strain > 0 || !(at.largest_bending_strain >= worth_telling)) return;
+  fmt::print(
+      "\n  bending strains a rod by {:.2g} % ({}): most materials do not bear 1 %, superelastic "
+      "wire bears some 6 %; [limits] max_bending_strain ends the path there",
+      100 * at.largest_bending_strain, at.bending_strain_at);
 }
 
 void print_result(const Run& run, const fs::path& folder) {
@@ -166,6 +198,8 @@ void print_result(const Run& run, const fs::path& folder) {
   if (!std::isnan(at.max_seam_gap_mm))
     fmt::print("\n  {:.2f} mm from its blocks at most; seams: gap {:.2f} mm, kink {:.1f} degrees",
                at.max_deviation * scale_mm, at.max_seam_gap_mm, at.max_seam_kink_deg);
+  print_forces(at);
+  print_bending_strain(at, run.preset.limits);
   // why it ended early is said as the error that it is
   if (!at.limit_reason.empty() && failure_of(at, true).empty())
     fmt::print("\n  on its way: {}", at.limit_reason);

@@ -56,6 +56,8 @@ const char* word_of(Event::Kind kind) {
       return "turned_back";
     case Event::Kind::locked:
       return "locked";
+    case Event::Kind::overbent:
+      return "overbent";
   }
   return "";
 }
@@ -64,8 +66,8 @@ void add_report(py::module_& module) {
   py::class_<Event>(module, "Event", "Something that happened to the shell on its way.")
       .def_property_readonly(
           "kind", [](const Event& of) { return word_of(of.kind); },
-          "\"stability_lost\", \"turned_back\" (the path came to a limit point) or \"locked\" (the "
-          "rods came to their length).")
+          "\"stability_lost\", \"turned_back\" (the path came to a limit point), \"locked\" (the "
+          "rods came to their length) or \"overbent\" (one came to [limits] max_bending_strain).")
       .def_readonly("t", &Event::t,
                     "Where: the square root of the progress in an actuation, else from 0 at the "
                     "begin of the step to 1 at its end.")
@@ -148,7 +150,7 @@ void add_state(py::module_& module) {
   add_view(type, "cell_K", &record::Frame::cell_K, "Integrated Gauss curvature of each cell, rad.");
   add_view(type, "axial_force_N", &record::Frame::axial_force_N,
            "Of each edge, rod after rod, N; below 0 compressed. Of the finest mesh itself, as the "
-           "curvature and the reactions are.");
+           "curvature is.");
   add_view(type, "curvature_per_mm", &record::Frame::curvature_per_mm,
            "At each point of each rod, rod after rod, 1/mm.");
   add_view(type, "bending_mJ_per_m", &record::Frame::bending_mJ_per_m,

@@ -74,6 +74,9 @@ std::string text_of_events(const std::vector<Event>& events) {
       case Event::Kind::locked:
         message += "the rods are at their length";
         break;
+      case Event::Kind::overbent:
+        message += "a rod is bent as far as [limits] max_bending_strain allows";
+        break;
     }
   }
   return message;

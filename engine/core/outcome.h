@@ -17,6 +17,7 @@ enum class Outcome {
   not_converged,
   meshes_disagree,
   locked,
+  overbent,
   cancelled,
 };
 
@@ -36,6 +37,7 @@ inline constexpr std::array outcomes{
     OutcomeText{Outcome::not_converged, "not_converged", "the iterations did not come to rest"},
     OutcomeText{Outcome::meshes_disagree, "meshes_disagree", "a finer mesh went to another state"},
     OutcomeText{Outcome::locked, "locked", "the rods came to their length"},
+    OutcomeText{Outcome::overbent, "overbent", "a rod is bent as far as is allowed"},
     OutcomeText{Outcome::cancelled, "cancelled", "it was stopped"},
 };
 
@@ -46,6 +48,11 @@ static_assert(
       return !is_enumerator<Outcome(outcomes.size())>();
     }(),
     "every outcome has its line in outcomes, in their order");
+
+/// Whether a path ended where the rods bear no more, at a state that is certified.
+constexpr bool at_limit_of_rods(Outcome outcome) {
+  return outcome == Outcome::locked || outcome == Outcome::overbent;
+}
 
 constexpr const OutcomeText& words_of(Outcome outcome) { return outcomes[std::size_t(outcome)]; }
 

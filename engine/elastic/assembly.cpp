@@ -317,6 +317,39 @@ Eigen::VectorXd bending_of(const Model& model, const State& state) {
   return energy;
 }
 
+namespace {
+
+/// The rod of every bend; those that close rings come last, in the order of their rods.
+std::vector<const Model::Rod*> rods_of_bends(const Model& model) {
+  std::vector<const Model::Rod*> rods, closed;
+  for (const Model::Rod& rod : model.rods) {
+    rods.insert(rods.end(), rod.edges.size() - 1, &rod);
+    if (rod.closed) closed.push_back(&rod);
+  }
+  rods.insert(rods.end(), closed.begin(), closed.end());
+  return rods;
+}
+
+}  // namespace
+
+Eigen::VectorXd bending_strain_of(const Model& model, const State& state) {
+  Eigen::VectorXd strain(Eigen::Index(model.bends.size()));
+  const auto rods = rods_of_bends(model);
+  std::size_t next = 0;
+  along_rods(
+      model, state.x, [](int, const ModelEdge&, const EdgeGeometry&) {},
+      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
+        const double turn = curvature_binormal(e.tangent, f.tangent).kb.norm();
+        strain[Eigen::Index(next)] =
+            rods[next]->fibres.strain(turn / length_between(model, bend.e, bend.f));
+        ++next;
+      });
+  for (const Pair<SectionBending>& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs))
+    strain[pair.bend] = rods[std::size_t(pair.bend)]->fibres.strain(
+        pair.law.excess(pair_geometry(model, state, pair)) / length_between(model, pair.e, pair.f));
+  return strain;
+}
+
 Energies energies_of(const Model& model, const State& state, const ExternalLoads& outside) {
   Energies sum;
   along_rods(

@@ -42,6 +42,10 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
 /// Bending energy of every bend, one with axes or curved at rest too, mJ.
 Eigen::VectorXd bending_of(const Model& model, const State& state);
 
+/// Largest strain that bending puts on a fibre at every bend: the curvature added to that at rest
+/// times the fibres' reach.
+Eigen::VectorXd bending_strain_of(const Model& model, const State& state);
+
 /// Energies, gradient and axial forces at a state.
 void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
                        Assembly& out);

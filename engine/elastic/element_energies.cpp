@@ -217,6 +217,10 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const
   return material_bend_value(bend, scale * w);
 }
 
+Eigen::Vector2d SectionBending::excess(const PairGeometry& at) const {
+  return frame_of(at).transpose() * curvature_binormal(at.e.tangent, at.f.tangent).kb - bend.rest;
+}
+
 double SectionBending::value(const PairGeometry& at) const {
   const CurvatureBinormal b = curvature_binormal(at.e.tangent, at.f.tangent);
   return material_bend_value(bend,

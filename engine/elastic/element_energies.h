@@ -165,6 +165,8 @@ struct SectionBending {
   static constexpr Term term = Term::bend;
   MaterialBend bend;
 
+  /// w - w_0
+  Eigen::Vector2d excess(const PairGeometry& at) const;
   double value(const PairGeometry& at) const;
   double add(const PairGeometry& at, PairEnergy& out) const;
 };

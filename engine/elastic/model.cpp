@@ -62,6 +62,7 @@ class Builder {
     entry.closed = rod.closed();
     entry.director = rod.director;
     entry.gyration_mm2 = (rod.material.EI1 + rod.material.EI2) / rod.material.EA;
+    entry.fibres = rod.material.fibres;
     entry.first_bend = int(model_.bends.size());
     const auto& s = rod.position;
     const int edges = int(s.size()) - 1;

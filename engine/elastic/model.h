@@ -153,6 +153,7 @@ struct Model {
     int held_spin = -1;  ///< edge whose angle is held as nothing resists the spin, or -1
     Eigen::Vector3d director;
     double gyration_mm2 = 0;  ///< of the section about the rod's axis, squared: (I1 + I2)/A
+    FibreReach fibres;
   };
   std::vector<Rod> rods;
 
@@ -182,6 +183,15 @@ struct Model {
     return x.data()[spin[std::size_t(edge)]] / spin_length;
   }
 };
+
+/// What bends between two edges, mm: the mean of their rest lengths; a ghost has none.
+inline double length_between(const Model& model, int e, int f) {
+  const auto length = [&](int edge) {
+    const ModelEdge& one = model.edges[std::size_t(edge)];
+    return one.EA > 0 ? one.rest_length : 0;
+  };
+  return 0.5 * (length(e) + length(f));
+}
 
 /// Puts rods together; nodes that rods share are shared joints. `crossings` marks more nodes at
 /// which rods hold on to one another (spring joints). On the twist rung the spin of a rod that

@@ -24,6 +24,22 @@ inline RodSection circular_section(double diameter_mm, double young_GPa) {
 // Material and cross-section of a rod on the `twist` rung: two principal axes, torsion, and a shape
 // of its own at rest.
 
+/// How far a section's outermost fibres lie from its axes, mm: what curvature strains most.
+struct FibreReach {
+  double about_1 = 0, about_2 = 0;  ///< bent about m1 and about m2
+  bool round = true;                ///< else a rectangle, both add up at its corner
+
+  /// Largest strain by the curvatures about m1 and m2, 1/mm.
+  double strain(const Eigen::Vector2d& curvature) const {
+    if (round) return about_1 * curvature.norm();
+    return about_1 * std::abs(curvature[0]) + about_2 * std::abs(curvature[1]);
+  }
+  /// The same of a section whose spin is free: about the axis that strains it most.
+  double strain(double curvature) const {
+    return curvature * (round ? about_1 : std::hypot(about_1, about_2));
+  }
+};
+
 /// Stiffness per rod in its material frame (m1, m2, tangent) [Bergou 2008]. Curvatures are those
 /// about m1 and m2: the curvature binormal's components per length.
 struct RodMaterial {
@@ -32,14 +48,16 @@ struct RodMaterial {
   double GJ = 0;                    ///< torsion, N mm^2
   Eigen::Vector2d curvature{0, 0};  ///< at rest, about m1 and m2, 1/mm
   double twist = 0;                 ///< at rest, rad/mm
+  FibreReach fibres = {};
 
   /// Bends alike in every direction, straight at rest: the spin of its section changes nothing.
   bool round_and_straight() const { return EI1 == EI2 && curvature.isZero(0); }
 };
 
-/// A round rod that is straight at rest.
+/// A round rod that is straight at rest. Of its radius r: EI/EA = r^2/4.
 inline RodMaterial round_material(const RodSection& section, double GJ) {
-  return {section.EA, section.EI, section.EI, GJ, {0, 0}, 0};
+  const double radius = 2 * std::sqrt(section.EI / section.EA);
+  return {section.EA, section.EI, section.EI, GJ, {0, 0}, 0, {radius, radius}};
 }
 
 /// A solid circular section of diameter D (mm), Young's modulus E and shear modulus G (GPa):
@@ -63,7 +81,8 @@ inline RodMaterial rectangular_material(double width, double height, double youn
           young * height * width * width * width / 12,
           1e3 * shear_GPa * J,
           {0, 0},
-          0};
+          0,
+          {height / 2, width / 2, false}};
 }
 
 }  // namespace gridshell

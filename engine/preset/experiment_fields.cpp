@@ -403,7 +403,13 @@ void add_experiment_fields(std::vector<Field>& all) {
   FieldList<Limits>(all, "limits", &Preset::limits)
       .unused({"[accuracy] model"}, nothing_solved, by_net_alone)
       .add<&Limits::max_strain>(
-          above(0), "axial strain of an edge at which the run stops with limit \"locking\"");
+          above(0),
+          "axial strain of an edge, bending left out, at which the run stops with limit "
+          "\"locking\"")
+      .add<&Limits::max_bending_strain>(
+          at_least(0),
+          "strain of a fibre by bending, from the curvature added to that at rest, at which the "
+          "run stops with limit \"strength\"; 0: none stops it, and it is told from 0.01 on");
   add_inverse({all, "inverse", &Preset::inverse});
   add_accuracy({all, "accuracy", &Preset::accuracy});
   add_jitter({all, "jitter", &Preset::jitter});

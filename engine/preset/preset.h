@@ -215,6 +215,7 @@ struct Inverse {
 
 struct Limits {
   double max_strain = 1e-3;
+  double max_bending_strain = 0;  ///< 0: none, it is told
 };
 
 /// How a shell is shaken out of the state it would rest in.

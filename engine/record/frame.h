@@ -29,11 +29,22 @@ struct Frame {
   double error_estimate_mm = unknown;
   int newton_iterations = 0;
   double time_s = unknown;  ///< of a snap in time, since its begin
-  std::string event;        ///< a snap, a limit, a recovery; empty when nothing happened
-  Eigen::Matrix3Xd nodes;   ///< positions, mm
-  Eigen::VectorXd cell_K;   ///< integrated Gauss curvature of each cell, rad
-  /// Of the finest mesh itself, never extrapolated, so that they balance to `residual_N`; empty
-  /// where they are not known (in motion, a net, an older version).
+  /// what force_N grows by with the depth, N/mm, and its error
+  double stiffness_N_per_mm = unknown, stiffness_error_N_per_mm = unknown;
+  double push_error_N = unknown;     ///< of force_N
+  double largest_force_N = unknown;  ///< of reactions_N
+  double force_error_N = unknown;    ///< of reactions_N and force_N, the largest
+  double energy_error_mJ = unknown;  ///< of the terms and of their sum, the largest
+  /// by which bending lengthens or shortens a fibre: the curvature added to that at rest times how
+  /// far the section reaches from its axis; of the finest mesh
+  double largest_bending_strain = unknown;
+  std::string bending_strain_at;  ///< "u3, 45.00 mm from its begin, at joint [0, 1]"
+  std::string event;              ///< a snap, a limit, a recovery; empty when nothing happened
+  Eigen::Matrix3Xd nodes;         ///< positions, mm
+  Eigen::VectorXd cell_K;         ///< integrated Gauss curvature of each cell, rad
+  /// Of the finest mesh itself, but for the reactions, which are extrapolated as energies are; with
+  /// the loads these balance to `residual_N`. Empty where they are not known (in motion, a net, an
+  /// older version).
   Eigen::VectorXd axial_force_N;     ///< of each edge, rod after rod; below 0: compressed
   Eigen::VectorXd curvature_per_mm;  ///< at each point of each rod, rod after rod
   Eigen::VectorXd bending_mJ_per_m;  ///< bending energy over length, at the same points

@@ -53,6 +53,14 @@ inline const std::vector<FrameColumn> frame_columns = [] {
       {"reach_above_half", "1", &Frame::reach_above_half},
       {"lowest_latitude_deg", "deg", &Frame::lowest_latitude_deg},
       {"time_s", "s", &Frame::time_s},
+      {"stiffness_N_per_mm", "N/mm", &Frame::stiffness_N_per_mm},
+      {"stiffness_error_N_per_mm", "N/mm", &Frame::stiffness_error_N_per_mm},
+      {"push_error_N", "N", &Frame::push_error_N},
+      {"largest_force_N", "N", &Frame::largest_force_N},
+      {"force_error_N", "N", &Frame::force_error_N},
+      {"energy_error_mJ", "mJ", &Frame::energy_error_mJ},
+      {"largest_bending_strain", "1", &Frame::largest_bending_strain},
+      {"bending_strain_at", "", &Frame::bending_strain_at},
   };
   columns.insert(columns.end(), others.begin(), others.end());
   return columns;

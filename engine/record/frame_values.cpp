@@ -1,7 +1,10 @@
 #include "engine/record/frame_values.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace gridshell::record {
 namespace {
@@ -32,6 +35,15 @@ class NodeMeans {
 };
 
 }  // namespace
+
+std::string with_error(double value, double error, const char* unit) {
+  if (!std::isfinite(error)) return fmt::format("{:.4g} {} (error not known)", value, unit);
+  if (error == 0) return fmt::format("{:.9g} {}", value, unit);
+  const int digits = int(std::clamp(-std::floor(std::log10(error)), 0.0, 12.0));
+  return fmt::format("{:.{}f} ± {} {}", value, digits,
+                     error < 10 ? fmt::format("{:.1g}", error) : fmt::format("{:.0f}", error),
+                     unit);
+}
 
 std::vector<double> curvature_per_mm(const Eigen::Matrix3Xd& points) {
   std::vector<double> curvature(std::size_t(points.cols()), 0.0);

@@ -1,14 +1,20 @@
-// What a frame says along its rods: curvature and axial force at a rod's points, axial force and
-// bending energy at the nodes. Exports, pictures and the window take them from here.
+// How a figure is told with its error, and what a frame says along its rods: curvature and axial
+// force at a rod's points, axial force and bending energy at the nodes. Exports, pictures and the
+// window take them from here.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <string>
 #include <vector>
 
 #include "engine/record/trajectory.h"
 
 namespace gridshell::record {
+
+/// A value with its unit in as many digits as its error lets hold: "0.1234 ± 0.0007 N"; four digits
+/// and no error where that is not known.
+std::string with_error(double value, double error, const char* unit);
 
 /// Curvature at the node between two edges, |kb|/l, from their unit tangents and their mean length.
 inline double curvature_between(const Eigen::Vector3d& te, const Eigen::Vector3d& tf,

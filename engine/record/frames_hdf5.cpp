@@ -68,13 +68,17 @@ using SizeOf = Eigen::Index (*)(const Layout&);
 /// What a frame may lack: visit(name, unit, size by the layout, meaning, field).
 template <class Visit>
 void each_rod_field(const Visit& visit) {
-  visit("/axial_force_N", "N", edges_of_rods, "of each edge, rod after rod", &Frame::axial_force_N);
-  visit("/curvature_per_mm", "1/mm", points_of_rods, "at each point, rod after rod",
-        &Frame::curvature_per_mm);
-  visit("/bending_mJ_per_m", "mJ/m", points_of_rods, "energy over length, at each point",
-        &Frame::bending_mJ_per_m);
+  visit("/axial_force_N", "N", edges_of_rods,
+        "of each edge, rod after rod; of the finest mesh itself", &Frame::axial_force_N);
+  visit("/curvature_per_mm", "1/mm", points_of_rods,
+        "at each point, rod after rod; of the finest mesh itself", &Frame::curvature_per_mm);
+  visit("/bending_mJ_per_m", "mJ/m", points_of_rods,
+        "energy over length, at each point; of the finest mesh itself", &Frame::bending_mJ_per_m);
   const SizeOf supports = [](const Layout& layout) { return Eigen::Index(layout.supports.size()); };
-  visit("/reactions_N", "N", supports, "on each of /layout/supports", &Frame::reactions_N);
+  visit("/reactions_N", "N", supports,
+        "on each of /layout/supports; with the loads they balance to residual_N; off by "
+        "/frames/force_error_N at most",
+        &Frame::reactions_N);
 }
 
 template <class Values>
@@ -182,8 +186,8 @@ void write_frames(hdf5::Writer& file, const Layout& layout, const FrameList& fra
   file.dataset("/nodes", H5T_NATIVE_DOUBLE, {count, nodes, 3}, nullptr, "mm");
   file.attribute("/nodes", "meaning",
                  layout.extrapolated
-                     ? "extrapolated over the last two meshes, as energies and K are; residuals "
-                       "and pivots are those of the finest mesh"
+                     ? "extrapolated over the last two meshes, as K is; residuals and pivots are "
+                       "those of the finest mesh"
                      : "of the finest mesh");
   file.dataset("/cell_K", H5T_NATIVE_DOUBLE, {count, hsize_t(layout.cells.size())}, nullptr, "rad");
   // its end knows all that a run knows
@@ -197,10 +201,7 @@ void write_frames(hdf5::Writer& file, const Layout& layout, const FrameList& fra
   each_known_field([&]<class Values>(const char* name, const char* unit, Eigen::Index size,
                                      const char* meaning, Values Frame::*) {
     file.dataset(name, H5T_NATIVE_DOUBLE, dims_of<Values>(count, size), nullptr, unit);
-    file.attribute(name, "meaning",
-                   std::string(meaning) +
-                       "; of the finest mesh itself, never extrapolated, so that "
-                       "with the loads they balance to residual_N; NaN: unknown");
+    file.attribute(name, "meaning", std::string(meaning) + "; NaN: unknown");
   });
   std::vector<Frame> heads;
   for (const Frame& frame : frames) {

@@ -111,6 +111,9 @@ struct TrustRow {
   double error =
       unknown;  ///< largest distance of a joint in a frame of both, over the length scale
   double estimate = unknown;  ///< what that frame said of it
+  /// likewise of the reactions, over the largest, and of the energies, over their sum
+  double force_error = unknown, force_estimate = unknown;
+  double energy_error = unknown, energy_estimate = unknown;
   int exit_default = 0, exit_fine = 0;
   bool snap_default = false, snap_fine = false;  ///< whether a snap was told
   bool doubt = false;  ///< whether the default told that its leading meshes do not agree
@@ -123,7 +126,9 @@ struct TrustRow {
 template <RecordOf<TrustRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {
   visit_each(visit, "scene", row.scene, "kind", row.kind, "class", row.found, "error", row.error,
-             "estimate", row.estimate, "exit_default", row.exit_default, "exit_fine", row.exit_fine,
+             "estimate", row.estimate, "force_error", row.force_error, "force_estimate",
+             row.force_estimate, "energy_error", row.energy_error, "energy_estimate",
+             row.energy_estimate, "exit_default", row.exit_default, "exit_fine", row.exit_fine,
              "snap_default", row.snap_default, "snap_fine", row.snap_fine, "doubt", row.doubt);
 }
 

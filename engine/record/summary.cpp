@@ -16,6 +16,15 @@ void Summary::take_state(const Frame& last) {
   stable = last.negative_pivots == 0;
   residual_N = last.residual_N;
   error_estimate_mm = last.error_estimate_mm;
+  force_N = last.force_N;
+  push_error_N = last.push_error_N;
+  stiffness_N_per_mm = last.stiffness_N_per_mm;
+  stiffness_error_N_per_mm = last.stiffness_error_N_per_mm;
+  largest_force_N = last.largest_force_N;
+  force_error_N = last.force_error_N;
+  energy_error_mJ = last.energy_error_mJ;
+  largest_bending_strain = last.largest_bending_strain;
+  bending_strain_at = last.bending_strain_at;
   energies = last.energies;
   height_mm = last.height_mm;
   total_K = last.total_K;
@@ -27,8 +36,20 @@ constexpr const char* of_a_solution[] = {"stable", "negative_pivots"};
 
 /// Whether an older version did not write the key.
 bool may_lack(const std::string& key) {
-  return key.starts_with("energy_") || key == "kind" || key == "finished" ||
-         key == "largest_strain" || key == "steps" || key == "doubt";
+  static const std::set<std::string> later{"kind",
+                                           "finished",
+                                           "largest_strain",
+                                           "steps",
+                                           "doubt",
+                                           "force_N",
+                                           "push_error_N",
+                                           "stiffness_N_per_mm",
+                                           "stiffness_error_N_per_mm",
+                                           "largest_force_N",
+                                           "force_error_N",
+                                           "largest_bending_strain",
+                                           "bending_strain_at"};
+  return key.starts_with("energy_") || later.contains(key);
 }
 
 Json json_of_run(const Summary& summary) {
@@ -43,8 +64,8 @@ Json json_of_run(const Summary& summary) {
 std::string to_json(const Summary& summary) { return text_of(json_of_run(summary)); }
 
 Figures figures_of(const Summary& summary) {
-  static const std::set<std::string> left_out{"preset", "model_reason", "steps", "kind",
-                                              "finished"};
+  static const std::set<std::string> left_out{"preset", "model_reason", "steps",
+                                              "kind",   "finished",     "bending_strain_at"};
   Figures figures;
   const Json json = json_of_run(summary);
   for (const auto& [key, value] : json.items()) {

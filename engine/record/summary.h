@@ -14,7 +14,7 @@
 namespace gridshell::record {
 
 /// How a run ended.
-enum class Limit { none, locking, snap, branch_lost, no_equilibrium };
+enum class Limit { none, locking, snap, branch_lost, no_equilibrium, strength };
 
 /// What a folder was made for, and so what its frames sample: a movie, or the stills of a figure.
 enum class Kind { unknown, run, figure, movie };
@@ -38,6 +38,11 @@ struct Summary {
   double residual_N = 0;
   double largest_strain = unknown;  ///< of an edge along the rod, by size, with its sign
   double error_estimate_mm = unknown;
+  /// as of a Frame
+  double force_N = unknown, push_error_N = unknown, stiffness_N_per_mm = unknown,
+         stiffness_error_N_per_mm = unknown, largest_force_N = unknown, force_error_N = unknown,
+         energy_error_mJ = unknown, largest_bending_strain = unknown;
+  std::string bending_strain_at;
   Energies energies;  ///< by term, mJ
   double height_mm = 0;
   double total_K = 0;
@@ -63,7 +68,12 @@ void fields(Run& run, const Visit& visit) {
              "cells", run.cells, "dof", run.dof, "stable", run.stable, "negative_pivots",
              run.negative_pivots, "limit", run.limit, "limit_reason", run.limit_reason, "doubt",
              run.doubt, "residual_N", run.residual_N, "largest_strain", run.largest_strain,
-             "error_estimate_mm", run.error_estimate_mm);
+             "error_estimate_mm", run.error_estimate_mm, "force_N", run.force_N, "push_error_N",
+             run.push_error_N, "stiffness_N_per_mm", run.stiffness_N_per_mm,
+             "stiffness_error_N_per_mm", run.stiffness_error_N_per_mm, "largest_force_N",
+             run.largest_force_N, "force_error_N", run.force_error_N, "energy_error_mJ",
+             run.energy_error_mJ, "largest_bending_strain", run.largest_bending_strain,
+             "bending_strain_at", run.bending_strain_at);
   visit_energies(run.energies, visit);
   visit_each(visit, "height_mm", run.height_mm, "total_K", run.total_K, "max_deviation",
              run.max_deviation, "mean_deviation", run.mean_deviation, "median_deviation",

@@ -150,8 +150,8 @@ struct Layout {
   std::vector<Part> parts;                 ///< of a net made of building blocks
   std::vector<SeamRod> seam_rods;          ///< and how they meet
   std::vector<LoadedJoint> loaded_joints;  ///< where the shell is pushed or pulled
-  /// Whether nodes, energies and K of frames are extrapolated over the last two meshes. Residuals
-  /// and pivots are those of the finest mesh always. Written, not read back.
+  /// Whether nodes and K of frames are extrapolated over the last two meshes. Residuals and pivots
+  /// are those of the finest mesh always. Written, not read back.
   bool extrapolated = false;
 };
 

@@ -16,8 +16,9 @@
 //                   rod, mm, where they differ)
 //   /               title, preset, program (attributes)
 //
-// Forces, curvature, energies and reactions are those of the finest mesh itself, never
-// extrapolated, so that with the loads they balance to residual_N. NaN, or no dataset: not known.
+// Axial forces, curvature and bending along the rods are those of the finest mesh itself; reactions
+// are extrapolated as the energies of /frames are, and with the loads they balance to residual_N.
+// NaN, or no dataset: not known.
 //
 // Before the HDF5 part stand 512 bytes with its size and checksum, which HDF5 programs skip.
 // Datasets bear their unit in the attribute `unit`. Equal trajectories give equal bytes. Frames go

@@ -285,6 +285,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   scene.tolerance = preset.accuracy.tolerance;
   scene.memory_GB = preset.accuracy.memory_GB;
   scene.max_strain = preset.limits.max_strain;
+  scene.max_bending_strain = preset.limits.max_bending_strain;
   scene.snap = {preset.dynamics.snap, preset.dynamics.step_s, preset.dynamics.damping_per_s};
   return scene;
 }

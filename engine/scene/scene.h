@@ -52,6 +52,7 @@ struct Scene {
   double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
   double memory_GB = 0;       ///< that the meshes may take; 0: half of the machine's
   double max_strain = 1e-3;
+  double max_bending_strain = 0;  ///< 0: any
   SnapDynamics snap;
 
   /// The rung of the mechanics, where there is one.

@@ -168,6 +168,8 @@ record::Limit limit_of(Outcome end) {
       return record::Limit::none;
     case Outcome::locked:
       return record::Limit::locking;
+    case Outcome::overbent:
+      return record::Limit::strength;
     case Outcome::not_finite:
       return record::Limit::no_equilibrium;
     case Outcome::unstable:
@@ -181,8 +183,12 @@ record::Limit limit_of(Outcome end) {
 }
 
 /// How a segment ended before its end.
-std::string how_it_ended(const PathSegment& segment, const At& at) {
+std::string how_it_ended(const PathSegment& segment, const Scene& scene, const At& at) {
   const Report& report = segment.report;
+  if (report.end == Outcome::overbent)
+    return fmt::format("{} a rod is bent {} [limits] max_bending_strain allows, to {:.4g}",
+                       at(report.t, {}), report.t == segment.from ? "further than" : "as far as",
+                       scene.max_bending_strain);
   const double strain = report.certificate.largest_strain;
   if (report.end == Outcome::locked && strain < 0)
     return fmt::format(
@@ -215,9 +221,9 @@ void set_limit(EquilibriumPath& path, const At& at) {
   for (const PathSegment& segment : path.segments) {
     const auto ended = limit_of(segment.report.end);
     if (ended != record::Limit::none) {
-      const bool on_its_way = segment.back && ended != record::Limit::locking;
+      const bool on_its_way = segment.back && !at_limit_of_rods(segment.report.end);
       path.limit = on_its_way ? record::Limit::no_equilibrium : ended;
-      path.limit_reason = how_it_ended(segment, at);
+      path.limit_reason = how_it_ended(segment, path.simulation.scene(), at);
       break;
     }
     const char* way = segment.back ? "on the way back to the flat " : "";

@@ -1,5 +1,7 @@
 #include "engine/simulate/frames.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -61,32 +63,53 @@ std::vector<int> supports_of(const RodMesh& mesh) {
   return nodes;
 }
 
-/// What bends between two edges: the mean of their rest lengths; a ghost has none.
-double length_between(const Model& model, int e, int f) {
-  const auto length = [&](int edge) {
-    const ModelEdge& one = model.edges[std::size_t(edge)];
-    return one.EA > 0 ? one.rest_length : 0;
+/// Where on a rod a point lies: "u3, 45.00 mm from its begin, at joint [0, 1]".
+std::string place_on_rod(const Footprint& footprint, const RodMesh& mesh, std::size_t r,
+                         std::size_t point) {
+  const std::vector<int>& nodes = mesh.rods[r];
+  const std::vector<double>& position = mesh.position[r];
+  const std::size_t first = mesh.is_ghost(nodes.front()) ? 1 : 0, k = first + point;
+  const auto joint_from = [&](std::size_t from, int step) {
+    for (std::size_t n = from; n < nodes.size(); n += std::size_t(step))
+      if (nodes[n] < mesh.joints) {
+        const FootprintJoint& joint = footprint.joints[std::size_t(nodes[n])];
+        return fmt::format("[{}, {}]", joint.i, joint.j);
+      }
+    return std::string("its end");
   };
-  return 0.5 * (length(e) + length(f));
+  const FootprintRod& rod = footprint.rods[r];
+  std::string text = fmt::format("{}{}, {:.2f} mm from its begin, ", name_of(rod.family), rod.index,
+                                 position[k] - position[first]);
+  if (nodes[k] < mesh.joints) return text + "at joint " + joint_from(k, 1);
+  return text + fmt::format("between {} and {}", joint_from(k, -1), joint_from(k, 1));
 }
 
-/// Curvature (1/mm) and bending energy over length (mJ/m), point after point.
+/// Curvature (1/mm), strain by bending and bending energy over length (mJ/m), point after point.
 class Bending {
  public:
   Bending(const Model& model, const State& state, const Assembly& at)
-      : model_(model), at_(at), energy_(bending_of(model, state)) {}
+      : model_(model), at_(at), energy_(bending_of(model, state)) {
+    // all others strain as they are curved
+    if (!std::get<std::vector<Pair<SectionBending>>>(model.pairs).empty())
+      strain_of_bend_ = bending_strain_of(model, state);
+  }
 
-  void put(int bend) {
+  void put(const Model::Rod& rod, int bend) {
     const auto& [e, f, stiffness, slot] = model_.bends[std::size_t(bend)];
     const double length = length_between(model_, e, f);
     curvature_.push_back(
         record::curvature_between(at_.tangents.col(e), at_.tangents.col(f), length));
     over_length_.push_back(1000 * energy_[bend] / length);
+    strain_.push_back(strain_of_bend_.size() > 0 ? strain_of_bend_[bend]
+                                                 : rod.fibres.strain(curvature_.back()));
   }
   void put_straight() {
     curvature_.push_back(0);
     over_length_.push_back(0);
+    strain_.push_back(0);
   }
+  /// Of all points, rod after rod.
+  const std::vector<double>& strain() const { return strain_; }
   void fill(record::Frame& frame) const {
     const auto vector_of = [](const std::vector<double>& values) {
       return Eigen::VectorXd(
@@ -99,12 +122,28 @@ class Bending {
  private:
   const Model& model_;
   const Assembly& at_;
-  Eigen::VectorXd energy_;
-  std::vector<double> curvature_, over_length_;
+  Eigen::VectorXd energy_, strain_of_bend_;
+  std::vector<double> curvature_, over_length_, strain_;
 };
 
+/// The largest strain by bending, and where it is.
+void put_bending_strain(const Footprint& footprint, const RodMesh& mesh,
+                        const std::vector<double>& strain, record::Frame& frame) {
+  const auto largest = std::ranges::max_element(strain);
+  if (largest == strain.end()) return;
+  frame.largest_bending_strain = *largest;
+  std::size_t point = std::size_t(largest - strain.begin()), r = 0;
+  const auto points_of = [&](std::size_t rod) {
+    return std::size_t(
+        std::ranges::count_if(mesh.rods[rod], [&](int node) { return !mesh.is_ghost(node); }));
+  };
+  while (point >= points_of(r)) point -= points_of(r++);
+  frame.bending_strain_at = place_on_rod(footprint, mesh, r, point);
+}
+
 /// Forces, curvature and bending along the rods; ends that hold no direction do not bend.
-void put_rods(const Model& model, const State& state, const Assembly& at, record::Frame& frame) {
+void put_rods(const Footprint& footprint, const RodMesh& mesh, const Model& model,
+              const State& state, const Assembly& at, record::Frame& frame) {
   std::vector<double> force;
   Bending bending(model, state, at);
   // what closes rings comes last
@@ -117,13 +156,13 @@ void put_rods(const Model& model, const State& state, const Assembly& at, record
     const auto put_end = [&] {
       // where a ring closes its two ends are one node
       if (rod.closed)
-        bending.put(closing);
+        bending.put(rod, closing);
       else
         bending.put_straight();
     };
     for (std::size_t k = 0; k < rod.edges.size(); ++k) {
       if (k > 0)
-        bending.put(rod.first_bend + int(k) - 1);
+        bending.put(rod, rod.first_bend + int(k) - 1);
       else if (!ghost(k))
         put_end();
       if (!ghost(k)) force.push_back(at.force[rod.edges[k]]);
@@ -133,12 +172,13 @@ void put_rods(const Model& model, const State& state, const Assembly& at, record
   }
   frame.axial_force_N = Eigen::Map<Eigen::VectorXd>(force.data(), long(force.size()));
   bending.fill(frame);
+  put_bending_strain(footprint, mesh, bending.strain(), frame);
 }
 
 /// What holds the supports: all of the force on a pinned node, with what turns its end; of a joint
 /// what its hold prescribes; the force of its spring where it is on one.
-void put_reactions(const RodMesh& mesh, const Model& model, const Assembly& at,
-                   const std::vector<Constraint>& holds, record::Frame& frame) {
+Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Assembly& at,
+                              const std::vector<Constraint>& holds) {
   const std::vector<int> supports = supports_of(mesh);
   std::vector<Eigen::Vector3d> on(std::size_t(mesh.rod_nodes()), Eigen::Vector3d::Zero());
   for (const int node : supports)
@@ -157,18 +197,46 @@ void put_reactions(const RodMesh& mesh, const Model& model, const Assembly& at,
     on[std::size_t(hold.node)] = hold.part(at.gradient.col(hold.node));
   for (const MeshSpring& spring : mesh.springs)
     on[std::size_t(spring.node)] += at.gradient.col(spring.support);
-  frame.reactions_N.resize(3, long(supports.size()));
+  Eigen::Matrix3Xd reactions(3, long(supports.size()));
   for (std::size_t k = 0; k < supports.size(); ++k)
-    frame.reactions_N.col(long(k)) = on[std::size_t(supports[k])];
+    reactions.col(long(k)) = on[std::size_t(supports[k])];
+  return reactions;
 }
 
-/// Of the finest mesh's own state.
+void put_reactions(Eigen::Matrix3Xd reactions, record::Frame& frame) {
+  frame.largest_force_N = reactions.cols() > 0 ? max_column_norm(reactions) : 0;
+  frame.reactions_N = std::move(reactions);
+}
+
+/// Energies of a mesh and their sum, a column each.
+Eigen::Matrix3Xd columns_of(const Energies& energies) {
+  Eigen::Matrix3Xd columns = Eigen::Matrix3Xd::Zero(3, Energies::size + 1);
+  for (const TermName& term : energy_terms) columns(0, long(term.term)) = energies[term.term];
+  columns(0, Energies::size) = energies.total();
+  return columns;
+}
+
+/// Reactions and energies of the last meshes; what lies along the rods is of the finest itself.
 void put_forces(const Simulation& simulation, record::Frame& frame) {
   const NestedShell& shell = simulation.shell();
   const int last = shell.levels() - 1;
-  const Assembly at = shell.forces(last);
-  put_rods(shell.model(last), shell.state().levels[std::size_t(last)], at, frame);
-  put_reactions(shell.mesh(last), shell.model(last), at, simulation.holds(), frame);
+  std::vector<Eigen::Matrix3Xd> reactions, energies;
+  for (int k = shell.first_of_last_three(); k <= last; ++k) {
+    const Assembly at = shell.forces(k);
+    reactions.push_back(reactions_of(shell.mesh(k), shell.model(k), at, simulation.holds()));
+    energies.push_back(columns_of(at.energies));
+    if (k == last)
+      put_rods(simulation.scene().footprint, shell.mesh(k), shell.model(k),
+               shell.state().levels.back(), at, frame);
+  }
+  const bool extrapolate = shell.plan().extrapolate_forces;
+  CertifiedVectors force = certify_vectors(reactions, extrapolate);
+  const CertifiedVectors energy = certify_vectors(energies, extrapolate);
+  put_reactions(std::move(force.value), frame);
+  frame.force_error_N = force.error;
+  for (const TermName& term : energy_terms)
+    frame.energies[term.term] = energy.value(0, long(term.term));
+  frame.energy_error_mJ = energy.error;
 }
 
 /// Adds the blocks on their own nets and the rods across their seams to a layout.
@@ -272,7 +340,6 @@ record::Frame frame_of(const Simulation& simulation) {
     K = ((4 * K - curvature(simulation, last - 1)) / 3).eval();
   record::Frame frame;
   fill_shape(simulation.scene(), shell.finest(), simulation.nodes(), K, frame);
-  frame.energies = simulation.energies();
   const Certificate certificate = simulation.certificate();
   frame.residual_N = certificate.residual_N;
   frame.negative_pivots = certificate.negative_pivots;
@@ -288,8 +355,8 @@ record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& mod
   fill_shape(scene, mesh, nodes,
              cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)), frame);
   frame.energies = forces.energies;
-  put_rods(model, state, forces, frame);
-  put_reactions(mesh, model, forces, {}, frame);
+  put_rods(scene.footprint, mesh, model, state, forces, frame);
+  put_reactions(reactions_of(mesh, model, forces, {}), frame);
   return frame;
 }
 
@@ -300,7 +367,6 @@ record::Frame flat_frame(Simulation& simulation) {
   const Scene& scene = simulation.scene();
   fill_shape(scene, simulation.shell().finest(), simulation.nodes(),
              Eigen::VectorXd::Zero(Eigen::Index(scene.footprint.cells.size())), frame);
-  frame.energies = simulation.shell().energies(simulation.shell().levels() - 1);
   frame.negative_pivots = flat.certificate.negative_pivots;
   frame.residual_N = flat.certificate.residual_N;
   frame.error_estimate_mm = 0;

@@ -210,6 +210,7 @@ Caption caption_of(const HeldShell& pushed) {
           },
           [&](record::Frame& frame) {
             frame.force_N = pushed.push.displacement.normalized().dot(simulation.force(0));
+            simulation.put_push_errors(frame);
             const PushReach reach =
                 push_reach(pushed.before, frame.nodes.leftCols(pushed.before.cols()),
                            simulation.shell().state().t * pushed.depth_mm());
@@ -258,11 +259,12 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
     Result<bool> taken = false;
     if (came_to(*kept, sample)) taken = sampler.at(sample);
     if (!taken) return tl::unexpected<Error>(taken.error());
-    if (*taken || kept->limit != record::Limit::locking) continue;
-    // the state in which the rods came to their length
+    const record::Limit limit = kept->limit;
+    if (*taken || (limit != record::Limit::locking && limit != record::Limit::strength)) continue;
+    // the state in which the rods came to their limit
     kept->simulation.restore(end);
     sample.t = end.state.t;
-    TRY_DO(sampler.take_current(sample, "locking", sample.t));
+    TRY_DO(sampler.take_current(sample, std::string(word_of(limit)), sample.t));
     break;
   }
   return EquilibriumPath(std::move(*kept));

@@ -166,6 +166,7 @@ class Show {
   std::string event(const PathSample& sample) const {
     const PathSegment& segment = work_.segments[step_];
     if (segment.report.end == Outcome::locked) return "locking";
+    if (segment.report.end == Outcome::overbent) return "strength";
     if (has_way(steps_, step_)) return sampler_->events(sample, sample.t);
     return text_of(steps_[step_]) + (snapped(segment) ? ": snap to another state" : "");
   }

@@ -68,12 +68,26 @@ void Simulation::put_push(record::Frame& frame) const {
   frame.depth_mm = moved.norm();
   const bool any = frame.depth_mm > nearest_mm;
   frame.force_N = any ? hold.part(force(holds_.size() - 1)).dot(moved.normalized()) : 0;
+  put_push_errors(frame);
+}
+
+void Simulation::put_push_errors(record::Frame& frame) const {
+  const NestedState& state = shell_->state();
+  frame.push_error_N = state.reaction_error_N;
+  // of the last hold, the others held
+  const Eigen::Index entries = state.held_stiffness.rows(), own = holds_.back().directions.cols();
+  const Eigen::VectorXd along =
+      along_.size() == entries ? Eigen::VectorXd(along_.tail(own)) : Eigen::VectorXd();
+  if (along.size() == 0 || along.isZero(0)) return;
+  const Eigen::VectorXd way = along.normalized();
+  frame.stiffness_N_per_mm = way.dot(state.held_stiffness.bottomRightCorner(own, own) * way);
+  frame.stiffness_error_N_per_mm = state.stiffness_error_N_per_mm;
 }
 
 Energies Simulation::energies() const {
   const int last = shell_->levels() - 1;
   const Energies fine = shell_->energies(last);
-  if (!shell_->plan().extrapolate || last == 0) return fine;
+  if (!shell_->plan().extrapolate_forces || last == 0) return fine;
   return (4 * fine - shell_->energies(last - 1)) / 3;
 }
 
@@ -82,6 +96,24 @@ bool Simulation::locked() const {
   if (std::abs(state.largest_strain) > scene_->max_strain) return true;
   if (actuating_ || holds_.empty() || !(first_stiffness_ > 0)) return false;
   return push_stiffness() > stiffness_growth * first_stiffness_;
+}
+
+double Simulation::bending_strain() const {
+  const int last = shell_->levels() - 1;
+  const Eigen::VectorXd strain =
+      bending_strain_of(shell_->model(last), shell_->state().levels.back());
+  return strain.size() > 0 ? strain.maxCoeff() : 0;
+}
+
+bool Simulation::overbent(double before) const {
+  if (scene_->max_bending_strain == 0) return false;
+  const double now = bending_strain();
+  return now > scene_->max_bending_strain && now > before;
+}
+
+Outcome Simulation::limit_of_rods(double bent_before) const {
+  if (locked()) return Outcome::locked;
+  return overbent(bent_before) ? Outcome::overbent : Outcome::reached;
 }
 
 double Simulation::push_stiffness() const {

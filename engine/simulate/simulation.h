@@ -29,7 +29,7 @@ struct Certificate {
 
 /// Something that happened to the shell on its path.
 struct Event {
-  enum class Kind { stability_lost, turned_back, locked };
+  enum class Kind { stability_lost, turned_back, locked, overbent };
   Kind kind = Kind::stability_lost;
   double t = 0;                 ///< where: as one mesh says, or extrapolated where two say it
   std::optional<double> error;  ///< of t, where two meshes say it
@@ -178,12 +178,14 @@ class Simulation {
   Eigen::Vector3d force(std::size_t k) const { return shell_->state().reactions[k]; }
   const std::vector<Constraint>& holds() const { return holds_; }
   double progress() const { return progress_; }
-  /// Tells a frame how far the joint held last was pushed, and with what force it resists; nothing
-  /// where none is held. The depth is the way of the joint since it was taken hold of, along the
-  /// directions that it is held in, mm, positive the way it was pushed; the force is the part along
-  /// that way of what holds it, N.
+  /// Tells a frame how far the joint held last was pushed, with what force it resists, and how that
+  /// grows; nothing where none is held. The depth is the way of the joint since it was taken hold
+  /// of, along the directions that it is held in, mm, positive the way it was pushed; the force is
+  /// the part along that way of what holds it, N.
   void put_push(record::Frame& frame) const;
-  /// Energies by term under what acts, extrapolated as the nodes.
+  /// The stiffness along the last push and the errors of it and of the push's force.
+  void put_push_errors(record::Frame& frame) const;
+  /// Energies by term under what acts, extrapolated as forces are.
   Energies energies() const;
   Effort effort() const { return spent_ + shell_->effort(); }
   /// Counts what another simulation spent before this one.
@@ -195,6 +197,10 @@ class Simulation {
   Report certify_rest_at(double t, const LoadStep& before, const Watch& watch);
   /// Whether the rods have come to their length.
   bool locked() const;
+  /// Whether a rod is bent as far as is allowed, and further than to the strain `before`.
+  bool overbent(double before) const;
+  /// Largest strain of a fibre by bending, on the finest mesh.
+  double bending_strain() const;
 
   BoundaryPosition boundary;
   /// Where the joints that are held were when they were taken hold of, mm.
@@ -218,6 +224,7 @@ class Simulation {
   bool leave(double t, Event& event, PathRecord* record, const Watch& watch);
   Result<Outcome> replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch);
   double push_stiffness() const;
+  Outcome limit_of_rods(double bent_before) const;
   void bisect_to_last_accepted(double beyond, const NestedState& good,
                                const std::function<bool()>& accepted, const Watch& watch);
 

@@ -61,6 +61,10 @@ constexpr int most_halvings = 5;         // of a load step that a finer mesh doe
 constexpr double loads_ways = 4;         // of the loads, what counts as the length scale of a move
 constexpr std::size_t most_events = 8;   // branches left on one way
 
+Event::Kind kind_of(Outcome limit) {
+  return limit == Outcome::overbent ? Event::Kind::overbent : Event::Kind::locked;
+}
+
 }  // namespace
 
 double Simulation::load_step() const {
@@ -76,7 +80,7 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
   const auto end = [&](Outcome outcome) {
     shell_->allow_unstable(false);
     // the leader may stand ahead of what is certified
-    if (outcome != Outcome::reached && outcome != Outcome::locked) shell_->back_to(shell_->state());
+    if (outcome != Outcome::reached && !at_limit_of_rods(outcome)) shell_->back_to(shell_->state());
     Report done = report(outcome, shell_->state().t, begin);
     done.events = std::move(events);
     if (actuating_) set_progress(progress_at(done.t));
@@ -103,14 +107,16 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
     const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
     const double next = steps == 1 ? t : now + left / steps;
     const NestedState good = shell_->state();
+    const double bent = scene_->max_bending_strain > 0 ? bending_strain() : 0;
+    const auto limit_met = [&] { return limit_of_rods(bent); };
     const NestedReport nested = shell_->advance(next, watch);
     if (nested.end == Outcome::cancelled) return end(Outcome::cancelled);
     if (nested.end == Outcome::reached) {
-      if (locked()) {
+      if (const Outcome limit = limit_met(); limit != Outcome::reached) {
         bisect_to_last_accepted(
-            next, good, [&] { return !locked(); }, watch);
-        events.push_back({Event::Kind::locked, shell_->state().t, {}, {}});
-        return end(Outcome::locked);
+            next, good, [&] { return limit_met() == Outcome::reached; }, watch);
+        events.push_back({kind_of(limit), shell_->state().t, {}, {}});
+        return end(limit);
       }
       halvings = std::max(halvings - 1, 0);
       note_load_step();
@@ -144,11 +150,11 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
     }
     if (!leave(t, events.back(), record, watch))
       return end(watch.cancelled() ? Outcome::cancelled : nested.end);
-    if (locked()) {
-      // the rest beyond would need longer rods
+    if (const Outcome limit = limit_met(); limit != Outcome::reached) {
+      // the rest beyond would need longer or thinner rods
       shell_->back_to(good);
-      events.back() = {Event::Kind::locked, shell_->state().t, {}, {}};
-      return end(Outcome::locked);
+      events.back() = {kind_of(limit), shell_->state().t, {}, {}};
+      return end(limit);
     }
     note_load_step();
     softening.forget();

@@ -35,7 +35,7 @@ double expected_error(const LevelPlan& plan) {
 }
 
 LevelPlan plan_levels(double tolerance, int leader) {
-  LevelPlan plan{{leader, 2 * leader}, false};
+  LevelPlan plan{{leader, 2 * leader}, false, true};
   if (tolerance >= plan_margin * expected_error(plan)) return plan;
   plan = {{leader, 2 * leader, 4 * leader}, true};
   while (expected_error(plan) > tolerance)
@@ -56,6 +56,7 @@ std::optional<LevelPlan> finer(const LevelPlan& plan) {
   if (finest > most_edges) return std::nullopt;
   next.edges_per_segment.push_back(finest);
   next.extrapolate = next.edges_per_segment.size() > 2;
+  next.extrapolate_forces = true;
   return next;
 }
 

@@ -31,6 +31,8 @@ struct MeshLevel {
 struct LevelPlan {
   std::vector<int> edges_per_segment;  ///< coarse to fine, each twice the one before
   bool extrapolate = false;  ///< over the last two (needs three, the third for the estimate)
+  /// And so forces and energies, of two meshes too: what they leave is far below the estimate then.
+  bool extrapolate_forces = extrapolate;
 };
 
 /// The cheapest plan worth trying for a tolerance of the largest joint error, relative to the

@@ -2,6 +2,8 @@
 // differences between them give the error or, extrapolated, remove most of it [Richardson 1911].
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,11 +24,24 @@ struct NestedState {
   double residual_N = 0;         ///< of the finest level's equilibrium
   Inertia inertia;               ///< of the finest level's Hessian
   double largest_strain = 0;     ///< by size, with its sign
-  std::vector<Eigen::Vector3d> reactions;  ///< on held joints, extrapolated as x, N
+  /// on held joints, N, extrapolated where planned of forces, and the error of the largest
+  std::vector<Eigen::Vector3d> reactions;
+  double reaction_error_N = std::numeric_limits<double>::quiet_NaN();
   /// how the reactions' held components grow with these, in the order of holds and their
-  /// directions, N/mm
+  /// directions, N/mm; likewise
   Eigen::MatrixXd held_stiffness;
+  double stiffness_error_N_per_mm = std::numeric_limits<double>::quiet_NaN();
 };
+
+/// Vectors that nested meshes know: those of the finest or, extrapolated, (4 fine - coarse)/3 of
+/// the last two.
+struct CertifiedVectors {
+  Eigen::Matrix3Xd value;
+  double error = 0;  ///< of the largest, by the order that three meshes show; NaN on one mesh
+};
+
+/// `levels`: coarse to fine, of which the last three count.
+CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate);
 
 /// What a finer mesh adds to the state of the one before it, interpolated: where its state is
 /// looked for nearby. A guess, so in single precision.
@@ -110,6 +125,8 @@ class NestedShell {
   int levels() const { return int(levels_.size()); }
   const RodMesh& mesh(int level) const { return levels_[std::size_t(level)]->mesh; }
   const RodMesh& finest() const { return levels_.back()->mesh; }
+  /// The first of the levels, up to the finest, that tell what forces and energies come to.
+  int first_of_last_three() const { return std::max(0, levels() - 3); }
   const Model& model(int level) const { return levels_[std::size_t(level)]->model; }
   Linearisation& system(int level) { return *levels_[std::size_t(level)]->system; }
   const PinnedMotion& motion(int level) const { return levels_[std::size_t(level)]->motion; }

@@ -54,7 +54,6 @@ record::Figures more_of(const Scene* scene, const record::Frame& last) {
   }
   return {{"progress", known(last.progress)},
           {"depth_mm", known(last.depth_mm)},
-          {"force_N", known(last.force_N)},
           {"stiffness_ratio", ratio}};
 }
 

@@ -229,23 +229,63 @@ double distance(const ExperimentResult& a, const record::Frame& in_a, const reco
          a.trajectory.layout.length_scale_mm;
 }
 
+/// The error that is the most times its estimate.
+class WorstError {
+ public:
+  WorstError(double& error, double& estimate, double least)
+      : error_(error), estimate_(estimate), least_(least) {}
+
+  void take(double error, double estimate) {
+    const double many = error / std::max(estimate, least_);
+    if (!(many > worst_)) return;
+    worst_ = many;
+    error_ = error;
+    estimate_ = estimate;
+  }
+
+ private:
+  double &error_, &estimate_;
+  double least_, worst_ = -1;
+};
+
+double off_forces(const record::Frame& a, const record::Frame& b) {
+  if (a.reactions_N.cols() != b.reactions_N.cols() || a.reactions_N.cols() == 0) return NAN;
+  return (a.reactions_N - b.reactions_N).colwise().norm().maxCoeff();
+}
+
+double off_energies(const record::Frame& a, const record::Frame& b) {
+  double largest = std::abs(a.energies.total() - b.energies.total());
+  for (const TermName& term : energy_terms)
+    largest = std::max(largest, std::abs(a.energies[term.term] - b.energies[term.term]));
+  return largest;
+}
+
+constexpr double least_error = 1e-5;  // of forces and energies: below is what a residual leaves
+
 /// Of the frames that both have, the one whose error is the most times its estimate.
 void compare(const ExperimentResult& asked, const ExperimentResult& fine, record::TrustRow& row) {
-  double worst = -1;
+  WorstError joints(row.error, row.estimate, 1e-9);
+  WorstError forces(row.force_error, row.force_estimate, least_error);
+  WorstError energies(row.energy_error, row.energy_estimate, least_error);
+  const double scale_mm = asked.trajectory.layout.length_scale_mm;
+  // flat rods hold nothing: forces and energies are over the largest of the run
+  double force = 0, energy = 0;
+  for (const record::Frame& other : fine.trajectory.frames) {
+    if (other.largest_force_N > force) force = other.largest_force_N;
+    energy = std::max(energy, std::abs(other.energies[Term::bend]));
+  }
   for (const record::Frame& frame : asked.trajectory.frames)
     for (const record::Frame& other : fine.trajectory.frames) {
       if (std::abs(frame.progress - other.progress) > 1e-9) continue;
       // where the path ended early the frames are of other states
       if (frame.event == "locking" || other.event == "locking") continue;
-      const double error = distance(asked, frame, other);
       // the finer one, by which it is judged, is not exact either
-      const double estimate = (frame.error_estimate_mm + 0.5 * other.error_estimate_mm) /
-                              asked.trajectory.layout.length_scale_mm;
-      const double many = error / std::max(estimate, 1e-9);
-      if (many <= worst) continue;
-      worst = many;
-      row.error = error;
-      row.estimate = estimate;
+      joints.take(distance(asked, frame, other),
+                  (frame.error_estimate_mm + 0.5 * other.error_estimate_mm) / scale_mm);
+      forces.take(off_forces(frame, other) / force,
+                  (frame.force_error_N + 0.5 * other.force_error_N) / force);
+      energies.take(off_energies(frame, other) / energy,
+                    (frame.energy_error_mJ + 0.5 * other.energy_error_mJ) / energy);
     }
 }
 
@@ -264,7 +304,11 @@ TrustClass judge(const Trial& asked, const Trial& fine, const Trial& other, reco
   if (!same_end) return TrustClass::frame_dependent;
   if (!fine.outcome) return TrustClass::right;  // nothing to judge by
   compare(*asked.outcome, *fine.outcome, row);
-  if (!(row.error > 2 * row.estimate + 1e-7)) return TrustClass::right;
+  if (!(row.error > 2 * row.estimate + 1e-7)) {
+    const bool told = !(row.force_error > 2 * row.force_estimate + least_error) &&
+                      !(row.energy_error > 2 * row.energy_estimate + least_error);
+    return told ? TrustClass::right : TrustClass::estimate_small;
+  }
   if (row.error < branch && row.error < 20 * row.estimate) return TrustClass::estimate_small;
   if (asked.snapped()) return TrustClass::after_snap;
   return asked.doubted() ? TrustClass::doubted : TrustClass::other_branch;

@@ -204,6 +204,24 @@ void part_at_snaps(Series& pushed, const record::Trajectory& run) {
     }
 }
 
+/// The force with its error on either side, a band from snap to snap; none where no error is known.
+std::vector<Band> error_bands(const record::Trajectory& run, Colour colour) {
+  std::vector<Band> bands;
+  colour.a = 0.25f;
+  bool goes_on = false;
+  for (const record::Frame& frame : run.frames) {
+    const bool known = std::isfinite(frame.force_N) && std::isfinite(frame.push_error_N);
+    if (known && (!goes_on || frame.event.starts_with("snap")))
+      bands.push_back({.name = "", .colour = colour});
+    goes_on = known;
+    if (!known) continue;
+    bands.back().x.push_back(frame.depth_mm);
+    bands.back().low.push_back(frame.force_N - frame.push_error_N);
+    bands.back().high.push_back(frame.force_N + frame.push_error_N);
+  }
+  return bands;
+}
+
 }  // namespace
 
 Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
@@ -241,6 +259,10 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
     series.marker = series_marker(k);
     for (const record::Frame& frame : runs[k].run->frames)
       series.add(frame.depth_mm, frame.force_N);
+    for (Band& band : error_bands(*runs[k].run, series_colour(k))) {
+      if (plot.bands.empty()) band.name = "error of the force";
+      plot.bands.push_back(std::move(band));
+    }
     Series snaps = snaps_of(series, *runs[k].run);
     part_at_snaps(series, *runs[k].run);
     plot.series.push_back(std::move(series));

@@ -134,3 +134,45 @@ TEST_CASE("twist model: bad rods are refused with their reason") {
   refused("ascend", [](ModelRod& bad) { bad.position = {0, 5, 5}; });
   refused("node 7", [](ModelRod& bad) { bad.nodes = {0, 1, 7}; });
 }
+
+TEST_CASE("strain by bending: how far from rest the outermost fibre is bent") {
+  // on a circle's arc in the plane of the axes c and s, over so many equal edges
+  constexpr int edges = 20;
+  constexpr double edge = 2, curvature = 0.01;
+  const auto strain_of = [&](const RodMaterial& material, RodModel rung, int c, int s) {
+    ModelRod rod;
+    rod.material = material;
+    Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, edges + 1);
+    const double turn = 2 * std::atan(curvature * edge / 2);
+    for (int k = 0; k <= edges; ++k) {
+      rod.nodes.push_back(k);
+      rod.position.push_back(edge * k);
+      if (k == 0) continue;
+      x.col(k) = x.col(k - 1);
+      x(c, k) += edge * std::cos(turn * k);
+      x(s, k) += edge * std::sin(turn * k);
+    }
+    const Model model = build_model(edges + 1, {rod}, rung).value();
+    return bending_strain_of(model, start_state(model, x));
+  };
+  const auto is = [](const Eigen::VectorXd& strain, double value) {
+    return strain.size() == edges - 1 && (strain.array() - value).abs().maxCoeff() < 1e-9;
+  };
+  // a round wire bends alike on both rungs and to every side
+  for (const RodModel rung : {RodModel::bend, RodModel::twist})
+    for (const int up : {1, 2})
+      CHECK(is(strain_of(circular_material(0.254, 83, 31), rung, 0, up), curvature * 0.127));
+  // a strip of 0.4 x 0.2: its thickness is up, along m1
+  RodMaterial strip = rectangular_material(0.2, 0.4, 83, 31);
+  CHECK(is(strain_of(strip, RodModel::twist, 0, 2), curvature * 0.1));
+  CHECK(is(strain_of(strip, RodModel::twist, 0, 1), curvature * 0.2));
+  CHECK(strip.fibres.strain({curvature, -2 * curvature}) ==
+        Approx(curvature * 0.2 + 2 * curvature * 0.1));
+  // what it is bent to at rest strains nothing; across it both add up at a corner
+  strip.curvature = {0, curvature};
+  CHECK(is(strain_of(strip, RodModel::twist, 0, 2), 0));
+  strip.curvature = {0, -curvature};
+  CHECK(is(strain_of(strip, RodModel::twist, 0, 2), 2 * curvature * 0.1));
+  strip.curvature = {0.004, curvature};
+  CHECK(is(strain_of(strip, RodModel::twist, 0, 2), 0.004 * 0.2));
+}

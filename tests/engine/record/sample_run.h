@@ -46,6 +46,8 @@ inline Trajectory sample_trajectory() {
     frame.residual_N = 5e-324;
     frame.negative_pivots = k;
     frame.error_estimate_mm = k == 1 ? unknown : 1e-3;
+    frame.force_error_N = k == 1 ? unknown : 1e-5 * k;
+    frame.bending_strain_at = k == 2 ? "u0, 45.00 mm from its begin, at joint [0, 1]" : "";
     frame.newton_iterations = 7 * k;
     frame.event = k == 2 ? "snap, \"fast\" \xC3\xA9" : "";
     frame.actuation = k / 7.0;
@@ -82,6 +84,8 @@ inline Summary sample_summary() {
   summary.energies[Term::bend] = 39.979;
   summary.height_mm = 0.1;
   summary.total_K = 6.01157;
+  summary.force_error_N = 2e-5;
+  summary.bending_strain_at = "u0, 45.00 mm from its begin, at joint [0, 1]";
   summary.max_deviation = 0.031029;
   summary.newton_iterations = 12, summary.factorizations = 13;
   summary.seconds_setup = 0.25;

@@ -56,6 +56,15 @@ TEST_CASE("summary.json has the keys of a run in order, and null for what is unk
                                          "residual_N",
                                          "largest_strain",
                                          "error_estimate_mm",
+                                         "force_N",
+                                         "push_error_N",
+                                         "stiffness_N_per_mm",
+                                         "stiffness_error_N_per_mm",
+                                         "largest_force_N",
+                                         "force_error_N",
+                                         "energy_error_mJ",
+                                         "largest_bending_strain",
+                                         "bending_strain_at",
                                          "energy_bend_mJ",
                                          "energy_stretch_mJ",
                                          "energy_twist_mJ",
@@ -98,7 +107,7 @@ TEST_CASE("a summary reads back as it was") {
   CHECK(std::isnan(back->error_estimate_mm));
   CHECK(back->limit == Limit::snap);
   for (const Limit limit :
-       {Limit::none, Limit::locking, Limit::branch_lost, Limit::no_equilibrium}) {
+       {Limit::none, Limit::locking, Limit::branch_lost, Limit::no_equilibrium, Limit::strength}) {
     Summary other = summary;
     other.limit = limit;
     REQUIRE(write_summary(path, other));
@@ -115,21 +124,26 @@ TEST_CASE("a summary that is none is refused by its key") {
         "\"energy_bend_mJ\" must be a number or null; it is \"much\"");
   CHECK(refusal("\"snap\"", "\"crackle\"") ==
         "\"limit\" must be one of \"none\", \"locking\", \"snap\", \"branch_lost\", "
-        "\"no_equilibrium\"; it is \"crackle\"");
+        "\"no_equilibrium\", \"strength\"; it is \"crackle\"");
   CHECK(refusal("{", "[") == "not a JSON object");
 }
 
 TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {
   const TemporaryFolder folder;
   auto json = nlohmann::ordered_json::parse(to_json(sample_summary()));
-  for (const char* key : {"energy_joint_mJ", "energy_shear_mJ", "energy_load_mJ",
-                          "energy_support_mJ", "kind", "finished"})
+  for (const char* key :
+       {"energy_joint_mJ", "energy_shear_mJ", "energy_load_mJ", "energy_support_mJ", "kind",
+        "finished", "force_N", "push_error_N", "stiffness_N_per_mm", "stiffness_error_N_per_mm",
+        "largest_force_N", "force_error_N", "energy_error_mJ", "largest_bending_strain",
+        "bending_strain_at"})
     json.erase(key);
   REQUIRE(write_file(folder.path() / "summary.json", json.dump()));
   const auto old = read_summary(folder.path() / "summary.json");
   REQUIRE(old);
   CHECK(old->energies[Term::bend] == 39.979);
   CHECK(std::isnan(old->energies[Term::load]));
+  CHECK(std::isnan(old->force_error_N));
+  CHECK(old->bending_strain_at.empty());
   CHECK(old->kind == Kind::unknown);
   CHECK(old->finished);
 }
@@ -143,7 +157,9 @@ TEST_CASE("CSV files have the columns that others read") {
         "energy_twist_mJ,energy_joint_mJ,energy_shear_mJ,energy_load_mJ,energy_support_mJ,"
         "height_mm,total_K,"
         "residual_N,negative_pivots,error_estimate_mm,"
-        "newton_iterations,event,reach_above_tenth,reach_above_half,lowest_latitude_deg,time_s");
+        "newton_iterations,event,reach_above_tenth,reach_above_half,lowest_latitude_deg,time_s,"
+        "stiffness_N_per_mm,stiffness_error_N_per_mm,push_error_N,largest_force_N,force_error_N,"
+        "energy_error_mJ,largest_bending_strain,bending_strain_at");
 }
 
 TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what is unknown") {
@@ -170,9 +186,11 @@ TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what
         "-1,-1,0,0,1,2,0.5,0.02\n");
   const std::string frames = frames_csv(run);
   CHECK(frames.find("\n1,0.3333333333333333,125.9,,,1e-300,0.30000000000000004,-0,0,0,0,0,"
-                    "0.14285714285714285,3.141592653589793,5e-324,1,,7,,,,,\n") !=
+                    "0.14285714285714285,3.141592653589793,5e-324,1,,7,,,,,,,,,,,,,\n") !=
         std::string::npos);
-  CHECK(frames.substr(frames.size() - 34) == ",0.001,14,\"snap, \"\"fast\"\" \xC3\xA9\",,,,\n");
+  CHECK(
+      frames.ends_with(",0.001,14,\"snap, \"\"fast\"\" \xC3\xA9\",,,,,,,,,2e-05,,,"
+                       "\"u0, 45.00 mm from its begin, at joint [0, 1]\"\n"));
 }
 
 TEST_CASE("numbers do not follow the locale") {

@@ -1,4 +1,5 @@
-// Axial forces, curvature and reactions of frames: what they must add up to.
+// Axial forces, curvature, reactions and energies of frames: what they must add up to, closed forms
+// that they come to, and their errors.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -122,4 +123,181 @@ TEST_CASE("a net and what is in motion know no forces") {
   CHECK(last_frame(outcome).axial_force_N.size() == 0);
   CHECK(last_frame(outcome).bending_mJ_per_m.size() == 0);
   CHECK(last_frame(outcome).reactions_N.size() == 0);
+}
+
+// Two rods that cross in their middle, where neither bears on the other, are pinned elasticas:
+// a/L = 2E(m)/K(m) - 1, P = 4 K^2 EI/L^2, largest curvature 4 K sqrt(m)/L, energy
+// 8 EI K (E - (1 - m) K)/L.
+
+namespace {
+
+constexpr double half_length = 100, radius = 0.127;
+
+struct Elastica {
+  double shortening, force, energy, strain;
+};
+
+Elastica elastica(double m) {
+  const double K = std::comp_ellint_1(std::sqrt(m)), E = std::comp_ellint_2(std::sqrt(m));
+  const double length = 2 * half_length, EI = 83e3 * M_PI * std::pow(radius, 4) / 4;
+  return {2 - 2 * E / K, 4 * K * K * EI / (length * length),
+          8 * EI * K * (E - (1 - m) * K) / length, radius * 4 * K * std::sqrt(m) / length};
+}
+
+preset::Preset crossed_rods(double shortening) {
+  preset::Preset p;
+  p.footprint.kind = preset::FootprintKind::network;
+  p.footprint.file.points = {{-half_length, 0, 0},
+                             {half_length, 0, 0},
+                             {0, -half_length, 0},
+                             {0, half_length, 0},
+                             {0, 0, 0}};
+  p.footprint.file.rods = {{0, 4, 1}, {2, 4, 3}};
+  p.actuation.scale = 1 - shortening;
+  p.movie.frames = 2;
+  return p;
+}
+
+/// Largest distance of the reactions of two runs on the same footprint, N.
+double off(const record::Frame& a, const record::Frame& b) {
+  REQUIRE(a.reactions_N.cols() == b.reactions_N.cols());
+  return max_column_norm(a.reactions_N - b.reactions_N);
+}
+
+double off_energy(const record::Frame& a, const record::Frame& b) {
+  double largest = std::abs(a.energies.total() - b.energies.total());
+  for (const TermName& term : energy_terms)
+    largest = std::max(largest, std::abs(a.energies[term.term] - b.energies[term.term]));
+  return largest;
+}
+
+/// What a run asked for at one tolerance is off a much finer one, by its own estimates.
+void check_against_finer(preset::Preset p, double tolerance) {
+  p.accuracy.tolerance = 1e-5;
+  const auto fine = run(p);
+  p.accuracy.tolerance = tolerance;
+  const auto asked = run(p);
+  REQUIRE(fine.trajectory.frames.size() == asked.trajectory.frames.size());
+  for (std::size_t k = 0; k < asked.trajectory.frames.size(); ++k) {
+    const record::Frame &truth = fine.trajectory.frames[k], &frame = asked.trajectory.frames[k];
+    CAPTURE(k, tolerance, frame.force_error_N, frame.energy_error_mJ);
+    CHECK(off(frame, truth) < 2 * frame.force_error_N + 1e-9);
+    CHECK(off_energy(frame, truth) < 2 * frame.energy_error_mJ + 1e-9);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("forces, energies and bending strain of pinned elasticas, as exact as is asked") {
+  for (const double m : {0.04968353, 0.24165275, 0.46400983})
+    for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6}) {
+      const Elastica exact = elastica(m);
+      preset::Preset p = crossed_rods(exact.shortening);
+      p.accuracy.tolerance = tolerance;
+      const auto outcome = run(p);
+      const record::Frame& frame = last_frame(outcome);
+      CAPTURE(m, tolerance, exact.force, frame.force_error_N, exact.energy, frame.energy_error_mJ);
+      // these rods give way by P L/EA along their length, which the inextensible ones do not
+      const double EA = 83e3 * M_PI * radius * radius, stretch = 1e-5,
+                   work = 2 * exact.force * exact.force * 2 * half_length / EA;
+      const double off_force = std::abs(frame.largest_force_N - exact.force),
+                   off_energy = std::abs(frame.energies[Term::bend] - 2 * exact.energy);
+      CHECK(off_force < 2 * frame.force_error_N + stretch * exact.force);
+      CHECK(off_force < tolerance * exact.force + stretch * exact.force);
+      CHECK(off_energy < 2 * frame.energy_error_mJ + work);
+      CHECK(off_energy < tolerance * 2 * exact.energy + work);
+      // the estimate is of use
+      CHECK(frame.force_error_N < (tolerance < 1e-3 ? 5 * tolerance : 0.03) * exact.force);
+      CHECK(frame.largest_bending_strain == Approx(exact.strain).epsilon(0.02));
+      CHECK(frame.bending_strain_at.find("100.00 mm from its begin, at joint [") !=
+            std::string::npos);
+    }
+}
+
+TEST_CASE("a mesh that is asked for tells its own forces, and alone no error") {
+  const Elastica exact = elastica(0.24165275);
+  preset::Preset p = crossed_rods(exact.shortening);
+  double before = 0;
+  for (const int edges : {5, 10, 20}) {
+    p.accuracy.edges_per_segment = edges;
+    const auto outcome = run(p);
+    const record::Frame& frame = last_frame(outcome);
+    CAPTURE(edges);
+    const double off_force = std::abs(frame.largest_force_N - exact.force);
+    if (before > 0) CHECK(before / off_force == Approx(4).epsilon(0.1));
+    before = off_force;
+    CHECK(std::isnan(frame.force_error_N) == (edges == 5));
+    CHECK(std::isnan(frame.energy_error_mJ) == (edges == 5));
+    CHECK(std::isnan(outcome.summary.force_error_N) == (edges == 5));
+    if (edges == 5) continue;
+    CHECK(off_force < frame.force_error_N);
+    CHECK(frame.force_error_N < 2 * off_force);
+    CHECK(std::abs(frame.energies[Term::bend] - 2 * exact.energy) < frame.energy_error_mJ);
+  }
+}
+
+TEST_CASE("forces and energies are as exact as they say where loads act and rods are curved",
+          "[standard]") {
+  preset::Preset p = circle(4, 42, 36);
+  p.loads.points = {{0, 0, 0, 0.01, -0.02}, {-1, 0, 0.003, 0, 0}};
+  SECTION("point loads") {}
+  SECTION("own weight") {
+    p.loads.gravity_m_s2 = 9.81;
+    p.rod.density_kg_m3 = 6450;
+  }
+  SECTION("strips curved at rest") {
+    p.rod.shear_GPa = 31;
+    p.rod.width_mm = 0.4;
+    p.rod.thickness_mm = 0.2;
+    p.rod.curvature_per_mm = 0.004;
+  }
+  check_against_finer(p, 1e-3);
+  check_against_finer(p, 1e-4);
+}
+
+TEST_CASE("the curve of a push lies within its error, and its stiffness is its slope",
+          "[standard]") {
+  preset::Preset p = on_net(preset::NetKind::sphere, 60);
+  p.footprint.placement = preset::Placement::half;
+  p.indentation.depth = 0.1;
+  p.movie.frames = 9;
+  p.accuracy.tolerance = 1e-6;
+  const auto fine = run(p);
+  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+    p.accuracy.tolerance = tolerance;
+    const auto asked = run(p);
+    for (std::size_t k = 0; k < 9; ++k) {
+      const record::Frame &truth = fine.trajectory.frames[k], &frame = asked.trajectory.frames[k];
+      CAPTURE(k, tolerance, truth.force_N, frame.force_N, frame.push_error_N,
+              truth.stiffness_N_per_mm, frame.stiffness_N_per_mm, frame.stiffness_error_N_per_mm);
+      CHECK(std::abs(frame.force_N - truth.force_N) < 2 * frame.push_error_N + 1e-7);
+      CHECK(frame.push_error_N <= frame.force_error_N * 1.0001);
+      CHECK(std::abs(frame.stiffness_N_per_mm - truth.stiffness_N_per_mm) <
+            2 * frame.stiffness_error_N_per_mm + 1e-6);
+    }
+  }
+  const auto& frames = fine.trajectory.frames;
+  for (std::size_t k = 1; k + 1 < frames.size(); ++k) {
+    CAPTURE(k);
+    const double slope = (frames[k + 1].force_N - frames[k - 1].force_N) /
+                         (frames[k + 1].depth_mm - frames[k - 1].depth_mm);
+    CHECK(frames[k].stiffness_N_per_mm == Approx(slope).epsilon(0.05));
+  }
+}
+
+TEST_CASE("bending strain ends a path where it is said to") {
+  const Elastica exact = elastica(0.46400983), limit = elastica(0.24165275);
+  preset::Preset p = crossed_rods(exact.shortening);
+  p.movie.frames = 4;
+  p.accuracy.tolerance = 1e-4;
+  p.limits.max_bending_strain = limit.strain;
+  const auto outcome = run(p);
+  CHECK(outcome.summary.limit == record::Limit::strength);
+  CHECK(outcome.summary.limit_reason.find("max_bending_strain") != std::string::npos);
+  // as far as the rods' shortening has come
+  double progress = 0;
+  REQUIRE(std::sscanf(outcome.summary.limit_reason.c_str(), "at progress %lf", &progress) == 1);
+  CHECK(progress == Approx(limit.shortening / exact.shortening).epsilon(0.01));
+  CHECK(outcome.trajectory.frames.size() == 2);
+  CHECK(last_frame(outcome).largest_bending_strain < limit.strain);
 }

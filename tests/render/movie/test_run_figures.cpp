@@ -154,6 +154,21 @@ TEST_CASE("the force of a push is plotted over all its frames, N over mm") {
   CHECK(plot.y.label.find("N") != std::string::npos);
 }
 
+TEST_CASE("a push has a band of its error from snap to snap, where that is known") {
+  record::Trajectory run = pushed();
+  CHECK(force_plot({{&run, "inward"}}).bands.empty());
+  for (record::Frame& frame : run.frames.edit()) frame.push_error_N = 0.01;
+  const Plot plot = force_plot({{&run, "a"}, {&run, "b"}});
+  REQUIRE(plot.bands.size() == 2);
+  CHECK(plot.bands[0].x == std::vector<double>{0, 2, 4});
+  CHECK(plot.bands[0].low[1] == Approx(0.09));
+  CHECK(plot.bands[0].high[2] == Approx(0.41));
+  CHECK_FALSE(plot.bands[0].name.empty());
+  CHECK(plot.bands[1].name.empty());
+  run.frames.edit()[2].event = "snap at depth 3.1 mm";
+  CHECK(force_plot({{&run, "a"}}).bands[0].x == std::vector<double>{0, 2});
+}
+
 TEST_CASE("a snap is a dashed line from the state before to the one after, with its name once") {
   record::Trajectory run = pushed();
   record::Frame snapped = run.frames[2];
