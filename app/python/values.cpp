@@ -56,6 +56,8 @@ const char* word_of(Event::Kind kind) {
       return "turned_back";
     case Event::Kind::locked:
       return "locked";
+    case Event::Kind::contact:
+      return "contact";
   }
   return "";
 }
@@ -64,8 +66,8 @@ void add_report(py::module_& module) {
   py::class_<Event>(module, "Event", "Something that happened to the shell on its way.")
       .def_property_readonly(
           "kind", [](const Event& of) { return word_of(of.kind); },
-          "\"stability_lost\", \"turned_back\" (the path came to a limit point) or \"locked\" (the "
-          "rods came to their length).")
+          "\"stability_lost\", \"turned_back\" (the path came to a limit point), \"locked\" (the "
+          "rods came to their length) or \"contact\" (beyond, rods or joints touch).")
       .def_readonly("t", &Event::t,
                     "Where: the square root of the progress in an actuation, else from 0 at the "
                     "begin of the step to 1 at its end.")

@@ -74,6 +74,9 @@ std::string text_of_events(const std::vector<Event>& events) {
       case Event::Kind::locked:
         message += "the rods are at their length";
         break;
+      case Event::Kind::contact:
+        message += "beyond, there touch " + event.what;
+        break;
     }
   }
   return message;

@@ -17,6 +17,7 @@ enum class Outcome {
   not_converged,
   meshes_disagree,
   locked,
+  contact,
   cancelled,
 };
 
@@ -36,6 +37,7 @@ inline constexpr std::array outcomes{
     OutcomeText{Outcome::not_converged, "not_converged", "the iterations did not come to rest"},
     OutcomeText{Outcome::meshes_disagree, "meshes_disagree", "a finer mesh went to another state"},
     OutcomeText{Outcome::locked, "locked", "the rods came to their length"},
+    OutcomeText{Outcome::contact, "contact", "rods or joints came into contact"},
     OutcomeText{Outcome::cancelled, "cancelled", "it was stopped"},
 };
 

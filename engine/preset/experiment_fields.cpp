@@ -403,7 +403,15 @@ void add_experiment_fields(std::vector<Field>& all) {
   FieldList<Limits>(all, "limits", &Preset::limits)
       .unused({"[accuracy] model"}, nothing_solved, by_net_alone)
       .add<&Limits::max_strain>(
-          above(0), "axial strain of an edge at which the run stops with limit \"locking\"");
+          above(0), "axial strain of an edge at which the run stops with limit \"locking\"")
+      .add<&Limits::contact>(
+          "what follows where rods come nearer than their radii away from their joints, the "
+          "joints' cylinders overlap, or a rod goes through the table: \"tell\", or \"stop\" in "
+          "the "
+          "last state before, with limit \"contact\"")
+      .add<&Limits::table>(
+          "whether the boundary's plane is a table: a rod more than its radius below it is in "
+          "contact");
   add_inverse({all, "inverse", &Preset::inverse});
   add_accuracy({all, "accuracy", &Preset::accuracy});
   add_jitter({all, "jitter", &Preset::jitter});

@@ -213,8 +213,11 @@ struct Inverse {
   double max_leg_force_N = 0;  ///< 0: any
 };
 
+enum class OnContact { tell, stop };
 struct Limits {
   double max_strain = 1e-3;
+  OnContact contact = OnContact::tell;
+  bool table = false;  ///< whether the boundary's plane is one that no rod passes
 };
 
 /// How a shell is shaken out of the state it would rest in.

@@ -53,6 +53,10 @@ inline const std::vector<FrameColumn> frame_columns = [] {
       {"reach_above_half", "1", &Frame::reach_above_half},
       {"lowest_latitude_deg", "deg", &Frame::lowest_latitude_deg},
       {"time_s", "s", &Frame::time_s},
+      {"lowest_mm", "mm", &Frame::lowest_mm},
+      {"contacts", "1", &Frame::contacts},
+      {"rod_gap_mm", "mm", &Frame::rod_gap_mm},
+      {"joint_gap_mm", "mm", &Frame::joint_gap_mm},
   };
   columns.insert(columns.end(), others.begin(), others.end());
   return columns;

@@ -18,6 +18,10 @@ void Summary::take_state(const Frame& last) {
   error_estimate_mm = last.error_estimate_mm;
   energies = last.energies;
   height_mm = last.height_mm;
+  lowest_mm = last.lowest_mm;
+  contacts = last.contacts;
+  rod_gap_mm = last.rod_gap_mm;
+  joint_gap_mm = last.joint_gap_mm;
   total_K = last.total_K;
 }
 
@@ -28,7 +32,8 @@ constexpr const char* of_a_solution[] = {"stable", "negative_pivots"};
 /// Whether an older version did not write the key.
 bool may_lack(const std::string& key) {
   return key.starts_with("energy_") || key == "kind" || key == "finished" ||
-         key == "largest_strain" || key == "steps" || key == "doubt";
+         key == "largest_strain" || key == "steps" || key == "doubt" || key == "lowest_mm" ||
+         key.starts_with("contact") || key.ends_with("_gap_mm");
 }
 
 Json json_of_run(const Summary& summary) {

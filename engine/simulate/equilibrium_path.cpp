@@ -159,6 +159,8 @@ record::Limit limit_of(Outcome end) {
       return record::Limit::none;
     case Outcome::locked:
       return record::Limit::locking;
+    case Outcome::contact:
+      return record::Limit::contact;
     case Outcome::not_finite:
       return record::Limit::no_equilibrium;
     case Outcome::unstable:
@@ -183,6 +185,14 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
   if (report.end == Outcome::locked)
     return fmt::format("{} the rods are at their length: the largest strain is {:.3g}",
                        at(report.t, {}), strain);
+  if (report.end == Outcome::contact) {
+    const Event& event = report.events.back();
+    const bool before = segment.load_steps.back().contacts.places.empty();
+    return fmt::format("{} {} {}", at(report.t, event.error),
+                       before ? "the last state without contact is reached, beyond it touch"
+                              : "where it begins there touch",
+                       event.what);
+  }
   const char* where = segment.back ? " on the way back to the flat" : "";
   return fmt::format("{}{} {}, and no rest was found beyond", words_of(report.end).what, where,
                      at(report.t, {}));
@@ -204,7 +214,7 @@ void set_limit(EquilibriumPath& path, const At& at) {
   for (const PathSegment& segment : path.segments) {
     const auto ended = limit_of(segment.report.end);
     if (ended != record::Limit::none) {
-      const bool on_its_way = segment.back && ended != record::Limit::locking;
+      const bool on_its_way = segment.back && ended == record::Limit::branch_lost;
       path.limit = on_its_way ? record::Limit::no_equilibrium : ended;
       path.limit_reason = how_it_ended(segment, at);
       break;
@@ -295,6 +305,11 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
     const double seen = segment.back ? event.t : *event.to;
     if (way * (seen - before) <= 0 || way * (past - seen) < 0) continue;
     text += (text.empty() ? "snap " : " and ") + caption_.at(event.t, {});
+  }
+  for (const ContactEvent& event : path_.contacts) {
+    if (event.segment != sample.segment) continue;
+    if (way * (event.t - before) <= 0 || way * (past - event.t) < 0) continue;
+    text += (text.empty() ? "" : "; ") + event.text;
   }
   return text;
 }

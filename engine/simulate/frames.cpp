@@ -1,5 +1,7 @@
 #include "engine/simulate/frames.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -162,6 +164,12 @@ void put_reactions(const RodMesh& mesh, const Model& model, const Assembly& at,
     frame.reactions_N.col(long(k)) = on[std::size_t(supports[k])];
 }
 
+void put_contacts(const record::Contacts& found, record::Frame& frame) {
+  frame.contacts = int(found.places.size());
+  frame.rod_gap_mm = found.rod_gap_mm;
+  frame.joint_gap_mm = found.joint_gap_mm;
+}
+
 /// Of the finest mesh's own state.
 void put_forces(const Simulation& simulation, record::Frame& frame) {
   const NestedShell& shell = simulation.shell();
@@ -212,7 +220,7 @@ record::Summary summary_before(const preset::Preset& preset, const Scene& scene)
   return s;
 }
 
-Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
+record::Layout parts_of(const Scene& scene, const RodMesh& mesh) {
   record::Layout layout;
   layout.spacing_mm = scene.footprint.spacing;
   layout.rod_diameter_mm = scene.rod_diameter_mm;
@@ -225,13 +233,50 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
     for (int node : nodes)
       if (!mesh.is_ghost(node)) layout.rods.back().push_back(node);
   }
-  for (const FootprintRod& rod : scene.footprint.rods)
-    layout.families.emplace_back(rod.family == Family::other ? "other" : name_of(rod.family));
-  layout.supports = supports_of(mesh);
   for (int k = 0; k < mesh.joints; ++k) {
     const FootprintJoint& joint = scene.footprint.joints[k];
     layout.joints.push_back({joint.i, joint.j, joint.u, joint.v, k});
   }
+  layout.joint_diameter_mm = scene.joint_diameter_mm;
+  layout.joint_height_mm = scene.joint_height_mm;
+  if (scene.table) layout.table_mm = scene.flat.origin.z();
+  return layout;
+}
+
+std::string name_of(const FootprintRod& rod) {
+  const bool of_grid = rod.family != Family::other;
+  return of_grid ? fmt::format("{}{:+}", name_of(rod.family), rod.index)
+                 : fmt::format("{}{}", name_of(rod.family), rod.index);
+}
+
+std::string text_of(const record::Contact& contact, const Footprint& footprint) {
+  const auto rod = [&](int k) { return name_of(footprint.rods[std::size_t(k)]); };
+  const auto joint = [&](int k) {
+    const FootprintJoint& of = footprint.joints[std::size_t(k)];
+    return fmt::format("({}, {})", of.i, of.j);
+  };
+  const auto parts = [&] {
+    switch (contact.kind) {
+      case record::ContactKind::rods:
+        if (contact.first == contact.second)
+          return fmt::format("rod {} and itself", rod(contact.first));
+        return fmt::format("rods {} and {}", rod(contact.first), rod(contact.second));
+      case record::ContactKind::joints:
+        return fmt::format("joints {} and {}", joint(contact.first), joint(contact.second));
+      case record::ContactKind::table:
+        return fmt::format("rod {} and the table", rod(contact.first));
+    }
+    return std::string();
+  };
+  const Eigen::Vector3d& at = contact.at;
+  return fmt::format("{} at ({:.1f}, {:.1f}, {:.1f}) mm", parts(), at.x(), at.y(), at.z());
+}
+
+Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
+  record::Layout layout = parts_of(scene, mesh);
+  for (const FootprintRod& rod : scene.footprint.rods)
+    layout.families.emplace_back(rod.family == Family::other ? "other" : name_of(rod.family));
+  layout.supports = supports_of(mesh);
   for (const FootprintCell& cell : scene.footprint.cells) {
     const FootprintJoint& corner = scene.footprint.joints[cell.joints[0]];
     const double half = 0.5 * scene.footprint.spacing;
@@ -262,6 +307,7 @@ void fill_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd&
   frame.K_bins = bins_of(scene, x, K);
   frame.height_mm = x.row(2).leftCols(mesh.joints).maxCoeff() - scene.flat.origin.z();
   frame.nodes = x.leftCols(mesh.rod_nodes());
+  frame.lowest_mm = frame.nodes.row(2).minCoeff() - scene.flat.origin.z();
 }
 
 record::Frame frame_of(const Simulation& simulation) {
@@ -277,6 +323,7 @@ record::Frame frame_of(const Simulation& simulation) {
   frame.residual_N = certificate.residual_N;
   frame.negative_pivots = certificate.negative_pivots;
   frame.error_estimate_mm = certificate.error_estimate_mm;
+  put_contacts(simulation.contacts(), frame);
   put_forces(simulation, frame);
   return frame;
 }
@@ -288,6 +335,7 @@ record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& mod
   fill_shape(scene, mesh, nodes,
              cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)), frame);
   frame.energies = forces.energies;
+  put_contacts(record::ContactSearch(parts_of(scene, mesh)).in(frame.nodes), frame);
   put_rods(model, state, forces, frame);
   put_reactions(mesh, model, forces, {}, frame);
   return frame;
@@ -305,6 +353,7 @@ record::Frame flat_frame(Simulation& simulation) {
   frame.residual_N = flat.certificate.residual_N;
   frame.error_estimate_mm = 0;
   frame.boundary_radius_mm = scene.radius_begin_mm;
+  put_contacts(simulation.contacts(), frame);
   put_forces(simulation, frame);
   simulation.restore(before);
   return frame;

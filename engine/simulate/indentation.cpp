@@ -247,6 +247,7 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
       watch);
   if (!kept) return tl::unexpected<Error>(kept.error());
   set_push_limit(*kept, watch);
+  locate_contacts(*kept, at_depth(kept->depth_mm()), watch);
   TRY(layout, layout_of(*scene, kept->simulation.shell().finest()));
   layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
   layout->extrapolated = kept->simulation.shell().plan().extrapolate;
@@ -258,11 +259,13 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
     Result<bool> taken = false;
     if (came_to(*kept, sample)) taken = sampler.at(sample);
     if (!taken) return tl::unexpected<Error>(taken.error());
-    if (*taken || kept->limit != record::Limit::locking) continue;
-    // the state in which the rods came to their length
+    const bool touches = kept->limit == record::Limit::contact;
+    if (*taken || !(touches || kept->limit == record::Limit::locking)) continue;
+    // the last state before the limit
     kept->simulation.restore(end);
     sample.t = end.state.t;
-    TRY_DO(sampler.take_current(sample, "locking", sample.t));
+    TRY_DO(
+        sampler.take_current(sample, touches ? "last state without contact" : "locking", sample.t));
     break;
   }
   return EquilibriumPath(std::move(*kept));

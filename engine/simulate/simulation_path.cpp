@@ -7,6 +7,7 @@
 #include "engine/core/system_info.h"
 #include "engine/core/watch.h"
 #include "engine/simulate/branch_switch.h"
+#include "engine/simulate/frames.h"
 #include "engine/simulate/simulation.h"
 #include "engine/solve/nested_shell.h"
 #include "engine/solve/newton.h"
@@ -75,15 +76,39 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
   const auto end = [&](Outcome outcome) {
     shell_->allow_unstable(false);
     // the leader may stand ahead of what is certified
-    if (outcome != Outcome::reached && outcome != Outcome::locked) shell_->back_to(shell_->state());
+    const bool limit = outcome == Outcome::locked || outcome == Outcome::contact;
+    if (outcome != Outcome::reached && !limit) shell_->back_to(shell_->state());
     Report done = report(outcome, shell_->state().t, begin);
     done.events = std::move(events);
     if (actuating_) set_progress(progress_at(done.t));
     return done;
   };
   const auto note_load_step = [&] {
-    if (record) record->load_steps.push_back({shell_->point(), certificate()});
+    if (record) record->load_steps.push_back({shell_->point(), certificate(), contacts()});
   };
+  // beyond which the path is not wanted: what is then at its end
+  std::optional<Event> limit;
+  const auto beyond_limit = [&] {
+    limit.reset();
+    if (locked()) limit = {Event::Kind::locked, 0, {}, {}};
+    if (!limit && scene_->stops_at_contact)
+      if (const record::Contacts found = contacts(); !found.places.empty())
+        limit = {Event::Kind::contact,
+                 0,
+                 {},
+                 {},
+                 simulate::text_of(found.places.front(), scene_->footprint)};
+    return limit.has_value();
+  };
+  const auto end_at_limit = [&](Event at) {
+    at.t = shell_->state().t;
+    events.push_back(std::move(at));
+    return end(events.back().kind == Event::Kind::locked ? Outcome::locked : Outcome::contact);
+  };
+  if (beyond_limit() && limit->kind == Event::Kind::contact) {
+    note_load_step();
+    return end_at_limit(*limit);
+  }
   bool unstable_too = leaving.through_unstable;
   shell_->allow_unstable(unstable_too);
   // of a path that is followed for what happens on it
@@ -105,11 +130,12 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
     const NestedReport nested = shell_->advance(next, watch);
     if (nested.end == Outcome::cancelled) return end(Outcome::cancelled);
     if (nested.end == Outcome::reached) {
-      if (locked()) {
+      if (beyond_limit()) {
+        Event at = *limit;
         bisect_to_last_accepted(
-            next, good, [&] { return !locked(); }, watch);
-        events.push_back({Event::Kind::locked, shell_->state().t, {}, {}});
-        return end(Outcome::locked);
+            next, good, [&] { return beyond_limit() ? (at = *limit, false) : true; }, watch);
+        if (at.kind == Event::Kind::contact && shell_->state().t != good.t) note_load_step();
+        return end_at_limit(std::move(at));
       }
       halvings = std::max(halvings - 1, 0);
       note_load_step();
@@ -139,11 +165,11 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
     }
     if (!leave(t, events.back(), record, watch))
       return end(watch.cancelled() ? Outcome::cancelled : nested.end);
-    if (locked()) {
-      // the rest beyond would need longer rods
+    if (beyond_limit()) {
+      // the rest beyond would need longer rods, or room where others are
       shell_->back_to(good);
-      events.back() = {Event::Kind::locked, shell_->state().t, {}, {}};
-      return end(Outcome::locked);
+      events.pop_back();
+      return end_at_limit(*limit);
     }
     note_load_step();
     softening.forget();

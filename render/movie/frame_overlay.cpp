@@ -147,8 +147,14 @@ std::string equilibrium_caption(const record::Frame& frame) {
   return frame.negative_pivots == 0 ? text + ", stable" : text;
 }
 
+std::string contact_caption(const record::Frame& frame) {
+  if (frame.contacts <= 0) return "";
+  return std::to_string(frame.contacts) + (frame.contacts > 1 ? " contacts" : " contact");
+}
+
 std::string event_caption(const record::Frame& frame) {
-  if (!frame.event.empty() || frame.negative_pivots <= 0) return frame.event;
+  if (!frame.event.empty()) return frame.event;
+  if (frame.negative_pivots <= 0) return contact_caption(frame);
   return "unstable: " + std::to_string(frame.negative_pivots) + " negative pivot" +
          (frame.negative_pivots > 1 ? "s" : "");
 }
@@ -164,6 +170,7 @@ struct Sign {
   Colour colour;
 };
 constexpr Sign signs[] = {
+    {MarkKind::contact, "contact", Marker::square, contact_ink},
     {MarkKind::unstable, "unstable", Marker::square, {0.80f, 0.12f, 0.10f, 1}},
     {MarkKind::motion, "in motion", Marker::square, {0.93f, 0.60f, 0.15f, 1}},
     {MarkKind::snap, "snap", Marker::diamond, {0.10f, 0.32f, 0.62f, 1}},
