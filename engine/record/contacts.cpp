@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "engine/core/segment_distance.h"
 
@@ -63,6 +64,10 @@ class ShapeContacts {
   struct Joint {
     double at_a = 0, at_b = 0, within = 0;
   };
+  /// The largest angle between an edge of a segment and its chord.
+  struct Spread {
+    double cosine = 1, sine = 0;
+  };
   /// What is looked for between two segments.
   struct Search {
     int a = 0, b = 0;
@@ -92,8 +97,10 @@ class ShapeContacts {
   const Box& box_of(int begin, int end) const {
     return end - begin == 1 ? edge_[std::size_t(begin)] : tree_[std::size_t((begin + end) / 2)];
   }
-  Box build(int begin, int end);
-  bool may_turn_to_itself(const Segment& s, double radii) const;
+  void lay_out(std::size_t k);
+  void grow_tree(int k);
+  Box grown(int begin, int end);
+  bool apart_but_at_joint(int a, int b) const;
   Search between(int a, int b) const;
   void add_joint(Search& search, int point_a, int point_b) const;
   void look(Search& search, int begin_a, int end_a, int begin_b, int end_b) const;
@@ -107,50 +114,93 @@ class ShapeContacts {
   const ContactSearch& of_;
   std::vector<Vector3d> x_;    // of the points
   std::vector<double> along_;  // the rods
-  std::vector<Box> edge_;      // by its first point
+  std::vector<Box> edge_;      // by its first point, of segments with a tree
   std::vector<Box> tree_;      // of edges begin to end - 1 at the point in the middle
-  std::vector<Box> box_;       // of the segments
+  std::vector<char> has_tree_;
+  std::vector<Box> box_;         // of the segments
+  std::vector<Vector3d> chord_;  // unit vectors from their begins to their ends
+  std::vector<Spread> spread_;
   const Eigen::Matrix3Xd& nodes_;
   Contacts all_;
 };
 
 ShapeContacts::ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd& nodes)
     : of_(search), nodes_(nodes) {
-  const std::size_t points = search.points_.size();
+  const std::size_t points = search.points_.size(), segments = search.segments_.size();
   x_.resize(points);
   along_.resize(points);
-  edge_.resize(points);
-  tree_.resize(points);
   for (std::size_t k = 0; k < points; ++k) x_[k] = nodes.col(search.points_[k]);
-  for (const Segment& s : search.segments_)
-    for (int k = s.begin; k < s.end; ++k) {
-      Box& box = edge_[std::size_t(k)];
-      box.take(x_[std::size_t(k)]);
-      box.take(x_[std::size_t(k) + 1]);
-      along_[std::size_t(k) + 1] =
-          along_[std::size_t(k)] + (x_[std::size_t(k) + 1] - x_[std::size_t(k)]).norm();
-    }
-  box_.reserve(search.segments_.size());
-  for (const Segment& s : search.segments_) box_.push_back(build(s.begin, s.end));
+  box_.resize(segments);
+  chord_.resize(segments);
+  spread_.resize(segments);
+  has_tree_.resize(segments);
+  for (std::size_t k = 0; k < segments; ++k) lay_out(k);
 }
 
-Box ShapeContacts::build(int begin, int end) {
+/// Box, lengths and directions of a segment.
+void ShapeContacts::lay_out(std::size_t k) {
+  const std::size_t begin = std::size_t(of_.segments_[k].begin),
+                    end = std::size_t(of_.segments_[k].end);
+  const Vector3d chord = (x_[end] - x_[begin]).stableNormalized();
+  double least = 1;  // cosine
+  box_[k].take(x_[begin]);
+  for (std::size_t p = begin; p < end; ++p) {
+    const Vector3d edge = x_[p + 1] - x_[p];
+    const double length = edge.norm();
+    box_[k].take(x_[p + 1]);
+    along_[p + 1] = along_[p] + length;
+    least = std::min(least, edge.dot(chord) / std::max(length, 1e-300));
+  }
+  chord_[k] = chord;
+  spread_[k] = {least, std::sqrt(std::max(0.0, 1 - least * least))};
+}
+
+void ShapeContacts::grow_tree(int k) {
+  if (std::exchange(has_tree_[std::size_t(k)], 1)) return;
+  edge_.resize(x_.size());
+  tree_.resize(x_.size());
+  const Segment& s = segment(k);
+  for (std::size_t p = std::size_t(s.begin); p < std::size_t(s.end); ++p) {
+    edge_[p].take(x_[p]);
+    edge_[p].take(x_[p + 1]);
+  }
+  grown(s.begin, s.end);
+}
+
+Box ShapeContacts::grown(int begin, int end) {
   if (end - begin == 1) return edge_[std::size_t(begin)];
   const int middle = (begin + end) / 2;
-  Box box = build(begin, middle);
-  box.take(build(middle, end));
+  Box box = grown(begin, middle);
+  box.take(grown(middle, end));
   return tree_[std::size_t(middle)] = box;
 }
 
-/// Within 50 degrees of one direction all the way a rod does not come back to itself: what is
-/// pi S apart along it is 2 S apart.
-bool ShapeContacts::may_turn_to_itself(const Segment& s, double radii) const {
-  if (length(s) < std::numbers::pi * radii) return false;
-  const Vector3d chord = (x_[std::size_t(s.end)] - x_[std::size_t(s.begin)]).stableNormalized();
-  for (std::size_t k = std::size_t(s.begin); k < std::size_t(s.end); ++k)
-    if (!(chord.dot(x_[k + 1] - x_[k]) > 2 / std::numbers::pi * (along_[k + 1] - along_[k])))
-      return true;
-  return false;
+/// Whether two segments that meet at one joint go away from it in cones so far apart that they are
+/// a diameter apart beyond its cylinder.
+bool ShapeContacts::apart_but_at_joint(int a, int b) const {
+  const Segment &one = segment(a), &other = segment(b);
+  int shared = 0;
+  double between = 0;  // cosine of the angle between the chords, away from the joint
+  for (const int at : {one.begin, one.end})
+    for (const int beside : {other.begin, other.end}) {
+      if (node(at) != node(beside)) continue;
+      ++shared;
+      const bool same_way = (at == one.begin) == (beside == other.begin);
+      between = (same_way ? 1 : -1) * chord_[std::size_t(a)].dot(chord_[std::size_t(b)]);
+    }
+  if (shared != 1) return false;
+  // sine of the angle between the nearest rays of the two cones
+  const Spread &sa = spread_[std::size_t(a)], &sb = spread_[std::size_t(b)];
+  const double across = std::sqrt(std::max(0.0, 1 - between * between));
+  const double cosine = sa.cosine * sb.cosine - sa.sine * sb.sine,
+               sine = sa.sine * sb.cosine + sa.cosine * sb.sine;
+  const double apart = across * cosine - between * sine;
+  if (!(apart > 0)) return false;
+  const bool wide = between * cosine + across * sine < 0;
+  const double radii =
+      of_.radius_mm_[std::size_t(one.rod)] + of_.radius_mm_[std::size_t(other.rod)];
+  return 0.5 * of_.joint_diameter_mm_ * std::min(sa.cosine, sb.cosine) * (wide ? 1 : apart) >
+         2 * radii;
 }
 
 /// Where the two share a joint, by the angle between them there.
@@ -256,13 +306,18 @@ void ShapeContacts::rods(bool by_all_pairs) {
   double widest = 0;
   for (const double radius : of_.radius_mm_) widest = std::max(widest, radius);
   for (int a = 0; a < count; ++a) {
-    const Segment& s = segment(a);
-    if (!may_turn_to_itself(s, 2 * of_.radius_mm_[std::size_t(s.rod)])) continue;
+    // within 50 degrees of its chord a rod does not come back to itself: what is pi S apart along
+    // it is 2 S apart
+    if (spread_[std::size_t(a)].cosine > 2 / std::numbers::pi) continue;
     Search search = between(a, a);
-    look_within(search, s.begin, s.end);
+    grow_tree(a);
+    look_within(search, segment(a).begin, segment(a).end);
     take(search);
   }
   each_near_pair(box_, 4 * widest, [&](int a, int b) {
+    if (apart_but_at_joint(a, b)) return;
+    grow_tree(a);
+    grow_tree(b);
     Search search = between(a, b);
     look(search, segment(a).begin, segment(a).end, segment(b).begin, segment(b).end);
     take(search);
