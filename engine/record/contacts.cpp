@@ -203,10 +203,17 @@ bool ShapeContacts::apart_but_at_joint(int a, int b) const {
          2 * radii;
 }
 
-/// Where the two share a joint, by the angle between them there.
+/// Where the two share a joint, or their rods an end, by the angle between them there.
 void ShapeContacts::add_joint(Search& search, int point_a, int point_b) const {
-  if (node(point_a) != node(point_b) || search.joints == 2) return;
   const Segment &a = segment(search.a), &b = segment(search.b);
+  const auto ends = [](const Segment& s, int point) {
+    return point == s.begin ? !s.from_joint : !s.to_joint;
+  };
+  const auto apart = [&] { return (x_[std::size_t(point_a)] - x_[std::size_t(point_b)]).norm(); };
+  const bool one_place =
+      node(point_a) == node(point_b) ||
+      (search.a != search.b && ends(a, point_a) && ends(b, point_b) && apart() < search.radii);
+  if (!one_place || search.joints == 2) return;
   const auto away = [&](const Segment& s, int point) {
     const int beside = point == s.begin ? point + 1 : point - 1;
     return (x_[std::size_t(beside)] - x_[std::size_t(point)]).stableNormalized();
@@ -398,7 +405,8 @@ ContactSearch::ContactSearch(const Layout& layout)
     for (int k = 0, begin = 0; k <= last; ++k) {
       const int joint = axis[std::size_t(rod[std::size_t(k)])];
       if (k > begin && (joint >= 0 || k == last)) {
-        segments_.push_back({int(r), first + begin, first + k});
+        const bool from_joint = axis[std::size_t(rod[std::size_t(begin)])] >= 0;
+        segments_.push_back({int(r), first + begin, first + k, from_joint, joint >= 0});
         begin = k;
       }
       if (joint < 0) continue;

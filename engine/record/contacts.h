@@ -40,7 +40,8 @@ struct Contacts {
 /// of the joint along the rods: D the diameter of the joint's cylinder, l the length of the shorter
 /// segment. Straight rods overlap up to half of S / sin(a/2), so that it is their bending that is
 /// told; beyond the middle of a segment all is, so that a closing cell is.
-/// Points of one rod are told that are more than pi S apart along it.
+/// Ends of two rods that are nearer than S are held at one place, which counts as a joint. Points
+/// of one rod are told that are more than pi S apart along it.
 ///
 /// The cylinder of a joint stands on the rods' crossing, along t_u x t_v, as high as the layout
 /// says, with rounded ends. A rod touches the table where its middle is more than its radius below
@@ -61,6 +62,7 @@ class ContactSearch {
   struct Segment {
     int rod = 0;
     int begin = 0, end = 0;  ///< points, both among them
+    bool from_joint = false, to_joint = false;
   };
   /// The node of a joint, and nodes beside it on two of its rods; -1: fewer than two rods.
   struct Axis {

@@ -187,11 +187,10 @@ std::string how_it_ended(const PathSegment& segment, const At& at) {
                        at(report.t, {}), strain);
   if (report.end == Outcome::contact) {
     const Event& event = report.events.back();
-    const bool before = segment.load_steps.back().contacts.places.empty();
-    return fmt::format("{} {} {}", at(report.t, event.error),
-                       before ? "the last state without contact is reached, beyond it touch"
-                              : "where it begins there touch",
-                       event.what);
+    if (!segment.load_steps.back().contacts.places.empty())
+      return event.what + " touch from the begin, " + at(report.t, {});
+    return fmt::format("{} is the last state without contact: beyond, {} touch",
+                       at(report.t, event.error), event.what);
   }
   const char* where = segment.back ? " on the way back to the flat" : "";
   return fmt::format("{}{} {}, and no rest was found beyond", words_of(report.end).what, where,

@@ -106,7 +106,7 @@ void extrapolate_events(std::vector<PathSegment>& coarse, std::vector<PathSegmen
       const double step = found[e].t - seen[e].t;
       // of a limit the finest mesh decides, and the state that is kept is its own
       if (!seen[e].is_limit()) seen[e].t = found[e].t = found[e].t + step / 3;
-      seen[e].error = found[e].error = std::abs(step) / 3;
+      seen[e].error = found[e].error = std::abs(step) / 3 + found[e].error.value_or(0);
     }
   }
 }

@@ -134,7 +134,10 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
         Event at = *limit;
         bisect_to_last_accepted(
             next, good, [&] { return beyond_limit() ? (at = *limit, false) : true; }, watch);
-        if (at.kind == Event::Kind::contact && shell_->state().t != good.t) note_load_step();
+        if (at.kind == Event::Kind::contact) {
+          at.error = locate_mm / std::max(shell_->reach_mm(), locate_mm);
+          if (shell_->state().t != good.t) note_load_step();
+        }
         return end_at_limit(std::move(at));
       }
       halvings = std::max(halvings - 1, 0);

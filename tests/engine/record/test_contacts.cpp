@@ -179,6 +179,24 @@ TEST_CASE("rods of a cell that bend onto each other touch, on any mesh in the sa
   }
 }
 
+TEST_CASE("rods that are held at one place of the boundary are near there, and cross beyond it") {
+  Layout layout = lone_rod(6);
+  layout.rods.push_back({6, 7, 8, 9, 10, 11});
+  layout.joint_diameter_mm = 3;
+  const auto found = [&](const Eigen::Vector3d& begin, const Eigen::Vector3d& way) {
+    Eigen::Matrix3Xd x(3, 12);
+    for (int k = 0; k < 6; ++k) {
+      x.col(k) << 5 * k, 0, 0;
+      x.col(6 + k) = begin + 5 * k * way.normalized();
+    }
+    return ContactSearch(layout).in(x).places;
+  };
+  for (const double degrees : {8, 30, 90, 170})
+    CHECK(found({0, 0, 0.1}, {std::cos(degrees * degree), std::sin(degrees * degree), 0}).empty());
+  CHECK(found({0, 0, 0.1}, {1, 0.02, 0}).size() == 1);
+  CHECK(found({-3, -3, 0}, {1, 1, 0}).size() == 1);
+}
+
 TEST_CASE("a rod touches itself where a loop closes, not where it only bends") {
   constexpr int points = 200;
   Eigen::Matrix3Xd x(3, points);
