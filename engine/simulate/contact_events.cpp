@@ -44,11 +44,11 @@ class Bracket {
 
   bool begins() const { return after_.contacts.deepest(kind_) != nullptr; }
   bool changes() const { return begins() != (before_.contacts.deepest(kind_) != nullptr); }
-  void halve(EquilibriumPath& path, const PathSegment& segment, const Watch& watch) {
+  void halve(EquilibriumPath& path, std::size_t segment, const Watch& watch) {
     for (int k = 0; k < halvings; ++k) {
       Point middle{0.5 * (before_.t + after_.t), {}};
-      const LoadStep& beside = load_step_before(segment, middle.t);
-      if (path.simulation.sample(middle.t, beside, false, watch).end != Outcome::reached) return;
+      const Report report = certify_sample(path, {0, segment, middle.t, 0}, watch).report;
+      if (report.end != Outcome::reached) return;
       middle.contacts = path.simulation.contacts();
       const bool there = middle.contacts.deepest(kind_) != nullptr;
       (there == begins() ? after_ : before_) = std::move(middle);
@@ -97,7 +97,7 @@ void locate_contacts(EquilibriumPath& path, const At& at, const Watch& watch) {
         const double middle = 0.5 * (points[k - 1].t + points[k].t);
         if (path.single_motion && !within_snap(segment, middle) &&
             path.contacts.size() < most_located) {
-          bracket.halve(path, segment, watch);
+          bracket.halve(path, s, watch);
           moved = true;
         }
         path.contacts.push_back(bracket.event(s, footprint, at));

@@ -250,7 +250,10 @@ std::string name_of(const FootprintRod& rod) {
 }
 
 std::string text_of(const record::Contact& contact, const Footprint& footprint) {
-  const auto rod = [&](int k) { return name_of(footprint.rods[std::size_t(k)]); };
+  const auto rod = [&](int k) {
+    const std::string name = name_of(footprint.rods[std::size_t(k)]);
+    return name.starts_with("rod ") ? name.substr(4) : name;
+  };
   const auto joint = [&](int k) {
     const FootprintJoint& of = footprint.joints[std::size_t(k)];
     return fmt::format("({}, {})", of.i, of.j);
