@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/record/contacts.h"
 #include "render/canvas/text.h"
 #include "render/movie/run_summary.h"
 
@@ -145,6 +146,13 @@ std::string equilibrium_caption(const record::Frame& frame) {
   const double order = std::ceil(std::log10(std::max(frame.residual_N, 1e-6)) - 1e-9);
   const std::string text = "residual < " + scientific(std::pow(10, order), 1) + " N";
   return frame.negative_pivots == 0 ? text + ", stable" : text;
+}
+
+void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
+                  Drawing& drawing) {
+  if (frame.contacts <= 0) return;
+  for (const record::Contact& contact : record::ContactSearch(layout).in(frame.nodes).places)
+    drawing.marks.push_back({contact.at, std::max(4.0, 5 * thin_mm), contact_ink});
 }
 
 std::string contact_caption(const record::Frame& frame) {

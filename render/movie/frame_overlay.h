@@ -8,6 +8,7 @@
 #include "engine/record/trajectory.h"
 #include "render/canvas/canvas.h"
 #include "render/canvas/legend.h"
+#include "render/gl/renderer.h"
 #include "render/movie/movie_style.h"
 #include "render/movie/run_summary.h"
 
@@ -53,6 +54,10 @@ std::string frame_caption(int at, int frames);
 
 /// "residual < 1 × 10^{−6} N, stable". An unstable frame says so in its event.
 std::string equilibrium_caption(const record::Frame& frame);
+
+/// A mark where parts of the frame touch; `thin_mm`: the least width of what is to be seen.
+void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
+                  Drawing& drawing);
 
 /// "3 contacts"; empty: none, or not looked for.
 std::string contact_caption(const record::Frame& frame);
