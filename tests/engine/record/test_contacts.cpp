@@ -193,7 +193,7 @@ TEST_CASE("rods that are held at one place of the boundary are near there, and c
   };
   for (const double degrees : {8, 30, 90, 170})
     CHECK(found({0, 0, 0.1}, {std::cos(degrees * degree), std::sin(degrees * degree), 0}).empty());
-  CHECK(found({0, 0, 0.1}, {1, 0.02, 0}).size() == 1);
+  CHECK(found({0, 0, 0.1}, {1, 0.05, 0}).size() == 1);
   CHECK(found({-3, -3, 0}, {1, 1, 0}).size() == 1);
 }
 
