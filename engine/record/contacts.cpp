@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -34,19 +33,25 @@ struct Box {
   }
 };
 
-/// visit(i, j), i != j, once for every two boxes that are within mm of each other.
+/// visit(i, j), i < j, once for every two boxes that are within mm of each other.
 template <class Visit>
 void each_near_pair(const std::vector<Box>& boxes, double mm, const Visit& visit) {
-  std::vector<int> order(boxes.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](int k) { return boxes[std::size_t(k)].low[0]; });
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Box& box = boxes[std::size_t(order[i])];
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const Box& other = boxes[std::size_t(order[j])];
-      if (other.low[0] - box.high[0] > mm) break;
-      if (box.near(other, mm)) visit(std::min(order[i], order[j]), std::max(order[i], order[j]));
-    }
+  Box all;
+  for (const Box& box : boxes) all.take(box);
+  int along = 0;  // where they lie farthest apart
+  for (int k = 1; k < 3; ++k)
+    if (all.high[k] - all.low[k] > all.high[along] - all.low[along]) along = k;
+  std::vector<std::pair<double, int>> order;
+  for (std::size_t k = 0; k < boxes.size(); ++k) order.emplace_back(boxes[k].low[along], int(k));
+  std::ranges::sort(order);
+  std::vector<Box> sorted;
+  for (const auto& [low, k] : order) sorted.push_back(boxes[std::size_t(k)]);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const double end = sorted[i].high[along] + mm;
+    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].low[along] <= end; ++j)
+      if (sorted[i].near(sorted[j], mm))
+        visit(std::min(order[i].second, order[j].second),
+              std::max(order[i].second, order[j].second));
   }
 }
 
@@ -100,6 +105,7 @@ class ShapeContacts {
   void lay_out(std::size_t k);
   void grow_tree(int k);
   Box grown(int begin, int end);
+  bool apart(int a, int b) const;
   bool apart_but_at_joint(int a, int b) const;
   Search between(int a, int b) const;
   void add_joint(Search& search, int point_a, int point_b) const;
@@ -173,6 +179,19 @@ Box ShapeContacts::grown(int begin, int end) {
   Box box = grown(begin, middle);
   box.take(grown(middle, end));
   return tree_[std::size_t(middle)] = box;
+}
+
+/// Whether two segments are a diameter apart, as far as they are from their chords at most.
+bool ShapeContacts::apart(int a, int b) const {
+  const Segment &one = segment(a), &other = segment(b);
+  const auto x = [&](int point) { return x_[std::size_t(point)]; };
+  const Spread &sa = spread_[std::size_t(a)], &sb = spread_[std::size_t(b)];
+  if (!(std::min(sa.cosine, sb.cosine) > 0)) return false;
+  const double reach =
+      0.5 * (length(one) * sa.sine + length(other) * sb.sine) +
+      2 * (of_.radius_mm_[std::size_t(one.rod)] + of_.radius_mm_[std::size_t(other.rod)]);
+  return nearest_points(x(one.begin), x(one.end), x(other.begin), x(other.end)).distance2 >
+         reach * reach;
 }
 
 /// Whether two segments that meet at one joint go away from it in cones so far apart that they are
@@ -322,7 +341,7 @@ void ShapeContacts::rods(bool by_all_pairs) {
     take(search);
   }
   each_near_pair(box_, 4 * widest, [&](int a, int b) {
-    if (apart_but_at_joint(a, b)) return;
+    if (apart_but_at_joint(a, b) || apart(a, b)) return;
     grow_tree(a);
     grow_tree(b);
     Search search = between(a, b);
