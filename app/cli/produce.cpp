@@ -77,6 +77,8 @@ std::string help_for(const preset::Preset& preset, record::Limit limit) {
                    "that"
                  : "a larger actuated boundary, thinner rods, or more [limits] max_bending_strain, "
                    "would end before that";
+    case record::Limit::contact:
+      return "[limits] contact = \"tell\" goes on and tells what touches";
     case record::Limit::branch_lost:
     case record::Limit::no_equilibrium:
       break;
@@ -203,6 +205,12 @@ void print_result(const Run& run, const fs::path& folder) {
   // why it ended early is said as the error that it is
   if (!at.limit_reason.empty() && failure_of(at, true).empty())
     fmt::print("\n  on its way: {}", at.limit_reason);
+  if (!at.contact.empty()) fmt::print("\n  contact: {}", at.contact);
+  if (at.contacts > 0)
+    fmt::print(
+        "\n  its last state has {} place{} of contact; what the shell would do there is not "
+        "modelled",
+        at.contacts, at.contacts > 1 ? "s" : "");
   fmt::print("\n");
   if (run.preset.jitter.wanted()) fmt::print("{}", found_text(run.states));
   fmt::print("{}", how_to_make_movie(folder_of(folder, run.name), run.preset));

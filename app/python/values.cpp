@@ -58,6 +58,8 @@ const char* word_of(Event::Kind kind) {
       return "locked";
     case Event::Kind::overbent:
       return "overbent";
+    case Event::Kind::contact:
+      return "contact";
   }
   return "";
 }
@@ -67,7 +69,8 @@ void add_report(py::module_& module) {
       .def_property_readonly(
           "kind", [](const Event& of) { return word_of(of.kind); },
           "\"stability_lost\", \"turned_back\" (the path came to a limit point), \"locked\" (the "
-          "rods came to their length) or \"overbent\" (one came to [limits] max_bending_strain).")
+          "rods came to their length), \"overbent\" (one came to [limits] max_bending_strain) or "
+          "\"contact\" (beyond, rods or joints touch).")
       .def_readonly("t", &Event::t,
                     "Where: the square root of the progress in an actuation, else from 0 at the "
                     "begin of the step to 1 at its end.")

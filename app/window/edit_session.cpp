@@ -77,6 +77,9 @@ std::string text_of_events(const std::vector<Event>& events) {
       case Event::Kind::overbent:
         message += "a rod is bent as far as [limits] max_bending_strain allows";
         break;
+      case Event::Kind::contact:
+        message += "beyond, there touch " + event.what;
+        break;
     }
   }
   return message;

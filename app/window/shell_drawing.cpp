@@ -5,6 +5,7 @@
 
 #include "render/canvas/text.h"
 #include "render/movie/colour_by.h"
+#include "render/movie/frame_overlay.h"
 
 namespace gridshell::window {
 namespace {
@@ -202,6 +203,7 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   if (show.net) ghosts(layout.net_nodes);
   if (show.footprint) ghosts(layout.flat_nodes);
   put_forces(shell, show, thin_mm, drawing);
+  render::put_contacts(layout, shell.frame, thin_mm, drawing);
   // what starts flat stands on its boundary's plane
   const double lowest_mm = drawing.nodes.row(2).minCoeff();
   drawing.ground_z_mm = (layout.net_nodes.cols() > 0 ? lowest_mm : std::min(0.0, lowest_mm)) - 2.5;

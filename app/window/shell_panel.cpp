@@ -7,6 +7,7 @@
 #include "app/window/panel.h"
 #include "app/window/shell_drawing.h"
 #include "engine/gridshell.h"
+#include "render/movie/frame_overlay.h"
 
 namespace gridshell::window {
 namespace {
@@ -142,6 +143,16 @@ void stability(const Panel& panel) {
   ImGui::SameLine();
   panel.button("rest_against");
   panel.tick("soft_mode");
+}
+
+void contacts(const Panel& panel) {
+  const std::string touching = render::contact_caption(panel.viewer.shell->frame);
+  if (touching.empty()) return;
+  heading(panel, "Contact");
+  ImGui::PushStyleColor(ImGuiCol_Text, text_colours(panel.viewer.show.dark).error);
+  ImGui::TextWrapped("%s, where the purple marks are: the shell goes through itself or the table.",
+                     touching.c_str());
+  ImGui::PopStyleColor();
 }
 
 void accuracy(const Panel& panel) {
@@ -323,6 +334,7 @@ void shell_panel(const Panel& panel, const render::Box& box) {
     boundary(panel);
     held(panel);
     stability(panel);
+    contacts(panel);
     accuracy(panel);
     colours(panel);
     keep(panel);

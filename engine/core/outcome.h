@@ -18,6 +18,7 @@ enum class Outcome {
   meshes_disagree,
   locked,
   overbent,
+  contact,
   cancelled,
 };
 
@@ -38,6 +39,7 @@ inline constexpr std::array outcomes{
     OutcomeText{Outcome::meshes_disagree, "meshes_disagree", "a finer mesh went to another state"},
     OutcomeText{Outcome::locked, "locked", "the rods came to their length"},
     OutcomeText{Outcome::overbent, "overbent", "a rod is bent as far as is allowed"},
+    OutcomeText{Outcome::contact, "contact", "rods or joints came into contact"},
     OutcomeText{Outcome::cancelled, "cancelled", "it was stopped"},
 };
 
@@ -49,9 +51,9 @@ static_assert(
     }(),
     "every outcome has its line in outcomes, in their order");
 
-/// Whether a path ended where the rods bear no more, at a state that is certified.
-constexpr bool at_limit_of_rods(Outcome outcome) {
-  return outcome == Outcome::locked || outcome == Outcome::overbent;
+/// Whether a path ended at a limit of the preset, in the last certified state before.
+constexpr bool at_limit(Outcome outcome) {
+  return outcome == Outcome::locked || outcome == Outcome::overbent || outcome == Outcome::contact;
 }
 
 constexpr const OutcomeText& words_of(Outcome outcome) { return outcomes[std::size_t(outcome)]; }

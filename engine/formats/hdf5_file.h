@@ -158,6 +158,8 @@ class Reader : public File {
     return values;
   }
   double attribute(const std::string& object, const char* name);
+  /// `otherwise` where there is none, as in what an older version wrote.
+  double attribute_or(const std::string& object, const char* name, double otherwise);
   std::string text_attribute(const std::string& object, const char* name);
   std::vector<std::string> strings(const std::string& name);
   Lists lists(const std::string& name);

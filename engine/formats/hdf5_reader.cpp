@@ -163,6 +163,10 @@ double Reader::attribute(const std::string& object, const char* name) {
   return value;
 }
 
+double Reader::attribute_or(const std::string& object, const char* name, double otherwise) {
+  return attribute_of(object, name, H5T_FLOAT) < 0 ? otherwise : attribute(object, name);
+}
+
 std::string Reader::text_attribute(const std::string& object, const char* name) {
   const Handle found = attribute_of(object, name, H5T_STRING);
   if (found < 0) return {};

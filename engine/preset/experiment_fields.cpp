@@ -409,7 +409,14 @@ void add_experiment_fields(std::vector<Field>& all) {
       .add<&Limits::max_bending_strain>(
           at_least(0),
           "strain of a fibre by bending, from the curvature added to that at rest, at which the "
-          "run stops with limit \"strength\"; 0: none stops it, and it is told from 0.01 on");
+          "run stops with limit \"strength\"; 0: none stops it, and it is told from 0.01 on")
+      .add<&Limits::contact>(
+          "what follows where rods come nearer than their radii away from their joints, the "
+          "joints' cylinders overlap, or a rod goes through the table: \"tell\", or \"stop\" in "
+          "the last state before, with limit \"contact\"")
+      .add<&Limits::table>(
+          "whether the boundary's plane is a table: a rod more than its radius below it is in "
+          "contact");
   add_inverse({all, "inverse", &Preset::inverse});
   add_accuracy({all, "accuracy", &Preset::accuracy});
   add_jitter({all, "jitter", &Preset::jitter});

@@ -213,9 +213,12 @@ struct Inverse {
   double max_leg_force_N = 0;  ///< 0: any
 };
 
+enum class OnContact { tell, stop };
 struct Limits {
   double max_strain = 1e-3;
   double max_bending_strain = 0;  ///< 0: none, it is told
+  OnContact contact = OnContact::tell;
+  bool table = false;  ///< whether the boundary's plane is one that no rod passes
 };
 
 /// How a shell is shaken out of the state it would rest in.

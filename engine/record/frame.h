@@ -21,9 +21,14 @@ struct Frame {
   /// of a push: share of the joints that moved more than 0.1 and 0.5 of the depth, and the lowest
   /// latitude among the first
   double reach_above_tenth = unknown, reach_above_half = unknown, lowest_latitude_deg = unknown;
-  Energies energies;     ///< by term, mJ
-  double height_mm = 0;  ///< highest joint above the boundary's plane
-  double total_K = 0;    ///< rad
+  Energies energies;           ///< by term, mJ
+  double height_mm = 0;        ///< highest joint above the boundary's plane
+  double lowest_mm = unknown;  ///< lowest point of a rod above that plane
+  /// Places where rods, joints or the table overlap (contacts.h), -1: not looked for; and the least
+  /// gaps between rods away from their joints and between joints, where they are below a diameter.
+  int contacts = -1;
+  double rod_gap_mm = unknown, joint_gap_mm = unknown;
+  double total_K = 0;  ///< rad
   double residual_N = 0;
   int negative_pivots = 0;  ///< -1: not known
   double error_estimate_mm = unknown;

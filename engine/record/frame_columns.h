@@ -61,6 +61,10 @@ inline const std::vector<FrameColumn> frame_columns = [] {
       {"energy_error_mJ", "mJ", &Frame::energy_error_mJ},
       {"largest_bending_strain", "1", &Frame::largest_bending_strain},
       {"bending_strain_at", "", &Frame::bending_strain_at},
+      {"lowest_mm", "mm", &Frame::lowest_mm},
+      {"contacts", "1", &Frame::contacts},
+      {"rod_gap_mm", "mm", &Frame::rod_gap_mm},
+      {"joint_gap_mm", "mm", &Frame::joint_gap_mm},
   };
   columns.insert(columns.end(), others.begin(), others.end());
   return columns;

@@ -100,6 +100,13 @@ void each_attribute(LayoutType& layout, const Visit& visit) {
              "length_scale_mm", layout.length_scale_mm);
 }
 
+/// What contacts are looked for with, which older versions did not know.
+template <RecordOf<Layout> LayoutType, class Visit>
+void each_contact_attribute(LayoutType& layout, const Visit& visit) {
+  visit_each(visit, "joint_diameter_mm", layout.joint_diameter_mm, "joint_height_mm",
+             layout.joint_height_mm, "table_mm", layout.table_mm);
+}
+
 /// A building block in its group.
 template <RecordOf<Part> PartType, class Visit>
 void each_dataset(PartType& part, const Visit& visit) {
@@ -184,7 +191,9 @@ void read_loads(hdf5::Reader& file, Layout& layout) {
 
 void write_layout(hdf5::Writer& file, const Layout& layout) {
   file.group("/layout");
-  each_attribute(layout, [&](auto& name, double value) { file.attribute("/layout", name, value); });
+  const auto write = [&](auto& name, double value) { file.attribute("/layout", name, value); };
+  each_attribute(layout, write);
+  each_contact_attribute(layout, write);
   each_dataset(layout, [&](const char* name, const auto& values, const char* unit, Presence when) {
     if (when == always || values.size() > 0) put(file, name, values, unit);
   });
@@ -196,6 +205,9 @@ Layout read_layout(hdf5::Reader& file) {
   Layout layout;
   each_attribute(layout,
                  [&](auto& name, double& value) { value = file.attribute("/layout", name); });
+  each_contact_attribute(layout, [&](auto& name, double& value) {
+    value = file.attribute_or("/layout", name, value);
+  });
   each_dataset(layout, [&](const char* name, auto& values, const char*, Presence when) {
     if (when == always || file.has(name)) take(file, name, values);
   });

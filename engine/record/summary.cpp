@@ -27,6 +27,10 @@ void Summary::take_state(const Frame& last) {
   bending_strain_at = last.bending_strain_at;
   energies = last.energies;
   height_mm = last.height_mm;
+  lowest_mm = last.lowest_mm;
+  contacts = last.contacts;
+  rod_gap_mm = last.rod_gap_mm;
+  joint_gap_mm = last.joint_gap_mm;
   total_K = last.total_K;
 }
 
@@ -48,8 +52,11 @@ bool may_lack(const std::string& key) {
                                            "largest_force_N",
                                            "force_error_N",
                                            "largest_bending_strain",
-                                           "bending_strain_at"};
-  return key.starts_with("energy_") || later.contains(key);
+                                           "bending_strain_at",
+                                           "lowest_mm",
+                                           "contact",
+                                           "contacts"};
+  return key.starts_with("energy_") || key.ends_with("_gap_mm") || later.contains(key);
 }
 
 Json json_of_run(const Summary& summary) {

@@ -14,7 +14,7 @@
 namespace gridshell::record {
 
 /// How a run ended.
-enum class Limit { none, locking, snap, branch_lost, no_equilibrium, strength };
+enum class Limit { none, locking, snap, branch_lost, no_equilibrium, strength, contact };
 
 /// What a folder was made for, and so what its frames sample: a movie, or the stills of a figure.
 enum class Kind { unknown, run, figure, movie };
@@ -44,7 +44,10 @@ struct Summary {
          energy_error_mJ = unknown, largest_bending_strain = unknown;
   std::string bending_strain_at;
   Energies energies;  ///< by term, mJ
-  double height_mm = 0;
+  double height_mm = 0, lowest_mm = unknown;
+  int contacts = -1;  ///< as of Frame
+  double rod_gap_mm = unknown, joint_gap_mm = unknown;
+  std::string contact;  ///< where on the path which parts came into contact; empty: nowhere
   double total_K = 0;
   double max_deviation = unknown,
          mean_deviation = unknown;                ///< from the net, over rho, joints only
@@ -75,13 +78,15 @@ void fields(Run& run, const Visit& visit) {
              run.energy_error_mJ, "largest_bending_strain", run.largest_bending_strain,
              "bending_strain_at", run.bending_strain_at);
   visit_energies(run.energies, visit);
-  visit_each(visit, "height_mm", run.height_mm, "total_K", run.total_K, "max_deviation",
-             run.max_deviation, "mean_deviation", run.mean_deviation, "median_deviation",
-             run.median_deviation, "deviation_p90", run.deviation_p90, "max_seam_gap_mm",
-             run.max_seam_gap_mm, "max_seam_kink_deg", run.max_seam_kink_deg, "newton_iterations",
-             run.newton_iterations, "factorizations", run.factorizations, "seconds_setup",
-             run.seconds_setup, "seconds_simulation", run.seconds_simulation, "seconds_render",
-             run.seconds_render, "steps", run.steps, "kind", run.kind, "finished", run.finished);
+  visit_each(visit, "height_mm", run.height_mm, "lowest_mm", run.lowest_mm, "contacts",
+             run.contacts, "rod_gap_mm", run.rod_gap_mm, "joint_gap_mm", run.joint_gap_mm,
+             "contact", run.contact, "total_K", run.total_K, "max_deviation", run.max_deviation,
+             "mean_deviation", run.mean_deviation, "median_deviation", run.median_deviation,
+             "deviation_p90", run.deviation_p90, "max_seam_gap_mm", run.max_seam_gap_mm,
+             "max_seam_kink_deg", run.max_seam_kink_deg, "newton_iterations", run.newton_iterations,
+             "factorizations", run.factorizations, "seconds_setup", run.seconds_setup,
+             "seconds_simulation", run.seconds_simulation, "seconds_render", run.seconds_render,
+             "steps", run.steps, "kind", run.kind, "finished", run.finished);
 }
 
 // summary.json: the figures of a run as one JSON object, keys as in Summary, in its order.

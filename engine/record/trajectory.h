@@ -133,6 +133,9 @@ struct LoadedJoint {
 struct Layout {
   double spacing_mm = 0;
   double rod_diameter_mm = 0;
+  /// Of the joints' cylinders, of which the height lies above the rods' crossing; 0: not known.
+  double joint_diameter_mm = 0, joint_height_mm = 0;
+  double table_mm = unknown;  ///< height of the plane that no rod passes; NaN: there is none
   /// Of each rod, that of a round section of its area; empty: all of rod_diameter_mm.
   std::vector<double> diameters_mm;
   double length_scale_mm = 0;  ///< R_o for a circle, rho for a net: what errors are relative to

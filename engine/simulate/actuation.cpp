@@ -198,6 +198,7 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
       watch);
   if (!path) return path;
   set_limit(*path, at_progress);
+  locate_contacts(*path, at_progress, watch);
   TRY(layout, layout_of(*scene, path->simulation.shell().finest()));
   layout->extrapolated = path->simulation.shell().plan().extrapolate;
   TRY_DO(sink.begin(std::move(*layout)));
@@ -210,6 +211,13 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
       continue;
     }
     const auto segment = leg_at(*path, sample.t);
+    if (!segment && path->limit == record::Limit::contact && !path->segments.back().back) {
+      path->simulation.restore(end);
+      sample.segment = path->segments.size() - 1;
+      sample.progress = progress_at(sample.t = end.state.t);
+      TRY_DO(sampler.take_current(sample, "last state without contact", sample.t));
+      break;
+    }
     if (!segment) continue;  // the path's limit says why
     sample.segment = *segment;
     TRY_DO(sampler.at(sample));

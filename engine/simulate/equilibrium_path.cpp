@@ -170,6 +170,8 @@ record::Limit limit_of(Outcome end) {
       return record::Limit::locking;
     case Outcome::overbent:
       return record::Limit::strength;
+    case Outcome::contact:
+      return record::Limit::contact;
     case Outcome::not_finite:
       return record::Limit::no_equilibrium;
     case Outcome::unstable:
@@ -198,6 +200,13 @@ std::string how_it_ended(const PathSegment& segment, const Scene& scene, const A
   if (report.end == Outcome::locked)
     return fmt::format("{} the rods are at their length: the largest strain is {:.3g}",
                        at(report.t, {}), strain);
+  if (report.end == Outcome::contact) {
+    const Event& event = report.events.back();
+    if (!segment.load_steps.back().contacts.places.empty())
+      return event.what + " touch from the begin, " + at(report.t, {});
+    return fmt::format("{} is the last state without contact: beyond, {} touch",
+                       at(report.t, event.error), event.what);
+  }
   const char* where = segment.back ? " on the way back to the flat" : "";
   return fmt::format("{}{} {}, and no rest was found beyond", words_of(report.end).what, where,
                      at(report.t, {}));
@@ -221,7 +230,7 @@ void set_limit(EquilibriumPath& path, const At& at) {
   for (const PathSegment& segment : path.segments) {
     const auto ended = limit_of(segment.report.end);
     if (ended != record::Limit::none) {
-      const bool on_its_way = segment.back && !at_limit_of_rods(segment.report.end);
+      const bool on_its_way = segment.back && !at_limit(segment.report.end);
       path.limit = on_its_way ? record::Limit::no_equilibrium : ended;
       path.limit_reason = how_it_ended(segment, path.simulation.scene(), at);
       break;
@@ -320,6 +329,11 @@ std::string PathSampler::events(const PathSample& sample, double past) const {
     if (way * (seen - before) <= 0 || way * (past - seen) < 0) continue;
     const char* what = event.leap ? "snap " : "branches ";
     text += (text.empty() ? what : " and ") + caption_.at(event.t, {});
+  }
+  for (const ContactEvent& event : path_.contacts) {
+    if (event.segment != sample.segment) continue;
+    if (way * (event.t - before) <= 0 || way * (past - event.t) < 0) continue;
+    text += (text.empty() ? "" : "; ") + event.text;
   }
   return text;
 }

@@ -29,6 +29,13 @@ struct PathSegment : PathRecord {
   double end() const { return load_steps.back().point.t; }
 };
 
+/// Where on the path parts of one kind begin to touch, or touch no more.
+struct ContactEvent {
+  std::size_t segment = 0;
+  double t = 0, error = 0;  ///< path parameter: between two certified states
+  std::string text;         ///< which, where in space and on the path
+};
+
 /// A simulation with the segments that were followed in it, and what ended them.
 struct EquilibriumPath {
   Simulation simulation;
@@ -41,6 +48,7 @@ struct EquilibriumPath {
       {};  ///< what meshes do not agree on, a sentence; empty: nothing is known
   record::Limit limit = record::Limit::none;
   std::string limit_reason = {};
+  std::vector<ContactEvent> contacts = {};
 
   /// Whether a branch was lost, a limit met, or a segment ended early.
   bool has_events() const;
@@ -128,6 +136,11 @@ std::string branch_loss_places(std::span<const PathSegment> segments, const At& 
 /// ended before its end, else the snaps. A path that branches has no limit, and the sentence says
 /// where.
 void set_limit(EquilibriumPath& path, const At& at);
+
+/// Finds where on a path that was followed parts begin to touch and where they part again: between
+/// load steps, and more closely by samples between them where the simulation is still on the
+/// path's motion. It stands afterwards where it stood.
+void locate_contacts(EquilibriumPath& path, const At& at, const Watch& watch);
 
 // Frames of a path, one a sample, handed to a sink in order.
 

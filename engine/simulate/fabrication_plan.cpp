@@ -7,6 +7,7 @@
 #include "engine/core/try.h"
 #include "engine/preset/preset_access.h"
 #include "engine/scene/scene.h"
+#include "engine/simulate/frames.h"
 
 namespace gridshell::simulate {
 namespace {
@@ -16,9 +17,7 @@ using exports::Pin;
 
 CutRod cut(const FootprintRod& rod, const Scene& scene) {
   CutRod piece;
-  const bool of_grid = rod.family != Family::other;
-  piece.name = of_grid ? fmt::format("{}{:+}", name_of(rod.family), rod.index)
-                       : fmt::format("{}{}", name_of(rod.family), rod.index);
+  piece.name = name_of(rod);
   const double begin = rod.span.begin - rod.tail_begin, end = rod.span.end + rod.tail_end;
   const auto at = [&](double along) -> Eigen::Vector2d {
     return scene.flat.at(rod.at(along)).head<2>();

@@ -203,6 +203,12 @@ Eigen::Matrix3Xd reactions_of(const RodMesh& mesh, const Model& model, const Ass
   return reactions;
 }
 
+void put_contacts(const record::Contacts& found, record::Frame& frame) {
+  frame.contacts = int(found.places.size());
+  frame.rod_gap_mm = found.rod_gap_mm;
+  frame.joint_gap_mm = found.joint_gap_mm;
+}
+
 void put_reactions(Eigen::Matrix3Xd reactions, record::Frame& frame) {
   frame.largest_force_N = reactions.cols() > 0 ? max_column_norm(reactions) : 0;
   frame.reactions_N = std::move(reactions);
@@ -280,7 +286,7 @@ record::Summary summary_before(const preset::Preset& preset, const Scene& scene)
   return s;
 }
 
-Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
+record::Layout parts_of(const Scene& scene, const RodMesh& mesh) {
   record::Layout layout;
   layout.spacing_mm = scene.footprint.spacing;
   layout.rod_diameter_mm = scene.rod_diameter_mm;
@@ -293,13 +299,53 @@ Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
     for (int node : nodes)
       if (!mesh.is_ghost(node)) layout.rods.back().push_back(node);
   }
-  for (const FootprintRod& rod : scene.footprint.rods)
-    layout.families.emplace_back(rod.family == Family::other ? "other" : name_of(rod.family));
-  layout.supports = supports_of(mesh);
   for (int k = 0; k < mesh.joints; ++k) {
     const FootprintJoint& joint = scene.footprint.joints[k];
     layout.joints.push_back({joint.i, joint.j, joint.u, joint.v, k});
   }
+  layout.joint_diameter_mm = scene.joint_diameter_mm;
+  layout.joint_height_mm = scene.joint_height_mm;
+  if (scene.table) layout.table_mm = scene.flat.origin.z();
+  return layout;
+}
+
+std::string name_of(const FootprintRod& rod) {
+  const bool of_grid = rod.family != Family::other;
+  return of_grid ? fmt::format("{}{:+}", name_of(rod.family), rod.index)
+                 : fmt::format("{}{}", name_of(rod.family), rod.index);
+}
+
+std::string text_of(const record::Contact& contact, const Footprint& footprint) {
+  const auto rod = [&](int k) {
+    const std::string name = name_of(footprint.rods[std::size_t(k)]);
+    return name.starts_with("rod ") ? name.substr(4) : name;
+  };
+  const auto joint = [&](int k) {
+    const FootprintJoint& of = footprint.joints[std::size_t(k)];
+    return fmt::format("({}, {})", of.i, of.j);
+  };
+  const auto parts = [&] {
+    switch (contact.kind) {
+      case record::ContactKind::rods:
+        if (contact.first == contact.second)
+          return fmt::format("rod {} and itself", rod(contact.first));
+        return fmt::format("rods {} and {}", rod(contact.first), rod(contact.second));
+      case record::ContactKind::joints:
+        return fmt::format("joints {} and {}", joint(contact.first), joint(contact.second));
+      case record::ContactKind::table:
+        return fmt::format("rod {} and the table", rod(contact.first));
+    }
+    return std::string();
+  };
+  const Eigen::Vector3d& at = contact.at;
+  return fmt::format("{} at ({:.1f}, {:.1f}, {:.1f}) mm", parts(), at.x(), at.y(), at.z());
+}
+
+Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {
+  record::Layout layout = parts_of(scene, mesh);
+  for (const FootprintRod& rod : scene.footprint.rods)
+    layout.families.emplace_back(rod.family == Family::other ? "other" : name_of(rod.family));
+  layout.supports = supports_of(mesh);
   for (const FootprintCell& cell : scene.footprint.cells) {
     const FootprintJoint& corner = scene.footprint.joints[cell.joints[0]];
     const double half = 0.5 * scene.footprint.spacing;
@@ -330,6 +376,7 @@ void fill_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd&
   frame.K_bins = bins_of(scene, x, K);
   frame.height_mm = x.row(2).leftCols(mesh.joints).maxCoeff() - scene.flat.origin.z();
   frame.nodes = x.leftCols(mesh.rod_nodes());
+  frame.lowest_mm = frame.nodes.row(2).minCoeff() - scene.flat.origin.z();
 }
 
 record::Frame frame_of(const Simulation& simulation) {
@@ -344,6 +391,7 @@ record::Frame frame_of(const Simulation& simulation) {
   frame.residual_N = certificate.residual_N;
   frame.negative_pivots = certificate.negative_pivots;
   frame.error_estimate_mm = certificate.error_estimate_mm;
+  put_contacts(simulation.contacts(), frame);
   put_forces(simulation, frame);
   return frame;
 }
@@ -355,6 +403,7 @@ record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& mod
   fill_shape(scene, mesh, nodes,
              cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)), frame);
   frame.energies = forces.energies;
+  put_contacts(record::ContactSearch(parts_of(scene, mesh)).in(frame.nodes), frame);
   put_rods(scene.footprint, mesh, model, state, forces, frame);
   put_reactions(reactions_of(mesh, model, forces, {}), frame);
   return frame;
@@ -371,6 +420,7 @@ record::Frame flat_frame(Simulation& simulation) {
   frame.residual_N = flat.certificate.residual_N;
   frame.error_estimate_mm = 0;
   frame.boundary_radius_mm = scene.radius_begin_mm;
+  put_contacts(simulation.contacts(), frame);
   put_forces(simulation, frame);
   simulation.restore(before);
   return frame;

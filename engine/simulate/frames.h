@@ -12,6 +12,15 @@ namespace gridshell::simulate {
 /// cells.
 record::Summary summary_before(const preset::Preset& preset, const Scene& scene);
 
+/// What the shell is made of, on a mesh: rods, joints and their sizes, and a table.
+record::Layout parts_of(const Scene& scene, const RodMesh& mesh);
+
+/// "u+3": a rod by its family and its place in it.
+std::string name_of(const FootprintRod& rod);
+
+/// "rods u+3 and v-1 at (10.0, 2.5, 48.1) mm": which parts touch, and where.
+std::string text_of(const record::Contact& contact, const Footprint& footprint);
+
 /// What of a run does not change: the nodes of `mesh` (ghosts are no part of it), the net, the
 /// boundaries. Errors: those of the net.
 Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh);

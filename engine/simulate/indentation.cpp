@@ -248,6 +248,7 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
       watch);
   if (!kept) return tl::unexpected<Error>(kept.error());
   set_push_limit(*kept, watch);
+  locate_contacts(*kept, at_depth(kept->depth_mm()), watch);
   TRY(layout, layout_of(*scene, kept->simulation.shell().finest()));
   layout->loaded_joints = {{kept->push.joint, kept->push.displacement.normalized()}};
   layout->extrapolated = kept->simulation.shell().plan().extrapolate;
@@ -260,11 +261,14 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
     if (came_to(*kept, sample)) taken = sampler.at(sample);
     if (!taken) return tl::unexpected<Error>(taken.error());
     const record::Limit limit = kept->limit;
-    if (*taken || (limit != record::Limit::locking && limit != record::Limit::strength)) continue;
-    // the state in which the rods came to their limit
+    const bool touches = limit == record::Limit::contact;
+    if (*taken || !(touches || limit == record::Limit::locking || limit == record::Limit::strength))
+      continue;
+    // the last state before the limit
     kept->simulation.restore(end);
     sample.t = end.state.t;
-    TRY_DO(sampler.take_current(sample, std::string(word_of(limit)), sample.t));
+    TRY_DO(sampler.take_current(
+        sample, touches ? "last state without contact" : std::string(word_of(limit)), sample.t));
     break;
   }
   return EquilibriumPath(std::move(*kept));

@@ -72,12 +72,8 @@ int leading_edges_of(const EquilibriumPath& path) { return path.asked.edges_per_
 /// Whether every segment came to its end, or to a limit of the rods.
 bool whole(const EquilibriumPath& path) {
   return std::all_of(path.segments.begin(), path.segments.end(), [](const PathSegment& segment) {
-    return segment.report.end == Outcome::reached || at_limit_of_rods(segment.report.end);
+    return segment.report.end == Outcome::reached || at_limit(segment.report.end);
   });
-}
-
-bool is_limit(const Event& event) {
-  return event.kind == Event::Kind::locked || event.kind == Event::Kind::overbent;
 }
 
 std::optional<std::string> leg_disagreement(const PathSegment& a, const PathSegment& b) {
@@ -85,7 +81,8 @@ std::optional<std::string> leg_disagreement(const PathSegment& a, const PathSegm
   if (seen.size() != found.size())
     return fmt::format("{} and {} losses of the branch", seen.size(), found.size());
   for (std::size_t k = 0; k < seen.size(); ++k) {
-    if (is_limit(seen[k]) != is_limit(found[k]) ||
+    const bool limit = seen[k].is_limit() || found[k].is_limit();
+    if ((limit && seen[k].kind != found[k].kind) ||
         seen[k].to.has_value() != found[k].to.has_value())
       return "events of another kind";
     if (std::abs(seen[k].t - found[k].t) > near_t)
@@ -114,8 +111,8 @@ void extrapolate_events(std::vector<PathSegment>& coarse, std::vector<PathSegmen
     for (std::size_t e = 0; e < seen.size(); ++e) {
       const double step = found[e].t - seen[e].t;
       // of a limit the finest mesh decides, and the state that is kept is its own
-      if (!is_limit(seen[e])) seen[e].t = found[e].t = found[e].t + step / 3;
-      seen[e].error = found[e].error = std::abs(step) / 3;
+      if (!seen[e].is_limit()) seen[e].t = found[e].t = found[e].t + step / 3;
+      seen[e].error = found[e].error = std::abs(step) / 3 + found[e].error.value_or(0);
     }
   }
 }

@@ -177,6 +177,8 @@ void put_path(const EquilibriumPath& path, record::Summary& s) {
   s.limit_reason = path.limit_reason;
   s.doubt = path.mesh_disagreement;
   if (s.doubt.empty()) s.doubt = near_image(path);
+  for (const ContactEvent& event : path.contacts)
+    s.contact += (s.contact.empty() ? "" : "; ") + event.text;
   s.largest_strain = path.simulation.certificate().largest_strain;
   const Effort effort = path.simulation.effort();
   s.newton_iterations = effort.newton_iterations;

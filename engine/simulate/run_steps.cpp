@@ -83,6 +83,10 @@ Result<Work> do_steps(const std::shared_ptr<const Scene>& scene,
   return work;
 }
 
+std::string on_its_way(double t, std::optional<double>) {
+  return fmt::format("at {:.3f} of its way", t);
+}
+
 /// Hands the frames of one work to a sink.
 class Show {
  public:
@@ -167,13 +171,13 @@ class Show {
     const PathSegment& segment = work_.segments[step_];
     if (segment.report.end == Outcome::locked) return "locking";
     if (segment.report.end == Outcome::overbent) return "strength";
+    if (segment.report.end == Outcome::contact) return "last state without contact";
     if (has_way(steps_, step_)) return sampler_->events(sample, sample.t);
     return text_of(steps_[step_]) + (snapped(segment) ? ": snap to another state" : "");
   }
 
   Caption caption() {
-    return {[](double t, std::optional<double>) { return fmt::format("at {:.3f} of its way", t); },
-            [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
+    return {on_its_way, [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
             [this](record::Frame& frame) { work_.simulation.put_push(frame); }};
   }
 
@@ -265,6 +269,10 @@ Result<StepsResult> run_steps(const std::shared_ptr<const Scene>& scene,
       watch);
   if (!work) return tl::unexpected<Error>(work.error());
   name_step_of_limit(*work, steps);
+  locate_contacts(*work, on_its_way, watch);
+  for (ContactEvent& event : work->contacts)
+    event.text = fmt::format("step {} ({}): {}", event.segment + 1, text_of(steps[event.segment]),
+                             event.text);
   TRY(layout, layout_of(*scene, work->simulation.shell().finest()));
   layout->extrapolated = work->simulation.shell().plan().extrapolate;
   put_loads(*work, steps, *layout);

@@ -6,6 +6,7 @@
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/simulate/first_state.h"
+#include "engine/simulate/frames.h"
 #include "engine/solve/buckling.h"
 #include "engine/solve/equilibrium.h"
 
@@ -36,6 +37,7 @@ Result<void> Simulation::build(const LevelPlan& plan) {
                                scene_->solved_model(), scene_->motion, plan, options_for(*scene_)));
   if (shell_) spent_ += shell_->effort();
   shell_ = std::make_unique<NestedShell>(std::move(*shell));
+  search_.emplace(simulate::parts_of(*scene_, shell_->finest()));
   return {};
 }
 
@@ -183,6 +185,7 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
   const auto back = [&] {
     if (shell_) spent_ += shell_->effort();
     shell_ = std::move(before);
+    search_.emplace(simulate::parts_of(*scene_, shell_->finest()));
   };
   if (auto built = build(plan); !built) {
     back();

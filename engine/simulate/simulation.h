@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/outcome.h"
+#include "engine/record/contacts.h"
 #include "engine/record/frame.h"
 #include "engine/scene/scene.h"
 #include "engine/solve/dynamics.h"
@@ -29,12 +30,18 @@ struct Certificate {
 
 /// Something that happened to the shell on its path.
 struct Event {
-  enum class Kind { stability_lost, turned_back, locked, overbent };
+  enum class Kind { stability_lost, turned_back, locked, overbent, contact };
   Kind kind = Kind::stability_lost;
   double t = 0;                 ///< where: as one mesh says, or extrapolated where two say it
   std::optional<double> error;  ///< of t, where two meshes say it
   std::optional<double> to;     ///< where the next rest stands, if one was found
   bool leap = true;             ///< whether that lies apart; else on a branch that leaves there
+  std::string what = {};        ///< of a contact: of which parts, and where in space
+
+  /// Whether the path ends there in the last state before.
+  bool is_limit() const {
+    return kind == Kind::locked || kind == Kind::overbent || kind == Kind::contact;
+  }
 };
 
 /// How a step ended: what was reached, why no more, what it cost. Where not all was reached the
@@ -48,10 +55,11 @@ struct Report {
   double seconds = 0;
 };
 
-/// A point of a path with the certificate of all meshes.
+/// A point of a path with the certificate of all meshes, and what touches there.
 struct LoadStep {
   NestedPathPoint point;
   Certificate certificate;
+  record::Contacts contacts = {};
 };
 
 /// What the coarsest mesh was like at a time, while it moved.
@@ -201,6 +209,8 @@ class Simulation {
   bool overbent(double before) const;
   /// Largest strain of a fibre by bending, on the finest mesh.
   double bending_strain() const;
+  /// What touches in nodes(), the shape that is shown.
+  record::Contacts contacts() const { return search_->in(nodes()); }
 
   BoundaryPosition boundary;
   /// Where the joints that are held were when they were taken hold of, mm.
@@ -231,6 +241,7 @@ class Simulation {
   std::shared_ptr<const Scene> scene_;
   std::optional<ShellRods> rods_;  // in the place of the scene's
   std::unique_ptr<NestedShell> shell_;
+  std::optional<record::ContactSearch> search_;  // on its finest mesh
   std::vector<Constraint> holds_;
   std::vector<NodeAction> field_;  // that is there
   double load_scale_ = 1;          // of the scene's dead loads

@@ -7,6 +7,7 @@
 #include "engine/core/system_info.h"
 #include "engine/core/watch.h"
 #include "engine/simulate/branch_switch.h"
+#include "engine/simulate/frames.h"
 #include "engine/simulate/simulation.h"
 #include "engine/solve/nested_shell.h"
 #include "engine/solve/newton.h"
@@ -62,6 +63,7 @@ constexpr double loads_ways = 4;         // of the loads, what counts as the len
 constexpr std::size_t most_events = 8;   // branches left on one way
 
 Event::Kind kind_of(Outcome limit) {
+  if (limit == Outcome::contact) return Event::Kind::contact;
   return limit == Outcome::overbent ? Event::Kind::overbent : Event::Kind::locked;
 }
 
@@ -80,15 +82,40 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
   const auto end = [&](Outcome outcome) {
     shell_->allow_unstable(false);
     // the leader may stand ahead of what is certified
-    if (outcome != Outcome::reached && !at_limit_of_rods(outcome)) shell_->back_to(shell_->state());
+    if (outcome != Outcome::reached && !at_limit(outcome)) shell_->back_to(shell_->state());
     Report done = report(outcome, shell_->state().t, begin);
     done.events = std::move(events);
     if (actuating_) set_progress(progress_at(done.t));
     return done;
   };
   const auto note_load_step = [&] {
-    if (record) record->load_steps.push_back({shell_->point(), certificate()});
+    if (record) record->load_steps.push_back({shell_->point(), certificate(), contacts()});
   };
+  // how far the rods were bent before a step, and what would then end the path
+  const auto bent_now = [&] { return scene_->max_bending_strain > 0 ? bending_strain() : 0; };
+  double bent = bent_now();
+  Outcome limit = Outcome::reached;
+  Event met;
+  const auto beyond_limit = [&] {
+    limit = limit_of_rods(bent);
+    met = {};
+    if (limit == Outcome::reached && scene_->stops_at_contact)
+      if (const record::Contacts found = contacts(); !found.places.empty()) {
+        limit = Outcome::contact;
+        met.what = simulate::text_of(found.places.front(), scene_->footprint);
+      }
+    met.kind = kind_of(limit);
+    return limit != Outcome::reached;
+  };
+  const auto end_at_limit = [&](Outcome outcome, Event at) {
+    at.t = shell_->state().t;
+    events.push_back(std::move(at));
+    return end(outcome);
+  };
+  if (beyond_limit() && limit == Outcome::contact) {
+    note_load_step();
+    return end_at_limit(limit, met);
+  }
   bool unstable_too = leaving.through_unstable;
   shell_->allow_unstable(unstable_too);
   // of a path that is followed for what happens on it
@@ -107,16 +134,21 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
     const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
     const double next = steps == 1 ? t : now + left / steps;
     const NestedState good = shell_->state();
-    const double bent = scene_->max_bending_strain > 0 ? bending_strain() : 0;
-    const auto limit_met = [&] { return limit_of_rods(bent); };
+    bent = bent_now();
     const NestedReport nested = shell_->advance(next, watch);
     if (nested.end == Outcome::cancelled) return end(Outcome::cancelled);
     if (nested.end == Outcome::reached) {
-      if (const Outcome limit = limit_met(); limit != Outcome::reached) {
+      if (beyond_limit()) {
+        Outcome last = limit;
+        Event at = met;
         bisect_to_last_accepted(
-            next, good, [&] { return limit_met() == Outcome::reached; }, watch);
-        events.push_back({kind_of(limit), shell_->state().t, {}, {}});
-        return end(limit);
+            next, good, [&] { return beyond_limit() ? (last = limit, at = met, false) : true; },
+            watch);
+        if (last == Outcome::contact) {
+          at.error = locate_mm / std::max(shell_->reach_mm(), locate_mm);
+          if (shell_->state().t != good.t) note_load_step();
+        }
+        return end_at_limit(last, std::move(at));
       }
       halvings = std::max(halvings - 1, 0);
       note_load_step();
@@ -150,11 +182,11 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
     }
     if (!leave(t, events.back(), record, watch))
       return end(watch.cancelled() ? Outcome::cancelled : nested.end);
-    if (const Outcome limit = limit_met(); limit != Outcome::reached) {
-      // the rest beyond would need longer or thinner rods
+    if (beyond_limit()) {
+      // the rest beyond would need longer or thinner rods, or room where others are
       shell_->back_to(good);
-      events.back() = {kind_of(limit), shell_->state().t, {}, {}};
-      return end(limit);
+      events.pop_back();
+      return end_at_limit(limit, met);
     }
     note_load_step();
     softening.forget();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/record/contacts.h"
 #include "render/canvas/text.h"
 #include "render/movie/run_summary.h"
 
@@ -147,8 +148,21 @@ std::string equilibrium_caption(const record::Frame& frame) {
   return frame.negative_pivots == 0 ? text + ", stable" : text;
 }
 
+void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
+                  Drawing& drawing) {
+  if (frame.contacts <= 0) return;
+  for (const record::Contact& contact : record::ContactSearch(layout).in(frame.nodes).places)
+    drawing.marks.push_back({contact.at, std::max(4.0, 5 * thin_mm), contact_ink});
+}
+
+std::string contact_caption(const record::Frame& frame) {
+  if (frame.contacts <= 0) return "";
+  return std::to_string(frame.contacts) + (frame.contacts > 1 ? " contacts" : " contact");
+}
+
 std::string event_caption(const record::Frame& frame) {
-  if (!frame.event.empty() || frame.negative_pivots <= 0) return frame.event;
+  if (!frame.event.empty()) return frame.event;
+  if (frame.negative_pivots <= 0) return contact_caption(frame);
   return "unstable: " + std::to_string(frame.negative_pivots) + " negative pivot" +
          (frame.negative_pivots > 1 ? "s" : "");
 }
@@ -164,6 +178,7 @@ struct Sign {
   Colour colour;
 };
 constexpr Sign signs[] = {
+    {MarkKind::contact, "contact", Marker::square, contact_ink},
     {MarkKind::unstable, "unstable", Marker::square, {0.80f, 0.12f, 0.10f, 1}},
     {MarkKind::motion, "in motion", Marker::square, {0.93f, 0.60f, 0.15f, 1}},
     {MarkKind::snap, "snap", Marker::diamond, {0.10f, 0.32f, 0.62f, 1}},

@@ -8,12 +8,14 @@
 #include "engine/record/trajectory.h"
 #include "render/canvas/canvas.h"
 #include "render/canvas/legend.h"
+#include "render/gl/renderer.h"
 #include "render/movie/movie_style.h"
 #include "render/movie/run_summary.h"
 
 namespace gridshell::render {
 
-inline constexpr Colour pale_ink{0.38f, 0.39f, 0.42f, 1}, event_ink{0.70f, 0.10f, 0.08f, 1};
+inline constexpr Colour pale_ink{0.38f, 0.39f, 0.42f, 1}, event_ink{0.70f, 0.10f, 0.08f, 1},
+    contact_ink{0.80f, 0.05f, 0.60f, 1};
 
 /// Boxes in pixels; an empty one is not shown.
 struct FrameLayout {
@@ -53,7 +55,15 @@ std::string frame_caption(int at, int frames);
 /// "residual < 1 × 10^{−6} N, stable". An unstable frame says so in its event.
 std::string equilibrium_caption(const record::Frame& frame);
 
-/// What happened in this very frame: its event, or that it is unstable; empty when nothing did.
+/// A mark where parts of the frame touch; `thin_mm`: the least width of what is to be seen.
+void put_contacts(const record::Layout& layout, const record::Frame& frame, double thin_mm,
+                  Drawing& drawing);
+
+/// "3 contacts"; empty: none, or not looked for.
+std::string contact_caption(const record::Frame& frame);
+
+/// What happened in this very frame: its event, or that it is unstable, or what touches; empty when
+/// nothing did.
 std::string event_caption(const record::Frame& frame);
 
 // A thin bar under the shell: how far the run has come, and what happened on the way.

@@ -174,6 +174,7 @@ void RunSummary::take(const record::Frame& frame) {
             largest_move_mm, (frame.nodes.col(joint.node) - first.nodes.col(joint.node)).norm());
   if (const MarkKind kind = kind_of(frame); kind != MarkKind::other)
     marks.push_back({frames, kind});
+  if (frame.contacts > 0) marks.push_back({frames, MarkKind::contact});
   ++frames;
 }
 

@@ -74,7 +74,7 @@ struct ColouredRange {
 };
 
 /// Something that happened to the shell, and in which frame.
-enum class MarkKind { unstable, motion, snap, lock, other };
+enum class MarkKind { contact, unstable, motion, snap, lock, other };
 struct Mark {
   int at = 0;  ///< position of the frame in the run, from 0
   MarkKind kind = MarkKind::other;

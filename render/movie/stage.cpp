@@ -268,6 +268,7 @@ Drawing Stage::drawing(const record::Frame& frame) const {
     drawing.arrows.push_back({arrow.from, arrow.to, std::max(1.6, 2.0 * thin), load_ink});
     drawing.marks.push_back({frame.nodes.col(arrow.node), std::max(5.0, 6 * thin), mark_ink});
   }
+  put_contacts(run_, frame, thin, drawing);
   drawing.ground_z_mm = ground_z_mm_;
   drawing.ground = look.floor && style_.views.empty() && look.background.a > 0;
   drawing.background = look.background;

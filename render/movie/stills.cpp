@@ -30,6 +30,12 @@ Image around(const Image& picture, const Box& shell) {
   return part;
 }
 
+/// A panel has no room for a legend: the marks in it are told beside its caption.
+std::string with_contacts(const std::string& caption, const record::Frame& frame) {
+  const std::string contacts = contact_caption(frame);
+  return contacts.empty() ? caption : caption + ", " + contacts;
+}
+
 }  // namespace
 
 MovieStyle still_style(MovieStyle style) {
@@ -51,7 +57,15 @@ void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& sho
   for (std::size_t k = 0; k < layout.title_lines.size(); ++k)
     canvas.text(plain(layout.title_lines[k]), {room.x, room.y + double(k) * line}, title);
   const TextStyle text{.size = layout.font_size, .align_y = AlignY::top};
-  canvas.text(caption, {room.x, room.bottom() - line}, canvas.fitted(caption, room.width, text));
+  const TextStyle fitted = canvas.fitted(caption, room.width, text);
+  const Box said = canvas.text(caption, {room.x, room.bottom() - line}, fitted);
+  const std::string contacts = contact_caption(shown.frame);
+  if (contacts.empty()) return;
+  // a row of its own, as the mark that it is in the picture
+  const double size = fitted.size, y = said.bottom() + size;
+  canvas.marker(Marker::circle, {room.x + 0.5 * size, y}, 0.8 * size, contact_ink, {{}, 0});
+  canvas.text(contacts, {room.x + 1.4 * size, y},
+              {.size = size, .colour = contact_ink, .align_y = AlignY::middle});
 }
 
 std::string frame_state_caption(const record::Frame& frame) {
@@ -88,7 +102,7 @@ Result<std::vector<std::filesystem::path>> write_stills(
     TRY(picture, stage.draw_views(renderer, {frame, k}));
     figure.panels.push_back({around(*picture, stage.shell_box()),
                              stage.frames() > 1 ? panel_letter(style, std::size_t(k)) : "",
-                             caption});
+                             with_contacts(caption, frame)});
     draw_over(*picture, [&](Canvas& canvas) {
       draw_still_labels(canvas, stage, {frame, k}, caption);
     });

@@ -12,6 +12,9 @@ inline void check_same_layout(const Layout& a, const Layout& b) {
   CHECK(same_bits(a.spacing_mm, b.spacing_mm));
   CHECK(same_bits(a.rod_diameter_mm, b.rod_diameter_mm));
   CHECK(same_bits(a.length_scale_mm, b.length_scale_mm));
+  CHECK(same_bits(a.joint_diameter_mm, b.joint_diameter_mm));
+  CHECK(same_bits(a.joint_height_mm, b.joint_height_mm));
+  CHECK(same_bits(a.table_mm, b.table_mm));
   CHECK(a.diameters_mm == b.diameters_mm);
   CHECK(a.rods == b.rods);
   CHECK(a.families == b.families);

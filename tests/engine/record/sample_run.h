@@ -15,6 +15,7 @@ inline Trajectory sample_trajectory() {
   Layout& layout = run.layout;
   layout.spacing_mm = 20;
   layout.rod_diameter_mm = 0.254;
+  layout.joint_diameter_mm = 1.0 / 3, layout.joint_height_mm = 5, layout.table_mm = -0.1;
   layout.diameters_mm = {0.254, 0.3, 0.2, 1.0 / 3};
   layout.length_scale_mm = 126;
   // four crossings of two rods each way, edge points 4 ... 11
@@ -42,6 +43,10 @@ inline Trajectory sample_trajectory() {
     frame.energies[Term::stretch] = 0.1 + 0.2 * k;
     frame.energies[Term::twist] = -0.0;
     frame.height_mm = 1.0 / 7 * k;
+    frame.lowest_mm = -0.5 * k;
+    frame.contacts = k;
+    frame.rod_gap_mm = k == 1 ? unknown : -0.1;
+    frame.joint_gap_mm = 1.0 / 3;
     frame.total_K = M_PI * k;
     frame.residual_N = 5e-324;
     frame.negative_pivots = k;
@@ -82,7 +87,9 @@ inline Summary sample_summary() {
   summary.doubt = "leading meshes of 4 and 8 edges do not agree";
   summary.residual_N = 1.0 / 3e9;
   summary.energies[Term::bend] = 39.979;
-  summary.height_mm = 0.1;
+  summary.height_mm = 0.1, summary.lowest_mm = -1.0 / 3;
+  summary.contacts = 2, summary.joint_gap_mm = -0.1;
+  summary.contact = "joints (0, 0) and (0, 1) touch at progress 0.5";
   summary.total_K = 6.01157;
   summary.force_error_N = 2e-5;
   summary.bending_strain_at = "u0, 45.00 mm from its begin, at joint [0, 1]";

@@ -73,6 +73,11 @@ TEST_CASE("summary.json has the keys of a run in order, and null for what is unk
                                          "energy_load_mJ",
                                          "energy_support_mJ",
                                          "height_mm",
+                                         "lowest_mm",
+                                         "contacts",
+                                         "rod_gap_mm",
+                                         "joint_gap_mm",
+                                         "contact",
                                          "total_K",
                                          "max_deviation",
                                          "mean_deviation",
@@ -106,8 +111,8 @@ TEST_CASE("a summary reads back as it was") {
   CHECK(same_bits(back->residual_N, summary.residual_N));
   CHECK(std::isnan(back->error_estimate_mm));
   CHECK(back->limit == Limit::snap);
-  for (const Limit limit :
-       {Limit::none, Limit::locking, Limit::branch_lost, Limit::no_equilibrium, Limit::strength}) {
+  for (const Limit limit : {Limit::none, Limit::locking, Limit::branch_lost, Limit::no_equilibrium,
+                            Limit::strength, Limit::contact}) {
     Summary other = summary;
     other.limit = limit;
     REQUIRE(write_summary(path, other));
@@ -124,18 +129,33 @@ TEST_CASE("a summary that is none is refused by its key") {
         "\"energy_bend_mJ\" must be a number or null; it is \"much\"");
   CHECK(refusal("\"snap\"", "\"crackle\"") ==
         "\"limit\" must be one of \"none\", \"locking\", \"snap\", \"branch_lost\", "
-        "\"no_equilibrium\", \"strength\"; it is \"crackle\"");
+        "\"no_equilibrium\", \"strength\", \"contact\"; it is \"crackle\"");
   CHECK(refusal("{", "[") == "not a JSON object");
 }
 
 TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {
   const TemporaryFolder folder;
   auto json = nlohmann::ordered_json::parse(to_json(sample_summary()));
-  for (const char* key :
-       {"energy_joint_mJ", "energy_shear_mJ", "energy_load_mJ", "energy_support_mJ", "kind",
-        "finished", "force_N", "push_error_N", "stiffness_N_per_mm", "stiffness_error_N_per_mm",
-        "largest_force_N", "force_error_N", "energy_error_mJ", "largest_bending_strain",
-        "bending_strain_at"})
+  for (const char* key : {"energy_joint_mJ",
+                          "energy_shear_mJ",
+                          "energy_load_mJ",
+                          "energy_support_mJ",
+                          "kind",
+                          "finished",
+                          "force_N",
+                          "push_error_N",
+                          "stiffness_N_per_mm",
+                          "stiffness_error_N_per_mm",
+                          "largest_force_N",
+                          "force_error_N",
+                          "energy_error_mJ",
+                          "largest_bending_strain",
+                          "bending_strain_at",
+                          "lowest_mm",
+                          "contacts",
+                          "rod_gap_mm",
+                          "joint_gap_mm",
+                          "contact"})
     json.erase(key);
   REQUIRE(write_file(folder.path() / "summary.json", json.dump()));
   const auto old = read_summary(folder.path() / "summary.json");
@@ -146,6 +166,8 @@ TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {
   CHECK(old->bending_strain_at.empty());
   CHECK(old->kind == Kind::unknown);
   CHECK(old->finished);
+  CHECK(old->contacts == -1);
+  CHECK(std::isnan(old->rod_gap_mm));
 }
 
 TEST_CASE("CSV files have the columns that others read") {
@@ -159,7 +181,8 @@ TEST_CASE("CSV files have the columns that others read") {
         "residual_N,negative_pivots,error_estimate_mm,"
         "newton_iterations,event,reach_above_tenth,reach_above_half,lowest_latitude_deg,time_s,"
         "stiffness_N_per_mm,stiffness_error_N_per_mm,push_error_N,largest_force_N,force_error_N,"
-        "energy_error_mJ,largest_bending_strain,bending_strain_at");
+        "energy_error_mJ,largest_bending_strain,bending_strain_at,lowest_mm,contacts,rod_gap_mm,"
+        "joint_gap_mm");
 }
 
 TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what is unknown") {
@@ -186,11 +209,12 @@ TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what
         "-1,-1,0,0,1,2,0.5,0.02\n");
   const std::string frames = frames_csv(run);
   CHECK(frames.find("\n1,0.3333333333333333,125.9,,,1e-300,0.30000000000000004,-0,0,0,0,0,"
-                    "0.14285714285714285,3.141592653589793,5e-324,1,,7,,,,,,,,,,,,,\n") !=
-        std::string::npos);
+                    "0.14285714285714285,3.141592653589793,5e-324,1,,7,,,,,,,,,,,,,-0.5,1,,"
+                    "0.3333333333333333\n") != std::string::npos);
   CHECK(
       frames.ends_with(",0.001,14,\"snap, \"\"fast\"\" \xC3\xA9\",,,,,,,,,2e-05,,,"
-                       "\"u0, 45.00 mm from its begin, at joint [0, 1]\"\n"));
+                       "\"u0, 45.00 mm from its begin, at joint [0, 1]\",-1,2,-0.1,"
+                       "0.3333333333333333\n"));
 }
 
 TEST_CASE("numbers do not follow the locale") {

@@ -127,6 +127,31 @@ TEST_CASE("an unstable frame says so once, a stable one never") {
   CHECK(equilibrium_caption(silent) == "residual < 1 × 10^{−6} N");
 }
 
+TEST_CASE("what touches wears a mark, and words beside the bar and as the event") {
+  record::Trajectory run = synthetic::dome(4, 2);
+  run.layout.joint_diameter_mm = 3;
+  for (int k : {2, 3}) {
+    // a joint that lies on another
+    record::Frame& frame = run.frames.edit()[std::size_t(k)];
+    frame.nodes.col(run.layout.joints[0].node) = frame.nodes.col(run.layout.joints[1].node);
+    frame.contacts = 1;
+  }
+  const Stage stage(run, titled(1280, 720));
+  for (int k = 0; k < 4; ++k) {
+    INFO("frame " << k);
+    const Drawing drawing = stage.drawing(run.frames[std::size_t(k)]);
+    const auto texts = texts_of(stage, run, k);
+    CHECK(std::ranges::count(texts, "contact") == (k >= 2));
+    CHECK(std::ranges::count(texts, "1 contact") == (k >= 2));
+    REQUIRE(drawing.marks.empty() == (k < 2));
+    if (k < 2) continue;
+    const Eigen::Vector3d at = run.frames[std::size_t(k)].nodes.col(run.layout.joints[1].node);
+    CHECK(std::ranges::any_of(drawing.marks, [&](const PointMark& mark) {
+      return (mark.at - at).norm() < 3 && mark.colour.r == contact_ink.r;
+    }));
+  }
+}
+
 TEST_CASE("a pushed joint wears a mark and an arrow that points at it, a pulled one away") {
   record::Trajectory run = synthetic::dome(3, 2);
   run.layout.loaded_joints = {{3, -Eigen::Vector3d::UnitZ()}};

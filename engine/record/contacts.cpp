@@ -1,0 +1,455 @@
+#include "engine/record/contacts.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "engine/core/segment_distance.h"
+
+namespace gridshell::record {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Box {
+  double low[3] = {infinity, infinity, infinity}, high[3] = {-infinity, -infinity, -infinity};
+
+  void take(const Vector3d& p) {
+    for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+  }
+  void take(const Box& box) {
+    for (int k = 0; k < 3; ++k)
+      low[k] = std::min(low[k], box.low[k]), high[k] = std::max(high[k], box.high[k]);
+  }
+  bool near(const Box& other, double mm) const {
+    for (int k = 0; k < 3; ++k)
+      if (low[k] - other.high[k] > mm || other.low[k] - high[k] > mm) return false;
+    return true;
+  }
+};
+
+/// visit(i, j), i < j, once for every two boxes that are within mm of each other.
+template <class Visit>
+void each_near_pair(const std::vector<Box>& boxes, double mm, const Visit& visit) {
+  Box all;
+  for (const Box& box : boxes) all.take(box);
+  int along = 0;  // where they lie farthest apart
+  for (int k = 1; k < 3; ++k)
+    if (all.high[k] - all.low[k] > all.high[along] - all.low[along]) along = k;
+  std::vector<std::pair<double, int>> order;
+  for (std::size_t k = 0; k < boxes.size(); ++k) order.emplace_back(boxes[k].low[along], int(k));
+  std::ranges::sort(order);
+  std::vector<Box> sorted;
+  for (const auto& [low, k] : order) sorted.push_back(boxes[std::size_t(k)]);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const double end = sorted[i].high[along] + mm;
+    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].low[along] <= end; ++j)
+      if (sorted[i].near(sorted[j], mm))
+        visit(std::min(order[i].second, order[j].second),
+              std::max(order[i].second, order[j].second));
+  }
+}
+
+}  // namespace
+
+/// One shape of the layout of a search.
+class ShapeContacts {
+ public:
+  ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd& nodes);
+  Contacts found(bool by_all_pairs);
+
+ private:
+  using Segment = ContactSearch::Segment;
+  /// Points of two segments so near to a joint that they share, along the rods, are not told.
+  struct Joint {
+    double at_a = 0, at_b = 0, within = 0;
+  };
+  /// The largest angle between an edge of a segment and its chord.
+  struct Spread {
+    double cosine = 1, sine = 0;
+  };
+  /// What is looked for between two segments.
+  struct Search {
+    int a = 0, b = 0;
+    double radii = 0;  ///< sum
+    double gap = 0;    ///< above is not looked for
+    double apart = 0;  ///< of one segment: nearer points along it are not told
+    int joints = 0;
+    Joint joint[2];
+    Contact found;
+    bool any = false;
+
+    bool told(double at_a, double at_b) const {
+      if (at_b - at_a < apart) return false;
+      for (int k = 0; k < joints; ++k)
+        if (std::abs(at_a - joint[k].at_a) <= joint[k].within &&
+            std::abs(at_b - joint[k].at_b) <= joint[k].within)
+          return false;
+      return true;
+    }
+  };
+
+  int node(int point) const { return of_.points_[std::size_t(point)]; }
+  const Segment& segment(int k) const { return of_.segments_[std::size_t(k)]; }
+  double length(const Segment& s) const {
+    return along_[std::size_t(s.end)] - along_[std::size_t(s.begin)];
+  }
+  const Box& box_of(int begin, int end) const {
+    return end - begin == 1 ? edge_[std::size_t(begin)] : tree_[std::size_t((begin + end) / 2)];
+  }
+  void lay_out(std::size_t k);
+  void grow_tree(int k);
+  Box grown(int begin, int end);
+  bool apart(int a, int b) const;
+  bool apart_but_at_joint(int a, int b) const;
+  Search between(int a, int b) const;
+  void add_joint(Search& search, int point_a, int point_b) const;
+  void look(Search& search, int begin_a, int end_a, int begin_b, int end_b) const;
+  void look_within(Search& search, int begin, int end) const;
+  void look_at_edges(Search& search, int edge_a, int edge_b) const;
+  void take(const Search& search);
+  void rods(bool by_all_pairs);
+  void joints(bool by_all_pairs);
+  void table();
+
+  const ContactSearch& of_;
+  std::vector<Vector3d> x_;    // of the points
+  std::vector<double> along_;  // the rods
+  std::vector<Box> edge_;      // by its first point, of segments with a tree
+  std::vector<Box> tree_;      // of edges begin to end - 1 at the point in the middle
+  std::vector<char> has_tree_;
+  std::vector<Box> box_;         // of the segments
+  std::vector<Vector3d> chord_;  // unit vectors from their begins to their ends
+  std::vector<Spread> spread_;
+  const Eigen::Matrix3Xd& nodes_;
+  Contacts all_;
+};
+
+ShapeContacts::ShapeContacts(const ContactSearch& search, const Eigen::Matrix3Xd& nodes)
+    : of_(search), nodes_(nodes) {
+  const std::size_t points = search.points_.size(), segments = search.segments_.size();
+  x_.resize(points);
+  along_.resize(points);
+  for (std::size_t k = 0; k < points; ++k) x_[k] = nodes.col(search.points_[k]);
+  box_.resize(segments);
+  chord_.resize(segments);
+  spread_.resize(segments);
+  has_tree_.resize(segments);
+  for (std::size_t k = 0; k < segments; ++k) lay_out(k);
+}
+
+/// Box, lengths and directions of a segment.
+void ShapeContacts::lay_out(std::size_t k) {
+  const std::size_t begin = std::size_t(of_.segments_[k].begin),
+                    end = std::size_t(of_.segments_[k].end);
+  const Vector3d chord = (x_[end] - x_[begin]).stableNormalized();
+  double least = 1;  // cosine
+  box_[k].take(x_[begin]);
+  for (std::size_t p = begin; p < end; ++p) {
+    const Vector3d edge = x_[p + 1] - x_[p];
+    const double length = edge.norm();
+    box_[k].take(x_[p + 1]);
+    along_[p + 1] = along_[p] + length;
+    least = std::min(least, edge.dot(chord) / std::max(length, 1e-300));
+  }
+  chord_[k] = chord;
+  spread_[k] = {least, std::sqrt(std::max(0.0, 1 - least * least))};
+}
+
+void ShapeContacts::grow_tree(int k) {
+  if (std::exchange(has_tree_[std::size_t(k)], 1)) return;
+  edge_.resize(x_.size());
+  tree_.resize(x_.size());
+  const Segment& s = segment(k);
+  for (std::size_t p = std::size_t(s.begin); p < std::size_t(s.end); ++p) {
+    edge_[p].take(x_[p]);
+    edge_[p].take(x_[p + 1]);
+  }
+  grown(s.begin, s.end);
+}
+
+Box ShapeContacts::grown(int begin, int end) {
+  if (end - begin == 1) return edge_[std::size_t(begin)];
+  const int middle = (begin + end) / 2;
+  Box box = grown(begin, middle);
+  box.take(grown(middle, end));
+  return tree_[std::size_t(middle)] = box;
+}
+
+/// Whether two segments are a diameter apart, as far as they are from their chords at most.
+bool ShapeContacts::apart(int a, int b) const {
+  const Segment &one = segment(a), &other = segment(b);
+  const auto x = [&](int point) { return x_[std::size_t(point)]; };
+  const Spread &sa = spread_[std::size_t(a)], &sb = spread_[std::size_t(b)];
+  if (!(std::min(sa.cosine, sb.cosine) > 0)) return false;
+  const double reach =
+      0.5 * (length(one) * sa.sine + length(other) * sb.sine) +
+      2 * (of_.radius_mm_[std::size_t(one.rod)] + of_.radius_mm_[std::size_t(other.rod)]);
+  return nearest_points(x(one.begin), x(one.end), x(other.begin), x(other.end)).distance2 >
+         reach * reach;
+}
+
+/// Whether two segments that meet at one joint go away from it in cones so far apart that they are
+/// a diameter apart beyond its cylinder.
+bool ShapeContacts::apart_but_at_joint(int a, int b) const {
+  const Segment &one = segment(a), &other = segment(b);
+  int shared = 0;
+  double between = 0;  // cosine of the angle between the chords, away from the joint
+  for (const int at : {one.begin, one.end})
+    for (const int beside : {other.begin, other.end}) {
+      if (node(at) != node(beside)) continue;
+      ++shared;
+      const bool same_way = (at == one.begin) == (beside == other.begin);
+      between = (same_way ? 1 : -1) * chord_[std::size_t(a)].dot(chord_[std::size_t(b)]);
+    }
+  if (shared != 1) return false;
+  // sine of the angle between the nearest rays of the two cones
+  const Spread &sa = spread_[std::size_t(a)], &sb = spread_[std::size_t(b)];
+  const double across = std::sqrt(std::max(0.0, 1 - between * between));
+  const double cosine = sa.cosine * sb.cosine - sa.sine * sb.sine,
+               sine = sa.sine * sb.cosine + sa.cosine * sb.sine;
+  const double apart = across * cosine - between * sine;
+  if (!(apart > 0)) return false;
+  const bool wide = between * cosine + across * sine < 0;
+  const double radii =
+      of_.radius_mm_[std::size_t(one.rod)] + of_.radius_mm_[std::size_t(other.rod)];
+  return 0.5 * of_.joint_diameter_mm_ * std::min(sa.cosine, sb.cosine) * (wide ? 1 : apart) >
+         2 * radii;
+}
+
+/// Where the two share a joint, or their rods an end, by the angle between them there.
+void ShapeContacts::add_joint(Search& search, int point_a, int point_b) const {
+  const Segment &a = segment(search.a), &b = segment(search.b);
+  const auto ends = [](const Segment& s, int point) {
+    return point == s.begin ? !s.from_joint : !s.to_joint;
+  };
+  const auto apart = [&] { return (x_[std::size_t(point_a)] - x_[std::size_t(point_b)]).norm(); };
+  const bool one_place =
+      node(point_a) == node(point_b) ||
+      (search.a != search.b && ends(a, point_a) && ends(b, point_b) && apart() < search.radii);
+  if (!one_place || search.joints == 2) return;
+  const auto away = [&](const Segment& s, int point) {
+    const int beside = point == s.begin ? point + 1 : point - 1;
+    return (x_[std::size_t(beside)] - x_[std::size_t(point)]).stableNormalized();
+  };
+  // twice the sine of half the angle
+  const double spread = (away(a, point_a) - away(b, point_b)).norm();
+  const double half = 0.5 * std::min(length(a), length(b));
+  const double straight = std::min(half, 2 * search.radii / std::max(spread, 1e-12));
+  search.joint[search.joints++] = {along_[std::size_t(point_a)], along_[std::size_t(point_b)],
+                                   std::max(0.5 * of_.joint_diameter_mm_, straight)};
+}
+
+ShapeContacts::Search ShapeContacts::between(int a, int b) const {
+  Search search;
+  search.a = a;
+  search.b = b;
+  const Segment &one = segment(a), &other = segment(b);
+  search.radii = of_.radius_mm_[std::size_t(one.rod)] + of_.radius_mm_[std::size_t(other.rod)];
+  search.gap = search.radii;
+  if (a == b) {
+    search.apart = std::numbers::pi * search.radii;
+    add_joint(search, one.begin, one.end);  // of a ring
+    return search;
+  }
+  search.apart = -infinity;
+  for (const int point : {one.begin, one.end})
+    for (const int beside : {other.begin, other.end}) add_joint(search, point, beside);
+  return search;
+}
+
+void ShapeContacts::look_at_edges(Search& search, int edge_a, int edge_b) const {
+  const std::size_t a = std::size_t(edge_a), b = std::size_t(edge_b);
+  const NearestPoints near = nearest_points(x_[a], x_[a + 1], x_[b], x_[b + 1]);
+  const double gap = std::sqrt(near.distance2) - search.radii;
+  if (!(gap < search.gap)) return;
+  const double at_a = along_[a] + near.s * (along_[a + 1] - along_[a]);
+  const double at_b = along_[b] + near.t * (along_[b + 1] - along_[b]);
+  if (!search.told(at_a, at_b)) return;
+  search.any = true;
+  search.gap = gap;
+  search.found = {
+      ContactKind::rods, segment(search.a).rod, segment(search.b).rod, gap,
+      0.5 * (x_[a] + near.s * (x_[a + 1] - x_[a]) + x_[b] + near.t * (x_[b + 1] - x_[b]))};
+}
+
+void ShapeContacts::look(Search& search, int begin_a, int end_a, int begin_b, int end_b) const {
+  if (!box_of(begin_a, end_a).near(box_of(begin_b, end_b), search.radii + search.gap)) return;
+  const auto along = [&](int point) { return along_[std::size_t(point)]; };
+  for (int k = 0; k < search.joints; ++k) {
+    const Joint& joint = search.joint[k];
+    const auto within = [&](int begin, int end, double at) {
+      return std::max(std::abs(along(begin) - at), std::abs(along(end) - at)) <= joint.within;
+    };
+    if (within(begin_a, end_a, joint.at_a) && within(begin_b, end_b, joint.at_b)) return;
+  }
+  const int edges_a = end_a - begin_a, edges_b = end_b - begin_b;
+  if (edges_a == 1 && edges_b == 1) return look_at_edges(search, begin_a, begin_b);
+  const int middle_a = (begin_a + end_a) / 2, middle_b = (begin_b + end_b) / 2;
+  if (edges_b == 1 || edges_a > edges_b) {
+    look(search, begin_a, middle_a, begin_b, end_b);
+    look(search, middle_a, end_a, begin_b, end_b);
+  } else {
+    look(search, begin_a, end_a, begin_b, middle_b);
+    look(search, begin_a, end_a, middle_b, end_b);
+  }
+}
+
+/// Every two edges of one segment.
+void ShapeContacts::look_within(Search& search, int begin, int end) const {
+  if (end - begin == 1) return;
+  const int middle = (begin + end) / 2;
+  look_within(search, begin, middle);
+  look_within(search, middle, end);
+  look(search, begin, middle, middle, end);
+}
+
+void ShapeContacts::take(const Search& search) {
+  if (!search.any) return;
+  if (!(search.gap >= all_.rod_gap_mm)) all_.rod_gap_mm = search.gap;
+  if (search.gap < 0) all_.places.push_back(search.found);
+}
+
+void ShapeContacts::rods(bool by_all_pairs) {
+  const int count = int(of_.segments_.size());
+  const auto every_edge = [&](Search search) {
+    const Segment &a = segment(search.a), &b = segment(search.b);
+    for (int e = a.begin; e < a.end; ++e)
+      for (int f = search.a == search.b ? e + 1 : b.begin; f < b.end; ++f)
+        look_at_edges(search, e, f);
+    take(search);
+  };
+  if (by_all_pairs) {
+    for (int a = 0; a < count; ++a)
+      for (int b = a; b < count; ++b) every_edge(between(a, b));
+    return;
+  }
+  double widest = 0;
+  for (const double radius : of_.radius_mm_) widest = std::max(widest, radius);
+  for (int a = 0; a < count; ++a) {
+    // within 50 degrees of its chord a rod does not come back to itself: what is pi S apart along
+    // it is 2 S apart
+    if (spread_[std::size_t(a)].cosine > 2 / std::numbers::pi) continue;
+    Search search = between(a, a);
+    grow_tree(a);
+    look_within(search, segment(a).begin, segment(a).end);
+    take(search);
+  }
+  each_near_pair(box_, 4 * widest, [&](int a, int b) {
+    if (apart_but_at_joint(a, b) || apart(a, b)) return;
+    grow_tree(a);
+    grow_tree(b);
+    Search search = between(a, b);
+    look(search, segment(a).begin, segment(a).end, segment(b).begin, segment(b).end);
+    take(search);
+  });
+}
+
+void ShapeContacts::joints(bool by_all_pairs) {
+  const double diameter = of_.joint_diameter_mm_;
+  const std::size_t count = of_.axes_.size();
+  std::vector<Vector3d> foot(count), top(count);
+  std::vector<Box> boxes(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& [node, beside] = of_.axes_[k];
+    foot[k] = top[k] = nodes_.col(node);
+    if (beside[0] >= 0)
+      top[k] += of_.joint_height_mm_ * (nodes_.col(beside[1]) - nodes_.col(beside[0]))
+                                           .cross(nodes_.col(beside[3]) - nodes_.col(beside[2]))
+                                           .stableNormalized();
+    boxes[k].take(foot[k]);
+    boxes[k].take(top[k]);
+  }
+  const auto look = [&](int a, int b) {
+    const std::size_t i = std::size_t(a), j = std::size_t(b);
+    const NearestPoints near = nearest_points(foot[i], top[i], foot[j], top[j]);
+    const double gap = std::sqrt(near.distance2) - diameter;
+    if (gap >= diameter) return;
+    if (!(gap >= all_.joint_gap_mm)) all_.joint_gap_mm = gap;
+    if (gap < 0)
+      all_.places.push_back(
+          {ContactKind::joints, a, b, gap,
+           0.5 * (foot[i] + near.s * (top[i] - foot[i]) + foot[j] + near.t * (top[j] - foot[j]))});
+  };
+  if (!by_all_pairs) return each_near_pair(boxes, 2 * diameter, look);
+  for (int a = 0; a < int(count); ++a)
+    for (int b = a + 1; b < int(count); ++b) look(a, b);
+}
+
+void ShapeContacts::table() {
+  if (std::isnan(of_.table_mm_)) return;
+  for (const Segment& s : of_.segments_) {
+    const auto lowest =
+        std::min_element(x_.begin() + s.begin, x_.begin() + s.end + 1,
+                         [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
+    const double gap = lowest->z() - of_.table_mm_ + of_.radius_mm_[std::size_t(s.rod)];
+    if (gap < 0) all_.places.push_back({ContactKind::table, s.rod, -1, gap, *lowest});
+  }
+}
+
+Contacts ShapeContacts::found(bool by_all_pairs) {
+  rods(by_all_pairs);
+  if (of_.joint_diameter_mm_ > 0) joints(by_all_pairs);
+  table();
+  std::ranges::sort(all_.places, [](const Contact& a, const Contact& b) {
+    return std::tuple(a.kind, a.gap_mm, a.first, a.second) <
+           std::tuple(b.kind, b.gap_mm, b.first, b.second);
+  });
+  return std::move(all_);
+}
+
+ContactSearch::ContactSearch(const Layout& layout)
+    : joint_diameter_mm_(layout.joint_diameter_mm),
+      joint_height_mm_(layout.joint_height_mm),
+      table_mm_(layout.table_mm) {
+  int nodes = 0;
+  for (const auto& rod : layout.rods)
+    for (const int node : rod) nodes = std::max(nodes, node + 1);
+  for (const Joint& joint : layout.joints) nodes = std::max(nodes, joint.node + 1);
+  std::vector<int> axis(std::size_t(nodes), -1);
+  for (const Joint& joint : layout.joints) {
+    axis[std::size_t(joint.node)] = int(axes_.size());
+    axes_.push_back({joint.node});
+  }
+  for (std::size_t r = 0; r < layout.rods.size(); ++r) {
+    const auto& rod = layout.rods[r];
+    radius_mm_.push_back(0.5 * diameter_of(layout, r));
+    const int first = int(points_.size()), last = int(rod.size()) - 1;
+    points_.insert(points_.end(), rod.begin(), rod.end());
+    for (int k = 0, begin = 0; k <= last; ++k) {
+      const int joint = axis[std::size_t(rod[std::size_t(k)])];
+      if (k > begin && (joint >= 0 || k == last)) {
+        const bool from_joint = axis[std::size_t(rod[std::size_t(begin)])] >= 0;
+        segments_.push_back({int(r), first + begin, first + k, from_joint, joint >= 0});
+        begin = k;
+      }
+      if (joint < 0) continue;
+      auto& beside = axes_[std::size_t(joint)].beside;
+      const std::size_t free = beside[0] < 0 ? 0 : 2;
+      if (beside[free] >= 0) continue;
+      beside[free] = rod[std::size_t(std::max(k - 1, 0))];
+      beside[free + 1] = rod[std::size_t(std::min(k + 1, last))];
+    }
+  }
+  for (Axis& at : axes_)
+    if (at.beside[2] < 0) at.beside.fill(-1);
+}
+
+Contacts ContactSearch::in(const Eigen::Matrix3Xd& nodes) const {
+  return ShapeContacts(*this, nodes).found(false);
+}
+Contacts ContactSearch::by_all_pairs(const Eigen::Matrix3Xd& nodes) const {
+  return ShapeContacts(*this, nodes).found(true);
+}
+
+const Contact* Contacts::deepest(ContactKind kind) const {
+  const auto found = std::ranges::find(places, kind, &Contact::kind);
+  return found == places.end() ? nullptr : &*found;
+}
+
+}  // namespace gridshell::record

@@ -1,0 +1,246 @@
+#include "engine/record/contacts.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "engine/core/segment_distance.h"
+
+using namespace gridshell;
+using namespace gridshell::record;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Two families of `rods` rods, `edges` edges between joints and a leg of a segment at each end.
+struct Grid {
+  Layout layout;
+  Eigen::Matrix2Xd flat;
+
+  Grid(int rods, int edges) {
+    layout.spacing_mm = 20;
+    layout.rod_diameter_mm = 0.254;
+    layout.joint_diameter_mm = 3;
+    layout.joint_height_mm = 5;
+    std::vector<Eigen::Vector2d> at;
+    for (int i = 0; i < rods; ++i)
+      for (int j = 0; j < rods; ++j) {
+        layout.joints.push_back({i, j, 20.0 * i, 20.0 * j, int(at.size())});
+        at.emplace_back(20 * i, 20 * j);
+      }
+    for (const bool along_u : {true, false})
+      for (int line = 0; line < rods; ++line) {
+        auto& rod = layout.rods.emplace_back();
+        for (int k = -edges; k <= rods * edges; ++k) {
+          const bool joint = k % edges == 0 && k >= 0 && k < rods * edges;
+          const double along = 20.0 * k / edges, across = 20.0 * line;
+          if (joint) {
+            const int place = k / edges;
+            rod.push_back(along_u ? place * rods + line : line * rods + place);
+            continue;
+          }
+          rod.push_back(int(at.size()));
+          at.emplace_back(along_u ? along : across, along_u ? across : along);
+        }
+      }
+    flat.resize(2, long(at.size()));
+    for (std::size_t k = 0; k < at.size(); ++k) flat.col(long(k)) = at[k];
+  }
+
+  /// Straight rods that cross at an angle.
+  Eigen::Matrix3Xd sheared(double angle) const {
+    Eigen::Matrix3Xd x(3, flat.cols());
+    x.row(0) = flat.row(0) + std::cos(angle) * flat.row(1);
+    x.row(1) = std::sin(angle) * flat.row(1);
+    x.row(2).setZero();
+    return x;
+  }
+};
+
+Layout lone_rod(int points) {
+  Layout layout;
+  layout.rod_diameter_mm = 1;
+  layout.rods.resize(1);
+  for (int k = 0; k < points; ++k) layout.rods[0].push_back(k);
+  return layout;
+}
+
+int count_of(const Contacts& found, ContactKind kind) {
+  return int(std::ranges::count(found.places, kind, &Contact::kind));
+}
+
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+}  // namespace
+
+TEST_CASE("nearest points of segments: no others are nearer") {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> draw(-1, 1);
+  const auto point = [&] { return Eigen::Vector3d(draw(random), draw(random), draw(random)); };
+  for (int trial = 0; trial < 300; ++trial) {
+    const Eigen::Vector3d p = point(), q = point(), a = point();
+    // some parallel, some crossing, some points
+    const Eigen::Vector3d b = trial % 5 == 0   ? Eigen::Vector3d(a + 0.7 * (q - p))
+                              : trial % 5 == 1 ? Eigen::Vector3d(p + q - a)
+                              : trial % 5 == 2 ? a
+                                               : point();
+    const NearestPoints near = nearest_points(p, q, a, b);
+    const auto distance2 = [&](double s, double t) {
+      return (p + s * (q - p) - a - t * (b - a)).squaredNorm();
+    };
+    CHECK(near.distance2 == Approx(distance2(near.s, near.t)).margin(1e-15));
+    for (int i = 0; i <= 20; ++i)
+      for (int j = 0; j <= 20; ++j) CHECK(near.distance2 <= distance2(i / 20.0, j / 20.0) + 1e-12);
+  }
+}
+
+TEST_CASE("contacts are those that every pair of edges has, in 200 random states") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> draw(0, 1);
+  const Grid grid(4, 8);
+  Layout layout = grid.layout;
+  layout.table_mm = -2;
+  const ContactSearch search(layout);
+  int rods = 0, joints = 0, table = 0, itself = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Eigen::Matrix3Xd x = grid.sheared((2 + 60 * draw(random) * draw(random)) * degree);
+    // waves, folds and, of every fourth, noise
+    const double size = 6 * draw(random), fold = 0.06 * draw(random);
+    const Eigen::Array3d way(draw(random), draw(random), draw(random));
+    for (long k = 0; k < x.cols(); ++k) {
+      const Eigen::Vector2d uv = grid.flat.col(k);
+      x.col(k).array() += size * (0.2 * uv.x() + 0.31 * uv.y() + 6 * way).sin();
+      const double height = x(0, k);
+      if (trial % 2)
+        x(0, k) = std::sin(fold * height) / fold, x(2, k) += 10 * std::cos(fold * height);
+      if (trial % 4 == 3)
+        for (int c = 0; c < 3; ++c) x(c, k) += 1.5 * draw(random);
+    }
+    const Contacts found = search.in(x), all = search.by_all_pairs(x);
+    INFO("state " << trial);
+    REQUIRE(found.places.size() == all.places.size());
+    CHECK(same(found.rod_gap_mm, all.rod_gap_mm));
+    CHECK(same(found.joint_gap_mm, all.joint_gap_mm));
+    for (std::size_t k = 0; k < all.places.size(); ++k) {
+      CHECK(found.places[k].first == all.places[k].first);
+      CHECK(found.places[k].second == all.places[k].second);
+      CHECK(found.places[k].gap_mm == all.places[k].gap_mm);
+      CHECK(all.places[k].gap_mm < 0);
+      itself += all.places[k].first == all.places[k].second;
+    }
+    rods += count_of(all, ContactKind::rods);
+    joints += count_of(all, ContactKind::joints);
+    table += count_of(all, ContactKind::table);
+  }
+  CHECK(rods > 500);
+  CHECK(joints > 100);
+  CHECK(table > 100);
+  CHECK(itself > 20);
+}
+
+TEST_CASE("straight rods that cross are not told at any angle, joints of a closed cell are") {
+  for (const int edges : {2, 8, 32}) {
+    const Grid grid(3, edges);
+    const ContactSearch search(grid.layout);
+    for (double angle = 6; angle <= 174; angle += 4) {
+      INFO(edges << " edges, " << angle << " degrees");
+      const Contacts found = search.in(grid.sheared(angle * degree));
+      CHECK(count_of(found, ContactKind::rods) == 0);
+      // the short diagonal of a cell
+      const double diagonal =
+          40 * std::min(std::sin(angle * degree / 2), std::cos(angle * degree / 2));
+      CHECK(count_of(found, ContactKind::joints) == (diagonal < 3 ? 4 : 0));
+      if (diagonal < 6)
+        CHECK(found.joint_gap_mm == Approx(diagonal - 3));
+      else
+        CHECK(std::isnan(found.joint_gap_mm));
+    }
+  }
+}
+
+TEST_CASE("rods of a cell that bend onto each other touch, on any mesh in the same places") {
+  for (const int edges : {8, 16, 32}) {
+    const Grid grid(2, edges);
+    Eigen::Matrix3Xd x = grid.sheared(10 * degree);
+    // the middle of a u rod's segment comes to the v rod beside it, 10 mm from the joint (0, 0)
+    const auto& u = grid.layout.rods[0];
+    for (const int node : u)
+      if (grid.flat(0, node) > 0 && grid.flat(0, node) < 20)
+        x(1, node) += 1.75 * std::pow(std::sin(grid.flat(0, node) * std::numbers::pi / 20), 6);
+    const Contacts found = ContactSearch(grid.layout).in(x);
+    INFO(edges << " edges");
+    REQUIRE(count_of(found, ContactKind::rods) == 1);
+    CHECK(found.places[0].first == 0);
+    CHECK(found.places[0].second == 2);
+    CHECK(found.rod_gap_mm < -0.1);
+    CHECK(found.places[0].at.head<2>().norm() == Approx(10).margin(1.5));
+  }
+}
+
+TEST_CASE("rods that are held at one place of the boundary are near there, and cross beyond it") {
+  Layout layout = lone_rod(6);
+  layout.rods.push_back({6, 7, 8, 9, 10, 11});
+  layout.joint_diameter_mm = 3;
+  const auto found = [&](const Eigen::Vector3d& begin, const Eigen::Vector3d& way) {
+    Eigen::Matrix3Xd x(3, 12);
+    for (int k = 0; k < 6; ++k) {
+      x.col(k) << 5 * k, 0, 0;
+      x.col(6 + k) = begin + 5 * k * way.normalized();
+    }
+    return ContactSearch(layout).in(x).places;
+  };
+  for (const double degrees : {8, 30, 90, 170})
+    CHECK(found({0, 0, 0.1}, {std::cos(degrees * degree), std::sin(degrees * degree), 0}).empty());
+  CHECK(found({0, 0, 0.1}, {1, 0.05, 0}).size() == 1);
+  CHECK(found({-3, -3, 0}, {1, 1, 0}).size() == 1);
+}
+
+TEST_CASE("a rod touches itself where a loop closes, not where it only bends") {
+  constexpr int points = 200;
+  Eigen::Matrix3Xd x(3, points);
+  // of a diameter of 1 mm: turns of a helix, a pitch apart
+  const auto helix = [&](double radius, double pitch) {
+    for (int k = 0; k < points; ++k) {
+      const double turn = 4 * std::numbers::pi * k / points;
+      x.col(k) << radius * std::cos(turn), radius * std::sin(turn),
+          pitch * turn / (2 * std::numbers::pi);
+    }
+  };
+  const ContactSearch search(lone_rod(points));
+  helix(5, 0.9);
+  const Contacts touching = search.in(x);
+  REQUIRE(touching.places.size() == 1);
+  CHECK(touching.places[0].first == touching.places[0].second);
+  CHECK(touching.rod_gap_mm == Approx(-0.1).margin(0.01));
+  helix(5, 1.2);
+  CHECK(search.in(x).places.empty());
+  CHECK(search.in(x).rod_gap_mm == Approx(0.2).margin(0.01));
+  helix(0.7, 8);  // as tight as it may be
+  CHECK(search.in(x).places.empty());
+  // a ring closes at its joint
+  Layout ring = lone_rod(points);
+  ring.rods[0].push_back(0);
+  ring.joints = {{0, 0, 0, 0, 0}};
+  for (int k = 0; k < points; ++k)
+    x.col(k) << 5 * std::cos(2 * std::numbers::pi * k / points),
+        5 * std::sin(2 * std::numbers::pi * k / points), 0;
+  CHECK(ContactSearch(ring).in(x).places.empty());
+}
+
+TEST_CASE("a table is touched more than a radius below its plane, where there is one") {
+  Grid grid(2, 4);
+  Eigen::Matrix3Xd x = grid.sheared(90 * degree);
+  x.row(2).setConstant(-0.12);
+  grid.layout.table_mm = 0;
+  CHECK(ContactSearch(grid.layout).in(x).places.empty());
+  x(2, grid.layout.rods[1][2]) = -1;
+  const Contacts found = ContactSearch(grid.layout).in(x);
+  REQUIRE(found.places.size() == 1);
+  CHECK(found.places[0].kind == ContactKind::table);
+  CHECK(found.places[0].first == 1);
+  CHECK(found.places[0].gap_mm == Approx(0.127 - 1));
+  grid.layout.table_mm = unknown;
+  CHECK(ContactSearch(grid.layout).in(x).places.empty());
+}
