@@ -163,8 +163,9 @@ std::string near_image(const EquilibriumPath& path) {
   const double off = distance_of_image(simulation, least);
   if (!(off < not_told_apart * scene.footprint.spacing)) return "";
   return fmt::format(
-      "the state lies {:.2g} mm from its own image under a symmetry of the shell, as "
-      "good a state: others lie as near, and which of them is found is chance",
+      "the state lies {:.2g} mm from its own image under a symmetry of the shell, "
+      "further than its error: it is one of several that nearly coincide, found by "
+      "chance, or finer meshes (a smaller [accuracy] tolerance) have it symmetric",
       off);
 }
 
