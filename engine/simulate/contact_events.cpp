@@ -117,6 +117,7 @@ void locate_contacts(EquilibriumPath& path, const At& at, const Watch& watch) {
   bool moved = false;
   for (std::size_t s = 0; s < path.segments.size(); ++s) {
     const PathSegment& segment = path.segments[s];
+    const std::size_t first = path.contacts.size();
     std::vector<Point> points;
     for (const LoadStep& step : segment.load_steps) points.push_back({step.point.t, step.contacts});
     // a segment back is shown against its way
@@ -126,14 +127,15 @@ void locate_contacts(EquilibriumPath& path, const At& at, const Watch& watch) {
       for (const ContactKind kind : kinds) {
         Bracket bracket(kind, points[k - 1], points[k]);
         if (!bracket.changes() || watch.cancelled()) continue;
-        const double middle = 0.5 * (points[k - 1].t + points[k].t);
-        if (path.single_motion && !within_snap(segment, middle) &&
-            path.contacts.size() < most_located) {
+        if (path.single_motion && path.contacts.size() < most_located) {
           bracket.halve(path, s, watch);
           moved = true;
         }
         path.contacts.push_back(bracket.event(s, footprint, at));
       }
+    const double way = segment.back ? -segment.sign() : segment.sign();
+    std::ranges::stable_sort(path.contacts.begin() + long(first), path.contacts.end(), {},
+                             [way](const ContactEvent& event) { return way * event.t; });
   }
   if (moved) path.simulation.restore(stood);
 }
