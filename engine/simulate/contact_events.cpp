@@ -78,6 +78,38 @@ void tell_first(EquilibriumPath& path, const Contacts& contacts, double t, const
 
 }  // namespace
 
+std::string name_of(const FootprintRod& rod) {
+  const bool of_grid = rod.family != Family::other;
+  return of_grid ? fmt::format("{}{:+}", name_of(rod.family), rod.index)
+                 : fmt::format("{}{}", name_of(rod.family), rod.index);
+}
+
+std::string text_of(const record::Contact& contact, const Footprint& footprint) {
+  const auto rod = [&](int k) {
+    const std::string name = name_of(footprint.rods[std::size_t(k)]);
+    return name.starts_with("rod ") ? name.substr(4) : name;
+  };
+  const auto joint = [&](int k) {
+    const FootprintJoint& of = footprint.joints[std::size_t(k)];
+    return fmt::format("({}, {})", of.i, of.j);
+  };
+  const auto parts = [&] {
+    switch (contact.kind) {
+      case record::ContactKind::rods:
+        if (contact.first == contact.second)
+          return fmt::format("rod {} and itself", rod(contact.first));
+        return fmt::format("rods {} and {}", rod(contact.first), rod(contact.second));
+      case record::ContactKind::joints:
+        return fmt::format("joints {} and {}", joint(contact.first), joint(contact.second));
+      case record::ContactKind::table:
+        return fmt::format("rod {} and the table", rod(contact.first));
+    }
+    return std::string();
+  };
+  const Eigen::Vector3d& at = contact.at;
+  return fmt::format("{} at ({:.1f}, {:.1f}, {:.1f}) mm", parts(), at.x(), at.y(), at.z());
+}
+
 void locate_contacts(EquilibriumPath& path, const At& at, const Watch& watch) {
   const Checkpoint stood = path.simulation.save();
   const Footprint& footprint = path.simulation.scene().footprint;
@@ -85,6 +117,7 @@ void locate_contacts(EquilibriumPath& path, const At& at, const Watch& watch) {
   bool moved = false;
   for (std::size_t s = 0; s < path.segments.size(); ++s) {
     const PathSegment& segment = path.segments[s];
+    const std::size_t first = path.contacts.size();
     std::vector<Point> points;
     for (const LoadStep& step : segment.load_steps) points.push_back({step.point.t, step.contacts});
     // a segment back is shown against its way
@@ -94,14 +127,15 @@ void locate_contacts(EquilibriumPath& path, const At& at, const Watch& watch) {
       for (const ContactKind kind : kinds) {
         Bracket bracket(kind, points[k - 1], points[k]);
         if (!bracket.changes() || watch.cancelled()) continue;
-        const double middle = 0.5 * (points[k - 1].t + points[k].t);
-        if (path.single_motion && !within_snap(segment, middle) &&
-            path.contacts.size() < most_located) {
+        if (path.single_motion && path.contacts.size() < most_located) {
           bracket.halve(path, s, watch);
           moved = true;
         }
         path.contacts.push_back(bracket.event(s, footprint, at));
       }
+    const double way = segment.back ? -segment.sign() : segment.sign();
+    std::ranges::stable_sort(path.contacts.begin() + long(first), path.contacts.end(), {},
+                             [way](const ContactEvent& event) { return way * event.t; });
   }
   if (moved) path.simulation.restore(stood);
 }

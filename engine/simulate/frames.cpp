@@ -1,7 +1,5 @@
 #include "engine/simulate/frames.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
 
@@ -307,38 +305,6 @@ record::Layout parts_of(const Scene& scene, const RodMesh& mesh) {
   layout.joint_height_mm = scene.joint_height_mm;
   if (scene.table) layout.table_mm = scene.flat.origin.z();
   return layout;
-}
-
-std::string name_of(const FootprintRod& rod) {
-  const bool of_grid = rod.family != Family::other;
-  return of_grid ? fmt::format("{}{:+}", name_of(rod.family), rod.index)
-                 : fmt::format("{}{}", name_of(rod.family), rod.index);
-}
-
-std::string text_of(const record::Contact& contact, const Footprint& footprint) {
-  const auto rod = [&](int k) {
-    const std::string name = name_of(footprint.rods[std::size_t(k)]);
-    return name.starts_with("rod ") ? name.substr(4) : name;
-  };
-  const auto joint = [&](int k) {
-    const FootprintJoint& of = footprint.joints[std::size_t(k)];
-    return fmt::format("({}, {})", of.i, of.j);
-  };
-  const auto parts = [&] {
-    switch (contact.kind) {
-      case record::ContactKind::rods:
-        if (contact.first == contact.second)
-          return fmt::format("rod {} and itself", rod(contact.first));
-        return fmt::format("rods {} and {}", rod(contact.first), rod(contact.second));
-      case record::ContactKind::joints:
-        return fmt::format("joints {} and {}", joint(contact.first), joint(contact.second));
-      case record::ContactKind::table:
-        return fmt::format("rod {} and the table", rod(contact.first));
-    }
-    return std::string();
-  };
-  const Eigen::Vector3d& at = contact.at;
-  return fmt::format("{} at ({:.1f}, {:.1f}, {:.1f}) mm", parts(), at.x(), at.y(), at.z());
 }
 
 Result<record::Layout> layout_of(const Scene& scene, const RodMesh& mesh) {

@@ -135,6 +135,7 @@ TEST_CASE("what touches wears a mark, and words beside the bar and as the event"
     record::Frame& frame = run.frames.edit()[std::size_t(k)];
     frame.nodes.col(run.layout.joints[0].node) = frame.nodes.col(run.layout.joints[1].node);
     frame.contacts = 1;
+    frame.event.clear();
   }
   const Stage stage(run, titled(1280, 720));
   for (int k = 0; k < 4; ++k) {
