@@ -61,7 +61,7 @@ class Linearisation {
 
   /// From here on a direction without stiffness, as of a rod that turns about the line between its
   /// two hinges, does not count as unstable: every matrix has so much more on its diagonal as
-  /// round-off may take from it.
+  /// states that are corrected once may take from it, of the softest rod's stiffness 5e-5.
   void bear_neutral_directions();
 
   /// From the next at() on these are held: corrections leave them as they are, the inertia is that

@@ -293,3 +293,18 @@ TEST_CASE("a cable net hangs as its lengths allow") {
       zero_of([&](double of) { return 4 * EA * (1 / std::cos(of) - 1) * std::sin(of) - P; }, 0, 1);
   CHECK(-last_frame(outcome).nodes(2, 0) == Approx(100 * std::tan(angle)).epsilon(1e-3));
 }
+
+TEST_CASE("a grillage of clamped rods, with their torsion in it, is four times as stiff") {
+  preset::NetworkData file;
+  file.points = {{-100, 0, 0}, {100, 0, 0}, {0, -100, 0}, {0, 100, 0}, {0, 0, 0}};
+  file.rods = {{0, 4, 1}, {2, 4, 3}};
+  preset::Preset p = network(file);
+  p.ends.kind = preset::EndKind::clamped;
+  p.rod.shear_GPa = 31;
+  p.loads.points = {{0, 0, 0, 0, -1e-5}};
+  p.accuracy.edges_per_segment = 32;
+  const auto outcome = run(p);
+  CHECK(outcome.summary.stable);
+  CHECK(-last_frame(outcome).nodes(2, 0) ==
+        Approx(1e-5 * L * L * L / (2 * 192 * EI)).epsilon(1e-3));
+}
