@@ -72,11 +72,9 @@ std::string help_for(const preset::Preset& preset, record::Limit limit) {
                    "before that";
     case record::Limit::strength:
       return preset.indentation.wanted()
-                 ? "less depth, thinner rods, or more [limits] max_bending_strain, would end "
-                   "before "
-                   "that"
-                 : "a larger actuated boundary, thinner rods, or more [limits] max_bending_strain, "
-                   "would end before that";
+                 ? "less depth, or more [limits] max_bending_strain, would end before that"
+                 : "a larger actuated boundary, or more [limits] max_bending_strain, would end "
+                   "before that";
     case record::Limit::contact:
       return "[limits] contact = \"tell\" goes on and tells what touches";
     case record::Limit::branch_lost:

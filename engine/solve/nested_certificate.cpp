@@ -263,7 +263,8 @@ CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bo
   return found;
 }
 
-/// What each level says of its held joints. The stiffness is that of its last factorisation.
+/// What each level says of its held joints. The stiffness is that of its last factorisation, which
+/// on finer meshes stands a correction away.
 void NestedShell::take_reactions() {
   Linearisation& finest = *levels_.back()->system;
   const std::vector<Constraint>& holds = finest.holds();
@@ -273,7 +274,11 @@ void NestedShell::take_reactions() {
     if (&system != &finest) {
       system.outside.load = finest.outside.load;
       system.outside.field_factor = finest.outside.field_factor;
-      system.gradient_at(state_.levels[k]);
+      // the path's own factorisation may stand a load step away
+      if (k == 0)
+        system.at(state_.levels[k], false);
+      else
+        system.gradient_at(state_.levels[k]);
     }
     Eigen::Matrix3Xd& on = forces.emplace_back(3, Eigen::Index(holds.size()));
     for (std::size_t h = 0; h < holds.size(); ++h)
