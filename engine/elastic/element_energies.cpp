@@ -218,7 +218,8 @@ double add_material_bend(const MaterialBend& bend, const HalfwayFrame& mu, const
 }
 
 Eigen::Vector2d SectionBending::excess(const PairGeometry& at) const {
-  return frame_of(at).transpose() * curvature_binormal(at.e.tangent, at.f.tangent).kb - bend.rest;
+  const CurvatureBinormal b = curvature_binormal(at.e.tangent, at.f.tangent);
+  return frame_of(at, bend.share).transpose() * (scale_of(bend, b) * b.kb) - bend.rest;
 }
 
 double SectionBending::value(const PairGeometry& at) const {

@@ -88,7 +88,8 @@ class Bending {
   Bending(const Model& model, const State& state, const Assembly& at)
       : model_(model), at_(at), energy_(bending_of(model, state)) {
     // all others strain as they are curved
-    if (!std::get<std::vector<Pair<SectionBending>>>(model.pairs).empty())
+    if (!std::get<std::vector<Pair<SectionBending>>>(model.pairs).empty() ||
+        !std::get<std::vector<Pair<EndBending>>>(model.pairs).empty())
       strain_of_bend_ = bending_strain_of(model, state);
   }
 
