@@ -63,21 +63,24 @@ Argument Argument::one_each_time() {
   return option_->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-Argument CommandArguments::option(const std::string& names, std::string& value, const std::string& meaning) {
+Argument CommandArguments::option(const std::string& names, std::string& value,
+                                  const std::string& meaning) {
   return command_->add_option(names, value, meaning);
 }
 Argument CommandArguments::option(const std::string& names, std::filesystem::path& value,
-                         const std::string& meaning) {
+                                  const std::string& meaning) {
   return command_->add_option(names, value, meaning);
 }
 Argument CommandArguments::option(const std::string& names, std::vector<std::string>& value,
-                         const std::string& meaning) {
+                                  const std::string& meaning) {
   return command_->add_option(names, value, meaning);
 }
-Argument CommandArguments::option(const std::string& names, int& value, const std::string& meaning) {
+Argument CommandArguments::option(const std::string& names, int& value,
+                                  const std::string& meaning) {
   return command_->add_option(names, value, meaning);
 }
-Argument CommandArguments::option(const std::string& names, double& value, const std::string& meaning) {
+Argument CommandArguments::option(const std::string& names, double& value,
+                                  const std::string& meaning) {
   return command_->add_option(names, value, meaning);
 }
 Argument CommandArguments::flag(const std::string& names, bool& value, const std::string& meaning) {

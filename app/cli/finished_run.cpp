@@ -286,8 +286,9 @@ Result<int> render(const Options& options, bool unsealed) {
 void add_render(CommandLine& program) {
   const auto options = std::make_shared<Options>();
   const auto unsealed = std::make_shared<bool>(false);
-  CommandArguments command = program.add("render", "pictures of a finished run, without simulating again",
-                                [options, unsealed] { return render(*options, *unsealed); });
+  CommandArguments command =
+      program.add("render", "pictures of a finished run, without simulating again",
+                  [options, unsealed] { return render(*options, *unsealed); });
   command.option("RUN", options->input, "the folder of a finished run").required();
   add_changes(command, *options);
   add_work_options(command, *options, "folder to write, by default RUN itself");

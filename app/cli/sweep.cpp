@@ -280,7 +280,7 @@ Result<int> sweep(const SweepOptions& options) {
 void add_sweep(CommandLine& program) {
   const auto options = std::make_shared<SweepOptions>();
   CommandArguments command = program.add("sweep", "many runs of one preset, resumable, parallel",
-                                [options] { return sweep(*options); });
+                                         [options] { return sweep(*options); });
   add_preset_options(command, options->common);
   add_work_options(command, options->common);
   command

@@ -224,8 +224,9 @@ Result<int> view(ViewOptions options) {
 
 void add_view(CommandLine& program) {
   const auto options = std::make_shared<ViewOptions>();
-  CommandArguments command = program.add("view", "the desktop window, or its input played without one",
-                                [options] { return view(*options); });
+  CommandArguments command =
+      program.add("view", "the desktop window, or its input played without one",
+                  [options] { return view(*options); });
   command.option("preset", options->input, "a preset's file or name, or a run's folder");
   command.option("-o,--output", options->output,
                  "folder that pictures and presets are saved to, by default out");

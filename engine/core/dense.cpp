@@ -9,14 +9,20 @@
 
 namespace gridshell {
 
-EigenPairs eigen_pairs(const Eigen::MatrixXd& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(symmetric);
+namespace {
+
+EigenPairs pairs_of(const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>& own) {
   return {own.eigenvalues(), own.eigenvectors()};
 }
 
+}  // namespace
+
+EigenPairs eigen_pairs(const Eigen::MatrixXd& symmetric) {
+  return pairs_of(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric));
+}
+
 EigenPairs eigen_pairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> own(A, B);
-  return {own.eigenvalues(), own.eigenvectors()};
+  return pairs_of(Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(A, B));
 }
 
 Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric) {

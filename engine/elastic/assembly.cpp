@@ -344,14 +344,16 @@ Eigen::VectorXd bending_strain_of(const Model& model, const State& state) {
             rods[next]->fibres.strain(turn / length_between(model, bend.e, bend.f));
         ++next;
       });
-  for (const Pair<SectionBending>& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs))
-    strain[pair.bend] = rods[std::size_t(pair.bend)]->fibres.strain(
-        pair.law.excess(pair_geometry(model, state, pair)) / length_between(model, pair.e, pair.f));
+  const auto put = [&]<class Law>(const Pair<Law>& pair, const auto& bent) {
+    strain[pair.bend] =
+        rods[std::size_t(pair.bend)]->fibres.strain(bent / length_between(model, pair.e, pair.f));
+  };
+  for (const auto& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs))
+    put(pair, pair.law.excess(pair_geometry(model, state, pair)));
   // 2 EI/l tan^2 of half the turn, as it counts at an end
-  for (const Pair<EndBending>& pair : std::get<std::vector<Pair<EndBending>>>(model.pairs))
-    strain[pair.bend] = rods[std::size_t(pair.bend)]->fibres.strain(
-        2 * std::sqrt(pair.law.value(pair_geometry(model, state, pair)) / pair.law.stiffness) /
-        length_between(model, pair.e, pair.f));
+  for (const auto& pair : std::get<std::vector<Pair<EndBending>>>(model.pairs))
+    put(pair,
+        2 * std::sqrt(pair.law.value(pair_geometry(model, state, pair)) / pair.law.stiffness));
   return strain;
 }
 

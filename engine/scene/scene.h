@@ -52,7 +52,7 @@ struct Scene {
   double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
   double memory_GB = 0;       ///< that the meshes may take; 0: half of the machine's
   double max_strain = 1e-3;
-  double max_bending_strain = 0;  ///< 0: any
+  double max_bending_strain = 0;                      ///< 0: any
   double joint_diameter_mm = 0, joint_height_mm = 0;  ///< of the joints' cylinders
   bool stops_at_contact = false;
   bool table = false;  ///< whether no rod passes the plane of the flat

@@ -156,7 +156,9 @@ bool on_branch_from(NestedShell& shell, const Scene& scene, const PathPoint& las
   // a second mode may cut the way short, next to the path
   back.advance(near, watch);
   const auto off = [&](const State& state, double t) {
-    const Eigen::Matrix3Xd path = last.state.x + (t - last.t) * last.velocity.x;
+    Eigen::Matrix3Xd path = last.state.x;
+    // of a path that has only begun it is not known
+    if (last.velocity.x.size() > 0) path += (t - last.t) * last.velocity.x;
     return max_column_norm((state.x - path).leftCols(shell.model(0).nodes));
   };
   return off(back.point().state, back.point().t) < 2 * std::sqrt(share) * off(rest, there);

@@ -1,5 +1,7 @@
 #include "engine/simulate/frames.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 

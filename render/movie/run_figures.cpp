@@ -1,4 +1,5 @@
 #include "render/movie/run_figures.h"
+#include "render/movie/frame_overlay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,9 @@ std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
   std::vector<ColourKey> keys{{shell_ink, "shell at rest"}};
   const record::Layout& layout = runs.front().run->layout;
   if (layout.parts.empty() && layout.net_nodes.cols() > 0) keys.push_back({net_ink, "its net"});
+  if (std::ranges::any_of(runs,
+                          [](const NetRun& one) { return one.run->frames.back().contacts > 0; }))
+    keys.push_back({contact_ink, "contact"});
   for (ColourKey key : block_keys(layout)) {
     key.name.insert(0, "net of ");
     keys.push_back(std::move(key));
@@ -204,6 +208,18 @@ void part_at_snaps(Series& pushed, const record::Trajectory& run) {
     }
 }
 
+/// Whether an error would be seen beside the line of the forces.
+bool errors_seen(const std::vector<NamedRun>& runs) {
+  constexpr double line = 0.01;  // a line's width, of the axis
+  double force = 0, error = 0;
+  for (const NamedRun& one : runs)
+    for (const record::Frame& frame : one.run->frames) {
+      force = std::max(force, std::abs(frame.force_N));
+      error = std::max(error, frame.push_error_N);
+    }
+  return error > line * force;
+}
+
 /// The force with its error on either side, a band from snap to snap; none where no error is known.
 std::vector<Band> error_bands(const record::Trajectory& run, Colour colour) {
   std::vector<Band> bands;
@@ -254,12 +270,13 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
   plot.x = {.label = "depth *δ* (mm)", .low = 0};
   plot.y = {.label = "force (N)"};
   bool snap_in_legend = false;
+  const bool banded = errors_seen(runs);
   for (std::size_t k = 0; k < runs.size(); ++k) {
     Series series = line_series(runs.size() > 1 ? runs[k].name : "", series_colour(k));
     series.marker = series_marker(k);
     for (const record::Frame& frame : runs[k].run->frames)
       series.add(frame.depth_mm, frame.force_N);
-    for (Band& band : error_bands(*runs[k].run, series_colour(k))) {
+    for (Band& band : banded ? error_bands(*runs[k].run, series_colour(k)) : std::vector<Band>()) {
       if (plot.bands.empty()) band.name = "error of the force";
       plot.bands.push_back(std::move(band));
     }
