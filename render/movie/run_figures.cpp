@@ -1,5 +1,4 @@
 #include "render/movie/run_figures.h"
-#include "render/movie/frame_overlay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +18,18 @@ namespace {
 
 constexpr Colour shell_ink = ink, net_ink{0.16f, 0.42f, 0.78f, 1}, scan_ink{0.80f, 0.16f, 0.12f, 1};
 
+/// Without the marks of contacts, which these figures do not name.
+record::Frame unmarked(record::Frame frame) {
+  frame.contacts = -1;
+  return frame;
+}
+
 /// The last frame alone, its boundary where it is held.
 record::Trajectory final_state(const record::Trajectory& run) {
   record::Trajectory last;
   last.layout = run.layout;
   last.layout.original_boundary = run.layout.actuated_boundary;
-  last.frames = {run.frames.back()};
+  last.frames = {unmarked(run.frames.back())};
   return last;
 }
 
@@ -65,9 +70,6 @@ std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
   std::vector<ColourKey> keys{{shell_ink, "shell at rest"}};
   const record::Layout& layout = runs.front().run->layout;
   if (layout.parts.empty() && layout.net_nodes.cols() > 0) keys.push_back({net_ink, "its net"});
-  if (std::ranges::any_of(runs,
-                          [](const NetRun& one) { return one.run->frames.back().contacts > 0; }))
-    keys.push_back({contact_ink, "contact"});
   for (ColourKey key : block_keys(layout)) {
     key.name.insert(0, "net of ");
     keys.push_back(std::move(key));
@@ -255,7 +257,8 @@ Result<PanelFigure> draw_pushes(const std::vector<NetRun>& runs, const MovieStyl
   for (std::size_t k = 0; k < runs.size(); ++k) {
     TRY_DO(check_showable(*runs[k].run, style));
     const Stage stage(runs[k].run->layout, std::move(surveys[k]), style, bar);
-    Drawing drawing = stage.drawing(runs[k].run->frames.back());
+    const record::Frame last = unmarked(runs[k].run->frames.back());
+    Drawing drawing = stage.drawing(last);
     // the colours are the rods': nothing hides them
     drawing.rod_diameter_mm *= 1.5;
     TRY_DO(add_panel(figure, stage, std::move(drawing), {several, several ? runs[k].caption : ""},
