@@ -161,8 +161,9 @@ std::string state_text(const record::Summary& at) {
 /// In as many digits as hold.
 void print_forces(const record::Summary& at) {
   if (std::isfinite(at.force_N))
-    fmt::print("\n  force of the push {}, growing by {}",
-               record::with_error(at.force_N, at.push_error_N, "N"),
+    fmt::print("\n  force of the push {}", record::with_error(at.force_N, at.push_error_N, "N"));
+  if (std::isfinite(at.force_N) && std::isfinite(at.stiffness_N_per_mm))
+    fmt::print(", growing by {}",
                record::with_error(at.stiffness_N_per_mm, at.stiffness_error_N_per_mm, "N/mm"));
   if (at.largest_force_N > 0)
     fmt::print("\n  largest force on a support {}{}",

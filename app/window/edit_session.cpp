@@ -66,7 +66,9 @@ std::string text_of_events(const std::vector<Event>& events) {
     if (!message.empty()) message += "; ";
     switch (event.kind) {
       case Event::Kind::stability_lost:
-        message += event.to ? "stability lost: snapped to another state" : "stability lost";
+        message += !event.to    ? "stability lost"
+                   : event.leap ? "stability lost: snapped to another state"
+                                : "the path branches";
         break;
       case Event::Kind::turned_back:
         message += event.to ? "the path turned back: snapped to another state" : "path turned back";

@@ -211,11 +211,12 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
       continue;
     }
     const auto segment = leg_at(*path, sample.t);
-    if (!segment && path->limit == record::Limit::contact && !path->segments.back().back) {
+    const PathSegment& last = path->segments.back();
+    if (!segment && last.report.end == Outcome::contact && !last.back && sample.t > end.state.t) {
       path->simulation.restore(end);
       sample.segment = path->segments.size() - 1;
       sample.progress = progress_at(sample.t = end.state.t);
-      TRY_DO(sampler.take_current(sample, "last state without contact", sample.t));
+      TRY_DO(sampler.take_current(sample, contact_limit(path->simulation), sample.t));
       break;
     }
     if (!segment) continue;  // the path's limit says why

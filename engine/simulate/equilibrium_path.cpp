@@ -214,6 +214,11 @@ std::string how_it_ended(const PathSegment& segment, const Scene& scene, const A
 
 }  // namespace
 
+std::string contact_limit(const Simulation& simulation) {
+  return simulation.contacts().places.empty() ? "last state without contact"
+                                              : "in contact from the begin";
+}
+
 std::string branch_loss_places(std::span<const PathSegment> segments, const At& at, bool leap) {
   std::string places;
   for (const PathSegment& segment : segments)

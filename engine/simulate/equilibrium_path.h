@@ -127,6 +127,9 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample, 
 /// error where it is known.
 using At = std::function<std::string(double t, std::optional<double> error)>;
 
+/// What is said of the state in which a path ends that [limits] contact stops.
+std::string contact_limit(const Simulation& simulation);
+
 /// Where segments left a branch for a rest further on, by a leap or along another branch that
 /// leaves there: "at progress 0.0183 and at ..."; empty: nowhere.
 std::string branch_loss_places(std::span<const PathSegment> segments, const At& at,

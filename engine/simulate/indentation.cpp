@@ -268,7 +268,7 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
     kept->simulation.restore(end);
     sample.t = end.state.t;
     TRY_DO(sampler.take_current(
-        sample, touches ? "last state without contact" : std::string(word_of(limit)), sample.t));
+        sample, touches ? contact_limit(kept->simulation) : std::string(word_of(limit)), sample.t));
     break;
   }
   return EquilibriumPath(std::move(*kept));

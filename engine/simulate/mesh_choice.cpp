@@ -307,7 +307,7 @@ void locate_on_meshes(EquilibriumPath& path, const Follow& follow, const Watch& 
   const Checkpoint end = path.simulation.save();
   for (PathSegment& segment : path.segments)
     for (Event& event : segment.report.events) {
-      if (event.error || event.kind == Event::Kind::locked) continue;
+      if (event.error || event.is_limit()) continue;
       const auto fine = end_of_branch_on(last, path, segment, event.t, watch);
       const auto coarse = end_of_branch_on(last - 1, path, segment, event.t, watch);
       if (!fine || !coarse) continue;

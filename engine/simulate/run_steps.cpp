@@ -38,7 +38,7 @@ bool has_way(const std::vector<preset::Step>& steps, std::size_t k) {
 
 bool snapped(const PathSegment& segment) {
   return std::ranges::any_of(segment.report.events,
-                             [](const Event& one) { return one.to.has_value(); });
+                             [](const Event& one) { return one.to && one.leap; });
 }
 
 /// A step without a way is a segment from its begin to its end, which is all that is known of it.
@@ -171,7 +171,7 @@ class Show {
     const PathSegment& segment = work_.segments[step_];
     if (segment.report.end == Outcome::locked) return "locking";
     if (segment.report.end == Outcome::overbent) return "strength";
-    if (segment.report.end == Outcome::contact) return "last state without contact";
+    if (segment.report.end == Outcome::contact) return contact_limit(work_.simulation);
     if (has_way(steps_, step_)) return sampler_->events(sample, sample.t);
     return text_of(steps_[step_]) + (snapped(segment) ? ": snap to another state" : "");
   }
@@ -205,7 +205,9 @@ std::string message_of(std::size_t k, const preset::Step& step, const PathSegmen
   const Report& report = segment.report;
   std::string text = fmt::format("{} {}: {}", k + 1, text_of(step), words_of(report.end).name);
   for (const Event& event : report.events)
-    if (event.to) text += fmt::format(", snap to another state at {:.3f} of its way", event.t);
+    if (event.to)
+      text += fmt::format(", {} at {:.3f} of its way",
+                          event.leap ? "snap to another state" : "branches", event.t);
   const Certificate& certificate = report.certificate;
   text += fmt::format(", residual {:.2g} N, ", certificate.residual_N);
   text += certificate.stable()
@@ -221,13 +223,16 @@ void name_step_of_limit(Work& work, const std::vector<preset::Step>& steps) {
   set_limit(work, [](double t, std::optional<double>) {
     return fmt::format("at path parameter {:.4f}", t);
   });
-  for (std::size_t k = 0; k < work.segments.size(); ++k) {
-    const PathSegment& segment = work.segments[k];
-    if (!snapped(segment) && segment.report.end == Outcome::reached) continue;
-    if (work.limit != record::Limit::none)
-      work.limit_reason.insert(0, fmt::format("step {} ({}): ", k + 1, text_of(steps[k])));
-    break;
-  }
+  if (work.limit == record::Limit::none) return;
+  // the one that ended the path, else the first that leapt
+  const auto ended = std::ranges::find_if(work.segments, [](const PathSegment& segment) {
+    return segment.report.end != Outcome::reached;
+  });
+  const auto named =
+      ended != work.segments.end() ? ended : std::ranges::find_if(work.segments, snapped);
+  if (named == work.segments.end()) return;
+  const auto k = std::size_t(named - work.segments.begin());
+  work.limit_reason.insert(0, fmt::format("step {} ({}): ", k + 1, text_of(steps[k])));
 }
 
 void put_loads(const Work& work, const std::vector<preset::Step>& steps, record::Layout& layout) {

@@ -83,7 +83,8 @@ void Simulation::put_push_errors(record::Frame& frame) const {
   if (along.size() == 0 || along.isZero(0)) return;
   const Eigen::VectorXd way = along.normalized();
   frame.stiffness_N_per_mm = way.dot(state.held_stiffness.bottomRightCorner(own, own) * way);
-  frame.stiffness_error_N_per_mm = state.stiffness_error_N_per_mm;
+  // the state's is that of one entry
+  frame.stiffness_error_N_per_mm = std::pow(way.lpNorm<1>(), 2) * state.stiffness_error_N_per_mm;
 }
 
 Energies Simulation::energies() const {
@@ -214,8 +215,9 @@ Result<Outcome> Simulation::replace_meshes(const LevelPlan& plan, bool nearby, c
 }
 
 Checkpoint Simulation::save() const {
-  return {shell_->state(), shell_->plan(), rods_,      shell_->motions(), holds_,      field_,
-          load_scale_,     progress_,      actuating_, boundary,          grip_origins};
+  return {shell_->state(), shell_->plan(),   rods_,     shell_->motions(), holds_,
+          field_,          load_scale_,      progress_, actuating_,        boundary,
+          grip_origins,    first_stiffness_, along_};
 }
 
 void Simulation::restore(const Checkpoint& kept) {
@@ -231,6 +233,8 @@ void Simulation::restore(const Checkpoint& kept) {
   actuating_ = kept.actuating;
   boundary = kept.boundary;
   grip_origins = kept.grip_origins;
+  first_stiffness_ = kept.first_stiffness;
+  along_ = kept.along;
   apply_field(kept.field);
   shell_->restore(kept.state, kept.motions, kept.holds);
 }

@@ -104,6 +104,8 @@ struct Checkpoint {
   bool actuating = true;
   BoundaryPosition boundary;
   std::map<int, Eigen::Vector3d> grip_origins;
+  double first_stiffness = 0;  ///< of the push, N/mm
+  Eigen::VectorXd along;       ///< its direction
 };
 
 /// Moves of a joint below are none, mm.

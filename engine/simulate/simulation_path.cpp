@@ -62,6 +62,12 @@ constexpr int most_halvings = 5;         // of a load step that a finer mesh doe
 constexpr double loads_ways = 4;         // of the loads, what counts as the length scale of a move
 constexpr std::size_t most_events = 8;   // branches left on one way
 
+/// The same in the path parameter; where loads alone change, nothing is moved.
+double located_to(double reach_mm) {
+  constexpr double of_loads = 1e-3;
+  return std::min(locate_mm / std::max(reach_mm, 1e-9), of_loads);
+}
+
 Event::Kind kind_of(Outcome limit) {
   if (limit == Outcome::contact) return Event::Kind::contact;
   return limit == Outcome::overbent ? Event::Kind::overbent : Event::Kind::locked;
@@ -145,7 +151,7 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
             next, good, [&] { return beyond_limit() ? (last = limit, at = met, false) : true; },
             watch);
         if (last == Outcome::contact) {
-          at.error = locate_mm / std::max(shell_->reach_mm(), locate_mm);
+          at.error = located_to(shell_->reach_mm());
           if (shell_->state().t != good.t) note_load_step();
         }
         return end_at_limit(last, std::move(at));
@@ -199,10 +205,10 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
 void Simulation::bisect_to_last_accepted(double beyond, const NestedState& good,
                                          const std::function<bool()>& accepted,
                                          const Watch& watch) {
-  const double reach = std::max(shell_->reach_mm(), 1e-9);
+  const double enough = located_to(shell_->reach_mm());
   NestedState last = good;
   double bad = beyond;
-  while (std::abs(bad - last.t) * reach > locate_mm && !watch.cancelled()) {
+  while (std::abs(bad - last.t) > enough && !watch.cancelled()) {
     shell_->back_to(last);
     const double middle = 0.5 * (last.t + bad);
     if (shell_->advance(middle, watch).end == Outcome::reached && accepted())
@@ -240,6 +246,7 @@ bool Simulation::leave(double t, Event& event, PathRecord* record, const Watch& 
       event.to = there;
       event.leap = event.kind != Event::Kind::stability_lost ||
                    !on_branch_from(*shell_, *scene_, last, there, *rest, watch);
+      shell_->apply_loads();
       if (record && !moments.empty())
         record->snaps.push_back({record->load_steps.size() - 1, std::move(moments)});
       return true;

@@ -126,7 +126,7 @@ Report Simulation::release(int joint, const Watch& watch) {
   const LoadFactor load = steady_load();
   const Checkpoint held = save();
   Report done = drive({.holds = left, .load = load, .field = {1, -1}}, std::move(force), watch);
-  if (done.end == Outcome::reached || watch.cancelled()) return done;
+  if (done.end == Outcome::reached || at_limit(done.end) || watch.cancelled()) return done;
   // held it was stable, under the same force it is not: the hand opens, and the shell goes to rest
   restore(held);
   shell_->drive({.holds = left, .load = load});

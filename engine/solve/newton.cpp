@@ -51,12 +51,18 @@ void Linearisation::bear_neutral_directions() {
   double softest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < model_.bends.size();) {
     const ModelBend& first = model_.bends[k];
-    const auto length = [&](int edge) { return model_.edges[std::size_t(edge)].rest_length; };
-    const double l = 0.5 * (length(first.e) + length(first.f));
-    double rod = length(first.e);
-    for (int e = first.e; k < model_.bends.size() && model_.bends[k].e == e; ++k)
+    // the ghost beside an end that holds its direction has no length, its bend a law of its own
+    const auto length = [&](int edge) {
+      const ModelEdge& one = model_.edges[std::size_t(edge)];
+      return one.EA > 0 ? one.rest_length : 0;
+    };
+    double rod = length(first.e), soft = 0;
+    for (int e = first.e; k < model_.bends.size() && model_.bends[k].e == e; ++k) {
+      const double l = length_between(model_, e, model_.bends[k].f);
+      if (soft == 0) soft = 0.5 * model_.bends[k].stiffness * l * l;
       rod += length(e = model_.bends[k].f);
-    softest = std::min(softest, 0.5 * first.stiffness * l * std::pow(M_PI / rod, 4) * l);
+    }
+    if (soft > 0) softest = std::min(softest, soft * std::pow(M_PI / rod, 4));
   }
   if (std::isfinite(softest)) neutral_shift_ = share * softest;
 }

@@ -308,3 +308,16 @@ TEST_CASE("a grillage of clamped rods, with their torsion in it, is four times a
   CHECK(-last_frame(outcome).nodes(2, 0) ==
         Approx(1e-5 * L * L * L / (2 * 192 * EI)).epsilon(1e-3));
 }
+
+TEST_CASE("a state under loads is the same however many frames come before it") {
+  // the last frame stands where the path's last load step does
+  preset::Preset p = circle(5, 50, 42);
+  p.accuracy.edges_per_segment = {4};
+  p.loads.points = {{0, 0, 0, 0, -0.02}};
+  p.movie.frames = 2;
+  const auto few = run(p);
+  p.movie.frames = 5;
+  const auto more = run(p);
+  CHECK(distance(few, more) < 1e-9);
+  CHECK(last_frame(more).residual_N < 1e-6);
+}
