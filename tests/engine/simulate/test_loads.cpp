@@ -312,7 +312,7 @@ TEST_CASE("a grillage of clamped rods, with their torsion in it, is four times a
 TEST_CASE("a state under loads is the same however many frames come before it") {
   // the last frame stands where the path's last load step does
   preset::Preset p = circle(5, 50, 42);
-  p.accuracy.edges_per_segment = {4};
+  p.accuracy.edges_per_segment = 4;
   p.loads.points = {{0, 0, 0, 0, -0.02}};
   p.movie.frames = 2;
   const auto few = run(p);
