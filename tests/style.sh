@@ -107,7 +107,7 @@ clang() {
   while read -r file; do
     # "command": "/usr/bin/c++ OPTIONS -o X.o -c FILE"
     grep -F -B 1 "\"file\": \"$PWD/$file\"" "$scratch/compile_commands.json" |
-      sed -n 's/^ *"command": "[^ ]* \(.*\) -o [^ ]* -c \([^ ]*\)",$/\1 \2/p' | sed 's/\\"/"/g; q'
+      sed -n 's/^ *"command": "[^ ]* \(.*\) -o [^ ]* -c \([^ ]*\)",$/\1 \2/p' | sed 's/\\\(["\\]\)/\1/g; q'
   done <"$scratch/built" >"$scratch/commands"
   (cd "$scratch" && xargs -P "$(nproc)" -d '\n' -I {} sh -c 'clang++ -fsyntax-only {}' <commands)
 }
