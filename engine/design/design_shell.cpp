@@ -23,8 +23,7 @@ EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge) {
 
 /// Rest lengths around a bend, of which half counts: a ghost's does not.
 double lengths_at(const Model& model, const ModelBend& bend) {
-  const ModelEdge &e = model.edges[std::size_t(bend.e)], &f = model.edges[std::size_t(bend.f)];
-  return (e.EA > 0 ? e.rest_length : 0) + (f.EA > 0 ? f.rest_length : 0);
+  return 2 * length_between(model, bend.e, bend.f);
 }
 
 double& stiffness_of(Model& model, int bend) {

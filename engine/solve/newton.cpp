@@ -52,10 +52,7 @@ void Linearisation::bear_neutral_directions() {
   for (std::size_t k = 0; k < model_.bends.size();) {
     const ModelBend& first = model_.bends[k];
     // the ghost beside an end that holds its direction has no length, its bend a law of its own
-    const auto length = [&](int edge) {
-      const ModelEdge& one = model_.edges[std::size_t(edge)];
-      return one.EA > 0 ? one.rest_length : 0;
-    };
+    const auto length = [&](int edge) { return length_between(model_, edge, edge); };
     double rod = length(first.e), soft = 0;
     for (int e = first.e; k < model_.bends.size() && model_.bends[k].e == e; ++k) {
       const double l = length_between(model_, e, model_.bends[k].f);

@@ -1,4 +1,3 @@
-#include "engine/core/dense.h"
 #include "engine/study/scan.h"
 
 #include <Eigen/Geometry>
@@ -9,6 +8,7 @@
 #include <random>
 
 #include "engine/core/box_grid.h"
+#include "engine/core/dense.h"
 
 namespace gridshell::study {
 
