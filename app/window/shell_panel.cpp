@@ -261,8 +261,11 @@ void keep(const Panel& panel) {
               "of a kept picture: draft has no shadow, figure has soft light and takes seconds");
 }
 
-/// "u-rod 3", by the index that its joints have in common; of other networks "Rod 12".
+/// "u-rod 3", by the index that its joints have in common; of networks, whose joints are named by
+/// points, "Rod 12".
 std::string rod_name(const record::Layout& layout, int rod) {
+  if (std::ranges::all_of(layout.joints, [](const record::Joint& joint) { return joint.j == 0; }))
+    return fmt::format("Rod {}", rod);
   const std::string family =
       layout.families.empty() ? std::string() : layout.families[std::size_t(rod)];
   for (const int node : layout.rods[std::size_t(rod)]) {

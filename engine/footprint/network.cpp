@@ -296,8 +296,8 @@ std::optional<FootprintRod> grid_rod(const FootprintRod& rod, const Footprint& f
   return named;
 }
 
-/// Names rods and joints as those of a square grid, u-rods first, if they all are; else changes
-/// nothing.
+/// Names rods and cells as those of a square grid, u-rods first, if they all are; else changes
+/// nothing. Joints keep the names of their points.
 void name_as_grid(NetworkFootprint& network, Placement placement) {
   NetworkFootprint named = network;
   Footprint& grid = named.footprint;
@@ -324,6 +324,7 @@ void name_as_grid(NetworkFootprint& network, Placement placement) {
     return;
   std::ranges::stable_sort(
       order, {}, [&](std::size_t r) { return std::pair(grid.rods[r].family, grid.rods[r].index); });
+  auto points = std::move(network.footprint.joints);
   network = named;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const std::size_t r = order[k];
@@ -333,6 +334,7 @@ void name_as_grid(NetworkFootprint& network, Placement placement) {
     network.ends[2 * k + 1] = named.ends[2 * r + 1];
   }
   find_cells(network.footprint);
+  network.footprint.joints = std::move(points);
 }
 
 /// The springs of the network's supports, of its ends and held joints as they are named.

@@ -36,7 +36,7 @@ struct NetworkFootprint {
 ///   where rods end at an inner point of another: they are joined to that joint.
 /// Rods are naturally straight and as long as their polyline. Rods that cross without a common
 /// point pass one another. Where all rods are in the plane and of a square grid about the origin,
-/// rods, joints and cells are named as its.
+/// rods and cells are named as its. Joints are named by their points: (number, 0).
 /// Errors (bad_input), naming rods ("rods[3]") and points: a rod of one point, of no length, twice
 /// through a point, twice along a stretch, or joined to nothing; a free point that is no end; a
 /// piece that is not held at three points off a line, or by springs along too few directions, as it

@@ -12,6 +12,7 @@ namespace gridshell::record {
 
 /// What overlaps: two rods, the cylinders of two joints, a rod and the table.
 enum class ContactKind { rods, joints, table };
+inline constexpr int contact_kinds = 3;
 
 struct Contact {
   ContactKind kind = ContactKind::rods;

@@ -80,7 +80,12 @@ void follow_from_flat(EquilibriumPath& path, const Checkpoint& first, double to,
   Simulation& simulation = path.simulation;
   const PathSegment& back = path.segments.front();
   const bool connected = back.report.end == Outcome::reached;
-  if (connected && simulation.scene().imperfection.chooses()) {
+  // what touches on the way back would have stopped the way there
+  const bool stopped = simulation.scene().stops_at_contact &&
+                       std::ranges::any_of(back.load_steps, [](const LoadStep& load_step) {
+                         return !load_step.contacts.places.empty();
+                       });
+  if (connected && (stopped || simulation.scene().imperfection.chooses())) {
     const bool straight = stable(back) && leads_to(path, first, watch);
     const bool rests =
         !straight && (stable(back) || simulation.rest(watch).end == Outcome::reached);
@@ -212,11 +217,13 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
     }
     const auto segment = leg_at(*path, sample.t);
     const PathSegment& last = path->segments.back();
-    if (!segment && last.report.end == Outcome::contact && !last.back && sample.t > end.state.t) {
+    const bool tells = at_limit(last.report.end) && last.report.end != Outcome::locked;
+    if (!segment && tells && !last.back && sample.t > end.state.t) {
       path->simulation.restore(end);
       sample.segment = path->segments.size() - 1;
       sample.progress = progress_at(sample.t = end.state.t);
-      TRY_DO(sampler.take_current(sample, contact_limit(path->simulation), sample.t));
+      TRY_DO(
+          sampler.take_current(sample, limit_event(path->simulation, last.report.end), sample.t));
       break;
     }
     if (!segment) continue;  // the path's limit says why

@@ -61,8 +61,14 @@ bool within_snap(const PathSegment& segment, double t) {
 
 PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationPolicy& leaving,
                             const Watch& watch) {
-  PathSegment segment{{}, path.simulation.shell().state().t, to, {}};
-  segment.report = path.simulation.go(to, watch, leaving, &segment);
+  Simulation& simulation = path.simulation;
+  PathSegment segment{{}, simulation.shell().state().t, to, {}};
+  const auto begun = to < segment.from ? std::nullopt : simulation.beyond_limits();
+  segment.report = simulation.go(begun ? segment.from : to, watch, leaving, &segment);
+  if (begun) {
+    segment.report.end = outcome_of(begun->kind);
+    segment.report.events.push_back(*begun);
+  }
   return path.segments.emplace_back(std::move(segment));
 }
 
@@ -187,10 +193,13 @@ record::Limit limit_of(Outcome end) {
 /// How a segment ended before its end.
 std::string how_it_ended(const PathSegment& segment, const Scene& scene, const At& at) {
   const Report& report = segment.report;
+  const auto place = [&] {
+    return at(report.t, report.events.empty() ? std::nullopt : report.events.back().error);
+  };
+  const bool begun = report.t == segment.from;
   if (report.end == Outcome::overbent)
-    return fmt::format("{} a rod is bent {} [limits] max_bending_strain allows, to {:.4g}",
-                       at(report.t, {}), report.t == segment.from ? "further than" : "as far as",
-                       scene.max_bending_strain);
+    return fmt::format("{} a rod is bent {} [limits] max_bending_strain allows, to {:.4g}", place(),
+                       begun ? "further than" : "as far as", scene.max_bending_strain);
   const double strain = report.certificate.largest_strain;
   if (report.end == Outcome::locked && strain < 0)
     return fmt::format(
@@ -201,11 +210,11 @@ std::string how_it_ended(const PathSegment& segment, const Scene& scene, const A
     return fmt::format("{} the rods are at their length: the largest strain is {:.3g}",
                        at(report.t, {}), strain);
   if (report.end == Outcome::contact) {
-    const Event& event = report.events.back();
-    if (!segment.load_steps.back().contacts.places.empty())
-      return event.what + " touch from the begin, " + at(report.t, {});
-    return fmt::format("{} is the last state without contact: beyond, {} touch",
-                       at(report.t, event.error), event.what);
+    const std::string& what = report.events.back().what;
+    const bool touched = !segment.load_steps.back().contacts.places.empty();
+    if (touched && begun) return what + " touch from the begin, " + at(report.t, {});
+    if (touched) return place() + " what touched from the begin is next to overlap more: " + what;
+    return fmt::format("{} is the last state without contact: beyond, {} touch", place(), what);
   }
   const char* where = segment.back ? " on the way back to the flat" : "";
   return fmt::format("{}{} {}, and no rest was found beyond", words_of(report.end).what, where,
@@ -214,7 +223,10 @@ std::string how_it_ended(const PathSegment& segment, const Scene& scene, const A
 
 }  // namespace
 
-std::string contact_limit(const Simulation& simulation) {
+std::string limit_event(const Simulation& simulation, Outcome end) {
+  if (end == Outcome::locked) return "locking";
+  if (end == Outcome::overbent) return "strength";
+  if (end != Outcome::contact) return "";
   return simulation.contacts().places.empty() ? "last state without contact"
                                               : "in contact from the begin";
 }

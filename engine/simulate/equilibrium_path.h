@@ -66,6 +66,7 @@ double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& 
 const LoadStep& load_step_before(const PathSegment& segment, double t);
 
 /// From where the simulation stands on: follows the path to `to` and keeps the way as a segment.
+/// What begins beyond a limit goes nowhere, but back.
 PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationPolicy& leaving,
                             const Watch& watch);
 
@@ -127,8 +128,8 @@ CertifiedSample certify_sample(EquilibriumPath& path, const PathSample& sample, 
 /// error where it is known.
 using At = std::function<std::string(double t, std::optional<double> error)>;
 
-/// What is said of the state in which a path ends that [limits] contact stops.
-std::string contact_limit(const Simulation& simulation);
+/// What a frame says of the state in which a path ended at a limit; empty: it ended otherwise.
+std::string limit_event(const Simulation& simulation, Outcome end);
 
 /// Where segments left a branch for a rest further on, by a leap or along another branch that
 /// leaves there: "at progress 0.0183 and at ..."; empty: nowhere.

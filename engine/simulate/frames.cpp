@@ -63,7 +63,7 @@ std::vector<int> supports_of(const RodMesh& mesh) {
   return nodes;
 }
 
-/// Where on a rod a point lies: "u3, 45.00 mm from its begin, at joint [0, 1]".
+/// Where on a rod a point lies: "u+3, 45.00 mm from its begin, at joint [0, 1]".
 std::string place_on_rod(const Footprint& footprint, const RodMesh& mesh, std::size_t r,
                          std::size_t point) {
   const std::vector<int>& nodes = mesh.rods[r];
@@ -77,8 +77,7 @@ std::string place_on_rod(const Footprint& footprint, const RodMesh& mesh, std::s
       }
     return std::string("its end");
   };
-  const FootprintRod& rod = footprint.rods[r];
-  std::string text = fmt::format("{}{}, {:.2f} mm from its begin, ", name_of(rod.family), rod.index,
+  std::string text = fmt::format("{}, {:.2f} mm from its begin, ", name_of(footprint.rods[r]),
                                  position[k] - position[first]);
   if (nodes[k] < mesh.joints) return text + "at joint " + joint_from(k, 1);
   return text + fmt::format("between {} and {}", joint_from(k, -1), joint_from(k, 1));

@@ -120,10 +120,9 @@ At at_depth(double depth_mm) {
 }
 
 /// Where the path that was lost turns back, as the arc length says.
-std::string turning_back(Simulation& simulation, const PathSegment& segment, double depth_mm,
-                         const Watch& watch) {
+std::string turning_back(Simulation& simulation, const PathSegment& segment, const Event& event,
+                         double depth_mm, const Watch& watch) {
   // the last one before the jump: the event's own place may be extrapolated past what came after it
-  const Event& event = segment.report.events.front();
   const LoadStep* last = nullptr;
   for (const LoadStep& load_step : segment.load_steps) {
     if (event.to && load_step.point.t == *event.to) break;
@@ -138,34 +137,30 @@ std::string turning_back(Simulation& simulation, const PathSegment& segment, dou
               : std::string();
 }
 
-/// Why the push stopped, or what it came past, in its own words: the first segment to which
-/// anything happened; empty where the common ones serve.
+/// Why the push stopped, or what it came past, in its own words: the first leap, or the segment
+/// that ended; empty where the common ones serve.
 std::string reason_of(HeldShell& pushed, const At& at, const Watch& watch) {
-  const auto eventful =
-      std::find_if(pushed.segments.begin(), pushed.segments.end(), [](const PathSegment& segment) {
-        return !segment.report.events.empty() || segment.report.end != Outcome::reached;
-      });
-  if (eventful == pushed.segments.end() || eventful->report.events.empty()) return {};
-  const PathSegment& segment = *eventful;
   const Scene& scene = pushed.simulation.scene();
-  const Event& first = segment.report.events.front();
-  std::string reason;
   if (pushed.limit == record::Limit::snap)
-    reason = fmt::format(
-        "held at the joint, the shell lost its {} {}{} and came to rest in another state",
-        first.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
-        at(first.t, first.error),
-        turning_back(pushed.simulation, segment, pushed.depth_mm(), watch));
+    for (const PathSegment& segment : pushed.segments)
+      for (const Event& event : segment.report.events)
+        if (event.to && event.leap)
+          return fmt::format(
+              "held at the joint, the shell lost its {} {}{} and came to rest in another state",
+              event.kind == Event::Kind::stability_lost ? "stability" : "equilibrium",
+              at(event.t, event.error),
+              turning_back(pushed.simulation, segment, event, pushed.depth_mm(), watch));
+  const PathSegment& segment = pushed.segments.back();
   const double strain = segment.report.certificate.largest_strain;
   if (pushed.limit == record::Limit::locking && strain > 0)
-    reason = fmt::format(
+    return fmt::format(
         "{} ({:.4f} of the length scale) and {:.4g} N the rods are at their length: {}",
         at(segment.report.t, {}), segment.report.t * pushed.depth_mm() / scene.length_scale_mm,
         pushed.push.displacement.normalized().dot(pushed.simulation.force(0)),
         strain > 0.99 * scene.max_strain
             ? fmt::format("the largest strain reaches {:g}", scene.max_strain)
             : "the push meets 100 times its first stiffness");
-  return reason;
+  return {};
 }
 
 void set_push_limit(HeldShell& pushed, const Watch& watch) {
@@ -260,15 +255,12 @@ Result<EquilibriumPath> run_indentation(std::shared_ptr<const Scene> scene,
     Result<bool> taken = false;
     if (came_to(*kept, sample)) taken = sampler.at(sample);
     if (!taken) return tl::unexpected<Error>(taken.error());
-    const record::Limit limit = kept->limit;
-    const bool touches = limit == record::Limit::contact;
-    if (*taken || !(touches || limit == record::Limit::locking || limit == record::Limit::strength))
-      continue;
+    const Outcome ended = kept->segments.back().report.end;
+    if (*taken || !at_limit(ended)) continue;
     // the last state before the limit
     kept->simulation.restore(end);
     sample.t = end.state.t;
-    TRY_DO(sampler.take_current(
-        sample, touches ? contact_limit(kept->simulation) : std::string(word_of(limit)), sample.t));
+    TRY_DO(sampler.take_current(sample, limit_event(kept->simulation, ended), sample.t));
     break;
   }
   return EquilibriumPath(std::move(*kept));

@@ -169,9 +169,7 @@ class Show {
   /// What the end of a step says.
   std::string event(const PathSample& sample) const {
     const PathSegment& segment = work_.segments[step_];
-    if (segment.report.end == Outcome::locked) return "locking";
-    if (segment.report.end == Outcome::overbent) return "strength";
-    if (segment.report.end == Outcome::contact) return contact_limit(work_.simulation);
+    if (at_limit(segment.report.end)) return limit_event(work_.simulation, segment.report.end);
     if (has_way(steps_, step_)) return sampler_->events(sample, sample.t);
     return text_of(steps_[step_]) + (snapped(segment) ? ": snap to another state" : "");
   }

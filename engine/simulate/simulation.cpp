@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
@@ -108,15 +109,39 @@ double Simulation::bending_strain() const {
   return strain.size() > 0 ? strain.maxCoeff() : 0;
 }
 
-bool Simulation::overbent(double before) const {
-  if (scene_->max_bending_strain == 0) return false;
-  const double now = bending_strain();
-  return now > scene_->max_bending_strain && now > before;
+Simulation::Limits Simulation::limits() const {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Limits limits{scene_->max_bending_strain > 0 ? scene_->max_bending_strain : none, {}};
+  std::ranges::fill(limits.gap_mm, scene_->stops_at_contact ? 0 : -none);
+  return limits;
 }
 
-Outcome Simulation::limit_of_rods(double bent_before) const {
-  if (locked()) return Outcome::locked;
-  return overbent(bent_before) ? Outcome::overbent : Outcome::reached;
+/// Of a state that is beyond the scene's limits, its own.
+Simulation::Limits Simulation::limits_here() const {
+  Limits here = limits();
+  if (scene_->max_bending_strain > 0)
+    here.bending_strain = std::max(here.bending_strain, bending_strain());
+  if (scene_->stops_at_contact)
+    for (const record::Contact& place : contacts().places) {
+      double& gap = here.gap_mm[std::size_t(place.kind)];
+      gap = std::min(gap, place.gap_mm);
+    }
+  return here;
+}
+
+std::optional<Event> Simulation::beyond(const Limits& limits) const {
+  Event met{Event::Kind::locked, shell_->state().t, {}, {}};
+  if (locked()) return met;
+  met.kind = Event::Kind::overbent;
+  if (scene_->max_bending_strain > 0 && bending_strain() > limits.bending_strain) return met;
+  if (!scene_->stops_at_contact) return std::nullopt;
+  met.kind = Event::Kind::contact;
+  for (const record::Contact& place : contacts().places)
+    if (place.gap_mm < limits.gap_mm[std::size_t(place.kind)]) {
+      met.what = simulate::text_of(place, scene_->footprint);
+      return met;
+    }
+  return std::nullopt;
 }
 
 double Simulation::push_stiffness() const {

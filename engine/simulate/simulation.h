@@ -44,6 +44,12 @@ struct Event {
   }
 };
 
+/// How a path ended at a limit.
+constexpr Outcome outcome_of(Event::Kind limit) {
+  if (limit == Event::Kind::contact) return Outcome::contact;
+  return limit == Event::Kind::overbent ? Outcome::overbent : Outcome::locked;
+}
+
 /// How a step ended: what was reached, why no more, what it cost. Where not all was reached the
 /// shell stands in the last certified state.
 struct Report {
@@ -207,8 +213,8 @@ class Simulation {
   Report certify_rest_at(double t, const LoadStep& before, const Watch& watch);
   /// Whether the rods have come to their length.
   bool locked() const;
-  /// Whether a rod is bent as far as is allowed, and further than to the strain `before`.
-  bool overbent(double before) const;
+  /// What of the scene's limits the state is beyond: an event that is_limit(), or nothing.
+  std::optional<Event> beyond_limits() const { return beyond(limits()); }
   /// Largest strain of a fibre by bending, on the finest mesh.
   double bending_strain() const;
   /// What touches in nodes(), the shape that is shown.
@@ -232,13 +238,16 @@ class Simulation {
   void set_progress(double progress);
   LoadFactor steady_load() const;
   double load_step() const;
-  double parameter_scale(double t) const;
-  bool leave(double t, Event& event, PathRecord* record, const Watch& watch);
   Result<Outcome> replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch);
   double push_stiffness() const;
-  Outcome limit_of_rods(double bent_before) const;
-  void bisect_to_last_accepted(double beyond, const NestedState& good,
-                               const std::function<bool()>& accepted, const Watch& watch);
+  /// How far a state may go: the largest strain by bending, and the least gap of each kind.
+  struct Limits {
+    double bending_strain, gap_mm[record::contact_kinds];
+  };
+  Limits limits() const;
+  Limits limits_here() const;
+  std::optional<Event> beyond(const Limits& limits) const;
+  class Walk;
 
   std::shared_ptr<const Scene> scene_;
   std::optional<ShellRods> rods_;  // in the place of the scene's

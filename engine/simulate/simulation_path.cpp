@@ -1,4 +1,4 @@
-// How a path steps where its shell grows soft.
+// How a simulation follows its path, and how it steps where its shell grows soft.
 
 #include <algorithm>
 #include <cmath>
@@ -50,9 +50,6 @@ double StabilityStepControl::shortened(double step) const {
   return to_zero < 3 * step ? std::clamp(to_zero / 3, step / 8, step) : step;
 }
 
-// How a simulation follows its path: in load steps, over branches that end, to the rods' length;
-// and what is read off the path afterwards.
-
 namespace {
 
 constexpr double push_step = 0.02;       // of the length scale: the largest load step
@@ -62,17 +59,6 @@ constexpr int most_halvings = 5;         // of a load step that a finer mesh doe
 constexpr double loads_ways = 4;         // of the loads, what counts as the length scale of a move
 constexpr std::size_t most_events = 8;   // branches left on one way
 
-/// The same in the path parameter; where loads alone change, nothing is moved.
-double located_to(double reach_mm) {
-  constexpr double of_loads = 1e-3;
-  return std::min(locate_mm / std::max(reach_mm, 1e-9), of_loads);
-}
-
-Event::Kind kind_of(Outcome limit) {
-  if (limit == Outcome::contact) return Event::Kind::contact;
-  return limit == Outcome::overbent ? Event::Kind::overbent : Event::Kind::locked;
-}
-
 }  // namespace
 
 double Simulation::load_step() const {
@@ -81,182 +67,235 @@ double Simulation::load_step() const {
   return scene_->load_step * (reach > 0 ? push_step * scene_->length_scale_mm / reach : 0.1);
 }
 
+/// One way along the path: how it steps, what it leaves, what ends it.
+class Simulation::Walk {
+ public:
+  Walk(Simulation& of, double to, const BifurcationPolicy& leaving, PathRecord* record,
+       const Watch& watch)
+      : of_(of), to_(to), leaving_(leaving), record_(record), watch_(watch) {}
+
+  Report all();
+
+ private:
+  double now() const { return shell_.state().t; }
+  void note();
+  void keep();
+  Outcome step();
+  Outcome step_came(double next, const NestedState& good);
+  Outcome branch_ended(Outcome how, double next, const NestedState& good);
+  bool may_meet_limits();
+  Outcome end_at(Event limit);
+  Outcome end_before(Event limit, double bad, const NestedState& good);
+  double located_to() const;
+  double parameter_scale(double t) const;
+  void bisect(double bad, const NestedState& good, const std::function<bool()>& accepted);
+  bool leave(Event& event);
+
+  Simulation& of_;
+  NestedShell& shell_ = *of_.shell_;
+  const Scene& scene_ = *of_.scene_;
+  double to_;
+  BifurcationPolicy leaving_;
+  PathRecord* record_;
+  const Watch& watch_;
+  // a state that begins beyond a limit may come back, and goes no further beyond it
+  Limits limits_ = of_.limits_here();
+  bool from_beyond_ = of_.beyond_limits().has_value();
+  StabilityStepControl softening_;
+  int halvings_ = 0;
+  std::vector<Event> events_;
+};
+
 Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& leaving,
                       PathRecord* record) {
-  const CallBegin begin = call_begin();
-  std::vector<Event> events;
-  const auto end = [&](Outcome outcome) {
-    shell_->allow_unstable(false);
-    // the leader may stand ahead of what is certified
-    if (outcome != Outcome::reached && !at_limit(outcome)) shell_->back_to(shell_->state());
-    Report done = report(outcome, shell_->state().t, begin);
-    done.events = std::move(events);
-    if (actuating_) set_progress(progress_at(done.t));
-    return done;
-  };
-  const auto note_load_step = [&] {
-    if (record) record->load_steps.push_back({shell_->point(), certificate(), contacts()});
-  };
-  // how far the rods were bent before a step, and what would then end the path
-  const auto bent_now = [&] { return scene_->max_bending_strain > 0 ? bending_strain() : 0; };
-  double bent = bent_now();
-  Outcome limit = Outcome::reached;
-  Event met;
-  const auto beyond_limit = [&] {
-    limit = limit_of_rods(bent);
-    met = {};
-    if (limit == Outcome::reached && scene_->stops_at_contact)
-      if (const record::Contacts found = contacts(); !found.places.empty()) {
-        limit = Outcome::contact;
-        met.what = simulate::text_of(found.places.front(), scene_->footprint);
-      }
-    met.kind = kind_of(limit);
-    return limit != Outcome::reached;
-  };
-  const auto end_at_limit = [&](Outcome outcome, Event at) {
-    at.t = shell_->state().t;
-    events.push_back(std::move(at));
-    return end(outcome);
-  };
-  if (beyond_limit() && limit == Outcome::contact) {
-    note_load_step();
-    return end_at_limit(limit, met);
-  }
-  bool unstable_too = leaving.through_unstable;
-  shell_->allow_unstable(unstable_too);
-  // of a path that is followed for what happens on it
-  StabilityStepControl softening;
-  const auto take_softness = [&] {
-    if (record && actuating_ && leaving.wanted && scene_->imperfection.chooses())
-      softening.take(*shell_, watch);
-  };
-  note_load_step();
-  take_softness();
-  int halvings = 0;
-  while (shell_->state().t != t) {
-    if (watch.cancelled()) return end(Outcome::cancelled);
-    const double now = shell_->state().t, left = t - now;
-    const double step = softening.shortened(load_step()) / (1 << halvings);
-    const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
-    const double next = steps == 1 ? t : now + left / steps;
-    const NestedState good = shell_->state();
-    bent = bent_now();
-    const NestedReport nested = shell_->advance(next, watch);
-    if (nested.end == Outcome::cancelled) return end(Outcome::cancelled);
-    if (nested.end == Outcome::reached) {
-      if (beyond_limit()) {
-        Outcome last = limit;
-        Event at = met;
-        bisect_to_last_accepted(
-            next, good, [&] { return beyond_limit() ? (last = limit, at = met, false) : true; },
-            watch);
-        if (last == Outcome::contact) {
-          at.error = located_to(shell_->reach_mm());
-          if (shell_->state().t != good.t) note_load_step();
-        }
-        return end_at_limit(last, std::move(at));
-      }
-      halvings = std::max(halvings - 1, 0);
-      note_load_step();
-      take_softness();
-      continue;
-    }
-    // a finer mesh that did not follow is asked again nearer by
-    if (nested.end == Outcome::meshes_disagree && ++halvings <= most_halvings) {
-      shell_->back_to(good);
-      continue;
-    }
-    // what it finds beside a leader that it followed with trouble alone is another state
-    const bool led = shell_->followed().t == next;
-    if (nested.end == Outcome::unstable && led && halvings >= most_halvings)
-      return end(Outcome::meshes_disagree);
-    const bool branch_ended = nested.end == Outcome::unstable || nested.end == Outcome::lost;
-    if (!leaving.wanted || !branch_ended || events.size() >= most_events) return end(nested.end);
-    const auto kind =
-        nested.end == Outcome::unstable ? Event::Kind::stability_lost : Event::Kind::turned_back;
-    // what the finer meshes lost and the leader did not is not located yet
-    if (shell_->followed().t == next && kind == Event::Kind::stability_lost) {
-      bisect_to_last_accepted(
-          next, good, [] { return true; }, watch);
-      if (shell_->state().t != good.t) note_load_step();
-    }
-    events.push_back({kind, shell_->followed().t, {}, {}});
-    if (kind == Event::Kind::stability_lost && !scene_->imperfection.chooses()) {
-      shell_->back_to(shell_->state());
-      shell_->allow_unstable(unstable_too = true);
-      continue;
-    }
-    if (!leave(t, events.back(), record, watch))
-      return end(watch.cancelled() ? Outcome::cancelled : nested.end);
-    if (beyond_limit()) {
-      // the rest beyond would need longer or thinner rods, or room where others are
-      shell_->back_to(good);
-      events.pop_back();
-      return end_at_limit(limit, met);
-    }
-    note_load_step();
-    softening.forget();
-    take_softness();
-  }
-  return end(Outcome::reached);
+  return Walk(*this, t, leaving, record, watch).all();
 }
 
-/// Stands in the last certified state, between `good` and `beyond`, that is accepted.
-void Simulation::bisect_to_last_accepted(double beyond, const NestedState& good,
-                                         const std::function<bool()>& accepted,
-                                         const Watch& watch) {
-  const double enough = located_to(shell_->reach_mm());
-  NestedState last = good;
-  double bad = beyond;
-  while (std::abs(bad - last.t) > enough && !watch.cancelled()) {
-    shell_->back_to(last);
-    const double middle = 0.5 * (last.t + bad);
-    if (shell_->advance(middle, watch).end == Outcome::reached && accepted())
-      last = shell_->state();
-    else
-      bad = middle;
+Report Simulation::Walk::all() {
+  const CallBegin begin = of_.call_begin();
+  shell_.allow_unstable(leaving_.through_unstable);
+  keep();
+  Outcome end = Outcome::reached;
+  while (end == Outcome::reached && now() != to_) end = step();
+  shell_.allow_unstable(false);
+  // the leader may stand ahead of what is certified
+  if (end != Outcome::reached && !at_limit(end)) shell_.back_to(shell_.state());
+  Report done = of_.report(end, now(), begin);
+  done.events = std::move(events_);
+  if (of_.actuating_) of_.set_progress(progress_at(done.t));
+  return done;
+}
+
+void Simulation::Walk::note() {
+  if (record_) record_->load_steps.push_back({shell_.point(), of_.certificate(), of_.contacts()});
+}
+
+/// Notes a load step from which the path goes on.
+void Simulation::Walk::keep() {
+  note();
+  if (record_ && of_.actuating_ && leaving_.wanted && scene_.imperfection.chooses())
+    softening_.take(shell_, watch_);
+}
+
+// ---- how it steps ----
+
+Outcome Simulation::Walk::step() {
+  if (watch_.cancelled()) return Outcome::cancelled;
+  const double left = to_ - now();
+  const double step = softening_.shortened(of_.load_step()) / (1 << halvings_);
+  const int steps = std::max(1, int(std::ceil(std::abs(left) / step - 1e-9)));
+  const double next = steps == 1 ? to_ : now() + left / steps;
+  const NestedState good = shell_.state();
+  const Outcome end = shell_.advance(next, watch_).end;
+  if (end == Outcome::reached) return step_came(next, good);
+  // a finer mesh that did not follow is asked again nearer by
+  if (end == Outcome::meshes_disagree && ++halvings_ <= most_halvings) {
+    shell_.back_to(good);
+    return Outcome::reached;
   }
-  shell_->back_to(last);
+  // what it finds beside a leader that it followed with trouble alone is another state
+  const bool led = shell_.followed().t == next;
+  if (end == Outcome::unstable && led && halvings_ >= most_halvings)
+    return Outcome::meshes_disagree;
+  const bool ended = end == Outcome::unstable || end == Outcome::lost;
+  if (!ended || !leaving_.wanted || events_.size() >= most_events) return end;
+  return branch_ended(end, next, good);
+}
+
+Outcome Simulation::Walk::step_came(double next, const NestedState& good) {
+  if (auto limit = of_.beyond(limits_)) return end_before(std::move(*limit), next, good);
+  if (from_beyond_ && !of_.beyond_limits()) {
+    limits_ = of_.limits();
+    from_beyond_ = false;
+  }
+  halvings_ = std::max(halvings_ - 1, 0);
+  keep();
+  return Outcome::reached;
+}
+
+/// The branch ended between `good` and `next`: goes on from the next rest, along the states that
+/// are not stable, or not at all.
+Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedState& good) {
+  const auto kind =
+      how == Outcome::unstable ? Event::Kind::stability_lost : Event::Kind::turned_back;
+  const double last = shell_.followed().t;
+  // what the finer meshes lost and the leader did not is not located yet
+  const bool ahead = last == next && kind == Event::Kind::stability_lost;
+  if (ahead || may_meet_limits()) {
+    if (ahead || shell_.advance(last, watch_).end != Outcome::reached)
+      bisect(next, good, [] { return true; });
+    if (auto limit = of_.beyond(limits_)) return end_before(std::move(*limit), now(), good);
+    if (now() != good.t) note();
+  }
+  const NestedState end_of_branch = shell_.state();
+  events_.push_back({kind, shell_.followed().t, {}, {}});
+  if (kind == Event::Kind::stability_lost && !scene_.imperfection.chooses()) {
+    shell_.back_to(end_of_branch);
+    shell_.allow_unstable(true);
+    return Outcome::reached;
+  }
+  if (!leave(events_.back())) return watch_.cancelled() ? Outcome::cancelled : how;
+  if (auto limit = of_.beyond(limits_)) {
+    // the rest beyond would need longer or thinner rods, or room where others are
+    shell_.back_to(end_of_branch);
+    events_.pop_back();
+    return end_at(std::move(*limit));
+  }
+  softening_.forget();
+  keep();
+  return Outcome::reached;
 }
 
 /// By how much the path parameter changes while the boundary moves by the length scale, or, where
 /// that is sooner, the loads by what they are.
-double Simulation::parameter_scale(double t) const {
-  const PinnedMotion& motion = shell_->motion(0);
+double Simulation::Walk::parameter_scale(double t) const {
+  const PinnedMotion& motion = shell_.motion(0);
   const double speed = motion.speed(t);
-  const double boundary = scene_->length_scale_mm / std::max(shell_->reach_mm() * speed, 0.1);
+  const double boundary = scene_.length_scale_mm / std::max(shell_.reach_mm() * speed, 0.1);
   const double rate = std::abs(speed * motion.load.change);
-  if (rate == 0 || shell_->model(0).loads.empty()) return boundary;
+  if (rate == 0 || shell_.model(0).loads.empty()) return boundary;
   return std::min(boundary, loads_ways * std::abs(motion.factor_at(motion.load, t)) / rate);
 }
 
 /// The branch ended: comes to rest again a little further on. The meshes lose it at slightly
 /// different places; beyond the last of them all find the new state.
-bool Simulation::leave(double t, Event& event, PathRecord* record, const Watch& watch) {
-  const PathPoint last = shell_->followed();
-  const double way = t > last.t ? 1 : -1;
+bool Simulation::Walk::leave(Event& event) {
+  const PathPoint last = shell_.followed();
+  const double way = to_ > last.t ? 1 : -1;
   for (double beyond = 1e-3; beyond < 0.1; beyond *= 2) {
     double there = last.t + way * beyond * parameter_scale(last.t);
-    if (way * (there - t) > 0) there = t;
+    if (way * (there - to_) > 0) there = to_;
     std::vector<TimedState> moments;
     const auto rest =
-        rest_after_bifurcation(*shell_, *scene_, last, event.kind, there, moments, watch);
-    if (watch.cancelled()) return false;
-    if (rest && shell_->start(there, *rest, watch).end == Outcome::reached) {
+        rest_after_bifurcation(shell_, scene_, last, event.kind, there, moments, watch_);
+    if (watch_.cancelled()) return false;
+    if (rest && shell_.start(there, *rest, watch_).end == Outcome::reached) {
       event.to = there;
       event.leap = event.kind != Event::Kind::stability_lost ||
-                   !on_branch_from(*shell_, *scene_, last, there, *rest, watch);
-      shell_->apply_loads();
-      if (record && !moments.empty())
-        record->snaps.push_back({record->load_steps.size() - 1, std::move(moments)});
+                   !on_branch_from(shell_, scene_, last, there, *rest, watch_);
+      shell_.apply_loads();
+      if (record_ && !moments.empty())
+        record_->snaps.push_back({record_->load_steps.size() - 1, std::move(moments)});
       return true;
     }
-    if (there == t) break;
+    if (there == to_) break;
     // the path stands where it was lost
-    shell_->back_to(shell_->state());
-    shell_->place(last.t, last.state);
+    shell_.back_to(shell_.state());
+    shell_.place(last.t, last.state);
   }
   return false;
+}
+
+// ---- what ends it ----
+
+/// Whether a limit may lie on the piece of a branch behind its last load step: one that is looked
+/// for, or rods strained so far at its end.
+bool Simulation::Walk::may_meet_limits() {
+  if (scene_.stops_at_contact || scene_.max_bending_strain > 0) return true;
+  shell_.system(0).gradient_at(shell_.followed().state);
+  return std::abs(shell_.system(0).assembly().largest_strain) > scene_.max_strain;
+}
+
+/// To how much in the path parameter a limit is located; where loads alone change nothing is moved.
+double Simulation::Walk::located_to() const {
+  constexpr double of_loads = 1e-3;
+  return std::min(locate_mm / std::max(shell_.reach_mm(), 1e-9), of_loads);
+}
+
+Outcome Simulation::Walk::end_at(Event limit) {
+  limit.t = now();
+  events_.push_back(std::move(limit));
+  return outcome_of(events_.back().kind);
+}
+
+/// Ends in the last state between `good` and `bad` that is not beyond a limit.
+Outcome Simulation::Walk::end_before(Event limit, double bad, const NestedState& good) {
+  bisect(bad, good, [&] {
+    auto met = of_.beyond(limits_);
+    if (met) limit = std::move(*met);
+    return !met;
+  });
+  if (limit.kind != Event::Kind::locked) {
+    // of one mesh alone its own error is not known
+    if (shell_.levels() > 1) limit.error = located_to();
+    if (now() != good.t) note();
+  }
+  return end_at(std::move(limit));
+}
+
+/// Stands in the last certified state, between `good` and `bad`, that is accepted.
+void Simulation::Walk::bisect(double bad, const NestedState& good,
+                              const std::function<bool()>& accepted) {
+  NestedState last = good;
+  while (std::abs(bad - last.t) > located_to() && !watch_.cancelled()) {
+    shell_.back_to(last);
+    const double middle = 0.5 * (last.t + bad);
+    if (shell_.advance(middle, watch_).end == Outcome::reached && accepted())
+      last = shell_.state();
+    else
+      bad = middle;
+  }
+  shell_.back_to(last);
 }
 
 Report Simulation::sample(double t, const LoadStep& beside, bool unstable, const Watch& watch) {

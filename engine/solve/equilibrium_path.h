@@ -120,8 +120,10 @@ class PathFollower {
   /// Follows the path to t and converges there. On failure the current point is the last good one.
   PathReport advance(double t, const Watch& watch);
 
-  /// Goes on from a point that was followed before, with the step that served there.
+  /// Goes on from a point that was followed before, with the step that served there, under the
+  /// loads of that point.
   void resume(const PathPoint& point) {
+    motion_.apply_loads(system_, point.t);
     now_ = point;
     has_before_ = false;
   }

@@ -159,8 +159,6 @@ NestedReport NestedShell::sample(double t, const NestedPathPoint& beside, const 
   PathFollower path(*levels_[0]->system, levels_[0]->motion, options_);
   path.allow_unstable(options_.allow_unstable);
   path.resume(beside);
-  // where a load step stands there already nothing is advanced
-  levels_[0]->motion.apply_loads(*levels_[0]->system, t);
   const PathReport report = path.advance(t, watch);
   if (report.end != Outcome::reached) return {report.end, report.t};
   set_corrections(beside.beyond);

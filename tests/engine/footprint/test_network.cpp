@@ -112,6 +112,13 @@ TEST_CASE("a network that is a square grid is named as one, whichever way its ro
   CHECK(net.rods[2].span.begin == -12);
   CHECK(made.ends[4] == rods[0].back());
   CHECK(net.spacing == 10);
+  // a joint keeps the name of its point
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const FootprintJoint& at = net.joints[std::size_t(2 * i + j)];
+      CHECK(std::pair(at.i, at.j) == std::pair(joint[i][j], 0));
+      CHECK(at.u == Approx(10 * (i - 1.5)));
+    }
   // a rod that ends on another is of no grid
   rods[5] = {rods[5][0], rods[5][1], rods[5][2]};
   const auto cut = value_of(network_footprint(network(points, rods)));

@@ -16,6 +16,17 @@ preset::Preset crowded(double radius_mm) {
   return preset;
 }
 
+/// The shell of Fig. 1 with two mirrors, which dips below its boundary's plane.
+preset::Preset with_two_mirrors() {
+  preset::Preset preset;
+  preset.footprint.rods = 12;
+  preset.footprint.radius_mm = 126;
+  preset.actuation.radius_mm = 94.5;
+  preset.imperfection.size = 0;
+  preset.accuracy.edges_per_segment = 4;
+  return preset;
+}
+
 double number_after(const std::string& text, const std::string& words) {
   const auto at = text.find(words);
   REQUIRE(at != std::string::npos);
@@ -87,6 +98,48 @@ TEST_CASE("a push stops before contact too, and one that starts in contact does 
   CHECK(last_frame(pushed).lowest_mm >= -0.5 * preset.rod.diameter_mm);
   CHECK(last_frame(pushed).lowest_mm < -0.4 * preset.rod.diameter_mm);
   CHECK(pushed.summary.limit_reason.find("and the table at") != std::string::npos);
+}
+
+TEST_CASE("a contact inside the load step in which the equilibrium is lost is found") {
+  auto preset = with_two_mirrors();
+  preset.limits.contact = preset::OnContact::stop;
+  preset.indentation.at = preset::IndentationPlace::highest;
+  std::vector<double> depths;
+  // steps end at 33.6, before the path turns back at 33.64, and at 32.5 and 35
+  for (const double depth_mm : {36.0, 40.0}) {
+    preset.indentation.depth_mm = depth_mm;
+    const auto pushed = run(preset);
+    INFO(pushed.summary.limit_reason);
+    CHECK(pushed.summary.limit == record::Limit::contact);
+    CHECK(last_frame(pushed).contacts == 0);
+    depths.push_back(last_frame(pushed).depth_mm);
+  }
+  CHECK(depths[0] > 33);
+  CHECK(depths[1] == Approx(depths[0]).margin(0.01));
+}
+
+TEST_CASE("a shell that begins in contact goes no deeper into it, and may come out") {
+  auto preset = with_two_mirrors();
+  preset.limits.table = true;
+  const auto told = run(preset);
+  INFO(told.summary.contact);
+  preset.limits.contact = preset::OnContact::stop;
+  const auto stopped = run(preset);
+  INFO(stopped.summary.limit_reason);
+  CHECK(stopped.summary.limit == record::Limit::contact);
+  // not where the first buckled state was looked for
+  CHECK(last_frame(stopped).progress ==
+        Approx(number_after(told.summary.contact, "at progress ")).margin(1e-3));
+  CHECK(last_frame(stopped).contacts == 0);
+
+  const auto scene = value_of(shared_scene_of(preset));
+  Simulation shell = value_of(Simulation::open(scene, {{4}, false}));
+  REQUIRE(value_of(shell.begin_buckled(0.05, unwatched)).end == Outcome::reached);
+  REQUIRE(!shell.contacts().places.empty());
+  const double begun = shell.progress();
+  CHECK(shell.move_to(begun + 0.1, unwatched).end == Outcome::contact);
+  CHECK(shell.progress() == Approx(begun).margin(1e-3));
+  CHECK(shell.move_to(0.5 * begun, unwatched).end == Outcome::reached);
 }
 
 TEST_CASE("shells of the paper do not touch themselves: a rod near its joint is none") {

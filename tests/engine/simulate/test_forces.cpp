@@ -298,6 +298,20 @@ TEST_CASE("bending strain ends a path where it is said to") {
   double progress = 0;
   REQUIRE(std::sscanf(outcome.summary.limit_reason.c_str(), "at progress %lf", &progress) == 1);
   CHECK(progress == Approx(limit.shortening / exact.shortening).epsilon(0.01));
-  CHECK(outcome.trajectory.frames.size() == 2);
-  CHECK(last_frame(outcome).largest_bending_strain < limit.strain);
+  // the state at the limit has its frame
+  const record::Frame& last = last_frame(outcome);
+  CHECK(outcome.trajectory.frames.size() == 3);
+  CHECK(last.event == "strength");
+  CHECK(last.progress == Approx(progress).margin(1e-3));
+  CHECK(last.largest_bending_strain <= limit.strain);
+  CHECK(last.largest_bending_strain > 0.99 * limit.strain);
+}
+
+TEST_CASE("a shell bent further than is allowed is not pushed") {
+  preset::Preset p = crossed_rods(0.25);
+  p.limits.max_bending_strain = 0.5 * elastica(0.24165275).strain;
+  p.indentation.at = preset::IndentationPlace::highest;
+  p.indentation.depth_mm = 5;
+  CHECK(refused_run(p, Fault::no_equilibrium).find("[limits] max_bending_strain") !=
+        std::string::npos);
 }
