@@ -83,7 +83,6 @@ class Simulation::Walk {
   Outcome step();
   Outcome step_came(double next, const NestedState& good);
   Outcome branch_ended(Outcome how, double next, const NestedState& good);
-  bool may_meet_limits();
   Outcome end_at(Event limit);
   Outcome end_before(Event limit, double bad, const NestedState& good);
   double located_to() const;
@@ -181,10 +180,13 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   const double last = shell_.followed().t;
   // what the finer meshes lost and the leader did not is not located yet
   const bool ahead = last == next && kind == Event::Kind::stability_lost;
-  if (ahead || may_meet_limits()) {
+  // nor is a limit that was asked for
+  const bool asked = scene_.stops_at_contact || scene_.max_bending_strain > 0;
+  if (ahead || asked) {
     if (ahead || shell_.advance(last, watch_).end != Outcome::reached)
       bisect(next, good, [] { return true; });
-    if (auto limit = of_.beyond(limits_)) return end_before(std::move(*limit), now(), good);
+    if (auto limit = asked ? of_.beyond(limits_) : std::nullopt)
+      return end_before(std::move(*limit), now(), good);
     if (now() != good.t) note();
   }
   const NestedState end_of_branch = shell_.state();
@@ -247,14 +249,6 @@ bool Simulation::Walk::leave(Event& event) {
 }
 
 // ---- what ends it ----
-
-/// Whether a limit may lie on the piece of a branch behind its last load step: one that is looked
-/// for, or rods strained so far at its end.
-bool Simulation::Walk::may_meet_limits() {
-  if (scene_.stops_at_contact || scene_.max_bending_strain > 0) return true;
-  shell_.system(0).gradient_at(shell_.followed().state);
-  return std::abs(shell_.system(0).assembly().largest_strain) > scene_.max_strain;
-}
 
 /// To how much in the path parameter a limit is located; where loads alone change nothing is moved.
 double Simulation::Walk::located_to() const {
