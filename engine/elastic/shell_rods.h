@@ -23,12 +23,19 @@ struct JointLaw {
   double twist_Nmm = 0;        ///< per rad; 0: they pass no twist
 };
 
+/// How far rods are kept apart.
+struct ContactLaw {
+  ContactBarrier barrier;
+  std::vector<double> radius_mm;  ///< one a rod
+};
+
 /// Sections, joints and dead loads of the rods of a footprint.
 struct ShellRods {
   std::vector<RodMaterial> materials;   ///< one a rod, or one for all
   JointLaw joints;                      ///< on the twist rung; on the bend rung rods share nodes
   std::vector<double> weight_N_per_mm;  ///< one a rod, downwards; empty: none
   std::vector<PointLoad> points;
+  ContactLaw contact;
 
   ShellRods() = default;
   ShellRods(const RodMaterial& material) : materials{material} {}  // NOLINT: rods all alike
@@ -39,7 +46,7 @@ struct ShellRods {
   }
   bool loaded() const {
     // a member more does not compile here: whoever adds one says whether it loads the shell
-    const auto& [rods, law, weight, loads] = *this;
+    const auto& [rods, law, weight, loads, touching] = *this;
     return !weight.empty() || !loads.empty();
   }
 };

@@ -150,6 +150,7 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   PathPoint next;
   next.t = t;
   next.state = predict(t);
+  if (system_.clear_share(now_.state, next.state.x - now_.state.x) < 1) return Outcome::lost;
   const double predicted_move = max_column_norm(next.state.x - now_.state.x);
   const double allowed = std::min(options_.largest_move * options_.spacing_mm,
                                   0.5 * predicted_move + 1e-3 * options_.spacing_mm);
@@ -158,6 +159,13 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
       converge ? options_.tolerance_mm : options_.target_move * options_.spacing_mm;
   // a prediction that takes more to come to rest may be beyond a fold, next to another branch
   newton_options.most_iterations = 5;
+  const ContactPairs& contact = system_.model().contact;
+  if (contact.any()) {
+    // what begins to press takes some more, and a tangent knows of it within the gap alone
+    newton_options.most_iterations = 12;
+    newton_options.tolerance_mm =
+        std::min(newton_options.tolerance_mm, 0.1 * contact.barrier.gap_mm);
+  }
   newton_options.farthest_mm = allowed;
   newton_options.trusted_mm = newton_options.tolerance_mm;
   newton_options.widest_turn = options_.widest_turn;
@@ -287,7 +295,8 @@ Outcome ArcFollower::step(const Watch& watch) {
     move_to(system_->model(), now_.point.state.x + step_mm_ * now_.point.velocity.x,
             next.point.state);
     int iterations = 0;
-    if (!corrected(next, iterations, watch)) {
+    if (!corrected(next, iterations, watch) ||
+        system_->clear_share(now_.point.state, next.point.state.x - now_.point.state.x) < 1) {
       if (watch.cancelled()) return Outcome::cancelled;
       continue;
     }

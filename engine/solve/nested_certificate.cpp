@@ -47,6 +47,24 @@ Eigen::VectorXd weights_of(std::span<const LevelCorrection> known, double t) {
   return weights;
 }
 
+/// Nodes of a finer mesh on the edges of a coarser one: as these, they do not go through one
+/// another.
+Eigen::Matrix3Xd on_edges(const RodMesh& coarse, const Eigen::Matrix3Xd& x, const RodMesh& fine,
+                          Eigen::Matrix3Xd nodes) {
+  for (std::size_t r = 0; r < fine.rods.size(); ++r) {
+    const std::vector<double>& s = coarse.position[r];
+    std::size_t k = 1;
+    for (std::size_t n = 0; n < fine.rods[r].size(); ++n) {
+      const double at = fine.position[r][n];
+      while (k + 1 < s.size() && s[k] < at) ++k;
+      const double share = (at - s[k - 1]) / (s[k] - s[k - 1]);
+      nodes.col(fine.rods[r][n]) =
+          (1 - share) * x.col(coarse.rods[r][k - 1]) + share * x.col(coarse.rods[r][k]);
+    }
+  }
+  return nodes;
+}
+
 }  // namespace
 
 LevelCorrection NestedShell::correction_of(const Level& level, double t, const State& base,
@@ -126,6 +144,17 @@ std::optional<NestedShell::Refined> NestedShell::refine(std::size_t k, double t,
   std::optional<Refined> found;
   for (const From from : {From::remembered, From::coarser, From::down}) {
     State trial = from == From::remembered ? guess(level, t, base, expected) : base;
+    if (level.model.contact.any()) {
+      const Level& below = *levels_[k - 1];
+      State clear = base;
+      move_to(level.model,
+              columns_of(level.mesh, level.model,
+                         on_edges(below.mesh, nodes_of(below.mesh, below.model, coarser.state.x),
+                                  level.mesh, nodes_of(level.mesh, level.model, base.x))),
+              clear);
+      const Eigen::Matrix3Xd way = trial.x - clear.x;
+      move_to(level.model, clear.x + level.system->clear_share(clear, way) * way, trial);
+    }
     level.motion.impose(*level.system, t, trial);
     if (from == From::down) minimise(*level.system, trial, {.most_iterations = 60}, watch);
     NewtonReport tried;
@@ -229,6 +258,11 @@ void NestedShell::estimate() {
   const Eigen::Matrix3Xd coarser = nodes(last - 1);
   const int joints = finest.mesh.joints;
   const Eigen::Matrix3Xd step = state_.x.leftCols(joints) - coarser.leftCols(joints);
+  // where edges press they do so wherever they are on each mesh: it knows no order
+  if (finest.system->assembly().energies[Term::contact] > 0) {
+    state_.error_estimate_mm = margin * max_column_norm(step) + options_.tolerance_mm;
+    return;
+  }
   if (!plan_.extrapolate || last < 2) {
     state_.error_estimate_mm = margin * max_column_norm(step) / 3 + options_.tolerance_mm;
     return;
