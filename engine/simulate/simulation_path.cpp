@@ -60,7 +60,9 @@ constexpr double actuation_step = 0.05;  // in the path parameter
 constexpr double locate_mm = 5e-3;       // of prescribed move: to which a limit is located
 constexpr int most_halvings = 5;         // of a load step that a finer mesh does not follow
 constexpr double loads_ways = 4;         // of the loads, what counts as the length scale of a move
-constexpr std::size_t most_events = 8;   // branches left on one way
+// branches left on one way; where rods press on one another they slip past each other again and
+// again
+constexpr std::size_t most_events = 8, most_events_in_contact = 64;
 
 /// The same in the path parameter; where loads alone change, nothing is moved.
 double located_to(double reach_mm) {
@@ -132,6 +134,8 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
   };
   note_load_step();
   take_softness();
+  const bool contact = shell_->model(0).contact.any();
+  const std::size_t most = contact ? most_events_in_contact : most_events;
   int halvings = 0;
   while (shell_->state().t != t) {
     if (watch.cancelled()) return end(Outcome::cancelled);
@@ -171,7 +175,7 @@ Report Simulation::go(double t, const Watch& watch, const BifurcationPolicy& lea
     if (nested.end == Outcome::unstable && led && halvings >= most_halvings)
       return end(Outcome::meshes_disagree);
     const bool branch_ended = nested.end == Outcome::unstable || nested.end == Outcome::lost;
-    if (!leaving.wanted || !branch_ended || events.size() >= most_events) return end(nested.end);
+    if (!leaving.wanted || !branch_ended || events.size() >= most) return end(nested.end);
     const auto kind =
         nested.end == Outcome::unstable ? Event::Kind::stability_lost : Event::Kind::turned_back;
     // what the finer meshes lost and the leader did not is not located yet

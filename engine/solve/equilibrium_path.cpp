@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/dense.h"
+#include "engine/solve/equilibrium.h"
 
 namespace gridshell {
 
@@ -152,14 +153,16 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   next.state = predict(t);
   if (system_.clear_share(now_.state, next.state.x - now_.state.x) < 1) return Outcome::lost;
   const double predicted_move = max_column_norm(next.state.x - now_.state.x);
+  const ContactPairs& contact = system_.model().contact;
+  // what begins to press stays behind
+  const double share = contact.any() ? 1 : 0.5;
   const double allowed = std::min(options_.largest_move * options_.spacing_mm,
-                                  0.5 * predicted_move + 1e-3 * options_.spacing_mm);
+                                  share * predicted_move + 1e-3 * options_.spacing_mm);
   NewtonOptions newton_options;
   newton_options.tolerance_mm =
       converge ? options_.tolerance_mm : options_.target_move * options_.spacing_mm;
   // a prediction that takes more to come to rest may be beyond a fold, next to another branch
   newton_options.most_iterations = 5;
-  const ContactPairs& contact = system_.model().contact;
   if (contact.any()) {
     // what begins to press takes some more, and a tangent knows of it within the gap alone
     newton_options.most_iterations = 12;
@@ -169,7 +172,18 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   newton_options.farthest_mm = allowed;
   newton_options.trusted_mm = newton_options.tolerance_mm;
   newton_options.widest_turn = options_.widest_turn;
+  const Eigen::Matrix3Xd predicted = next.state.x;
+  State guess = contact.any() ? next.state : State{};
   report = newton(system_, next.state, newton_options, watch);
+  if (report.outcome != Outcome::reached && contact.any() && last_.inertia.positive_definite()) {
+    // down the energy a barrier is met more surely; it leads no further than a prediction may err
+    const MinimiseOptions down{.tolerance_mm = newton_options.tolerance_mm, .most_iterations = 60};
+    if (minimise(system_, guess, down, watch).outcome == Outcome::reached &&
+        max_column_norm(guess.x - predicted) <= allowed) {
+      next.state = std::move(guess);
+      report = newton(system_, next.state, newton_options, watch);
+    }
+  }
   if (report.outcome != Outcome::reached)
     return report.outcome == Outcome::not_converged ? Outcome::lost : report.outcome;
   if (!options_.allow_unstable && !report.inertia.positive_definite()) return Outcome::unstable;
