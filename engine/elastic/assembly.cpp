@@ -31,6 +31,7 @@ inline void reset(const Model& model, Assembly& out) {
   out.tangents.resize(3, Eigen::Index(model.edges.size()));
   out.smallest_cosine = 1;
   out.largest_strain = 0;
+  out.overlap = false;
 }
 
 /// Stretch of one edge: energy and axial force.
@@ -243,6 +244,7 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
   });
   each_contact(model, state.x, true, [&](const EdgeContact& contact) {
     out.energies[Term::contact] += contact.energy;
+    out.overlap |= contact.overlap;
     for (int i = 0; i < 4; ++i)
       out.gradient.col(contact.node[std::size_t(i)]) += contact.gradient.segment<3>(3 * i);
     if (with_hessian) add_contact_hessian(model, contact, out.hessian);

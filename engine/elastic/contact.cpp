@@ -26,8 +26,9 @@ std::array<double, 3> log_barrier(double x) {
 
 }  // namespace
 
-ContactBarrier::Value ContactBarrier::at(double distance2, double radii) const {
-  const double range = gap_mm * (2 * radii + gap_mm);  // (S + gap)^2 - S^2
+ContactBarrier::Value ContactBarrier::at(double distance2, double radii, double thinness) const {
+  radii *= thinness;
+  const double gap = thinness * gap_mm, range = gap * (2 * radii + gap);  // (S + gap)^2 - S^2
   const double x = (distance2 - radii * radii) / range;
   if (!(x < 1)) return {};
   auto [b, slope, curvature] = log_barrier(std::max(x, parabola_from));
@@ -36,31 +37,28 @@ ContactBarrier::Value ContactBarrier::at(double distance2, double radii) const {
     b += beyond * (slope + 0.5 * beyond * curvature);
     slope += beyond * curvature;
   }
-  const double k = stiffness_N_per_mm * gap_mm * gap_mm;
+  const double k = stiffness_N_per_mm * gap * gap;
   return {k * b, k * slope / range, k * curvature / (range * range)};
 }
 
-bool ContactPairs::may_touch(const ContactEdge& a, const ContactEdge& b) const {
-  for (const int node : a.nodes)
-    if (std::ranges::find(b.nodes, node) != b.nodes.end()) return false;
+double ContactPairs::thinness(const ContactEdge& a, const ContactEdge& b) const {
   const bool one_rod = a.rod == b.rod;
-  const double closed = closed_length_mm[std::size_t(a.rod)];
+  const double closed = closed_length_mm[std::size_t(a.rod)], range = radii(a, b) + barrier.gap_mm;
   if (one_rod) {
-    const double apart = std::numbers::pi * (radii(a, b) + barrier.gap_mm);
     double along = std::max(a.begin - b.end, b.begin - a.end);
     if (closed > 0) along = std::min(along, closed - std::max(a.end - b.begin, b.end - a.begin));
-    if (along < apart) return false;
+    if (along < std::numbers::pi * range) return 0;
   }
-  const double half = (1 + 1e-9) * std::min(a.half, b.half);
+  double thinness = 1;
   for (const ContactEdge::End& i : a.ends)
     for (const ContactEdge::End& j : b.ends) {
-      if (i.node != j.node || i.reach > half || j.reach > half) continue;
+      if (i.node != j.node) continue;
       // where a rod goes on through a joint its two sides are not near each other
       const double between = std::abs(i.at - j.at);
-      const bool goes_on = one_rod && (between < 1e-9 || std::abs(between - closed) < 1e-9);
-      if (!goes_on) return false;
+      if (one_rod && (between < 1e-9 || std::abs(between - closed) < 1e-9)) continue;
+      thinness = std::min(thinness, std::max(i.near, j.near) / std::max(joint_mm, 4 * range));
     }
-  return true;
+  return thinness;
 }
 
 namespace {
@@ -86,10 +84,9 @@ std::vector<int> places_of(const RodMesh& mesh, const std::vector<double>& radiu
 
 }  // namespace
 
-ContactPairs contact_pairs(const RodMesh& mesh, const Model& model, const ContactBarrier& barrier,
-                           const std::vector<double>& radius_mm) {
-  ContactPairs pairs{barrier, {}, radius_mm, {}};
-  const std::vector<int> place = places_of(mesh, radius_mm);
+ContactPairs contact_pairs(const RodMesh& mesh, const Model& model, const ContactLaw& law) {
+  ContactPairs pairs{law.barrier, {}, law.radius_mm, {}, law.joint_mm};
+  const std::vector<int> place = places_of(mesh, law.radius_mm);
   for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
     const std::vector<int>& node = mesh.rods[r];
     const std::vector<double>& s = mesh.position[r];
@@ -108,10 +105,8 @@ ContactPairs contact_pairs(const RodMesh& mesh, const Model& model, const Contac
                                int(r),
                                at(k),
                                at(k + 1),
-                               {{{place_of(begin), at(begin), at(k + 1) - at(begin)},
-                                 {place_of(end), at(end), at(end) - at(k)}}},
-                               0.5 * (at(end) - at(begin)),
-                               {place_of(k), place_of(k + 1)}});
+                               {{{place_of(begin), at(begin), at(k) - at(begin)},
+                                 {place_of(end), at(end), at(end) - at(k + 1)}}}});
     }
   }
   return pairs;
@@ -206,20 +201,23 @@ void each_contact(const Model& model, const Eigen::Matrix3Xd& x, bool with_deriv
   const double reach = (with_derivatives ? 2 : 1) * barrier.gap_mm;
   each_near_pair(boxes_of(model, {&x}), widest_of(contact) + reach, [&](int a, int b) {
     const ContactEdge &one = contact.edges[std::size_t(a)], &other = contact.edges[std::size_t(b)];
-    if (!contact.may_touch(one, other)) return;
+    const double thinness = contact.thinness(one, other);
+    if (thinness == 0) return;
     const ModelEdge &e = model.edges[std::size_t(one.edge)],
                     &f = model.edges[std::size_t(other.edge)];
-    const double radii = contact.radii(one, other), range = radii + barrier.gap_mm;
+    const double radii = thinness * contact.radii(one, other), gap = thinness * barrier.gap_mm,
+                 range = radii + gap;
     const double le = e.rest_length, lf = f.rest_length;
-    const double mollified =
-        4 * parallel_share * barrier.gap_mm * (2 * radii + barrier.gap_mm) / (le * le + lf * lf);
+    const double mollified = 4 * parallel_share * gap * (2 * radii + gap) / (le * le + lf * lf);
     NearEdges near{x.col(e.to) - x.col(e.from), x.col(f.to) - x.col(f.from),
                    x.col(e.from) - x.col(f.from), mollified * le * le, mollified * lf * lf};
     near.find();
     if (!(near.distance2 < (radii + reach) * (radii + reach))) return;
     const double share = std::min(1.0, le / range) * std::min(1.0, lf / range);
-    const ContactBarrier::Value law = barrier.at(near.distance2, radii);
-    EdgeContact at{{e.from, e.to, f.from, f.to}, one.edge, other.edge, share * law.energy, {}, {}};
+    const ContactBarrier::Value law =
+        barrier.at(near.distance2, contact.radii(one, other), thinness);
+    EdgeContact at{{e.from, e.to, f.from, f.to},   one.edge, other.edge, share * law.energy,
+                   near.distance2 < radii * radii, {},       {}};
     if (with_derivatives) {
       differentiate(near, at.gradient, at.hessian);
       at.hessian =
@@ -239,7 +237,8 @@ double clear_share(const Model& model, const Eigen::Matrix3Xd& x, const Eigen::M
   const Eigen::Matrix3Xd moved = x + dx;
   each_near_pair(boxes_of(model, {&x, &moved}), 0.5 * widest_of(contact), [&](int a, int b) {
     const ContactEdge &one = contact.edges[std::size_t(a)], &other = contact.edges[std::size_t(b)];
-    if (!contact.may_touch(one, other)) return;
+    const double thinness = contact.thinness(one, other);
+    if (thinness == 0) return;
     const ModelEdge &e = model.edges[std::size_t(one.edge)],
                     &f = model.edges[std::size_t(other.edge)];
     double fastest = 0;
@@ -251,7 +250,7 @@ double clear_share(const Model& model, const Eigen::Matrix3Xd& x, const Eigen::M
       return std::sqrt(nearest_points(at(e.from), at(e.to), at(f.from), at(f.to)).distance2);
     };
     double share = 0, d = distance(0);
-    const double least = 0.5 * std::min(d, contact.radii(one, other));
+    const double least = 0.5 * std::min(d, thinness * contact.radii(one, other));
     for (int k = 0; k < most_steps && share < clear; ++k) {
       if (d - least <= 1e-3 * least) break;
       share += (d - least) / fastest;

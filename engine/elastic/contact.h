@@ -22,56 +22,66 @@ struct ContactBarrier {
   double gap_mm = 0;              ///< 0: none
   double stiffness_N_per_mm = 0;  ///< k
 
+  bool acts() const { return gap_mm > 0; }
   /// E and its first two derivatives by d^2.
   struct Value {
     double energy = 0, slope = 0, curvature = 0;
   };
-  Value at(double distance2, double radii) const;
+  /// `thinness` times as thick rods, with such a gap.
+  Value at(double distance2, double radii, double thinness = 1) const;
+};
+
+/// How far the rods of a footprint are kept apart.
+struct ContactLaw {
+  ContactBarrier barrier;
+  std::vector<double> radius_mm;  ///< one a rod
+  double joint_mm = 0;            ///< diameter of the joints' cylinders
 };
 
 /// An edge that may touch others.
 struct ContactEdge {
-  /// An end of its segment: its place along the rod, and how far the edge reaches from there, mm.
+  /// An end of its segment: its place along the rod, and how near the edge comes to it, mm.
   struct End {
     int node = 0;
-    double at = 0, reach = 0;
+    double at = 0, near = 0;
   };
   int edge = 0;  ///< of the model
   int rod = 0;
-  double begin = 0, end = 0;     ///< along the rod at rest, mm
-  std::array<End, 2> ends = {};  ///< of its segment
-  double half = 0;               ///< of its segment's length, mm
-  std::array<int, 2> nodes{};    ///< of the mesh: spring joints have one place, and two nodes
+  double begin = 0, end = 0;  ///< along the rod at rest, mm
+  std::array<End, 2> ends = {};
 };
 
-/// Edges that may touch, and how they are kept apart. Not of one another (`may_touch`):
-/// edges that share a node; of two segments that meet at a joint, edges that lie wholly in the
-/// halves next to it, half the shorter segment counting (straight rods part from one another there,
-/// and what detection tells beyond, a cell that closes, is resisted); edges of one rod that are
-/// within pi (S + gap) along it.
+/// Edges that may touch, and how they are kept apart. Rods meet at their joints: two edges on
+/// segments with a common joint are as much thinner, in radii and gap, as the farther of them is
+/// nearer to it, along the rods, than `joint_mm` or four times S + gap. So what is nothing but the
+/// joint does not press (straight rods do where the angle between them is below (S + gap) over that
+/// length; joints' cylinders of this diameter meet before), and what detection tells is resisted.
+/// Edges of one rod within pi (S + gap) along it do not touch.
 struct ContactPairs {
   ContactBarrier barrier;
   std::vector<ContactEdge> edges;
   std::vector<double> radius_mm;         ///< of each rod
   std::vector<double> closed_length_mm;  ///< of each rod that is a ring, else 0
+  double joint_mm = 0;                   ///< diameter of the joints' cylinders
 
   bool any() const { return !edges.empty(); }
   double radii(const ContactEdge& a, const ContactEdge& b) const {
     return radius_mm[std::size_t(a.rod)] + radius_mm[std::size_t(b.rod)];
   }
-  bool may_touch(const ContactEdge& a, const ContactEdge& b) const;
+  /// 1 of edges far apart along their rods, 0 of those that do not touch.
+  double thinness(const ContactEdge& a, const ContactEdge& b) const;
 };
 
 /// The edges of a meshed footprint that may touch, of a model built on it. Ends of rods that lie at
 /// one place in the flat, to within their radii, count as one joint.
-ContactPairs contact_pairs(const RodMesh& mesh, const Model& model, const ContactBarrier& barrier,
-                           const std::vector<double>& radius_mm);
+ContactPairs contact_pairs(const RodMesh& mesh, const Model& model, const ContactLaw& law);
 
 /// The energy between two edges with its derivatives by their four ends: of e, then of f.
 struct EdgeContact {
   std::array<int, 4> node{};
   int e = 0, f = 0;
   double energy = 0;
+  bool overlap = false;  ///< nearer than the radii
   Eigen::Matrix<double, 12, 1> gradient;
   Eigen::Matrix<double, 12, 12> hessian;
 };

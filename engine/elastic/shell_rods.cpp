@@ -162,8 +162,7 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
   for (const int node : pinned) model->pin(node);
   if (rung == RodModel::twist || !pinned.empty()) finish(*model);
   model->loads = dead_loads(mesh, shell);
-  if (contact.barrier.gap_mm > 0)
-    model->contact = contact_pairs(mesh, *model, contact.barrier, contact.radius_mm);
+  if (contact.barrier.acts()) model->contact = contact_pairs(mesh, *model, contact);
   lay_flat(mesh, *model);
   return model;
 }

@@ -23,12 +23,6 @@ struct JointLaw {
   double twist_Nmm = 0;        ///< per rad; 0: they pass no twist
 };
 
-/// How far rods are kept apart.
-struct ContactLaw {
-  ContactBarrier barrier;
-  std::vector<double> radius_mm;  ///< one a rod
-};
-
 /// Sections, joints and dead loads of the rods of a footprint.
 struct ShellRods {
   std::vector<RodMaterial> materials;   ///< one a rod, or one for all

@@ -225,8 +225,8 @@ struct Limits {
 enum class ContactModel { none, barrier };
 struct Contact {
   ContactModel model = ContactModel::none;
-  double gap_mm = 0.05;
-  double stiffness_N_per_mm = 10;
+  double gap_mm = 0.1;
+  double stiffness_N_per_mm = 1;
 };
 
 /// How a shell is shaken out of the state it would rest in.

@@ -249,7 +249,8 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
       continue;
     }
     system.apply(dx, state);
-    if (descent.exact() || is_minimum(system, state, options.EA_scale))
+    if (!system.assembly().overlap &&
+        (descent.exact() || is_minimum(system, state, options.EA_scale)))
       report.outcome = Outcome::reached;
     return report;
   }

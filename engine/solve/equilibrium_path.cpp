@@ -151,8 +151,9 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   PathPoint next;
   next.t = t;
   next.state = predict(t);
-  if (system_.clear_share(now_.state, next.state.x - now_.state.x) < 1) return Outcome::lost;
-  const double predicted_move = max_column_norm(next.state.x - now_.state.x);
+  const Eigen::Matrix3Xd way = next.state.x - now_.state.x;
+  if (system_.clear_share(now_.state, way) < 1) return Outcome::lost;
+  const double predicted_move = max_column_norm(way);
   const ContactPairs& contact = system_.model().contact;
   // what begins to press stays behind
   const double share = contact.any() ? 1 : 0.5;
@@ -172,14 +173,13 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   newton_options.farthest_mm = allowed;
   newton_options.trusted_mm = newton_options.tolerance_mm;
   newton_options.widest_turn = options_.widest_turn;
-  const Eigen::Matrix3Xd predicted = next.state.x;
   State guess = contact.any() ? next.state : State{};
   report = newton(system_, next.state, newton_options, watch);
   if (report.outcome != Outcome::reached && contact.any() && last_.inertia.positive_definite()) {
     // down the energy a barrier is met more surely; it leads no further than a prediction may err
     const MinimiseOptions down{.tolerance_mm = newton_options.tolerance_mm, .most_iterations = 60};
     if (minimise(system_, guess, down, watch).outcome == Outcome::reached &&
-        max_column_norm(guess.x - predicted) <= allowed) {
+        max_column_norm(guess.x - now_.state.x - way) <= allowed) {
       next.state = std::move(guess);
       report = newton(system_, next.state, newton_options, watch);
     }

@@ -258,7 +258,7 @@ void NestedShell::estimate() {
   const Eigen::Matrix3Xd coarser = nodes(last - 1);
   const int joints = finest.mesh.joints;
   const Eigen::Matrix3Xd step = state_.x.leftCols(joints) - coarser.leftCols(joints);
-  // where edges press they do so wherever they are on each mesh: it knows no order
+  // where on its edges a mesh presses is chance: that knows no order
   if (finest.system->assembly().energies[Term::contact] > 0) {
     state_.error_estimate_mm = margin * max_column_norm(step) + options_.tolerance_mm;
     return;
@@ -280,14 +280,15 @@ void NestedShell::estimate() {
   state_.x += correction;
 }
 
-CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate) {
+CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
+                                 bool pressing) {
   const std::size_t last = levels.size() - 1;
   CertifiedVectors found{levels[last], std::numeric_limits<double>::quiet_NaN()};
   if (last == 0) return found;
   const Eigen::Matrix3Xd step = levels[last] - levels[last - 1];
   if (extrapolate) found.value = (4 * levels[last] - levels[last - 1]) / 3;
-  found.error = margin * max_column_norm(step) / 3;
-  if (last == 1) return found;
+  found.error = margin * max_column_norm(step) / (pressing ? 1 : 3);
+  if (last == 1 || pressing) return found;
   const Eigen::Matrix3Xd before = levels[last - 1] - levels[last - 2];
   const double by_order = margin * left_by_order(step, before);
   found.error =
@@ -321,8 +322,9 @@ void NestedShell::take_reactions() {
     const auto entries = state_.held_stiffness.reshaped().transpose();
     stiffness.emplace_back(Eigen::Matrix3Xd::Zero(3, entries.cols())).row(0) = entries;
   }
-  const CertifiedVectors force = certify_vectors(forces, plan_.extrapolate_forces),
-                         growth = certify_vectors(stiffness, plan_.extrapolate_forces);
+  const bool pressing = finest.assembly().energies[Term::contact] > 0;
+  const CertifiedVectors force = certify_vectors(forces, plan_.extrapolate_forces, pressing),
+                         growth = certify_vectors(stiffness, plan_.extrapolate_forces, pressing);
   state_.reactions.clear();
   for (const auto& on : force.value.colwise()) state_.reactions.emplace_back(on);
   state_.reaction_error_N = force.error;

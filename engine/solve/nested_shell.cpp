@@ -11,8 +11,7 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
   NestedShell shell(plan, options);
   shell.boundary_ = motion;
   // contact knows no order
-  if (rods.contact.barrier.gap_mm > 0)
-    shell.plan_.extrapolate = shell.plan_.extrapolate_forces = false;
+  if (rods.contact.barrier.acts()) shell.plan_.extrapolate = shell.plan_.extrapolate_forces = false;
   for (int edges : plan.edges_per_segment) {
     auto level = std::make_unique<Level>();
     TRY_DO(level->build(footprint, rods, rung, motion, edges));

@@ -288,6 +288,13 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     system.apply(dx, state, system.clear_share(state, dx));
     report.last_move_mm = move;
     report.factored_move_mm = factor ? move : report.factored_move_mm + move;
+    // rods within one another are in equilibrium where their axes meet: none of the shell's
+    if (system.assembly().overlap) {
+      factor = true;
+      before = move;
+      if (move <= options.tolerance_mm) return end(Outcome::lost);
+      continue;
+    }
     if (move <= options.tolerance_mm) return end(Outcome::reached);
     if (factor && next_move.after(move) <= options.trusted_mm &&
         (!options.trusted_misfit ||

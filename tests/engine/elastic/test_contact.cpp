@@ -24,8 +24,7 @@ Model two_edges() {
                             RodModel::bend)
                     .value();
   model.contact = {{gap, stiffness},
-                   {{0, 0, 0, 5, {{{0, 0, 5}, {1, 5, 5}}}, 2.5, {0, 1}},
-                    {1, 1, 0, 4, {{{2, 0, 4}, {3, 4, 4}}}, 2, {2, 3}}},
+                   {{0, 0, 0, 5, {{{0, 0, 0}, {1, 5, 0}}}}, {1, 1, 0, 4, {{{2, 0, 0}, {3, 4, 0}}}}},
                    {radius, radius},
                    {0, 0}};
   return model;
@@ -143,32 +142,29 @@ TEST_CASE("contact: a move goes as far as edges keep clear of one another, and n
   CHECK(clear_share(model, x, edges({0, 5, 0}, {0, 5, 0}, {0, 0, 0}, {0, 0, 0})) == 1);
 }
 
-TEST_CASE("contact: edges of one joint's halves, of one node and near along a rod do not touch") {
+TEST_CASE(
+    "contact: edges are thinner next to a joint of both, those near along a rod do not touch") {
   // two rods of three segments of 20 mm, 8 edges each, cross at two joints, 100 and 101
-  ContactPairs pairs{{gap, stiffness}, {}, {radius, radius}, {0, 0}};
+  const ContactPairs pairs{{gap, stiffness}, {}, {radius, radius}, {0, 0}, 5};
   const auto edge = [](int rod, int segment, int k) {
     const double at = 20 * segment + 2.5 * k;
-    const int begin = segment == 0 ? 10 * rod : 99 + segment,
-              end = segment == 2 ? 10 * rod + 1 : 100 + segment;
-    const int node = 1000 * (rod + 1) + 8 * segment + k;
     return ContactEdge{
         0,
         rod,
         at,
         at + 2.5,
-        {{{begin, 20.0 * segment, 2.5 * (k + 1)}, {end, 20.0 * (segment + 1), 20 - 2.5 * k}}},
-        10,
-        {k == 0 ? begin : node, k == 7 ? end : node + 1}};
+        {{{segment == 0 ? 10 * rod : 99 + segment, 20.0 * segment, 2.5 * k},
+          {segment == 2 ? 10 * rod + 1 : 100 + segment, 20.0 * (segment + 1), 17.5 - 2.5 * k}}}};
   };
-  CHECK_FALSE(pairs.may_touch(edge(0, 1, 0), edge(1, 1, 0)));
-  CHECK_FALSE(pairs.may_touch(edge(0, 1, 3), edge(1, 1, 1)));
-  CHECK_FALSE(pairs.may_touch(edge(0, 1, 3), edge(1, 0, 4)));  // the other way from the joint
-  CHECK(pairs.may_touch(edge(0, 1, 4), edge(1, 0, 4)));        // beyond the middle
-  CHECK(pairs.may_touch(edge(0, 1, 4), edge(1, 1, 3)));        // next to different joints
-  CHECK(pairs.may_touch(edge(0, 0, 1), edge(1, 2, 1)));
+  CHECK(pairs.thinness(edge(0, 1, 0), edge(1, 1, 0)) == 0);
+  CHECK(pairs.thinness(edge(0, 1, 1), edge(1, 1, 0)) == 0.5);
+  CHECK(pairs.thinness(edge(0, 1, 1), edge(1, 0, 7)) == 0.5);  // the other way from the joint
+  CHECK(pairs.thinness(edge(0, 1, 2), edge(1, 1, 1)) == 1);
+  CHECK(pairs.thinness(edge(0, 1, 0), edge(1, 1, 7)) == 1);  // next to different joints
+  CHECK(pairs.thinness(edge(0, 0, 1), edge(1, 2, 1)) == 1);
   // along one rod
-  CHECK_FALSE(pairs.may_touch(edge(0, 1, 3), edge(0, 1, 4)));
-  CHECK(pairs.may_touch(edge(0, 1, 3), edge(0, 1, 5)));
-  CHECK(pairs.may_touch(edge(0, 0, 6), edge(0, 1, 2)));  // on through a joint
-  CHECK_FALSE(pairs.may_touch(edge(0, 0, 7), edge(0, 1, 0)));
+  CHECK(pairs.thinness(edge(0, 1, 3), edge(0, 1, 4)) == 0);
+  CHECK(pairs.thinness(edge(0, 1, 3), edge(0, 1, 5)) == 1);
+  CHECK(pairs.thinness(edge(0, 0, 6), edge(0, 1, 1)) == 1);  // on through a joint
+  CHECK(pairs.thinness(edge(0, 0, 7), edge(0, 1, 0)) == 0);
 }

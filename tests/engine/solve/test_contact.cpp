@@ -33,9 +33,7 @@ void let_touch(const std::vector<ModelRod>& rods, Model& model) {
            r,
            s[k],
            s[k + 1],
-           {{{rod.nodes.front(), 0, s[k + 1]}, {rod.nodes.back(), s.back(), s.back() - s[k]}}},
-           0.5 * s.back(),
-           {rod.nodes[k], rod.nodes[k + 1]}});
+           {{{rod.nodes.front(), 0, s[k]}, {rod.nodes.back(), s.back(), s.back() - s[k + 1]}}}});
   }
 }
 
@@ -43,7 +41,7 @@ double nearest_of(const Model& model, const Matrix3Xd& x) {
   double nearest = 1e9;
   for (const ContactEdge& a : model.contact.edges)
     for (const ContactEdge& b : model.contact.edges) {
-      if (!model.contact.may_touch(a, b)) continue;
+      if (model.contact.thinness(a, b) == 0) continue;
       const ModelEdge &e = model.edges[std::size_t(a.edge)], &f = model.edges[std::size_t(b.edge)];
       nearest = std::min(
           nearest,
