@@ -12,7 +12,7 @@
 namespace gridshell {
 
 /// What stores energy in a shell. A term more: a line here, one in `energy_terms`, its energy.
-enum class Term { bend, stretch, twist, joint, shear, load, support };
+enum class Term { bend, stretch, twist, joint, shear, load, support, contact };
 
 /// A term's word, as in `energy_bend_mJ`, and what it is.
 struct TermName {
@@ -29,6 +29,7 @@ inline constexpr std::array energy_terms{
     TermName{Term::shear, "shear", "resistance of the joints to shear"},
     TermName{Term::load, "load", "minus the work of loads, and what the shell stands on"},
     TermName{Term::support, "support", "springs of the supports"},
+    TermName{Term::contact, "contact", "barriers between rods that are near each other"},
 };
 
 static_assert(

@@ -31,6 +31,7 @@ inline void reset(const Model& model, Assembly& out) {
   out.tangents.resize(3, Eigen::Index(model.edges.size()));
   out.smallest_cosine = 1;
   out.largest_strain = 0;
+  out.overlap = false;
 }
 
 /// Stretch of one edge: energy and axial force.
@@ -198,6 +199,19 @@ void add_pair_hessian(const Model& model, const Pair<Law>& pair, const PairMatri
   if (model.has_spins()) add_spin_hessian(model, pair, H, h);
 }
 
+void add_contact_hessian(const Model& model, const EdgeContact& contact, BlockHessian& h) {
+  const auto block = [&](int i, int j) { return contact.hessian.block<3, 3>(3 * i, 3 * j); };
+  for (int i = 0; i < 4; ++i)
+    h.diagonal[std::size_t(contact.node[std::size_t(i)])].matrix() += block(i, i);
+  h.add(model.edges[std::size_t(contact.e)].slot, block(0, 1));
+  h.add(model.edges[std::size_t(contact.f)].slot, block(2, 3));
+  for (int i = 0; i < 2; ++i)
+    for (int j = 2; j < 4; ++j) {
+      h.beyond.push_back({contact.node[std::size_t(i)], contact.node[std::size_t(j)], {}});
+      h.beyond.back().block.matrix() = block(i, j);
+    }
+}
+
 /// What stores energy beside edges and bends.
 void add_others(const Model& model, const State& state, const ExternalLoads& outside,
                 bool with_hessian, Assembly& out) {
@@ -227,6 +241,13 @@ void add_others(const Model& model, const State& state, const ExternalLoads& out
     if (with_hessian)
       out.hessian.diagonal[std::size_t(action.node)].matrix().diagonal() +=
           factor * action.stiffness;
+  });
+  each_contact(model, state.x, true, [&](const EdgeContact& contact) {
+    out.energies[Term::contact] += contact.energy;
+    out.overlap |= contact.overlap;
+    for (int i = 0; i < 4; ++i)
+      out.gradient.col(contact.node[std::size_t(i)]) += contact.gradient.segment<3>(3 * i);
+    if (with_hessian) add_contact_hessian(model, contact, out.hessian);
   });
 }
 
@@ -376,6 +397,8 @@ Energies energies_of(const Model& model, const State& state, const ExternalLoads
   each_action(model, outside, [&](const NodeAction& action, double factor) {
     sum[action.term] += factor * action.value(state.x.col(action.node));
   });
+  each_contact(model, state.x, false,
+               [&](const EdgeContact& contact) { sum[Term::contact] += contact.energy; });
   return sum;
 }
 
@@ -402,12 +425,13 @@ void multiply(const Model& model, const BlockHessian& hessian, const Eigen::Matr
   y.resize(3, model.columns());
   for (int column = 0; column < model.columns(); ++column)
     y.col(column).noalias() = hessian.diagonal[std::size_t(column)].matrix() * x.col(column);
+  const auto add = [&](int row, int column, const Block3& block) {
+    y.col(row).noalias() += block.matrix() * x.col(column);
+    y.col(column).noalias() += block.matrix().transpose() * x.col(row);
+  };
   const auto& pairs = model.pattern.pairs();
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const auto [row, column] = pairs[k];
-    y.col(row).noalias() += hessian.pair[k].matrix() * x.col(column);
-    y.col(column).noalias() += hessian.pair[k].matrix().transpose() * x.col(row);
-  }
+  for (std::size_t k = 0; k < pairs.size(); ++k) add(pairs[k][0], pairs[k][1], hessian.pair[k]);
+  for (const BlockHessian::Beyond& one : hessian.beyond) add(one.row, one.column, one.block);
 }
 
 void clear_held(const Model& model, Eigen::Matrix3Xd& x) {

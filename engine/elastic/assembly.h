@@ -16,6 +16,7 @@ struct Assembly {
   BlockHessian hessian;
   double smallest_cosine = 1;  ///< of the turns between edges: below 0 they turn over 90 degrees
   double largest_strain = 0;   ///< of the edges, by size, with its sign
+  bool overlap = false;        ///< rods that a barrier keeps apart are nearer than their radii
 };
 
 /// What acts on a model from outside beside its ground: its dead loads times a factor, a field that

@@ -11,15 +11,22 @@
 
 namespace gridshell {
 
-BlockSlot BlockPattern::slot(int row, int column) {
+BlockSlot BlockPattern::find(int row, int column) const {
   const auto [low, high] = std::minmax(row, column);
-  auto& known = pairs_of_[std::size_t(low)];
+  const auto& known = pairs_of_[std::size_t(low)];
   const auto at = std::find_if(known.begin(), known.end(),
                                [high = high](const auto& one) { return one.first == high; });
-  if (at != known.end()) return 2 * at->second + (pairs_[std::size_t(at->second)][0] != row);
-  known.emplace_back(high, int(pairs_.size()));
+  if (at == known.end()) return -1;
+  return 2 * at->second + (pairs_[std::size_t(at->second)][0] != row);
+}
+
+BlockSlot BlockPattern::slot(int row, int column) {
+  const BlockSlot known = find(row, column);
+  if (known >= 0) return known;
+  const auto [low, high] = std::minmax(row, column);
+  pairs_of_[std::size_t(low)].emplace_back(high, int(pairs_.size()));
   pairs_.push_back({row, column});
-  return 2 * known.back().second;
+  return 2 * int(pairs_.size() - 1);
 }
 
 namespace {

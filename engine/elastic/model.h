@@ -12,6 +12,7 @@
 #include "engine/core/energies.h"
 #include "engine/core/result.h"
 #include "engine/core/rod_model.h"
+#include "engine/elastic/contact.h"
 #include "engine/elastic/element_energies.h"
 #include "engine/elastic/rod_material.h"
 #include "engine/footprint/footprint.h"
@@ -29,6 +30,8 @@ class BlockPattern {
 
   /// The place of block (row, column); a pair that is new becomes the last. Row and column differ.
   BlockSlot slot(int row, int column);
+  /// The same of a pair that is known, else -1.
+  BlockSlot find(int row, int column) const;
 
   const std::vector<std::array<int, 2>>& pairs() const { return pairs_; }
 
@@ -37,13 +40,20 @@ class BlockPattern {
   std::vector<std::vector<std::pair<int, int>>> pairs_of_;  // per smaller column: larger, index
 };
 
-/// Blocks on the diagonal, one a column, and beside it, one a pair of the pattern. N/mm.
+/// Blocks on the diagonal, one a column, beside it, one a pair of the pattern, and *beyond* the
+/// pattern between edges that come near each other, some of them zero, several at a place. N/mm.
 struct BlockHessian {
+  struct Beyond {
+    int row = 0, column = 0;
+    Block3 block;
+  };
   std::vector<Block3> diagonal, pair;
+  std::vector<Beyond> beyond;
 
   void reset(std::size_t columns, std::size_t pairs) {
     diagonal.assign(columns, {});
     pair.assign(pairs, {});
+    beyond.clear();
   }
   void add(BlockSlot slot, const Block3& block) {
     Block3& known = pair[std::size_t(slot >> 1)];
@@ -142,6 +152,7 @@ struct Model {
   PairLists pairs;
   std::vector<NodeAction> loads;   ///< dead; they count times a load factor
   std::vector<NodeAction> ground;  ///< what the shell stands on
+  ContactPairs contact;            ///< edges that may touch; none: nothing keeps them apart
   std::vector<int> spin;  ///< per edge: its angle's place, 3 column + row; empty: bend rung
 
   /// An edge list a rod, for frames and for what turns a held end.

@@ -137,7 +137,7 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
 
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rung) {
   // a member more does not compile here: whoever adds one puts it into the model
-  const auto& [materials, joints, weight_N_per_mm, points] = shell;
+  const auto& [materials, joints, weight_N_per_mm, points, contact] = shell;
   const bool springs = rung == RodModel::twist && joints.spring_N_per_mm > 0;
   std::vector<ModelRod> rods;
   std::vector<char> taken(std::size_t(mesh.joints), 0);
@@ -162,6 +162,7 @@ Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel 
   for (const int node : pinned) model->pin(node);
   if (rung == RodModel::twist || !pinned.empty()) finish(*model);
   model->loads = dead_loads(mesh, shell);
+  if (contact.barrier.acts()) model->contact = contact_pairs(mesh, *model, contact);
   lay_flat(mesh, *model);
   return model;
 }

@@ -29,6 +29,7 @@ struct ShellRods {
   JointLaw joints;                      ///< on the twist rung; on the bend rung rods share nodes
   std::vector<double> weight_N_per_mm;  ///< one a rod, downwards; empty: none
   std::vector<PointLoad> points;
+  ContactLaw contact;
 
   ShellRods() = default;
   ShellRods(const RodMaterial& material) : materials{material} {}  // NOLINT: rods all alike
@@ -39,7 +40,7 @@ struct ShellRods {
   }
   bool loaded() const {
     // a member more does not compile here: whoever adds one says whether it loads the shell
-    const auto& [rods, law, weight, loads] = *this;
+    const auto& [rods, law, weight, loads, touching] = *this;
     return !weight.empty() || !loads.empty();
   }
 };

@@ -210,6 +210,33 @@ void add_dynamics(FieldList<Dynamics> list) {
       .unused({"snap"}, why, still);
 }
 
+void add_contact(FieldList<Contact> list) {
+  const auto acts = [](const Contact& of) { return of.model == ContactModel::barrier; };
+  const auto unless = [&](const char* key, const char* why, auto asked) {
+    list.refused({key}, fmt::format("{}, must be \"none\"", why),
+                 [=](const Preset& preset, const Contact& of) {
+                   return of.model == ContactModel::barrier && asked(preset);
+                 });
+  };
+  list.add<&Contact::model>(
+          "what keeps rods apart away from their joints: \"none\": they pass through one another, "
+          "and it is told; \"barrier\": they repel one another from a small gap on")
+      .needs_equilibrium("a net's rods bear no forces", acts);
+  unless("[jitter] trials", "a search throws rods through one another",
+         [](const Preset& preset) { return preset.jitter.wanted(); });
+  unless("[dynamics] snap", "a snap in time takes no notice of contact",
+         [](const Preset& preset) { return preset.dynamics.snap; });
+  unless("[inverse] vary", "a design takes no notice of contact",
+         [](const Preset& preset) { return !preset.inverse.vary.empty(); });
+  const auto none = [=](const Contact& of) { return !acts(of); };
+  const char* why = "nothing keeps rods apart: [contact] model is \"none\"";
+  list.add<&Contact::gap_mm>(above(0), "between the rods' surfaces, from which on they repel")
+      .unused({"model"}, why, none);
+  list.add<&Contact::stiffness_N_per_mm>(
+          above(0), "half way through the gap they press with 1.2 times this times the gap")
+      .unused({"model"}, why, none);
+}
+
 void add_inverse(FieldList<Inverse> list) {
   using I = Inverse;
   const auto varies = [](const I& of, Vary one) {
@@ -417,6 +444,7 @@ void add_experiment_fields(std::vector<Field>& all) {
       .add<&Limits::table>(
           "whether the boundary's plane is a table: a rod more than its radius below it is in "
           "contact");
+  add_contact({all, "contact", &Preset::contact});
   add_inverse({all, "inverse", &Preset::inverse});
   add_accuracy({all, "accuracy", &Preset::accuracy});
   add_jitter({all, "jitter", &Preset::jitter});

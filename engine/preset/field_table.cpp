@@ -56,6 +56,7 @@ const std::vector<Table>& tables() {
       {"loads", "What pulls on the shell beside its boundary."},
       {"dynamics", "How a shell moves that has lost its stability."},
       {"limits", "Where the model stops being valid."},
+      {"contact", "What keeps rods apart."},
       {"inverse", "What `gridshell design` changes so that the shell meets its surface."},
       {"accuracy", "How exact the answer is to be."},
       {"jitter", "How the states of a shell are looked for."},

@@ -221,6 +221,14 @@ struct Limits {
   bool table = false;  ///< whether the boundary's plane is one that no rod passes
 };
 
+/// What keeps rods apart.
+enum class ContactModel { none, barrier };
+struct Contact {
+  ContactModel model = ContactModel::none;
+  double gap_mm = 0.1;
+  double stiffness_N_per_mm = 1;
+};
+
 /// How a shell is shaken out of the state it would rest in.
 enum class SearchMode { gravity, random, poke };
 /// The search for all states of a shell.
@@ -287,6 +295,7 @@ struct Preset {
   Imperfection imperfection;
   Inverse inverse;
   Limits limits;
+  Contact contact;
   Accuracy accuracy;
   SearchSettings jitter;
   Sweep sweep;

@@ -111,6 +111,12 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
   const bool springs = preset.joints.kind == preset::JointKind::spring;
   scene.rods.joints = {springs ? preset.joints.stiffness_N_per_mm : 0, preset.joints.shear_Nmm,
                        preset.joints.twist_Nmm};
+  if (preset.contact.model == preset::ContactModel::barrier) {
+    scene.rods.contact = {
+        {preset.contact.gap_mm, preset.contact.stiffness_N_per_mm}, {}, preset.joints.diameter_mm};
+    for (const double diameter : scene.drawn_diameters_mm)
+      scene.rods.contact.radius_mm.push_back(0.5 * diameter);
+  }
   scene.rod_diameter_mm = 2 * std::sqrt(area_of(preset.rod) / M_PI);
   return {};
 }

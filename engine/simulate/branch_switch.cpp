@@ -88,8 +88,10 @@ State extrapolated_state(Linearisation& system, const PinnedMotion& motion, cons
       State velocity;
       motion.velocity(system, last.t, last.state, velocity);
       if (std::abs(way) * max_column_norm(velocity.x) <= farthest_mm) {
-        move_to(system.model(), last.state.x + way * velocity.x, state);
-        state.force += way * velocity.force;
+        const Eigen::Matrix3Xd move = way * velocity.x;
+        const double share = system.clear_share(last.state, move);
+        move_to(system.model(), last.state.x + share * move, state);
+        state.force += share * way * velocity.force;
         break;
       }
     }

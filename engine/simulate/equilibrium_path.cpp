@@ -73,8 +73,10 @@ PathSegment& follow_segment(EquilibriumPath& path, double to, const BifurcationP
 }
 
 LevelPlan initial_levels(const Scene& scene) {
-  return scene.edges_per_segment > 0 ? plan_of_mesh(scene.edges_per_segment)
-                                     : plan_levels(scene.tolerance, scene.leading_edges);
+  LevelPlan plan = scene.edges_per_segment > 0 ? plan_of_mesh(scene.edges_per_segment)
+                                               : plan_levels(scene.tolerance, scene.leading_edges);
+  if (scene.rods.contact.barrier.acts()) plan.extrapolate = false;  // as NestedShell::make()
+  return plan;
 }
 
 Result<SharedPath> converged_shared_path(const Scene& scene, const Follow& follow,

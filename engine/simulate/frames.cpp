@@ -236,8 +236,9 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
                shell.state().levels.back(), at, frame);
   }
   const bool extrapolate = shell.plan().extrapolate_forces;
-  CertifiedVectors force = certify_vectors(reactions, extrapolate);
-  const CertifiedVectors energy = certify_vectors(energies, extrapolate);
+  const bool pressing = energies.back()(0, long(Term::contact)) > 0;
+  CertifiedVectors force = certify_vectors(reactions, extrapolate, pressing);
+  const CertifiedVectors energy = certify_vectors(energies, extrapolate, pressing);
   put_reactions(std::move(force.value), frame);
   frame.force_error_N = force.error;
   for (const TermName& term : energy_terms)

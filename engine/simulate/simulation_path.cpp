@@ -57,7 +57,9 @@ constexpr double actuation_step = 0.05;  // in the path parameter
 constexpr double locate_mm = 5e-3;       // of prescribed move: to which a limit is located
 constexpr int most_halvings = 5;         // of a load step that a finer mesh does not follow
 constexpr double loads_ways = 4;         // of the loads, what counts as the length scale of a move
-constexpr std::size_t most_events = 8;   // branches left on one way
+// branches left on one way; where rods press on one another they slip past each other again and
+// again
+constexpr std::size_t most_events = 8, most_events_in_contact = 64;
 
 }  // namespace
 
@@ -157,7 +159,8 @@ Outcome Simulation::Walk::step() {
   if (end == Outcome::unstable && led && halvings_ >= most_halvings)
     return Outcome::meshes_disagree;
   const bool ended = end == Outcome::unstable || end == Outcome::lost;
-  if (!ended || !leaving_.wanted || events_.size() >= most_events) return end;
+  const std::size_t most = shell_.model(0).contact.any() ? most_events_in_contact : most_events;
+  if (!ended || !leaving_.wanted || events_.size() >= most) return end;
   return branch_ended(end, next, good);
 }
 

@@ -58,10 +58,8 @@ class GradientFlow {
 
   bool go(double share, bool at_once) {
     ++system_.effort().newton_iterations;
-    const Eigen::VectorXd force = state_.force;
-    system_.apply(share * dx_, state_);
-    // of an unknown of its own a part of the step is a part of its change
-    state_.force += (1 - share) * (force - system_.assembly().force);
+    share = std::min(share, system_.clear_share(state_, dx_));
+    system_.apply(dx_, state_, share);
     const bool newton = shift_ == 0 && max_column_norm(dx_) < near * step_mm_;
     // less and less shift as long as that goes well
     if (at_once && share == 1) {
@@ -126,13 +124,16 @@ class Descent {
     const auto falls = [&](double step) {
       return energy_at(trial_) <= begin + 1e-4 * step * slope + 1e-14 * std::abs(begin);
     };
-    double step = 1;
+    const auto clear = [&] {  // the rods got their lengths back by another way
+      return system_.clear_share(state_, trial_.x - state_.x) == 1;
+    };
+    double step = system_.clear_share(state_, dx);
     for (; step > 1e-10; step /= 2) {
       trial_ = state_;
       move_to(system_.model(), state_.x + step * dx, trial_);
       if (falls(step)) break;
       system_.restore_lengths(force + step * change, trial_);
-      if (falls(step)) break;
+      if (falls(step) && clear()) break;
     }
     std::swap(state_, trial_);
     state_.force = force + step * change;
@@ -248,7 +249,8 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
       continue;
     }
     system.apply(dx, state);
-    if (descent.exact() || is_minimum(system, state, options.EA_scale))
+    if (!system.assembly().overlap &&
+        (descent.exact() || is_minimum(system, state, options.EA_scale)))
       report.outcome = Outcome::reached;
     return report;
   }
@@ -310,7 +312,7 @@ namespace {
 
 State pushed(const Model& model, const State& state, const Eigen::Matrix3Xd& by) {
   State moved = state;
-  move_to(model, state.x + by, moved);
+  move_to(model, state.x + clear_share(model, state.x, by) * by, moved);
   return moved;
 }
 

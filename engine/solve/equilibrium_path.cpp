@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/dense.h"
+#include "engine/solve/equilibrium.h"
 
 namespace gridshell {
 
@@ -150,18 +151,39 @@ Outcome PathFollower::step(double t, bool converge, NewtonReport& report, const 
   PathPoint next;
   next.t = t;
   next.state = predict(t);
-  const double predicted_move = max_column_norm(next.state.x - now_.state.x);
+  const Eigen::Matrix3Xd way = next.state.x - now_.state.x;
+  if (system_.clear_share(now_.state, way) < 1) return Outcome::lost;
+  const double predicted_move = max_column_norm(way);
+  const ContactPairs& contact = system_.model().contact;
+  // what begins to press stays behind
+  const double share = contact.any() ? 1 : 0.5;
   const double allowed = std::min(options_.largest_move * options_.spacing_mm,
-                                  0.5 * predicted_move + 1e-3 * options_.spacing_mm);
+                                  share * predicted_move + 1e-3 * options_.spacing_mm);
   NewtonOptions newton_options;
   newton_options.tolerance_mm =
       converge ? options_.tolerance_mm : options_.target_move * options_.spacing_mm;
   // a prediction that takes more to come to rest may be beyond a fold, next to another branch
   newton_options.most_iterations = 5;
+  if (contact.any()) {
+    // what begins to press takes some more, and a tangent knows of it within the gap alone
+    newton_options.most_iterations = 12;
+    newton_options.tolerance_mm =
+        std::min(newton_options.tolerance_mm, 0.1 * contact.barrier.gap_mm);
+  }
   newton_options.farthest_mm = allowed;
   newton_options.trusted_mm = newton_options.tolerance_mm;
   newton_options.widest_turn = options_.widest_turn;
+  State guess = contact.any() ? next.state : State{};
   report = newton(system_, next.state, newton_options, watch);
+  if (report.outcome != Outcome::reached && contact.any() && last_.inertia.positive_definite()) {
+    // down the energy a barrier is met more surely; it leads no further than a prediction may err
+    const MinimiseOptions down{.tolerance_mm = newton_options.tolerance_mm, .most_iterations = 60};
+    if (minimise(system_, guess, down, watch).outcome == Outcome::reached &&
+        max_column_norm(guess.x - now_.state.x - way) <= allowed) {
+      next.state = std::move(guess);
+      report = newton(system_, next.state, newton_options, watch);
+    }
+  }
   if (report.outcome != Outcome::reached)
     return report.outcome == Outcome::not_converged ? Outcome::lost : report.outcome;
   if (!options_.allow_unstable && !report.inertia.positive_definite()) return Outcome::unstable;
@@ -287,7 +309,8 @@ Outcome ArcFollower::step(const Watch& watch) {
     move_to(system_->model(), now_.point.state.x + step_mm_ * now_.point.velocity.x,
             next.point.state);
     int iterations = 0;
-    if (!corrected(next, iterations, watch)) {
+    if (!corrected(next, iterations, watch) ||
+        system_->clear_share(now_.point.state, next.point.state.x - now_.point.state.x) < 1) {
       if (watch.cancelled()) return Outcome::cancelled;
       continue;
     }

@@ -47,6 +47,24 @@ Eigen::VectorXd weights_of(std::span<const LevelCorrection> known, double t) {
   return weights;
 }
 
+/// Nodes of a finer mesh on the edges of a coarser one: as these, they do not go through one
+/// another.
+Eigen::Matrix3Xd on_edges(const RodMesh& coarse, const Eigen::Matrix3Xd& x, const RodMesh& fine,
+                          Eigen::Matrix3Xd nodes) {
+  for (std::size_t r = 0; r < fine.rods.size(); ++r) {
+    const std::vector<double>& s = coarse.position[r];
+    std::size_t k = 1;
+    for (std::size_t n = 0; n < fine.rods[r].size(); ++n) {
+      const double at = fine.position[r][n];
+      while (k + 1 < s.size() && s[k] < at) ++k;
+      const double share = (at - s[k - 1]) / (s[k] - s[k - 1]);
+      nodes.col(fine.rods[r][n]) =
+          (1 - share) * x.col(coarse.rods[r][k - 1]) + share * x.col(coarse.rods[r][k]);
+    }
+  }
+  return nodes;
+}
+
 }  // namespace
 
 LevelCorrection NestedShell::correction_of(const Level& level, double t, const State& base,
@@ -126,6 +144,17 @@ std::optional<NestedShell::Refined> NestedShell::refine(std::size_t k, double t,
   std::optional<Refined> found;
   for (const From from : {From::remembered, From::coarser, From::down}) {
     State trial = from == From::remembered ? guess(level, t, base, expected) : base;
+    if (level.model.contact.any()) {
+      const Level& below = *levels_[k - 1];
+      State clear = base;
+      move_to(level.model,
+              columns_of(level.mesh, level.model,
+                         on_edges(below.mesh, nodes_of(below.mesh, below.model, coarser.state.x),
+                                  level.mesh, nodes_of(level.mesh, level.model, base.x))),
+              clear);
+      const Eigen::Matrix3Xd way = trial.x - clear.x;
+      move_to(level.model, clear.x + level.system->clear_share(clear, way) * way, trial);
+    }
     level.motion.impose(*level.system, t, trial);
     if (from == From::down) minimise(*level.system, trial, {.most_iterations = 60}, watch);
     NewtonReport tried;
@@ -229,6 +258,11 @@ void NestedShell::estimate() {
   const Eigen::Matrix3Xd coarser = nodes(last - 1);
   const int joints = finest.mesh.joints;
   const Eigen::Matrix3Xd step = state_.x.leftCols(joints) - coarser.leftCols(joints);
+  // where on its edges a mesh presses is chance: that knows no order
+  if (finest.system->assembly().energies[Term::contact] > 0) {
+    state_.error_estimate_mm = margin * max_column_norm(step) + options_.tolerance_mm;
+    return;
+  }
   if (!plan_.extrapolate || last < 2) {
     state_.error_estimate_mm = margin * max_column_norm(step) / 3 + options_.tolerance_mm;
     return;
@@ -246,14 +280,15 @@ void NestedShell::estimate() {
   state_.x += correction;
 }
 
-CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate) {
+CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
+                                 bool pressing) {
   const std::size_t last = levels.size() - 1;
   CertifiedVectors found{levels[last], std::numeric_limits<double>::quiet_NaN()};
   if (last == 0) return found;
   const Eigen::Matrix3Xd step = levels[last] - levels[last - 1];
   if (extrapolate) found.value = (4 * levels[last] - levels[last - 1]) / 3;
-  found.error = margin * max_column_norm(step) / 3;
-  if (last == 1) return found;
+  found.error = margin * max_column_norm(step) / (pressing ? 1 : 3);
+  if (last == 1 || pressing) return found;
   const Eigen::Matrix3Xd before = levels[last - 1] - levels[last - 2];
   const double by_order = margin * left_by_order(step, before);
   found.error =
@@ -287,8 +322,9 @@ void NestedShell::take_reactions() {
     const auto entries = state_.held_stiffness.reshaped().transpose();
     stiffness.emplace_back(Eigen::Matrix3Xd::Zero(3, entries.cols())).row(0) = entries;
   }
-  const CertifiedVectors force = certify_vectors(forces, plan_.extrapolate_forces),
-                         growth = certify_vectors(stiffness, plan_.extrapolate_forces);
+  const bool pressing = finest.assembly().energies[Term::contact] > 0;
+  const CertifiedVectors force = certify_vectors(forces, plan_.extrapolate_forces, pressing),
+                         growth = certify_vectors(stiffness, plan_.extrapolate_forces, pressing);
   state_.reactions.clear();
   for (const auto& on : force.value.colwise()) state_.reactions.emplace_back(on);
   state_.reaction_error_N = force.error;

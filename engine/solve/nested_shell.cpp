@@ -10,6 +10,8 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
                                       const LevelPlan& plan, const PathOptions& options) {
   NestedShell shell(plan, options);
   shell.boundary_ = motion;
+  // contact knows no order
+  if (rods.contact.barrier.acts()) shell.plan_.extrapolate = shell.plan_.extrapolate_forces = false;
   for (int edges : plan.edges_per_segment) {
     auto level = std::make_unique<Level>();
     TRY_DO(level->build(footprint, rods, rung, motion, edges));

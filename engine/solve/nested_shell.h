@@ -40,8 +40,10 @@ struct CertifiedVectors {
   double error = 0;  ///< of the largest, by the order that three meshes show; NaN on one mesh
 };
 
-/// `levels`: coarse to fine, of which the last three count.
-CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate);
+/// `levels`: coarse to fine, of which the last three count. Where rods press on one another
+/// (`pressing`), which knows no order, the error is the whole step between the last two.
+CertifiedVectors certify_vectors(const std::vector<Eigen::Matrix3Xd>& levels, bool extrapolate,
+                                 bool pressing);
 
 /// What a finer mesh adds to the state of the one before it, interpolated: where its state is
 /// looked for nearby. A guess, so in single precision.

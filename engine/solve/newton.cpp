@@ -166,7 +166,13 @@ double Linearisation::force_misfit(const State& state) const {
   return largest;
 }
 
-void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state) const {
+void Linearisation::apply(const Eigen::Matrix3Xd& dx, State& state, double share) const {
+  if (share < 1) {
+    const Eigen::VectorXd force = state.force;
+    apply(share * dx, state);
+    state.force += (1 - share) * (force - assembly_.force);
+    return;
+  }
   state.force = assembly_.force + force_change(dx);
   if (model_.has_spins())
     move_to(model_, state.x + dx, state);
@@ -239,6 +245,8 @@ class NextCorrection {
     double sum = 0;
     for (const ModelEdge& edge : model.edges) sum += edge.rest_length;
     by_square_ = 8 * double(model.edges.size()) / sum;
+    // barriers change over a part of their gap
+    if (model.contact.any()) by_square_ = std::max(by_square_, 8 / model.contact.barrier.gap_mm);
   }
   double after(double move) const { return by_square_ * move * move; }
 
@@ -277,9 +285,16 @@ NewtonReport newton(Linearisation& system, State& state, const NewtonOptions& op
     if (report.iterations > 4 && move > 2 * before && move > 100 * options.tolerance_mm)
       return end(Outcome::lost);
     if (move > options.farthest_mm) return end(Outcome::lost);
-    system.apply(dx, state);
+    system.apply(dx, state, system.clear_share(state, dx));
     report.last_move_mm = move;
     report.factored_move_mm = factor ? move : report.factored_move_mm + move;
+    // rods within one another are in equilibrium where their axes meet: none of the shell's
+    if (system.assembly().overlap) {
+      factor = true;
+      before = move;
+      if (move <= options.tolerance_mm) return end(Outcome::lost);
+      continue;
+    }
     if (move <= options.tolerance_mm) return end(Outcome::reached);
     if (factor && next_move.after(move) <= options.trusted_mm &&
         (!options.trusted_misfit ||

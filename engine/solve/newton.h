@@ -106,8 +106,13 @@ class Linearisation {
   /// Moves a state that a long step came to so that its axial forces become `force` to first order:
   /// a straight step across a bent rod stretches it at second order.
   void restore_lengths(const Eigen::VectorXd& force, State& state) const;
-  /// Moves the state by dx and updates its forces as the mixed form does.
-  void apply(const Eigen::Matrix3Xd& dx, State& state) const;
+  /// Moves the state by a share of dx and updates its forces as the mixed form does: of an unknown
+  /// of its own a share of the step is that share of its change.
+  void apply(const Eigen::Matrix3Xd& dx, State& state, double share = 1) const;
+  /// How much of dx keeps edges from going through one another (contact.h); 1 without contact.
+  double clear_share(const State& state, const Eigen::Matrix3Xd& dx) const {
+    return gridshell::clear_share(model_, state.x, dx);
+  }
 
   /// By how much the axial force of an edge and that of its strain differ at most, N: what Newton's
   /// step leaves at second order, and a residual of about that.

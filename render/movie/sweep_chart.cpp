@@ -45,6 +45,7 @@ std::string label_of(const std::string& name) {
       {"energy_shear_mJ", "energy of joint shear (mJ)"},
       {"energy_load_mJ", "energy of loads and ground (mJ)"},
       {"energy_support_mJ", "energy in springs of supports (mJ)"},
+      {"energy_contact_mJ", "energy of contact (mJ)"},
       {"actuation.ratio", "*R*_{a}/*R*_{o}"},
       {"footprint.longest_leg", "longest leg *L̄*_{d}, in *d*"},
       {"footprint.rods", "rods in each direction *n*"},

@@ -41,6 +41,12 @@ Model sample_model() {
   add_joint_spin(model, 0, 2, 1, 2, 3.5);
   for (int node = 0; node < 12; ++node) model.loads.push_back({node, {0, 0, -0.1}});
   model.ground.push_back({6, {0, 0, 0}, {2, 3, 4}, {1, -1, 0.5}});
+  // edges 4 of `a` and 6 of `b`, so thick that they press
+  model.contact = {
+      {2.5, 3},
+      {{4, 0, 13, 18, {{{0, 0, 13}, {4, 18, 0}}}}, {6, 1, 0, 5, {{{5, 0, 0}, {8, 18, 13}}}}},
+      {2.2, 2.2, 2.2},
+      {0, 0, 0}};
   finish(model);
   return model;
 }

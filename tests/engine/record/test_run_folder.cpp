@@ -72,6 +72,7 @@ TEST_CASE("summary.json has the keys of a run in order, and null for what is unk
                                          "energy_shear_mJ",
                                          "energy_load_mJ",
                                          "energy_support_mJ",
+                                         "energy_contact_mJ",
                                          "height_mm",
                                          "lowest_mm",
                                          "contacts",
@@ -140,6 +141,7 @@ TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {
                           "energy_shear_mJ",
                           "energy_load_mJ",
                           "energy_support_mJ",
+                          "energy_contact_mJ",
                           "kind",
                           "finished",
                           "force_N",
@@ -177,6 +179,7 @@ TEST_CASE("CSV files have the columns that others read") {
   CHECK(first_line(frames_csv(run)) ==
         "frame,progress,boundary_radius_mm,depth_mm,force_N,energy_bend_mJ,energy_stretch_mJ,"
         "energy_twist_mJ,energy_joint_mJ,energy_shear_mJ,energy_load_mJ,energy_support_mJ,"
+        "energy_contact_mJ,"
         "height_mm,total_K,"
         "residual_N,negative_pivots,error_estimate_mm,"
         "newton_iterations,event,reach_above_tenth,reach_above_half,lowest_latitude_deg,time_s,"

@@ -152,3 +152,25 @@ TEST_CASE("shells of the paper do not touch themselves: a rod near its joint is 
   }
   CHECK(outcome.summary.contact.empty());
 }
+
+TEST_CASE("a barrier keeps rods apart on the whole path, on both models and every mesh") {
+  auto preset = crowded(12);
+  preset.accuracy.tolerance = 5e-3;
+  preset.accuracy.model = GENERATE(RodModel::bend, RodModel::twist);
+  preset.rod.shear_GPa = 31;
+  const auto through = run(preset);
+  CHECK(through.summary.rod_gap_mm < 0);
+  CHECK(through.summary.energies[Term::contact] == 0);
+  preset.contact.model = preset::ContactModel::barrier;
+  const auto apart = run(preset);
+  INFO(apart.summary.limit_reason << "; " << apart.summary.contact);
+  CHECK(apart.summary.limit == record::Limit::none);
+  CHECK(apart.summary.contact.find("rods ") == std::string::npos);
+  CHECK(apart.summary.energies[Term::contact] > 0);
+  for (const record::Frame& frame : apart.trajectory.frames) {
+    INFO(frame.progress);
+    CHECK_FALSE(frame.rod_gap_mm < 0);
+    CHECK(frame.residual_N < 1e-6);
+    CHECK(frame.negative_pivots == 0);
+  }
+}
