@@ -32,7 +32,7 @@ class AssembledNet final : public ChebyshevNet {
     const Eigen::Vector2d uv(u, v);
     const auto held = holders(*places_, uv);
     if (held.empty())
-      return fail(Fault::bad_input, fmt::format("no block holds (u, v) = ({:g}, {:g}) mm", u, v));
+      return fail(Fault::bad_input, "no block holds (u, v) = ({:g}, {:g}) mm", u, v);
     NetPoint middle{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     for (const auto* place : held) {
       const auto point = place->at(uv);
