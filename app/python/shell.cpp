@@ -1,7 +1,5 @@
 #include "app/python/shell.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 

@@ -1,6 +1,5 @@
 #include "engine/design/design.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <random>

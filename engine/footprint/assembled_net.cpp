@@ -1,5 +1,4 @@
 // What an assemblage is to those who know nets and domains: both piece by piece.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,8 @@
 #include "engine/footprint/domains.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "engine/geometry/calculus.h"
 

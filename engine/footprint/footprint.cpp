@@ -1,7 +1,5 @@
 #include "engine/footprint/footprint.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>

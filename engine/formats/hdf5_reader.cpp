@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <thread>

@@ -1,6 +1,5 @@
 // Joints that a file lists: points of several rods that lie apart become one.
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "engine/geometry/chebyshev_net.h"
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

@@ -1,7 +1,5 @@
 #include "engine/geometry/closed_curve.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,5 @@
 #include "engine/geometry/expression.h"
 
-#include <fmt/format.h>
 #include <muParser.h>
 
 #include <limits>

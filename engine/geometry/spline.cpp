@@ -1,6 +1,5 @@
 #include "engine/geometry/spline.h"
 
-#include <fmt/format.h>
 #include <array>
 #include <cmath>
 #include <limits>

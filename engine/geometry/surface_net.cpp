@@ -1,11 +1,9 @@
 #include "engine/geometry/surface_net.h"
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 

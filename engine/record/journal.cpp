@@ -1,7 +1,6 @@
 #include "engine/record/journal.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>

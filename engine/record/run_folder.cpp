@@ -1,7 +1,5 @@
 #include "engine/record/run_folder.h"
 
-#include <fmt/format.h>
-#include <cmath>
 #include <iterator>
 
 #include "engine/core/file_io.h"

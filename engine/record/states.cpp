@@ -1,6 +1,5 @@
 #include "engine/record/states.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <numeric>

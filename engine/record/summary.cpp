@@ -1,6 +1,5 @@
 #include "engine/record/summary.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <set>

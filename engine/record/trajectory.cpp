@@ -1,6 +1,5 @@
 #include "engine/record/trajectory.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>

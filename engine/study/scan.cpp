@@ -1,6 +1,5 @@
 #include "engine/study/scan.h"
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
