@@ -30,8 +30,7 @@ Result<std::set<fs::path>> names_in(const fs::path& folder) {
        at.increment(error))
     if (at->path().extension() == ".png") names.insert(at->path().lexically_relative(folder));
   if (error)
-    return fail(Fault::bad_input,
-                fmt::format("'{}' cannot be read: {}", folder.string(), error.message()));
+    return fail(Fault::bad_input, "'{}' cannot be read: {}", folder.string(), error.message());
   return names;
 }
 
@@ -69,8 +68,7 @@ Result<void> update_baselines(const fs::path& before, const std::vector<render::
     const fs::path file = before / pair.name;
     if (!pair.after) {
       std::error_code error;
-      if (!fs::remove(file, error))
-        return fail(Fault::io, fmt::format("cannot remove '{}'", file.string()));
+      if (!fs::remove(file, error)) return fail(Fault::io, "cannot remove '{}'", file.string());
       continue;
     }
     TRY_DO(make_folder(file.parent_path()));
@@ -131,14 +129,13 @@ Result<bool> compare_folders(const CompareOptions& options) {
 Result<bool> compare_any(const CompareOptions& options) {
   const bool a = fs::is_directory(options.a), b = fs::is_directory(options.b);
   if (a != b)
-    return fail(
-        Fault::bad_input,
-        fmt::format("'{}' is a folder and '{}' is none: compare two pictures or two folders",
-                    a ? options.a : options.b, a ? options.b : options.a));
+    return fail(Fault::bad_input,
+                "'{}' is a folder and '{}' is none: compare two pictures or two folders",
+                a ? options.a : options.b, a ? options.b : options.a);
   if (options.update && (!a || options.why.empty()))
-    return fail(Fault::bad_input, a ? "--update needs --why \"...\": the reason is kept beside the "
-                                      "pictures"
-                                    : "--update is of folders of kept pictures");
+    return fail(Fault::bad_input,
+                a ? "--update needs --why \"...\": the reason is kept beside the pictures"
+                  : "--update is of folders of kept pictures");
   return a ? compare_folders(options) : compare_pictures(options);
 }
 

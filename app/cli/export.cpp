@@ -66,8 +66,8 @@ Result<std::string> xdmf_of(const Source& source, const ExportOptions& options) 
   const fs::path trajectory =
       fs::relative(source.folder / "trajectory.h5", fs::absolute(options.to).parent_path(), error);
   if (error || !fs::exists(source.folder / "trajectory.h5", error))
-    return fail(Fault::bad_input, fmt::format("'{}' has no trajectory.h5, which .xdmf speaks of",
-                                              source.folder.string()));
+    return fail(Fault::bad_input, "'{}' has no trajectory.h5, which .xdmf speaks of",
+                source.folder.string());
   return exports::to_xdmf(source.run.trajectory.layout, source.run.trajectory.frames,
                           trajectory.string());
 }
@@ -91,8 +91,8 @@ Result<std::size_t> frame_of(const record::Trajectory& run, const std::string& a
   if (asked.empty()) return run.frames.size() - 1;
   const auto frame = parse_number<std::size_t>(asked);
   if (!frame || *frame >= run.frames.size())
-    return fail(Fault::bad_input, fmt::format("--frame {}: must be a number from 0 to {}", asked,
-                                              run.frames.size() - 1));
+    return fail(Fault::bad_input, "--frame {}: must be a number from 0 to {}", asked,
+                run.frames.size() - 1);
   return *frame;
 }
 
@@ -216,25 +216,23 @@ Result<std::string> text_of(const ExportOptions& options) {
   for (const auto& [name, texts] : formats()) {
     if (name != what) continue;
     if (const auto text = texts.find(extension); text != texts.end()) return text->second(options);
-    return fail(Fault::bad_input, fmt::format("--to {}: a {} is written as {}", options.to.string(),
-                                              what, extensions_of(texts)));
+    return fail(Fault::bad_input, "--to {}: a {} is written as {}", options.to.string(), what,
+                extensions_of(texts));
   }
-  return fail(Fault::bad_input,
-              fmt::format("--what {}: must be one of\n{}", what, exported_formats()));
+  return fail(Fault::bad_input, "--what {}: must be one of\n{}", what, exported_formats());
 }
 
 /// A file in a run's folder would be taken for one of the run, or keep it from being replaced.
 Result<void> check_place(const fs::path& to) {
   std::error_code error;
   if (fs::exists(to, error) && !fs::is_regular_file(to, error))
-    return fail(Fault::bad_input,
-                fmt::format("'{}' is no file that could be written", to.string()));
+    return fail(Fault::bad_input, "'{}' is no file that could be written", to.string());
   for (fs::path folder = fs::absolute(to, error).parent_path(); folder != folder.root_path();
        folder = folder.parent_path())
     if (fs::exists(folder / manifest_name, error))
       return fail(Fault::bad_input,
-                  fmt::format("'{}' would lie in the run folder '{}'; choose a place beside it",
-                              to.string(), folder.string()));
+                  "'{}' would lie in the run folder '{}'; choose a place beside it", to.string(),
+                  folder.string());
   return {};
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "app/cli/commands.h"
@@ -23,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 tl::unexpected<Error> no_run(const fs::path& folder, const std::string& because) {
-  return fail(Fault::bad_input, fmt::format("'{}' is no run: {}", folder.string(), because));
+  return fail(Fault::bad_input, "'{}' is no run: {}", folder.string(), because);
 }
 
 bool holds_run(const fs::path& folder) {
@@ -63,11 +62,9 @@ Result<std::vector<std::string>> case_names(const fs::path& folder) {
     const auto name = one["name"].get<std::string>();
     // it becomes the name of a folder that is written
     if (const auto wrong = preset::case_name_fault(name); !wrong.empty())
-      return fail(Fault::bad_input,
-                  fmt::format("'{}': case {}: {}", file.string(), shown(name), wrong));
+      return fail(Fault::bad_input, "'{}': case {}: {}", file.string(), shown(name), wrong);
     if (std::find(names.begin(), names.end(), name) != names.end())
-      return fail(Fault::bad_input,
-                  fmt::format("'{}': case \"{}\" is listed twice", file.string(), name));
+      return fail(Fault::bad_input, "'{}': case \"{}\" is listed twice", file.string(), name);
     names.push_back(name);
   }
   if (names.empty()) return no_run(folder, "its summary.json lists no cases");
@@ -81,9 +78,8 @@ Result<void> check_name(const fs::path& file, const std::string& name) {
   if (!stem.empty() && stem.size() <= 200 && stem.front() != '.' &&
       std::ranges::all_of(name, plain))
     return {};
-  return fail(
-      Fault::bad_input,
-      fmt::format("'{}': its preset's name cannot be the name of a picture", file.string()));
+  return fail(Fault::bad_input, "'{}': its preset's name cannot be the name of a picture",
+              file.string());
 }
 
 // version 0.1 did not say: what has its stills came from `figure`
@@ -143,11 +139,10 @@ Result<void> check_memory(const fs::path& folder, const Run& run) {
   const double given =
       run.preset.accuracy.memory_GB > 0 ? run.preset.accuracy.memory_GB : default_memory_GB();
   if (given == 0 || wanted <= given) return {};
-  return fail(
-      Fault::bad_input,
-      fmt::format("'{}': drawing its {} nodes takes about {:.2g} GB, more than the {:.2g} GB "
-                  "of [accuracy] memory_GB (by default half of the machine's)",
-                  folder.string(), frames.front().nodes.cols(), wanted, given));
+  return fail(Fault::bad_input,
+              "'{}': drawing its {} nodes takes about {:.2g} GB, more than the {:.2g} GB of "
+              "[accuracy] memory_GB (by default half of the machine's)",
+              folder.string(), frames.front().nodes.cols(), wanted, given);
 }
 
 Result<record::StateTables> read_states_of(const fs::path& folder, const Run& run) {
@@ -226,8 +221,8 @@ Result<void> copy_data(const fs::path& from, const fs::path& to) {
     if (error) break;
   }
   if (!error) return {};
-  return fail(Fault::io, fmt::format("cannot copy '{}' to '{}': {}", from.string(), to.string(),
-                                     error.message()));
+  return fail(Fault::io, "cannot copy '{}' to '{}': {}", from.string(), to.string(),
+              error.message());
 }
 
 // what stands in the run's folder beside its pictures

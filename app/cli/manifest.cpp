@@ -151,8 +151,7 @@ Result<void> write_manifest(const fs::path& folder) {
   std::string text = first_line + "\n";
   for (const auto& name : contents(folder, error))
     if (name != manifest_name) text += name + "\n";
-  if (error)
-    return fail(Fault::io, fmt::format("cannot list '{}': {}", folder.string(), error.message()));
+  if (error) return fail(Fault::io, "cannot list '{}': {}", folder.string(), error.message());
   return write_file(folder / manifest_name, text);
 }
 

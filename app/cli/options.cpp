@@ -58,8 +58,7 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
   if (!options.frames.empty()) overrides.push_back({"--frames", "movie.frames", options.frames});
   // one word for two keys is wrong once
   if (!options.quality.empty() && !find_word<preset::Quality>(options.quality))
-    return fail(Fault::bad_input,
-                fmt::format("--quality {}: must be draft, movie or figure", options.quality));
+    return fail(Fault::bad_input, "--quality {}: must be draft, movie or figure", options.quality);
   if (!options.quality.empty())
     for (const char* key : {"movie.quality", "figure.quality"})
       overrides.push_back({"--quality", key, options.quality});
@@ -69,9 +68,8 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
     if (number == options.width || !width || !(*width > 0 && *width < 10000))
       return fail(
           Fault::bad_input,
-          fmt::format("--width {}: must be in millimetres, more than 0 and less than 10000, "
-                      "for example 85mm",
-                      options.width));
+          "--width {}: must be in millimetres, more than 0 and less than 10000, for example 85mm",
+          options.width);
     overrides.push_back({"--width", "figure.width_mm", number});
   }
   if (!options.dpi.empty()) overrides.push_back({"--dpi", "figure.dpi", options.dpi});
@@ -96,7 +94,7 @@ std::optional<std::pair<int, int>> two_numbers(std::string_view text, std::strin
 
 Result<std::pair<int, int>> size_of(const std::string& text) {
   if (const auto size = two_numbers(text, "x")) return *size;
-  return fail(Fault::bad_input, fmt::format("--size {}: must be WxH, for example 1280x720", text));
+  return fail(Fault::bad_input, "--size {}: must be WxH, for example 1280x720", text);
 }
 
 Result<void> write_with_folder(const std::filesystem::path& file, const std::string& text) {
@@ -114,9 +112,9 @@ Result<std::vector<preset::Override>> overrides_of_run(const Options& options,
                        change.key == "page.sweep";
     if (!shows || change.key == "movie.frames" || change.key == "figure.radii_mm")
       return fail(Fault::bad_input,
-                  fmt::format("{}: {} cannot change once a run is finished; what can are keys of "
-                              "[movie], [style], [figure] and [page] that only show it",
-                              change.source, change.key));
+                  "{}: {} cannot change once a run is finished; what can are keys of [movie], "
+                  "[style], [figure] and [page] that only show it",
+                  change.source, change.key);
   }
   return std::move(*overrides);
 }

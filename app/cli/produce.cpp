@@ -27,12 +27,11 @@ Result<std::vector<Run>> planned(const preset::Presets& presets, Pictures pictur
   for (preset::Case& one : runs_of(presets)) {
     preset::Preset& preset = one.preset;
     if (preset.jitter.wanted() && pictures == Pictures::movie)
-      return fail(
-          Fault::bad_input,
-          fmt::format("{}: a search for states ([jitter] trials or confined above 0) has no "
-                      "movie; 'gridshell figure' draws the states, [jitter] trials = 0 "
-                      "and confined = 0 make the actuation's movie",
-                      preset.name));
+      return fail(Fault::bad_input,
+                  "{}: a search for states ([jitter] trials or confined above 0) has no movie; "
+                  "'gridshell figure' draws the states, [jitter] trials = 0 and confined = 0 make "
+                  "the actuation's movie",
+                  preset.name);
     TRY(plan, plan_of(preset));
     // where the engine does not say: the first equilibrium and some milliseconds a frame
     const double guess = std::isnan(plan->expected_seconds) ? 0.5 + 0.01 * preset.movie.frames

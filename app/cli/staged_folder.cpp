@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -118,8 +117,8 @@ std::string refusal_to_write(const fs::path& folder) { return refusal(target_of(
 
 Result<StagedFolder> StagedFolder::create(const fs::path& final_folder) {
   const auto refuse = [&](const std::string& because) {
-    return fail(Fault::bad_input,
-                fmt::format("cannot write the folder '{}': {}", final_folder.string(), because));
+    return fail(Fault::bad_input, "cannot write the folder '{}': {}", final_folder.string(),
+                because);
   };
   const auto target = target_of(final_folder);
   if (const auto because = refusal(target); !because.empty()) return refuse(because);
@@ -174,8 +173,7 @@ void StagedFolder::remove() noexcept {
 
 Result<std::string> StagedFolder::commit() {
   const auto refuse = [&](const std::string& because) {
-    return fail(Fault::io,
-                fmt::format("cannot write the folder '{}': {}", final_.string(), because));
+    return fail(Fault::io, "cannot write the folder '{}': {}", final_.string(), because);
   };
   TRY_DO(write_manifest(partial_));
   const int code = take_free_name(partial_, final_);

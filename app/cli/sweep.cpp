@@ -72,22 +72,21 @@ std::vector<std::string> drawable(const preset::Presets& presets, const preset::
 /// What there is to sweep, and whether the figures asked for are some of a run.
 Result<void> check_asked(const preset::Presets& presets, const preset::SweepGrid& grid) {
   if (grid.size() == 0)
-    return fail(
-        Fault::bad_input,
-        fmt::format("{}: sweeps nothing: must have [sweep] over or seeds, for example --set "
-                    "'sweep.over={{rod.diameter_mm=[0.2,0.3]}}'",
-                    presets.base.name));
+    return fail(Fault::bad_input,
+                "{}: sweeps nothing: must have [sweep] over or seeds, for example --set "
+                "'sweep.over={{rod.diameter_mm=[0.2,0.3]}}'",
+                presets.base.name);
   const auto names = drawable(presets, grid);
   auto asked = plots_of(grid);
   if (!grid.sweep().x.empty()) asked.push_back(grid.sweep().x);
   for (const auto& name : asked)
     if (std::ranges::find(names, name) == names.end())
-      return fail(Fault::bad_input,
-                  fmt::format("{}: [sweep] plot or x = \"{}\": is no figure of a run{}",
-                              presets.base.name, name,
-                              name == classes ? ", only of searches for states over "
-                                                "footprint.longest_leg and footprint.rods alone"
-                                              : did_you_mean(name, names)));
+      return fail(
+          Fault::bad_input, "{}: [sweep] plot or x = \"{}\": is no figure of a run{}",
+          presets.base.name, name,
+          name == classes
+              ? ", only of searches for states over footprint.longest_leg and footprint.rods alone"
+              : did_you_mean(name, names));
   return {};
 }
 
@@ -190,8 +189,8 @@ Result<std::string> finish(const SweepJob& work, const record::SweepLog& log) {
   const bool any = std::ranges::any_of(
       table.rows, [](const auto& row) { return row.result.outcome == record::PointOutcome::done; });
   if (!any && !work.shard)
-    return fail(Fault::no_equilibrium, fmt::format("no point came to a state; the first: {}",
-                                                   table.rows.front().result.reason));
+    return fail(Fault::no_equilibrium, "no point came to a state; the first: {}",
+                table.rows.front().result.reason);
   const auto plots = plots_of(work.grid);
   const bool diagram = !work.shard && std::ranges::find(plots, classes) != plots.end();
   return told(table) + (diagram ? regions_text(work, table) : "");
@@ -246,10 +245,10 @@ Result<std::string> carry_out(const SweepJob& work) {
   if (work.options.merge) {
     TRY_DO(gather_shards(work.folder, *log, work.presets, work.grid));
     if (!missing(work, *log).empty())
-      return fail(Fault::no_equilibrium,
-                  fmt::format("{}; shards go on where they stopped, and without --merge the rest "
-                              "is computed here",
-                              standing_of(work, *log)));
+      return fail(
+          Fault::no_equilibrium,
+          "{}; shards go on where they stopped, and without --merge the rest is computed here",
+          standing_of(work, *log));
   } else {
     TRY_DO(compute(work, *log));
   }

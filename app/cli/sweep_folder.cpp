@@ -45,17 +45,16 @@ Result<Shard> parse_shard(const std::string& text) {
   const auto part = two_numbers(text, "/").value_or(std::pair(0, 0));
   const Shard shard{part.first, part.second};
   if (shard.index < 1 || shard.index > shard.count)
-    return fail(Fault::bad_input,
-                fmt::format("--shard {}: must be i/N with i from 1 to N, for example 2/8", text));
+    return fail(Fault::bad_input, "--shard {}: must be i/N with i from 1 to N, for example 2/8",
+                text);
   return shard;
 }
 
 Result<record::SweepLog> open_sweep(const fs::path& folder, const preset::Presets& presets,
                                     const preset::SweepGrid& grid) {
   const auto refuse = [&](const std::string& why) {
-    return fail(Fault::bad_input,
-                fmt::format("cannot write the folder '{}': {}; choose another folder with -o",
-                            folder.string(), why));
+    return fail(Fault::bad_input, "cannot write the folder '{}': {}; choose another folder with -o",
+                folder.string(), why);
   };
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error)) return refuse("it is a file");
@@ -93,8 +92,7 @@ record::SweepTable table_of(const preset::SweepGrid& grid, const std::vector<std
 
 Result<record::SweepTable> read_finished_sweep(const fs::path& folder) {
   const auto refuse = [&](const std::string& why) {
-    return fail(Fault::bad_input,
-                fmt::format("'{}' is no finished sweep: {}", folder.string(), why));
+    return fail(Fault::bad_input, "'{}' is no finished sweep: {}", folder.string(), why);
   };
   // the preset is written once all points are there
   const fs::path file = folder / "preset.toml";
@@ -120,18 +118,17 @@ Result<void> gather_shards(const fs::path& folder, record::SweepLog& log,
     if (is_shard_folder(*at)) shards.push_back(*at);
   if (shards.empty())
     return fail(Fault::bad_input,
-                fmt::format("'{}' holds no shard: they are written by 'gridshell sweep PRESET "
-                            "--shard i/N' with the same -o",
-                            folder.string()));
+                "'{}' holds no shard: they are written by 'gridshell sweep PRESET --shard i/N' "
+                "with the same -o",
+                folder.string());
   std::ranges::sort(shards);
   std::map<std::size_t, record::PointResult> found;
   for (const auto& shard : shards) {
     auto contents = record::read_sweep_log(shard / record::sweep_log_name);
     if (!contents) return tl::unexpected(Error{Fault::bad_input, contents.error().message});
     if (!contents->name.same_sweep(name_of(presets, grid)))
-      return fail(Fault::bad_input,
-                  fmt::format("'{}' is a shard of another preset ('{}'), or of other values",
-                              shard.string(), contents->name.preset));
+      return fail(Fault::bad_input, "'{}' is a shard of another preset ('{}'), or of other values",
+                  shard.string(), contents->name.preset);
     found.merge(contents->found);
   }
   for (const auto& [point, result] : found)

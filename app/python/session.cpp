@@ -4,8 +4,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
-
 #include "app/cli/preset_library.h"
 #include "engine/gridshell.h"
 

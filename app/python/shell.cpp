@@ -1,7 +1,5 @@
 #include "app/python/shell.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 
@@ -35,8 +33,8 @@ Result<Done> Shell::ended(const std::string& what, Report report) const {
   if (report.end == Outcome::cancelled) return stopped();
   if (report.end == Outcome::reached) return Done{std::move(report)};
   return fail(Fault::no_equilibrium,
-              fmt::format("{}: {}; it stands in the last certified state, at progress {:.4g}", what,
-                          words_of(report.end).what, session_->boundary.progress));
+              "{}: {}; it stands in the last certified state, at progress {:.4g}", what,
+              words_of(report.end).what, session_->boundary.progress);
 }
 
 Result<Done> Shell::form(double progress, const Watch& watch) {
@@ -97,9 +95,8 @@ Result<Done> Shell::refine(double tolerance_mm, const Watch& watch) {
   if (watch.cancelled()) return stopped();
   if (done && !(left <= wanted))
     return fail(Fault::no_equilibrium,
-                fmt::format("refine: the finest meshes leave an estimated error of {:.2g} mm, more "
-                            "than {:g}",
-                            left, wanted));
+                "refine: the finest meshes leave an estimated error of {:.2g} mm, more than {:g}",
+                left, wanted);
   return done;
 }
 

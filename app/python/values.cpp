@@ -48,26 +48,10 @@ void add_certificate(py::module_& module) {
       });
 }
 
-const char* word_of(Event::Kind kind) {
-  switch (kind) {
-    case Event::Kind::stability_lost:
-      return "stability_lost";
-    case Event::Kind::turned_back:
-      return "turned_back";
-    case Event::Kind::locked:
-      return "locked";
-    case Event::Kind::overbent:
-      return "overbent";
-    case Event::Kind::contact:
-      return "contact";
-  }
-  return "";
-}
-
 void add_report(py::module_& module) {
   py::class_<Event>(module, "Event", "Something that happened to the shell on its way.")
       .def_property_readonly(
-          "kind", [](const Event& of) { return word_of(of.kind); },
+          "kind", [](const Event& of) { return std::string(word_of(of.kind)); },
           "\"stability_lost\", \"turned_back\" (the path came to a limit point), \"locked\" (the "
           "rods came to their length), \"overbent\" (one came to [limits] max_bending_strain) or "
           "\"contact\" (beyond, rods or joints touch).")

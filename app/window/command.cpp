@@ -1,7 +1,6 @@
 #include "app/window/command.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "engine/gridshell.h"
 

@@ -1,8 +1,6 @@
 #include "app/window/edit_session.h"
 
-#include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "app/window/command.h"

@@ -1,5 +1,4 @@
 // The interface in a window of the desktop, played from a recording, and dragged by a bench.
-#include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>

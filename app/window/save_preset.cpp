@@ -38,9 +38,8 @@ bool jumped(const ShellView& shell) {
 
 Result<void> check_picture(int width, int height) {
   if (std::min(width, height) >= least_px && std::max(width, height) <= most_px) return {};
-  return fail(Fault::bad_input,
-              fmt::format("a picture of {} x {}: must be {} to {} pixels each way", width, height,
-                          least_px, most_px));
+  return fail(Fault::bad_input, "a picture of {} x {}: must be {} to {} pixels each way", width,
+              height, least_px, most_px);
 }
 
 /// The first path in the folder, numbered, of which no file has one of the endings.

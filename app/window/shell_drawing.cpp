@@ -1,7 +1,6 @@
 #include "app/window/shell_drawing.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "render/canvas/text.h"
 #include "render/movie/colour_by.h"

@@ -1,6 +1,5 @@
 #include "app/window/viewer_state.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

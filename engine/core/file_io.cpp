@@ -15,8 +15,8 @@
 namespace gridshell {
 
 tl::unexpected<Error> fail_io(const char* what, const std::filesystem::path& path, int code) {
-  return fail(Fault::io, fmt::format("cannot {} '{}': {}", what, path.string(),
-                                     std::generic_category().message(code)));
+  return fail(Fault::io, "cannot {} '{}': {}", what, path.string(),
+              std::generic_category().message(code));
 }
 
 int Descriptor::close() {
@@ -79,9 +79,8 @@ Result<ReadableFile> ReadableFile::open(const std::filesystem::path& path) {
   if (opened.file_ < 0 || ::fstat(opened.file_, &about) != 0) return fail_io("read", path, errno);
   if (S_ISDIR(about.st_mode)) return fail_io("read", path, EISDIR);
   if (!S_ISREG(about.st_mode))
-    return fail(Fault::io,
-                fmt::format("cannot read '{}': it is a pipe or a device, must be a regular file",
-                            path.string()));
+    return fail(Fault::io, "cannot read '{}': it is a pipe or a device, must be a regular file",
+                path.string());
   opened.size_ = std::uint64_t(about.st_size);
   return opened;
 }
@@ -101,8 +100,7 @@ std::optional<std::string> ReadableFile::read(std::uint64_t at, std::uint64_t si
 Result<std::string> read_file(const std::filesystem::path& path, std::uintmax_t limit) {
   TRY(opened, ReadableFile::open(path));
   const auto too_large = [&] {
-    return fail(Fault::io, fmt::format("cannot read '{}': it is larger than {} MB", path.string(),
-                                       limit >> 20));
+    return fail(Fault::io, "cannot read '{}': it is larger than {} MB", path.string(), limit >> 20);
   };
   if (opened->size() > limit) return too_large();
   // some files of the system say that they are empty, so the count is what decides

@@ -1,6 +1,7 @@
 // Errors as values: what can fail returns Result<T>, which holds a T or an Error.
 #pragma once
 
+#include <fmt/core.h>
 #include <string>
 #include <tl/expected.hpp>
 #include <utility>
@@ -27,6 +28,12 @@ using Result = tl::expected<T, Error>;
 /// Shorthand for `return fail(Fault::io, "...")`.
 inline tl::unexpected<Error> fail(Fault fault, std::string message) {
   return tl::unexpected<Error>(Error{fault, std::move(message)});
+}
+/// The same, the message made of a format and what goes into it.
+template <class First, class... More>
+tl::unexpected<Error> fail(Fault fault, fmt::format_string<First, More...> text, First&& first,
+                           More&&... more) {
+  return fail(fault, fmt::format(text, std::forward<First>(first), std::forward<More>(more)...));
 }
 
 /// The failure of all work that was cancelled.

@@ -1,6 +1,5 @@
 #include "engine/design/design.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -165,10 +164,8 @@ Result<std::size_t> certify(DesignShell& coarse, DesignShell& fine,
       return k;
     why = on_fine ? "it is too soft" : on_fine.error().message;
   }
-  return fail(Fault::no_equilibrium,
-              fmt::format("on {} edges a segment the designed shell is lost: "
-                          "{}",
-                          certified_on, why));
+  return fail(Fault::no_equilibrium, "on {} edges a segment the designed shell is lost: {}",
+              certified_on, why);
 }
 
 }  // namespace
@@ -226,9 +223,8 @@ Result<DesignResult> design(const preset::Preset& preset, Watch& watch,
     for (const RodEnd hold : {rod.begin, rod.end})
       found.row_of_end.push_back(is_held(hold) ? row++ : -1);
   if (auto moved = fine.move_in_steps(by_hand, jump); !moved)
-    return fail(Fault::no_equilibrium,
-                fmt::format("rounded to {:g} mm the designed shell is lost: {}",
-                            preset.inverse.round_mm, moved.error().message));
+    return fail(Fault::no_equilibrium, "rounded to {:g} mm the designed shell is lost: {}",
+                preset.inverse.round_mm, moved.error().message);
   found.rounded = described(fine, work.target);
   found.cpu_s = cpu_seconds_now() - started;
   for (const double sigma : sigmas_mm)

@@ -1,7 +1,5 @@
 #include "engine/design/design_shell.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

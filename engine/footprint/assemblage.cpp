@@ -157,7 +157,7 @@ std::string name_of(const Places& places, const Join& join) {
 }
 
 tl::unexpected<Error> refuse(const Places& places, const Join& join, const std::string& why) {
-  return fail(Fault::bad_input, fmt::format("seam {}: {}", name_of(places, join), why));
+  return fail(Fault::bad_input, "seam {}: {}", name_of(places, join), why);
 }
 
 bool face(Side a, Side b) {
@@ -191,9 +191,8 @@ Result<void> check_sides(const Places& places, const std::vector<Join>& joins) {
   for (int k = 0; k < int(places.size()); ++k)
     for (const Side side : all_sides)
       if (places[k].block.cut[std::size_t(side)] && !used[k][std::size_t(side)])
-        return fail(Fault::bad_input,
-                    fmt::format("{} is cut and not joined: its rods would end in the air",
-                                name_of(places, BlockSide{k, side})));
+        return fail(Fault::bad_input, "{} is cut and not joined: its rods would end in the air",
+                    name_of(places, BlockSide{k, side}));
   return {};
 }
 
@@ -261,8 +260,8 @@ Result<void> place_all(Places& places, const std::vector<Join>& joins) {
   }
   for (std::size_t k = 0; k < places.size(); ++k)
     if (!placed[k])
-      return fail(Fault::bad_input, fmt::format("no join holds block \"{}\" to block \"{}\"",
-                                                places[k].block.name, places.front().block.name));
+      return fail(Fault::bad_input, "no join holds block \"{}\" to block \"{}\"",
+                  places[k].block.name, places.front().block.name);
   return {};
 }
 
@@ -308,11 +307,11 @@ Result<void> check_apart(const Places& places) {
           for (const Interval& one : places[a].intervals(family, line))
             for (const Interval& two : places[b].intervals(family, line))
               if (std::min(one.end, two.end) - std::max(one.begin, two.begin) > 1e-6 * d)
-                return fail(Fault::bad_input,
-                            fmt::format("blocks \"{}\" and \"{}\" overlap in the footprint, on the "
-                                        "{}-rod at {:g} mm",
-                                        places[a].block.name, places[b].block.name,
-                                        family == Family::u ? "u" : "v", line));
+                return fail(
+                    Fault::bad_input,
+                    "blocks \"{}\" and \"{}\" overlap in the footprint, on the {}-rod at {:g} mm",
+                    places[a].block.name, places[b].block.name, family == Family::u ? "u" : "v",
+                    line);
         }
     }
   return {};

@@ -1,5 +1,4 @@
 // What an assemblage is to those who know nets and domains: both piece by piece.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +31,7 @@ class AssembledNet final : public ChebyshevNet {
     const Eigen::Vector2d uv(u, v);
     const auto held = holders(*places_, uv);
     if (held.empty())
-      return fail(Fault::bad_input, fmt::format("no block holds (u, v) = ({:g}, {:g}) mm", u, v));
+      return fail(Fault::bad_input, "no block holds (u, v) = ({:g}, {:g}) mm", u, v);
     NetPoint middle{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     for (const auto* place : held) {
       const auto point = place->at(uv);

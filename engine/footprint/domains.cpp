@@ -1,10 +1,8 @@
 #include "engine/footprint/domains.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "engine/geometry/calculus.h"
 
@@ -186,15 +184,13 @@ std::unique_ptr<Domain> half_between(const RevolutionNet& net, double first, dou
 Result<std::unique_ptr<Domain>> cap_of(const SphereNet& net, double cut_height) {
   if (!(cut_height >= 0 && cut_height < 1))
     return fail(Fault::bad_input,
-                fmt::format("the cap's cut height is {:g} of the radius, it must lie in [0, 1)",
-                            cut_height));
+                "the cap's cut height is {:g} of the radius, it must lie in [0, 1)", cut_height);
   return std::make_unique<Cap>(net, cut_height);
 }
 
 Result<std::unique_ptr<Domain>> half_of(const RevolutionNet& net, double length) {
   if (!(length > 0))
-    return fail(Fault::bad_input,
-                fmt::format("the length is {:g} mm, it must be positive", length));
+    return fail(Fault::bad_input, "the length is {:g} mm, it must be positive", length);
   const auto first = net.x_at_axial(-length / 2), last = net.x_at_axial(length / 2);
   for (const auto* end : {&first, &last})
     if (!*end) return tl::unexpected(end->error());
@@ -315,10 +311,9 @@ Result<std::unique_ptr<Domain>> part_of(std::shared_ptr<const SurfaceNet> net,
   for (int k = 0; k < rays; ++k)
     if (part->exits(2 * M_PI * k / rays) != 1)
       return fail(Fault::bad_input,
-                  fmt::format("the boundary is crossed more than once on the way from the apex "
-                              "outwards, at {} degrees from the first rod: it must be seen from "
-                              "there as a whole",
-                              k));
+                  "the boundary is crossed more than once on the way from the apex outwards, at {} "
+                  "degrees from the first rod: it must be seen from there as a whole",
+                  k);
   return part;
 }
 

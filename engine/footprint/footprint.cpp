@@ -1,7 +1,5 @@
 #include "engine/footprint/footprint.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -39,11 +37,10 @@ Result<Footprint> cross(Footprint net) {
   }
   for (FootprintRod& rod : net.rods) {
     if (rod.joints.empty())
-      return fail(
-          Fault::bad_input,
-          fmt::format("the {}-rod at {} = {:g} mm crosses no other rod: it would hang on "
-                      "its two ends alone; move the boundary or the spacing",
-                      name_of(rod.family), rod.family == Family::u ? "v" : "u", rod.line()));
+      return fail(Fault::bad_input,
+                  "the {}-rod at {} = {:g} mm crosses no other rod: it would hang on its two ends "
+                  "alone; move the boundary or the spacing",
+                  name_of(rod.family), rod.family == Family::u ? "v" : "u", rod.line());
     const auto along = [&](int joint) {
       return rod.family == Family::u ? net.joints[joint].u : net.joints[joint].v;
     };
@@ -163,16 +160,15 @@ Result<Footprint> cut_footprint(const Domain& domain, double spacing, Placement 
   const double lines = domain.reach() / spacing;
   if (!(spacing > 0) || !(lines * lines * 4 < most_joints))
     return fail(Fault::bad_input,
-                fmt::format("a spacing of {:g} mm in a boundary that reaches {:g} mm gives more "
-                            "than {:g} joints or none",
-                            spacing, domain.reach(), most_joints));
+                "a spacing of {:g} mm in a boundary that reaches {:g} mm gives more than {:g} "
+                "joints or none",
+                spacing, domain.reach(), most_joints);
   Footprint net{spacing, placement, {}, {}, {}};
   const int last = int(std::ceil(lines)) + 1;
   for (Family family : {Family::u, Family::v})
     for (int index = -last; index <= last; ++index) add_rods(net, domain, family, index);
   if (net.rods.empty())
-    return fail(Fault::bad_input,
-                fmt::format("no grid line of spacing {:g} mm meets the boundary", spacing));
+    return fail(Fault::bad_input, "no grid line of spacing {:g} mm meets the boundary", spacing);
   return cross(std::move(net));
 }
 
@@ -181,26 +177,22 @@ constexpr double short_leg = 1e-3;
 
 Result<Footprint> circular_footprint(double radius, int rods, double spacing, Placement placement) {
   if (rods < 2)
-    return fail(Fault::bad_input,
-                fmt::format("{} rod a direction makes no cell: take at least 2", rods));
-  if (rods > 1000)
-    return fail(Fault::bad_input, fmt::format("{} rods a direction: at most 1000", rods));
+    return fail(Fault::bad_input, "{} rod a direction makes no cell: take at least 2", rods);
+  if (rods > 1000) return fail(Fault::bad_input, "{} rods a direction: at most 1000", rods);
   const bool even = rods % 2 == 0;
   if (even != (placement == Placement::half))
     return fail(Fault::bad_input,
-                fmt::format("{} rods a direction do not fit placement \"{}\": rods at (i + 1/2) d "
-                            "(\"half\") are an even number, rods at i d (\"on_axis\") an odd one",
-                            rods, placement == Placement::half ? "half" : "on_axis"));
+                "{} rods a direction do not fit placement \"{}\": rods at (i + 1/2) d (\"half\") "
+                "are an even number, rods at i d (\"on_axis\") an odd one",
+                rods, placement == Placement::half ? "half" : "on_axis");
   const double longest = radius / spacing - (rods - 1) / 2.0;
   if (!(longest > on_boundary))
     return fail(
         Fault::bad_input,
-        fmt::format("{} rods a direction at d = {:g} mm reach {:g} mm, beyond the boundary: the "
-                    "longest leg R_o/d - (n-1)/2 = {:.4g} must be above 0; take R_o >= {:.7g} mm "
-                    "or n <= {}",
-                    rods, spacing, (rods - 1) / 2.0 * spacing, longest,
-                    ((rods - 1) / 2.0 + short_leg) * spacing,
-                    rods - 2 * std::max(1, int(std::ceil(-longest)))));
+        "{} rods a direction at d = {:g} mm reach {:g} mm, beyond the boundary: the longest leg "
+        "R_o/d - (n-1)/2 = {:.4g} must be above 0; take R_o >= {:.7g} mm or n <= {}",
+        rods, spacing, (rods - 1) / 2.0 * spacing, longest,
+        ((rods - 1) / 2.0 + short_leg) * spacing, rods - 2 * std::max(1, int(std::ceil(-longest))));
   Footprint net{spacing, placement, {}, {}, {}};
   const int first = even ? -rods / 2 : -(rods - 1) / 2;
   const Disk disk(radius);

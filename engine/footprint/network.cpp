@@ -51,7 +51,7 @@ Result<void> check_rod(const RodNetwork& network, std::size_t r,
                        std::map<std::pair<int, int>, std::size_t>& stretches) {
   const std::vector<int>& rod = network.rods[r];
   const auto wrong = [&](const std::string& what) {
-    return fail(Fault::bad_input, fmt::format("rods[{}]: {}", r, what));
+    return fail(Fault::bad_input, "rods[{}]: {}", r, what);
   };
   const std::set<int> points(rod.begin(), rod.end());
   if (points.size() < 2) return wrong("has one point, must have at least two, apart");
@@ -127,14 +127,15 @@ Result<void> check_points(const RodNetwork& network, const Roles& roles) {
     const auto [passes, ends] = roles.at(point);
     const bool free = network.free[std::size_t(point)] != 0;
     if ((free || roles.is_supported(point)) && passes + ends == 0)
-      return fail(Fault::bad_input, fmt::format("point {} is {}, and no rod has it", point,
-                                                free ? "free" : "a support"));
+      return fail(Fault::bad_input, "point {} is {}, and no rod has it", point,
+                  free ? "free" : "a support");
     if (free && passes > 0)
-      return fail(Fault::bad_input, fmt::format("point {} is free, and inside a rod: only ends of "
-                                                "rods are held unless they are free",
-                                                point));
+      return fail(
+          Fault::bad_input,
+          "point {} is free, and inside a rod: only ends of rods are held unless they are free",
+          point);
     if (free && roles.is_supported(point))
-      return fail(Fault::bad_input, fmt::format("point {} is a support and free", point));
+      return fail(Fault::bad_input, "point {} is a support and free", point);
   }
   return {};
 }
@@ -174,7 +175,7 @@ Result<FootprintRod> rod_of(const RodNetwork& network, std::size_t r, const Role
   rod.span = {0, position};
   if (rod.joints.empty())
     return fail(Fault::bad_input,
-                fmt::format("rods[{}]: is joined to no other rod, must share a point with one", r));
+                "rods[{}]: is joined to no other rod, must share a point with one", r);
   rod.begin = roles.end_at(numbers.front());
   rod.end = roles.end_at(numbers.back());
   return rod;
@@ -241,14 +242,14 @@ Result<void> check_held(const RodNetwork& network, const Roles& roles, const Foo
   for (const auto& [at, rod] : first_rod) {
     if (!off_a_line(held[at]))
       return fail(Fault::bad_input,
-                  fmt::format("rods[{}] and what is joined to it: held at fewer than three points, "
-                              "or at points on one line, and would turn freely about it",
-                              rod));
+                  "rods[{}] and what is joined to it: held at fewer than three points, or at "
+                  "points on one line, and would turn freely about it",
+                  rod);
     if (!hold_all(held[at]))
       return fail(Fault::bad_input,
-                  fmt::format("rods[{}] and what is joined to it: held by springs along too few "
-                              "directions, and would move or turn freely",
-                              rod));
+                  "rods[{}] and what is joined to it: held by springs along too few directions, "
+                  "and would move or turn freely",
+                  rod);
   }
   return {};
 }

@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -256,9 +255,8 @@ Result<void> read_in_subprocess(const std::function<void()>& reading) {
     if (std::chrono::steady_clock::now() > end) {
       ::kill(child, SIGKILL);
       ::waitpid(child, &status, 0);
-      return fail(
-          Fault::bad_input,
-          fmt::format("it is damaged: the HDF5 library takes more than {} s to read it", seconds));
+      return fail(Fault::bad_input,
+                  "it is damaged: the HDF5 library takes more than {} s to read it", seconds);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

@@ -1,6 +1,5 @@
 // Joints that a file lists: points of several rods that lie apart become one.
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -69,9 +68,9 @@ Result<void> NetworkBuilder::add_joint(std::vector<int> points, const std::strin
   for (const int point : points)
     if (!listed_.insert(point).second)
       return fail(Fault::bad_input,
-                  fmt::format("{}: point {} is of another joint too, must be of one: list all "
-                              "points of a joint together",
-                              at, point));
+                  "{}: point {} is of another joint too, must be of one: list all points of a "
+                  "joint together",
+                  at, point);
   joints_.push_back({std::move(points), at});
   return {};
 }
@@ -89,19 +88,17 @@ Result<void> NetworkBuilder::check_rods(const std::vector<int>& joint_of) const 
       const auto [there, is_new] = first.try_emplace(joint, k);
       const bool closes = there->second == 0 && k + 1 == rod.size() && k > 2;
       if (!is_new && !closes && rod[there->second] != rod[k])
-        return fail(
-            Fault::bad_input,
-            fmt::format("{}: rods[{}] has both point {} and point {}, the points of a joint "
-                        "must be of different rods, or the two ends of a ring",
-                        joints_[std::size_t(joint)].at, r, rod[there->second], rod[k]));
+        return fail(Fault::bad_input,
+                    "{}: rods[{}] has both point {} and point {}, the points of a joint must be of "
+                    "different rods, or the two ends of a ring",
+                    joints_[std::size_t(joint)].at, r, rod[there->second], rod[k]);
     }
   }
   for (const Joint& joint : joints_)
     for (const int point : joint.points)
       if (!on_rods.contains(point))
-        return fail(
-            Fault::bad_input,
-            fmt::format("{}: no rod has point {}, must be a point of a rod", joint.at, point));
+        return fail(Fault::bad_input, "{}: no rod has point {}, must be a point of a rod", joint.at,
+                    point);
   return {};
 }
 
@@ -113,12 +110,10 @@ Result<void> NetworkBuilder::check_reach(const std::vector<int>& joint_of) const
     for (const int point : joints_[j].points) {
       const double way = distance(network_.points[std::size_t(point)], mean);
       if (!(way <= farthest * shortest[j]))
-        return fail(
-            Fault::bad_input,
-            fmt::format(
-                "{}: point {} lies {:.4g} mm from the middle of the joint's points, must be "
-                "at most {:.4g} mm, a quarter of the shortest stretch of rod beside them",
-                joints_[j].at, point, way, farthest * shortest[j]));
+        return fail(Fault::bad_input,
+                    "{}: point {} lies {:.4g} mm from the middle of the joint's points, must be at "
+                    "most {:.4g} mm, a quarter of the shortest stretch of rod beside them",
+                    joints_[j].at, point, way, farthest * shortest[j]);
     }
   }
   return {};
@@ -240,9 +235,10 @@ void put(std::vector<Cut> cuts, std::vector<std::vector<int>>& rods) {
 Result<void> NetworkBuilder::join_crossings(const std::string& name) {
   const std::vector<Stretch> all = stretches_of(network_);
   if (all.size() > most_stretches)
-    return fail(Fault::bad_input, fmt::format("{}: holds {} stretches of rods, must be at most {} "
-                                              "for their crossings to be found",
-                                              name, all.size(), most_stretches));
+    return fail(
+        Fault::bad_input,
+        "{}: holds {} stretches of rods, must be at most {} for their crossings to be found", name,
+        all.size(), most_stretches);
   std::vector<Cut> cuts;
   for (std::size_t k = 0; k < all.size(); ++k)
     for (std::size_t m = k + 1; m < all.size() && all[m].low() <= all[k].high(); ++m) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "engine/core/try.h"
@@ -49,8 +48,7 @@ int NetworkBuilder::known(const std::vector<double>& xyz) const {
 Result<void> NetworkBuilder::add_point(const std::vector<double>& xyz, const std::string& at) {
   if (const auto wrong = coordinates_fault(xyz); !wrong.empty())
     return fail(Fault::bad_input, at + ": " + wrong);
-  if (points() == most)
-    return fail(Fault::bad_input, fmt::format("{}: must be at most {} points", at, most));
+  if (points() == most) return fail(Fault::bad_input, "{}: must be at most {} points", at, most);
   const std::vector<double> place{xyz[0], xyz[1], xyz.size() == 3 ? xyz[2] : 0};
   const int number = int(points()), same = known(place);
   same_as_.push_back(same >= 0 ? same : number);
@@ -86,13 +84,13 @@ Result<void> NetworkBuilder::add_rod(std::vector<int> points, double diameter_mm
     return fail(Fault::bad_input, at + ": a rod of one point, must have at least two, apart");
   if (const auto same = std::ranges::adjacent_find(points); same != points.end())
     return fail(Fault::bad_input,
-                fmt::format("{}: a stretch of no length: the points of a rod must lie apart, and "
-                            "point {} follows itself, or another point at its place",
-                            at, *same));
+                "{}: a stretch of no length: the points of a rod must lie apart, and point {} "
+                "follows itself, or another point at its place",
+                at, *same);
   entries_ += points.size();
   if (network_.rods.size() == most || entries_ > most_entries)
-    return fail(Fault::bad_input, fmt::format("{}: must be at most {} rods through {} points", at,
-                                              most, most_entries));
+    return fail(Fault::bad_input, "{}: must be at most {} rods through {} points", at, most,
+                most_entries);
   diameters_ = diameters_ || diameter_mm > 0;
   network_.rods.push_back(std::move(points));
   network_.diameters.push_back(diameter_mm);
@@ -164,9 +162,9 @@ Result<NetworkData> read_network(std::string_view bytes, const std::string& name
   if (ending == ".json") return read_network_json(bytes, name);
   if (ending == ".obj") return read_network_obj(bytes, name);
   if (ending == ".dxf") return read_network_dxf(bytes, name);
-  return fail(Fault::bad_input, fmt::format("{}: its name must end in .json (points, rods and "
-                                            "supports), .obj or .dxf (rods)",
-                                            name));
+  return fail(Fault::bad_input,
+              "{}: its name must end in .json (points, rods and supports), .obj or .dxf (rods)",
+              name);
 }
 
 // Networks as Wavefront OBJ: vertices and lines.
@@ -212,9 +210,8 @@ Result<std::vector<Group>> groups_of(std::string_view bytes, const std::string& 
   for (int line = 1; !trimmed(bytes.substr(0, 64)).empty() || bytes.size() > 64; line += 2) {
     const auto code = number_of(trimmed(next_line(bytes)));
     if (!code || !(std::abs(*code) <= 2000) || bytes.empty())
-      return fail(
-          Fault::bad_input,
-          fmt::format("{}:{}: is no DXF text, must be a code and a value in turn", name, line));
+      return fail(Fault::bad_input, "{}:{}: is no DXF text, must be a code and a value in turn",
+                  name, line);
     groups.push_back({int(*code), trimmed(next_line(bytes)), line + 1});
   }
   return groups;
@@ -285,7 +282,7 @@ class Entities {
       return {};
     const auto value = number_of(group.value);
     const auto wrong = [&](const char* what) {
-      return fail(Fault::bad_input, fmt::format("{}:{}: {}", name_, group.line, what));
+      return fail(Fault::bad_input, "{}:{}: {}", name_, group.line, what);
     };
     if (!value) return wrong("must be a finite number");
     if (group.code == code::flags && (kind_ == Kind::light || kind_ == Kind::heavy))

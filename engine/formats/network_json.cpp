@@ -74,9 +74,8 @@ Result<Document> parse(std::string_view bytes, const std::string& name) {
     document.json = Json::parse(CountingIterator(bytes.data(), &line),
                                 CountingIterator(bytes.data() + bytes.size(), &line), seen);
   } catch (const Json::exception& error) {
-    return fail(Fault::bad_input,
-                fmt::format("{}:{}: {}", name, line,
-                            bytes.empty() ? "is empty, must be JSON" : "is no JSON here"));
+    return fail(Fault::bad_input, "{}:{}: {}", name, line,
+                bytes.empty() ? "is empty, must be JSON" : "is no JSON here");
   }
   if (!document.json.is_object())
     return fail(Fault::bad_input,
@@ -104,11 +103,9 @@ class Reader {
     for (const auto& [key, value] : document_.json.items()) {
       if (std::find(known.begin(), known.end(), key) == known.end())
         return fail(Fault::bad_input,
-                    fmt::format("{}: unknown key '{}', must be points_mm, rods, joints "
-                                "or supports{}",
-                                name_, key.substr(0, 40), did_you_mean(key, known)));
-      if (!value.is_array())
-        return fail(Fault::bad_input, fmt::format("{}: '{}' must be a list", name_, key));
+                    "{}: unknown key '{}', must be points_mm, rods, joints or supports{}", name_,
+                    key.substr(0, 40), did_you_mean(key, known));
+      if (!value.is_array()) return fail(Fault::bad_input, "{}: '{}' must be a list", name_, key);
     }
     return each("points_mm", &Reader::point)
         .and_then([&] { return each("rods", &Reader::rod); })
@@ -133,7 +130,7 @@ class Reader {
   }
 
   tl::unexpected<Error> wrong(const char* what) const {
-    return fail(Fault::bad_input, fmt::format("{}: {}", at_, what));
+    return fail(Fault::bad_input, "{}: {}", at_, what);
   }
 
   Result<void> point(const Json& value) {

@@ -46,8 +46,8 @@ Result<void> read_obj_lines(std::string_view bytes, const std::string& name,
     for (std::size_t k = 1; k < words.size(); ++k) {
       const auto corner = obj_vertex(words[k], vertices);
       if (!corner)
-        return fail(Fault::bad_input, fmt::format("{}: '{}' is no vertex, must be its number",
-                                                  place, words[k].substr(0, 40)));
+        return fail(Fault::bad_input, "{}: '{}' is no vertex, must be its number", place,
+                    words[k].substr(0, 40));
       corners.push_back(*corner);
     }
     if (auto taken = lines.element(corners, place); !taken) return taken;

@@ -80,22 +80,19 @@ Result<Points> points_in(const std::string& text, const std::string& name,
     if (first && !value_of(words.front(), 0, known)) continue;
     const auto place = fmt::format("{}:{}", name, number);
     if (words.size() != coordinates.size())
-      return fail(Fault::bad_input,
-                  fmt::format("{}: holds {} values, must be {}", place, words.size(), wanted));
+      return fail(Fault::bad_input, "{}: holds {} values, must be {}", place, words.size(), wanted);
     points.emplace_back();
     if (lines_of) lines_of->push_back(number);
     for (const auto& word : words) {
       const auto value = value_of(word, points.back().size(), known);
       if (!value)
-        return fail(Fault::bad_input,
-                    fmt::format("{}: '{}' is no {}, must be {}", place, word,
-                                known.empty() ? "number" : "value of its column", wanted));
+        return fail(Fault::bad_input, "{}: '{}' is no {}, must be {}", place, word,
+                    known.empty() ? "number" : "value of its column", wanted);
       points.back().push_back(*value);
     }
   }
   if (points.empty())
-    return fail(Fault::bad_input,
-                fmt::format("{}: holds no point, must hold one a line, {}", name, wanted));
+    return fail(Fault::bad_input, "{}: holds no point, must hold one a line, {}", name, wanted);
   return points;
 }
 
@@ -107,12 +104,10 @@ class CloudBuilder {
   Result<void> add(const Eigen::Vector3d& p, const std::string& name, auto place_of) {
     constexpr double largest = 1e9;
     if (!(p.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= largest))
-      return fail(Fault::bad_input,
-                  fmt::format("{}: a coordinate is {}, must be a number of at most 1e9", place_of(),
-                              p.allFinite() ? "too large" : "not a number"));
+      return fail(Fault::bad_input, "{}: a coordinate is {}, must be a number of at most 1e9",
+                  place_of(), p.allFinite() ? "too large" : "not a number");
     if (points_.size() >= 3 * most_cloud_points)
-      return fail(Fault::bad_input,
-                  fmt::format("{}: holds more than {} points", name, most_cloud_points));
+      return fail(Fault::bad_input, "{}: holds more than {} points", name, most_cloud_points);
     points_.insert(points_.end(), p.data(), p.data() + 3);
     return {};
   }
@@ -176,12 +171,12 @@ Result<Eigen::Matrix3Xd> read_lines(std::string_view text, const std::string& na
     Eigen::Vector3d p;
     for (std::size_t k = 0; k < 3; ++k) {
       if (columns[k] >= words.size())
-        return fail(Fault::bad_input,
-                    fmt::format("{}: holds {} numbers, must be x, y, z", place(), words.size()));
+        return fail(Fault::bad_input, "{}: holds {} numbers, must be x, y, z", place(),
+                    words.size());
       const auto value = number_of(words[columns[k]]);
       if (!value)
-        return fail(Fault::bad_input,
-                    fmt::format("{}: '{}' is no number", place(), words[columns[k]].substr(0, 40)));
+        return fail(Fault::bad_input, "{}: '{}' is no number", place(),
+                    words[columns[k]].substr(0, 40));
       p[Eigen::Index(k)] = *value;
     }
     TRY_DO(draft.add(p, name, place));
@@ -206,8 +201,7 @@ Result<Eigen::Matrix3Xd> read_cloud(std::string_view bytes, const std::string& n
   if (ending == ".ply") return read_vertices(bytes, name);
   for (const char* known : {".xyz", ".txt", ".asc", ".csv"})
     if (ending == known) return read_lines(bytes, name);
-  return fail(Fault::bad_input,
-              fmt::format("{}: its name must end in .ply, .xyz, .txt, .asc or .csv", name));
+  return fail(Fault::bad_input, "{}: its name must end in .ply, .xyz, .txt, .asc or .csv", name);
 }
 
 }  // namespace gridshell::preset

@@ -35,14 +35,12 @@ Result<void> MeshBuilder::add_vertex(const std::vector<double>& xyz, const std::
   constexpr double largest = 1e9;
   for (const double value : xyz)
     if (!(std::abs(value) <= largest))
-      return fail(Fault::bad_input,
-                  fmt::format("{}: a coordinate is {}, must be a number of at most 1e9", place,
-                              std::isfinite(value) ? "too large" : "not a number"));
+      return fail(Fault::bad_input, "{}: a coordinate is {}, must be a number of at most 1e9",
+                  place, std::isfinite(value) ? "too large" : "not a number");
   const auto [found, fresh] = at_.try_emplace(xyz, int(mesh_.vertices.size()));
   // a triangle that stands by itself brings three vertices
   if (mesh_.vertices.size() == most_vertices || number_.size() == 3 * most_triangles)
-    return fail(Fault::bad_input,
-                fmt::format("{}: more than {} vertices, must be fewer", place, most_vertices));
+    return fail(Fault::bad_input, "{}: more than {} vertices, must be fewer", place, most_vertices);
   number_.push_back(found->second);
   if (fresh) mesh_.vertices.push_back(xyz);
   return {};
@@ -50,19 +48,18 @@ Result<void> MeshBuilder::add_vertex(const std::vector<double>& xyz, const std::
 
 Result<void> MeshBuilder::add_polygon(const std::vector<long>& corners, const std::string& place) {
   if (corners.size() < 3)
-    return fail(Fault::bad_input, fmt::format("{}: a polygon of {} corners, must have 3 or more",
-                                              place, corners.size()));
+    return fail(Fault::bad_input, "{}: a polygon of {} corners, must have 3 or more", place,
+                corners.size());
   std::vector<int> ring;
   for (const long corner : corners) {
     if (corner < 0 || corner >= long(number_.size()))
-      return fail(Fault::bad_input,
-                  fmt::format("{}: names a vertex that is none of the {} before it", place,
-                              number_.size()));
+      return fail(Fault::bad_input, "{}: names a vertex that is none of the {} before it", place,
+                  number_.size());
     ring.push_back(number_[std::size_t(corner)]);
   }
   if (mesh_.triangles.size() + ring.size() - 2 > most_triangles)
-    return fail(Fault::bad_input,
-                fmt::format("{}: more than {} triangles, must be fewer", place, most_triangles));
+    return fail(Fault::bad_input, "{}: more than {} triangles, must be fewer", place,
+                most_triangles);
   for (std::size_t k = 2; k < ring.size(); ++k)
     if (ring[0] != ring[k - 1] && ring[k - 1] != ring[k] && ring[k] != ring[0])
       mesh_.triangles.push_back({ring[0], ring[k - 1], ring[k]});
@@ -151,8 +148,8 @@ Result<SurfaceData> read_text(std::string_view bytes, const std::string& name) {
   }
   if (draft.vertices() % 3 != 0)
     return fail(Fault::bad_input,
-                fmt::format("{}: ends within a triangle: {} vertices, must be three a triangle",
-                            name, draft.vertices()));
+                "{}: ends within a triangle: {} vertices, must be three a triangle", name,
+                draft.vertices());
   return draft.take(name);
 }
 
@@ -164,9 +161,9 @@ Result<SurfaceData> read_stl(std::string_view bytes, const std::string& name) {
     return read_binary(bytes, name);
   if (bytes.starts_with("solid")) return read_text(bytes, name);
   return fail(Fault::bad_input,
-              fmt::format("{}: no STL: begins without \"solid\", and its {} bytes are not those of "
-                          "the {} triangles that it says",
-                          name, bytes.size(), count_in(bytes)));
+              "{}: no STL: begins without \"solid\", and its {} bytes are not those of the {} "
+              "triangles that it says",
+              name, bytes.size(), count_in(bytes));
 }
 
 namespace {
@@ -196,36 +193,34 @@ Result<SurfaceData> read_heights(std::string_view bytes, const std::string& name
   std::vector<int> lines;
   TRY(points, points_in(std::string(bytes), name, {"x", "y", "z"}, {}, &lines));
   if (points->size() > most_heights)
-    return fail(Fault::bad_input, fmt::format("{}: holds {} points, must be at most {}", name,
-                                              points->size(), most_heights));
+    return fail(Fault::bad_input, "{}: holds {} points, must be at most {}", name, points->size(),
+                most_heights);
   SurfaceData grid{values_of(*points, 0), values_of(*points, 1), {}, {}, {}};
   const std::size_t columns = grid.x.size(), rows = grid.y.size();
   if (columns < least_side || rows < least_side)
-    return fail(Fault::bad_input, fmt::format("{}: {} different x and {} different y, must be a "
-                                              "grid of at least 4 x 4 places",
-                                              name, columns, rows));
+    return fail(Fault::bad_input,
+                "{}: {} different x and {} different y, must be a grid of at least 4 x 4 places",
+                name, columns, rows);
   const auto holds =
       fmt::format("holds {} points on a grid of {} x {} places", points->size(), columns, rows);
   // what lies far from any grid has as many places as the square of its points
   if (columns * rows > 4 * points->size())
-    return fail(Fault::bad_input, fmt::format("{}: {}, must be a whole rectangle", name, holds));
+    return fail(Fault::bad_input, "{}: {}, must be a whole rectangle", name, holds);
   grid.z.assign(rows, std::vector<double>(columns, std::nan("")));
   for (std::size_t k = 0; k < points->size(); ++k) {
     const auto& point = (*points)[k];
     double& z = grid.z[nearest(grid.y, point[1])][nearest(grid.x, point[0])];
     if (!std::isnan(z))
-      return fail(Fault::bad_input,
-                  fmt::format("{}:{}: a second point at ({:g}, {:g}), must be one", name, lines[k],
-                              point[0], point[1]));
+      return fail(Fault::bad_input, "{}:{}: a second point at ({:g}, {:g}), must be one", name,
+                  lines[k], point[0], point[1]);
     z = point[2];
   }
   for (std::size_t j = 0; j < rows; ++j)
     for (std::size_t i = 0; i < columns; ++i)
       if (std::isnan(grid.z[j][i]))
         return fail(Fault::bad_input,
-                    fmt::format("{}: {}, and none at ({:g}, {:g}): a hole, must be a whole "
-                                "rectangle",
-                                name, holds, grid.x[i], grid.y[j]));
+                    "{}: {}, and none at ({:g}, {:g}): a hole, must be a whole rectangle", name,
+                    holds, grid.x[i], grid.y[j]);
   return grid;
 }
 
@@ -275,9 +270,9 @@ Result<SurfaceData> read_surface(std::string_view bytes, const std::string& name
   if (ending == ".ply") return read_ply(bytes, name);
   if (ending == ".stl") return read_stl(bytes, name);
   return fail(Fault::bad_input,
-              fmt::format("{}: its name must end in .csv or .txt (heights x, y, z over a grid), or "
-                          ".obj, .ply or .stl (triangles)",
-                          name));
+              "{}: its name must end in .csv or .txt (heights x, y, z over a grid), or .obj, .ply "
+              "or .stl (triangles)",
+              name);
 }
 
 }  // namespace gridshell::preset

@@ -1,6 +1,5 @@
 #include "engine/geometry/chebyshev_net.h"
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -135,10 +134,10 @@ Result<NetPoint> SphereNet::at(double u, double v) const {
   const double a = std::abs(u) / radius_, b = std::abs(v) / radius_;
   if (!(a * b < fold))
     return fail(Fault::bad_input,
-                fmt::format("the net on the sphere of radius {:g} mm folds (shear angle {}) where "
-                            "u v = {:.7g} mm^2; (u, v) = ({:g}, {:g}) mm lies beyond",
-                            radius_, (u < 0) == (v < 0) ? "0" : "180 degrees",
-                            ((u < 0) == (v < 0) ? fold : -fold) * radius_ * radius_, u, v));
+                "the net on the sphere of radius {:g} mm folds (shear angle {}) where u v = {:.7g} "
+                "mm^2; (u, v) = ({:g}, {:g}) mm lies beyond",
+                radius_, (u < 0) == (v < 0) ? "0" : "180 degrees",
+                ((u < 0) == (v < 0) ? fold : -fold) * radius_ * radius_, u, v);
   const Rod rod = follow(a, b);
   const Eigen::Vector3d t = rod.frame.col(1), n = rod.frame.col(2);
   NetPoint point;
@@ -166,16 +165,15 @@ constexpr double least_sine = 1e-6;
 
 tl::unexpected<Error> beyond(const char* curve, char name, double at, double half) {
   return fail(Fault::bad_input,
-              fmt::format("curve_{} of the translation net ends at {} = {:.7g} mm; {} = {:g} mm "
-                          "lies beyond",
-                          curve, name, at < 0 ? -half : half, name, at));
+              "curve_{} of the translation net ends at {} = {:.7g} mm; {} = {:g} mm lies beyond",
+              curve, name, at < 0 ? -half : half, name, at);
 }
 
 tl::unexpected<Error> folds(double u, double v, double cosine) {
   return fail(Fault::bad_input,
-              fmt::format("the translation net folds (shear angle {}) near (u, v) = ({:g}, {:g}) "
-                          "mm, where its curves are parallel",
-                          cosine > 0 ? "0" : "180 degrees", u, v));
+              "the translation net folds (shear angle {}) near (u, v) = ({:g}, {:g}) mm, where its "
+              "curves are parallel",
+              cosine > 0 ? "0" : "180 degrees", u, v);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "engine/geometry/closed_curve.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -29,17 +27,15 @@ Result<Eigen::Matrix2Xd> cleaned(const Eigen::Matrix2Xd& given) {
   if (points.cols() > 1 && points.col(0) == points.col(points.cols() - 1))
     points.conservativeResize(2, points.cols() - 1);
   const Eigen::Index n = points.cols();
-  if (n < 3)
-    return fail(Fault::bad_input, fmt::format("a closed curve needs at least 3 points, not {}", n));
+  if (n < 3) return fail(Fault::bad_input, "a closed curve needs at least 3 points, not {}", n);
   double area = 0;
   for (Eigen::Index k = 0; k < n; ++k) {
     if (!points.col(k).allFinite())
-      return fail(Fault::bad_input,
-                  fmt::format("point {} of the closed curve is not finite", k + 1));
+      return fail(Fault::bad_input, "point {} of the closed curve is not finite", k + 1);
     const Vector2d next = points.col((k + 1) % n);
     if (points.col(k) == next)
-      return fail(Fault::bad_input, fmt::format("points {} and {} of the closed curve are the same",
-                                                k + 1, (k + 1) % n + 1));
+      return fail(Fault::bad_input, "points {} and {} of the closed curve are the same", k + 1,
+                  (k + 1) % n + 1);
     area += cross(points.col(k), next) / 2;
   }
   if (area < 0) points.rightCols(n - 1).rowwise().reverseInPlace();
@@ -65,9 +61,8 @@ Result<ClosedCurve> ClosedCurve::make(std::function<Point(double)> at, std::vect
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 2; j < n && j < n + i - 1; ++j)
       if (segments_meet(p[i], p[i + 1], p[j], p[j + 1]))
-        return fail(Fault::bad_input,
-                    fmt::format("the closed curve crosses itself near ({:.6g}, {:.6g}) mm",
-                                p[i].x(), p[i].y()));
+        return fail(Fault::bad_input, "the closed curve crosses itself near ({:.6g}, {:.6g}) mm",
+                    p[i].x(), p[i].y());
   const auto speed = [at = curve.at_](double s) { return at(s).first.norm(); };
   curve.length_ = std::make_shared<const Antiderivative>(speed, curve.breaks_, 0);
   return curve;
@@ -77,12 +72,11 @@ Result<ClosedCurve> ClosedCurve::ellipse(double a, double b) { return superellip
 
 Result<ClosedCurve> ClosedCurve::superellipse(double a, double b, double exponent) {
   if (!(a > 0 && b > 0 && std::isfinite(a) && std::isfinite(b)))
-    return fail(Fault::bad_input,
-                fmt::format("the half axes are {:g} and {:g} mm, they must be positive", a, b));
+    return fail(Fault::bad_input, "the half axes are {:g} and {:g} mm, they must be positive", a,
+                b);
   if (!(exponent >= 1 && exponent <= 100))
-    return fail(Fault::bad_input, fmt::format("the superellipse's exponent is {:g}, it must lie "
-                                              "between 1 and 100",
-                                              exponent));
+    return fail(Fault::bad_input,
+                "the superellipse's exponent is {:g}, it must lie between 1 and 100", exponent);
   const auto at = [a, b, n = exponent](double t) {
     const double cosine = std::cos(t), sine = std::sin(t);
     const double p = std::pow(std::abs(cosine / a), n), q = std::pow(std::abs(sine / b), n);
@@ -229,20 +223,21 @@ std::vector<double> on_ray(const ClosedCurve& curve, double angle) {
 Result<void> check_star(const ClosedCurve& curve, const char* name, Correspondence how) {
   const std::size_t on_axis = on_ray(curve, 0).size();
   if (on_axis % 2 == 0)
-    return fail(Fault::bad_input, fmt::format("the origin is not inside the {} boundary", name));
+    return fail(Fault::bad_input, "the origin is not inside the {} boundary", name);
   if (how == Correspondence::arc_length && on_axis > 1)
-    return fail(Fault::bad_input, fmt::format("the positive x-axis meets the {} boundary more than "
-                                              "once: arc lengths need one place to start",
-                                              name));
+    return fail(Fault::bad_input,
+                "the positive x-axis meets the {} boundary more than once: arc lengths need one "
+                "place to start",
+                name);
   // seen from the origin a star turns one way only
   constexpr int samples = 2048;
   for (int k = 0; how == Correspondence::angle && k < samples; ++k) {
     const ClosedCurve::Point p = curve.at(curve.last() * (k + 0.5) / samples);
     if (cross(p.position, p.first) > 0) continue;
     return fail(Fault::bad_input,
-                fmt::format("the ray from the origin at {:.4g} degrees meets the {} boundary more "
-                            "than once: use correspondence \"arc_length\"",
-                            std::atan2(p.position.y(), p.position.x()) * 180 / M_PI, name));
+                "the ray from the origin at {:.4g} degrees meets the {} boundary more than once: "
+                "use correspondence \"arc_length\"",
+                std::atan2(p.position.y(), p.position.x()) * 180 / M_PI, name);
   }
   return {};
 }

@@ -1,6 +1,5 @@
 #include "engine/geometry/expression.h"
 
-#include <fmt/format.h>
 #include <muParser.h>
 
 #include <limits>
@@ -35,10 +34,9 @@ Result<Expression> Expression::parse(const std::string& text) {
     parsed->parser.SetExpr(text);
     int values = 0;
     parsed->parser.Eval(values);
-    if (values != 1) return fail(Fault::bad_input, fmt::format("{} values, must be one", values));
+    if (values != 1) return fail(Fault::bad_input, "{} values, must be one", values);
   } catch (const mu::Parser::exception_type& wrong) {
-    return fail(Fault::bad_input,
-                fmt::format("{} (at place {})", wrong.GetMsg(), int(wrong.GetPos()) + 1));
+    return fail(Fault::bad_input, "{} (at place {})", wrong.GetMsg(), int(wrong.GetPos()) + 1);
   }
   return Expression(text, std::move(parsed));
 }

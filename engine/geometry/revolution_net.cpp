@@ -12,7 +12,7 @@ namespace gridshell {
 namespace {
 
 tl::unexpected<Error> not_positive(const char* what, double value) {
-  return fail(Fault::bad_input, fmt::format("{} is {:g}, it must be positive", what, value));
+  return fail(Fault::bad_input, "{} is {:g}, it must be positive", what, value);
 }
 
 }  // namespace
@@ -54,9 +54,8 @@ Result<Profile> spool_profile(double radius, double waist) {
 Result<Profile> beltrami_profile(double radius, double waist) {
   if (!(radius > 0)) return not_positive("the pseudosphere's radius", radius);
   if (!(waist > 0 && waist < 1))
-    return fail(
-        Fault::bad_input,
-        fmt::format("the pseudosphere's waist is {:g}, it must lie between 0 and 1", waist));
+    return fail(Fault::bad_input, "the pseudosphere's waist is {:g}, it must lie between 0 and 1",
+                waist);
   const auto at = [radius](double t) {
     const double sech = 1 / std::cosh(t), tanh = std::tanh(t);
     return ProfilePoint{radius * sech, -radius * sech * tanh,
@@ -75,8 +74,8 @@ Result<Profile> tabulated_profile(const Eigen::Matrix2Xd& r_z) {
   for (std::size_t k = 0; k < knots.size(); ++k)
     if (!(r_z(0, k) > 0))
       return fail(Fault::bad_input,
-                  fmt::format("point {} of the profile has radius {:g} mm, it must be positive",
-                              k + 1, r_z(0, k)));
+                  "point {} of the profile has radius {:g} mm, it must be positive", k + 1,
+                  r_z(0, k));
   const auto at = [curve](double t) {
     const SplineCurve::Point p = curve->at(t);
     return ProfilePoint{p.position[0], p.first[0], p.second[0], p.first[1], p.second[1]};
@@ -140,13 +139,12 @@ std::vector<double> unfolded(const Profile& profile, double c) {
 Result<RevolutionNet> RevolutionNet::make(Profile profile, double c) {
   const double cr = c * profile.at(profile.origin).r;
   if (!(c > 0))
-    return fail(Fault::bad_input,
-                fmt::format("a net on the {} needs c > 0, not {:g} / mm", profile.name, c));
+    return fail(Fault::bad_input, "a net on the {} needs c > 0, not {:g} / mm", profile.name, c);
   if (!exists(profile, c, profile.origin))
     return fail(Fault::bad_input,
-                fmt::format("no net exists on the {} with c = {:g} / mm: in its middle "
-                            "sin(omega/2) = c r is {:g}, it must lie between 0 and 1",
-                            profile.name, c, cr));
+                "no net exists on the {} with c = {:g} / mm: in its middle sin(omega/2) = c r is "
+                "{:g}, it must lie between 0 and 1",
+                profile.name, c, cr);
   RevolutionNet net;
   net.profile_ = std::move(profile);
   net.c_ = c;
@@ -182,8 +180,8 @@ Result<NetPoint> RevolutionNet::at(double u, double v) const {
   double x = u + v;
   const double phi = c_ * (u - v);
   if (!(x >= first - slack && x <= last + slack))
-    return fail(Fault::bad_input, fmt::format("{}; (u, v) = ({:g}, {:g}) mm lies beyond",
-                                              why_it_ends(!(x < 0)), u, v));
+    return fail(Fault::bad_input, "{}; (u, v) = ({:g}, {:g}) mm lies beyond", why_it_ends(!(x < 0)),
+                u, v);
   x = std::clamp(x, first, last);
   const double t = x_->inverse(x);
   const ProfilePoint p = profile_.at(t);
@@ -207,8 +205,8 @@ Result<double> RevolutionNet::x_at_axial(double z) const {
   const double first = (*z_)(z_->begin()), last = (*z_)(z_->end());
   const double slack = round_off * (last - first);
   if (!(z >= first - slack && z <= last + slack))
-    return fail(Fault::bad_input, fmt::format("{}; {:g} mm lies beyond", why_it_ends(!(z < 0)),
-                                              profile_.axial_origin + z));
+    return fail(Fault::bad_input, "{}; {:g} mm lies beyond", why_it_ends(!(z < 0)),
+                profile_.axial_origin + z);
   double low = z_->begin(), high = z_->end();
   // bisection: heights along a profile may grow unevenly
   for (int halving = 0; halving < 200; ++halving) {

@@ -1,6 +1,5 @@
 #include "engine/geometry/spline.h"
 
-#include <fmt/format.h>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -45,19 +44,17 @@ Eigen::MatrixXd second_derivatives(const std::vector<double>& t, const Eigen::Ma
 
 Result<SplineCurve> SplineCurve::through(const Eigen::MatrixXd& points) {
   const Eigen::Index n = points.cols();
-  if (n < 4)
-    return fail(Fault::bad_input, fmt::format("a curve needs at least 4 points, not {}", n));
+  if (n < 4) return fail(Fault::bad_input, "a curve needs at least 4 points, not {}", n);
   for (Eigen::Index k = 0; k < n; ++k)
     if (!points.col(k).allFinite())
-      return fail(Fault::bad_input, fmt::format("point {} of the curve is not finite", k + 1));
+      return fail(Fault::bad_input, "point {} of the curve is not finite", k + 1);
   SplineCurve curve;
   curve.points_ = points;
   curve.knots_.resize(n, 0.0);
   for (Eigen::Index k = 1; k < n; ++k) {
     const double chord = (points.col(k) - points.col(k - 1)).norm();
     if (chord == 0)
-      return fail(Fault::bad_input,
-                  fmt::format("points {} and {} of the curve are the same", k, k + 1));
+      return fail(Fault::bad_input, "points {} and {} of the curve are the same", k, k + 1);
     curve.knots_[k] = curve.knots_[k - 1] + chord;
   }
   curve.second_ = second_derivatives(curve.knots_, points);

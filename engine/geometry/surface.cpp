@@ -30,20 +30,19 @@ Result<Eigen::Vector3d> Surface::nearest(const Eigen::Vector3d& p) const {
     const double value = F_(x);
     const Eigen::Vector3d slope = gradient(x);
     if (!std::isfinite(value) || !slope.allFinite())
-      return fail(Fault::bad_input, fmt::format("the surface's function has no value at ({:.6g}, "
-                                                "{:.6g}, {:.6g}) mm",
-                                                x.x(), x.y(), x.z()));
+      return fail(Fault::bad_input,
+                  "the surface's function has no value at ({:.6g}, {:.6g}, {:.6g}) mm", x.x(),
+                  x.y(), x.z());
     if (slope.squaredNorm() == 0)
-      return fail(Fault::bad_input, fmt::format("the surface's function has no slope at ({:.6g}, "
-                                                "{:.6g}, {:.6g}) mm",
-                                                x.x(), x.y(), x.z()));
+      return fail(Fault::bad_input,
+                  "the surface's function has no slope at ({:.6g}, {:.6g}, {:.6g}) mm", x.x(),
+                  x.y(), x.z());
     const Eigen::Vector3d step = -value / slope.squaredNorm() * slope;
     x += step;
     if (step.norm() <= near_mm + 1e-15 * x.norm()) return x;
   }
-  return fail(Fault::bad_input,
-              fmt::format("no point of the surface is found near ({:.6g}, {:.6g}, {:.6g}) mm",
-                          p.x(), p.y(), p.z()));
+  return fail(Fault::bad_input, "no point of the surface is found near ({:.6g}, {:.6g}, {:.6g}) mm",
+              p.x(), p.y(), p.z());
 }
 
 Surface::Curvature Surface::curvature(const Eigen::Vector3d& p) const {

@@ -1,11 +1,9 @@
 #include "engine/geometry/surface_net.h"
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -79,9 +77,9 @@ Result<ChordGrid::Axis> ChordGrid::geodesic(const Surface& surface, const NetPla
   if (int(points.size()) <= most) return axis;
   const Eigen::Vector3d& last = points.back();
   return fail(Fault::bad_input,
-              fmt::format("the boundary does not cross the net's axes within {:g} mm of the apex: "
-                          "at ({:.4g}, {:.4g}, {:.4g}) mm an axis is still inside",
-                          most * chord, last.x(), last.y(), last.z()));
+              "the boundary does not cross the net's axes within {:g} mm of the apex: at ({:.4g}, "
+              "{:.4g}, {:.4g}) mm an axis is still inside",
+              most * chord, last.x(), last.y(), last.z());
 }
 
 void ChordGrid::put_axis(const Axis& axis, int step_u, int step_v) {
@@ -296,9 +294,9 @@ Result<void> SurfaceNet::check_whole(PartialNet* so_far) const {
                                 : "the boundary turns back towards the net's axes, beyond their "
                                   "ends,";
           return fail(Fault::bad_input,
-                      fmt::format("{} near ({:.4g}, {:.4g}, {:.4g}) mm, (u, v) = ({:.4g}, {:.4g}) "
-                                  "mm, inside the boundary or next to it{}",
-                                  why, p.x(), p.y(), p.z(), i * chord(), j * chord(), help()));
+                      "{} near ({:.4g}, {:.4g}, {:.4g}) mm, (u, v) = ({:.4g}, {:.4g}) mm, inside "
+                      "the boundary or next to it{}",
+                      why, p.x(), p.y(), p.z(), i * chord(), j * chord(), help());
         }
     }
   return {};
@@ -308,8 +306,8 @@ Result<NetPoint> SurfaceNet::at(double u, double v) const {
   const double H = chord();
   const int i = int(std::floor(u / H)), j = int(std::floor(v / H));
   if (!(std::abs(u) < most_nodes * H && std::abs(v) < most_nodes * H) || !known_about(i, j))
-    return fail(Fault::bad_input,
-                fmt::format("the net of the surface ends before (u, v) = ({:g}, {:g}) mm", u, v));
+    return fail(Fault::bad_input, "the net of the surface ends before (u, v) = ({:g}, {:g}) mm", u,
+                v);
   const Weights along_u(u / H - i), along_v(v / H - j);
   Eigen::Vector3d position = Eigen::Vector3d::Zero(), C_u = position, C_v = position,
                   C_uu = position, C_uv = position, C_vv = position;

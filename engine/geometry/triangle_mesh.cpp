@@ -56,7 +56,7 @@ Result<std::optional<Eigen::Vector3d>> first_crossing(const Eigen::Matrix3Xd& ve
   std::vector<Eigen::AlignedBox3d> boxes;
   BoxGrid grid(2 * size);
   const auto too_long = [](const char* why) {
-    return fail(Fault::bad_input, fmt::format("the mesh cannot be looked through: {}", why));
+    return fail(Fault::bad_input, "the mesh cannot be looked through: {}", why);
   };
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     Eigen::AlignedBox3d box;
@@ -108,8 +108,7 @@ Result<Eigen::Matrix3Xd> used_vertices(const Eigen::Matrix3Xd& all, Triangles& t
   for (auto& triangle : triangles)
     for (int& corner : triangle) {
       if (corner < 0 || corner >= all.cols())
-        return fail(Fault::bad_input,
-                    fmt::format("a triangle names vertex {} of {}", corner, all.cols()));
+        return fail(Fault::bad_input, "a triangle names vertex {} of {}", corner, all.cols());
       int& number = now[std::size_t(corner)];
       if (number < 0) {
         number = int(used.size());
@@ -224,8 +223,7 @@ Result<void> check_folds(const Eigen::Matrix3Xd& x, const Sides& sides,
 }  // namespace
 
 tl::unexpected<Error> mesh_fault(const std::string& what, const Eigen::Vector3d& p) {
-  return fail(Fault::bad_input,
-              fmt::format("{} near ({:.4g}, {:.4g}, {:.4g}) mm", what, p.x(), p.y(), p.z()));
+  return fail(Fault::bad_input, "{} near ({:.4g}, {:.4g}, {:.4g}) mm", what, p.x(), p.y(), p.z());
 }
 
 Result<TriangleMesh> TriangleMesh::make(const Eigen::Matrix3Xd& vertices, Triangles triangles) {

@@ -102,9 +102,9 @@ std::string case_name_fault(const std::string& name) {
 Result<Override> parse_override(const std::string& argument) {
   const auto equals = argument.find('=');
   if (equals == std::string::npos || equals == 0)
-    return fail(Fault::bad_input, fmt::format("--set {}: must be table.key=value, for example "
-                                              "--set footprint.radius_mm=126",
-                                              argument));
+    return fail(Fault::bad_input,
+                "--set {}: must be table.key=value, for example --set footprint.radius_mm=126",
+                argument);
   const auto trimmed = [](const std::string& text) {
     const auto first = text.find_first_not_of(' ');
     return first == std::string::npos ? ""
@@ -121,8 +121,8 @@ Result<Presets> read_preset_text(const std::string& text, const std::string& sou
     root = toml::parse(text);
   } catch (const toml::parse_error& error) {
     const auto& at = error.source().begin;
-    return fail(Fault::bad_input, fmt::format("{}:{}:{}: not TOML: {}", source, at.line, at.column,
-                                              error.description()));
+    return fail(Fault::bad_input, "{}:{}:{}: not TOML: {}", source, at.line, at.column,
+                error.description());
   }
   TomlReader reading(source, {std::filesystem::path(source).parent_path(), &files});
   auto presets = read_presets(root, name, overrides, reading);

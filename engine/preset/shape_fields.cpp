@@ -1,4 +1,3 @@
-#include <set>
 
 #include "engine/core/suggest.h"
 #include "engine/preset/consistency.h"

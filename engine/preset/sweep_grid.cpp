@@ -5,7 +5,6 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <map>
-#include <optional>
 
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"

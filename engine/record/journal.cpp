@@ -1,7 +1,6 @@
 #include "engine/record/journal.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
@@ -129,7 +128,7 @@ Result<JournalWriter> JournalWriter::create(const fs::path& path, const RunIdent
 
 Result<void> JournalWriter::append(const Frame& frame) {
   if (frame.index < 0 || frame.index > largest_index)
-    return fail(Fault::bad_input, fmt::format("frame {} has no place in a journal", frame.index));
+    return fail(Fault::bad_input, "frame {} has no place in a journal", frame.index);
   TRY_DO(put(frame_record, packed_frame(frame)));
   indices_.insert(frame.index);
   return {};
@@ -192,7 +191,7 @@ struct OpenJournal {
 
 Result<OpenJournal> open_journal(const fs::path& path) {
   const auto refuse = [&](const char* because) {
-    return fail(Fault::bad_input, fmt::format("'{}': {}", path.string(), because));
+    return fail(Fault::bad_input, "'{}': {}", path.string(), because);
   };
   TRY(file, ReadableFile::open(path));
   if (file->read(0, first_line.size()) != first_line) return refuse("it is no journal of a run");
@@ -244,8 +243,7 @@ Result<Journal> read_journal(const fs::path& path, bool trial) {
   const auto survived =
       trial ? read_in_subprocess([&] { (void)layout_of_image(head.layout); }) : Result<void>();
   auto layout = survived.and_then([&] { return layout_of_image(head.layout); });
-  if (!layout)
-    return fail(Fault::bad_input, fmt::format("'{}': {}", path.string(), layout.error().message));
+  if (!layout) return fail(Fault::bad_input, "'{}': {}", path.string(), layout.error().message);
   const RunIdentity name = head.name;
   const auto frames = std::make_shared<JournalFrames>(std::move(*journal));
   frames->find_those_of(*layout);

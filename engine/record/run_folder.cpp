@@ -1,7 +1,5 @@
 #include "engine/record/run_folder.h"
 
-#include <fmt/format.h>
-#include <cmath>
 #include <iterator>
 
 #include "engine/core/file_io.h"
@@ -118,8 +116,8 @@ Result<void> FolderSink::keep_coarser() {
   std::error_code error;
   fs::rename(folder_ / journal_name, folder_ / coarser_journal_name, error);
   if (!error) return {};
-  return fail(Fault::io, fmt::format("cannot rename '{}': {}", (folder_ / journal_name).string(),
-                                     error.message()));
+  return fail(Fault::io, "cannot rename '{}': {}", (folder_ / journal_name).string(),
+              error.message());
 }
 
 Result<void> FolderSink::take(Frame frame) {

@@ -1,6 +1,5 @@
 #include "engine/record/states.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -102,7 +101,7 @@ Result<std::vector<Row>> read_csv(const std::filesystem::path& file) {
   if (lines.back().empty()) lines.pop_back();
   const std::vector<std::string> names = split(lines.empty() ? "" : lines.front(), ',');
   if (const std::string fault = heading_fault<Row>(names); !fault.empty())
-    return fail(Fault::bad_input, fmt::format("'{}': {}", file.string(), fault));
+    return fail(Fault::bad_input, "'{}': {}", file.string(), fault);
   std::vector<Row> rows;
   for (std::size_t k = 1; k < lines.size(); ++k) {
     const std::vector<std::string> cells = split(lines[k], ',');
@@ -112,8 +111,8 @@ Result<std::vector<Row>> read_csv(const std::filesystem::path& file) {
       if (fault.empty() && !parse(at < cells.size() ? cells[at] : "", value)) fault = name;
     });
     if (!fault.empty())
-      return fail(Fault::bad_input,
-                  fmt::format("'{}' line {}: its {} cannot be read", file.string(), k + 1, fault));
+      return fail(Fault::bad_input, "'{}' line {}: its {} cannot be read", file.string(), k + 1,
+                  fault);
   }
   return rows;
 }
@@ -127,8 +126,7 @@ Result<StateSearch> read_search(const std::filesystem::path& file) {
   };
   const std::string fault = take_fields(parsed(*text), search, may_lack);
   if (fault.empty()) return search;
-  return fail(Fault::bad_input,
-              fmt::format("'{}' is no search for states: {}", file.string(), fault));
+  return fail(Fault::bad_input, "'{}' is no search for states: {}", file.string(), fault);
 }
 
 }  // namespace

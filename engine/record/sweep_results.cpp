@@ -195,9 +195,8 @@ Result<SweepContents> read_sweep_log(const fs::path& file) {
     if (first) {
       const auto name = name_of(line);
       if (!name)
-        return fail(Fault::bad_input,
-                    fmt::format("'{}' is no log of a sweep: its first line does not name one",
-                                file.string()));
+        return fail(Fault::bad_input, "'{}' is no log of a sweep: its first line does not name one",
+                    file.string());
       contents.name = *name;
     } else if (auto point = point_of(line, contents.name.points)) {
       contents.found.try_emplace(point->point, std::move(*point));

@@ -1,6 +1,5 @@
 #include "engine/record/trajectory.h"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,8 +75,7 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
     for (std::size_t k = 0; k < owners.size(); ++k)
       for (const int index : named(owners[k]))
         if (index < 0 || index >= count)
-          return fail(Fault::bad_input,
-                      fmt::format("{} {} names {} {} of {}", owner, k, kind, index, count));
+          return fail(Fault::bad_input, "{} {} names {} {} of {}", owner, k, kind, index, count);
     return {};
   };
   const auto within_layout =
@@ -102,9 +100,8 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
   if (!within_layout) return within_layout;
   for (const Part& part : layout.parts) {
     if (part.net.cols() != part.flat.cols())
-      return fail(Fault::bad_input, fmt::format("block \"{}\" has {} points on its net and {} in "
-                                                "the flat",
-                                                part.name, part.net.cols(), part.flat.cols()));
+      return fail(Fault::bad_input, "block \"{}\" has {} points on its net and {} in the flat",
+                  part.name, part.net.cols(), part.flat.cols());
     if (auto rods = check("rod", part.rods, all, "point", part.net.cols()); !rods) return rods;
   }
   return {};
@@ -119,7 +116,7 @@ bool computable(const Eigen::Matrix3Xd& points) {
 
 Result<void> check_numbers(const Layout& layout) {
   const auto refuse = [](const char* what) {
-    return fail(Fault::bad_input, fmt::format("{} holds a number that is no length in mm", what));
+    return fail(Fault::bad_input, "{} holds a number that is no length in mm", what);
   };
   for (const double length : {layout.spacing_mm, layout.rod_diameter_mm, layout.length_scale_mm})
     if (!(length >= 0 && length <= largest_mm)) return refuse("/layout");
@@ -147,18 +144,17 @@ Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
     for (const int node : rod) most = std::max<Eigen::Index>(most, node + 1);
   }
   if (named > 4 * nodes)
-    return fail(Fault::bad_input, fmt::format("the rods name {} nodes of {}", named, nodes));
+    return fail(Fault::bad_input, "the rods name {} nodes of {}", named, nodes);
   most = std::max<Eigen::Index>(most, Eigen::Index(layout.joints.size()));
   if (!layout.families.empty() && layout.families.size() != layout.rods.size())
-    return fail(Fault::bad_input, fmt::format("{} families are named for {} rods",
-                                              layout.families.size(), layout.rods.size()));
+    return fail(Fault::bad_input, "{} families are named for {} rods", layout.families.size(),
+                layout.rods.size());
   if (!layout.diameters_mm.empty() && layout.diameters_mm.size() != layout.rods.size())
-    return fail(Fault::bad_input, fmt::format("{} diameters are given for {} rods",
-                                              layout.diameters_mm.size(), layout.rods.size()));
+    return fail(Fault::bad_input, "{} diameters are given for {} rods", layout.diameters_mm.size(),
+                layout.rods.size());
   for (const auto* net : {&layout.net_nodes, &layout.flat_nodes})
     if (net->cols() > 0 && net->cols() < most)
-      return fail(Fault::bad_input,
-                  fmt::format("the net has {} nodes, the shell {}", net->cols(), most));
+      return fail(Fault::bad_input, "the net has {} nodes, the shell {}", net->cols(), most);
   return {};
 }
 
@@ -166,9 +162,8 @@ Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
 
 Result<void> check_layout(const Layout& layout, Eigen::Index nodes) {
   if (layout.original_boundary.cols() != layout.actuated_boundary.cols())
-    return fail(Fault::bad_input,
-                fmt::format("the original boundary has {} points, the actuated one {}",
-                            layout.original_boundary.cols(), layout.actuated_boundary.cols()));
+    return fail(Fault::bad_input, "the original boundary has {} points, the actuated one {}",
+                layout.original_boundary.cols(), layout.actuated_boundary.cols());
   return check_indices(layout, nodes)
       .and_then([&] { return check_sizes(layout, nodes); })
       .and_then([&] { return check_numbers(layout); });
@@ -178,16 +173,16 @@ Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k
                          Eigen::Index nodes) {
   const auto cells = static_cast<Eigen::Index>(layout.cells.size());
   if (frame.nodes.cols() != nodes)
-    return fail(Fault::bad_input, fmt::format("frame {} has {} nodes, the first one {}", k,
-                                              frame.nodes.cols(), nodes));
+    return fail(Fault::bad_input, "frame {} has {} nodes, the first one {}", k, frame.nodes.cols(),
+                nodes);
   if (frame.cell_K.size() != cells)
-    return fail(Fault::bad_input, fmt::format("frame {} has {} values of cell_K for {} cells", k,
-                                              frame.cell_K.size(), cells));
+    return fail(Fault::bad_input, "frame {} has {} values of cell_K for {} cells", k,
+                frame.cell_K.size(), cells);
   const auto fits = [&](const char* what, Eigen::Index values,
                         Eigen::Index wanted) -> Result<void> {
     if (values == 0 || values == wanted) return {};
-    return fail(Fault::bad_input,
-                fmt::format("frame {} has {} values of {}, must be {}", k, values, what, wanted));
+    return fail(Fault::bad_input, "frame {} has {} values of {}, must be {}", k, values, what,
+                wanted);
   };
   return fits("axial_force_N", frame.axial_force_N.size(), edges_of_rods(layout))
       .and_then([&] {

@@ -115,7 +115,7 @@ Result<void> write_trajectory(const std::filesystem::path& path, const Trajector
   Descriptor file(::open(target.temporary().c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (file < 0) return fail_io("write", path, errno);
   if (const std::string fault = write_fault(file, target, trajectory); !fault.empty())
-    return fail(Fault::io, fmt::format("cannot write '{}': {}", path.string(), fault));
+    return fail(Fault::io, "cannot write '{}': {}", path.string(), fault);
   if (const int code = file.close()) return fail_io("write", path, code);
   return target.commit();
 }
@@ -123,8 +123,7 @@ Result<void> write_trajectory(const std::filesystem::path& path, const Trajector
 Result<Trajectory> read_trajectory(const std::filesystem::path& path,
                                    const TrajectoryReadOptions& how) {
   const auto refuse = [&](const std::string& reason) {
-    return fail(Fault::bad_input,
-                fmt::format("'{}' is no trajectory of a run: {}", path.string(), reason));
+    return fail(Fault::bad_input, "'{}' is no trajectory of a run: {}", path.string(), reason);
   };
   TRY(file, ReadableFile::open(path));
   if (const auto reason = header_fault(*file, how.unsealed); !reason.empty()) return refuse(reason);

@@ -90,8 +90,7 @@ Result<void> BenchmarkProblem::follow(int finest, Watch& watch) {
     TRY(t, parameter_of_shortening(reference.mesh(0), reference.motion(0), first_shortening));
     if (*t >= 1)
       return fail(Fault::bad_input,
-                  "the boundary shortens the rods by less than 2 %: too little "
-                  "for a study");
+                  "the boundary shortens the rods by less than 2 %: too little for a study");
     t_ = *t;
     TRY(first, first_buckled(reference.system(0), reference.mesh(0), reference.motion(0), t_,
                              scene_->seed, scene_->flat, watch));
@@ -200,9 +199,8 @@ Result<State> BenchmarkProblem::rest_beside(const Problem& problem, const Eigen:
   if (watch.cancelled()) return stopped();
   if (found && max_column_norm(found->x.leftCols(joints()) - wanted.leftCols(joints())) < near)
     return found;
-  return fail(
-      Fault::no_equilibrium,
-      fmt::format("{} edges a segment have no stable state near the reference's", problem.edges));
+  return fail(Fault::no_equilibrium, "{} edges a segment have no stable state near the reference's",
+              problem.edges);
 }
 
 Result<const Problem*> BenchmarkProblem::problem(int edges, const Watch& watch) {

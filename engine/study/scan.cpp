@@ -1,6 +1,5 @@
 #include "engine/study/scan.h"
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -34,10 +33,10 @@ Result<Cells> cells_of(const Eigen::Matrix3Xd& cloud, double size) {
   const Eigen::Vector3d low = cloud.rowwise().minCoeff();
   const double extent = (cloud.rowwise().maxCoeff() - low).maxCoeff();
   if (!(extent / size < most_cells))
-    return fail(Fault::bad_input,
-                fmt::format("the points reach over {:.3g} mm, joints of {:.3g} mm are not to be "
-                            "found among them",
-                            extent, size * cells_a_diameter));
+    return fail(
+        Fault::bad_input,
+        "the points reach over {:.3g} mm, joints of {:.3g} mm are not to be found among them",
+        extent, size * cells_a_diameter);
   Cells cells;
   std::vector<Cell> own;
   for (const auto& p : cloud.colwise()) {

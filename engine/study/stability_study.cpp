@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <mutex>
-#include <optional>
 
 #include "engine/core/parallel.h"
 #include "engine/core/try.h"

@@ -113,11 +113,9 @@ tl::unexpected<Error> none_found(const record::StateSearch& search) {
   std::string why;
   for (const auto& [reason, count] : search.ended_otherwise)
     why += fmt::format("; {} {}", count, reason);
-  return fail(
-      Fault::no_equilibrium,
-      fmt::format("none of {} trials ended in a stable state{}{}",
-                  search.trials + search.confined_trials, why,
-                  search.found == 0 ? "" : "; finer meshes have none of those they ended in"));
+  return fail(Fault::no_equilibrium, "none of {} trials ended in a stable state{}{}",
+              search.trials + search.confined_trials, why,
+              search.found == 0 ? "" : "; finer meshes have none of those they ended in");
 }
 
 using Measures = std::vector<std::optional<MeasuredState>>;

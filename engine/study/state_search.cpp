@@ -1,8 +1,5 @@
 #include "engine/study/state_search.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
