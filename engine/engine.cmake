@@ -41,7 +41,7 @@ target_compile_definitions(gridshell_engine PUBLIC EIGEN_DONT_PARALLELIZE)
 target_link_libraries(gridshell_engine PUBLIC fmt::fmt
   PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY} ${MUPARSER_LIBRARY} ${HDF5_HL_LIBRARY} PkgConfig::HDF5)
 # the two hot loops may contract a*b+c; everything else rounds each operation
-set_source_files_properties(engine/solve/block_cholesky.cpp engine/elastic/assembly.cpp
+set_source_files_properties(engine/solve/block_factor.cpp engine/elastic/assembly.cpp
   PROPERTIES COMPILE_OPTIONS -ffp-contract=fast SKIP_PRECOMPILE_HEADERS ON)
 # what computes for long lies in geometry, footprint, elastic, solve and design; the rest asks it
 file(GLOB light CONFIGURE_DEPENDS engine/formats/*.cpp engine/preset/*.cpp

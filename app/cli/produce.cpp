@@ -88,8 +88,12 @@ std::string help_for(const preset::Preset& preset, record::Limit limit) {
 
 // one run, a path's or a search for states
 Result<record::Summary> computed(Run& run, int threads, record::Sink& sink, Watch& watch) {
-  if (!run.preset.jitter.wanted())
-    return simulate::run(run.preset, run.pictures == Pictures::stills, sink, watch);
+  if (!run.preset.jitter.wanted()) {
+    TRY(scene, scene_of(run.preset));
+    scene->team = std::make_shared<Team>(threads);
+    return simulate::run(run.preset, std::make_shared<const Scene>(std::move(*scene)),
+                         run.pictures == Pictures::stills, sink, watch);
+  }
   TRY(search, study::run_states(run.preset, threads, sink, watch));
   run.states = std::move(search->tables);
   return search->summary;

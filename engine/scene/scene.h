@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/core/team.h"
 #include "engine/elastic/shell_rods.h"
 #include "engine/footprint/actuation.h"
 #include "engine/footprint/assemblage.h"
@@ -57,6 +58,7 @@ struct Scene {
   bool stops_at_contact = false;
   bool table = false;  ///< whether no rod passes the plane of the flat
   SnapDynamics snap;
+  std::shared_ptr<Team> team;  ///< of whoever follows one path alone: who helps with large shells
 
   /// The rung of the mechanics, where there is one.
   RodModel solved_model() const {

@@ -17,6 +17,7 @@ class ContactSolver final : public LinearSolver {
       current_ = together_.get();
     }
     current_->most_negative = most_negative;
+    current_->team = team;
     return current_->factor(hessian.beyond.empty() ? hessian : merged(hessian), shift);
   }
   void solve(Eigen::Matrix3Xd& right_hand_side) const override { current_->solve(right_hand_side); }

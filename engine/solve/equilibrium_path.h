@@ -96,6 +96,7 @@ struct PathOptions {
       1e-6;  ///< of points that are asked for; between them one correction is enough
   double widest_turn = -0.5;    ///< cosine of the turn at which two edges have folded
   bool allow_unstable = false;  ///< go on through states with negative pivots
+  Team* team = nullptr;         ///< who helps with large matrices
 };
 
 struct PathReport {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <vector>
 
+#include "engine/core/team.h"
 #include "engine/elastic/model.h"
 
 namespace gridshell {
@@ -25,6 +27,13 @@ struct Inertia {
     smallest_pivot = size < smallest_pivot ? size : smallest_pivot;
     largest_pivot = size > largest_pivot ? size : largest_pivot;
   }
+  Inertia& operator+=(const Inertia& other) {
+    negative_pivots += other.negative_pivots;
+    usable &= other.usable;
+    smallest_pivot = std::min(smallest_pivot, other.smallest_pivot);
+    largest_pivot = std::max(largest_pivot, other.largest_pivot);
+    return *this;
+  }
   static Inertia of_nothing() { return {0, true, 1e300, 0}; }
 };
 
@@ -39,6 +48,9 @@ class LinearSolver {
   /// Factorises no further once more pivots than this are negative: nothing can be solved with it
   /// then, and Inertia counts those met so far. A solver may go on to the end.
   int most_negative = std::numeric_limits<int>::max();
+
+  /// Who helps where a matrix is large; results do not hang on it.
+  Team* team = nullptr;
 
   /// Solves for the right-hand sides at the free columns, in place; what is held comes back as
   /// zero. Needs a factor() that was usable.

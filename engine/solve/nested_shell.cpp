@@ -15,6 +15,7 @@ Result<NestedShell> NestedShell::make(const Footprint& footprint, const ShellRod
   for (int edges : plan.edges_per_segment) {
     auto level = std::make_unique<Level>();
     TRY_DO(level->build(footprint, rods, rung, motion, edges));
+    level->system->work_with(options.team);
     level->system->outside.steady = &level->steady;
     level->system->outside.field = &level->field;
     if (!shell.levels_.empty()) {

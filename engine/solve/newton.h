@@ -82,6 +82,9 @@ class Linearisation {
     solver_->most_negative = stop ? 0 : std::numeric_limits<int>::max();
   }
 
+  /// Who helps with large matrices from here on.
+  void work_with(Team* team) { solver_->team = team; }
+
   /// What acts from outside from the next assembly on.
   ExternalLoads outside;
 

@@ -62,6 +62,38 @@ TEST_CASE("factorisations: what one left does not stand in the next, on long cha
   }
 }
 
+TEST_CASE("factorisations: large ones have the same bits on any number of threads") {
+  const System system(486, 48, 4);
+  REQUIRE(system.model.dof() > 30000);
+  const auto alone = make_block_cholesky(system.model), other = make_cholmod(system.model);
+  for (int threads : {2, 3, 8}) {
+    Team team(threads);
+    const auto solver = make_block_cholesky(system.model);
+    solver->team = &team;
+    for (double shift : {0.0, 500.0}) {
+      const Inertia one = alone->factor(system.assembly.hessian, shift),
+                    all = solver->factor(system.assembly.hessian, shift);
+      REQUIRE(all.usable);
+      CHECK(all.negative_pivots == one.negative_pivots);
+      CHECK(all.negative_pivots == other->factor(system.assembly.hessian, shift).negative_pivots);
+      CHECK(all.smallest_pivot == one.smallest_pivot);
+      CHECK(all.largest_pivot == one.largest_pivot);
+      CHECK(residual(system, *solver, shift) < 1e-8);
+      for (int again = 0; again < 20; ++again) {
+        Eigen::Matrix3Xd x = system.assembly.gradient, y = x;
+        alone->solve(x);
+        solver->solve(y);
+        REQUIRE(x == y);
+      }
+    }
+    // what stops at the first negative pivot counts the same, too
+    solver->most_negative = alone->most_negative = 0;
+    CHECK(solver->factor(system.assembly.hessian, 0).negative_pivots ==
+          alone->factor(system.assembly.hessian, 0).negative_pivots);
+    alone->most_negative = std::numeric_limits<int>::max();
+  }
+}
+
 TEST_CASE("factorisations: a singular or infinite matrix is not usable") {
   System system(70, 6, 2);
   const auto solver = make_block_cholesky(system.model);

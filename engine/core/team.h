@@ -1,0 +1,46 @@
+// Threads that stay and work together on one thing, again and again: loops of well under a
+// millisecond. What goes on for longer, on shells of their own, is parallel_for (parallel.h).
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace gridshell {
+
+/// A caller and threads that help it; one caller at a time.
+class Team {
+ public:
+  /// `threads` in all, the caller among them.
+  explicit Team(int threads);
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  int threads() const { return int(helpers_.size()) + 1; }
+
+  /// Calls task(k) once for every k from 0 to `tasks`, on any thread and in any order, and returns
+  /// when all are done. Tasks must not throw, and no result may hang on who does them.
+  void run(int tasks, const std::function<void(int)>& task);
+
+ private:
+  void help(const std::stop_token& stop);
+  void work();
+
+  const std::function<void(int)>* task_ = nullptr;
+  int tasks_ = 0;
+  std::atomic<int> next_{0};  // task
+  std::atomic<int> busy_{0};  // helpers that are not done with this round
+  std::atomic<std::uint32_t> round_{0};
+  std::vector<std::jthread> helpers_;
+};
+
+/// The same where there may be no team: the caller alone.
+inline void share(Team* team, int tasks, const std::function<void(int)>& task) {
+  if (team) return team->run(tasks, task);
+  for (int k = 0; k < tasks; ++k) task(k);
+}
+
+}  // namespace gridshell
