@@ -233,7 +233,9 @@ void add_contact(FieldList<Contact> list) {
   list.add<&Contact::gap_mm>(above(0), "between the rods' surfaces, from which on they repel")
       .unused({"model"}, why, none);
   list.add<&Contact::stiffness_N_per_mm>(
-          above(0), "half way through the gap they press with 1.2 times this times the gap")
+          above(0),
+          "half way through the gap they press with 1.2 times this times the gap, more where that "
+          "is not thin beside them")
       .unused({"model"}, why, none);
 }
 
