@@ -58,22 +58,22 @@ record::Kind kind_of(Pictures pictures) {
   return record::Kind::unknown;
 }
 
-// what may bring a run further that ended before its end; empty where nothing is known
-std::string help_for(const preset::Preset& preset, record::Limit limit) {
+// what may bring a run further that ended before its end, or ends it before; empty where nothing
+// is known
+std::string help_for(const preset::Preset& preset, record::Limit limit, double largest_strain) {
+  const std::string less =
+      preset.indentation.wanted() ? "less [indentation] depth" : "a larger actuated boundary";
   switch (limit) {
     case record::Limit::none:
     case record::Limit::snap:
       return "";
     case record::Limit::locking:
-      return preset.indentation.wanted()
-                 ? "less depth, or more [limits] max_strain, would end before that"
-                 : "a larger actuated boundary, or more [limits] max_strain, would end "
-                   "before that";
+      // a push may have met its stiffness instead
+      if (preset.indentation.wanted() && std::abs(largest_strain) < 0.9 * preset.limits.max_strain)
+        return less + " ends before that";
+      return less + " ends before that, more [limits] max_strain after it";
     case record::Limit::strength:
-      return preset.indentation.wanted()
-                 ? "less depth, or more [limits] max_bending_strain, would end before that"
-                 : "a larger actuated boundary, or more [limits] max_bending_strain, would end "
-                   "before that";
+      return less + " ends before that, more [limits] max_bending_strain after it";
     case record::Limit::contact:
       return "[limits] contact = \"tell\" goes on and tells what touches";
     case record::Limit::branch_lost:
@@ -107,7 +107,7 @@ Result<void> simulate(Run& run, int threads, const fs::path& folder, Watch& watc
   record::FolderSink sink(folder, {run.preset.name, kind, run.preset.title});
   auto summary = computed(run, threads, sink, watch);
   if (!summary && summary.error().fault == Fault::no_equilibrium)
-    summary.error().message += "\n" + help_for(run.preset, record::Limit::no_equilibrium);
+    summary.error().message += "\n" + help_for(run.preset, record::Limit::no_equilibrium, NAN);
   if (!summary) return tl::unexpected(summary.error());
   run.summary = *summary;
   run.summary.kind = kind;
@@ -251,7 +251,8 @@ Result<int> produce(const Options& options, Pictures pictures) {
   for (const Run& run : *runs) {
     if (!options.quiet) print_result(run, folder);
     const auto fault = failure_of(run.summary, run.preset.allow_unstable);
-    for (const auto& text : {fault, help_for(run.preset, run.summary.limit)})
+    for (const auto& text :
+         {fault, help_for(run.preset, run.summary.limit, run.summary.largest_strain)})
       if (!text.empty()) fmt::print(stderr, "{}: {}\n", run.preset.name, text);
     whole = whole && fault.empty();
   }

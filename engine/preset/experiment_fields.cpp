@@ -233,7 +233,9 @@ void add_contact(FieldList<Contact> list) {
   list.add<&Contact::gap_mm>(above(0), "between the rods' surfaces, from which on they repel")
       .unused({"model"}, why, none);
   list.add<&Contact::stiffness_N_per_mm>(
-          above(0), "half way through the gap they press with 1.2 times this times the gap")
+          above(0),
+          "half way through the gap they press with 1.2 times this times the gap, more where that "
+          "is not thin beside them")
       .unused({"model"}, why, none);
 }
 
@@ -432,7 +434,7 @@ void add_experiment_fields(std::vector<Field>& all) {
       .add<&Limits::max_strain>(
           above(0),
           "axial strain of an edge, bending left out, at which the run stops with limit "
-          "\"locking\"")
+          "\"locking\"; of one that is compressed, ten times it")
       .add<&Limits::max_bending_strain>(
           at_least(0),
           "strain of a fibre by bending, from the curvature added to that at rest, at which the "

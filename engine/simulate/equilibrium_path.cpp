@@ -203,11 +203,14 @@ std::string how_it_ended(const PathSegment& segment, const Scene& scene, const A
     return fmt::format("{} a rod is bent {} [limits] max_bending_strain allows, to {:.4g}", place(),
                        begun ? "further than" : "as far as", scene.max_bending_strain);
   const double strain = report.certificate.largest_strain;
-  if (report.end == Outcome::locked && strain < 0)
+  if (report.end == Outcome::locked && -strain > 9 * scene.max_strain)
     return fmt::format(
-        "{} a rod too short to buckle is compressed as far as [limits] max_strain allows: its "
-        "strain is {:.3g}",
+        "{} a rod too short to buckle is compressed as far as [limits] max_strain allows, to ten "
+        "times it: its strain is {:.3g}",
         at(report.t, {}), strain);
+  if (report.end == Outcome::locked && strain < 0)
+    return fmt::format("{} a rod is stretched as far as [limits] max_strain allows, to {:g}",
+                       at(report.t, {}), scene.max_strain);
   if (report.end == Outcome::locked)
     return fmt::format("{} the rods are at their length: the largest strain is {:.3g}",
                        at(report.t, {}), strain);
@@ -218,8 +221,12 @@ std::string how_it_ended(const PathSegment& segment, const Scene& scene, const A
     if (touched) return place() + " what touched from the begin is next to overlap more: " + what;
     return fmt::format("{} is the last state without contact: beyond, {} touch", place(), what);
   }
-  const char* where = segment.back ? " on the way back to the flat" : "";
-  return fmt::format("{}{} {}, and no rest was found beyond", words_of(report.end).what, where,
+  if (segment.back)
+    return fmt::format(
+        "{} on the way back to the flat {}, and no rest was found beyond: the states from there on "
+        "are certified, how the flat comes to them is not known",
+        words_of(report.end).what, at(report.t, {}));
+  return fmt::format("{} {}, and no rest was found beyond", words_of(report.end).what,
                      at(report.t, {}));
 }
 

@@ -46,12 +46,18 @@ TEST_CASE("contact: the barrier is zero from the gap on, smooth, and rises witho
   const ContactBarrier barrier{gap, stiffness};
   const double S = 2 * radius;
   const auto at = [&](double distance) { return barrier.at(distance * distance, S); };
-  CHECK(at(S + gap).energy == 0);
+  CHECK(at(S + gap).energy == Approx(0).margin(1e-20));
   CHECK(at(S + 1).energy == 0);
   CHECK(std::abs(at(S + (1 - 1e-6) * gap).curvature) < 1e-4 * at(S + 0.5 * gap).curvature);
-  // half way through the gap: 1.2 k gap, up to that the range is one of squares
-  const double half = S + 0.5 * gap;
-  CHECK(-at(half).slope * 2 * half == Approx(1.2 * stiffness * gap).epsilon(0.1));
+  // half way through a gap that is thin beside the rods 1.193 k gap, and more through others: x
+  // then is (S + gap/4)/(2 S + gap)
+  const auto pressed = [&](double wide) {
+    const double half = S + 0.5 * wide;
+    const auto value = ContactBarrier{wide, stiffness}.at(half * half, S);
+    return -value.slope * 2 * half / (stiffness * wide);
+  };
+  CHECK(pressed(1e-3 * S) == Approx(0.5 + std::log(2)).epsilon(1e-3));
+  CHECK(pressed(0.05) == Approx(1.34).epsilon(0.01));
   double before = 0;
   for (double d = S + gap; d > 0.01; d -= 1e-3) {
     const ContactBarrier::Value here = at(d);
