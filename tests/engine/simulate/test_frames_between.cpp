@@ -1,0 +1,101 @@
+// What is read off a path between its load steps is what all meshes say there, within the errors
+// that it is told with.
+#include "engine/simulate/frames_between.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/simulate/actuation.h"
+#include "engine/simulate/frames.h"
+#include "engine/simulate/indentation.h"
+#include "tests/engine/simulate/run.h"
+
+using namespace gridshell;
+using namespace gridshell::simulate;
+
+namespace {
+
+double largest(const Energies& a) {
+  double most = std::abs(a.total());
+  for (const TermName& term : energy_terms) most = std::max(most, std::abs(a[term.term]));
+  return most;
+}
+
+/// How many of the samples of a segment are read off it; each is held against all meshes there.
+int read_off(EquilibriumPath& path, std::size_t segment, int samples) {
+  Watch watch;
+  const auto measure = [&](record::Frame& frame, double, bool between) {
+    if (!between) path.simulation.put_push(frame);
+  };
+  FramesBetween between(path, measure, watch), backwards(path, measure, watch);
+  const double from = path.segments[segment].from, way = path.segments[segment].end() - from;
+  const Eigen::Index joints = path.simulation.shell().finest().joints;
+  int read = 0;
+  for (int k = 1; k < samples; ++k) {
+    const PathSample sample{k, segment, from + way * k / samples, 0};
+    const auto frame = between.at(sample);
+    if (!frame) continue;
+    ++read;
+    const CertifiedSample stood = certify_sample(path, sample, watch);
+    CAPTURE(k, sample.t, frame->error_estimate_mm);
+    REQUIRE(stood.report.end == Outcome::reached);
+    const record::Frame full = frame_of(path.simulation);
+    CHECK(max_column_norm(frame->nodes.leftCols(joints) - full.nodes.leftCols(joints)) <
+          frame->error_estimate_mm);
+    CHECK(largest(frame->energies - full.energies) < frame->energy_error_mJ);
+    CHECK(max_column_norm(frame->reactions_N - full.reactions_N) < frame->force_error_N);
+    CHECK((frame->cell_K - full.cell_K).cwiseAbs().maxCoeff() < 1e-4);
+    CHECK((frame->curvature_per_mm - full.curvature_per_mm).cwiseAbs().maxCoeff() <
+          1e-2 * full.curvature_per_mm.maxCoeff());
+    CHECK(frame->negative_pivots == 0);
+    CHECK(frame->residual_N < 1e-3);
+    CHECK(frame->height_mm == Approx(full.height_mm).margin(frame->error_estimate_mm));
+    CHECK(frame->largest_bending_strain == Approx(full.largest_bending_strain).epsilon(1e-2));
+    CHECK(frame->contacts == full.contacts);
+    // however it is come to
+    if (k % 7 == 0) CHECK(backwards.at(sample)->nodes == frame->nodes);
+  }
+  return read;
+}
+
+/// Of the actuation of a preset.
+EquilibriumPath actuated(const preset::Preset& preset) {
+  const auto scene = shared_scene(preset);
+  return value_of(follow_actuation(scene, initial_levels(*scene), false, 1, unwatched));
+}
+
+}  // namespace
+
+TEST_CASE("between load steps frames are what all meshes say", "[standard]") {
+  preset::Preset p = circle(12, 126, 94.5, 5);
+  for (const double tolerance : {1e-3, 1e-4}) {
+    p.accuracy.tolerance = tolerance;
+    EquilibriumPath path = actuated(p);
+    CAPTURE(tolerance);
+    CHECK(read_off(path, 0, 60) > 45);
+  }
+}
+
+TEST_CASE("a push is read off between its load steps, its force too", "[standard]") {
+  const preset::Preset p = shipped("s4_pole_outward");
+  const auto scene = shared_scene(p);
+  Result<HeldShell> pushed = hold_to_push(scene, p.indentation, initial_levels(*scene), unwatched);
+  follow_segment(*pushed, 1, {}, unwatched);
+  CHECK(read_off(*pushed, 0, 40) > 25);
+}
+
+TEST_CASE("across a snap nothing is read off", "[standard]") {
+  preset::Preset p = circle(8, 77.9, 63, 5);
+  p.accuracy.tolerance = 1e-2;
+  EquilibriumPath path = actuated(p);
+  const PathSegment& segment = path.segments[0];
+  REQUIRE_FALSE(segment.report.events.empty());
+  read_off(path, 0, 60);
+  Watch watch;
+  FramesBetween between(
+      path, [](record::Frame&, double, bool) {}, watch);
+  for (const Event& event : segment.report.events)
+    if (event.to) {
+      const double t = 0.5 * (load_step_before(segment, event.t).point.t + *event.to);
+      CHECK_FALSE(between.at({0, 0, t, 0}));
+    }
+}
