@@ -82,11 +82,14 @@ std::optional<FramesBetween::Window> FramesBetween::window_at(const PathSegment&
   while (last - first + 1 < most_knots && last + 1 < steps.size() && smooth(segment, last)) ++last;
   std::vector<double> known;
   for (std::size_t j = first; j <= last; ++j) known.push_back(steps[j].point.t);
-  const std::size_t farthest =
-      std::abs(known.front() - t) > std::abs(known.back() - t) ? 0 : known.size() - 1;
   const double a = steps[k].point.t, b = steps[k + 1].point.t;
-  return Window{first, weights_of(known, t, known.size()), weights_of(known, t, farthest),
-                (t - a) / (b - a), k};
+  const Eigen::VectorXd weights = weights_of(known, t, known.size());
+  return Window{
+      first,
+      weights,
+      {weights - weights_of(known, t, 0), weights - weights_of(known, t, known.size() - 1)},
+      (t - a) / (b - a),
+      k};
 }
 
 /// The coarsest mesh brought to rest beside a guess, where it is stable there.
@@ -127,77 +130,89 @@ const FramesBetween::Knot* FramesBetween::knot(const PathSegment& segment, std::
   return at->second ? &*at->second : nullptr;
 }
 
+/// The knots of a window; fewer: one of them has no frame.
+std::vector<const FramesBetween::Knot*> FramesBetween::knots_in(const PathSample& sample,
+                                                                const Window& window) {
+  const PathSegment& segment = path_.segments[sample.segment];
+  const auto end = window.first + std::size_t(window.weights.size());
+  if (sample.segment != segment_) knots_.clear();
+  segment_ = sample.segment;
+  std::erase_if(
+      knots_, [&](const auto& known) { return known.first < window.first || known.first >= end; });
+  std::vector<const Knot*> knots;
+  for (std::size_t k = window.first; k < end; ++k)
+    if (const Knot* one = knot(segment, k)) knots.push_back(one);
+  return knots;
+}
+
 std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
+  using record::Frame;
   const PathSegment& segment = path_.segments[sample.segment];
   const auto window = wanted_ ? window_at(segment, sample.t) : std::nullopt;
   if (!window) return {};
-  const auto size = std::size_t(window->high.size());
-  if (sample.segment != segment_) knots_.clear();
-  segment_ = sample.segment;
-  std::erase_if(knots_, [&](const auto& known) {
-    return known.first < window->first || known.first >= window->first + size;
-  });
-  std::vector<const Knot*> knots;
-  for (std::size_t k = 0; k < size; ++k) {
-    knots.push_back(knot(segment, window->first + k));
-    if (!knots.back()) return {};
-  }
-  const PathPoint &a = segment.load_steps[window->before].point,
-                  &b = segment.load_steps[window->before + 1].point;
-  if (a.velocity.x.size() == 0 || b.velocity.x.size() == 0) return {};
-  const Model& model = path_.simulation.shell().model(0);
-  auto leading = leading_at(sample.t, hermite(model, a, b, sample.t));
-  if (!leading) return {};
-
-  // what finer meshes add, and what is interpolated as it is
-  const auto added = [&](auto member, const Eigen::VectorXd& weights) {
-    std::decay_t<decltype((*leading).*member)> all =
-        weights[0] * (knots[0]->full.*member - knots[0]->leading.*member);
-    for (std::size_t k = 1; k < size; ++k)
-      all += weights[Eigen::Index(k)] * (knots[k]->full.*member - knots[k]->leading.*member);
+  const PathPoint &from = segment.load_steps[window->before].point,
+                  &to = segment.load_steps[window->before + 1].point;
+  if (from.velocity.x.size() == 0 || to.velocity.x.size() == 0) return {};
+  const auto knots = knots_in(sample, *window);
+  const Eigen::VectorXd& weights = window->weights;
+  if (Eigen::Index(knots.size()) < weights.size()) return {};
+  const auto sum = [&](const Eigen::VectorXd& w, const auto& of) {
+    std::decay_t<decltype(of(*knots[0]))> all = w[0] * of(*knots[0]);
+    for (std::size_t k = 1; k < knots.size(); ++k) all += w[Eigen::Index(k)] * of(*knots[k]);
     return all;
   };
-  const auto along = [&](auto member, const Eigen::VectorXd& weights) {
-    std::decay_t<decltype((*leading).*member)> all = weights[0] * (knots[0]->full.*member);
-    for (std::size_t k = 1; k < size; ++k)
-      all += weights[Eigen::Index(k)] * (knots[k]->full.*member);
-    return all;
+  /// what finer meshes add, and what lies along the rods
+  const auto added = [](auto member) {
+    return [member](const Knot& knot) {
+      return std::decay_t<decltype(knot.full.*member)>(knot.full.*member - knot.leading.*member);
+    };
   };
-  using record::Frame;
-  const Eigen::VectorXd left = window->high - window->low;
-  const Eigen::Index joints = path_.simulation.shell().finest().joints;
-  const double nodes_mm = max_column_norm(added(&Frame::nodes, left).leftCols(joints));
+  const auto whole = [](auto member) {
+    return [member](const Knot& knot) { return knot.full.*member; };
+  };
+  // by how much a polynomial is in doubt
+  const auto doubt = [&](const auto& of, const auto& size) {
+    return 2 * std::max(size(sum(window->without[0], of)), size(sum(window->without[1], of)));
+  };
   const Scene& scene = path_.simulation.scene();
+  const Eigen::Index joints = path_.simulation.shell().finest().joints;
+  const double nodes_mm = doubt(added(&Frame::nodes), [&](const Eigen::Matrix3Xd& x) {
+    return max_column_norm(x.leftCols(joints));
+  });
   if (!(nodes_mm <= share_of_tolerance * scene.tolerance * scene.length_scale_mm)) return {};
+  auto frame = leading_at(sample.t, hermite(path_.simulation.shell().model(0), from, to, sample.t));
+  if (!frame) return {};
 
-  Frame frame = *leading;
-  frame.nodes += added(&Frame::nodes, window->high);
-  frame.cell_K += added(&Frame::cell_K, window->high);
-  frame.reactions_N += added(&Frame::reactions_N, window->high);
-  frame.energies += added(&Frame::energies, window->high);
-  frame.axial_force_N = along(&Frame::axial_force_N, window->high);
-  frame.bending_mJ_per_m = along(&Frame::bending_mJ_per_m, window->high).cwiseMax(0);
-  frame.curvature_per_mm = along(&Frame::curvature_per_mm, window->high).cwiseMax(0);
-  frame.stiffness_N_per_mm = along(&Frame::stiffness_N_per_mm, window->high);
+  frame->nodes += sum(weights, added(&Frame::nodes));
+  frame->cell_K += sum(weights, added(&Frame::cell_K));
+  frame->reactions_N += sum(weights, added(&Frame::reactions_N));
+  frame->energies += sum(weights, added(&Frame::energies));
+  frame->axial_force_N = sum(weights, whole(&Frame::axial_force_N));
+  frame->bending_mJ_per_m = sum(weights, whole(&Frame::bending_mJ_per_m)).cwiseMax(0);
+  frame->curvature_per_mm = sum(weights, whole(&Frame::curvature_per_mm)).cwiseMax(0);
+  frame->stiffness_N_per_mm = sum(weights, whole(&Frame::stiffness_N_per_mm));
+
   const Frame &before = knots[window->before - window->first]->full,
               &after = knots[window->before - window->first + 1]->full;
-  const auto error = [&](double Frame::*member, double by_interpolation) {
-    frame.*member =
-        (1 - window->share) * before.*member + window->share * after.*member + by_interpolation;
+  const auto error = [&](double Frame::*member, double by_polynomial) {
+    (*frame).*member =
+        (1 - window->share) * before.*member + window->share * after.*member + by_polynomial;
   };
-  const Energies energies = added(&Frame::energies, left);
-  double energy = std::abs(energies.total());
-  for (const TermName& term : energy_terms)
-    energy = std::max(energy, std::abs(energies[term.term]));
-  const Eigen::Matrix3Xd reactions = added(&Frame::reactions_N, left);
-  const double force = reactions.cols() > 0 ? max_column_norm(reactions) : 0;
+  const double force_N = doubt(added(&Frame::reactions_N), [](const Eigen::Matrix3Xd& forces) {
+    return forces.cols() > 0 ? max_column_norm(forces) : 0;
+  });
   error(&Frame::error_estimate_mm, nodes_mm);
-  error(&Frame::energy_error_mJ, energy);
-  error(&Frame::force_error_N, force);
-  error(&Frame::push_error_N, force);
-  error(&Frame::stiffness_error_N_per_mm, std::abs(along(&Frame::stiffness_N_per_mm, left)));
-  complete_shape(path_.simulation, contacts_.in(frame.nodes), frame);
-  measure_(frame, sample.t, true);
+  error(&Frame::force_error_N, force_N);
+  error(&Frame::push_error_N, force_N);
+  error(&Frame::energy_error_mJ, doubt(added(&Frame::energies), [](const Energies& energies) {
+    double most = std::abs(energies.total());
+    for (const TermName& term : energy_terms) most = std::max(most, std::abs(energies[term.term]));
+    return most;
+  }));
+  error(&Frame::stiffness_error_N_per_mm,
+        doubt(whole(&Frame::stiffness_N_per_mm), [](double value) { return std::abs(value); }));
+  complete_shape(path_.simulation, contacts_.in(frame->nodes), *frame);
+  measure_(*frame, sample.t, true);
   return frame;
 }
 

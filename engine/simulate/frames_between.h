@@ -14,8 +14,8 @@ namespace gridshell::simulate {
 /// cubic through states and tangents of both [Hermite]; what finer meshes add to its nodes, K,
 /// reactions and energies, and what lies along the rods, is a polynomial in t through up to four
 /// load steps of that branch [Lagrange]. Residual and pivots are the coarsest mesh's. The error
-/// estimates are those of the load steps around it, evenly in between, and what a polynomial of one
-/// degree less would have changed.
+/// estimates are those of the load steps around it, evenly in between, and twice what polynomials
+/// of one degree less, without the first or the last of those load steps, would have changed.
 class FramesBetween {
  public:
   /// `measure`: as of Caption.
@@ -31,12 +31,14 @@ class FramesBetween {
     record::Frame full, leading;  ///< of all meshes, and of the coarsest alone
   };
   struct Window {
-    std::size_t first = 0;      ///< load step
-    Eigen::VectorXd high, low;  ///< weights of the polynomial, and of one degree less
-    double share = 0;           ///< of the way between the two load steps around it
-    std::size_t before = 0;     ///< the first of those
+    std::size_t first = 0;       ///< load step
+    Eigen::VectorXd weights;     ///< of the polynomial
+    Eigen::VectorXd without[2];  ///< of it less those without the first, the last load step
+    double share = 0;            ///< of the way between the two load steps around it
+    std::size_t before = 0;      ///< the first of those
   };
   std::optional<Window> window_at(const PathSegment& segment, double t) const;
+  std::vector<const Knot*> knots_in(const PathSample& sample, const Window& window);
   const Knot* knot(const PathSegment& segment, std::size_t k);
   std::optional<record::Frame> leading_at(double t, State guess);
 
