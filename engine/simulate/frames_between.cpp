@@ -10,7 +10,7 @@ namespace {
 
 constexpr double share_of_tolerance = 0.1;  // that a polynomial in t may leave
 constexpr double nearby = 1e-3;  // of d: a correction beyond is none of the guess's own branch
-constexpr std::size_t most_knots = 4;
+constexpr std::size_t most_knots = 6;
 
 /// Whether nothing happens to the branch between two load steps that follow one another.
 bool smooth(const PathSegment& segment, std::size_t k) {
@@ -75,11 +75,11 @@ std::optional<FramesBetween::Window> FramesBetween::window_at(const PathSegment&
       !(way * (steps[k + 1].point.t - t) > 0) || !smooth(segment, k))
     return {};
   std::size_t first = k, last = k + 1;
-  if (first > 0 && smooth(segment, first - 1)) --first;
-  if (last + 1 < steps.size() && smooth(segment, last)) ++last;
-  // at the end of a branch those further back
-  while (last - first + 1 < most_knots && first > 0 && smooth(segment, first - 1)) --first;
-  while (last - first + 1 < most_knots && last + 1 < steps.size() && smooth(segment, last)) ++last;
+  for (std::size_t size = 0; size != last - first;) {
+    size = last - first;
+    if (first > 0 && size + 1 < most_knots && smooth(segment, first - 1)) --first;
+    if (last + 1 < steps.size() && last - first + 1 < most_knots && smooth(segment, last)) ++last;
+  }
   std::vector<double> known;
   for (std::size_t j = first; j <= last; ++j) known.push_back(steps[j].point.t);
   const double a = steps[k].point.t, b = steps[k + 1].point.t;

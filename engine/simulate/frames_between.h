@@ -12,7 +12,7 @@ namespace gridshell::simulate {
 
 /// Between two load steps of one smooth branch the coarsest mesh is brought to rest at t, from the
 /// cubic through states and tangents of both [Hermite]; what finer meshes add to its nodes, K,
-/// reactions and energies, and what lies along the rods, is a polynomial in t through up to four
+/// reactions and energies, and what lies along the rods, is a polynomial in t through up to six
 /// load steps of that branch [Lagrange]. Residual and pivots are the coarsest mesh's. The error
 /// estimates are those of the load steps around it, evenly in between, and twice what polynomials
 /// of one degree less, without the first or the last of those load steps, would have changed.
