@@ -113,35 +113,35 @@ std::optional<record::Frame> FramesBetween::leading_at(double t, State guess) {
   return frame;
 }
 
-const FramesBetween::Knot* FramesBetween::knot(const PathSegment& segment, std::size_t k) {
-  const auto [at, made] = knots_.try_emplace(k);
-  if (made) {
-    const LoadStep& step = segment.load_steps[k];
-    const Report report = path_.simulation.sample(step.point.t, step, false, watch_);
-    if (report.end == Outcome::reached && report.certificate.stable()) {
-      Knot knot{frame_of(path_.simulation), {}};
-      measure_(knot.full, step.point.t, false);
-      if (auto leading = leading_at(step.point.t, step.point.state)) {
-        knot.leading = std::move(*leading);
-        at->second = std::move(knot);
-      }
-    }
-  }
-  return at->second ? &*at->second : nullptr;
+/// The frame of a load step, but of nodes, K, reactions and energies what finer meshes add.
+std::optional<record::Frame> FramesBetween::knot_at(const LoadStep& step) {
+  const Report report = path_.simulation.sample(step.point.t, step, false, watch_);
+  if (report.end != Outcome::reached || !report.certificate.stable()) return {};
+  record::Frame knot = frame_of(path_.simulation);
+  measure_(knot, step.point.t, false);
+  const auto leading = leading_at(step.point.t, step.point.state);
+  if (!leading) return {};
+  knot.nodes -= leading->nodes;
+  knot.cell_K -= leading->cell_K;
+  knot.reactions_N -= leading->reactions_N;
+  knot.energies += -1 * leading->energies;
+  return knot;
 }
 
 /// The knots of a window; fewer: one of them has no frame.
-std::vector<const FramesBetween::Knot*> FramesBetween::knots_in(const PathSample& sample,
-                                                                const Window& window) {
-  const PathSegment& segment = path_.segments[sample.segment];
+std::vector<const record::Frame*> FramesBetween::knots_in(const PathSample& sample,
+                                                          const Window& window) {
   const auto end = window.first + std::size_t(window.weights.size());
   if (sample.segment != segment_) knots_.clear();
   segment_ = sample.segment;
   std::erase_if(
       knots_, [&](const auto& known) { return known.first < window.first || known.first >= end; });
-  std::vector<const Knot*> knots;
-  for (std::size_t k = window.first; k < end; ++k)
-    if (const Knot* one = knot(segment, k)) knots.push_back(one);
+  std::vector<const record::Frame*> knots;
+  for (std::size_t k = window.first; k < end; ++k) {
+    const auto [at, is_new] = knots_.try_emplace(k);
+    if (is_new) at->second = knot_at(path_.segments[sample.segment].load_steps[k]);
+    if (at->second) knots.push_back(&*at->second);
+  }
   return knots;
 }
 
@@ -156,61 +156,53 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
   const auto knots = knots_in(sample, *window);
   const Eigen::VectorXd& weights = window->weights;
   if (Eigen::Index(knots.size()) < weights.size()) return {};
-  const auto sum = [&](const Eigen::VectorXd& w, const auto& of) {
-    std::decay_t<decltype(of(*knots[0]))> all = w[0] * of(*knots[0]);
-    for (std::size_t k = 1; k < knots.size(); ++k) all += w[Eigen::Index(k)] * of(*knots[k]);
+  const auto sum = [&](const Eigen::VectorXd& w, auto member) {
+    std::decay_t<decltype(knots[0]->*member)> all = w[0] * (knots[0]->*member);
+    for (std::size_t k = 1; k < knots.size(); ++k) all += w[Eigen::Index(k)] * (knots[k]->*member);
     return all;
   };
-  /// what finer meshes add, and what lies along the rods
-  const auto added = [](auto member) {
-    return [member](const Knot& knot) {
-      return std::decay_t<decltype(knot.full.*member)>(knot.full.*member - knot.leading.*member);
-    };
-  };
-  const auto whole = [](auto member) {
-    return [member](const Knot& knot) { return knot.full.*member; };
-  };
   // by how much a polynomial is in doubt
-  const auto doubt = [&](const auto& of, const auto& size) {
-    return 2 * std::max(size(sum(window->without[0], of)), size(sum(window->without[1], of)));
+  const auto doubt = [&](auto member, const auto& size) {
+    return 2 *
+           std::max(size(sum(window->without[0], member)), size(sum(window->without[1], member)));
   };
   const Scene& scene = path_.simulation.scene();
   const Eigen::Index joints = path_.simulation.shell().finest().joints;
-  const double nodes_mm = doubt(added(&Frame::nodes), [&](const Eigen::Matrix3Xd& x) {
+  const double nodes_mm = doubt(&Frame::nodes, [&](const Eigen::Matrix3Xd& x) {
     return max_column_norm(x.leftCols(joints));
   });
   if (!(nodes_mm <= share_of_tolerance * scene.tolerance * scene.length_scale_mm)) return {};
   auto frame = leading_at(sample.t, hermite(path_.simulation.shell().model(0), from, to, sample.t));
   if (!frame) return {};
 
-  frame->nodes += sum(weights, added(&Frame::nodes));
-  frame->cell_K += sum(weights, added(&Frame::cell_K));
-  frame->reactions_N += sum(weights, added(&Frame::reactions_N));
-  frame->energies += sum(weights, added(&Frame::energies));
-  frame->axial_force_N = sum(weights, whole(&Frame::axial_force_N));
-  frame->bending_mJ_per_m = sum(weights, whole(&Frame::bending_mJ_per_m)).cwiseMax(0);
-  frame->curvature_per_mm = sum(weights, whole(&Frame::curvature_per_mm)).cwiseMax(0);
-  frame->stiffness_N_per_mm = sum(weights, whole(&Frame::stiffness_N_per_mm));
+  frame->nodes += sum(weights, &Frame::nodes);
+  frame->cell_K += sum(weights, &Frame::cell_K);
+  frame->reactions_N += sum(weights, &Frame::reactions_N);
+  frame->energies += sum(weights, &Frame::energies);
+  frame->axial_force_N = sum(weights, &Frame::axial_force_N);
+  frame->bending_mJ_per_m = sum(weights, &Frame::bending_mJ_per_m).cwiseMax(0);
+  frame->curvature_per_mm = sum(weights, &Frame::curvature_per_mm).cwiseMax(0);
+  frame->stiffness_N_per_mm = sum(weights, &Frame::stiffness_N_per_mm);
 
-  const Frame &before = knots[window->before - window->first]->full,
-              &after = knots[window->before - window->first + 1]->full;
+  const Frame &before = *knots[window->before - window->first],
+              &after = *knots[window->before - window->first + 1];
   const auto error = [&](double Frame::*member, double by_polynomial) {
     (*frame).*member =
         (1 - window->share) * before.*member + window->share * after.*member + by_polynomial;
   };
-  const double force_N = doubt(added(&Frame::reactions_N), [](const Eigen::Matrix3Xd& forces) {
+  const double force_N = doubt(&Frame::reactions_N, [](const Eigen::Matrix3Xd& forces) {
     return forces.cols() > 0 ? max_column_norm(forces) : 0;
   });
   error(&Frame::error_estimate_mm, nodes_mm);
   error(&Frame::force_error_N, force_N);
   error(&Frame::push_error_N, force_N);
-  error(&Frame::energy_error_mJ, doubt(added(&Frame::energies), [](const Energies& energies) {
+  error(&Frame::energy_error_mJ, doubt(&Frame::energies, [](const Energies& energies) {
     double most = std::abs(energies.total());
     for (const TermName& term : energy_terms) most = std::max(most, std::abs(energies[term.term]));
     return most;
   }));
   error(&Frame::stiffness_error_N_per_mm,
-        doubt(whole(&Frame::stiffness_N_per_mm), [](double value) { return std::abs(value); }));
+        doubt(&Frame::stiffness_N_per_mm, [](double value) { return std::abs(value); }));
   complete_shape(path_.simulation, contacts_.in(frame->nodes), *frame);
   measure_(*frame, sample.t, true);
   return frame;

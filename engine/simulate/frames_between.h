@@ -27,9 +27,6 @@ class FramesBetween {
   std::optional<record::Frame> at(const PathSample& sample);
 
  private:
-  struct Knot {
-    record::Frame full, leading;  ///< of all meshes, and of the coarsest alone
-  };
   struct Window {
     std::size_t first = 0;       ///< load step
     Eigen::VectorXd weights;     ///< of the polynomial
@@ -38,8 +35,8 @@ class FramesBetween {
     std::size_t before = 0;      ///< the first of those
   };
   std::optional<Window> window_at(const PathSegment& segment, double t) const;
-  std::vector<const Knot*> knots_in(const PathSample& sample, const Window& window);
-  const Knot* knot(const PathSegment& segment, std::size_t k);
+  std::vector<const record::Frame*> knots_in(const PathSample& sample, const Window& window);
+  std::optional<record::Frame> knot_at(const LoadStep& step);
   std::optional<record::Frame> leading_at(double t, State guess);
 
   EquilibriumPath& path_;
@@ -49,7 +46,7 @@ class FramesBetween {
   record::ContactSearch contacts_;
   bool wanted_;
   std::size_t segment_ = 0;
-  std::map<std::size_t, std::optional<Knot>> knots_;  // by load step; nothing: it has none
+  std::map<std::size_t, std::optional<record::Frame>> knots_;  // by load step; nothing: it has none
 };
 
 }  // namespace gridshell::simulate
