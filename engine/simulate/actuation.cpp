@@ -171,7 +171,7 @@ Caption caption_of(const Scene& scene) {
             frame.actuation = progress;
             frame.boundary_radius_mm = scene.radius_at(progress);
           },
-          [](record::Frame&) {}};
+          [](record::Frame&, double, bool) {}};
 }
 
 }  // namespace

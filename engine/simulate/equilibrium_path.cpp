@@ -6,6 +6,7 @@
 
 #include "engine/core/try.h"
 #include "engine/simulate/frames.h"
+#include "engine/simulate/frames_between.h"
 #include "engine/simulate/mesh_choice.h"
 
 namespace gridshell::simulate {
@@ -279,7 +280,22 @@ void set_limit(EquilibriumPath& path, const At& at) {
   path.limit_reason += (path.limit_reason.empty() ? "" : "; ") + path.mesh_disagreement;
 }
 
+PathSampler::PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
+                         std::size_t count)
+    : path_(path),
+      caption_(std::move(caption)),
+      sink_(sink),
+      watch_(watch),
+      count_(count) {}
+
 Result<bool> PathSampler::at(const PathSample& sample) {
+  if (!between_) between_ = std::make_shared<FramesBetween>(path_, caption_.measure, watch_);
+  if (auto frame = between_->at(sample)) {
+    TRY_DO(motions(sample, sample.t));
+    return take_at(std::move(*frame), sample, events(sample, sample.t), sample.t).map([] {
+      return true;
+    });
+  }
   const int before = path_.simulation.effort().newton_iterations;
   const auto [report, past] = certify_sample(path_, sample, watch_);
   if (watch_.cancelled()) return stopped();
@@ -304,9 +320,14 @@ Result<bool> PathSampler::at(const PathSample& sample) {
 Result<void> PathSampler::take_current(const PathSample& sample, std::string event, double past,
                                        int newton_iterations) {
   record::Frame frame = frame_of(path_.simulation);
-  caption_.measure(frame);
-  frame.event = std::move(event);
+  caption_.measure(frame, sample.t, false);
   frame.newton_iterations = newton_iterations;
+  return take_at(std::move(frame), sample, std::move(event), past);
+}
+
+Result<void> PathSampler::take_at(record::Frame frame, const PathSample& sample, std::string event,
+                                  double past) {
+  frame.event = std::move(event);
   last_ = sample;
   last_reached_t_ = past;
   return take(std::move(frame), sample);

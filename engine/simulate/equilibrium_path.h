@@ -153,18 +153,19 @@ struct Caption {
   At at;
   /// Puts in where the boundary and the push stand at path parameter t.
   std::function<void(record::Frame&, double t, double progress)> place;
-  /// Measures on a certified state: forces, reach.
-  std::function<void(record::Frame&)> measure;
+  /// Measures forces and reach on the certified state that the simulation stands in, or, `between`
+  /// load steps, on the frame alone.
+  std::function<void(record::Frame&, double t, bool between)> measure;
 };
 
 /// Certifies samples of a path, in the order in which they are shown, with what happened between
 /// them: frames of snaps that were followed in time, events.
+class FramesBetween;
 class PathSampler {
  public:
   /// `count`: of the samples to come, for the progress.
   PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
-              std::size_t count)
-      : path_(path), caption_(std::move(caption)), sink_(sink), watch_(watch), count_(count) {}
+              std::size_t count);
 
   /// One sample. False: it is not certified, which becomes the path's limit; within a jump that
   /// already is the limit, the limit's reason says it. Errors: cancelled, the sink's.
@@ -180,9 +181,12 @@ class PathSampler {
 
  private:
   Result<void> motions(const PathSample& sample, double past);
+  Result<void> take_at(record::Frame frame, const PathSample& sample, std::string event,
+                       double past);
 
   EquilibriumPath& path_;
   Caption caption_;
+  std::shared_ptr<FramesBetween> between_;
   record::Sink& sink_;
   Watch& watch_;
   std::size_t count_, next_snap_ = 0;

@@ -88,10 +88,7 @@ class Bending {
  public:
   Bending(const Model& model, const State& state, const Assembly& at)
       : model_(model), at_(at), energy_(bending_of(model, state)) {
-    // all others strain as they are curved
-    if (!std::get<std::vector<Pair<SectionBending>>>(model.pairs).empty() ||
-        !std::get<std::vector<Pair<EndBending>>>(model.pairs).empty())
-      strain_of_bend_ = bending_strain_of(model, state);
+    if (!strains_by_curvature(model)) strain_of_bend_ = bending_strain_of(model, state);
   }
 
   void put(const Model::Rod& rod, int bend) {
@@ -363,6 +360,44 @@ record::Frame frame_of(const Simulation& simulation) {
   put_contacts(simulation.contacts(), frame);
   put_forces(simulation, frame);
   return frame;
+}
+
+record::Frame leading_frame(const Simulation& simulation, const State& state,
+                            const Assembly& forces, const MeshTransfer& to_finest) {
+  const RodMesh& mesh = simulation.shell().mesh(0);
+  const Model& model = simulation.shell().model(0);
+  const Footprint& footprint = simulation.scene().footprint;
+  const Eigen::Matrix3Xd nodes = nodes_of(mesh, model, state.x);
+  record::Frame frame;
+  to_finest.nodes(nodes, frame.nodes);
+  frame.nodes.conservativeResize(3, simulation.shell().finest().rod_nodes());
+  frame.cell_K = cell_curvature(footprint, joint_tangents(footprint, mesh, nodes));
+  frame.energies = forces.energies;
+  frame.reactions_N = reactions_of(mesh, model, forces, simulation.holds());
+  return frame;
+}
+
+bool strains_by_curvature(const Model& model) {
+  return std::get<std::vector<Pair<SectionBending>>>(model.pairs).empty() &&
+         std::get<std::vector<Pair<EndBending>>>(model.pairs).empty();
+}
+
+void complete_shape(const Simulation& simulation, const record::Contacts& contacts,
+                    record::Frame& frame) {
+  const NestedShell& shell = simulation.shell();
+  const RodMesh& mesh = shell.finest();
+  const Scene& scene = simulation.scene();
+  fill_shape(scene, mesh, Eigen::Matrix3Xd(frame.nodes), Eigen::VectorXd(frame.cell_K), frame);
+  put_contacts(contacts, frame);
+  put_reactions(std::move(frame.reactions_N), frame);
+  std::vector<double> strain;
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r)
+    for (const int node : mesh.rods[r])
+      if (!mesh.is_ghost(node))
+        strain.push_back(shell.model(shell.levels() - 1)
+                             .rods[r]
+                             .fibres.strain(frame.curvature_per_mm[Eigen::Index(strain.size())]));
+  put_bending_strain(scene.footprint, mesh, strain, frame);
 }
 
 record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& model,

@@ -35,6 +35,18 @@ void fill_shape(const Scene& scene, const RodMesh& mesh, const Eigen::Matrix3Xd&
 /// push and event are the experiment's to add.
 record::Frame frame_of(const Simulation& simulation);
 
+/// What is told of a frame by the coarsest mesh in equilibrium, with the forces there: nodes
+/// carried to the finest, K, energies, reactions.
+record::Frame leading_frame(const Simulation& simulation, const State& state,
+                            const Assembly& forces, const MeshTransfer& to_finest);
+
+/// Whether all that bends is strained as it is curved (FibreReach).
+bool strains_by_curvature(const Model& model);
+
+/// What follows from a frame's nodes, K, reactions and curvature on the finest mesh.
+void complete_shape(const Simulation& simulation, const record::Contacts& contacts,
+                    record::Frame& frame);
+
 /// The same of an equilibrium on one mesh that no simulation stands in, with the forces there.
 record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& model,
                        const State& state, const Assembly& forces);

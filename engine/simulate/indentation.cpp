@@ -203,12 +203,13 @@ Caption caption_of(const HeldShell& pushed) {
             frame.boundary_radius_mm = simulation.scene().radius_end_mm;
             frame.depth_mm = t * pushed.depth_mm();
           },
-          [&](record::Frame& frame) {
-            frame.force_N = pushed.push.displacement.normalized().dot(simulation.force(0));
-            simulation.put_push_errors(frame);
-            const PushReach reach =
-                push_reach(pushed.before, frame.nodes.leftCols(pushed.before.cols()),
-                           simulation.shell().state().t * pushed.depth_mm());
+          [&](record::Frame& frame, double t, bool between) {
+            const Eigen::Vector3d force =
+                between ? frame.reactions_N.col(pushed.push.joint) : simulation.force(0);
+            frame.force_N = pushed.push.displacement.normalized().dot(force);
+            if (!between) simulation.put_push_errors(frame);
+            const PushReach reach = push_reach(
+                pushed.before, frame.nodes.leftCols(pushed.before.cols()), t * pushed.depth_mm());
             frame.reach_above_tenth = reach.above_tenth;
             frame.reach_above_half = reach.above_half;
             frame.lowest_latitude_deg = reach.lowest_latitude_deg;

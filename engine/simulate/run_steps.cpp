@@ -176,7 +176,7 @@ class Show {
 
   Caption caption() {
     return {on_its_way, [this](record::Frame& frame, double t, double) { put_boundary(frame, t); },
-            [this](record::Frame& frame) { work_.simulation.put_push(frame); }};
+            [this](record::Frame& frame, double, bool) { work_.simulation.put_push(frame); }};
   }
 
   void put_boundary(record::Frame& frame, double t) const {

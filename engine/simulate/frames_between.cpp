@@ -1,0 +1,211 @@
+#include "engine/simulate/frames_between.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/simulate/frames.h"
+
+namespace gridshell::simulate {
+namespace {
+
+constexpr double share_of_tolerance = 0.1;  // that a polynomial in t may leave
+constexpr double nearby = 1e-3;  // of d: a correction beyond is none of the guess's own branch
+constexpr std::size_t most_knots = 6;
+
+/// Whether nothing happens to the branch between two load steps that follow one another.
+bool smooth(const PathSegment& segment, std::size_t k) {
+  const LoadStep &a = segment.load_steps[k], &b = segment.load_steps[k + 1];
+  const double way = segment.sign(), from = way * a.point.t, to = way * b.point.t;
+  if (!(from < to) || !a.certificate.stable() || !b.certificate.stable()) return false;
+  return std::ranges::none_of(segment.report.events, [&](const Event& event) {
+    const auto [begin, end] = std::minmax({way * event.t, way * event.to.value_or(event.t)});
+    return begin < to && end > from;
+  });
+}
+
+/// Of the polynomial through values at `known`: its weights at t, 0 for the one left out.
+Eigen::VectorXd weights_of(const std::vector<double>& known, double t, std::size_t left_out) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(Eigen::Index(known.size()));
+  for (std::size_t k = 0; k < known.size(); ++k)
+    for (std::size_t j = 0; j < known.size(); ++j)
+      if (j != k && j != left_out)
+        weights[Eigen::Index(k)] *= k == left_out ? 0 : (t - known[j]) / (known[k] - known[j]);
+  return weights;
+}
+
+/// The cubic through two states and their tangents; angles, which count from a state's own frames,
+/// go on from the first.
+State hermite(const Model& model, const PathPoint& a, const PathPoint& b, double t) {
+  const double h = b.t - a.t, s = (t - a.t) / h;
+  const double to = s * s * (3 - 2 * s), from_slope = h * s * (1 - s) * (1 - s),
+               to_slope = -h * s * s * (1 - s);
+  const auto between = [&](const auto& x, const auto& vx, const auto& y, const auto& vy) {
+    return (x + to * (y - x) + from_slope * vx + to_slope * vy).eval();
+  };
+  State guess = a.state;
+  guess.force = between(a.state.force, a.velocity.force, b.state.force, b.velocity.force);
+  Eigen::Matrix3Xd x = a.state.x + (t - a.t) * a.velocity.x;
+  x.leftCols(model.nodes) =
+      between(a.state.x, a.velocity.x, b.state.x, b.velocity.x).leftCols(model.nodes);
+  move_to(model, x, guess);
+  return guess;
+}
+
+}  // namespace
+
+FramesBetween::FramesBetween(EquilibriumPath& path, decltype(Caption::measure) measure,
+                             const Watch& watch)
+    : path_(path),
+      measure_(std::move(measure)),
+      watch_(watch),
+      to_finest_(path.simulation.shell().mesh(0), path.simulation.shell().finest()),
+      contacts_(parts_of(path.simulation.scene(), path.simulation.shell().finest())) {
+  const Simulation& simulation = path.simulation;
+  wanted_ = simulation.shell().levels() > 1 && !simulation.scene().rods.contact.barrier.acts() &&
+            strains_by_curvature(simulation.shell().model(simulation.shell().levels() - 1));
+}
+
+std::optional<FramesBetween::Window> FramesBetween::window_at(const PathSegment& segment,
+                                                              double t) const {
+  const auto& steps = segment.load_steps;
+  const double way = segment.sign();
+  std::size_t k = 0;
+  while (k + 2 < steps.size() && way * (steps[k + 1].point.t - t) <= 0) ++k;
+  if (steps.size() < 2 || !(way * (t - steps[k].point.t) > 0) ||
+      !(way * (steps[k + 1].point.t - t) > 0) || !smooth(segment, k))
+    return {};
+  std::size_t first = k, last = k + 1;
+  for (std::size_t size = 0; size != last - first;) {
+    size = last - first;
+    if (first > 0 && size + 1 < most_knots && smooth(segment, first - 1)) --first;
+    if (last + 1 < steps.size() && last - first + 1 < most_knots && smooth(segment, last)) ++last;
+  }
+  std::vector<double> known;
+  for (std::size_t j = first; j <= last; ++j) known.push_back(steps[j].point.t);
+  const double a = steps[k].point.t, b = steps[k + 1].point.t;
+  const Eigen::VectorXd weights = weights_of(known, t, known.size());
+  return Window{
+      first,
+      weights,
+      {weights - weights_of(known, t, 0), weights - weights_of(known, t, known.size() - 1)},
+      (t - a) / (b - a),
+      k};
+}
+
+/// The coarsest mesh brought to rest beside a guess, where it is stable there.
+std::optional<record::Frame> FramesBetween::leading_at(double t, State guess) {
+  NestedShell& shell = path_.simulation.shell();
+  Linearisation& system = shell.system(0);
+  const Scene& scene = path_.simulation.scene();
+  NewtonOptions options;
+  options.tolerance_mm = options.trusted_mm = 1e-3 * scene.tolerance * scene.length_scale_mm;
+  options.trusted_misfit = 1e-5;  // as of the finest mesh: forces are shown
+  options.farthest_mm = nearby * scene.footprint.spacing;
+  options.most_iterations = 5;
+  shell.motion(0).impose(system, t, guess);
+  const NewtonReport report = newton(system, guess, options, watch_);
+  if (report.outcome != Outcome::reached || !report.inertia.positive_definite()) return {};
+  system.gradient_at(guess);
+  record::Frame frame = leading_frame(path_.simulation, guess, system.assembly(), to_finest_);
+  frame.residual_N = system.residual();
+  frame.negative_pivots = 0;
+  frame.newton_iterations = report.iterations;
+  return frame;
+}
+
+/// The frame of a load step, but of nodes, K, reactions and energies what finer meshes add.
+std::optional<record::Frame> FramesBetween::knot_at(const LoadStep& step) {
+  const Report report = path_.simulation.sample(step.point.t, step, false, watch_);
+  if (report.end != Outcome::reached || !report.certificate.stable()) return {};
+  record::Frame knot = frame_of(path_.simulation);
+  measure_(knot, step.point.t, false);
+  const auto leading = leading_at(step.point.t, step.point.state);
+  if (!leading) return {};
+  knot.nodes -= leading->nodes;
+  knot.cell_K -= leading->cell_K;
+  knot.reactions_N -= leading->reactions_N;
+  knot.energies += -1 * leading->energies;
+  return knot;
+}
+
+/// The knots of a window; fewer: one of them has no frame.
+std::vector<const record::Frame*> FramesBetween::knots_in(const PathSample& sample,
+                                                          const Window& window) {
+  const auto end = window.first + std::size_t(window.weights.size());
+  if (sample.segment != segment_) knots_.clear();
+  segment_ = sample.segment;
+  std::erase_if(
+      knots_, [&](const auto& known) { return known.first < window.first || known.first >= end; });
+  std::vector<const record::Frame*> knots;
+  for (std::size_t k = window.first; k < end; ++k) {
+    const auto [at, is_new] = knots_.try_emplace(k);
+    if (is_new) at->second = knot_at(path_.segments[sample.segment].load_steps[k]);
+    if (at->second) knots.push_back(&*at->second);
+  }
+  return knots;
+}
+
+std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
+  using record::Frame;
+  const PathSegment& segment = path_.segments[sample.segment];
+  const auto window = wanted_ ? window_at(segment, sample.t) : std::nullopt;
+  if (!window) return {};
+  const PathPoint &from = segment.load_steps[window->before].point,
+                  &to = segment.load_steps[window->before + 1].point;
+  if (from.velocity.x.size() == 0 || to.velocity.x.size() == 0) return {};
+  const auto knots = knots_in(sample, *window);
+  const Eigen::VectorXd& weights = window->weights;
+  if (Eigen::Index(knots.size()) < weights.size()) return {};
+  const auto sum = [&](const Eigen::VectorXd& w, auto member) {
+    std::decay_t<decltype(knots[0]->*member)> all = w[0] * (knots[0]->*member);
+    for (std::size_t k = 1; k < knots.size(); ++k) all += w[Eigen::Index(k)] * (knots[k]->*member);
+    return all;
+  };
+  // by how much a polynomial is in doubt
+  const auto doubt = [&](auto member, const auto& size) {
+    return 2 *
+           std::max(size(sum(window->without[0], member)), size(sum(window->without[1], member)));
+  };
+  const Scene& scene = path_.simulation.scene();
+  const Eigen::Index joints = path_.simulation.shell().finest().joints;
+  const double nodes_mm = doubt(&Frame::nodes, [&](const Eigen::Matrix3Xd& x) {
+    return max_column_norm(x.leftCols(joints));
+  });
+  if (!(nodes_mm <= share_of_tolerance * scene.tolerance * scene.length_scale_mm)) return {};
+  auto frame = leading_at(sample.t, hermite(path_.simulation.shell().model(0), from, to, sample.t));
+  if (!frame) return {};
+
+  frame->nodes += sum(weights, &Frame::nodes);
+  frame->cell_K += sum(weights, &Frame::cell_K);
+  frame->reactions_N += sum(weights, &Frame::reactions_N);
+  frame->energies += sum(weights, &Frame::energies);
+  frame->axial_force_N = sum(weights, &Frame::axial_force_N);
+  frame->bending_mJ_per_m = sum(weights, &Frame::bending_mJ_per_m).cwiseMax(0);
+  frame->curvature_per_mm = sum(weights, &Frame::curvature_per_mm).cwiseMax(0);
+  frame->stiffness_N_per_mm = sum(weights, &Frame::stiffness_N_per_mm);
+
+  const Frame &before = *knots[window->before - window->first],
+              &after = *knots[window->before - window->first + 1];
+  const auto error = [&](double Frame::*member, double by_polynomial) {
+    (*frame).*member =
+        (1 - window->share) * before.*member + window->share * after.*member + by_polynomial;
+  };
+  const double force_N = doubt(&Frame::reactions_N, [](const Eigen::Matrix3Xd& forces) {
+    return forces.cols() > 0 ? max_column_norm(forces) : 0;
+  });
+  error(&Frame::error_estimate_mm, nodes_mm);
+  error(&Frame::force_error_N, force_N);
+  error(&Frame::push_error_N, force_N);
+  error(&Frame::energy_error_mJ, doubt(&Frame::energies, [](const Energies& energies) {
+    double most = std::abs(energies.total());
+    for (const TermName& term : energy_terms) most = std::max(most, std::abs(energies[term.term]));
+    return most;
+  }));
+  error(&Frame::stiffness_error_N_per_mm,
+        doubt(&Frame::stiffness_N_per_mm, [](double value) { return std::abs(value); }));
+  complete_shape(path_.simulation, contacts_.in(frame->nodes), *frame);
+  measure_(*frame, sample.t, true);
+  return frame;
+}
+
+}  // namespace gridshell::simulate

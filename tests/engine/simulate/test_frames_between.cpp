@@ -1,0 +1,112 @@
+// What is read off a path between its load steps is what all meshes say there, within the errors
+// that it is told with.
+#include "engine/simulate/frames_between.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/simulate/actuation.h"
+#include "engine/simulate/frames.h"
+#include "engine/simulate/indentation.h"
+#include "tests/engine/simulate/run.h"
+
+using namespace gridshell;
+using namespace gridshell::simulate;
+
+namespace {
+
+double largest(const Energies& a) {
+  double most = std::abs(a.total());
+  for (const TermName& term : energy_terms) most = std::max(most, std::abs(a[term.term]));
+  return most;
+}
+
+/// How many of the samples of a segment are read off it; each is held against all meshes there, of
+/// the same path brought to rest more closely.
+int read_off(EquilibriumPath& path, EquilibriumPath& closely, int samples) {
+  constexpr std::size_t segment = 0;
+  Watch watch;
+  const auto measure = [&](record::Frame& frame, double, bool between) {
+    if (!between) path.simulation.put_push(frame);
+  };
+  FramesBetween between(path, measure, watch), backwards(path, measure, watch);
+  const double from = path.segments[segment].from, way = path.segments[segment].end() - from;
+  const Eigen::Index joints = path.simulation.shell().finest().joints;
+  int read = 0;
+  for (int k = 1; k < samples; ++k) {
+    const PathSample sample{k, segment, from + way * k / samples, 0};
+    const auto frame = between.at(sample);
+    if (!frame) continue;
+    ++read;
+    const CertifiedSample stood = certify_sample(closely, sample, watch);
+    CAPTURE(k, sample.t, frame->error_estimate_mm);
+    REQUIRE(stood.report.end == Outcome::reached);
+    const record::Frame full = frame_of(closely.simulation);
+    CHECK(max_column_norm(frame->nodes.leftCols(joints) - full.nodes.leftCols(joints)) <
+          frame->error_estimate_mm);
+    CHECK(largest(frame->energies - full.energies) < frame->energy_error_mJ);
+    CHECK(max_column_norm(frame->reactions_N - full.reactions_N) < frame->force_error_N);
+    CHECK((frame->cell_K - full.cell_K).cwiseAbs().maxCoeff() < path.simulation.scene().tolerance);
+    CHECK((frame->curvature_per_mm - full.curvature_per_mm).cwiseAbs().maxCoeff() <
+          1e-2 * full.curvature_per_mm.maxCoeff());
+    CHECK(frame->negative_pivots == 0);
+    CHECK(frame->residual_N < 1e-3);
+    CHECK(frame->height_mm == Approx(full.height_mm).margin(frame->error_estimate_mm));
+    CHECK(frame->largest_bending_strain == Approx(full.largest_bending_strain).epsilon(1e-2));
+    CHECK(frame->contacts == full.contacts);
+    // however it is come to
+    if (k % 7 == 0) CHECK(backwards.at(sample)->nodes == frame->nodes);
+  }
+  return read;
+}
+
+/// On the meshes of its tolerance, brought to rest as is usual there or more closely.
+std::shared_ptr<const Scene> scene_at_rest(preset::Preset preset, bool closely) {
+  if (closely) preset.accuracy.tolerance = 1e-6;
+  return shared_scene(preset);
+}
+
+/// Of the actuation of a preset.
+EquilibriumPath actuated(const preset::Preset& preset, bool closely = false) {
+  return value_of(follow_actuation(scene_at_rest(preset, closely),
+                                   initial_levels(*shared_scene(preset)), false, 1, unwatched));
+}
+
+}  // namespace
+
+TEST_CASE("between load steps frames are what all meshes say", "[standard]") {
+  preset::Preset p = circle(12, 126, 94.5, 5);
+  for (const double tolerance : {1e-3, 1e-4}) {
+    p.accuracy.tolerance = tolerance;
+    EquilibriumPath path = actuated(p), closely = actuated(p, true);
+    CAPTURE(tolerance);
+    CHECK(read_off(path, closely, 60) > 30);
+  }
+}
+
+TEST_CASE("a push is read off between its load steps, its force too", "[standard]") {
+  const preset::Preset p = shipped("s4_pole_outward");
+  const auto pushed = [&](bool closely) {
+    HeldShell shell = value_of(hold_to_push(scene_at_rest(p, closely), p.indentation,
+                                            initial_levels(*shared_scene(p)), unwatched));
+    follow_segment(shell, 1, {}, unwatched);
+    return shell;
+  };
+  HeldShell path = pushed(false), closely = pushed(true);
+  CHECK(read_off(path, closely, 40) > 25);
+}
+
+TEST_CASE("where a path leaves its branch nothing is read off", "[standard]") {
+  EquilibriumPath path = actuated(circle(12, 126, 94.5, 5));
+  const PathSegment& segment = path.segments[0];
+  int left = 0;
+  Watch watch;
+  FramesBetween between(
+      path, [](record::Frame&, double, bool) {}, watch);
+  for (const Event& event : segment.report.events)
+    if (event.to) {
+      ++left;
+      const double t = 0.5 * (load_step_before(segment, event.t).point.t + *event.to);
+      CHECK_FALSE(between.at({0, 0, t, 0}));
+    }
+  CHECK(left > 0);
+}
