@@ -25,7 +25,7 @@ struct Axis {
   std::string label;  ///< marked text with its unit: "*R*_{a} (mm)"
   bool logarithmic = false;
   std::optional<double> low = {}, high = {};  ///< otherwise from the data, with a margin
-  int ticks = 6;                              ///< about so many labels
+  int ticks = 6;                              ///< about so many labels; 0: none, nor ticks
 };
 
 enum class SeriesKind { points, bars };

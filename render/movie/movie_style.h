@@ -20,7 +20,7 @@ using preset::Quality;
 /// What things look like, the theme's choices and the user's in one.
 struct Appearance {
   double rod_mm = 0, joint_mm = 3, ring_mm = 1.4;  ///< widths as drawn, no less than a pixel
-  Colour rod{0.16f, 0.17f, 0.20f, 1}, joint{0.75f, 0.12f, 0.10f, 1}, ring{0.3f, 0.33f, 0.38f, 1},
+  Colour rod{0.16f, 0.17f, 0.20f, 1}, joint{0.93f, 0.93f, 0.91f, 1}, ring{0.3f, 0.33f, 0.38f, 1},
       background{1, 1, 1, 1};  ///< a background of alpha 0 stays out of the picture
   ColourMap map = nullptr;     ///< null: by the values
   std::vector<double> range;   ///< (low, high) of the colours; empty: by the values

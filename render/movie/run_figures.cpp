@@ -16,7 +16,7 @@
 namespace gridshell::render {
 namespace {
 
-constexpr Colour shell_ink = ink, net_ink{0.16f, 0.42f, 0.78f, 1}, scan_ink{0.80f, 0.16f, 0.12f, 1};
+constexpr Colour shell_ink = ink, scan_ink{0.80f, 0.16f, 0.12f, 1};
 
 /// Without the marks of contacts, which these figures do not name.
 record::Frame unmarked(record::Frame frame) {
@@ -135,12 +135,13 @@ Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieS
   const auto dress = [](const NetRun& one, Drawing& drawing) {
     show_measured_joints(one.scanned, drawing);
     const record::Layout& layout = one.run->layout;
+    const double thin = drawing.rod_diameter_mm;
+    drawing.rod_diameter_mm *= 1.6;
     // blocks each on a net of its own
     for (std::size_t k = 0; k < layout.parts.size(); ++k)
-      drawing.ghosts.push_back(
-          {layout.parts[k].net, layout.parts[k].rods, drawing.rod_diameter_mm, block_colour(k)});
+      drawing.ghosts.push_back({layout.parts[k].net, layout.parts[k].rods, thin, block_colour(k)});
     if (layout.parts.empty() && layout.net_nodes.cols() > 0)
-      drawing.ghosts.push_back({layout.net_nodes, layout.rods, drawing.rod_diameter_mm, net_ink});
+      drawing.ghosts.push_back({layout.net_nodes, layout.rods, thin, net_ink});
   };
   return panels_of(runs, style, renderer, watch, columns, dress).map([&](PanelFigure figure) {
     figure.keys = over_net_keys(runs);
@@ -304,7 +305,7 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
     if (last.K_bins.rows() == 0) return {};
     plots.push_back(
         bins_plot(summarise_run(*one.run), long(one.run->layout.cells.size()), last, {}, font));
-    plots.back().title = one.name + "\nΣ*K*_{□} = " + fixed(last.total_K, 3) + " rad";
+    plots.back().title = one.name + "\n" + plots.back().title;
     low = std::min(low, plots.back().y.low.value_or(0));
     high = std::max(high, plots.back().y.high.value_or(0));
   }

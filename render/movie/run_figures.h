@@ -64,8 +64,8 @@ void show_measured_joints(const Eigen::Matrix3Xd& measured, Drawing& drawing);
 /// What its red joints stand for.
 ColourKey scan_key();
 
-/// The shells, dark, over their nets, blue, with the joints scanned, red, at most `columns` side by
-/// side. Progress and errors as write_stills.
+/// The shells, dark, over their nets, thinner and orange, with the joints scanned, red, at most
+/// `columns` side by side. Progress and errors as write_stills.
 Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
                                    Renderer& renderer, Watch& watch, int columns = 3);
 

@@ -12,7 +12,7 @@
 namespace gridshell::render {
 namespace {
 
-constexpr Colour rod_ink{0.45f, 0.46f, 0.5f, 1}, net_ink{0.16f, 0.42f, 0.78f, 1};
+constexpr Colour rod_ink{0.45f, 0.46f, 0.5f, 1};
 
 Eigen::Matrix3Xd joints_of(const record::Trajectory& run) {
   Eigen::Matrix3Xd joints(3, run.layout.joints.size());
@@ -256,6 +256,16 @@ namespace {
 constexpr Colour reference{0.62f, 0.63f, 0.66f, 0.55f}, reference_ink{0.5f, 0.51f, 0.54f, 1},
     now_ink{0.13f, 0.33f, 0.60f, 1}, mean_ink{0.70f, 0.10f, 0.08f, 1};
 
+/// "Σ*K*_{□} = 5.898 rad, −1.78 %"; in rad where the first is next to nothing.
+std::string total_K_caption(double first, double now) {
+  const double change = now - first;
+  const bool relative = std::abs(first) > 0.1;
+  const std::string size =
+      fixed(relative ? 100 * change / std::abs(first) : change, relative ? 2 : 3);
+  return fmt::format("Σ*K*_{{□}} = {} rad, {}{}{}", fixed(now, 3), change > 0 ? "+" : "", size,
+                     relative ? " %" : " rad");
+}
+
 Series bins_of(const record::Frame& frame) {
   Series series;
   const long count = frame.K_bins.rows();
@@ -297,7 +307,7 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
                  line_series("all cells", solid.colour, solid.width)};
   plot.references = {{true, run.first.total_K / double(cells), "", dashed},
                      {true, frame.total_K / double(cells), "", solid}};
-  plot.title = "Σ*K*_{□} = " + fixed(frame.total_K, 3) + " rad";
+  plot.title = total_K_caption(run.first.total_K, frame.total_K);
   plot.legend = LegendPlace::above;
   return plot;
 }
