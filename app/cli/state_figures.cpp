@@ -282,18 +282,17 @@ Result<void> add_states(Page& page, const Run& one, render::MovieStyle style,
   return {};
 }
 
-Result<void> add_diagram(Page& page, const std::string& folder) {
-  if (folder.empty()) {
+Result<void> add_diagram(Page& page, const std::string& named) {
+  if (named.empty()) {
     page.add_empty("B", diagram, "phase diagram: [page] sweep names no sweep");
     return {};
   }
-  TRY(table, read_finished_sweep(folder));
+  TRY(table, read_finished_sweep(named));
   if (!record::makes_phase_diagram(table->axes))
-    return fail(
-        Fault::bad_input,
-        fmt::format("[page] sweep = \"{}\": goes over other keys than footprint.longest_leg "
-                    "and footprint.rods",
-                    folder));
+    return fail(Fault::bad_input,
+                "[page] sweep = \"{}\": goes over other keys than footprint.longest_leg and "
+                "footprint.rods",
+                named);
   const std::string& of_case = table->rows.front().keys.case_name;
   page.add_plot("B", diagram, render::phase_plot(record::phase_diagram_of(*table, of_case), ""));
   return {};

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/cli/options.h"
+#include "app/cli/preset_library.h"
 #include "engine/core/file_io.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
@@ -90,24 +90,19 @@ record::SweepTable table_of(const preset::SweepGrid& grid, const std::vector<std
   return table;
 }
 
-Result<record::SweepTable> read_finished_sweep(const fs::path& folder) {
-  const auto refuse = [&](const std::string& why) {
-    return fail(Fault::bad_input, "'{}' is no finished sweep: {}", folder.string(), why);
-  };
-  // the preset is written once all points are there
-  const fs::path file = folder / "preset.toml";
+Result<record::SweepTable> read_finished_sweep(const std::string& named) {
   std::error_code error;
-  if (!fs::exists(file, error)) return refuse("it has no preset.toml");
-  TRY(presets, preset::read_preset_file(file, {}));
-  const preset::SweepGrid grid(*presets);
-  const auto log = record::read_sweep_log(folder / record::sweep_log_name);
-  if (!log) return refuse(log.error().message);
-  std::vector<std::size_t> points;
-  for (std::size_t point = 0; point < grid.size(); ++point)
-    if (log->found.contains(point)) points.push_back(point);
-  if (points.size() < grid.size())
-    return refuse(fmt::format("{} of {} points are there", points.size(), grid.size()));
-  return table_of(grid, points, log->found);
+  fs::path file = named;
+  if (fs::is_directory(file, error)) file /= sweep_table_name;
+  const auto shipped = embedded_files().find(named);
+  auto text = read_file(file);
+  if (!text && shipped != embedded_files().end()) text = shipped->second;
+  if (!text) return fail(Fault::bad_input, "no finished sweep: {}", text.error().message);
+  auto table = record::read_sweep_csv(*text);
+  if (!table)
+    return fail(Fault::bad_input, "'{}' is no table of a sweep: {}", file.string(),
+                table.error().message);
+  return table;
 }
 
 Result<void> gather_shards(const fs::path& folder, record::SweepLog& log,

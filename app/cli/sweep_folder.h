@@ -36,9 +36,12 @@ std::vector<std::string> axes_of(const preset::SweepGrid& grid);
 record::SweepTable table_of(const preset::SweepGrid& grid, const std::vector<std::size_t>& points,
                             const std::map<std::size_t, record::PointResult>& found);
 
-/// All points of a sweep that came to its end. Errors (bad_input): the folder holds no sweep, or
-/// one that is not finished, saying how far it came.
-Result<record::SweepTable> read_finished_sweep(const std::filesystem::path& folder);
+/// The table of a sweep, which is written once all of its points are there.
+inline constexpr const char* sweep_table_name = "sweep.csv";
+
+/// All points of a sweep that came to its end: of its folder, of its table, or of one of the tables
+/// that come with the presets. Errors (bad_input): no such file, or none that holds them.
+Result<record::SweepTable> read_finished_sweep(const std::string& named);
 
 /// Adds what the shards in `folder` found to its log. Errors: bad_input where there is no shard or
 /// one is of another preset; io.

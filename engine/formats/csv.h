@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/core/enum_words.h"
@@ -67,6 +68,28 @@ class CsvWriter {
   std::string text_;
   bool first_ = true;
 };
+
+/// The cells of a text of RFC 4180, a row a line.
+inline std::vector<std::vector<std::string>> csv_cells(std::string_view text) {
+  std::vector<std::vector<std::string>> rows;
+  bool quoted = false, line_begins = true;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    if (std::exchange(line_begins, false)) rows.emplace_back(1);
+    std::string& cell = rows.back().back();
+    if (quoted && c == '"' && k + 1 < text.size() && text[k + 1] == '"')
+      cell += text[++k];
+    else if (c == '"')
+      quoted = !quoted;
+    else if (!quoted && c == ',')
+      rows.back().emplace_back();
+    else if (!quoted && c == '\n')
+      line_begins = true;
+    else if (quoted || c != '\r')
+      cell += c;
+  }
+  return rows;
+}
 
 /// The text of a table whose columns `fields` names; an unknown number is an empty cell.
 template <class Row>

@@ -155,8 +155,9 @@ void add_page(FieldList<Page> list) {
   list.add<&Page::kind>("figure of the paper that `figure` lays out on one page");
   list.add<&Page::photo>("a PNG in the photograph's place; empty: an empty frame");
   list.add<&Page::sweep>(
-          "folder of a finished sweep over legs and rods in the phase diagram's place; empty: an "
-          "empty frame")
+          "finished sweep over legs and rods in the phase diagram's place: its folder, its "
+          "sweep.csv, or fig2_phase_diagram.csv, which comes with the presets; empty: an empty "
+          "frame")
       .unused({"kind"}, "[page] kind is not \"fig2\"",
               [](const Page& of) { return of.kind != PageKind::fig2; });
 }

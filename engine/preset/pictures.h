@@ -70,7 +70,7 @@ enum class PageKind { none, fig1, fig2, fig3, fig4, fig5 };
 struct Page {
   PageKind kind = PageKind::none;
   std::string photo;  ///< a PNG for the photograph's place
-  std::string sweep;  ///< folder of a finished sweep, for the phase diagram's place
+  std::string sweep;  ///< a finished sweep's folder or table, for the phase diagram's place
 };
 
 struct Figure {

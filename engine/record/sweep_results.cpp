@@ -88,6 +88,62 @@ std::string sweep_csv(const SweepTable& table) {
   return std::move(csv).text();
 }
 
+namespace {
+
+/// A cell as the figure that it was written from.
+Figure figure_in(const std::string& cell) {
+  if (cell.empty()) return {};
+  if (cell == "true" || cell == "false") return cell == "true";
+  if (const auto number = parse_number<double>(cell)) return *number;
+  return cell;
+}
+
+/// Whether a cell before the figures is what its column says; it is put into `row`.
+bool take_key(const std::string& name, const std::string& cell, SweepTable::Row& row) {
+  if (name == "case") {
+    row.keys.case_name = cell;
+  } else if (name == "point" || name == "seed") {
+    const auto number = parse_number<int>(cell);
+    if (!number) return false;
+    if (name == "seed") row.keys.seed = *number;
+    if (name == "point") row.result.point = std::size_t(*number);
+  } else if (name == "outcome") {
+    const auto word = find_word<PointOutcome>(cell);
+    if (!word) return false;
+    row.result.outcome = *word;
+  } else {
+    row.keys.values.push_back(cell);
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<SweepTable> read_sweep_csv(std::string_view text) {
+  const auto rows = csv_cells(text);
+  if (rows.empty() || rows.front().front() != "point" || rows.front().back() != "reason")
+    return fail(Fault::bad_input, "line 1 is not 'point,...,outcome,...,reason'");
+  const auto& names = rows.front();
+  const auto figures = std::size_t(std::ranges::find(names, "outcome") - names.begin()) + 1;
+  SweepTable table;
+  for (std::size_t k = 1; k + 1 < figures; ++k)
+    if (names[k] == "case" || names[k] == "seed")
+      (names[k] == "case" ? table.has_cases : table.has_seeds) = true;
+    else
+      table.axes.push_back(names[k]);
+  for (std::size_t line = 1; line < rows.size(); ++line) {
+    const auto& cells = rows[line];
+    SweepTable::Row& row = table.rows.emplace_back();
+    bool good = cells.size() == names.size() && figures < names.size();
+    for (std::size_t k = 0; good && k < figures; ++k) good = take_key(names[k], cells[k], row);
+    if (!good) return fail(Fault::bad_input, "line {} is no point of a sweep", line + 1);
+    for (std::size_t k = figures; k + 1 < names.size(); ++k)
+      row.result.figures.emplace_back(names[k], figure_in(cells[k]));
+    row.result.reason = cells.back();
+  }
+  return table;
+}
+
 namespace fs = std::filesystem;
 namespace {
 

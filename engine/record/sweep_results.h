@@ -63,6 +63,10 @@ struct SweepTable {
 /// figure that any point has, the reason.
 std::string sweep_csv(const SweepTable& table);
 
+/// What such a text says; values are without the quotes of TOML. Errors (bad_input): it is none,
+/// naming the line.
+Result<SweepTable> read_sweep_csv(std::string_view text);
+
 // The log of a sweep, `sweep.jsonl`: a line that names the sweep, then a line a finished point,
 // each JSON with a checksum, only ever appended to. Whoever writes holds its lock.
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -99,11 +100,12 @@ struct ClassMark {
 };
 constexpr std::array<ClassMark, 4> marks{{
     {StateClass::i, "*i*", Marker::circle, 5, -0.2, 0.17},
-    {StateClass::ii, "*ii*", Marker::square, 4.6, 0.02, 0.17},
+    {StateClass::ii, "*ii*", Marker::square, 4.6, 0.2, 0.17},
     {StateClass::iii, "*iii*", Marker::diamond, 5.6, -0.2, -0.17},
-    {StateClass::iv, "*iv*", Marker::triangle, 5.2, 0.02, -0.17},
+    {StateClass::iv, "*iv*", Marker::triangle, 5.2, 0.2, -0.17},
 }};
-constexpr double others_right = 0.15;  // of the number beside them
+constexpr double others_right = 0.3;  // of the number beside them
+constexpr double most_numbered = 12;  // columns, between which there is room for these numbers
 
 /// The smallest distance between different values.
 double step_of(std::vector<double> values) {
@@ -146,6 +148,7 @@ class PhasePlot {
     }
     leg_step_ = step_of(legs);
     rod_step_ = step_of(rods);
+    columns_ = double(std::set(legs.begin(), legs.end()).size());
     plot_.title = plain(title);
     plot_.x = {.label = "longest leg, *L̄*_{d} = *L*/*d*"};
     plot_.y = {.label = "rods a direction, *n*"};
@@ -168,7 +171,6 @@ class PhasePlot {
       add_class(mark, true);
     }
     add_key("from symmetric forms alone", Marker::circle, true);
-    add_key("+*n*: *n* other states", Marker::none, false);
     add_others();
     add_nothing();
     return std::move(plot_);
@@ -192,9 +194,9 @@ class PhasePlot {
   }
 
   void add_class(const ClassMark& mark, bool by_trials) {
-    Series series =
-        mark_series(by_trials ? fmt::format("state {}", mark.name) : "",
-                    series_colour(std::size_t(mark.kind)), mark.marker, mark.size, !by_trials);
+    Series series = mark_series(
+        by_trials ? fmt::format("state {}", mark.name) : "", series_colour(std::size_t(mark.kind)),
+        mark.marker, mark.size * std::min(1.0, std::sqrt(most_numbered / columns_)), !by_trials);
     for (const PhasePoint& point : points_) {
       const StateCount& count = point.of(mark.kind);
       if (count.states == 0 || (count.met > 0) != by_trials) continue;
@@ -215,7 +217,10 @@ class PhasePlot {
     plot_.series.push_back(mark_series(text, grey, marker, 5, hollow));
   }
 
+  /// How many more states than the paper's classes, where there is room for it.
   void add_others() {
+    if (columns_ > most_numbered) return;
+    add_key("+*n*: *n* other states", Marker::none, false);
     for (const PhasePoint& point : points_)
       if (const int others = point.of(StateClass::other).states; others > 0)
         plot_.notes.push_back({point.longest_leg + others_right * leg_step_, double(point.rods),
@@ -230,7 +235,7 @@ class PhasePlot {
   }
 
   PhaseDiagram points_;
-  double leg_step_ = 1, rod_step_ = 1;
+  double leg_step_ = 1, rod_step_ = 1, columns_ = 1;
   Plot plot_;
 };
 

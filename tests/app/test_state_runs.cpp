@@ -1,6 +1,9 @@
 // A search for states from end to end, on a shell small enough for seconds.
+#include "app/cli/preset_library.h"
 #include "engine/record/states.h"
 #include "tests/app/bench.h"
+
+using namespace gridshell;
 
 namespace {
 
@@ -69,11 +72,46 @@ TEST_CASE("states and a finished sweep's phase diagram stand on one page", "[sta
     CHECK_FALSE(fs::exists(at / "not"));
     return ended.err;
   };
-  CHECK(refused("nowhere").find("'nowhere' is no finished sweep") != std::string::npos);
-  std::string log = text_of(at / "out/sweep/sweep.jsonl");
-  log.erase(log.rfind('\n', log.size() - 2) + 1);
-  REQUIRE(write_file(at / "out/sweep/sweep.jsonl", log));
-  CHECK(refused("out/sweep").find("1 of 2 points are there") != std::string::npos);
+  CHECK_THAT(refused("nowhere"), Contains("no finished sweep") && Contains("nowhere"));
+  const std::string table = text_of(at / "out/sweep/sweep.csv");
+  REQUIRE(write_file(at / "cut.csv", table.substr(0, table.size() - 40)));
+  CHECK_THAT(refused("cut.csv"), Contains("'cut.csv' is no table of a sweep: line 3"));
+  fs::remove(at / "out/sweep/sweep.csv");
+  CHECK_THAT(refused("out/sweep"), Contains("no finished sweep"));
+}
+
+TEST_CASE("points of the shipped phase diagram come out again", "[standard]") {
+  const std::string& text = app::embedded_files().at("fig2_phase_diagram.csv");
+  const auto shipped = record::read_sweep_csv(text);
+  REQUIRE(shipped);
+  CHECK(shipped->rows.size() == 207);
+  CHECK(record::sweep_csv(*shipped) == text);
+  const TemporaryFolder folder;
+  for (const std::size_t k : {9, 11, 199}) {
+    const record::SweepTable::Row& row = shipped->rows.at(k);
+    INFO("point " << k);
+    const auto figure = [](const record::PointResult& of, const char* name) {
+      return record::number_of(of.figure(name) ? *of.figure(name) : record::Figure());
+    };
+    std::string preset =
+        std::ranges::find(app::embedded_presets(), "fig2_phase_diagram", &app::EmbeddedPreset::name)
+            ->text;
+    preset.resize(preset.find("[sweep.over]"));
+    preset += fmt::format("[sweep.over]\n{} = [{}]\n{} = [{}]\n", shipped->axes[0],
+                          row.keys.values[0], shipped->axes[1], row.keys.values[1]);
+    REQUIRE(write_file(folder.path() / "point.toml", preset));
+    good({"sweep", "point.toml", "-o", std::to_string(k), "--quiet", "--set",
+          fmt::format("jitter.seed={}", figure(row.result, "jitter_seed"))},
+         folder.path());
+    const auto again =
+        record::read_sweep_csv(text_of(folder.path() / std::to_string(k) / "sweep.csv"));
+    REQUIRE(again);
+    for (const char* name : {"states", "at_rest", "states_i", "met_i", "states_ii", "met_ii",
+                             "met_confined_ii", "states_iv", "states_other", "met_other"})
+      CHECK(figure(again->rows.front().result, name) == figure(row.result, name));
+    CHECK_THAT(figure(again->rows.front().result, "height_mm"),
+               Catch::Matchers::WithinAbs(figure(row.result, "height_mm"), 1e-6));
+  }
 }
 
 TEST_CASE("joints measured lie over a state of a page of states", "[standard]") {
