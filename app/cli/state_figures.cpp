@@ -304,11 +304,7 @@ void add_foot(Page& page, const preset::Preset& preset) {
   const std::string shell =
       fmt::format("A at {}; all: circles, *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
                   place_of(preset), d, preset.actuated_radius_mm() / preset.original_radius_mm());
-  if (preset.footprint.kind == preset::FootprintKind::circle)
-    page.add("", "", foot, [shell](Canvas& canvas, const Box& box) {
-      canvas.text(shell, {box.x, box.middle().y},
-                  {.size = page_font, .align_y = render::AlignY::middle});
-    });
+  if (preset.footprint.kind == preset::FootprintKind::circle) page.add_note(foot, shell);
 }
 
 /// A state of each class from above, each as large as its place.

@@ -297,14 +297,13 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
 
 Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
                              const std::string& title, const Print& print) {
-  constexpr double font = 7.5, usual = 186, least = 150, height = 190;  // points
   std::vector<Plot> plots;
   double low = 0, high = 0;
   for (const NamedRun& one : runs) {
     const record::Frame& last = one.run->frames.back();
     if (last.K_bins.rows() == 0) return {};
     plots.push_back(
-        bins_plot(summarise_run(*one.run), long(one.run->layout.cells.size()), last, {}, font));
+        bins_plot(summarise_run(*one.run), long(one.run->layout.cells.size()), last, {}, 7.5));
     plots.back().title = one.name + "\n" + plots.back().title;
     low = std::min(low, plots.back().y.low.value_or(0));
     high = std::max(high, plots.back().y.high.value_or(0));
@@ -313,18 +312,32 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
     plot.y.low = low;
     plot.y.high = high;
   }
+  return write_plots(stem, std::move(plots), title, "K of the cells in bins of x/L", print);
+}
+
+Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> plots,
+                         const std::string& title, const std::string& name, const Print& print) {
+  constexpr double font = 7.5, usual = 186, least = 150, height = 172, key = 24;  // points
   // as many beside one another as stay readable
   const double width = print.width_pt(usual * double(plots.size()));
   const std::size_t columns = std::clamp<std::size_t>(std::size_t(width / least), 1, plots.size());
   const std::size_t rows = (plots.size() + columns - 1) / columns;
   const double column = width / double(columns), head = title.empty() ? 0 : figure_title_room;
+  Plot legend;
+  legend.series = plots.front().series;
+  legend.font_size = font;
+  for (Plot& plot : plots) {
+    plot.legend = LegendPlace::none;
+    plot.font_size = font;
+  }
   return write_figure(
-      stem, width, head + height * double(rows), "K of the cells in bins of x/L",
+      stem, width, head + key + height * double(rows), name,
       [&](Canvas& canvas) {
         if (head > 0) draw_figure_title(canvas, title);
+        draw_legend(canvas, {9, head + 2, width - 18, key}, legend);
         for (std::size_t k = 0; k < plots.size(); ++k) {
           const std::size_t row = k / columns;
-          const double x = column * double(k % columns), y = head + height * double(row);
+          const double x = column * double(k % columns), y = head + key + height * double(row);
           draw_plot(canvas, {x + 3, y + 3, column - 6, height - 6}, plots[k]);
         }
       },

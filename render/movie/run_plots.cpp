@@ -26,6 +26,16 @@ bool all_caps(const std::vector<NamedRun>& runs) {
                      [](const NamedRun& one) { return on_sphere(one.run->layout); });
 }
 
+double plane_of(const NamedRun& one) { return one.run->layout.actuated_boundary.row(2).mean(); }
+
+bool planes_differ(const std::vector<NamedRun>& runs) {
+  return std::ranges::none_of(runs, [&](const NamedRun& one) {
+    return std::ranges::count_if(runs, [&](const NamedRun& other) {
+             return std::abs(plane_of(one) - plane_of(other)) < 1e-6;
+           }) > 1;
+  });
+}
+
 /// The names of the runs in their colours, one after the other.
 void draw_names(Canvas& canvas, Point at, const std::vector<NamedRun>& runs) {
   for (std::size_t k = 0; k < runs.size(); ++k) {
@@ -51,13 +61,18 @@ void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>
   for (std::size_t k = 0; k < runs.size(); ++k)
     canvas.polyline(place.line(runs[k].run->layout.original_boundary),
                     {runs.size() == 1 ? ink : series_colour(k), 1.4}, true);
+  // of one alone, where its boundary comes to
+  if (runs.size() == 1)
+    canvas.polyline(place.line(runs[0].run->layout.actuated_boundary), {net_ink, 1.1, {4, 2}},
+                    true);
   const Point left{box.x, box.bottom() + 9};
   const Box length = draw_spacing(canvas, left, runs.front().run->layout, place.scale);
   if (runs.size() == 1)
-    canvas.text("flat footprint", {length.right() + 10, left.y},
+    canvas.text("flat footprint; dashed: the shell's rim", {length.right() + 10, left.y},
                 {.size = 8, .align_y = AlignY::middle});
-  // caps are named beside the planes that cut them
-  if (runs.size() > 1 && !all_caps(runs)) draw_names(canvas, {length.right() + 14, left.y}, runs);
+  // caps are named beside the planes that cut them, where these are theirs alone
+  if (runs.size() > 1 && !(all_caps(runs) && planes_differ(runs)))
+    draw_names(canvas, {length.right() + 14, left.y}, runs);
 }
 
 /// A sphere from the side and the planes z = z* of its caps.
@@ -72,22 +87,32 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
         {centre.x + scale * rho * std::cos(angle), centre.y - scale * rho * std::sin(angle)});
   }
   canvas.polyline(arc, {{0.55f, 0.56f, 0.6f, 1}, 1});
+  constexpr double size = 7;
+  double free = INFINITY;  // above it a name may stand
+  std::vector<double> shown;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const double z = runs[k].run->layout.actuated_boundary.row(2).mean();
+    const double z = plane_of(runs[k]);
     const double half = 1.1 * scale * rho, y = centre.y - scale * z;
     const Colour colour = runs.size() == 1 ? ink : series_colour(k);
-    canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4});
     // to a hundredth, and no minus before a zero
-    const double shown = std::round(100 * z / rho) / 100 + 0.0;
+    const double share = std::round(100 * z / rho) / 100 + 0.0;
+    const bool again = std::ranges::find(shown, share) != shown.end();
+    shown.push_back(share);
+    // of two that lie in one plane both are seen
+    const std::vector<double> dash = again ? std::vector<double>{4, 4} : std::vector<double>{};
+    canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4, dash});
+    if (again) continue;
     // one plane has room below it
     if (runs.size() == 1) {
-      canvas.text(fmt::format("*z*^{{*}}/*ρ* = {:g}", shown), {centre.x, y + 3},
+      canvas.text(fmt::format("*z*^{{*}}/*ρ* = {:g}", share), {centre.x, y + 3},
                   {.size = 8, .align_x = AlignX::centre, .align_y = AlignY::top});
       continue;
     }
-    canvas.text(
-        fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", shown), {centre.x + half + 4, y},
-        {.size = std::min(6.5, 0.085 * scale * rho), .colour = colour, .align_y = AlignY::middle});
+    const Point name{centre.x + half + 8, std::min(y, free)};
+    canvas.line({centre.x + half, y}, {name.x - 1.5, name.y}, {colour, 0.6});
+    canvas.text(fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", share), name,
+                {.size = size, .colour = colour, .align_y = AlignY::middle});
+    free = name.y - 1.25 * size;
   }
 }
 

@@ -85,7 +85,7 @@ class WaysGraph {
     for (const Transition& way : states_.transitions)
       if (way.to != 0 && way.to != way.from) draw_way(canvas, way);
     for (const Node& node : nodes_) draw_node(canvas, node);
-    draw_names(canvas, frame.inside);
+    draw_names(canvas, frame.inside.inset(2));
     for (std::size_t k = 0; k < disturbed_.size(); ++k) draw_thumb(canvas, k, box.bottom());
     canvas.text(
         "of 9 disturbances each: back to the state itself; new, to one that the search had not met",
@@ -273,7 +273,7 @@ Result<void> write_transition_graph(const std::filesystem::path& stem,
                                     const record::Trajectory& run, const std::string& title,
                                     const Print& print) {
   WaysGraph graph(states, run);
-  const std::string of_what = "which state goes to which when a hand disturbs it";
+  const std::string of_what = "which state goes to which when it is disturbed";
   return write_figure(
       stem, width, graph.height(), title,
       [&](Canvas& canvas) {
