@@ -43,7 +43,7 @@ struct ScriptLook {
 ScriptLook look_of(const TextRun& run) {
   if (run.level == 0) return {};
   // the sign of a cell is small and near the line: a letter's box looks like a missing letter
-  if (run.text == "□") return {0.6 * script_size, -0.35 * lowered_by};
+  if (run.text == "□") return {0.72 * script_size, -0.5 * lowered_by};
   return {script_size, run.level > 0 ? raised_by : -lowered_by};
 }
 

@@ -104,10 +104,10 @@ class SideBySideMovie {
     part.size = {std::max(16, int((style.width() - legend_ - 2 * em_) / count)),
                  std::max(16, int(style.height() - top() - foot()))};
     // shells are about as high as wide: what is left below shows the forces of pushes
-    const int high = int(1.05 * part.size[0]);
+    const int high = int(0.92 * part.size[0]);
     const bool pushed = std::ranges::any_of(
         runs, [](const ComparedRun& one) { return std::isfinite(one.run->frames.back().force_N); });
-    if (style.captions && pushed && part.size[1] - high > 11 * em_) {
+    if (style.captions && pushed && part.size[1] - high > 8 * em_) {
       spare_ = part.size[1] - high;
       part.size[1] = high;
       std::vector<NamedRun> named;
@@ -151,8 +151,9 @@ class SideBySideMovie {
       mark.add(now.depth_mm, now.force_N);
       plot.series.push_back(std::move(mark));
     }
-    const double y = style_.height() - 2.2 * em_ - spare_;
-    draw_plot(canvas, {em_, y, style_.width() - legend_ - 2 * em_, spare_}, plot);
+    // between the timelines and the last line
+    const double height = spare_ - 0.8 * em_, y = style_.height() - 2.2 * em_ - height;
+    draw_plot(canvas, {em_, y, style_.width() - legend_ - 2 * em_, height}, plot);
   }
 
   double foot() const { return style_.captions ? 4.6 * em_ : 0; }

@@ -136,7 +136,8 @@ Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieS
     show_measured_joints(one.scanned, drawing);
     const record::Layout& layout = one.run->layout;
     const double thin = drawing.rod_diameter_mm;
-    drawing.rod_diameter_mm *= 1.6;
+    // so that a net that its shell meets is seen beside it, not through it
+    drawing.rod_diameter_mm *= 2.2;
     // blocks each on a net of its own
     for (std::size_t k = 0; k < layout.parts.size(); ++k)
       drawing.ghosts.push_back({layout.parts[k].net, layout.parts[k].rods, thin, block_colour(k)});
