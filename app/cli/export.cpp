@@ -138,7 +138,7 @@ TextOf of_plan(auto text) {
   return [text](const ExportOptions& options) -> Result<std::string> {
     TRY(preset, preset_of(options));
     TRY(plan, simulate::fabrication_plan_of(*preset));
-    return text(*plan);
+    return text(exports::rounded(std::move(*plan), preset->figure.cut_step_mm));
   };
 }
 

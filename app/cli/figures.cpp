@@ -53,9 +53,8 @@ Result<void> draw_block_pictures(const record::Trajectory& run, const render::Mo
   TRY_DO(render::write_block_footprints(with_suffix(stem, "_footprint"), run, style.title,
                                         style.print));
   if (run.layout.seam_rods.empty()) return {};
-  render::Plot seams = render::seam_plot(run);
-  seams.title = render::plain(style.title);
-  return render::write_plot(with_suffix(stem, "_seams"), seams, style.print);
+  return render::write_plots(with_suffix(stem, "_seams"), render::seam_plots(run), style.title,
+                             "Seams of the blocks", style.print);
 }
 
 /// "hemisphere: at most 3.10 %", of the joints; where there is room for it, of one shell alone,
@@ -77,7 +76,14 @@ std::string caption_of(const record::Trajectory& run, const std::string& name, b
 Result<void> save_panels(const Result<render::PanelFigure>& figure, const fs::path& file,
                          double dpi) {
   TRY(picture, figure.and_then(render::draw_panels));
-  return render::write_png(*picture, file, dpi);
+  TRY_DO(render::write_png(*picture, file, dpi));
+  if (!figure->panels.front().lines) return {};
+  const double width = figure->print.width_pt(0.5 * picture->width);
+  return render::write_figure(
+      fs::path(file).replace_extension() += "_lines", width,
+      width * picture->height / picture->width, figure->title, [&](render::Canvas& canvas) {
+        render::draw_panels_on(canvas, {0, 0, canvas.width(), canvas.height()}, *figure, true);
+      });
 }
 
 Result<void> draw_net_pictures(const Runs& runs, render::Renderer& renderer, const fs::path& stem,

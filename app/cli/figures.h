@@ -24,7 +24,8 @@ Result<void> draw_all(std::vector<Run>& runs, const std::string& title,
                       const std::filesystem::path& stem, render::Renderer& renderer,
                       const std::filesystem::path& folder, Progress& progress);
 
-/// Draws panels side by side as a PNG. Errors: those of the figure, io.
+/// Draws panels side by side as a PNG, and where they have lines `<stem>_lines` as those. Errors:
+/// those of the figure, io.
 Result<void> save_panels(const Result<render::PanelFigure>& figure,
                          const std::filesystem::path& file, double dpi = 0);
 

@@ -19,6 +19,7 @@ void add_changes(CommandArguments command, Options& options) {
   command.option("--quality", options.quality, "draft, movie or figure");
   command.option("--width", options.width, "width of a figure as printed: 85mm");
   command.option("--dpi", options.dpi, "pixels of an inch, with --width");
+  command.flag("--pdf", options.pdf, "stills as lines too, as PDF and SVG: figure.vector");
 }
 
 void add_preset_options(CommandArguments command, Options& options) {
@@ -73,6 +74,7 @@ Result<std::vector<preset::Override>> overrides_of(const Options& options) {
     overrides.push_back({"--width", "figure.width_mm", number});
   }
   if (!options.dpi.empty()) overrides.push_back({"--dpi", "figure.dpi", options.dpi});
+  if (options.pdf) overrides.push_back({"--pdf", "figure.vector", "true"});
   if (!options.size.empty()) {
     TRY(size, size_of(options.size));
     overrides.push_back(

@@ -23,12 +23,13 @@ struct Options {
   std::string context = "auto";
   std::string size, quality, frames, width, dpi;
   bool print_config = false;
+  bool pdf = false;
 };
 
 /// PRESET and everything that changes it: --set, --frames, --size, --quality, --print-config.
 void add_preset_options(CommandArguments command, Options& options);
 
-/// What changes a preset or the pictures of a run: --set, --size, --quality, --width, --dpi.
+/// What changes a preset or the pictures of a run: --set, --size, --quality, --width, --dpi, --pdf.
 void add_changes(CommandArguments command, Options& options);
 
 /// -o, --threads, --quiet: of commands that work for a while.

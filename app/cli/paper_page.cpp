@@ -76,25 +76,23 @@ class PageMaker {
     return at_size(std::move(style), width_mm, height_mm, records_.front()->preset.figure.dpi);
   }
 
-  Result<void> add_photo(Page& page, const std::string& letter, const Box& box_mm) {
-    const std::string& file = records_.front()->preset.page.photo;
-    if (file.empty()) {
-      page.add_empty(letter, box_mm, "photograph");
-      return {};
-    }
-    TRY(photo, as_input(render::read_png(file)));
-    page.add_image(letter, "", box_mm, std::move(*photo));
+  bool has_photo() const { return !records_.front()->preset.page.photo.empty(); }
+  Result<void> add_photo(Page& page, const Box& box_mm) {
+    TRY(photo, as_input(render::read_png(records_.front()->preset.page.photo)));
+    page.add_image("A", "", box_mm, std::move(*photo));
     return {};
   }
 
-  /// A photograph, and the shell on its way, all at one scale.
+  /// A photograph, and beside it the shell on its way, all at one scale; without one the states
+  /// stand beside one another.
   Result<Page> fig1() {
-    Page page{178, 120, {}};
-    TRY_DO(add_photo(page, "A", {2, 2, 92, 116}));
     const record::Trajectory& run = records_.front()->trajectory;
-    constexpr double width = 62, caption = 12 * 25.4 / 72;
+    const bool photo = has_photo();
     const int count = int(run.frames.size());
-    const double height = 116.0 / count;
+    constexpr double caption = 12 * 25.4 / 72;
+    const double width = photo ? 62 : 154.0 / count, height = photo ? 116.0 / count : 42;
+    Page page{178, photo ? 120.0 : 46.0, {}};
+    if (photo) TRY_DO(add_photo(page, {2, 2, 92, 116}));
     render::MovieStyle style = sized(style_, width, height - caption);
     style.captions = style.inset = style.legends = false;
     style.turn_deg = 0;
@@ -104,40 +102,68 @@ class PageMaker {
     for (int k = 0; k < count; ++k) {
       const record::Frame& frame = run.frames[std::size_t(k)];
       TRY(picture, stage.draw_views(renderer_, {frame, k}));
-      render::Panel panel{std::move(*picture), fmt::format("B{}", k + 1), ""};
+      render::Panel panel{std::move(*picture), fmt::format("{}{}", photo ? "B" : "A", k + 1), ""};
       if (style.vector) panel.lines = render::shell_lines(stage.drawing(frame), stage.camera(k));
-      page.add_panel(render::frame_state_caption(frame), {97, 2 + k * height, width, height},
-                     std::move(panel));
+      const Box box =
+          photo ? Box{97, 2 + k * height, width, height} : Box{2 + k * width, 2, width, height};
+      page.add_panel(render::frame_state_caption(frame), box, std::move(panel));
       watch_.report(double(k + 1) / count);
     }
-    if (const auto& bar = stage.colour_bar()) page.add_colour_bar({157, 4, 19, 48}, *bar);
+    if (const auto& bar = stage.colour_bar())
+      page.add_colour_bar({157, 3, 19, photo ? 48.0 : 40.0}, *bar);
     const double bar_mm = records_.front()->preset.figure.scale_bar_mm;
-    page.add_scale_bar({160, 106, 16, 10}, bar_mm, units);
+    page.add_scale_bar({photo ? 158.0 : 2.0, photo ? 106.0 : 36.0, 18, 8}, bar_mm, units);
     return page;
   }
 
   /// Domain, shell over its net, distances from the centre with what was scanned, caps.
   Result<Page> fig3() {
-    Page page{178, 130, {}};
-    TRY_DO(add_photo(page, "A", {2, 2, 52, 50}));
-    page.add("B", "", {56, 2, 120, 50}, [runs = named_shells_](Canvas& canvas, const Box& box) {
-      render::draw_footprints(canvas, box, runs);
-    });
+    Page page{178, 135, {}};
+    const bool photo = has_photo();
+    if (photo) TRY_DO(add_photo(page, {2, 2, 52, 50}));
+    const Box domains = photo ? Box{56, 2, 120, 50} : Box{2, 2, 174, 50};
+    page.add(photo ? "B" : "A", "", domains,
+             [runs = named_shells_](Canvas& canvas, const Box& box) {
+               render::draw_footprints(canvas, box, runs);
+             });
     const Box left{2, 54, 84, 40}, below{2, 96, 174, 33};
     TRY(over, render::draw_over_nets({shells_.front()}, filling(left, 1), renderer_, watch_));
-    page.add_figure("C", left, std::move(*over));
+    page.add_figure(photo ? "C" : "B", left, std::move(*over));
     page.add_plot("", {90, 54, 86, 40},
                   render::latitude_plot(named_shells_.front(), shells_.front().scanned));
     const int columns = std::min(6, int(shells_.size()));
     TRY(caps, render::draw_deviations(shells_, filling(below, columns, true), renderer_, watch_,
                                       columns));
-    page.add_figure("D", below, std::move(*caps));
+    page.add_figure(photo ? "D" : "C", below, std::move(*caps));
+    note_shell(page, 130);
     return page;
+  }
+
+  /// Which of the hemispheres a page shows: their deviation depends on where the rods lie.
+  void note_shell(Page& page, double y) const {
+    const Run& one = *records_.front();
+    if (one.preset.net.cut_height != 0 || !render::on_sphere(one.trajectory.layout)) return;
+    const bool axis = one.preset.footprint.placement == preset::Placement::on_axis;
+    page.add_note(
+        {2, y, 174, 4},
+        fmt::format(
+            "Hemisphere with rods {}: {} joints, at most {:.2f} % of *ρ* off the net (Δ).",
+            axis ? "on the axes, so that one joint is the pole" : "half a spacing off the axes",
+            one.trajectory.layout.joints.size(), 100 * one.summary.max_deviation));
+  }
+
+  /// What the totals of K are compared with.
+  static std::string total_text(const record::Trajectory& run) {
+    const double total = run.frames.front().total_K, turned = 2 * M_PI - total;
+    return fmt::format(
+        "D: unloaded, Σ*K*_{{□}} = 2*π* − {:.3f} rad = {:.3f} rad; 2*π* less what the outer cells "
+        "turn along their boundary.",
+        turned, total);
   }
 
   /// Shells over their nets, K of their cells, and one of them under point loads.
   Result<Page> fig4() {
-    Page page{178, 190, {}};
+    Page page{178, 199, {}};
     const Box above{2, 2, 174, 44}, middle{2, 94, 174, 50};
     TRY(over, render::draw_over_nets(shells_, filling(above, std::min(3, int(shells_.size()))),
                                      renderer_, watch_));
@@ -154,9 +180,14 @@ class PageMaker {
                             run.frames.back(), {-0.01, 0.07}, page_font);
       // too low for more words; B has them
       plot.y.label = "mean *K*_{□} (rad)";
+      if (k == 0) page.add_legend({2, 146, 174, 5}, plot);
+      plot.legend = render::LegendPlace::none;
       const double width = 174.0 / double(named_pushes_.size());
-      page.add_plot(k == 0 ? "D" : "", {2 + width * double(k), 146, width - 1, 43}, plot);
+      page.add_plot(k == 0 ? "D" : "", {2 + width * double(k), 151, width - 1, 38}, plot);
     }
+    if (!named_pushes_.empty())
+      page.add_note({2, 189, 174, 4}, total_text(*named_pushes_.front().run));
+    note_shell(page, 193.5);
     return page;
   }
 
@@ -171,6 +202,8 @@ class PageMaker {
       render::draw_block_footprints(canvas, box, run);
     });
     TRY(over, render::draw_over_nets(shells_, filling(below, 1), renderer_, watch_));
+    // the blocks' colours stand above
+    over->keys = {{over->keys.front().colour, "shell at rest, over the nets of A"}};
     page.add_figure("C", below, std::move(*over));
     page.add_plot("D", {116, 58, 60, 57}, render::curvature_plot(named_shells_));
     return page;

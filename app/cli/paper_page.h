@@ -45,6 +45,20 @@ struct Page {
       render::draw_empty_frame(canvas, box, text);
     });
   }
+  /// Words from the left.
+  void add_note(const render::Box& box_mm, const std::string& text) {
+    add("", "", box_mm, [text](render::Canvas& canvas, const render::Box& box) {
+      canvas.text(text, {box.x, box.middle().y},
+                  {.size = page_font, .align_y = render::AlignY::middle});
+    });
+  }
+  /// Of plots that share it.
+  void add_legend(const render::Box& box_mm, render::Plot plot) {
+    plot.font_size = page_font;
+    add("", "", box_mm, [plot = std::move(plot)](render::Canvas& canvas, const render::Box& box) {
+      render::draw_legend(canvas, box, plot);
+    });
+  }
   void add_keys(const render::Box& box_mm, std::vector<render::ColourKey> keys) {
     add("", "", box_mm, [keys = std::move(keys)](render::Canvas& canvas, const render::Box& box) {
       render::draw_colour_keys(canvas, box, keys, page_font);

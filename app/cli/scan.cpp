@@ -166,7 +166,7 @@ std::vector<Candidate> candidates_of(const std::vector<Run>& runs, const fs::pat
       all.push_back({&run, frames - 1, name});
     else
       for (std::size_t k = 0; k < std::min(frames, run.states.rows.size()); ++k)
-        all.push_back({&run, k, fmt::format("{}, state {}", name, run.states.rows[k].state)});
+        all.push_back({&run, k, name + ", state " + run.states.rows[k].name()});
   }
   return all;
 }

@@ -30,9 +30,16 @@ std::string class_text(StateClass kind) {
   return kind == StateClass::other ? "other" : "state *" + std::string(word_of(kind)) + "*";
 }
 
+/// What a state is that the paper has no class for, where that can be said in words.
+std::string dome_text(const StateRow& row) {
+  return row.kind == StateClass::other && row.first_order()
+             ? ", a leaning dome, rods of first order"
+             : "";
+}
+
 std::string caption_of(const StateRow& row, const record::StateSearch& search) {
-  return fmt::format("{}, {}: {:.2f} mJ, met {} in {}", class_text(row.kind), group_text(row.group),
-                     row.energy_mJ(), row.count, search.at_rest);
+  return fmt::format("*{}*, {}{}\n{:.2f} mJ, met {} in {}", row.name(), group_text(row.group),
+                     dome_text(row), row.energy_mJ(), row.count, search.at_rest);
 }
 
 /// "153 states in 900 trials; about 214 in all (186 to 262)"
@@ -130,18 +137,20 @@ std::string found_text(const record::StateTables& states) {
     text += fmt::format("  {} trials: {}\n", count, why);
   for (const std::size_t k : record::states_to_draw(states.rows, 4)) {
     const StateRow& row = states.rows[k];
-    text += fmt::format(
-        "  state {}: {}, class {}, {:.3f} mJ of bending, height {:.2f} mm, met {}\n", row.state,
-        row.group, word_of(row.kind), row.energies[Term::bend], row.height_mm, row.count);
+    text += fmt::format("  state {}: {}{}, {:.3f} mJ of bending, height {:.2f} mm, met {}\n",
+                        row.name(), row.group, dome_text(row), row.energies[Term::bend],
+                        row.height_mm, row.count);
   }
   if (search.ways_followed > 0)
-    text += fmt::format("  barriers: {} passes found on {} ways\n", search.passes_found,
-                        search.ways_followed);
+    text += fmt::format("  barriers: {} saddles found on {} paths from state to state\n",
+                        search.passes_found, search.ways_followed);
   for (const record::Barrier& one : states.barriers)
     if (one.to != 0)
       text +=
           fmt::format("  from state {} to {}: {:.4g} mJ, back {:.4g} mJ (on {} edges a segment)\n",
-                      one.from, one.to, one.barrier_mJ, one.back_mJ, search.judged_edges);
+                      states.rows[std::size_t(one.from) - 1].name(),
+                      states.rows[std::size_t(one.to) - 1].name(), one.barrier_mJ, one.back_mJ,
+                      search.judged_edges);
   return text;
 }
 
@@ -260,7 +269,7 @@ Result<void> add_states(Page& page, const Run& one, render::MovieStyle style,
                                style.width(), style.height()));
     render::Panel panel{std::move(*picture), "A" + std::to_string(k + 1), ""};
     if (style.vector) panel.lines = render::shell_lines(std::move(drawing), stage.camera(int(k)));
-    page.add_panel(fmt::format("state *{}*, {}: {:.2f} mJ, {:.1f} mm high", word_of(row.kind),
+    page.add_panel(fmt::format("*{}*, {}: {:.2f} mJ, {:.1f} mm high", row.name(),
                                group_text(row.group), row.energy_mJ(), row.height_mm),
                    {above.x + double(k) * width, above.y, width, above.height}, std::move(panel));
     watch.report(double(k + 1) / double(which.size()));
@@ -295,11 +304,7 @@ void add_foot(Page& page, const preset::Preset& preset) {
   const std::string shell =
       fmt::format("A at {}; all: circles, *d* = {:g} mm, *R*_{{a}} = {:.3g} *R*_{{o}}",
                   place_of(preset), d, preset.actuated_radius_mm() / preset.original_radius_mm());
-  if (preset.footprint.kind == preset::FootprintKind::circle)
-    page.add("", "", foot, [shell](Canvas& canvas, const Box& box) {
-      canvas.text(shell, {box.x, box.middle().y},
-                  {.size = page_font, .align_y = render::AlignY::middle});
-    });
+  if (preset.footprint.kind == preset::FootprintKind::circle) page.add_note(foot, shell);
 }
 
 /// A state of each class from above, each as large as its place.
@@ -309,15 +314,12 @@ void add_maps(Page& page, const Runs& records) {
   for (const StateClass kind : {StateClass::i, StateClass::ii, StateClass::iii, StateClass::iv}) {
     const Box box{maps.x + width * (place % 2), maps.y + height * (place / 2), width, height};
     const std::string letter = "C" + std::to_string(++place);
-    const std::string name(word_of(kind));
     const auto found = lowest_of(kind, records);
     if (!found) {
-      page.add(letter, "", box, [name](Canvas& canvas, const Box& inside) {
-        render::draw_empty_frame(canvas, inside, "no state " + name);
-      });
+      page.add_empty(letter, box, "no state " + std::string(word_of(kind)));
       continue;
     }
-    const auto words = fmt::format("*{}*, {}", name, group_text(found->row().group));
+    const auto words = fmt::format("*{}*, {}", found->row().name(), group_text(found->row().group));
     page.add(letter, words, box,
              [found = *found, where = place_of(found->record->preset)](Canvas& canvas,
                                                                        const Box& inside) {

@@ -145,6 +145,8 @@ void add_figure(FieldList<Figure> list) {
       at_least(0), "width of a whole figure as printed; 0: as many pixels as [movie] size says");
   list.add<&Figure::dpi>(between(30, 2400), "pixels of an inch, where a width is given")
       .unit("1/inch");
+  list.add<&Figure::cut_step_mm>(
+      between(0, 10), "lengths and marks of exported cut lists are multiples of it; 0: all digits");
   list.add<&Figure::vector>(
       "whether stills are also drawn as lines, as SVG and PDF, hidden ones faded");
 }

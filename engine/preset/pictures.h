@@ -78,6 +78,7 @@ struct Figure {
   double width_mm = 0;  ///< as printed; 0: as many pixels as movie.size says
   double dpi = 300;
   bool vector = false;           ///< shells as lines beside the pictures of them
+  double cut_step_mm = 0.1;      ///< lengths and marks of cut lists are multiples of it; 0: as are
   std::vector<double> radii_mm;  ///< boundary radii of the stills
   double scale_bar_mm = 20;
   Points scan;  ///< (x, y, z) of joints measured by others

@@ -31,7 +31,30 @@ std::string space_separated(const std::vector<double>& numbers) {
   return row;
 }
 
+/// Without digits of its own where the step is a tenth, a hundredth, ...
+double to_step(double value, double step) {
+  return step < 1 ? std::round(value / step) / std::round(1 / step)
+                  : std::round(value / step) * step;
+}
+
 }  // namespace
+
+FabricationPlan rounded(FabricationPlan plan, double step_mm) {
+  if (!(step_mm > 0)) return plan;
+  const auto round = [&](double value) { return to_step(value, step_mm); };
+  for (CutRod& rod : plan.rods) {
+    rod.length_mm = round(rod.length_mm);
+    for (auto* marks : {&rod.joint_marks_mm, &rod.pin_marks_mm})
+      for (double& mark : *marks) mark = round(mark);
+    if (rod.joint_marks_mm.empty()) continue;
+    const auto [first, last] = std::ranges::minmax(rod.joint_marks_mm);
+    double begin = 0, end = rod.length_mm;  // its edge points
+    for (const double pin : rod.pin_marks_mm) (pin < first ? begin : end) = pin;
+    if (std::isfinite(rod.leg_begin_mm)) rod.leg_begin_mm = round(first - begin);
+    if (std::isfinite(rod.leg_end_mm)) rod.leg_end_mm = round(end - last);
+  }
+  return plan;
+}
 
 Drawing footprint_drawing(const FabricationPlan& work) {
   Layer rods{"rods", 7}, tails{"tails", 3}, joints{"joints", 5}, boundary{"boundary", 1},

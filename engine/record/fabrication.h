@@ -73,6 +73,10 @@ struct FabricationPlan {
   }
 };
 
+/// Lengths and marks as multiples of a step (0: as they are): marks lie at rounded distances from a
+/// rod's begin, and legs are what is left between them, so that pieces add up to their rod.
+FabricationPlan rounded(FabricationPlan plan, double step_mm);
+
 // Files for the workshop: the footprint and the plate as drawings, the cut list and the pins as
 // tables.
 

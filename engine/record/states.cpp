@@ -138,6 +138,15 @@ double StateRow::energy_mJ() const {
   return sum;
 }
 
+std::string StateRow::name() const {
+  return std::string(word_of(kind)) + "." + std::to_string(state);
+}
+
+bool StateRow::first_order() const {
+  return inflections.find_first_of("123456789") == std::string::npos &&
+         inflections.find('0') != std::string::npos;
+}
+
 std::vector<std::size_t> states_to_draw(const std::vector<StateRow>& rows, int most) {
   std::vector<std::size_t> order(rows.size()), chosen;
   std::iota(order.begin(), order.end(), std::size_t(0));

@@ -56,6 +56,10 @@ struct StateRow {
 
   /// The potential; terms that the files of an earlier version do not tell count for nothing.
   double energy_mJ() const;
+  /// Class and number, "ii.2".
+  std::string name() const;
+  /// Whether no rod has an inflection.
+  bool first_order() const;
 };
 template <RecordOf<StateRow> Row, class Visit>
 void fields(Row& row, const Visit& visit) {

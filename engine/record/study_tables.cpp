@@ -18,7 +18,7 @@ double exponent(const std::vector<double>& x, const std::vector<double>& y) {
     n += 1, sx += a, sy += b, sxx += a * a, sxy += a * b;
   }
   const double spread = n * sxx - sx * sx;
-  return n > 1 && spread > 0 ? (n * sxy - sx * sy) / spread : unknown;
+  return n >= 4 && spread > 0 ? (n * sxy - sx * sy) / spread : unknown;
 }
 
 std::vector<std::size_t> pareto_front(const std::vector<AccuracyRow>& rows) {

@@ -74,7 +74,7 @@ void fields(Row& row, const Visit& visit) {
              "y_name", row.y_name, "y", row.y, "outcome", row.outcome);
 }
 
-/// Slope of log(y) over log(x) by least squares; NaN for fewer than two positive points.
+/// Slope of log(y) over log(x) by least squares; NaN for fewer than four positive points.
 double exponent(const std::vector<double>& x, const std::vector<double>& y);
 
 /// Indices of the points that no other is both faster and more accurate than, from the fastest to

@@ -36,15 +36,26 @@ void insert(PangoAttrList* list, PangoAttribute* attribute, guint from, guint to
   pango_attr_list_insert(list, attribute);
 }
 
+/// Size and rise of a piece of text, over those of the whole.
+struct ScriptLook {
+  double size = 1, rise = 0;
+};
+ScriptLook look_of(const TextRun& run) {
+  if (run.level == 0) return {};
+  // the sign of a cell is small and near the line: a letter's box looks like a missing letter
+  if (run.text == "□") return {0.72 * script_size, -0.5 * lowered_by};
+  return {script_size, run.level > 0 ? raised_by : -lowered_by};
+}
+
 PangoAttrList* attributes(const std::vector<TextRun>& runs, double size) {
   PangoAttrList* list = pango_attr_list_new();
   guint from = 0;
   for (const TextRun& run : runs) {
     const guint to = from + static_cast<guint>(run.text.size());
     if (run.level != 0) {
-      const double rise = run.level > 0 ? raised_by : -lowered_by;
-      insert(list, pango_attr_size_new(int(script_size * size * PANGO_SCALE)), from, to);
-      insert(list, pango_attr_rise_new(int(rise * size * PANGO_SCALE)), from, to);
+      const ScriptLook look = look_of(run);
+      insert(list, pango_attr_size_new(int(look.size * size * PANGO_SCALE)), from, to);
+      insert(list, pango_attr_rise_new(int(look.rise * size * PANGO_SCALE)), from, to);
     }
     if (run.slanted) insert(list, pango_attr_style_new(PANGO_STYLE_OBLIQUE), from, to);
     from = to;
@@ -273,13 +284,12 @@ std::string text_element(PangoLayout* layout, const std::vector<TextRun>& runs, 
     std::size_t begin = 0, index = 0;
     while (index + 1 < runs.size() && begin + runs[index].text.size() <= from)
       begin += runs[index++].text.size();
-    const TextRun look = runs.empty() ? TextRun{} : runs[index];
-    const double rise = look.level == 0 ? 0 : look.level > 0 ? raised_by : -lowered_by;
+    const TextRun piece = runs.empty() ? TextRun{} : runs[index];
+    const ScriptLook look = look_of(piece);
     const double y = at.y + double(pango_layout_iter_get_baseline(iter)) / PANGO_SCALE;
     spans += fmt::format("<tspan x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\"{}>{}</tspan>",
-                         at.x + double(logical.x) / PANGO_SCALE, y - rise * style.size,
-                         look.level == 0 ? style.size : script_size * style.size,
-                         look.slanted ? " font-style=\"oblique\"" : "",
+                         at.x + double(logical.x) / PANGO_SCALE, y - look.rise * style.size,
+                         look.size * style.size, piece.slanted ? " font-style=\"oblique\"" : "",
                          escape_xml(letters.substr(from, length)));
   } while (pango_layout_iter_next_run(iter));
   pango_layout_iter_free(iter);

@@ -47,7 +47,7 @@ void draw_colours(Canvas& canvas, const Box& bar, const ColourScale& scale) {
 void draw_words(Canvas& canvas, const Box& box, const ColourBar& bar, double font_size) {
   if (bar.words.empty() || box.width < colour_bar_width(canvas, bar, font_size) - 0.3 * font_size)
     return;
-  constexpr double smallest = 0.7;
+  constexpr double smallest = 0.955;  // of a page's 7 points that is 6
   TextStyle style{.size = 0.9 * font_size, .align_x = AlignX::centre, .align_y = AlignY::middle};
   style.angle_deg = 90;
   const double share = 1.1 * box.height / std::max(1.0, canvas.measure(bar.words, style).width);

@@ -43,9 +43,11 @@ Grid make_grid(const PanelFigure& figure) {
       1.1 * grid.columns * grid.width / (figure.print.width_mm / 25.4 * 72);
   grid.em = std::max(7.5, 8.5 * pixels_per_pt);
   grid.gap = grid.margin = std::round(0.6 * grid.em);
-  const bool captions = std::any_of(figure.panels.begin(), figure.panels.end(),
-                                    [](const Panel& p) { return !p.caption.empty(); });
-  grid.caption = captions ? std::round(1.7 * grid.em) : 0;
+  long lines = 0;
+  for (const Panel& panel : figure.panels)
+    if (!panel.caption.empty())
+      lines = std::max(lines, 1 + std::ranges::count(panel.caption, '\n'));
+  grid.caption = lines > 0 ? std::round((0.5 + 1.2 * double(lines)) * grid.em) : 0;
   grid.head = figure.title.empty() ? 0 : std::round(1.7 * grid.em);
   grid.keys = figure.keys.empty() ? 0 : std::round(1.7 * grid.em);
   grid.foot = figure.scale_bar_mm > 0 ? std::round(1.9 * grid.em) : 0;

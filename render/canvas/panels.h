@@ -15,7 +15,7 @@ namespace gridshell::render {
 struct Panel {
   Image picture;
   std::string letter;   ///< marked text, bold, at the upper left: "a"
-  std::string caption;  ///< marked text below: "*R*_{a} = 115.9 mm"
+  std::string caption;  ///< marked text below, in lines: "*R*_{a} = 115.9 mm"
   /// The same as lines, that stay sharp however they are enlarged; empty: there is the picture
   /// alone.
   std::function<void(Canvas&, const Box&)> lines = {};

@@ -207,6 +207,13 @@ void draw_plot(Canvas& canvas, const Box& box, const Plot& plot) {
     legend.draw_in_corner(canvas, frame, corner);
 }
 
+void draw_legend(Canvas& canvas, const Box& box, const Plot& plot) {
+  const Legend legend(canvas, plot);
+  PlotFrame frame;
+  frame.inside = box;
+  if (!legend.empty()) legend.draw_above(canvas, frame, box.y);
+}
+
 Result<void> write_plot(const std::filesystem::path& stem, const Plot& plot, const Print& print,
                         double height_over_width) {
   constexpr double column_mm = 88;

@@ -25,7 +25,7 @@ struct Axis {
   std::string label;  ///< marked text with its unit: "*R*_{a} (mm)"
   bool logarithmic = false;
   std::optional<double> low = {}, high = {};  ///< otherwise from the data, with a margin
-  int ticks = 6;                              ///< about so many labels
+  int ticks = 6;                              ///< about so many labels; 0: none, nor ticks
 };
 
 enum class SeriesKind { points, bars };
@@ -116,6 +116,9 @@ struct Plot {
     if (!one.x.empty()) series.push_back(std::move(one));
   }
 };
+
+/// The legend of a plot alone, in rows from the top of `box`: of several that share it.
+void draw_legend(Canvas& canvas, const Box& box, const Plot& plot);
 
 /// Draws the plot with its labels into `box`; nothing reaches outside.
 void draw_plot(Canvas& canvas, const Box& box, const Plot& plot);

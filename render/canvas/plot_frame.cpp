@@ -70,6 +70,7 @@ PlotAxis choose_range(const Plot& plot, bool of_x) {
 }
 
 std::vector<Tick> ticks_of(const PlotAxis& axis, int count) {
+  if (count == 0) return {};
   return axis.logarithmic ? log_ticks(axis.low, axis.high, count)
                           : linear_ticks(axis.low, axis.high, count);
 }

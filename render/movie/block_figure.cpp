@@ -171,11 +171,14 @@ Result<void> write_block_footprints(const std::filesystem::path& stem,
       print);
 }
 
-Plot seam_plot(const record::Trajectory& run) {
-  Plot plot;
-  plot.x.label = "place along the seam (mm)";
-  plot.y.label = "gap (mm), kink (°)";
-  plot.y.low = 0;
+std::vector<Plot> seam_plots(const record::Trajectory& run) {
+  std::vector<Plot> plots(2);
+  for (Plot& plot : plots) {
+    plot.x.label = "place along the seam (mm)";
+    plot.y.low = 0;
+  }
+  plots[0].y.label = "gap (mm)";
+  plots[1].y.label = "kink (°)";
   std::map<std::string, std::array<Series, 2>> seams;
   // a seam runs across both families: its middle has the mean of the lines of each
   std::map<std::pair<std::string, char>, std::pair<double, int>> lines;
@@ -194,18 +197,17 @@ Plot seam_plot(const record::Trajectory& run) {
   }
   std::size_t index = 0;
   for (auto& [name, pair] : seams) {
-    for (int k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < 2; ++k) {
       // seams may be mirror images: the later ones lie inside
-      Series marks =
-          mark_series(plain(name) + (k == 0 ? ", gap" : ", kink"), series_colour(index),
-                      series_marker(index), std::max(2.2, 5.4 - 2.0 * double(index)), k == 1);
-      marks.x = std::move(pair[std::size_t(k)].x);
-      marks.y = std::move(pair[std::size_t(k)].y);
-      plot.add(std::move(marks));
+      Series marks = mark_series(plain(name), series_colour(index), series_marker(index),
+                                 std::max(2.2, 5.4 - 2.0 * double(index)));
+      marks.x = std::move(pair[k].x);
+      marks.y = std::move(pair[k].y);
+      plots[k].add(std::move(marks));
     }
     ++index;
   }
-  return plot;
+  return plots;
 }
 
 }  // namespace gridshell::render

@@ -83,6 +83,7 @@ MovieStyle movie_style(const preset::Preset& preset) {
   style.elevation_deg = from.elevation_deg;
   style.title = preset.title;
   style.source = preset.source;
+  style.description = preset.description;
   style.font_scale = preset.style.font_size;
   style.look = appearance_of(preset.style);
   return style;
@@ -138,16 +139,21 @@ Image title_card(const MovieStyle& style) {
     std::string text = in_lines(canvas, style.title, 0.84 * w, title);
     for (int k = 0; k < 12; ++k) {
       const Box box = canvas.measure(plain(text), title);
-      if (box.width <= 0.9 * w && box.height <= 0.5 * h) break;
+      if (box.width <= 0.9 * w && box.height <= 0.3 * h) break;
       title.size *= 0.9;
       text = in_lines(canvas, style.title, 0.84 * w, title);
     }
-    canvas.text(plain(text), {w / 2, 0.45 * h}, title);
+    canvas.text(plain(text), {w / 2, 0.36 * h}, title);
+    TextStyle more{.size = 0.5 * title.size, .align_x = AlignX::centre, .align_y = AlignY::top};
+    const std::string said = in_lines(canvas, style.description, 0.8 * w, more);
+    const double high = canvas.measure(plain(said), more).height;
+    more.size *= std::min(1.0, 0.24 * h / std::max(1.0, high));
+    canvas.text(plain(said), {w / 2, 0.52 * h}, more);
     const TextStyle source{.size = 0.5 * title.size,
                            .colour = pale_ink,
                            .align_x = AlignX::centre,
                            .align_y = AlignY::middle};
-    canvas.text(plain(style.source), {w / 2, 0.8 * h},
+    canvas.text(plain(style.source), {w / 2, 0.86 * h},
                 canvas.fitted(plain(style.source), 0.9 * w, source));
   });
 }

@@ -20,7 +20,7 @@ using preset::Quality;
 /// What things look like, the theme's choices and the user's in one.
 struct Appearance {
   double rod_mm = 0, joint_mm = 3, ring_mm = 1.4;  ///< widths as drawn, no less than a pixel
-  Colour rod{0.16f, 0.17f, 0.20f, 1}, joint{0.75f, 0.12f, 0.10f, 1}, ring{0.3f, 0.33f, 0.38f, 1},
+  Colour rod{0.16f, 0.17f, 0.20f, 1}, joint{0.52f, 0.53f, 0.55f, 1}, ring{0.3f, 0.33f, 0.38f, 1},
       background{1, 1, 1, 1};  ///< a background of alpha 0 stays out of the picture
   ColourMap map = nullptr;     ///< null: by the values
   std::vector<double> range;   ///< (low, high) of the colours; empty: by the values
@@ -39,14 +39,15 @@ Appearance appearance_of(const preset::Style& style);
 /// What the preset says of movies (of stills the quality is that of figures), and what it says
 /// elsewhere. Standard views are in azimuth and elevation.
 struct MovieStyle : preset::Movie {
-  bool legends = true;      ///< the colour bar
-  bool heading = false;     ///< room above for two lines of a still
-  double scale_bar_mm = 0;  ///< 0: none
-  std::string title = {};   ///< shown as it is
-  std::string source = {};  ///< figure or movie that it follows, on the title card
-  Print print = {};         ///< of figures
-  bool vector = false;      ///< stills as lines too
-  double font_scale = 1;    ///< of all text
+  bool legends = true;           ///< the colour bar
+  bool heading = false;          ///< room above for two lines of a still
+  double scale_bar_mm = 0;       ///< 0: none
+  std::string title = {};        ///< shown as it is
+  std::string source = {};       ///< figure or movie that it follows, on the title card
+  std::string description = {};  ///< what is shown and what moves, there too
+  Print print = {};              ///< of figures
+  bool vector = false;           ///< stills as lines too
+  double font_scale = 1;         ///< of all text
   Appearance look = {};
 
   int width() const { return size[0]; }
@@ -66,8 +67,8 @@ DrawQuality draw_quality(const MovieStyle& style);
 
 // What stands before a movie: its title and what it follows.
 
-/// A card of the movie's size with its title and, where there is one, its source below. Long titles
-/// are set in several lines, and smaller until they fit.
+/// A card of the movie's size with its title and, where there are any, its description and source
+/// below. Long titles are set in several lines, and smaller until they fit.
 Image title_card(const MovieStyle& style);
 
 }  // namespace gridshell::render

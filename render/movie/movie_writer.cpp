@@ -11,6 +11,7 @@
 #include "render/movie/colour_by.h"
 #include "render/movie/frame_overlay.h"
 #include "render/movie/frame_writer.h"
+#include "render/movie/run_figures.h"
 #include "render/movie/stage.h"
 
 namespace gridshell::render {
@@ -102,6 +103,19 @@ class SideBySideMovie {
     const int count = int(runs.size());
     part.size = {std::max(16, int((style.width() - legend_ - 2 * em_) / count)),
                  std::max(16, int(style.height() - top() - foot()))};
+    // shells are about as high as wide: what is left below shows the forces of pushes
+    const int high = int(0.92 * part.size[0]);
+    const bool pushed = std::ranges::any_of(
+        runs, [](const ComparedRun& one) { return std::isfinite(one.run->frames.back().force_N); });
+    if (style.captions && pushed && part.size[1] - high > 8 * em_) {
+      spare_ = part.size[1] - high;
+      part.size[1] = high;
+      std::vector<NamedRun> named;
+      for (const ComparedRun& one : runs) named.push_back({one.run, plain(one.name)});
+      forces_ = force_plot(named);
+      forces_.font_size = 0.9 * em_;
+      for (Series& series : forces_.series) series.marker = Marker::none;
+    }
     for (std::size_t k = 0; k < runs.size(); ++k)
       stages_.push_back(
           std::make_unique<Stage>(runs[k].run->layout, std::move(surveys[k]), part, bar_));
@@ -128,6 +142,20 @@ class SideBySideMovie {
 
  private:
   double top() const { return style_.captions ? 6.2 * em_ : 0; }
+  /// The forces over the depths, and where the shells are on them.
+  void draw_forces(Canvas& canvas, int index) const {
+    Plot plot = forces_;
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+      const record::Frame& now = frame(k, at(*stages_[k], index));
+      Series mark = mark_series("", series_colour(k), Marker::circle, 0.6 * em_);
+      mark.add(now.depth_mm, now.force_N);
+      plot.series.push_back(std::move(mark));
+    }
+    // between the timelines and the last line
+    const double height = spare_ - 0.8 * em_, y = style_.height() - 2.2 * em_ - height;
+    draw_plot(canvas, {em_, y, style_.width() - legend_ - 2 * em_, height}, plot);
+  }
+
   double foot() const { return style_.captions ? 4.6 * em_ : 0; }
   const record::Frame& frame(std::size_t run, int k) const {
     return runs_[run].run->frames[std::size_t(k)];
@@ -166,6 +194,7 @@ class SideBySideMovie {
                       0.95 * em_);
     }
     if (!style_.captions) return;
+    if (spare_ > 0) draw_forces(canvas, index);
     constexpr double least = 0.7;
     const double room = style_.width() - 2 * em_;
     const TextStyle title =
@@ -179,6 +208,8 @@ class SideBySideMovie {
   const std::vector<ComparedRun>& runs_;
   MovieStyle style_;
   double em_ = 0, legend_ = 0;  // of the font; of the colour bar's column
+  double spare_ = 0;            // height below the parts for the forces; 0: there is none
+  Plot forces_;
   std::optional<ColourBar> bar_;
   std::vector<std::unique_ptr<Stage>> stages_;
 };

@@ -16,7 +16,7 @@
 namespace gridshell::render {
 namespace {
 
-constexpr Colour shell_ink = ink, net_ink{0.16f, 0.42f, 0.78f, 1}, scan_ink{0.80f, 0.16f, 0.12f, 1};
+constexpr Colour shell_ink = ink, scan_ink{0.80f, 0.16f, 0.12f, 1};
 
 /// Without the marks of contacts, which these figures do not name.
 record::Frame unmarked(record::Frame frame) {
@@ -135,12 +135,14 @@ Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieS
   const auto dress = [](const NetRun& one, Drawing& drawing) {
     show_measured_joints(one.scanned, drawing);
     const record::Layout& layout = one.run->layout;
+    const double thin = drawing.rod_diameter_mm;
+    // so that a net that its shell meets is seen beside it, not through it
+    drawing.rod_diameter_mm *= 2.2;
     // blocks each on a net of its own
     for (std::size_t k = 0; k < layout.parts.size(); ++k)
-      drawing.ghosts.push_back(
-          {layout.parts[k].net, layout.parts[k].rods, drawing.rod_diameter_mm, block_colour(k)});
+      drawing.ghosts.push_back({layout.parts[k].net, layout.parts[k].rods, thin, block_colour(k)});
     if (layout.parts.empty() && layout.net_nodes.cols() > 0)
-      drawing.ghosts.push_back({layout.net_nodes, layout.rods, drawing.rod_diameter_mm, net_ink});
+      drawing.ghosts.push_back({layout.net_nodes, layout.rods, thin, net_ink});
   };
   return panels_of(runs, style, renderer, watch, columns, dress).map([&](PanelFigure figure) {
     figure.keys = over_net_keys(runs);
@@ -296,15 +298,14 @@ Plot force_plot(const std::vector<NamedRun>& runs) {
 
 Result<void> write_push_bins(const std::filesystem::path& stem, const std::vector<NamedRun>& runs,
                              const std::string& title, const Print& print) {
-  constexpr double font = 7.5, usual = 186, least = 150, height = 190;  // points
   std::vector<Plot> plots;
   double low = 0, high = 0;
   for (const NamedRun& one : runs) {
     const record::Frame& last = one.run->frames.back();
     if (last.K_bins.rows() == 0) return {};
     plots.push_back(
-        bins_plot(summarise_run(*one.run), long(one.run->layout.cells.size()), last, {}, font));
-    plots.back().title = one.name + "\nΣ*K*_{□} = " + fixed(last.total_K, 3) + " rad";
+        bins_plot(summarise_run(*one.run), long(one.run->layout.cells.size()), last, {}, 7.5));
+    plots.back().title = one.name + "\n" + plots.back().title;
     low = std::min(low, plots.back().y.low.value_or(0));
     high = std::max(high, plots.back().y.high.value_or(0));
   }
@@ -312,18 +313,32 @@ Result<void> write_push_bins(const std::filesystem::path& stem, const std::vecto
     plot.y.low = low;
     plot.y.high = high;
   }
+  return write_plots(stem, std::move(plots), title, "K of the cells in bins of x/L", print);
+}
+
+Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> plots,
+                         const std::string& title, const std::string& name, const Print& print) {
+  constexpr double font = 7.5, usual = 186, least = 150, height = 172, key = 24;  // points
   // as many beside one another as stay readable
   const double width = print.width_pt(usual * double(plots.size()));
   const std::size_t columns = std::clamp<std::size_t>(std::size_t(width / least), 1, plots.size());
   const std::size_t rows = (plots.size() + columns - 1) / columns;
   const double column = width / double(columns), head = title.empty() ? 0 : figure_title_room;
+  Plot legend;
+  legend.series = plots.front().series;
+  legend.font_size = font;
+  for (Plot& plot : plots) {
+    plot.legend = LegendPlace::none;
+    plot.font_size = font;
+  }
   return write_figure(
-      stem, width, head + height * double(rows), "K of the cells in bins of x/L",
+      stem, width, head + key + height * double(rows), name,
       [&](Canvas& canvas) {
         if (head > 0) draw_figure_title(canvas, title);
+        draw_legend(canvas, {9, head + 2, width - 18, key}, legend);
         for (std::size_t k = 0; k < plots.size(); ++k) {
           const std::size_t row = k / columns;
-          const double x = column * double(k % columns), y = head + height * double(row);
+          const double x = column * double(k % columns), y = head + key + height * double(row);
           draw_plot(canvas, {x + 3, y + 3, column - 6, height - 6}, plots[k]);
         }
       },

@@ -64,8 +64,8 @@ void show_measured_joints(const Eigen::Matrix3Xd& measured, Drawing& drawing);
 /// What its red joints stand for.
 ColourKey scan_key();
 
-/// The shells, dark, over their nets, blue, with the joints scanned, red, at most `columns` side by
-/// side. Progress and errors as write_stills.
+/// The shells, dark, over their nets, thinner and orange, with the joints scanned, red, at most
+/// `columns` side by side. Progress and errors as write_stills.
 Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
                                    Renderer& renderer, Watch& watch, int columns = 3);
 
@@ -94,8 +94,14 @@ Result<void> write_block_footprints(const std::filesystem::path& stem,
                                     const record::Trajectory& run, const std::string& title = "",
                                     const Print& print = {});
 
-/// Gap and kink of every rod across a seam against its place along the seam, one marker a seam.
-Plot seam_plot(const record::Trajectory& run);
+/// Gap, and kink, of every rod across a seam against its place along the seam, one marker a seam.
+std::vector<Plot> seam_plots(const record::Trajectory& run);
+
+/// Plots beside one another, as many as stay readable, with the legend of the first above them all;
+/// `title` (plain text; may be empty) above, `name` of the file. Writes `<stem>.png`, `.svg` and
+/// `.pdf`.
+Result<void> write_plots(const std::filesystem::path& stem, std::vector<Plot> plots,
+                         const std::string& title, const std::string& name, const Print& print);
 
 // Shells under point loads, beside one another [Baek 2018, Fig. 4C-D].
 

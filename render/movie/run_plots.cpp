@@ -12,7 +12,7 @@
 namespace gridshell::render {
 namespace {
 
-constexpr Colour rod_ink{0.45f, 0.46f, 0.5f, 1}, net_ink{0.16f, 0.42f, 0.78f, 1};
+constexpr Colour rod_ink{0.45f, 0.46f, 0.5f, 1};
 
 Eigen::Matrix3Xd joints_of(const record::Trajectory& run) {
   Eigen::Matrix3Xd joints(3, run.layout.joints.size());
@@ -24,6 +24,16 @@ Eigen::Matrix3Xd joints_of(const record::Trajectory& run) {
 bool all_caps(const std::vector<NamedRun>& runs) {
   return std::all_of(runs.begin(), runs.end(),
                      [](const NamedRun& one) { return on_sphere(one.run->layout); });
+}
+
+double plane_of(const NamedRun& one) { return one.run->layout.actuated_boundary.row(2).mean(); }
+
+bool planes_differ(const std::vector<NamedRun>& runs) {
+  return std::ranges::none_of(runs, [&](const NamedRun& one) {
+    return std::ranges::count_if(runs, [&](const NamedRun& other) {
+             return std::abs(plane_of(one) - plane_of(other)) < 1e-6;
+           }) > 1;
+  });
 }
 
 /// The names of the runs in their colours, one after the other.
@@ -51,13 +61,18 @@ void draw_boundaries(Canvas& canvas, const Box& box, const std::vector<NamedRun>
   for (std::size_t k = 0; k < runs.size(); ++k)
     canvas.polyline(place.line(runs[k].run->layout.original_boundary),
                     {runs.size() == 1 ? ink : series_colour(k), 1.4}, true);
+  // of one alone, where its boundary comes to
+  if (runs.size() == 1)
+    canvas.polyline(place.line(runs[0].run->layout.actuated_boundary), {net_ink, 1.1, {4, 2}},
+                    true);
   const Point left{box.x, box.bottom() + 9};
   const Box length = draw_spacing(canvas, left, runs.front().run->layout, place.scale);
   if (runs.size() == 1)
-    canvas.text("flat footprint", {length.right() + 10, left.y},
+    canvas.text("flat footprint; dashed: the shell's rim", {length.right() + 10, left.y},
                 {.size = 8, .align_y = AlignY::middle});
-  // caps are named beside the planes that cut them
-  if (runs.size() > 1 && !all_caps(runs)) draw_names(canvas, {length.right() + 14, left.y}, runs);
+  // caps are named beside the planes that cut them, where these are theirs alone
+  if (runs.size() > 1 && !(all_caps(runs) && planes_differ(runs)))
+    draw_names(canvas, {length.right() + 14, left.y}, runs);
 }
 
 /// A sphere from the side and the planes z = z* of its caps.
@@ -72,22 +87,32 @@ void draw_planes(Canvas& canvas, const Box& box, const std::vector<NamedRun>& ru
         {centre.x + scale * rho * std::cos(angle), centre.y - scale * rho * std::sin(angle)});
   }
   canvas.polyline(arc, {{0.55f, 0.56f, 0.6f, 1}, 1});
+  constexpr double size = 7;
+  double free = INFINITY;  // above it a name may stand
+  std::vector<double> shown;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const double z = runs[k].run->layout.actuated_boundary.row(2).mean();
+    const double z = plane_of(runs[k]);
     const double half = 1.1 * scale * rho, y = centre.y - scale * z;
     const Colour colour = runs.size() == 1 ? ink : series_colour(k);
-    canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4});
     // to a hundredth, and no minus before a zero
-    const double shown = std::round(100 * z / rho) / 100 + 0.0;
+    const double share = std::round(100 * z / rho) / 100 + 0.0;
+    const bool again = std::ranges::find(shown, share) != shown.end();
+    shown.push_back(share);
+    // of two that lie in one plane both are seen
+    const std::vector<double> dash = again ? std::vector<double>{4, 4} : std::vector<double>{};
+    canvas.line({centre.x - half, y}, {centre.x + half, y}, {colour, 1.4, dash});
+    if (again) continue;
     // one plane has room below it
     if (runs.size() == 1) {
-      canvas.text(fmt::format("*z*^{{*}}/*ρ* = {:g}", shown), {centre.x, y + 3},
+      canvas.text(fmt::format("*z*^{{*}}/*ρ* = {:g}", share), {centre.x, y + 3},
                   {.size = 8, .align_x = AlignX::centre, .align_y = AlignY::top});
       continue;
     }
-    canvas.text(
-        fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", shown), {centre.x + half + 4, y},
-        {.size = std::min(6.5, 0.085 * scale * rho), .colour = colour, .align_y = AlignY::middle});
+    const Point name{centre.x + half + 8, std::min(y, free)};
+    canvas.line({centre.x + half, y}, {name.x - 1.5, name.y}, {colour, 0.6});
+    canvas.text(fmt::format("{}{:g}", k == 0 ? "*z*^{*}/*ρ* = " : "", share), name,
+                {.size = size, .colour = colour, .align_y = AlignY::middle});
+    free = name.y - 1.25 * size;
   }
 }
 
@@ -256,6 +281,16 @@ namespace {
 constexpr Colour reference{0.62f, 0.63f, 0.66f, 0.55f}, reference_ink{0.5f, 0.51f, 0.54f, 1},
     now_ink{0.13f, 0.33f, 0.60f, 1}, mean_ink{0.70f, 0.10f, 0.08f, 1};
 
+/// "Σ*K*_{□} = 5.898 rad, −1.78 %"; in rad where the first is next to nothing.
+std::string total_K_caption(double first, double now) {
+  const double change = now - first;
+  const bool relative = std::abs(first) > 0.1;
+  const std::string size =
+      fixed(relative ? 100 * change / std::abs(first) : change, relative ? 2 : 3);
+  return fmt::format("Σ*K*_{{□}} = {} rad, {}{}{}", fixed(now, 3), change > 0 ? "+" : "", size,
+                     relative ? " %" : " rad");
+}
+
 Series bins_of(const record::Frame& frame) {
   Series series;
   const long count = frame.K_bins.rows();
@@ -297,7 +332,7 @@ Plot bins_plot(const RunSummary& run, long cells, const record::Frame& frame,
                  line_series("all cells", solid.colour, solid.width)};
   plot.references = {{true, run.first.total_K / double(cells), "", dashed},
                      {true, frame.total_K / double(cells), "", solid}};
-  plot.title = "Σ*K*_{□} = " + fixed(frame.total_K, 3) + " rad";
+  plot.title = total_K_caption(run.first.total_K, frame.total_K);
   plot.legend = LegendPlace::above;
   return plot;
 }

@@ -34,6 +34,9 @@ Plot quantile_plot(const std::vector<NamedRun>& runs);
 /// measured by others (3 x n, mm, in the frame of the net) are one more series where there are any.
 Plot latitude_plot(const NamedRun& run, const Eigen::Matrix3Xd& scan = {});
 
+/// Of nets beside their shells: apart from a shell's black in print and in grey.
+inline constexpr Colour net_ink{0.93f, 0.53f, 0.05f, 1};
+
 /// Room for the title above a figure that is no plot, points.
 inline constexpr double figure_title_room = 17;
 /// Plain text, bold, in that room; smaller where it would not fit.

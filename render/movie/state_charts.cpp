@@ -31,30 +31,34 @@ void add_flank(Series& curve, double from_x, double from, double to_x, double to
 
 Plot barrier_plot(const record::StateTables& states) {
   Plot plot;
-  plot.title = "Barriers between states";
+  plot.title = fmt::format(
+      "Barriers between states: all energies on {} edges a segment\n(those of states.csv are "
+      "extrapolated from finer meshes)",
+      states.search.judged_edges);
   plot.y = {.label = "energy (mJ)"};
   plot.legend = LegendPlace::none;
   std::map<int, double> energy;  // of the states, on the mesh of the passes
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const record::Barrier& one : states.barriers)
     if (one.to != 0 && one.from != one.to) {
       energy[one.from] = one.energy_mJ - one.barrier_mJ;
       energy[one.to] = one.energy_mJ - one.back_mJ;
+      lowest = std::min({lowest, energy[one.from], energy[one.to]});
+      highest = std::max(highest, one.energy_mJ);
     }
+  const double off = 0.015 * (highest - lowest);  // of words from what they name
   std::map<int, double> place;
   for (const auto& [state, level] : energy) place.emplace(state, double(place.size() + 1));
   std::size_t colour = 0;
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const record::Barrier& one : states.barriers) {
     if (one.to == 0 || one.from == one.to) continue;
     Series curve = line_series("", series_colour(colour++));
-    lowest = std::min({lowest, energy.at(one.from), energy.at(one.to)});
-    highest = std::max(highest, one.energy_mJ);
     const double a = place.at(one.from), b = place.at(one.to), middle = 0.5 * (a + b);
     const double from = a + std::copysign(half_bar, b - a), to = b - std::copysign(half_bar, b - a);
     add_flank(curve, from, energy.at(one.from), middle, one.energy_mJ);
     add_flank(curve, middle, one.energy_mJ, to, energy.at(one.to));
     plot.series.push_back(std::move(curve));
-    plot.notes.push_back({middle, one.energy_mJ,
+    plot.notes.push_back({middle, one.energy_mJ + off,
                           scientific(std::max(one.barrier_mJ, one.back_mJ), 3), AlignX::centre,
                           AlignY::bottom, plot.series.back().colour});
   }
@@ -62,14 +66,11 @@ Plot barrier_plot(const record::StateTables& states) {
     Series bar = line_series("", ink, 2.2);
     for (const double half : {-half_bar, half_bar}) bar.add(place.at(state) + half, level);
     plot.series.push_back(std::move(bar));
-    const auto& row = states.rows.at(std::size_t(state) - 1);
-    const bool named = row.kind != record::StateClass::other;
-    plot.notes.push_back(
-        {place.at(state), level,
-         fmt::format("state {}{}", state, named ? fmt::format(" (*{}*)", word_of(row.kind)) : ""),
-         AlignX::centre, AlignY::top});
+    plot.notes.push_back({place.at(state), level - off,
+                          fmt::format("*{}*", states.rows.at(std::size_t(state) - 1).name()),
+                          AlignX::centre, AlignY::top});
   }
-  plot.x.label = "place in the order of energy";
+  plot.x = {.label = "states in the order of their number, class.number", .ticks = 0};
   plot.x.low = 0.5;
   plot.x.high = double(place.size()) + 0.5;
   if (lowest <= highest) {

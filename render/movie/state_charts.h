@@ -14,9 +14,9 @@
 
 namespace gridshell::render {
 
-/// The states between which passes are known, in the order of their energy, each a bar at it; from
-/// bar to bar a curve over the pass, with its height above the lower one. Passes between images of
-/// one state and to states that were not met are left out.
+/// The states between which passes are known, in the order of their number, each a bar at its
+/// energy on the mesh of the passes; from bar to bar a curve over the pass, with its height above
+/// the lower one. Passes between images of one state and to states that were not met are left out.
 Plot barrier_plot(const record::StateTables& states);
 
 // A bifurcation diagram as a picture.
@@ -70,11 +70,11 @@ void draw_state_map(Canvas& canvas, const Box& box, double units_per_mm,
 
 // Which state of a shell goes to which when a hand disturbs it, as a graph.
 
-/// States at their height and energy, moved apart where they would hide one another, the
-/// ones that were disturbed with their number and below the axes as small shells from above. Arrows
-/// lead to where they went, blue where the boundary was let out and drawn in again, orange where
-/// joints were poked, with how often. What came back to where it was stands beside its shell, and
-/// so does what went to a state that the search did not meet.
+/// States at their height and energy, the ones that were disturbed with their name beside them and
+/// below the axes as small shells from above. Arrows lead to where they went, blue where the
+/// boundary was released and contracted again, red where joints were pushed, with how often. What
+/// came back to where it was stands beside its shell, and so does what went to a state that the
+/// search did not meet.
 /// `run` has a frame a state; `title` (plain text) stands above. `<stem>.png`, `.svg`, `.pdf`.
 Result<void> write_transition_graph(const std::filesystem::path& stem,
                                     const record::StateTables& states,

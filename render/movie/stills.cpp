@@ -47,7 +47,9 @@ MovieStyle still_style(MovieStyle style) {
 }
 
 void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& shown,
-                       const std::string& caption) {
+                       std::string caption) {
+  // there is a row for it
+  if (const auto end = caption.find('\n'); end != std::string::npos) caption.replace(end, 1, ": ");
   stage.draw_overlay(canvas, shown);
   const FrameLayout& layout = stage.layout();
   const Box& room = layout.heading;

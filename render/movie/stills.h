@@ -22,7 +22,7 @@ MovieStyle still_style(MovieStyle style);
 /// Heading, caption and legends of a still whose stage has such a style: its title in one or two
 /// lines where a movie has its own, the caption (marked text) below.
 void draw_still_labels(Canvas& canvas, const Stage& stage, const ShownFrame& shown,
-                       const std::string& caption);
+                       std::string caption);
 
 /// What one still shows under it, as marked text: "*R*_{a} = 115.9 mm".
 std::string frame_state_caption(const record::Frame& frame);

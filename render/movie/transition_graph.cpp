@@ -20,9 +20,7 @@ using record::Transition;
 
 constexpr double width = 400, plot_height = 262, margin = 4, head = figure_title_room,
                  legend_room = 16, thumb = 50, thumb_text = 31, font = 8;
-constexpr double node_radius = 6.6, dot_radius = 2.6;
-// between two nodes, and between two that arrows leave
-constexpr double apart = 3, far_apart = 20, foot_room = 14;
+constexpr double disturbed_radius = 3.6, dot_radius = 2.6, foot_room = 14;
 constexpr Colour grey{0.55f, 0.55f, 0.58f, 1};
 
 bool is_let_out(const Transition& way) { return way.by == "let out"; }
@@ -32,38 +30,31 @@ Colour colour_of(bool let_out) { return series_colour(let_out ? 0 : 1); }
 struct Node {
   const StateRow* row = nullptr;
   bool disturbed = false;
-  Point exact = {}, at = {};
+  Point at = {};
 
-  double radius() const { return disturbed ? node_radius : dot_radius; }
+  double radius() const { return disturbed ? disturbed_radius : dot_radius; }
 };
 
 double distance(Point a, Point b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
-/// Moves nodes apart until none hides another, inside the frame.
-void move_apart(std::vector<Node>& nodes, const Box& inside) {
-  for (int round = 0; round < 300; ++round) {
-    bool moved = false;
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      for (std::size_t b = a + 1; b < nodes.size(); ++b) {
-        Node &p = nodes[a], &q = nodes[b];
-        const double gap = p.disturbed && q.disturbed ? far_apart : apart;
-        const double least = p.radius() + q.radius() + gap, away = distance(p.at, q.at);
-        if (away >= least) continue;
-        // two in one place part sideways
-        const Point along =
-            away > 1e-9 ? Point{(q.at.x - p.at.x) / away, (q.at.y - p.at.y) / away} : Point{1, 0};
-        const double half = 0.5 * (least - away);
-        p.at = {p.at.x - half * along.x, p.at.y - half * along.y};
-        q.at = {q.at.x + half * along.x, q.at.y + half * along.y};
-        moved = true;
-      }
-    for (Node& node : nodes) {
-      const Box room = inside.inset(node.radius() + 2);
-      node.at = {std::clamp(node.at.x, room.x, room.right()),
-                 std::clamp(node.at.y, room.y, room.bottom())};
+Box about(Point middle, double half_width, double half_height) {
+  return {middle.x - half_width, middle.y - half_height, 2 * half_width, 2 * half_height};
+}
+
+/// The place nearest to `from` for a box so large that is free of all others, inside the frame.
+Box free_place(Point from, const Box& size, const std::vector<Box>& taken, const Box& inside) {
+  constexpr int directions = 24;
+  for (double away = 9; away < 120; away += 3)
+    for (int k = 0; k < directions; ++k) {
+      const double angle = 2 * M_PI * (k + 0.5) / directions;
+      const Box box = about({from.x + away * std::cos(angle) + 0.5 * size.width * std::cos(angle),
+                             from.y - away * std::sin(angle)},
+                            0.5 * size.width, 0.5 * size.height);
+      if (inside.contains(box) &&
+          std::ranges::none_of(taken, [&](const Box& one) { return one.overlaps(box); }))
+        return box;
     }
-    if (!moved) return;
-  }
+  return about(from, 0.5 * size.width, 0.5 * size.height);
 }
 
 class WaysGraph {
@@ -89,16 +80,15 @@ class WaysGraph {
   void draw(Canvas& canvas) {
     const Box box{margin, margin + head + legend_room, width - 2 * margin, plot_height};
     const PlotFrame frame = axes(canvas, box);
-    for (Node& node : nodes_)
-      node.at = node.exact = frame.place(node.row->height_mm, node.row->energy_mJ());
-    move_apart(nodes_, frame.inside);
+    for (Node& node : nodes_) node.at = frame.place(node.row->height_mm, node.row->energy_mJ());
     draw_legend(canvas);
     for (const Transition& way : states_.transitions)
       if (way.to != 0 && way.to != way.from) draw_way(canvas, way);
     for (const Node& node : nodes_) draw_node(canvas, node);
+    draw_names(canvas, frame.inside.inset(2));
     for (std::size_t k = 0; k < disturbed_.size(); ++k) draw_thumb(canvas, k, box.bottom());
     canvas.text(
-        "of 9 ways each: back to the state itself; new, to one that the search had not met",
+        "of 9 disturbances each: back to the state itself; new, to one that the search had not met",
         {0.5 * width, height() - margin},
         {.size = font - 1, .colour = ink, .align_x = AlignX::centre, .align_y = AlignY::bottom});
   }
@@ -140,8 +130,8 @@ class WaysGraph {
       arrow(canvas, {x, y}, {x + 11, y}, {x + 22, y}, let_out);
       x = canvas.text(text, {x + 27, y}, {.size = font, .align_y = AlignY::middle}).right() + 14;
     };
-    entry(true, "let out and drawn in again");
-    entry(false, "poked (number: how often of 8)");
+    entry(true, "boundary released and contracted again");
+    entry(false, "a joint pushed (number: how often of 8)");
   }
 
   /// A curve a -> b bent through c, with a head at b.
@@ -166,9 +156,9 @@ class WaysGraph {
                    colour);
   }
 
-  void draw_way(Canvas& canvas, const Transition& way) const {
+  void draw_way(Canvas& canvas, const Transition& way) {
     const Node &from = node_of(way.from), &to = node_of(way.to);
-    const double length = distance(from.at, to.at);
+    const double length = std::max(1e-9, distance(from.at, to.at));
     const Point along{(to.at.x - from.at.x) / length, (to.at.y - from.at.y) / length};
     // ways there and back, and of both hands, bend apart
     const double bend = (is_let_out(way) ? 0.24 : 0.12) * length;
@@ -183,27 +173,44 @@ class WaysGraph {
     if (is_let_out(way) || way.count < 2) return;
     const Point label{0.25 * from.at.x + 0.5 * middle.x + 0.25 * to.at.x,
                       0.25 * from.at.y + 0.5 * middle.y + 0.25 * to.at.y};
-    canvas.text(fmt::format("{}", way.count), label,
-                {.size = font - 1,
-                 .colour = colour_of(false),
-                 .bold = true,
-                 .align_x = AlignX::centre,
-                 .align_y = AlignY::middle,
-                 .halo = {1, 1, 1, 1}});
+    const TextStyle style{.size = font - 1,
+                          .colour = colour_of(false),
+                          .bold = true,
+                          .align_x = AlignX::centre,
+                          .align_y = AlignY::middle,
+                          .halo = {1, 1, 1, 1}};
+    taken_.push_back(canvas.text(fmt::format("{}", way.count), label, style));
   }
 
-  void draw_node(Canvas& canvas, const Node& node) const {
-    if (distance(node.at, node.exact) > node.radius()) {
-      canvas.line(node.exact, node.at, {grey, 0.6});
-      canvas.circle(node.exact, 0.9, grey);
-    }
+  void draw_node(Canvas& canvas, const Node& node) {
     const StateClass kind = node.row->kind;
     const Colour colour = kind == StateClass::other ? grey : series_colour(std::size_t(kind) + 2);
     canvas.circle(node.at, node.radius(), node.disturbed ? Colour{1, 1, 1, 1} : colour,
                   {colour, node.disturbed ? 1.6 : 0});
-    if (node.disturbed)
-      canvas.text(fmt::format("{}", node.row->state), node.at,
-                  {.size = font - 0.5, .align_x = AlignX::centre, .align_y = AlignY::middle});
+    taken_.push_back(about(node.at, node.radius(), node.radius()));
+  }
+
+  /// Beside the states that were disturbed, which stay where they are.
+  void draw_names(Canvas& canvas, const Box& inside) {
+    const TextStyle style{.size = font,
+                          .bold = true,
+                          .align_x = AlignX::centre,
+                          .align_y = AlignY::middle,
+                          .halo = {1, 1, 1, 1}};
+    for (const Node& node : nodes_) {
+      if (!node.disturbed) continue;
+      const std::string name = fmt::format("*{}*", node.row->name());
+      const Box box = free_place(node.at, canvas.measure(name, style), taken_, inside);
+      const Point near{std::clamp(node.at.x, box.x, box.right()),
+                       std::clamp(node.at.y, box.y, box.bottom())};
+      const double share = node.radius() / std::max(node.radius(), distance(near, node.at));
+      canvas.line(
+          near,
+          {node.at.x + share * (near.x - node.at.x), node.at.y + share * (near.y - node.at.y)},
+          {ink, 0.5});
+      canvas.text(name, box.middle(), style);
+      taken_.push_back(box);
+    }
   }
 
   /// How often of all a state came back, or went to one that was not met.
@@ -230,10 +237,7 @@ class WaysGraph {
           text, {middle.x, middle.y + 0.5 * thumb + below},
           {.size = font - 0.5, .bold = bold, .align_x = AlignX::centre, .align_y = AlignY::top});
     };
-    const bool named = row.kind != StateClass::other;
-    line(
-        fmt::format("{}{}", row.state, named ? fmt::format(": state *{}*", word_of(row.kind)) : ""),
-        2, true);
+    line(fmt::format("*{}*", row.name()), 2, true);
     line(fate_of(row.state), 12, false);
   }
 
@@ -259,6 +263,7 @@ class WaysGraph {
   const record::Trajectory& run_;
   std::vector<Node> nodes_;
   std::vector<int> disturbed_;
+  std::vector<Box> taken_;  // where no name may stand
 };
 
 }  // namespace
@@ -268,7 +273,7 @@ Result<void> write_transition_graph(const std::filesystem::path& stem,
                                     const record::Trajectory& run, const std::string& title,
                                     const Print& print) {
   WaysGraph graph(states, run);
-  const std::string of_what = "which state goes to which when a hand disturbs it";
+  const std::string of_what = "which state goes to which when it is disturbed";
   return write_figure(
       stem, width, graph.height(), title,
       [&](Canvas& canvas) {

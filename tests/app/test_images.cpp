@@ -161,3 +161,43 @@ TEST_CASE("folders of pictures are compared, shown on a sheet, and replaced with
   CHECK(why->find("a lighter grey (gone.png, in/other.png, new.png)") != std::string::npos);
   CHECK(gridshell_program("compare kept now/same.png", folder.path()).code == 2);
 }
+
+namespace {
+
+/// Points of the smallest text of an SVG, printed that wide; what is raised or lowered goes with
+/// its line.
+double smallest_text(const std::string& svg, double width_mm, std::string& which) {
+  const auto number = [&](const std::string& before, std::size_t from, std::size_t end) {
+    const std::size_t at = svg.find(before, from);
+    return at < end ? std::strtod(svg.c_str() + at + before.size(), nullptr) : 0.0;
+  };
+  const double print = width_mm * 72 / 25.4 / number(" width=\"", 0, svg.npos);
+  double smallest = INFINITY;
+  for (std::size_t at = svg.find("<text "); at != svg.npos; at = svg.find("<text ", at + 1)) {
+    const std::size_t end = svg.find("</text>", at);
+    double line = 0;
+    for (std::size_t piece = svg.find("<tspan", at); piece < end;
+         piece = svg.find("<tspan", piece + 1))
+      line = std::max(line, number("font-size=\"", piece, end));
+    const double size = print * line * number("scale(", at, end);
+    if (line == 0 || size >= smallest) continue;
+    smallest = size;
+    which = svg.substr(at, end - at);
+  }
+  return smallest;
+}
+
+}  // namespace
+
+TEST_CASE("no text of a page is below 6 points at its print width", "[shared]") {
+  constexpr double page_mm = 178;
+  for (int k = 1; k <= 5; ++k) {
+    const std::string name = "page_fig" + std::to_string(k);
+    std::string which;
+    const double least =
+        smallest_text(text_of(shared_run(name) / (name + "_page.svg")), page_mm, which);
+    INFO(name << ": " << which);
+    CHECK(least >= 5.99);
+    CHECK(std::isfinite(least));
+  }
+}

@@ -167,7 +167,7 @@ TEST_CASE("plots of bins and forces keep their words apart, however narrow") {
   const RunSummary survey = summarise_run(run);
   for (const double width : {150.0, 186.0, 260.0, 500.0}) {
     Plot bins = bins_plot(survey, long(run.layout.cells.size()), run.frames.back(), {}, 7.5);
-    bins.title = "Inward at 45° latitude and longitude, a long name\nΣ*K*_{□} = 5.898 rad";
+    bins.title = "Inward at 45° latitude and longitude, a long name\nΣ*K*_{□} = 5.898 rad, −1.78 %";
     Plot force = force_plot({{&run, "the first of two long names that do not fit"},
                              {&run, "the second of two long names that do not fit"}});
     for (const Plot& plot : {bins, force}) {

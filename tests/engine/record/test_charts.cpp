@@ -35,8 +35,9 @@ TEST_CASE("charts: the Pareto front holds what nothing beats in both") {
   CHECK(pareto_front(rows) == std::vector<std::size_t>{0, 1, 5});
 }
 
-TEST_CASE("charts: the exponent of a power law, and none of a single point") {
-  CHECK(exponent({2, 4, 8}, {3 * 8, 3 * 64, 3 * 512}) == Approx(3));
+TEST_CASE("charts: the exponent of a power law, and none of fewer than four points") {
+  CHECK(exponent({2, 4, 8, 16}, {3 * 8, 3 * 64, 3 * 512, 3 * 4096}) == Approx(3));
+  CHECK(std::isnan(exponent({2, 4, 8}, {3 * 8, 3 * 64, 3 * 512})));
   CHECK(std::isnan(exponent({2}, {1})));
   CHECK(std::isnan(exponent({2, 3}, {1, 0})));
 }

@@ -97,3 +97,22 @@ TEST_CASE("legs too short to build are named in the cut list") {
   CHECK(std::ranges::any_of(work.rods, &CutRod::hard_to_build));
   CHECK(csv.find("a leg below 3 mm: hard to build") != csv.npos);
 }
+
+TEST_CASE("what is cut in tenths of a millimetre adds up to its rod") {
+  const FabricationPlan exact = made(paper_circle());
+  const FabricationPlan work = exports::rounded(exact, 0.1);
+  double sum = 0;
+  for (std::size_t r = 0; r < work.rods.size(); ++r) {
+    const CutRod& rod = work.rods[r];
+    CHECK(std::abs(rod.length_mm - exact.rods[r].length_mm) <= 0.05 + 1e-9);
+    const double between = rod.joint_marks_mm.back() - rod.joint_marks_mm.front();
+    CHECK(rod.leg_begin_mm + between + rod.leg_end_mm == Approx(rod.length_mm).margin(1e-9));
+    sum += rod.length_mm;
+  }
+  CHECK(work.total_length_mm() == Approx(sum).margin(1e-9));
+  // no more digits than are meant
+  const std::string csv = exports::cut_list_csv(work);
+  for (std::size_t at = csv.find('.'); at != csv.npos; at = csv.find('.', at + 1))
+    CHECK_FALSE((std::isdigit(csv[at + 1]) && std::isdigit(csv[at + 2])));
+  CHECK(exports::cut_list_csv(exports::rounded(exact, 0)) == exports::cut_list_csv(exact));
+}

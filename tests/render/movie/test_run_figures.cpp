@@ -96,15 +96,20 @@ TEST_CASE("seams are plotted about their middles, gap and kink") {
                           {"a.east - b.west", 'v', 10, 1.5, 6},
                           {"a.east - b.west", 'u', 10, 0.5, 3},
                           {"a.east - b.west", 'v', 30, 0.5, 4}};
-  const Plot plot = seam_plot(run);
-  REQUIRE(plot.series.size() == 2);
+  const std::vector<Plot> plots = seam_plots(run);
+  REQUIRE(plots.size() == 2);
+  for (const Plot& plot : plots) REQUIRE(plot.series.size() == 1);
+  const Series &gap = plots[0].series[0], &kink = plots[1].series[0];
   // rods of one joint stand at one place
   const double place = 10 * M_SQRT2;
-  CHECK(plot.series[0].x[0] == Approx(-place));
-  CHECK(plot.series[0].x[1] == Approx(-place));
-  CHECK(plot.series[0].x[2] == Approx(place));
-  CHECK(plot.series[0].y == std::vector<double>{1.5, 1.5, 0.5, 0.5});
-  CHECK(plot.series[1].y == std::vector<double>{7, 6, 3, 4});
+  CHECK(gap.x[0] == Approx(-place));
+  CHECK(gap.x[1] == Approx(-place));
+  CHECK(gap.x[2] == Approx(place));
+  CHECK(gap.y == std::vector<double>{1.5, 1.5, 0.5, 0.5});
+  CHECK(kink.y == std::vector<double>{7, 6, 3, 4});
+  // millimetres and degrees have axes of their own
+  CHECK(plots[0].y.label == "gap (mm)");
+  CHECK(plots[1].y.label == "kink (°)");
 }
 
 TEST_CASE("footprints of blocks are written as PNG and SVG") {

@@ -184,7 +184,7 @@ TEST_CASE("the graph of ways writes every state and what came back, apart from o
   const TemporaryFolder folder;
   {
     const test::CanvasObserver watch([&](const Canvas& canvas) {
-      for (const char* text : {"1", "2", "1: state ii", "back 5, new 3", "back 0"})
+      for (const char* text : {"ii.1", "other.2", "back 5, new 3", "back 0"})
         CHECK(test::has(canvas.texts(), text));
       test::check_apart(canvas);
     });
