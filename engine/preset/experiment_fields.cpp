@@ -434,7 +434,7 @@ void add_experiment_fields(std::vector<Field>& all) {
       .add<&Limits::max_strain>(
           above(0),
           "axial strain of an edge, bending left out, at which the run stops with limit "
-          "\"locking\"; of one that is compressed, ten times it")
+          "\"locking\"")
       .add<&Limits::max_bending_strain>(
           at_least(0),
           "strain of a fibre by bending, from the curvature added to that at rest, at which the "

@@ -204,14 +204,11 @@ std::string how_it_ended(const PathSegment& segment, const Scene& scene, const A
     return fmt::format("{} a rod is bent {} [limits] max_bending_strain allows, to {:.4g}", place(),
                        begun ? "further than" : "as far as", scene.max_bending_strain);
   const double strain = report.certificate.largest_strain;
-  if (report.end == Outcome::locked && -strain > 9 * scene.max_strain)
-    return fmt::format(
-        "{} a rod too short to buckle is compressed as far as [limits] max_strain allows, to ten "
-        "times it: its strain is {:.3g}",
-        at(report.t, {}), strain);
   if (report.end == Outcome::locked && strain < 0)
-    return fmt::format("{} a rod is stretched as far as [limits] max_strain allows, to {:g}",
-                       at(report.t, {}), scene.max_strain);
+    return fmt::format(
+        "{} a rod too short to buckle is compressed as far as [limits] max_strain allows: its "
+        "strain is {:.3g}",
+        at(report.t, {}), strain);
   if (report.end == Outcome::locked)
     return fmt::format("{} the rods are at their length: the largest strain is {:.3g}",
                        at(report.t, {}), strain);

@@ -15,21 +15,6 @@ namespace gridshell {
 namespace {
 
 constexpr double stiffness_growth = 100;  // at which the rods are at their length
-// of max_strain, which a rod bears that is compressed: one too short to buckle is far from its
-// length
-constexpr double compression_share = 10;
-
-/// Of the edges of the finest mesh; 0 where none is stretched.
-double largest_tension(const NestedShell& shell) {
-  const NestedState& state = shell.state();
-  if (state.largest_strain >= 0) return state.largest_strain;
-  double largest = 0;
-  const auto& edges = shell.model(shell.levels() - 1).edges;
-  for (std::size_t k = 0; k < edges.size(); ++k)
-    if (edges[k].EA > 0)
-      largest = std::max(largest, state.levels.back().force[Eigen::Index(k)] / edges[k].EA);
-  return largest;
-}
 
 PathOptions options_for(const Scene& scene) {
   PathOptions options;
@@ -113,8 +98,7 @@ Energies Simulation::energies() const {
 
 bool Simulation::locked() const {
   const NestedState& state = shell_->state();
-  if (largest_tension(*shell_) > scene_->max_strain) return true;
-  if (state.largest_strain < -compression_share * scene_->max_strain) return true;
+  if (std::abs(state.largest_strain) > scene_->max_strain) return true;
   if (actuating_ || holds_.empty() || !(first_stiffness_ > 0)) return false;
   return push_stiffness() > stiffness_growth * first_stiffness_;
 }

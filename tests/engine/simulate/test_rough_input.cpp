@@ -145,22 +145,3 @@ TEST_CASE("rods that reach their length end as locking, with nothing beyond") {
   CHECK(outcome.course.limit == record::Limit::locking);
   CHECK(outcome.trajectory.frames.empty());
 }
-
-TEST_CASE("short legs that the boundary compresses are no limit while they bear it") {
-  preset::Preset p;
-  p.footprint.kind = preset::FootprintKind::curve;
-  p.footprint.boundary.kind = preset::CurveKind::ellipse;
-  p.footprint.boundary.half_x_mm = 112.06;
-  p.footprint.boundary.half_y_mm = 111.07;
-  p.actuation.scale = 0.872;
-  p.accuracy.tolerance = 1e-3;
-  Scene scene = *shared_scene(p);
-  const auto whole = value_of(end_of(std::make_shared<const Scene>(scene)));
-  CHECK(whole.course.limit == record::Limit::none);
-  CHECK(whole.course.simulation.certificate().largest_strain < -scene.max_strain);
-  // ten times the limit, as the reason says
-  scene.max_strain = 1e-4;
-  const auto ended = value_of(run(std::make_shared<const Scene>(scene), {0.5, 1}));
-  CHECK(ended.course.limit == record::Limit::locking);
-  CHECK_THAT(ended.course.limit_reason, Catch::Contains("max_strain allows, to"));
-}
