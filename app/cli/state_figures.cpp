@@ -32,9 +32,7 @@ std::string class_text(StateClass kind) {
 
 /// What a state is that the paper has no class for, where that can be said in words.
 std::string dome_text(const StateRow& row) {
-  return row.kind == StateClass::other && row.first_order()
-             ? ", a leaning dome, rods of first order"
-             : "";
+  return row.kind == StateClass::other && row.first_order() ? ", leaning dome" : "";
 }
 
 std::string caption_of(const StateRow& row, const record::StateSearch& search) {

@@ -135,3 +135,16 @@ TEST_CASE("state tables: damaged ones are refused with file and line") {
   refused("barriers.csv", "from,to,energy_mJ,barrier_mJ,back_mJ,residual_N\n1,2,x,,,\n",
           "energy_mJ");
 }
+
+TEST_CASE("a state is named by class and number, and a dome has no rod of higher order") {
+  record::StateRow row;
+  row.state = 2;
+  CHECK(row.name() == "other.2");
+  row.kind = record::StateClass::ii;
+  CHECK(row.name() == "ii.2");
+  CHECK_FALSE(row.first_order());  // not known
+  row.inflections = "0 0 | 0 0";
+  CHECK(row.first_order());
+  row.inflections = "0 0 | 10 0";
+  CHECK_FALSE(row.first_order());
+}
