@@ -99,7 +99,7 @@ std::optional<record::Frame> FramesBetween::leading_at(double t, State guess) {
   const Scene& scene = path_.simulation.scene();
   NewtonOptions options;
   options.tolerance_mm = options.trusted_mm = 1e-3 * scene.tolerance * scene.length_scale_mm;
-  options.trusted_misfit = 1e-5;  // as of the finest mesh: forces are shown
+  options.trusted_misfit = 1e-7;  // forces are shown
   options.farthest_mm = nearby * scene.footprint.spacing;
   options.most_iterations = 5;
   shell.motion(0).impose(system, t, guess);
