@@ -10,6 +10,7 @@ namespace {
 
 constexpr double share_of_tolerance = 0.1;  // that a polynomial in t may leave
 constexpr double nearby = 1e-3;  // of d: a correction beyond is none of the guess's own branch
+constexpr double misfit_of_knots = 1e-5;  // of the largest axial force (nested_certificate.cpp)
 constexpr std::size_t most_knots = 6;
 
 /// Whether nothing happens to the branch between two load steps that follow one another.
@@ -190,9 +191,12 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
     (*frame).*member =
         (1 - window->share) * before.*member + window->share * after.*member + by_polynomial;
   };
-  const double force_N = doubt(&Frame::reactions_N, [](const Eigen::Matrix3Xd& forces) {
+  double force_N = doubt(&Frame::reactions_N, [](const Eigen::Matrix3Xd& forces) {
     return forces.cols() > 0 ? max_column_norm(forces) : 0;
   });
+  // and what load steps leave on their finest mesh
+  if (frame->axial_force_N.size() > 0)
+    force_N += misfit_of_knots * frame->axial_force_N.cwiseAbs().maxCoeff();
   error(&Frame::error_estimate_mm, nodes_mm);
   error(&Frame::force_error_N, force_N);
   error(&Frame::push_error_N, force_N);
