@@ -26,12 +26,14 @@ bool smooth(const PathSegment& segment, std::size_t k) {
 
 /// Of the polynomial through values at `known`: its weights at t, 0 for the one left out.
 Eigen::VectorXd weights_of(const std::vector<double>& known, double t, std::size_t left_out) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(Eigen::Index(known.size()));
-  for (std::size_t k = 0; k < known.size(); ++k)
+  Eigen::VectorXd all(Eigen::Index(known.size()));
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    double weight = k == left_out ? 0 : 1;
     for (std::size_t j = 0; j < known.size(); ++j)
-      if (j != k && j != left_out)
-        weights[Eigen::Index(k)] *= k == left_out ? 0 : (t - known[j]) / (known[k] - known[j]);
-  return weights;
+      if (j != k && j != left_out) weight *= (t - known[j]) / (known[k] - known[j]);
+    all[Eigen::Index(k)] = weight;
+  }
+  return all;
 }
 
 /// The cubic through two states and their tangents; angles, which count from a state's own frames,
