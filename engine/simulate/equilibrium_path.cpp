@@ -279,11 +279,7 @@ void set_limit(EquilibriumPath& path, const At& at) {
 
 PathSampler::PathSampler(EquilibriumPath& path, Caption caption, record::Sink& sink, Watch& watch,
                          std::size_t count)
-    : path_(path),
-      caption_(std::move(caption)),
-      sink_(sink),
-      watch_(watch),
-      count_(count) {}
+    : path_(path), caption_(std::move(caption)), sink_(sink), watch_(watch), count_(count) {}
 
 Result<bool> PathSampler::at(const PathSample& sample) {
   if (!between_) between_ = std::make_shared<FramesBetween>(path_, caption_.measure, watch_);

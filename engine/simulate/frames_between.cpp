@@ -10,6 +10,7 @@ namespace {
 
 constexpr double share_of_tolerance = 0.1;  // that a polynomial in t may leave
 constexpr double nearby = 1e-3;  // of d: a correction beyond is none of the guess's own branch
+constexpr double misfit_of_knots = 1e-5;  // of the largest axial force (nested_certificate.cpp)
 constexpr std::size_t most_knots = 6;
 
 /// Whether nothing happens to the branch between two load steps that follow one another.
@@ -25,12 +26,14 @@ bool smooth(const PathSegment& segment, std::size_t k) {
 
 /// Of the polynomial through values at `known`: its weights at t, 0 for the one left out.
 Eigen::VectorXd weights_of(const std::vector<double>& known, double t, std::size_t left_out) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(Eigen::Index(known.size()));
-  for (std::size_t k = 0; k < known.size(); ++k)
+  Eigen::VectorXd all(Eigen::Index(known.size()));
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    double weight = k == left_out ? 0 : 1;
     for (std::size_t j = 0; j < known.size(); ++j)
-      if (j != k && j != left_out)
-        weights[Eigen::Index(k)] *= k == left_out ? 0 : (t - known[j]) / (known[k] - known[j]);
-  return weights;
+      if (j != k && j != left_out) weight *= (t - known[j]) / (known[k] - known[j]);
+    all[Eigen::Index(k)] = weight;
+  }
+  return all;
 }
 
 /// The cubic through two states and their tangents; angles, which count from a state's own frames,
@@ -99,7 +102,7 @@ std::optional<record::Frame> FramesBetween::leading_at(double t, State guess) {
   const Scene& scene = path_.simulation.scene();
   NewtonOptions options;
   options.tolerance_mm = options.trusted_mm = 1e-3 * scene.tolerance * scene.length_scale_mm;
-  options.trusted_misfit = 1e-5;  // as of the finest mesh: forces are shown
+  options.trusted_misfit = 1e-7;  // forces are shown
   options.farthest_mm = nearby * scene.footprint.spacing;
   options.most_iterations = 5;
   shell.motion(0).impose(system, t, guess);
@@ -190,9 +193,12 @@ std::optional<record::Frame> FramesBetween::at(const PathSample& sample) {
     (*frame).*member =
         (1 - window->share) * before.*member + window->share * after.*member + by_polynomial;
   };
-  const double force_N = doubt(&Frame::reactions_N, [](const Eigen::Matrix3Xd& forces) {
+  double force_N = doubt(&Frame::reactions_N, [](const Eigen::Matrix3Xd& forces) {
     return forces.cols() > 0 ? max_column_norm(forces) : 0;
   });
+  // and what load steps leave on their finest mesh
+  if (frame->axial_force_N.size() > 0)
+    force_N += misfit_of_knots * frame->axial_force_N.cwiseAbs().maxCoeff();
   error(&Frame::error_estimate_mm, nodes_mm);
   error(&Frame::force_error_N, force_N);
   error(&Frame::push_error_N, force_N);
