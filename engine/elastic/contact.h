@@ -14,10 +14,10 @@ struct RodMesh;
 
 /// Two rods whose axes are d apart, S the sum of their radii, store from d = S + gap on
 ///     E = k gap^2 b(x),   x = (d^2 - S^2) / ((S + gap)^2 - S^2),   b(x) = -(x - 1)^2 ln x,
-/// zero with two derivatives at x = 1. Half way through the gap they press with 1.2 k gap. Below
-/// x = 0.05, where that is 24 k gap, b goes on as its parabola: so states of a coarser mesh that
-/// overlap a little on a finer one still have an energy and are pressed apart, and what keeps rods
-/// from going through one another is clear_share().
+/// zero with two derivatives at x = 1. Half way through a gap that is thin beside S they press
+/// with 1.2 k gap, more through others. Below x = 0.05, where that is 24 k gap, b goes on as its
+/// parabola: so states of a coarser mesh that overlap a little on a finer one still have an energy
+/// and are pressed apart, and what keeps rods from going through one another is clear_share().
 struct ContactBarrier {
   double gap_mm = 0;              ///< 0: none
   double stiffness_N_per_mm = 0;  ///< k
