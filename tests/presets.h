@@ -10,7 +10,7 @@ namespace gridshell {
 
 /// One that comes with the program.
 inline preset::Preset shipped(const std::string& name) {
-  const std::string file = std::string(GRIDSHELL_SOURCE_DIR) + "/presets/" + name + ".toml";
+  const auto file = std::filesystem::path(GRIDSHELL_SOURCE_DIR) / "presets" / (name + ".toml");
   return value_of(preset::read_preset_file(file)).base;
 }
 

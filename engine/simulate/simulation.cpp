@@ -21,6 +21,8 @@ PathOptions options_for(const Scene& scene) {
   options.spacing_mm = scene.footprint.spacing;
   // far below what the meshes leave, so that it does not show in the differences between them
   options.tolerance_mm = std::clamp(1e-3 * scene.tolerance * scene.length_scale_mm, 1e-7, 1e-4);
+  // rods that press on one another are stiff: a distance so much off would show in their forces
+  if (scene.rods.contact.barrier.acts()) options.tolerance_mm = 1e-7;
   options.team = scene.team.get();
   return options;
 }
