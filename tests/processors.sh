@@ -39,7 +39,9 @@ done
 
 # the largest difference of the columns given, over SCALE, or over the value itself (SCALE 0)
 largest_difference() {  # FILE COLUMNS SCALE PROCESSOR
-  paste -d, "$folder/$first/$1" "$folder/$4/$1" | awk -F, -v columns="$2" -v scale="$3" '
+  # texts have commas of their own
+  for one in "$first" "$4"; do sed 's/"[^"]*"//g' "$folder/$one/$1" >"$folder/$one.csv"; done
+  paste -d, "$folder/$first.csv" "$folder/$4.csv" | awk -F, -v columns="$2" -v scale="$3" '
     NR == 1 { half = NF / 2; n = split(columns, wanted, " ")
               for (c = 1; c <= half; ++c) for (k = 1; k <= n; ++k) if ($c == wanted[k]) use[c]
               for (c in use) ++found

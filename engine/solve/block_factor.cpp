@@ -199,6 +199,14 @@ void update_trunk(BlockFactor& f, const Rows& columns) {
   }
 }
 
+/// Subtracts what blocks `from` to `to` of a column make of its part of the right-hand side.
+inline void subtract_blocks(const BlockFactor& f, int from, int to, const Column& value, Entry* x) {
+  for (int i = from; i < to; ++i) {
+    const Column* b = f.below[i].column;
+    x[f.row[i]].value -= b[0] * value[0] + b[1] * value[1] + b[2] * value[2];
+  }
+}
+
 GRIDSHELL_CLONES
 void forward(const BlockFactor& f, int from, int to, bool own, Entry* x) {
   for (int p = from; p < to; ++p) {
@@ -210,10 +218,7 @@ void forward(const BlockFactor& f, int from, int to, bool own, Entry* x) {
       v[2] -= d[0][2] * v[0] + d[1][2] * v[1];
       const Column value = v;
       const int last = own ? f.first[k] + end - 1 - k + f.own_rows[p] : f.first[k + 1];
-      for (int i = f.first[k]; i < last; ++i) {
-        const Column* b = f.below[i].column;
-        x[f.row[i]].value -= b[0] * value[0] + b[1] * value[1] + b[2] * value[2];
-      }
+      subtract_blocks(f, f.first[k], last, value, x);
     }
   }
 }
@@ -227,10 +232,7 @@ void forward_to_trunk(const BlockFactor& f, const Rows& columns, Entry* x) {
     for (int k = f.panel[p]; from < to && k < end; ++k) {
       const Column value = x[k].value;
       const int shift = f.first[k + 1] - f.first[end];
-      for (int i = from; i < to; ++i) {
-        const Column* b = f.below[i + shift].column;
-        x[f.row[i]].value -= b[0] * value[0] + b[1] * value[1] + b[2] * value[2];
-      }
+      subtract_blocks(f, from + shift, to + shift, value, x);
     }
   }
 }

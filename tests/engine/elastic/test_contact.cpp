@@ -91,7 +91,7 @@ TEST_CASE("contact: gradient and Hessian are the energy's, wherever the nearest 
   check("overlapping", edges({-2, 0, 0}, {3, 0.3, 0.1}, {0.4, -2, 0.2}, {0, 2, 0.2}));
 }
 
-TEST_CASE("contact: parallel edges have a continuous slope; the distance is never overrated") {
+TEST_CASE("contact: parallel edges have a continuous slope, and the distance is never overrated") {
   const Model model = two_edges();
   const double d = 2 * radius + 0.5 * gap;
   const auto slope_at = [&](double turn) {

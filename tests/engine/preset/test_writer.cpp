@@ -67,6 +67,7 @@ Preset all_changed() {
   preset.figure.radii_mm.clear();
   preset.indentation.depth = preset.indentation.depth_mm = 0;
   preset.dynamics.snap = false;
+  preset.contact.model = ContactModel::none;
   // a mesh asked for has a leader of its own
   preset.accuracy.leading_edges = 0;
   // only pinned ends have tails
@@ -174,6 +175,7 @@ std::vector<Preset> samples() {
   by_leg.footprint.longest_leg = 2.3;
   by_leg.actuation.ratio = 0.81;
   by_leg.accuracy.leading_edges = 5;
+  by_leg.contact = {ContactModel::barrier, 0.2, 2.5};
   by_leg.page = {PageKind::fig2, "its photo.png", "out/a sweep"};
   std::vector<Preset> all{Preset{},   pushed(true), pushed(false),
                           at_highest, by_leg,       of_curve(CurveKind::ellipse, 0.77)};

@@ -157,6 +157,7 @@ TEST_CASE("a barrier keeps rods apart on the whole path, on both models and ever
   // further in, at 12 mm, meshes that the tolerance chooses go on for minutes
   auto preset = crowded(17);
   preset.accuracy.tolerance = 5e-3;
+  preset.imperfection.size = 1e-4;  // the symmetric branch ends unstable
   preset.accuracy.model = GENERATE(RodModel::bend, RodModel::twist);
   preset.rod.shear_GPa = 31;
   const auto through = run(preset);
@@ -165,13 +166,17 @@ TEST_CASE("a barrier keeps rods apart on the whole path, on both models and ever
   preset.contact.model = preset::ContactModel::barrier;
   const auto apart = run(preset);
   INFO(apart.summary.limit_reason << "; " << apart.summary.contact);
-  CHECK(apart.summary.limit == record::Limit::none);
+  // it snaps on its way, as told
+  CHECK(apart.summary.limit == record::Limit::snap);
+  CHECK(apart.trajectory.frames.back().progress == 1);
+  CHECK(apart.summary.stable);
   CHECK(apart.summary.contact.find("rods ") == std::string::npos);
   CHECK(apart.summary.energies[Term::contact] > 0);
   for (const record::Frame& frame : apart.trajectory.frames) {
     INFO(frame.progress);
     CHECK_FALSE(frame.rod_gap_mm < 0);
-    CHECK(frame.residual_N < 1e-6);
+    // 1e-7 mm on rods that press with some 10 N/mm
+    CHECK(frame.residual_N < 1e-5);
     CHECK(frame.negative_pivots == 0);
   }
 }

@@ -56,7 +56,7 @@ TEST_CASE("accuracy chart: nothing is clipped, the bars of the spread lie within
 
 TEST_CASE("scaling chart: the legend bears the exponents") {
   std::vector<record::ScalingRow> grown;
-  for (int n : {6, 12, 24})
+  for (int n : {6, 12, 24, 48})
     grown.push_back({"auto 1e-03", n, 4, n * n, 1e-4 * n * n, 0, 0, RunOutcome::right});
   const Plot plot = scaling_plot(grown, "");
   REQUIRE(plot.series.size() == 1);
