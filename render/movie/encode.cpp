@@ -61,7 +61,7 @@ std::vector<std::string> arguments_of(const std::vector<std::string>& input,
   if (timing.title_s > 0) {
     for (const char* word : {"-loop", "1", "-framerate"}) words.push_back(word);
     words.insert(words.end(), {rate, "-t", fmt::format("{:.3f}", timing.title_s), "-i",
-                               "file:" + frames.string() + "/title.png"});
+                               "file:" + (frames.parent_path() / "title.png").string()});
     chain += ";[1:v]format=rgb24[card];[card][run]concat=n=2:v=1[all]";
     last = "all";
   }

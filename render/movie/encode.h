@@ -23,7 +23,7 @@ struct Encoding {
 };
 
 // How fast a movie of so many frames plays its preset says: fps, frames, seconds, hold_s, pace, and
-// title_s of the card `frames`/title.png before all.
+// title_s of the card before all, title.png beside the folder `frames`.
 
 /// The arguments that turn `frames`/frame_%05d.png into `movie`, to be run in any folder. By its
 /// extension: .mp4, H.264 with 4:2:0 colours, which every player knows, and tags that say which
@@ -48,7 +48,7 @@ Result<Encoding> encode_movie(const std::filesystem::path& frames, const preset:
 /// makes of them afterwards.
 class MovieEncoder {
  public:
-  /// Starts ffmpeg for pictures of timing.size; a title card stands in `frames` already.
+  /// Starts ffmpeg for pictures of timing.size; a title card stands beside `frames` already.
   /// Nothing without ffmpeg. Errors: Fault::io when it cannot start.
   static Result<std::optional<MovieEncoder>> begin(const std::filesystem::path& frames,
                                                    const preset::Movie& timing,

@@ -153,7 +153,8 @@ TEST_CASE("shells of the paper do not touch themselves: a rod near its joint is 
   CHECK(outcome.summary.contact.empty());
 }
 
-TEST_CASE("a barrier keeps rods apart on the whole path, on both models and every mesh") {
+TEST_CASE("a barrier keeps rods apart on the whole path, on both models and every mesh",
+          "[standard]") {
   // further in, at 12 mm, meshes that the tolerance chooses go on for minutes
   auto preset = crowded(17);
   preset.accuracy.tolerance = 5e-3;

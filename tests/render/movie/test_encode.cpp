@@ -132,7 +132,7 @@ TEST_CASE("hold, pace, title card and the kind of file stand in the command") {
   CHECK(has(line(held, "m.mp4"), "tpad=stop_mode=clone:stop_duration=1.500"));
   CHECK(has(line(timed, "m.mp4"), "N*0.066667/TB"));
   CHECK(has(line(eased, "m.mp4"), "asin(1-2*N/59)"));
-  CHECK(has(line(titled, "m.mp4"), "file:frames/title.png"));
+  CHECK(has(line(titled, "m.mp4"), "file:title.png"));
   CHECK(has(line({}, "m.mp4"), "-color_primaries bt709"));
   CHECK(has(line({}, "m.webm"), "libvpx-vp9"));
   CHECK(has(line({}, "m.gif"), "paletteuse"));
@@ -149,7 +149,7 @@ TEST_CASE("a real ffmpeg makes movies of the length asked for", "[standard]") {
   MovieStyle style;
   style.size = {64, 49};
   style.title = "a title";
-  REQUIRE(write_png(title_card(style), frames / "title.png"));
+  REQUIRE(write_png(title_card(style), folder.path() / "title.png"));
   for (int k = 0; k < 6; ++k) {
     Image image(64, 49);
     for (std::size_t n = 0; n < image.rgba.size(); ++n)
@@ -204,7 +204,7 @@ TEST_CASE("a movie made while its frames are drawn is that of the frames, to the
   REQUIRE(make_folder(frames));
   MovieStyle style;
   style.size = {64, 49};
-  REQUIRE(write_png(title_card(style), frames / "title.png"));
+  REQUIRE(write_png(title_card(style), folder.path() / "title.png"));
   const preset::Movie timing = of_size(64, 49);
   auto movie = MovieEncoder::begin(frames, timing, folder.path() / "a.mp4");
   REQUIRE(movie);
