@@ -84,4 +84,16 @@ Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector
   return turn;
 }
 
+Eigen::VectorXd polynomial_weights(const std::vector<double>& known, double t,
+                                   std::size_t left_out) {
+  Eigen::VectorXd all(Eigen::Index(known.size()));
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    double weight = k == left_out ? 0 : 1;
+    for (std::size_t j = 0; j < known.size(); ++j)
+      if (j != k && j != left_out) weight *= (t - known[j]) / (known[k] - known[j]);
+    all[Eigen::Index(k)] = weight;
+  }
+  return all;
+}
+
 }  // namespace gridshell

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <vector>
 
 namespace gridshell {
 
@@ -44,6 +45,10 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& A);
 /// R that makes |R x - y| least, columns of x and y being points about their means [Kabsch 1976]: a
 /// rotation, or, where mirrors count too, a reflection.
 Eigen::Matrix3d best_turn(const Eigen::Matrix3Xd& x, const Eigen::Matrix3Xd& y, bool mirrors);
+
+/// Of the polynomial through values at `known`: its weights at t [Lagrange], 0 for one left out.
+Eigen::VectorXd polynomial_weights(const std::vector<double>& known, double t,
+                                   std::size_t left_out = std::size_t(-1));
 
 /// The shortest rotation that takes the direction of `from` to that of `to`.
 Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);

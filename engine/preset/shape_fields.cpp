@@ -1,4 +1,3 @@
-
 #include "engine/core/suggest.h"
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_list.h"

@@ -24,10 +24,6 @@ void put(Figures& figures, const std::string& kind, const StateCount& count) {
 
 }  // namespace
 
-bool is_first_order(const StateRow& row) {
-  return std::ranges::none_of(row.inflections, [](char c) { return c >= '1' && c <= '9'; });
-}
-
 Figures search_figures(const StateSearch& search, const std::vector<StateRow>& rows) {
   Figures figures{{"jitter_seed", double(search.seed)},
                   {"trials", double(search.trials)},
@@ -45,7 +41,7 @@ Figures search_figures(const StateSearch& search, const std::vector<StateRow>& r
   }
   StateCount count;
   for (const StateRow& row : rows)
-    if (is_first_order(row)) add(count, row);
+    if (row.first_order()) add(count, row);
   put(figures, first_order, count);
   return figures;
 }

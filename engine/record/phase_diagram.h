@@ -48,9 +48,6 @@ struct StateCount {
   bool operator==(const StateCount&) const = default;
 };
 
-/// Whether every rod of a state is buckled in its first mode.
-bool is_first_order(const StateRow& row);
-
 /// jitter_seed, trials, at_rest, confined_trials, confined_at_rest, states, seen (by trials that
 /// are not confined), chao1; then of each class, and of states of the first order, the three of
 /// StateCount: states_ii, met_ii, met_confined_ii ... states_first_order ...

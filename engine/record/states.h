@@ -58,7 +58,7 @@ struct StateRow {
   double energy_mJ() const;
   /// Class and number, "ii.2".
   std::string name() const;
-  /// Whether no rod has an inflection.
+  /// Whether every rod is buckled in its first mode: none has an inflection, as far as is known.
   bool first_order() const;
 };
 template <RecordOf<StateRow> Row, class Visit>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/dense.h"
 #include "engine/simulate/frames.h"
 
 namespace gridshell::simulate {
@@ -22,18 +23,6 @@ bool smooth(const PathSegment& segment, std::size_t k) {
     const auto [begin, end] = std::minmax({way * event.t, way * event.to.value_or(event.t)});
     return begin < to && end > from;
   });
-}
-
-/// Of the polynomial through values at `known`: its weights at t, 0 for the one left out.
-Eigen::VectorXd weights_of(const std::vector<double>& known, double t, std::size_t left_out) {
-  Eigen::VectorXd all(Eigen::Index(known.size()));
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    double weight = k == left_out ? 0 : 1;
-    for (std::size_t j = 0; j < known.size(); ++j)
-      if (j != k && j != left_out) weight *= (t - known[j]) / (known[k] - known[j]);
-    all[Eigen::Index(k)] = weight;
-  }
-  return all;
 }
 
 /// The cubic through two states and their tangents; angles, which count from a state's own frames,
@@ -86,13 +75,13 @@ std::optional<FramesBetween::Window> FramesBetween::window_at(const PathSegment&
   std::vector<double> known;
   for (std::size_t j = first; j <= last; ++j) known.push_back(steps[j].point.t);
   const double a = steps[k].point.t, b = steps[k + 1].point.t;
-  const Eigen::VectorXd weights = weights_of(known, t, known.size());
-  return Window{
-      first,
-      weights,
-      {weights - weights_of(known, t, 0), weights - weights_of(known, t, known.size() - 1)},
-      (t - a) / (b - a),
-      k};
+  const Eigen::VectorXd weights = polynomial_weights(known, t);
+  return Window{first,
+                weights,
+                {weights - polynomial_weights(known, t, 0),
+                 weights - polynomial_weights(known, t, known.size() - 1)},
+                (t - a) / (b - a),
+                k};
 }
 
 /// The coarsest mesh brought to rest beside a guess, where it is stable there.

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/core/dense.h"
 #include "engine/solve/equilibrium.h"
 #include "engine/solve/nested_shell.h"
 
@@ -38,13 +39,10 @@ double left_by_order(const Eigen::Matrix3Xd& step, const Eigen::Matrix3Xd& befor
   return std::min(std::abs(1 / (ratio - 1) - 1.0 / 3), 1.0) * max_column_norm(step);
 }
 
-/// Of the polynomial through what is known at several t: its weights at this t.
 Eigen::VectorXd weights_of(std::span<const LevelCorrection> known, double t) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(Eigen::Index(known.size()));
-  for (std::size_t k = 0; k < known.size(); ++k)
-    for (const LevelCorrection& other : known)
-      if (&other != &known[k]) weights[Eigen::Index(k)] *= (t - other.t) / (known[k].t - other.t);
-  return weights;
+  std::vector<double> at;
+  for (const LevelCorrection& one : known) at.push_back(one.t);
+  return polynomial_weights(at, t);
 }
 
 /// Nodes of a finer mesh on the edges of a coarser one: as these, they do not go through one

@@ -41,9 +41,9 @@ TEST_CASE("legs are those of the paper, and each says the other") {
 }
 
 TEST_CASE("figures of a search count states and how often they were met, by class and by order") {
-  CHECK(is_first_order(dome));
-  CHECK_FALSE(is_first_order(wheel));
-  CHECK_FALSE(is_first_order(other));
+  CHECK(dome.first_order());
+  CHECK_FALSE(wheel.first_order());
+  CHECK_FALSE(other.first_order());
   const auto row = found("12", "0.8", {dome, tilted, pair, wheel, other}).result;
   CHECK(state_count(row, "i") == StateCount{1, 19, 7});
   CHECK(state_count(row, "iii") == StateCount{1, 0, 3});
