@@ -13,6 +13,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/console.h"
 #include "app/cli/design.h"
+#include "app/cli/finished_run.h"
 #include "app/cli/options.h"
 #include "app/cli/pictures.h"
 #include "app/cli/preset_library.h"
@@ -47,14 +48,44 @@ Result<preset::Preset> first_preset_of(const std::string& name) {
   return presets->cases.empty() ? presets->base : presets->cases.front().preset;
 }
 
-/// The program itself makes it, in a process of its own that can be stopped.
-Result<void> make_movie(const fs::path& preset, const fs::path& folder,
-                        const window::ProgressListener& listener, const Watch& watch) {
+/// In a process of its own that can be stopped.
+Result<void> run_this_program(std::vector<std::string> arguments, const Watch& watch,
+                              const window::ProgressListener& listener) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) return fail(Fault::io, "cannot find this program's file: " + error.message());
-  return render::run_subprocess({program.string(), "movie", preset.string(), "-o", folder.string()},
-                                watch, listener);
+  arguments.insert(arguments.begin(), program.string());
+  return render::run_subprocess(arguments, watch, listener);
+}
+
+Result<void> make_movie(const fs::path& preset, const fs::path& folder,
+                        const window::ProgressListener& listener, const Watch& watch) {
+  return run_this_program({"movie", preset.string(), "-o", folder.string()}, watch, listener);
+}
+
+/// The program itself forms and exports it, in a folder of its own that goes again.
+Result<void> export_shell(const preset::Preset& preset, const fs::path& file,
+                          const window::ProgressListener& listener, const Watch& watch) {
+  std::string name = (fs::temp_directory_path() / "gridshell-XXXXXX").string();
+  if (!mkdtemp(name.data())) return fail(Fault::io, "cannot make a folder for the export");
+  const fs::path aside = name;
+  const auto run = [&](const std::vector<std::string>& arguments) {
+    return run_this_program(arguments, watch, listener);
+  };
+  const std::string shell = (aside / "shell.toml").string(), ran = (aside / "run").string();
+  const auto made = write_preset_with_tables(preset, shell)
+                        .and_then([&] { return run({"run", shell, "-o", ran}); })
+                        .and_then([&] { return run({"export", ran, "--to", file.string()}); });
+  std::error_code error;
+  fs::remove_all(aside, error);
+  return made;
+}
+
+Result<window::OtherShell> load_run(const fs::path& folder) {
+  TRY(runs, read_runs(folder, {}, false));
+  const record::Trajectory& trajectory = runs->front().trajectory;
+  return window::OtherShell{folder.filename().string(), trajectory.layout.joints,
+                            trajectory.layout.rods, trajectory.frames.back().nodes};
 }
 
 window::Library library_of(const ViewOptions& options) {
@@ -64,12 +95,14 @@ window::Library library_of(const ViewOptions& options) {
       library.cards.push_back({embedded.name, presets->base.title, embedded_card(embedded.name)});
   library.load = first_preset_of;
   library.make_movie = make_movie;
+  library.export_shell = export_shell;
+  library.load_run = load_run;
   // in a context of its own, which does not hold up the window's
   library.draw_picture = [context = options.context](const window::PictureRequest& order,
                                                      const fs::path& file) -> Result<void> {
     TRY(maker, PictureMaker::create(context));
     TRY(image, window::picture_of(order, maker->renderer()));
-    return render::write_png(*image, file);
+    return render::write_png(*image, file, order.kept.dpi);
   };
   library.write_preset = write_preset_with_tables;
   library.save_to = options.output;

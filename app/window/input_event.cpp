@@ -101,6 +101,8 @@ Result<InputEvent> read_event(const std::string& line) {
       reader(member);
     } else if (event.kind != InputKind::mouse) {
       reader.right = !(member = reader.rest()).empty();
+      // what is typed may be a space, which a line does not end in
+      if (event.kind == InputKind::type && member == "Space") member = " ";
     } else if ((reader.words >> std::ws).peek() == '@') {
       reader.words.get();
       reader.words >> member;
@@ -119,6 +121,8 @@ std::string write_event(const InputEvent& event) {
       line += fmt::format(" {:g}", member);
     else if constexpr (std::is_enum_v<Member>)
       line.append(" ").append(word_of(member));
+    else if (event.kind == InputKind::type && member == " ")
+      line += " Space";
     else if (!member.empty())
       line.append(event.kind == InputKind::mouse ? " @" : " ").append(member);
   });

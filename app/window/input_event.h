@@ -48,7 +48,7 @@ constexpr auto words(InputKind) { return names_except<InputKind>({{InputKind::ac
 ///   press|release left|right|middle
 ///   wheel STEPS                   above 0: away from the user
 ///   down|up KEY                   a key as F1 names it
-///   type TEXT
+///   type TEXT                     Space: one
 ///   do ACTION                     by its name
 ///   open PRESET
 ///   wait SECONDS

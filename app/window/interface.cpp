@@ -1,6 +1,7 @@
 #include "app/window/interface.h"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,6 @@
 namespace gridshell::window {
 namespace {
 
-constexpr ImU32 mark_colour = IM_COL32(50, 140, 240, 255);
 constexpr double least_view = 400;  // px of a view beside plots
 // of stillness the view is drawn at full resolution: later while an equilibrium is on its way
 constexpr double sharp_after_s = 0.15, sharp_while_busy_s = 0.6;
@@ -56,6 +56,14 @@ Column column_of(const ViewerState& viewer, double height, bool small, double de
   if (plots) column.plots = rest - column.numbers;
   if (!viewer.numbers && !plots && viewer.design_panel) column.design = height;
   return column;
+}
+
+/// Whether a menu or a list was open.
+bool close_popups() {
+  constexpr ImGuiPopupFlags any = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
+  const bool open = ImGui::IsPopupOpen("", any);
+  if (open) ImGui::ClosePopupToLevel(0, true);
+  return open;
 }
 
 bool is_modifier(Key key) { return key == Key::ctrl || key == Key::shift || key == Key::alt; }
@@ -102,28 +110,17 @@ Result<void> Interface::resize(int width, int height, double density) {
 
 // ---- events ----
 
-/// Where a node is drawn, pixels of the window.
-Eigen::Vector2d Interface::in_view(int node) const {
-  return render::to_pixel(viewer_.camera, int(view_.width), int(view_.height),
-                          window::place_of(*viewer_.shell, viewer_.show, node)) +
-         Eigen::Vector2d(view_.x, view_.y);
-}
-
-ImVec2 Interface::point_of(int node) const {
-  const Eigen::Vector2d at = in_view(node);
-  return {float(at.x()), float(at.y())};
-}
-
 Result<Eigen::Vector2d> Interface::place_of(const InputEvent& event) const {
   if (event.text.empty()) return Eigen::Vector2d(event.x, event.y);
   const Eigen::Vector2d beside(event.x, event.y);
   int i = 0, j = 0;
   if (viewer_.shell->any() && std::sscanf(event.text.c_str(), "joint:%d,%d", &i, &j) == 2)
     for (const record::Joint& joint : viewer_.shell->layout->joints)
-      if (joint.i == i && joint.j == j) return Eigen::Vector2d(in_view(joint.node) + beside);
+      if (joint.i == i && joint.j == j) return Eigen::Vector2d(in_view(viewer_, view_, joint.node) + beside);
   if (viewer_.shell->any() && std::sscanf(event.text.c_str(), "edge:%d", &i) == 1 && i >= 0 &&
       i < int(viewer_.shell->layout->edge_points.size()))
-    return Eigen::Vector2d(in_view(viewer_.shell->layout->edge_points[std::size_t(i)]) + beside);
+    return Eigen::Vector2d(
+        in_view(viewer_, view_, viewer_.shell->layout->edge_points[std::size_t(i)]) + beside);
   std::string name = event.text;
   std::replace(name.begin(), name.end(), '_', ' ');
   for (const std::string& asked : {event.text, name})
@@ -207,11 +204,13 @@ void Interface::feed(const InputEvent& event) {
 void Interface::press_key(Key key) {
   const ImGuiIO& io = ImGui::GetIO();
   if (is_modifier(key) || io.WantTextInput) return;
+  if (key == Key::escape && close_popups()) return;
+  if (key == Key::escape && viewer_.file_request) return viewer_.file_request.reset();
   if (key == Key::escape && viewer_.picking && viewer_.shell->any()) viewer_.picking = false;
   const Action* action = action_of({key, io.KeyCtrl, io.KeyShift});
   if (!action) return;
   // nothing happens to a shell that is not seen
-  const bool hidden = viewer_.help || viewer_.picking;
+  const bool hidden = viewer_.help || viewer_.picking || viewer_.file_request;
   const std::string menu = action->menu;
   if (hidden && (menu == "Shell" || menu == "Edit")) return;
   action->act(viewer_);
@@ -232,6 +231,7 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
   ImGui::InvisibleButton("mouse", {float(box.width), float(box.height)},
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::SetItemAllowOverlap();
   panel.controls["view"] = box;
   const ImGuiIO& io = ImGui::GetIO();
   const double x = io.MousePos.x - low.x, y = io.MousePos.y - low.y;
@@ -246,74 +246,9 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
   } else {
     mouse_.leave();
   }
-  mark_picked();
-  mark_under();
-  write_forces();
+  view_overlay(panel, box);
   colour_legend(panel, box);
   ImGui::End();
-}
-
-/// What the panel shows the figures of: a ring on a joint, a rod and the point on it, a cell's
-/// edge.
-void Interface::mark_picked() {
-  const ShellView& shell = *viewer_.shell;
-  if (!shell.any()) return;
-  const record::Layout& layout = *shell.layout;
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const auto wide = float(2.2 * density_);
-  const auto line = [&](const auto& nodes, bool closed) {
-    for (const int node : nodes) list.PathLineTo(point_of(node));
-    list.PathStroke(mark_colour, closed, wide);
-  };
-  const auto ring = [&](int node, double radius) {
-    list.AddCircle(point_of(node), float(radius * density_), mark_colour, 0, wide);
-  };
-  if (viewer_.picked_joint >= 0 && viewer_.picked_joint < int(layout.joints.size()))
-    ring(viewer_.picked_joint, 9);
-  if (const auto [rod, point] = viewer_.picked_rod; rod >= 0 && rod < int(layout.rods.size())) {
-    const std::vector<int>& nodes = layout.rods[std::size_t(rod)];
-    line(nodes, false);
-    ring(nodes[std::min(std::size_t(point), nodes.size() - 1)], 5);
-  }
-  if (viewer_.picked_cell >= 0 && viewer_.picked_cell < int(layout.cells.size()))
-    line(layout.cells[std::size_t(viewer_.picked_cell)].joints, true);
-}
-
-/// A ring around the joint or edge point that the mouse would take.
-void Interface::mark_under() {
-  const ShellView& shell = *viewer_.shell;
-  if (!shell.any()) return;
-  const record::Layout& layout = *shell.layout;
-  const int joint = viewer_.joint_under, edge = viewer_.edge_under;
-  int node = -1;
-  if (joint >= 0 && joint < int(layout.joints.size())) node = joint;
-  if (edge >= 0 && edge < int(layout.edge_points.size()))
-    node = layout.edge_points[std::size_t(edge)];
-  if (node < 0) return;
-  ImGui::GetWindowDrawList()->AddCircle(point_of(node), float(7 * density_), mark_colour, 0,
-                                        float(2.2 * density_));
-}
-
-/// Force and way beside each joint that is held.
-void Interface::write_forces() {
-  const ShellView& shell = *viewer_.shell;
-  if (!shell.any()) return;
-  for (const HeldJoint& held : shell.held) {
-    const Eigen::Vector2d at = in_view(held.joint);
-    const std::string text =
-        fmt::format("{:.3g} N, {:.2f} mm", held.force_N.norm(), held.moved_mm.norm());
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    // to the left where the legend stands
-    const double beside = 12 * density_, legend = view_.right() - 110 * density_;
-    const bool left = at.x() + beside + size.x > legend;
-    const ImVec2 low{float(left ? at.x() - beside - size.x : at.x() + beside),
-                     float(at.y() - 1.4 * size.y)};
-    const auto room = float(3 * density_);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({low.x - room, low.y - room}, {low.x + size.x + room, low.y + size.y + room},
-                       ImGui::GetColorU32(ImGuiCol_PopupBg, 0.85f), room);
-    list.AddText(low, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
-  }
 }
 
 void Interface::lay_out() {
@@ -337,6 +272,8 @@ void Interface::lay_out() {
   if (column.plots > 0) plots_panel(panel, next(column.plots));
   status_line(panel, {0, top + height, double(width_), status});
   if (viewer_.picking && !viewer_.help) picker_.draw(panel, {left, top, width_ - left, height});
+  if (viewer_.file_request)
+    file_prompt(panel, render::Box{0, top, double(width_), height}.inset(60 * density_));
   if (viewer_.help)
     help_sheet(panel, render::Box{0, top, double(width_), height}.inset(20 * density_));
 }
@@ -374,6 +311,13 @@ Result<void> Interface::compose(double seconds) {
 
 bool Interface::busy() const {
   return !events_.empty() || (viewer_.shell->any() && (shell_anew_ || !sharp_));
+}
+
+render::Cursor Interface::cursor() const {
+  if (ImGui::GetMouseCursor() == ImGuiMouseCursor_TextInput) return render::Cursor::text;
+  if (viewer_.joint_under >= 0)
+    return viewer_.measuring ? render::Cursor::cross : render::Cursor::hand;
+  return viewer_.edge_under >= 0 ? render::Cursor::hand : render::Cursor::arrow;
 }
 
 Result<void> Interface::frame(double seconds) {

@@ -46,6 +46,8 @@ class Interface {
   /// Whether events wait or the picture is still to become sharp.
   bool busy() const;
   bool events_wait() const { return !events_.empty(); }
+  /// What a press would do where the mouse is.
+  render::Cursor cursor() const;
   int width() const { return width_; }
   int height() const { return height_; }
 
@@ -62,11 +64,6 @@ class Interface {
   void feed();
   void feed(const InputEvent& event);
   Result<Eigen::Vector2d> place_of(const InputEvent& event) const;
-  Eigen::Vector2d in_view(int node) const;
-  ImVec2 point_of(int node) const;
-  void mark_picked();
-  void mark_under();
-  void write_forces();
   void press_key(Key key);
   void lay_out();
   void view_panel(const Panel& panel, const render::Box& box);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fontconfig/fontconfig.h>
 #include <imgui_internal.h>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -12,12 +14,12 @@ namespace {
 
 constexpr float tip_after_s = 0.6f;
 
+}  // namespace
+
 std::string help_of(const Action& action) {
   const std::string key = name_of(action.key);
   return action.help + (key.empty() ? "" : " (" + key + ")");
 }
-
-}  // namespace
 
 void Panel::named(const std::string& name, const std::string& tip) const {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
@@ -73,6 +75,26 @@ std::optional<std::size_t> choose(const std::string& id, const std::string& show
 std::string help_of(const preset::Field& field) {
   return fmt::format("{}{}; {}", field.meaning, field.unit.empty() ? "" : ", in " + field.unit,
                      allowed(field));
+}
+
+std::string label_of(const preset::Field& field) {
+  std::size_t end = field.key.size();
+  for (std::size_t at = 0; at < field.key.size(); ++at)
+    if (!field.unit.empty() && field.key[at] == '_' &&
+        preset::unit_of(field.key.substr(at)) == field.unit)
+      end = at;
+  std::string label = field.key.substr(0, end);
+  std::ranges::replace(label, '_', ' ');
+  return label;
+}
+
+bool text_input(const char* id, std::string& text, const char* hint) {
+  std::array<char, 1024> typed{};
+  text.copy(typed.data(), typed.size() - 1);
+  const bool entered = ImGui::InputTextWithHint(id, hint, typed.data(), typed.size(),
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  text = typed.data();
+  return entered;
 }
 
 void heading(const Panel& panel, const char* text) {
@@ -203,20 +225,22 @@ void menu_bar(const Panel& panel) {
 
 namespace {
 
+/// "8 and 16 edges per segment".
 std::string meshes_of(const std::vector<int>& meshes) {
   std::string text;
-  for (int edges : meshes) text += (text.empty() ? "" : "·") + std::to_string(edges);
-  return text;
+  for (std::size_t k = 0; k < meshes.size(); ++k)
+    text += fmt::format("{}{}", k == 0 ? "" : k + 1 < meshes.size() ? ", " : " and ", meshes[k]);
+  return text + " edges per segment";
 }
 
 std::string certificate_of(const ShellView& shell, bool timed) {
   const Certificate& c = shell.certificate;
   const std::string error = std::isfinite(c.error_estimate_mm)
-                                ? fmt::format("error {:.1e} mm", c.error_estimate_mm)
+                                ? fmt::format("error ± {:.2g} mm", c.error_estimate_mm)
                                 : "error not known";
   const std::string took = timed ? fmt::format("   {:.0f} ms", 1000 * shell.seconds) : "";
-  return fmt::format("residual {:.1e} N   pivots {}   {}   {} edges{}", c.residual_N,
-                     c.negative_pivots, error, meshes_of(shell.meshes), took);
+  return fmt::format("{} ({})   residual {:.0e} N{}", error, meshes_of(shell.meshes), c.residual_N,
+                     took);
 }
 
 std::string standing_of(const DesignProgress& course) {
@@ -263,8 +287,8 @@ void status_line(const Panel& panel, const render::Box& box) {
     ImGui::SameLine(0, panel.px(14));
     ImGui::TextUnformatted(certificate_of(shell, viewer.timed).c_str());
     panel.named("certificate",
-                "largest force that nothing holds; negative pivots of the Hessian; estimated error "
-                "of the joints; meshes, edges a segment; time of the last equilibrium");
+                "estimated error of the joints, from the meshes named; largest force that nothing "
+                "holds; time of the last equilibrium");
     ImGui::SameLine(0, panel.px(18));
   }
   const double busy = viewer.engine.busy_seconds();

@@ -51,6 +51,8 @@ void choose_word(const std::string& id, Enum& value) {
   if (const auto k = choose(id, std::string(word_of(value)), all_words<Enum>())) value = Enum(*k);
 }
 
+/// What an action does, with its key.
+std::string help_of(const Action& action);
 /// The meaning of a key, with its unit and what is allowed.
 std::string help_of(const preset::Field& field);
 
@@ -66,6 +68,19 @@ void design_panel(const Panel& panel, const render::Box& box);
 void status_line(const Panel& panel, const render::Box& box);
 void help_sheet(const Panel& panel, const render::Box& box);
 void colour_legend(const Panel& panel, const render::Box& view);
+/// Asks for the file of viewer.file_request.
+void file_prompt(const Panel& panel, const render::Box& box);
+/// Over the picture of the shell: what is picked, measured and under the mouse, forces, scale bar,
+/// axes.
+void view_overlay(const Panel& panel, const render::Box& view);
+/// Where a node is drawn, pixels of the window.
+Eigen::Vector2d in_view(const ViewerState& viewer, const render::Box& view, int node);
+
+/// "diameter" of diameter_mm.
+std::string label_of(const preset::Field& field);
+
+/// A line of text to type into, of at most 1 kB; true once it is entered.
+bool text_input(const char* id, std::string& text, const char* hint = "");
 
 /// Every number of the preset, from the field table; remembers what is being changed.
 class NumbersPanel {
@@ -73,7 +88,9 @@ class NumbersPanel {
   void draw(const Panel& panel, const render::Box& box);
 
  private:
-  bool edit(const Panel& panel, const preset::Field& field);
+  bool is_shown(const preset::Field& field);
+  void edit(const Panel& panel, const preset::Field& field);
+  void change(const Panel& panel, bool passing);
   void look(const ViewerState& viewer);
   void find_idle();
 
@@ -81,7 +98,9 @@ class NumbersPanel {
   preset::Preset edited_;
   std::set<std::string> idle_;  // keys that count for nothing in it
   std::string active_;          // the key under the mouse
+  std::string sought_;          // what is looked for
   bool typed_ = false;          // digits that are not meant yet
+  bool all_ = false;            // those that count for nothing are shown, too
 };
 
 // Fonts, colours and distances of the interface.
@@ -128,9 +147,11 @@ class PresetPicker {
 
  private:
   void load(const std::vector<PresetCard>& cards);
+  void opened_last(const Panel& panel) const;
   void card(const Panel& panel, const PresetCard& card, std::size_t number);
 
   const render::Gl* gl_;
+  std::string sought_;
   std::vector<std::optional<render::Texture>> pictures_;  // one a card, from the first sight on
 };
 

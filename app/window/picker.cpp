@@ -10,7 +10,7 @@
 namespace gridshell::window {
 namespace {
 
-constexpr double near_px = 11;        // of a joint or an edge point, at 1280 x 720
+constexpr double near_px = 12;        // of a joint or an edge point, at 1280 x 720
 constexpr double rod_px = 5;          // of a rod
 constexpr double bulge_spacings = 3;  // of d: through which edge points may be taken
 constexpr double click_px = 3;        // a press that moves less is a click
@@ -143,6 +143,7 @@ void Picker::release(double x, double y) {
   if (moved_ && at_shell) viewer_.end_drag();
   if (moved_) return;
   if (gesture_ == Gesture::let_go_joint) return viewer_.send_command(Release{joint_});
+  if (viewer_.measuring && joint_ >= 0) return viewer_.measure(joint_);
   viewer_.picked_joint = joint_;
   viewer_.picked_rod = joint_ < 0 && edge_ < 0 ? rod_at(x, y) : PointOnRod{};
   const bool nothing = joint_ < 0 && edge_ < 0 && viewer_.picked_rod.rod < 0;

@@ -59,22 +59,22 @@ class PlotBox {
             {from_.x + x.at(curve.x[k]) * (to_.x - from_.x), height_of(y, shown(values[k]))});
       return points;
     };
+    ticks_y(y, curve.logarithmic);
+    ticks_x(x, curve.x_label);
     if (curve.bars)
       draw_bars(points_of(curve.y), height_of(y, 0));
     else
       draw_line(points_of(curve.y), curve.jumps, ink());
     if (!curve.second.empty()) draw_line(points_of(curve.second), curve.jumps, pale());
-    label_y(y, curve, shown);
-    label_x(curve.bars ? x : Span(least(curve.x), most(curve.x)), curve.x_label);
+    tell_nearest(curve, points_of(curve.y));
   }
 
  private:
-  static float least(const std::vector<float>& v) { return *std::min_element(v.begin(), v.end()); }
-  static float most(const std::vector<float>& v) { return *std::max_element(v.begin(), v.end()); }
   float height_of(const Span& y, float value) const {
     return to_.y - std::clamp(y.at(value), 0.f, 1.f) * (to_.y - from_.y);
   }
   ImU32 pale() const { return text_colours(panel_.viewer.show.dark).muted; }
+  static ImU32 grid() { return ImGui::GetColorU32(ImGuiCol_Border, 0.6f); }
   static ImU32 ink() { return ImGui::GetColorU32(ImGuiCol_PlotLines); }
 
   void title(const char* text) {
@@ -102,31 +102,47 @@ class PlotBox {
     }
     list_.AddCircleFilled(points.back(), panel_.px(3), colour);
   }
-  void write_left(float value, float y) {
-    std::string text = fmt::format("{:.3g}", value);
-    if (text.size() > 7) text = fmt::format("{:.2g}", value);
-    y = std::clamp(y, from_.y + 0.5f * line_, to_.y - 0.5f * line_);
-    list_.AddText({from_.x - ImGui::CalcTextSize(text.c_str()).x - panel_.px(4), y - 0.5f * line_},
-                  pale(), text.c_str());
+  /// Labels at round values, the lines of a grid through them.
+  void ticks_y(const Span& y, bool logarithmic) {
+    const int count = std::max(1, int((to_.y - from_.y) / (2.2f * line_)));
+    const std::vector<render::Tick> ticks =
+        logarithmic ? render::log_ticks(std::pow(10., y.low), std::pow(10., y.high), count)
+                    : render::linear_ticks(double(y.low), double(y.high), count);
+    for (const render::Tick& tick : ticks) {
+      if (!tick.major) continue;
+      const float at = height_of(y, float(logarithmic ? std::log10(tick.value) : tick.value));
+      const std::string text = fmt::format("{:.6g}", tick.value);
+      list_.AddLine({from_.x, at}, {to_.x, at}, grid());
+      list_.AddText(
+          {from_.x - ImGui::CalcTextSize(text.c_str()).x - panel_.px(4), at - 0.5f * line_}, pale(),
+          text.c_str());
+    }
   }
-  /// The largest and the least value, at their heights; one alone where both would meet.
-  template <class ShownFrame>
-  void label_y(const Span& y, const Curve& curve, const ShownFrame& shown) {
-    std::vector<float> all = curve.y;
-    all.insert(all.end(), curve.second.begin(), curve.second.end());
-    const float high = curve.bars ? std::max(0.f, most(all)) : most(all),
-                low = curve.bars ? std::min(0.f, least(all)) : least(all);
-    const float top = height_of(y, shown(high)), bottom = height_of(y, shown(low));
-    write_left(high, top);
-    if (bottom - top > 1.1f * line_) write_left(low, bottom);
+  void ticks_x(const Span& x, const char* label) {
+    const float y = to_.y + panel_.px(2), end = to_.x - ImGui::CalcTextSize(label).x - panel_.px(8);
+    list_.AddText({end + panel_.px(8), y}, pale(), label);
+    const int count = std::max(1, int((end - from_.x) / (4.5f * line_)));
+    for (const render::Tick& tick : render::linear_ticks(double(x.low), double(x.high), count)) {
+      if (!tick.major) continue;
+      const float at = from_.x + x.at(float(tick.value)) * (to_.x - from_.x);
+      const std::string text = fmt::format("{:.6g}", tick.value);
+      const float half = 0.5f * ImGui::CalcTextSize(text.c_str()).x;
+      list_.AddLine({at, from_.y}, {at, to_.y}, grid());
+      if (at + half < end) list_.AddText({at - half, y}, pale(), text.c_str());
+    }
   }
-  void label_x(const Span& x, const char* label) {
-    const float y = to_.y + panel_.px(2);
-    const std::string low = fmt::format("{:.4g}", x.low), high = fmt::format("{:.4g}", x.high);
-    const auto width = [](const char* text) { return ImGui::CalcTextSize(text).x; };
-    list_.AddText({0.5f * (from_.x + to_.x - width(label)), y}, pale(), label);
-    list_.AddText({from_.x, y}, pale(), low.c_str());
-    if (high != low) list_.AddText({to_.x - width(high.c_str()), y}, pale(), high.c_str());
+  /// The values of the point next to the mouse.
+  void tell_nearest(const Curve& curve, const std::vector<ImVec2>& points) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    if (!ImGui::IsMouseHoveringRect(from_, to_) || ImGui::IsAnyMouseDown()) return;
+    const auto next = std::ranges::min_element(
+        points, {}, [&](const ImVec2& p) { return std::abs(p.x - mouse.x); });
+    const auto k = std::size_t(next - points.begin());
+    list_.AddCircle(*next, panel_.px(4), ImGui::GetColorU32(ImGuiCol_Text), 0, panel_.px(1.4));
+    std::string told = fmt::format("{} {:.5g}\n{} {:.5g}", curve.x_label, curve.x[k],
+                                   curve.y_label, curve.y[k]);
+    if (!curve.second.empty()) told += fmt::format(", {:.5g}", curve.second[k]);
+    ImGui::SetTooltip("%s", told.c_str());
   }
 
   const Panel& panel_;
@@ -147,56 +163,74 @@ namespace {
 
 constexpr double jump = 0.2;  // of the boundary's way, between two equilibria
 
-/// What the curves of height and energy run over: the depth of the last push, else the boundary's
-/// way, else, where it rests, one equilibrium after the other.
-struct Abscissa {
-  std::span<const PlotPoint> plot_points;
-  const char* label;
-  double (*of)(const PlotPoint&);
-};
-
-Abscissa abscissa_of(const ViewerState& viewer) {
-  std::span<const PlotPoint> all = viewer.plot_points;
-  const int joint = all.empty() ? -1 : all.back().joint;
-  std::size_t since = all.size();
-  while (since > 0 && all[since - 1].joint == joint) --since;
-  all = all.subspan(since);
-  if (joint >= 0) return {all, "depth (mm)", [](const auto& r) { return r.depth_mm; }};
-  const bool moved = std::ranges::any_of(
-      all, [&](const auto& r) { return std::abs(r.progress - all.front().progress) > 1e-9; });
-  if (!moved) return {all, "equilibrium", nullptr};
-  if (std::isfinite(viewer.shell->frame.boundary_radius_mm))
-    return {all, "R_a (mm)", [](const auto& r) { return r.radius_mm; }};
-  return {all, "progress", [](const auto& r) { return r.progress; }};
+/// What the curves run over where nothing else was chosen: the depth of the last push, else the
+/// boundary's way, else, where it rests, one equilibrium after the other.
+int abscissa_of(const ViewerState& viewer, std::span<const PlotPoint> points) {
+  if (points.empty() || points.back().joint >= 0) return quantity_called("depth_mm");
+  const bool moved = std::ranges::any_of(points, [&](const PlotPoint& point) {
+    return std::abs(point.progress - points.front().progress) > 1e-9;
+  });
+  if (!moved) return quantity_called("equilibrium");
+  return quantity_called(std::isfinite(viewer.shell->frame.boundary_radius_mm)
+                             ? "boundary_radius_mm"
+                             : "progress");
 }
 
-std::vector<Curve> curves_of(const ViewerState& viewer) {
-  const auto [plot_points, over, abscissa] = abscissa_of(viewer);
-  const bool pushed = !plot_points.empty() && plot_points.back().joint >= 0;
-  std::vector<Curve> curves{{"height (mm)", over, "", {}, {}},
-                            {"energy (mJ)", over, "", {}, {}},
-                            {"force along its way (N)", "depth (mm)", "no joint is held", {}, {}},
-                            {"K□ in bins (rad)", "x/L", "no cells", {}, {}, true}};
-  for (std::size_t k = 0; k < plot_points.size(); ++k) {
-    const PlotPoint& reading = plot_points[k];
-    const auto x = float(abscissa ? abscissa(reading) : double(k + 1));
-    const double values[] = {reading.height_mm, reading.energy_mJ, reading.force_N};
+/// Those since the joint was taken that is held now.
+std::span<const PlotPoint> last_points(const ViewerState& viewer) {
+  std::span<const PlotPoint> all = viewer.plot_points;
+  std::size_t since = all.size();
+  while (since > 0 && all[since - 1].joint == all.back().joint) --since;
+  return all.subspan(since);
+}
+
+Curve curve_of(const ViewerState& viewer, const PlotAxes& axes) {
+  const std::span<const PlotPoint> points = last_points(viewer);
+  const int x = axes.x >= 0 ? axes.x : abscissa_of(viewer, points);
+  const Quantity &over = quantities[std::size_t(x)], &shown = quantities[std::size_t(axes.y)];
+  Curve curve{shown.label, over.label, "nothing was done yet", {}, {}};
+  if (&shown == &quantities[std::size_t(quantity_called("force_N"))] &&
+      (points.empty() || points.back().joint < 0))
+    return curve.without = "no joint is held", curve;
+  for (std::size_t k = 0; k < points.size(); ++k) {
     // the boundary was put elsewhere, not drawn there
-    const bool jumped = k > 0 && abscissa && !pushed &&
-                        std::abs(reading.progress - plot_points[k - 1].progress) > jump;
-    for (std::size_t c = 0; c < (pushed ? 3 : 2); ++c) {
-      if (jumped) curves[c].jumps.push_back(k);
-      curves[c].x.push_back(x);
-      curves[c].y.push_back(float(values[c]));
-    }
+    if (k > 0 && points[k].joint < 0 &&
+        std::abs(points[k].progress - points[k - 1].progress) > jump)
+      curve.jumps.push_back(k);
+    curve.x.push_back(float(points[k].*over.value));
+    curve.y.push_back(float(points[k].*shown.value));
   }
-  const auto& bins = viewer.shell->frame.K_bins;
-  for (Eigen::Index k = 0; viewer.shell->any() && k < bins.rows(); ++k) {
+  return curve;
+}
+
+Curve bins_of(const ShellView& shell) {
+  Curve curve{"K□ in bins (rad)", "x/L", "no cells", {}, {}, true};
+  const auto& bins = shell.frame.K_bins;
+  for (Eigen::Index k = 0; shell.any() && k < bins.rows(); ++k) {
     if (!std::isfinite(bins(k, 0))) continue;
-    curves[3].x.push_back(-1 + (2 * float(k) + 1) / float(bins.rows()));
-    curves[3].y.push_back(float(bins(k, 0)));
+    curve.x.push_back(-1 + (2 * float(k) + 1) / float(bins.rows()));
+    curve.y.push_back(float(bins(k, 0)));
   }
-  return curves;
+  return curve;
+}
+
+/// What a right click on a plot opens: other quantities, and the plot as files.
+void plot_menu(const Panel& panel, PlotAxes& axes, const Curve& curve, const std::string& name) {
+  if (!ImGui::BeginPopupContextItem(name.c_str())) return;
+  const auto choose_quantity = [](const char* label, int& chosen) {
+    if (!ImGui::BeginMenu(label)) return;
+    for (int k = 0; k < int(std::size(quantities)); ++k)
+      if (ImGui::MenuItem(quantities[std::size_t(k)].label, nullptr, chosen == k)) chosen = k;
+    ImGui::EndMenu();
+  };
+  choose_quantity("Show", axes.y);
+  choose_quantity("Over", axes.x);
+  if (ImGui::MenuItem("Save as PDF, SVG, PNG and CSV", nullptr, false, !curve.x.empty()))
+    panel.viewer.save_plot({curve.x_label, curve.y_label,
+                            {curve.x.begin(), curve.x.end()},
+                            {curve.y.begin(), curve.y.end()}});
+  panel.named(name + " save", "");
+  ImGui::EndPopup();
 }
 
 }  // namespace
@@ -204,12 +238,25 @@ std::vector<Curve> curves_of(const ViewerState& viewer) {
 void plots_panel(const Panel& panel, const render::Box& box) {
   begin_fixed("plots", box);
   heading(panel, "Plots");
-  const std::vector<Curve> curves = curves_of(panel.viewer);
+  ViewerState& viewer = panel.viewer;
   const ImVec2 low = ImGui::GetCursorScreenPos(), space = ImGui::GetContentRegionAvail();
-  const float height = space.y / float(curves.size());
-  for (std::size_t k = 0; k < curves.size(); ++k)
-    draw_curve(panel, {low.x, low.y + height * float(k)},
-               {low.x + space.x, low.y + height * float(k + 1) - panel.px(4)}, curves[k]);
+  const std::size_t count = viewer.plot_axes.size() + 1;
+  const float height = space.y / float(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const ImVec2 corner{low.x, low.y + height * float(k)},
+        end{low.x + space.x, corner.y + height - panel.px(4)};
+    if (k + 1 == count) {
+      draw_curve(panel, corner, end, bins_of(*viewer.shell));
+      break;
+    }
+    const Curve curve = curve_of(viewer, viewer.plot_axes[k]);
+    draw_curve(panel, corner, end, curve);
+    const std::string name = fmt::format("plot {}", k + 1);
+    ImGui::SetCursorScreenPos(corner);
+    ImGui::InvisibleButton(name.c_str(), {end.x - corner.x, end.y - corner.y});
+    panel.controls[name] = {corner.x, corner.y, end.x - corner.x, end.y - corner.y};
+    plot_menu(panel, viewer.plot_axes[k], curve, name);
+  }
   ImGui::End();
 }
 
@@ -241,6 +288,7 @@ class Ground {
     low_.x = std::min(low_.x, right - size.x);
     reach(top + size.y);
   }
+  void widen(float left) { low_.x = std::min(low_.x, left); }
   void reach(float bottom) { high_.y = std::max(high_.y, bottom); }
 
  private:
@@ -265,8 +313,30 @@ void bar(const render::ColourScale& scale, ImVec2 low, ImVec2 high) {
 
 }  // namespace
 
+/// An end of the colours' range beside the bar, where it can be dragged or typed; its width.
+float range_end(const Panel& panel, const char* name, float left, float top) {
+  ViewerState& viewer = panel.viewer;
+  const bool is_high = std::string(name) == "range_high";
+  float low = float(viewer.show.scale.low), high = float(viewer.show.scale.high);
+  float& end = is_high ? high : low;
+  const float width = ImGui::CalcTextSize(fmt::format("{:.4g}", end).c_str()).x + panel.px(8);
+  ImGui::SetCursorScreenPos({left - panel.px(1) - width, top});
+  ImGui::SetNextItemWidth(width);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {panel.px(4), 0});
+  ImGui::PushStyleColor(ImGuiCol_FrameBg, 0);
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
+  const float step = 0.005f * std::max(1e-6f, high - low);
+  if (ImGui::DragFloat((std::string("##") + name).c_str(), &end, step, 0, 0, "%.4g"))
+    viewer.set_range(double(low), double(high));
+  ImGui::PopStyleVar(2);
+  ImGui::PopStyleColor();
+  panel.named(name, is_high ? "the high end of the colours; Ctrl+click to type"
+                            : "the low end of the colours; Ctrl+click to type");
+  return width;
+}
+
 void colour_legend(const Panel& panel, const render::Box& view) {
-  const ViewerState& viewer = panel.viewer;
+  ViewerState& viewer = panel.viewer;
   if (!viewer.shell->any() || viewer.show.colour_by == ColourBy::none) return;
   const float line = ImGui::GetTextLineHeight(), width = panel.px(14);
   // in a low view the bar leaves room for the notes below it
@@ -280,12 +350,15 @@ void colour_legend(const Panel& panel, const render::Box& view) {
   const float low = top + 1.6f * line, left = right - width;
   bar(scale, {left, low}, {right, low + height});
   ground.reach(low + height);
+  const float apart = 1.2f * line / height;  // of the range, between two texts
   for (const render::Tick& tick : render::linear_ticks(scale.low, scale.high, 4)) {
-    if (!tick.major) continue;
     const auto down = float((scale.high - tick.value) / (scale.high - scale.low));
-    ground.text(fmt::format("{:.6g}", tick.value), left - panel.px(5),
-                low + height * down - 0.5f * line);
+    if (tick.major && down > apart && down < 1 - apart)
+      ground.text(fmt::format("{:.6g}", tick.value), left - panel.px(5),
+                  low + height * down - 0.5f * line);
   }
+  ground.widen(left - panel.px(5) - range_end(panel, "range_high", left, low - 0.5f * line));
+  range_end(panel, "range_low", left, low + height - 0.5f * line);
   // the end colours stand for all that lies beyond them
   const double slack = 1e-9 * (scale.high - scale.low);
   float note = low + height + 0.8f * line;
@@ -293,8 +366,18 @@ void colour_legend(const Panel& panel, const render::Box& view) {
     ground.text(fmt::format("up to {:.3g}", values.maxCoeff()), right, note);
     note += 1.2f * line;
   }
-  if (values.minCoeff() < scale.low - slack)
+  if (values.minCoeff() < scale.low - slack) {
     ground.text(fmt::format("down to {:.3g}", values.minCoeff()), right, note);
+    note += 1.2f * line;
+  }
+  const bool fixed = viewer.range_of == RangeOf::hand;
+  const char* word = fixed ? "fixed" : "fix";
+  const float wide = ImGui::CalcTextSize(word).x + 2 * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetCursorScreenPos({right - wide, note});
+  if (ImGui::SmallButton(word)) find_action(fixed ? "range_run" : "range_hand")->act(viewer);
+  panel.named("range_fixed", fixed ? "lets the range widen with what is seen again"
+                                   : "keeps the colours' range as it is now");
+  ground.reach(note + line);
 }
 
 }  // namespace gridshell::window

@@ -1,5 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
+#include <string_view>
+#include <utility>
 #include <variant>
 
 #include "app/window/imgui_painter.h"
@@ -54,18 +60,75 @@ void PresetPicker::card(const Panel& panel, const PresetCard& card, std::size_t 
   ImGui::PopID();
 }
 
+namespace {
+
+/// What presets are about, by how their names begin; the last has all others.
+struct CardGroup {
+  const char* title;
+  std::vector<std::string_view> begins;
+};
+const CardGroup groups[] = {{"Movies of the paper", {"s1_", "s2_", "s3_", "s4_", "s5_"}},
+                            {"Figures of the paper", {"fig"}},
+                            {"Pages of the paper", {"page_"}},
+                            {"Designed to meet a surface", {"design_", "ring_"}},
+                            {"Curves, nets and surfaces of your own", {"curve_", "net_", "surface_"}},
+                            {"Networks of rods", {"network_"}},
+                            {"Models, limits, loads, steps", {""}}};
+
+const CardGroup& group_of(const std::string& name) {
+  return *std::ranges::find_if(groups, [&](const CardGroup& group) {
+    return std::ranges::any_of(group.begins, [&](auto begin) { return name.starts_with(begin); });
+  });
+}
+
+bool contains(std::string text, std::string sought) {
+  const auto lower = [](std::string& s) {
+    std::ranges::transform(s, s.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  };
+  lower(text), lower(sought);
+  return text.find(sought) != std::string::npos;
+}
+
+}  // namespace
+
+void PresetPicker::opened_last(const Panel& panel) const {
+  if (panel.viewer.recent.empty() || !sought_.empty()) return;
+  heading(panel, "Opened last");
+  const auto recent = panel.viewer.recent;
+  for (const std::string& name : recent) {
+    const std::string label = std::filesystem::path(name).filename().string();
+    if (ImGui::Button((label + "##" + name).c_str())) panel.viewer.open(name);
+    panel.named("recent " + name, name);
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
+}
+
 void PresetPicker::draw(const Panel& panel, const render::Box& box) {
   const std::vector<PresetCard>& cards = panel.viewer.library.cards;
   load(cards);
   begin_fixed("presets", box, 0, Layer::over);
   ImGui::TextUnformatted("Pick a preset");
   ImGui::SameLine();
+  ImGui::SetNextItemWidth(panel.px(200));
+  text_input("##sought", sought_, "search");
+  panel.named("search presets", "words of a name or a title");
+  ImGui::SameLine();
+  panel.button("open_file");
+  ImGui::SameLine();
   ImGui::TextDisabled("(Ctrl+O comes back here; F1 lists keys and mouse)");
-  ImGui::Separator();
+  opened_last(panel);
   const float width = ImGui::GetContentRegionAvail().x;
   const int columns = std::max(1, int(width / panel.px(card_points)));
-  if (ImGui::BeginTable("cards", columns)) {
+  for (const CardGroup& group : groups) {
+    const auto shown = [&](const PresetCard& card) {
+      return &group_of(card.name) == &group && contains(card.name + " " + card.title, sought_);
+    };
+    if (std::ranges::none_of(cards, shown)) continue;
+    heading(panel, group.title);
+    if (!ImGui::BeginTable(group.title, columns)) continue;
     for (std::size_t k = 0; k < cards.size(); ++k) {
+      if (!shown(cards[k])) continue;
       ImGui::TableNextColumn();
       card(panel, cards[k], k);
     }
@@ -81,23 +144,36 @@ namespace {
 using preset::Field;
 
 /// Those that the shell hangs on; how it is pictured has controls of its own.
-constexpr const char* shown_tables[] = {"rod",          "rod_v",  "joints",    "ends",
+constexpr std::string_view shown_tables[] = {"rod",          "rod_v",  "joints",    "ends",
                                         "footprint",    "net",    "actuation", "loads",
                                         "imperfection", "limits", "accuracy",  "dynamics"};
 
 float bound(double value) { return float(std::clamp(value, -1e9, 1e9)); }
+
+/// What a number's 0 stands for, where its meaning says that: "not given".
+std::string meaning_of_zero(const Field& field) {
+  const std::size_t at = field.meaning.find("0: ");
+  if (at == std::string::npos || (at > 0 && field.meaning[at - 1] != ' ')) return "";
+  std::string rest = field.meaning.substr(at + 3);
+  if (rest.starts_with("the ")) rest.erase(0, 4);
+  return rest.substr(0, rest.find_first_of(",;(%"));
+}
 
 /// A control for the member of a key; whether it was changed.
 struct Control {
   const Field& field;
   const char* id;
 
+  std::string format(bool zero, const char* number) const {
+    const std::string words = zero ? meaning_of_zero(field) : "";
+    return !words.empty() ? words : number + (field.unit.empty() ? "" : " " + field.unit);
+  }
   bool operator()(double* value) const {
     float shown = float(*value);
     const float step = std::max(1e-6f, 0.005f * std::abs(shown));
     const auto& range = field.range;
-    if (!ImGui::DragFloat(id, &shown, step, bound(range.low), bound(range.high), "%.6g",
-                          ImGuiSliderFlags_AlwaysClamp) ||
+    if (!ImGui::DragFloat(id, &shown, step, bound(range.low), bound(range.high),
+                          format(shown == 0, "%.6g").c_str(), ImGuiSliderFlags_AlwaysClamp) ||
         !range.holds(double(shown)))
       return false;
     *value = double(shown);
@@ -105,7 +181,8 @@ struct Control {
   }
   bool operator()(int* value) const {
     return ImGui::DragInt(id, value, 0.1f, int(bound(field.range.low)),
-                          int(bound(field.range.high)), "%d", ImGuiSliderFlags_AlwaysClamp);
+                          int(bound(field.range.high)), format(*value == 0, "%d").c_str(),
+                          ImGuiSliderFlags_AlwaysClamp);
   }
   bool operator()(bool* value) const { return ImGui::Checkbox(id, value); }
   bool operator()(const preset::OneWord& word) const {
@@ -127,31 +204,60 @@ bool has_control(const Field& field, preset::Preset& preset) {
          field.as_word(preset);
 }
 
+/// Gives a key of one preset the value that it has in another.
+void take_value(const Field& field, preset::Preset& to, preset::Preset from) {
+  if (double* value = field.as<double>(to)) *value = *field.as<double>(from);
+  if (int* value = field.as<int>(to)) *value = *field.as<int>(from);
+  if (bool* value = field.as<bool>(to)) *value = *field.as<bool>(from);
+  if (const auto word = field.as_word(to)) {
+    const auto other = *field.as_word(from);
+    word->set(word->member, other.get(other.member));
+  }
+}
+
 }  // namespace
 
-bool NumbersPanel::edit(const Panel& panel, const Field& field) {
-  const std::string name = name_of(field), id = "##" + name;
+void NumbersPanel::change(const Panel& panel, bool passing) {
+  panel.viewer.post(Change{edited_}, passing);
+  find_idle();
+}
+
+void NumbersPanel::edit(const Panel& panel, const Field& field) {
+  static const preset::Preset defaults;
+  const std::string name = name_of(field), id = "##" + name, label = label_of(field);
+  const std::string standard = value_text(field, defaults);
+  const bool changed_before = value_text(field, edited_) != standard;
+  const float back = panel.px(26);
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(field.key.c_str());
-  const float label = ImGui::CalcTextSize(field.key.c_str()).x;
-  ImGui::SameLine(std::max(panel.px(150), label + panel.px(16)));
-  ImGui::SetNextItemWidth(-1);
+  ImGui::TextUnformatted(label.c_str());
+  ImGui::SameLine(std::max(panel.px(118), ImGui::CalcTextSize(label.c_str()).x + panel.px(16)));
+  ImGui::SetNextItemWidth(-back);
+  // a default is pale
+  if (!changed_before)
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetColorU32(ImGuiCol_TextDisabled));
   const bool changed = std::visit(Control{field, id.c_str()}, field.in(edited_, -1));
-  panel.named(field.table + "." + field.key, help_of(field));
+  if (!changed_before) ImGui::PopStyleColor();
+  panel.named(field.table + "." + field.key,
+              fmt::format("{} = {}: {}", name, value_text(field, edited_), help_of(field)));
   if (ImGui::IsItemActive()) active_ = name;
   // a number is meant when its last digit stands
   const bool meant = is_typed_into() ? false : changed || (typed_ && ImGui::IsItemDeactivated());
   if (changed && is_typed_into()) typed_ = true;
   if (meant) {
     typed_ = false;
-    panel.viewer.post(Change{edited_}, ImGui::IsItemActive());
-    find_idle();
+    change(panel, ImGui::IsItemActive());
   }
   if (ImGui::IsItemDeactivated()) {
     if (active_ == name) panel.viewer.end_drag();
     active_.clear();
   }
-  return meant;
+  if (!changed_before) return;
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - back + panel.px(4));
+  if (ImGui::SmallButton(("↺##" + name).c_str())) {
+    take_value(field, edited_, defaults);
+    change(panel, false);
+  }
+  panel.named("default " + field.table + "." + field.key, "back to the default, " + standard);
 }
 
 void NumbersPanel::find_idle() {
@@ -173,22 +279,38 @@ void NumbersPanel::look(const ViewerState& viewer) {
   find_idle();
 }
 
+bool NumbersPanel::is_shown(const Field& field) {
+  if (!has_control(field, edited_) || (!all_ && idle_.contains(field.table + "." + field.key)))
+    return false;
+  return contains(field.table + " " + field.key + " " + label_of(field) + " " + field.meaning,
+                  sought_);
+}
+
 void NumbersPanel::draw(const Panel& panel, const render::Box& box) {
   begin_fixed("numbers", box);
   heading(panel, "Numbers of the preset");
   if (panel.viewer.shell->any()) {
     look(panel.viewer);
+    ImGui::SetNextItemWidth(panel.px(160));
+    if (std::exchange(panel.viewer.find_number, false)) ImGui::SetKeyboardFocusHere();
+    text_input("##sought", sought_, "search (Ctrl+F)");
+    panel.named("search numbers", "words of a name, a table or what it means");
+    ImGui::SameLine();
+    ImGui::Checkbox("all", &all_);
+    panel.named("all numbers", "also those that this scene does not use");
     // an edit may take a number away or bring one
-    const auto shown = [this](const Field& field, const char* table) {
-      return field.table == table && has_control(field, edited_) &&
-             !idle_.contains(field.table + "." + field.key);
-    };
-    for (const char* table : shown_tables) {
-      bool any = false;
-      for (const Field& field : preset::field_table()) any |= shown(field, table);
-      if (!any || !ImGui::CollapsingHeader(table, ImGuiTreeNodeFlags_DefaultOpen)) continue;
+    for (const preset::Table& table : preset::tables()) {
+      if (std::ranges::find(shown_tables, table.name) == std::end(shown_tables)) continue;
+      const auto shown = [&](const Field& field) {
+        return field.table == table.name && is_shown(field);
+      };
+      if (std::ranges::none_of(preset::field_table(), shown)) continue;
+      const bool open =
+          ImGui::CollapsingHeader(table.name.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+      panel.named("table " + table.name, table.meaning);
+      if (!open) continue;
       for (const Field& field : preset::field_table())
-        if (shown(field, table)) edit(panel, field);
+        if (shown(field)) edit(panel, field);
     }
   }
   ImGui::End();

@@ -38,7 +38,10 @@ render::WindowListener listener_to(const std::function<void(const InputEvent&)>&
       take({.kind = down ? InputKind::down : InputKind::up, .key = *key});
   };
   listener.text = [take](unsigned code) {
-    if (code > 0x20) take({.kind = InputKind::type, .text = utf8(code)});
+    if (code >= 0x20) take({.kind = InputKind::type, .text = utf8(code)});
+  };
+  listener.dropped = [take](const std::string& path) {
+    take({.kind = InputKind::open, .text = path});
   };
   return listener;
 }
@@ -74,6 +77,7 @@ Result<void> run_desktop(ViewerState& viewer, const std::function<void(const Inp
     const double now = seconds_now();
     if (auto drawn = (*interface)->frame(now - last); !drawn) return drawn;
     last = now;
+    (*window)->show_cursor((*interface)->cursor());
     (*window)->present();
     const bool still = !(*interface)->busy() && viewer.engine.idle() && !viewer.playing;
     (*window)->listen(listener, still ? still_wait_s : 0);
@@ -93,9 +97,11 @@ Result<void> rest(Interface& interface, ViewerState& viewer) {
     viewer.engine.wait();
     viewer.picture_task.wait();
     viewer.movie_task.wait();
+    viewer.export_task.wait();
     if (auto drawn = interface.frame_aside(frame_s); !drawn) return drawn;
     const bool rests = viewer.engine.idle() && viewer.engine.shell() == viewer.shell &&
-                       !viewer.playing && viewer.picture_task.idle() && viewer.movie_task.idle();
+                       !viewer.playing && viewer.picture_task.idle() &&
+                       viewer.movie_task.idle() && viewer.export_task.idle();
     if (rests && !interface.events_wait()) return {};
   }
   return {};

@@ -6,6 +6,7 @@
 
 #include "app/window/viewer_state.h"
 #include "engine/core/file_io.h"
+#include "render/canvas/plot.h"
 
 namespace gridshell::window {
 namespace {
@@ -98,7 +99,10 @@ Result<void> ViewerState::write_preset(const preset::Preset& preset, const fs::p
 
 void ViewerState::save_preset() {
   if (!shell->any()) return say("there is no shell to save", true);
-  const fs::path file = path_to_save({".toml", "_ends.csv", "_rods.csv"}).string() + ".toml";
+  save_preset_as(path_to_save({".toml", "_ends.csv", "_rods.csv"}).string() + ".toml");
+}
+
+void ViewerState::save_preset_as(const fs::path& file) {
   if (auto written = write_preset(preset_to_save(), file); !written)
     return say(written.error().message, true);
   say("saved " + file.string() + left_out(*shell), !left_out(*shell).empty());
@@ -106,13 +110,108 @@ void ViewerState::save_preset() {
 
 void ViewerState::save_picture() {
   if (!shell->any()) return say("there is no shell to draw", true);
+  draw_picture_as(path_to_save({".png"}).string() + ".png", picture);
+}
+
+void ViewerState::draw_picture_as(const fs::path& file, const PictureFormat& format) {
   if (picture_task.under_way()) return say("one picture is being drawn already", true);
-  if (auto made = make_folder(library.save_to); !made) return say(made.error().message, true);
-  const fs::path file = path_to_save({".png"}).string() + ".png";
-  picture_task.begin([draw = library.draw_picture, request = picture_request(), file](
+  if (auto made = make_folder(file.parent_path()); !made) return say(made.error().message, true);
+  PictureRequest request = picture_request();
+  request.kept = format;
+  picture_task.begin([draw = library.draw_picture, request, file](
                          const ProgressListener&, const Watch&) { return draw(request, file); },
                      file);
   say("drawing " + file.string());
+}
+
+// ---- files that are asked for ----
+
+void ViewerState::ask_file(FileUse use) {
+  if (use != FileUse::open && !shell->any()) return say("there is no shell yet", true);
+  FileRequest request{.use = use, .path = ""};
+  const char* ending = use == FileUse::save_preset    ? ".toml"
+                       : use == FileUse::save_picture ? ".png"
+                       : use == FileUse::export_shell ? ".vtp"
+                                                      : "";
+  request.path = *ending ? path_to_save({ending}).string() + ending
+                         : (fs::path(library.save_to) / "").string();
+  file_request = request;
+}
+
+void ViewerState::take_file() {
+  const FileRequest request = *file_request;
+  if (request.path.empty()) return say("a path is to be typed or picked", true);
+  const fs::path file = request.path;
+  std::error_code error;
+  const bool loads = request.use == FileUse::open || request.use == FileUse::compare;
+  if (!loads && (file.filename().empty() || fs::is_directory(file, error)))
+    return say("'" + request.path + "' is a folder: a file's name is to follow", true);
+  message_bad = false;
+  switch (request.use) {
+    case FileUse::open:
+      open(request.path);
+      break;
+    case FileUse::compare:
+      compare_with(file);
+      break;
+    case FileUse::save_preset:
+      save_preset_as(file.extension() == ".toml" ? file : fs::path(request.path + ".toml"));
+      break;
+    case FileUse::save_picture: {
+      PictureFormat format = picture;
+      format.dpi = request.dpi;
+      format.width = int(std::lround(request.width_mm / 25.4 * request.dpi));
+      format.height = int(std::lround(format.width * view.height / view.width));
+      if (auto fits = check_picture(format.width, format.height); !fits)
+        return say(fits.error().message, true);
+      draw_picture_as(file.extension() == ".png" ? file : fs::path(request.path + ".png"), format);
+      break;
+    }
+    case FileUse::export_shell:
+      export_as(file);
+      break;
+  }
+  // what did not go can be mended where it was typed
+  if (!message_bad) file_request.reset();
+}
+
+/// By the program's own `run` and `export` of the preset as the shell stands, beside the window.
+void ViewerState::export_as(const fs::path& file) {
+  if (export_task.under_way()) return say("one export is under way already", true);
+  if (file.extension().empty())
+    return say("the file's ending is to name the format: .obj, .vtp, .glb, .dxf, .svg, .csv …", true);
+  if (auto made = make_folder(file.parent_path()); !made) return say(made.error().message, true);
+  export_task.begin(
+      [make = library.export_shell, preset = preset_to_save(), file](
+          const ProgressListener& listener, const Watch& watch) {
+        return make(preset, file, listener, watch);
+      },
+      file);
+  say("exporting " + file.string());
+}
+
+void ViewerState::compare_with(const fs::path& run) {
+  auto loaded = library.load_run(run);
+  if (!loaded) return say(loaded.error().message, true);
+  show.other = std::make_shared<const OtherShell>(std::move(*loaded));
+  say("compared with " + show.other->name + ": " + difference_text());
+}
+
+std::string ViewerState::difference_text() const {
+  double largest = -1, sum = 0;
+  int count = 0;
+  const record::Joint* at = nullptr;
+  for (const record::Joint& joint : shell->layout->joints)
+    for (const record::Joint& same : show.other->joints) {
+      if (same.i != joint.i || same.j != joint.j) continue;
+      const double apart =
+          (shell->frame.nodes.col(joint.node) - show.other->nodes.col(same.node)).norm();
+      sum += apart, ++count;
+      if (apart > largest) largest = apart, at = &joint;
+    }
+  if (!at) return "no joint has the same name in both";
+  return fmt::format("largest distance {:.3g} mm at joint ({}, {}), mean {:.3g} mm", largest, at->i,
+                     at->j, sum / count);
 }
 
 void ViewerState::size_picture(int width, int height) {
@@ -141,7 +240,7 @@ void ViewerState::save_movie() {
 }
 
 void ViewerState::report_finished_tasks() {
-  for (BackgroundTask* work : {&picture_task, &movie_task}) {
+  for (BackgroundTask* work : {&picture_task, &movie_task, &export_task}) {
     const auto end = work->take_end();
     if (!end) continue;
     if (end->made)
@@ -151,6 +250,24 @@ void ViewerState::report_finished_tasks() {
     else
       say(end->made.error().message, true);
   }
+}
+
+void ViewerState::save_plot(const PlottedCurve& curve) {
+  const fs::path stem = path_to_save({".pdf", ".svg", ".png", ".csv"});
+  render::Plot plot;
+  plot.x.label = curve.x_label;
+  plot.y.label = curve.y_label;
+  plot.series.push_back(render::line_series("", render::series_colour(0), 1.2));
+  std::string table = fmt::format("{},{}\n", curve.x_label, curve.y_label);
+  for (std::size_t k = 0; k < curve.x.size(); ++k) {
+    plot.series.back().add(curve.x[k], curve.y[k]);
+    table += fmt::format("{},{}\n", curve.x[k], curve.y[k]);
+  }
+  const auto written = make_folder(library.save_to)
+                           .and_then([&] { return render::write_plot(stem, plot); })
+                           .and_then([&] { return write_file(stem.string() + ".csv", table); });
+  if (!written) return say(written.error().message, true);
+  say("saved " + stem.string() + ".pdf, .svg, .png and .csv");
 }
 
 void ViewerState::copy_camera() {

@@ -136,7 +136,8 @@ constexpr Palette light{{1, 1, 1, 1},
 constexpr Palette dark{{0.105f, 0.11f, 0.125f, 1}, {0.16f, 0.165f, 0.185f, 1},
                        {0.80f, 0.82f, 0.86f, 1},   {0.55f, 0.58f, 0.64f, 1},
                        {0.92f, 0.36f, 0.30f, 1},   {0.95f, 0.95f, 0.95f, 1}};
-constexpr Colour ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1};
+constexpr Colour ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1},
+    other_orange{0.90f, 0.49f, 0.13f, 1};
 
 const Palette& palette_of(const Show& show) { return show.dark ? dark : light; }
 
@@ -201,6 +202,9 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   };
   if (show.net) ghosts(layout.net_nodes);
   if (show.footprint) ghosts(layout.flat_nodes);
+  if (show.other)
+    drawing.ghosts.push_back(
+        {show.other->nodes, show.other->rods, drawing.rod_diameter_mm, other_orange});
   put_forces(shell, show, thin_mm, drawing);
   render::put_contacts(layout, shell.frame, thin_mm, drawing);
   // what starts flat stands on its boundary's plane

@@ -1,7 +1,9 @@
 // By what the shell is coloured, and the colours of a shell with the bar that explains them.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/window/orbit_camera.h"
@@ -36,12 +38,21 @@ render::ColourScale next_scale(const render::ColourScale& before, const render::
 
 // The shell in sight as the renderer of movies draws it.
 
+/// The last state of a run, which the shell in hand is compared with.
+struct OtherShell {
+  std::string name;
+  std::vector<record::Joint> joints;
+  std::vector<std::vector<int>> rods;  ///< nodes of each
+  Eigen::Matrix3Xd nodes;
+};
+
 /// What is shown, and how.
 struct Show {
   ColourBy colour_by = ColourBy::K;
   render::ColourScale scale;  ///< of the colours
   bool joints = true, rings = true, ground = true, net = false, footprint = false, dark = false;
   double mode_mm = 0;  ///< how far along the soft mode it is drawn
+  std::shared_ptr<const OtherShell> other = {};  ///< drawn over it; null: none
   bool operator==(const Show&) const = default;
 };
 

@@ -200,21 +200,8 @@ const char* choose_action(const Panel& panel, const char* id, const std::string&
 }
 
 void colour_range(const Panel& panel) {
-  ViewerState& viewer = panel.viewer;
-  if (viewer.show.colour_by == ColourBy::none) return;
+  if (panel.viewer.show.colour_by == ColourBy::none) return;
   panel.named("range", choose_action(panel, "##range", "range_"));
-  if (viewer.range_of != RangeOf::hand) return;
-  auto low = float(viewer.show.scale.low), high = float(viewer.show.scale.high);
-  const float step = 0.005f * std::max(1e-6f, high - low);
-  const float width = 0.5f * (ImGui::GetContentRegionAvail().x - panel.px(6));
-  ImGui::SetNextItemWidth(width);
-  bool changed = ImGui::DragFloat("##low", &low, step, 0, 0, "%.4g");
-  panel.named("range_low", "the low end of the colours, in the unit of the legend");
-  ImGui::SameLine(0, panel.px(6));
-  ImGui::SetNextItemWidth(width);
-  changed |= ImGui::DragFloat("##high", &high, step, 0, 0, "%.4g");
-  panel.named("range_high", "the high end of the colours, in the unit of the legend");
-  if (changed) viewer.set_range(double(low), double(high));
 }
 
 void colours(const Panel& panel) {

@@ -1,8 +1,11 @@
 #include "app/window/viewer_state.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <type_traits>
 
 #include "engine/core/json.h"
@@ -13,11 +16,44 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_points = 4000;
+constexpr std::size_t most_recent = 8;
 constexpr double look_every_s = 0.5;  // at the preset's file
 constexpr double most_number = 1e9;   // in a workspace
 constexpr double earth_m_s2 = 9.81, nitinol_kg_m3 = 6450;
 
 }  // namespace
+
+namespace {
+
+/// Along a rod from one of its nodes to another, mm; none: it has not both.
+std::optional<double> along_rod(const ShellView& shell, const std::vector<int>& rod, int from,
+                                int to) {
+  auto first = std::ranges::find(rod, from), last = std::ranges::find(rod, to);
+  if (first == rod.end() || last == rod.end()) return {};
+  if (last < first) std::swap(first, last);
+  double way = 0;
+  for (; first != last; ++first)
+    way += (shell.frame.nodes.col(first[1]) - shell.frame.nodes.col(first[0])).norm();
+  return way;
+}
+
+}  // namespace
+
+std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints) {
+  const auto way = [&](std::size_t from, std::size_t to) -> Eigen::Vector3d {
+    return shell.frame.nodes.col(joints[to]) - shell.frame.nodes.col(joints[from]);
+  };
+  if (joints.size() < 2) return "";
+  if (joints.size() > 2) {
+    const Eigen::Vector3d a = way(1, 0), b = way(1, 2);
+    return fmt::format("{:.2f}°", 180 / std::numbers::pi * std::atan2(a.cross(b).norm(), a.dot(b)));
+  }
+  std::string text = fmt::format("{:.2f} mm", way(0, 1).norm());
+  for (const std::vector<int>& rod : shell.layout->rods)
+    if (const auto along = along_rod(shell, rod, joints[0], joints[1]))
+      text += fmt::format(", {:.2f} mm along the rod", *along);
+  return text;
+}
 
 void ViewerState::say(const std::string& text, bool bad) {
   message = text;
@@ -47,7 +83,11 @@ void ViewerState::end_drag() { post(RefineAfterDrag{}, false); }
 void ViewerState::open(const std::string& name) {
   auto preset = library.load(name);
   if (!preset) return say(preset.error().message, true);
-  file_ = fs::exists(name) ? fs::path(name) : fs::path();
+  std::erase(recent, name);
+  recent.insert(recent.begin(), name);
+  recent.resize(std::min(recent.size(), most_recent));
+  show.other.reset();
+  file_ = fs::is_regular_file(name) ? fs::path(name) : fs::path();
   std::error_code error;
   if (!file_.empty()) written_ = fs::last_write_time(file_, error);
   picking = playing = false;
@@ -55,6 +95,7 @@ void ViewerState::open(const std::string& name) {
   plot_points.clear();
   picked_joint = picked_cell = -1;
   picked_rod = {};
+  measured.clear();
   say("forming '" + preset->title + "'");
   send_command(Open{std::move(*preset)});
 }
@@ -72,6 +113,11 @@ double ViewerState::part() const {
   if (whole.joint < 0 || !shell->any()) return shell->progress;
   const Eigen::Vector3d moved = shell->frame.nodes.col(whole.joint) - whole.from;
   return moved.dot(whole.displacement) / whole.displacement.squaredNorm();
+}
+
+void ViewerState::measure(int joint) {
+  if (measured.size() >= 3) measured.clear();
+  if (std::ranges::find(measured, joint) == measured.end()) measured.push_back(joint);
 }
 
 void ViewerState::set_range(double low, double high) {
@@ -196,7 +242,7 @@ void ViewerState::reset_view() {
     camera = saved_camera->camera;
     show.colour_by = saved_camera->colour_by;
   } else if (saved_camera && range_of == RangeOf::hand) {
-    range_of = RangeOf::state;  // that was of another quantity
+    range_of = RangeOf::run;  // that was of another quantity
   }
   saved_camera.reset();
   // it has a range of its own
@@ -205,13 +251,15 @@ void ViewerState::reset_view() {
 
 void ViewerState::add_plot_point() {
   const record::Frame& frame = shell->frame;
-  PlotPoint now{.radius_mm = frame.boundary_radius_mm,
+  PlotPoint now{.equilibrium = double(shell->equilibria),
+                .radius_mm = frame.boundary_radius_mm,
                 .progress = shell->progress,
                 .height_mm = frame.height_mm,
                 .energy_mJ = frame.energies.total(),
                 .total_K = frame.total_K,
+                .residual_N = shell->certificate.residual_N,
+                .error_mm = shell->certificate.error_estimate_mm,
                 .steps = int(shell->steps.size()),
-                .stable = shell->stable(),
                 .refined = shell->refined};
   if (!shell->held.empty()) {
     const HeldJoint& held = shell->held.back();
@@ -220,6 +268,8 @@ void ViewerState::add_plot_point() {
     const double along = held.force_N.dot(held.moved_mm.normalized());
     now.force_N = std::isfinite(along) ? along : 0;
   }
+  // what was undone is not shown
+  while (!plot_points.empty() && plot_points.back().steps > now.steps) plot_points.pop_back();
   // the finer meshes of a drag's end take the place of its coarse one
   if (now.refined && !plot_points.empty() && !plot_points.back().refined &&
       plot_points.back().steps == now.steps)
@@ -310,6 +360,7 @@ std::string workspace_text(const ViewerState& viewer) {
   Json shown = Json::object();
   each_switch(viewer, [&](const char* key, bool on) { shown[key] = on; });
   json["shown"] = shown;
+  json["recent"] = viewer.recent;
   return text_of(json);
 }
 
@@ -326,6 +377,10 @@ Result<void> take_workspace(ViewerState& viewer, const std::string& text) {
     if (viewer.range_of == RangeOf::hand && take(colour, "low", low) && take(colour, "high", high))
       viewer.set_range(low, high);
   }
+  if (json.contains("recent") && json["recent"].is_array())
+    for (const Json& one : json["recent"])
+      if (one.is_string() && viewer.recent.size() < most_recent)
+        viewer.recent.push_back(one.get<std::string>());
   SavedCamera kept{"", viewer.camera, viewer.show.colour_by};
   if (!take(json, "camera", camera) || !take(json, "preset", kept.preset)) return {};
   bool whole = true;

@@ -2,6 +2,7 @@
 // plays. It has no OpenGL and no interface library; panels show it, actions and the view change it.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -27,6 +28,7 @@ struct PictureFormat {
   int width = 0, height = 0;  ///< pixels; 0: twice the view's
   render::Quality quality = render::Quality::movie;
   bool legend = true;  ///< of the colours
+  double dpi = 0;      ///< that the file says; 0: none
 };
 
 /// Errors (bad_input): pixels that no picture can have.
@@ -39,6 +41,16 @@ struct PictureRequest {
   PictureSize view;  ///< that the camera looks into
   Show show;
   PictureFormat kept;
+};
+
+/// What a file is asked for.
+enum class FileUse { open, compare, save_preset, save_picture, export_shell };
+
+/// A file that the user is asked for.
+struct FileRequest {
+  FileUse use = FileUse::open;
+  std::string path;                 ///< as typed so far
+  double width_mm = 85, dpi = 300;  ///< of a picture
 };
 
 /// Where presets come from, what makes pictures and movies, and where all that is kept goes.
@@ -55,6 +67,12 @@ struct Library {
                              const std::filesystem::path& folder, const ProgressListener&,
                              const Watch&)>
       make_movie;
+  /// The shell that a preset comes to, in the format that the file's ending names.
+  std::function<Result<void>(const preset::Preset& preset, const std::filesystem::path& file,
+                             const ProgressListener&, const Watch&)>
+      export_shell;
+  /// What a run ended in.
+  std::function<Result<OtherShell>(const std::filesystem::path& run)> load_run;
   std::filesystem::path save_to = "out";
 };
 
@@ -66,12 +84,49 @@ struct PointOnRod {
 
 /// What the plots show of an equilibrium.
 struct PlotPoint {
-  double radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0, force_N = 0,
-         total_K = 0;
+  double equilibrium = 0, radius_mm = 0, progress = 0, height_mm = 0, energy_mJ = 0, depth_mm = 0,
+         force_N = 0, total_K = 0, residual_N = 0, error_mm = 0;
   int joint = -1;  ///< that is held and was taken last; none
   int steps = 0;   ///< that were done
-  bool stable = true, refined = true;
+  bool refined = true;
 };
+
+/// What can be plotted over what; named as columns of frames.csv.
+struct Quantity {
+  const char *name, *label;
+  double PlotPoint::*value;
+};
+inline constexpr Quantity quantities[] = {
+    {"equilibrium", "equilibrium", &PlotPoint::equilibrium},
+    {"progress", "progress", &PlotPoint::progress},
+    {"boundary_radius_mm", "R_a (mm)", &PlotPoint::radius_mm},
+    {"depth_mm", "depth (mm)", &PlotPoint::depth_mm},
+    {"force_N", "force along its way (N)", &PlotPoint::force_N},
+    {"height_mm", "height (mm)", &PlotPoint::height_mm},
+    {"energy_mJ", "energy (mJ)", &PlotPoint::energy_mJ},
+    {"total_K", "ΣK□ (rad)", &PlotPoint::total_K},
+    {"residual_N", "residual (N)", &PlotPoint::residual_N},
+    {"error_estimate_mm", "error estimate (mm)", &PlotPoint::error_mm}};
+constexpr int quantity_called(std::string_view name) {
+  for (std::size_t k = 0; k < std::size(quantities); ++k)
+    if (quantities[k].name == name) return int(k);
+  return -1;
+}
+
+/// The quantities of a plot; x below 0: what was moved last.
+struct PlotAxes {
+  int x = -1, y = 0;
+};
+
+/// A plot as it is kept.
+struct PlottedCurve {
+  std::string x_label, y_label;
+  std::vector<double> x, y;
+};
+
+/// Of two joints how far they are apart, straight and, where one has both, along their rod; of three
+/// the angle at the second.
+std::string text_of_measure(const ShellView& shell, const std::vector<int>& joints);
 
 /// How a shell was looked at last.
 struct SavedCamera {
@@ -102,14 +157,20 @@ class ViewerState {
   PictureSize view;  ///< of the shell's picture, pixels
   Show show;
   std::optional<SavedCamera> saved_camera;  ///< for when that preset's shell comes
-  RangeOf range_of = RangeOf::state;        ///< of the colours
+  RangeOf range_of = RangeOf::run;          ///< of the colours
   bool numbers = false, plots = true, help = false, picking = true, design_panel = false;
+  bool find_number = false;  ///< the search over the numbers is to be typed into
   DesignOptions design;
   std::vector<PlotPoint> plot_points;
+  std::array<PlotAxes, 3> plot_axes{PlotAxes{-1, quantity_called("height_mm")},
+                                    PlotAxes{-1, quantity_called("energy_mJ")},
+                                    PlotAxes{-1, quantity_called("force_N")}};
   std::string message;  ///< what was done last
   bool message_bad = false;
   int picked_joint = -1, picked_cell = -1;  ///< whose figures are shown
   PointOnRod picked_rod;
+  bool measuring = false;     ///< a click on a joint measures
+  std::vector<int> measured;  ///< joints, at most three
   int joint_under = -1, edge_under = -1;  ///< marked: what the cursor is at
   bool push_freely = false;  ///< a joint goes with the mouse instead of along its normal
   bool animate_mode = false;
@@ -117,15 +178,19 @@ class ViewerState {
   bool playing = false;
   double play_head = 1, play_speed = 0.25;  ///< of the path a second
   PictureFormat picture;
-  BackgroundTask picture_task, movie_task;
+  BackgroundTask picture_task, movie_task, export_task;
+  std::optional<FileRequest> file_request;
+  std::vector<std::string> recent;  ///< what was opened, the last first
   std::string copied;  ///< text for the clipboard
   bool timed = true;   ///< whether what took how long is shown
   bool over = false;   ///< the window is to close
 
   // ---- what is done ----
 
-  /// A preset by its name or file.
+  /// A preset by its name or file, or a run by its folder.
   void open(const std::string& name);
+  /// One more joint to measure to; after three it begins anew.
+  void measure(int joint);
   /// Of a drag while it is `passing`; a design under way refuses it.
   void post(Edit edit, bool passing);
   /// A step of its own, which ends a design under way.
@@ -156,11 +221,22 @@ class ViewerState {
   preset::Preset preset_to_save() const;
   void save_preset();
   void save_picture();
+  /// Asks for a file, with a path to begin with.
+  void ask_file(FileUse use);
+  /// Does what the file that was asked for is for; a path that cannot be stays asked for.
+  void take_file();
+  /// Another run beside the shell, or none again.
+  void compare_with(const std::filesystem::path& run);
+  /// How far the joints are from those of the same name in the other shell: "largest 3.2 mm at
+  /// (0, 1), mean 1.1 mm".
+  std::string difference_text() const;
   PictureRequest picture_request() const { return {shell, camera, view, show, picture}; }
   /// The size of kept pictures, pixels; of no pixels twice the view's. One that cannot be says so.
   void size_picture(int width, int height);
   /// Of what was done, or where nothing was, of the preset; beside the window.
   void save_movie();
+  /// A plot as PDF, SVG, PNG and a table.
+  void save_plot(const PlottedCurve& curve);
   /// The camera as keys of [movie].
   void copy_camera();
 
@@ -177,6 +253,9 @@ class ViewerState {
   void put_view(preset::Preset& preset) const;
   std::filesystem::path path_to_save(const std::vector<std::string>& endings) const;
   Result<void> write_preset(const preset::Preset& preset, const std::filesystem::path& file) const;
+  void save_preset_as(const std::filesystem::path& file);
+  void draw_picture_as(const std::filesystem::path& file, const PictureFormat& format);
+  void export_as(const std::filesystem::path& file);
   void report_finished_tasks();
 
   int drag_ = 1;

@@ -20,9 +20,6 @@ std::string member_name() {
   return std::string(text.substr(begin, text.find_first_of(";])", begin) - begin));
 }
 
-/// The unit that the end of a key names: "N/mm" of "field_N_per_mm"; empty: none.
-std::string unit_of(const std::string& key);
-
 template <class T>
 Member member_at(T& member) {
   if constexpr (std::is_enum_v<T>)

@@ -100,6 +100,8 @@ struct Field {
 /// top.
 std::string key_label(const std::string& table, const std::string& key, int item = -1);
 std::string name_of(const Field& field);
+/// The unit that the end of a key names: "N/mm" of "field_N_per_mm"; empty: none.
+std::string unit_of(const std::string& key);
 /// The same of a key that may stand in another table: "[net] kind" as it is.
 std::string full_label(const std::string& table, const std::string& key, int item = -1);
 

@@ -46,7 +46,12 @@ struct WindowListener {
   /// a key by the name printed on it: "A", "F1", "Ctrl", "Esc"; others are left out
   std::function<void(const std::string& name, bool down)> key = [](const std::string&, bool) {};
   std::function<void(unsigned codepoint)> text = [](unsigned) {};
+  /// a file or folder that was dropped on the window
+  std::function<void(const std::string& path)> dropped = [](const std::string&) {};
 };
+
+/// What the mouse would do where it is.
+enum class Cursor { arrow, hand, cross, text };
 
 struct WindowOptions {
   std::string title = "gridshell";
@@ -66,6 +71,7 @@ class Window : public Context {
   virtual int width() const = 0;  ///< pixels
   virtual int height() const = 0;
   virtual double density() const = 0;  ///< pixels a point of text
+  virtual void show_cursor(Cursor cursor) = 0;
   /// Shows what was drawn into framebuffer 0.
   virtual void present() = 0;
 };

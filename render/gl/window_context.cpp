@@ -1,6 +1,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <array>
 #include <cstdlib>
 #include <map>
 #include <utility>
@@ -32,6 +33,9 @@
   X(on_scroll, glfwSetScrollCallback)           \
   X(on_key, glfwSetKeyCallback)                 \
   X(on_char, glfwSetCharCallback)               \
+  X(on_drop, glfwSetDropCallback)               \
+  X(new_cursor, glfwCreateStandardCursor)       \
+  X(set_cursor, glfwSetCursor)                  \
   X(size_limits, glfwSetWindowSizeLimits)
 
 namespace gridshell::render {
@@ -95,6 +99,9 @@ class GlfwWindow final : public Window {
     glfw_.on_char(window_, [](GLFWwindow* w, unsigned codepoint) {
       if (of(w).listener_) of(w).listener_->text(codepoint);
     });
+    glfw_.on_drop(window_, [](GLFWwindow* w, int count, const char** paths) {
+      if (of(w).listener_ && count > 0) of(w).listener_->dropped(paths[0]);
+    });
   }
   ~GlfwWindow() override {
     glfw_.make_current(nullptr);
@@ -124,6 +131,16 @@ class GlfwWindow final : public Window {
     glfw_.content_scale(window_, &x, &y);
     return x > 0 ? x : 1;
   }
+  void show_cursor(Cursor cursor) override {
+    if (cursor == cursor_) return;
+    cursor_ = cursor;
+    // the library frees them when it ends
+    static constexpr int shapes[] = {GLFW_ARROW_CURSOR, GLFW_HAND_CURSOR, GLFW_CROSSHAIR_CURSOR,
+                                     GLFW_IBEAM_CURSOR};
+    GLFWcursor*& shape = cursors_[std::size_t(cursor)];
+    if (!shape) shape = glfw_.new_cursor(shapes[std::size_t(cursor)]);
+    glfw_.set_cursor(window_, shape);
+  }
   void present() override { glfw_.swap(window_); }
 
  private:
@@ -146,6 +163,8 @@ class GlfwWindow final : public Window {
   Glfw glfw_;
   GLFWwindow* window_;
   const WindowListener* listener_ = nullptr;
+  Cursor cursor_ = Cursor::arrow;
+  std::array<GLFWcursor*, 4> cursors_{};
 };
 
 }  // namespace
