@@ -212,6 +212,8 @@ const Action table[] = {
      "the range stays as it is, and its ends can be typed into the bar"),
 
     toggle<&ViewerState::help>("help", "Help", "Keys and mouse", on(Key::f1), "this sheet"),
+    toggle<&ViewerState::terms>("terms", "Help", "What is this?", none,
+     "the words of the panels, a sentence each"),
 };
 
 constexpr MouseAction mouse[] = {

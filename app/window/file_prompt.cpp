@@ -108,15 +108,9 @@ void file_prompt(const Panel& panel, const render::Box& box) {
   const float foot = 2.6f * ImGui::GetFrameHeightWithSpacing();
   if (ImGui::BeginChild("entries", {0, -foot}, true)) list(panel, request);
   ImGui::EndChild();
-  std::error_code error;
-  const bool saves = request.use != FileUse::open && request.use != FileUse::compare;
-  if (viewer.message_bad)
-    coloured_text(text_colours(viewer.show.dark).error, viewer.message);
-  else if (saves && fs::is_regular_file(request.path, error))
-    coloured_text(text_colours(viewer.show.dark).warning, "it is there already and is replaced");
-  else
-    ImGui::TextUnformatted("");
-  taken |= ImGui::Button(text.button);
+  coloured_text(text_colours(viewer.show.dark).error, viewer.message_bad ? viewer.message : "");
+  const bool replaces = !request.replaced.empty() && request.replaced == request.path;
+  taken |= ImGui::Button(replaces ? "Replace" : text.button);
   panel.named("file_take", text.title);
   ImGui::SameLine();
   const bool cancelled = ImGui::Button("Cancel");

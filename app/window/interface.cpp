@@ -210,7 +210,8 @@ void Interface::press_key(Key key) {
   const Action* action = action_of({key, io.KeyCtrl, io.KeyShift});
   if (!action) return;
   // nothing happens to a shell that is not seen
-  const bool hidden = viewer_.help || viewer_.picking || viewer_.file_request;
+  const bool hidden =
+      viewer_.help || viewer_.terms || viewer_.picking || viewer_.file_request;
   const std::string menu = action->menu;
   if (hidden && (menu == "Shell" || menu == "Edit")) return;
   action->act(viewer_);
@@ -254,10 +255,10 @@ void Interface::view_panel(const Panel& panel, const render::Box& box) {
 void Interface::lay_out() {
   const Panel panel{viewer_, density_, controls_};
   const double left = std::round(272 * density_), right = std::round(272 * density_),
-               status = std::round(30 * density_);
+               status = std::round(30 * density_), strip = std::round(32 * density_);
   controls_.clear();
   menu_bar(panel);
-  const double top = ImGui::GetFrameHeight(), height = height_ - top - status;
+  const double top = ImGui::GetFrameHeight(), height = height_ - top - status - strip;
   const bool small = width_ - left - right < least_view * density_;
   const Column column = column_of(viewer_, height, small, density_);
   shell_panel(panel, {0, top, left, height});
@@ -270,10 +271,13 @@ void Interface::lay_out() {
   if (column.numbers > 0) numbers_.draw(panel, next(column.numbers));
   if (column.design > 0) design_panel(panel, next(column.design));
   if (column.plots > 0) plots_panel(panel, next(column.plots));
-  status_line(panel, {0, top + height, double(width_), status});
+  timeline_panel(panel, {0, top + height, double(width_), strip});
+  status_line(panel, {0, top + height + strip, double(width_), status});
   if (viewer_.picking && !viewer_.help) picker_.draw(panel, {left, top, width_ - left, height});
   if (viewer_.file_request)
     file_prompt(panel, render::Box{0, top, double(width_), height}.inset(60 * density_));
+  if (viewer_.terms)
+    terms_sheet(panel, render::Box{0, top, double(width_), height}.inset(60 * density_));
   if (viewer_.help)
     help_sheet(panel, render::Box{0, top, double(width_), height}.inset(20 * density_));
 }

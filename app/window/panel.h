@@ -66,7 +66,11 @@ void shell_panel(const Panel& panel, const render::Box& box);
 void plots_panel(const Panel& panel, const render::Box& box);
 void design_panel(const Panel& panel, const render::Box& box);
 void status_line(const Panel& panel, const render::Box& box);
+/// What was done, to go back to; and why the state's certificate is what it is.
+void timeline_panel(const Panel& panel, const render::Box& box);
+void why_popup(const Panel& panel);
 void help_sheet(const Panel& panel, const render::Box& box);
+void terms_sheet(const Panel& panel, const render::Box& box);
 void colour_legend(const Panel& panel, const render::Box& view);
 /// Asks for the file of viewer.file_request.
 void file_prompt(const Panel& panel, const render::Box& box);

@@ -121,7 +121,7 @@ class PlotBox {
   void ticks_x(const Span& x, const char* label) {
     const float y = to_.y + panel_.px(2), end = to_.x - ImGui::CalcTextSize(label).x - panel_.px(8);
     list_.AddText({end + panel_.px(8), y}, pale(), label);
-    const int count = std::max(1, int((end - from_.x) / (4.5f * line_)));
+    const int count = std::max(1, int((end - from_.x) / (3.2f * line_)));
     for (const render::Tick& tick : render::linear_ticks(double(x.low), double(x.high), count)) {
       if (!tick.major) continue;
       const float at = from_.x + x.at(float(tick.value)) * (to_.x - from_.x);

@@ -257,7 +257,7 @@ void NumbersPanel::edit(const Panel& panel, const Field& field) {
     take_value(field, edited_, defaults);
     change(panel, false);
   }
-  panel.named("default " + field.table + "." + field.key, "back to the default, " + standard);
+  panel.named("default_" + field.table + "." + field.key, "back to the default, " + standard);
 }
 
 void NumbersPanel::find_idle() {

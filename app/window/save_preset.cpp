@@ -28,6 +28,10 @@ std::string left_out(const ShellView& shell) {
   return text;
 }
 
+Result<void> make_folder_of(const fs::path& file) {
+  return file.has_parent_path() ? make_folder(file.parent_path()) : Result<void>();
+}
+
 /// Whether meshes decided which state it came to.
 bool jumped(const ShellView& shell) {
   return shell.snapped || std::ranges::any_of(shell.steps, [](const auto& step) {
@@ -94,7 +98,7 @@ preset::Preset ViewerState::preset_to_save() const {
 }
 
 Result<void> ViewerState::write_preset(const preset::Preset& preset, const fs::path& file) const {
-  return make_folder(library.save_to).and_then([&] { return library.write_preset(preset, file); });
+  return make_folder_of(file).and_then([&] { return library.write_preset(preset, file); });
 }
 
 void ViewerState::save_preset() {
@@ -115,7 +119,7 @@ void ViewerState::save_picture() {
 
 void ViewerState::draw_picture_as(const fs::path& file, const PictureFormat& format) {
   if (picture_task.under_way()) return say("one picture is being drawn already", true);
-  if (auto made = make_folder(file.parent_path()); !made) return say(made.error().message, true);
+  if (auto made = make_folder_of(file); !made) return say(made.error().message, true);
   PictureRequest request = picture_request();
   request.kept = format;
   picture_task.begin([draw = library.draw_picture, request, file](
@@ -126,13 +130,26 @@ void ViewerState::draw_picture_as(const fs::path& file, const PictureFormat& for
 
 // ---- files that are asked for ----
 
+/// Of a file that is written, as a rule.
+static const char* ending_of(FileUse use) {
+  switch (use) {
+    case FileUse::save_preset:
+      return ".toml";
+    case FileUse::save_picture:
+      return ".png";
+    case FileUse::export_shell:
+      return ".vtp";
+    case FileUse::open:
+    case FileUse::compare:
+      break;
+  }
+  return "";
+}
+
 void ViewerState::ask_file(FileUse use) {
   if (use != FileUse::open && !shell->any()) return say("there is no shell yet", true);
   FileRequest request{.use = use, .path = ""};
-  const char* ending = use == FileUse::save_preset    ? ".toml"
-                       : use == FileUse::save_picture ? ".png"
-                       : use == FileUse::export_shell ? ".vtp"
-                                                      : "";
+  const char* ending = ending_of(use);
   request.path = *ending ? path_to_save({ending}).string() + ending
                          : (fs::path(library.save_to) / "").string();
   file_request = request;
@@ -141,11 +158,18 @@ void ViewerState::ask_file(FileUse use) {
 void ViewerState::take_file() {
   const FileRequest request = *file_request;
   if (request.path.empty()) return say("a path is to be typed or picked", true);
-  const fs::path file = request.path;
+  fs::path file = request.path;
+  const char* ending = ending_of(request.use);
+  if (request.use == FileUse::save_preset || request.use == FileUse::save_picture)
+    if (!file.filename().empty() && file.extension() != ending) file += ending;
   std::error_code error;
   const bool loads = request.use == FileUse::open || request.use == FileUse::compare;
   if (!loads && (file.filename().empty() || fs::is_directory(file, error)))
     return say("'" + request.path + "' is a folder: a file's name is to follow", true);
+  if (!loads && fs::exists(file, error) && request.replaced != request.path) {
+    file_request->replaced = request.path;
+    return say("it is there already: once more replaces it", true);
+  }
   message_bad = false;
   switch (request.use) {
     case FileUse::open:
@@ -155,7 +179,7 @@ void ViewerState::take_file() {
       compare_with(file);
       break;
     case FileUse::save_preset:
-      save_preset_as(file.extension() == ".toml" ? file : fs::path(request.path + ".toml"));
+      save_preset_as(file);
       break;
     case FileUse::save_picture: {
       PictureFormat format = picture;
@@ -164,7 +188,7 @@ void ViewerState::take_file() {
       format.height = int(std::lround(format.width * view.height / view.width));
       if (auto fits = check_picture(format.width, format.height); !fits)
         return say(fits.error().message, true);
-      draw_picture_as(file.extension() == ".png" ? file : fs::path(request.path + ".png"), format);
+      draw_picture_as(file, format);
       break;
     }
     case FileUse::export_shell:
@@ -180,7 +204,7 @@ void ViewerState::export_as(const fs::path& file) {
   if (export_task.under_way()) return say("one export is under way already", true);
   if (file.extension().empty())
     return say("the file's ending is to name the format: .obj, .vtp, .glb, .dxf, .svg, .csv …", true);
-  if (auto made = make_folder(file.parent_path()); !made) return say(made.error().message, true);
+  if (auto made = make_folder_of(file); !made) return say(made.error().message, true);
   export_task.begin(
       [make = library.export_shell, preset = preset_to_save(), file](
           const ProgressListener& listener, const Watch& watch) {
@@ -263,7 +287,7 @@ void ViewerState::save_plot(const PlottedCurve& curve) {
     plot.series.back().add(curve.x[k], curve.y[k]);
     table += fmt::format("{},{}\n", curve.x[k], curve.y[k]);
   }
-  const auto written = make_folder(library.save_to)
+  const auto written = make_folder_of(stem)
                            .and_then([&] { return render::write_plot(stem, plot); })
                            .and_then([&] { return write_file(stem.string() + ".csv", table); });
   if (!written) return say(written.error().message, true);

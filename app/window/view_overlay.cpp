@@ -35,6 +35,7 @@ class Overlay {
   void mark_under();
   void write_forces();
   void write_measure();
+  void tell_other();
   void draw_scale();
   void draw_axes();
 
@@ -113,6 +114,13 @@ void Overlay::write_measure() {
   if (joints.size() > 1) label(text_of_measure(shell_, joints), point_of(joints[1]));
 }
 
+/// What the orange rods are, and how far the joints are from theirs.
+void Overlay::tell_other() {
+  if (!viewer_.show.other) return;
+  const std::string text = viewer_.show.other->name + " (orange): " + viewer_.difference_text();
+  label(text, {float(view_.x), float(view_.y) + panel_.px(34)});
+}
+
 /// A round length of some hundred pixels; of a picture in perspective it holds in the
 /// plane that the camera looks at.
 void Overlay::draw_scale() {
@@ -172,6 +180,7 @@ void view_overlay(const Panel& panel, const render::Box& view) {
   overlay.mark_under();
   overlay.write_forces();
   overlay.write_measure();
+  overlay.tell_other();
   overlay.draw_scale();
   overlay.draw_axes();
 }

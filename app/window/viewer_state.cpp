@@ -93,6 +93,7 @@ void ViewerState::open(const std::string& name) {
   picking = playing = false;
   fresh_ = true;
   plot_points.clear();
+  timeline.clear();
   picked_joint = picked_cell = -1;
   picked_rod = {};
   measured.clear();
@@ -130,7 +131,7 @@ void ViewerState::set_range(double low, double high) {
 // ---- design ----
 
 void ViewerState::stop() {
-  playing = help = false;
+  playing = help = terms = false;
   engine.cancel();
 }
 
@@ -224,6 +225,7 @@ void ViewerState::take(std::shared_ptr<const ShellView> next) {
   if (fresh_) reset_view();
   show.scale = next_scale(show.scale, scale_of(*shell, show.colour_by), range_of);
   add_plot_point();
+  note_step();
 }
 
 /// Another shell: as its preset would have it seen, or as it was seen last.

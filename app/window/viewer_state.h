@@ -43,6 +43,14 @@ struct PictureRequest {
   PictureFormat kept;
 };
 
+/// A step that was done, and what happened on its way.
+struct TimelineEntry {
+  std::string text, event;
+  bool stable = true;
+};
+/// What led to the state that is shown: "pushed (0, 0): 8.16 mm, 0.0342 N".
+std::string text_of_step(const ShellView& shell);
+
 /// What a file is asked for.
 enum class FileUse { open, compare, save_preset, save_picture, export_shell };
 
@@ -51,6 +59,7 @@ struct FileRequest {
   FileUse use = FileUse::open;
   std::string path;                 ///< as typed so far
   double width_mm = 85, dpi = 300;  ///< of a picture
+  std::string replaced = {};        ///< a file that is there and was confirmed to go
 };
 
 /// Where presets come from, what makes pictures and movies, and where all that is kept goes.
@@ -158,10 +167,12 @@ class ViewerState {
   Show show;
   std::optional<SavedCamera> saved_camera;  ///< for when that preset's shell comes
   RangeOf range_of = RangeOf::run;          ///< of the colours
-  bool numbers = false, plots = true, help = false, picking = true, design_panel = false;
+  bool numbers = false, plots = true, help = false, terms = false, picking = true,
+       design_panel = false;
   bool find_number = false;  ///< the search over the numbers is to be typed into
   DesignOptions design;
   std::vector<PlotPoint> plot_points;
+  std::vector<TimelineEntry> timeline;  ///< by the number of steps that can be undone
   std::array<PlotAxes, 3> plot_axes{PlotAxes{-1, quantity_called("height_mm")},
                                     PlotAxes{-1, quantity_called("energy_mJ")},
                                     PlotAxes{-1, quantity_called("force_N")}};
@@ -200,6 +211,8 @@ class ViewerState {
   /// The boundary to a progress; of a preset with a push, the push to a share of its depth.
   void go(double part, bool passing);
   void play(bool on);
+  /// Back or on to where so many steps can be undone.
+  void go_to_step(int step);
   /// Stops what the engine is at; of a design the last step stays.
   void stop();
   /// Designs the shell by what was chosen, coloured by its deviation.
@@ -248,6 +261,7 @@ class ViewerState {
   void take(std::shared_ptr<const ShellView> next);
   void reset_view();
   void add_plot_point();
+  void note_step();
   void watch_file(double seconds);
   render::Camera fitted_view() const;
   void put_view(preset::Preset& preset) const;

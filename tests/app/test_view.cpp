@@ -253,6 +253,67 @@ TEST_CASE("a monkey at mouse and keys breaks nothing, and all it did can be undo
   CHECK(other["boundary_radius_mm"].get<double>() == Approx(54));
 }
 
+namespace {
+
+/// Types a path where a file is asked for, and enters it.
+std::string entered(const std::string& path) {
+  return "wait 0.1\nmouse @file_path 0.5 0.5\npress left\nrelease left\ndown Ctrl\ndown A\nup A\n"
+         "up Ctrl\ntype " +
+         path + "\ndown Enter\nup Enter\n";
+}
+
+}  // namespace
+
+TEST_CASE("a shell is saved under a name, exported, and compared with a run", "[standard]") {
+  const TemporaryFolder folder;
+  REQUIRE(write_file(folder.path() / "small.toml", shell));
+  good("run small.toml -o ran", folder.path());
+  const std::string push = "mouse @joint:0,0 0 0\npress left\nmouse @joint:0,0 0 8\nrelease left\n";
+  const json told = played(folder, push + "do save_as\n" + entered("deep/mine") + "do export\n" +
+                                       entered("deep/mine.obj") + "do compare\n" + entered("ran"));
+  const std::string said = told["message"];
+  CHECK(said.find("compared with ran: largest distance") == 0);
+  CHECK(said.find("at joint (0, 0)") != std::string::npos);
+  // both are of the shell as it was pushed
+  CHECK(text_of(folder.path() / "deep/mine.obj").find("\nv ") != std::string::npos);
+  const Ended ran = good("run deep/mine.toml -o again", folder.path());
+  const json again = json::parse(text_of(folder.path() / "again/summary.json"));
+  CHECK(again["height_mm"].get<double>() == Approx(told["height_mm"].get<double>()).epsilon(1e-9));
+  // what is there goes only when asked for once more
+  const json asked = played(folder, "do save_as\n" + entered("deep/mine"));
+  CHECK(asked["message"] == "it is there already: once more replaces it");
+  CHECK(played(folder, "do compare\n" + entered("deep"))["message"].get<std::string>().find(
+            "deep") != std::string::npos);
+}
+
+TEST_CASE("a step of the strip along the bottom is gone back to, and on to") {
+  const TemporaryFolder folder;
+  const std::string steps =
+      "mouse @joint:0,0 0 0\npress left\nmouse @joint:0,0 0 6\nrelease left\n"
+      "mouse @R_a 0.5 0.5\npress left\nmouse @R_a 0.6 0.5\nrelease left\n";
+  const std::string click = " 0.5 0.5\npress left\nrelease left\n";
+  const json back = played(folder, steps + "mouse @step_0" + click);
+  CHECK((back["undo_steps"] == 0 && back["redo_steps"] == 2 && back["held"] == 0));
+  const json on = played(folder, steps + "mouse @step_0" + click + "mouse @step_1" + click);
+  CHECK((on["undo_steps"] == 1 && on["redo_steps"] == 1 && on["held"] == 1));
+}
+
+TEST_CASE("a number is found by a word and goes back to its default") {
+  const TemporaryFolder folder;
+  const json found = played(folder,
+                            "do find_number\nwait 0.2\ntype young\ndown Ctrl\n"
+                            "mouse @rod.young_GPa 0.5 0.5\npress left\nrelease left\nup Ctrl\n"
+                            "down Ctrl\ndown A\nup A\nup Ctrl\ntype 40\ndown Enter\nup Enter\n");
+  CHECK(found["undo_steps"] == 1);
+  const json back = played(
+      folder,
+      "do numbers\ndown Ctrl\nmouse @rod.young_GPa 0.5 0.5\npress left\nrelease left\nup Ctrl\n"
+      "down Ctrl\ndown A\nup A\nup Ctrl\ntype 40\ndown Enter\nup Enter\n"
+      "mouse @default_rod.young_GPa 0.5 0.5\npress left\nrelease left\n");
+  CHECK(back["undo_steps"] == 2);
+  CHECK(back["energy_bend_mJ"].get<double>() > 1.5 * found["energy_bend_mJ"].get<double>());
+}
+
 TEST_CASE("a movie of what was done is made beside the window, and a picture of any size kept") {
   const TemporaryFolder folder;
   const json told = played(folder,

@@ -36,7 +36,7 @@ TEST_CASE("the colours' range is of a state, of all states, or stays as it was s
   CHECK((kept.low == -2 && kept.high == 1));
   ViewerState viewer({});
   viewer.set_range(2, 1);
-  CHECK(viewer.range_of == RangeOf::state);
+  CHECK(viewer.range_of == RangeOf::run);
   viewer.set_range(-0.5, 0.25);
   CHECK(viewer.range_of == RangeOf::hand);
   CHECK(viewer.show.scale.high == 0.25);
@@ -67,10 +67,68 @@ TEST_CASE("switches switch, and back") {
   }
 }
 
+namespace {
+
+/// Joints (0, 0), (1, 0) and (2, 0) on one bent rod, and (0, 1) beside it.
+ShellView shell_of_four_joints() {
+  auto layout = std::make_shared<record::Layout>();
+  const int names[4][2] = {{0, 0}, {1, 0}, {2, 0}, {0, 1}};
+  for (int k = 0; k < 4; ++k) {
+    layout->joints.push_back({});
+    layout->joints.back().i = names[k][0], layout->joints.back().j = names[k][1];
+    layout->joints.back().node = k;
+  }
+  layout->rods = {{0, 1, 2}};
+  ShellView shell;
+  shell.layout = layout;
+  shell.frame.nodes.resize(3, 4);
+  shell.frame.nodes << 0, 3, 3, 0, 0, 0, 4, 2, 0, 0, 0, 0;
+  return shell;
+}
+
+}  // namespace
+
+TEST_CASE("two joints give their distance, straight and along their rod, three an angle") {
+  const ShellView shell = shell_of_four_joints();
+  CHECK(text_of_measure(shell, {0}).empty());
+  CHECK(text_of_measure(shell, {0, 2}) == "5.00 mm, 7.00 mm along the rod");
+  CHECK(text_of_measure(shell, {2, 0}) == "5.00 mm, 7.00 mm along the rod");
+  CHECK(text_of_measure(shell, {0, 3}) == "2.00 mm");
+  CHECK(text_of_measure(shell, {0, 1, 2}) == "90.00°");
+  ViewerState viewer({});
+  for (const int joint : {4, 4, 5, 6, 7}) viewer.measure(joint);
+  CHECK(viewer.measured == std::vector<int>{7});
+}
+
+TEST_CASE("another run's joints are compared by their names") {
+  ViewerState viewer({});
+  viewer.shell = std::make_shared<ShellView>(shell_of_four_joints());
+  OtherShell other{"other", viewer.shell->layout->joints, {}, viewer.shell->frame.nodes};
+  std::swap(other.joints[0].node, other.joints[3].node);
+  other.nodes.col(1).z() = 1;
+  viewer.show.other = std::make_shared<const OtherShell>(other);
+  CHECK(viewer.difference_text() == "largest distance 2 mm at joint (0, 0), mean 1.25 mm");
+  other.joints.clear();
+  viewer.show.other = std::make_shared<const OtherShell>(other);
+  CHECK(viewer.difference_text() == "no joint has the same name in both");
+}
+
+TEST_CASE("every quantity of a plot has a name and a place of its own") {
+  std::set<std::string> names;
+  for (const Quantity& quantity : quantities) {
+    CHECK(names.insert(quantity.name).second);
+    PlotPoint point;
+    point.*quantity.value = 1.5;
+    int set = 0;
+    for (const Quantity& other : quantities) set += point.*other.value == 1.5;
+    CHECK(set == 1);
+  }
+}
+
 TEST_CASE("an event reads back as it was written") {
   for (const char* line :
        {"size 1280 720 1.5", "mouse 12.5 300", "mouse @R_a 0.25 0.5", "mouse @joint:3,-4 0 -20",
-        "press left", "release middle", "wheel -2", "down Ctrl", "up F1", "type R a", "do undo",
+        "press left", "release middle", "wheel -2", "down Ctrl", "up F1", "type R a", "type Space", "do undo",
         "open s1_actuation", "wait 0.25"}) {
     const auto event = read_event(line);
     REQUIRE(event);
@@ -100,12 +158,14 @@ TEST_CASE("a workspace kept and taken again is the same") {
   viewer.set_range(0, 3.5);
   viewer.camera.azimuth_deg = 12.25;
   viewer.camera.target = {1, 2, 3};
+  viewer.recent = {"s1_actuation", "/tmp/a b.toml"};
   const std::string text = workspace_text(viewer);
   ViewerState again({});
   REQUIRE(take_workspace(again, text));
   CHECK(again.show == viewer.show);
   CHECK(again.range_of == RangeOf::hand);
   CHECK((again.numbers && !again.plots));
+  CHECK(again.recent == viewer.recent);
   REQUIRE(again.saved_camera);
   CHECK(again.saved_camera->camera == viewer.camera);
   CHECK(again.saved_camera->colour_by == ColourBy::energy);
