@@ -37,7 +37,7 @@ constexpr Action colour(const char* name, const char* label, Shortcut key, const
           help,
           [](ViewerState& viewer) {
             viewer.show.colour_by = by;
-            viewer.show.scale = scale_of(*viewer.shell, by);
+            viewer.show.scale = scale_of(*viewer.shell, viewer.show);
           },
           [](const ViewerState& viewer) { return viewer.show.colour_by == by; }};
 }
@@ -51,7 +51,7 @@ constexpr Action range(const char* name, const char* label, Shortcut key, const 
           help,
           [](ViewerState& viewer) {
             viewer.range_of = of;
-            const render::ColourScale now = scale_of(*viewer.shell, viewer.show.colour_by);
+            const render::ColourScale now = scale_of(*viewer.shell, viewer.show);
             viewer.show.scale = next_scale(viewer.show.scale, now, of);
           },
           [](const ViewerState& viewer) { return viewer.range_of == of; }};
@@ -82,8 +82,11 @@ const Action table[] = {
     {"compare", "File", "Compare with a run…", none,
      "draws a run's last state over the shell and says how far their joints are apart",
      [](auto& v) { v.ask_file(FileUse::compare); }},
+    {"compare_now", "File", "Compare with this state", none,
+     "keeps the state in sight in green over what comes next, with how far the joints are apart",
+     [](auto& v) { v.compare_with_this(); }},
     {"compare_off", "File", "Compare no more", none, "takes the other shell away",
-     [](auto& v) { v.show.other.reset(); }},
+     [](auto& v) { v.compare({}); }},
     {"save_preset", "File", "Save preset", ctrl(Key::s),
      "keeps numbers, camera and what the hand did, step by step, as a preset that runs",
      [](auto& v) { v.save_preset(); }},

@@ -137,12 +137,11 @@ Result<render::Image> picture_of(const PictureRequest& asked, render::Renderer& 
   request.camera.half_extent_mm *= std::max(1.0, wide / now);
   auto image = draw_shell(renderer, request, render::draw_quality(request.kept.quality), width,
                           height, least_px * std::max(1.0, height / 720.0));
-  const ColourBy by = request.show.colour_by;
-  if (!image || !request.kept.legend || by == ColourBy::none ||
-      values_of(*request.shell, by).size() == 0)
+  if (!image || !request.kept.legend || request.show.colour_by == ColourBy::none ||
+      values_of(*request.shell, request.show).size() == 0)
     return image;
   const double font = std::max(9.0, height / 45.0);
-  const render::ColourBar bar{label_of(*request.shell, by), request.show.scale};
+  const render::ColourBar bar{label_of(*request.shell, request.show), request.show.scale};
   render::draw_over(*image, [&](render::Canvas& canvas) {
     const double room = render::colour_bar_width(canvas, bar, font);
     draw_colour_bar(canvas, {width - room - 1.5 * font, 1.5 * font, room, 0.4 * height}, bar, font);

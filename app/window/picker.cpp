@@ -38,7 +38,7 @@ void Picker::find(double x, double y) {
   const double within = near_px * std::max(1.0, viewer_.view.height / 720);
   double best = 1e300;
   const bool cells_shown = render::of_cells(viewer_.show.colour_by) &&
-                           values_of(*viewer_.shell, viewer_.show.colour_by).size() > 0;
+                           values_of(*viewer_.shell, viewer_.show).size() > 0;
   const auto score = [&](int node, double through_mm) {
     const double off = (pixel_of(node) - Eigen::Vector2d(x, y)).norm();
     if (off > within || (cells_shown && is_covered(node, through_mm))) return 1e300;

@@ -343,8 +343,8 @@ void colour_legend(const Panel& panel, const render::Box& view) {
   const float height = std::min(panel.px(170), std::max(2 * line, float(view.height) - 8 * line));
   const float right = float(view.right()) - panel.px(14), top = float(view.y) + panel.px(14);
   Ground ground(panel, *ImGui::GetWindowDrawList(), {right, top});
-  ground.text(label_of(*viewer.shell, viewer.show.colour_by), right, top);
-  const Eigen::VectorXd values = values_of(*viewer.shell, viewer.show.colour_by);
+  ground.text(label_of(*viewer.shell, viewer.show), right, top);
+  const Eigen::VectorXd values = values_of(*viewer.shell, viewer.show);
   if (values.size() == 0) return ground.text("not known for this shell", right, top + 1.3f * line);
   const render::ColourScale& scale = viewer.show.scale;
   const float low = top + 1.6f * line, left = right - width;

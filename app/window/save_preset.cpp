@@ -75,7 +75,7 @@ void ViewerState::put_view(preset::Preset& preset) const {
   const double shift_mm = shift_seen_px * mm_per_pixel(camera, view);
   if ((camera.target - fitted.target).norm() > shift_mm)
     for (const double value : camera.target) movie.target_mm.push_back(rounded(value, 0.1));
-  if (show.colour_by == ColourBy::none || values_of(*shell, show.colour_by).size() > 0)
+  if (show.colour_by == ColourBy::none || values_of(*shell, show).size() > 0)
     movie.colour_by = show.colour_by;
   if (range_of == RangeOf::hand) preset.style.range = {show.scale.low, show.scale.high};
 }
@@ -217,8 +217,21 @@ void ViewerState::export_as(const fs::path& file) {
 void ViewerState::compare_with(const fs::path& run) {
   auto loaded = library.load_run(run);
   if (!loaded) return say(loaded.error().message, true);
-  show.other = std::make_shared<const OtherShell>(std::move(*loaded));
+  compare(std::make_shared<const OtherShell>(std::move(*loaded)));
   say("compared with " + show.other->name + ": " + difference_text());
+}
+
+void ViewerState::compare_with_this() {
+  if (!shell->any()) return say("there is no shell yet", true);
+  const record::Layout& layout = *shell->layout;
+  compare(std::make_shared<const OtherShell>(
+      OtherShell{"before", layout.joints, layout.rods, shell->frame.nodes}));
+}
+
+void ViewerState::compare(std::shared_ptr<const OtherShell> other) {
+  show.other = std::move(other);
+  // it may be what the colours show
+  if (show.colour_by == ColourBy::displacement) show.scale = scale_of(*shell, show);
 }
 
 std::string ViewerState::difference_text() const {

@@ -27,9 +27,15 @@ constexpr ColourText colour_texts[] = {
 };
 static_assert(std::size(colour_texts) == words_of<ColourBy>().size());
 
+bool same_joints(const std::vector<record::Joint>& a, const std::vector<record::Joint>& b) {
+  return std::ranges::equal(a, b, [](const record::Joint& one, const record::Joint& other) {
+    return one.i == other.i && one.j == other.j;
+  });
+}
+
 /// Both meshes' nodes lie at other places, but the joints come first in each.
-Eigen::VectorXd displacement(const ShellView& shell) {
-  const Eigen::Matrix3Xd &now = shell.frame.nodes, &then = shell.first->nodes;
+Eigen::VectorXd displacement(const ShellView& shell, const Eigen::Matrix3Xd& then) {
+  const Eigen::Matrix3Xd& now = shell.frame.nodes;
   if (now.cols() == then.cols()) return (now - then).colwise().norm().transpose();
   // by the joints, along the rods in between
   const record::Layout& layout = *shell.layout;
@@ -53,16 +59,18 @@ Eigen::VectorXd displacement(const ShellView& shell) {
 
 }  // namespace
 
-const char* label_of(const ShellView& shell, ColourBy by) {
+std::string label_of(const ShellView& shell, const Show& show) {
+  const ColourBy by = show.colour_by;
+  if (by == ColourBy::displacement && show.other) return "from " + show.other->name + " (mm)";
   const bool surface = shell.design && shell.design->inverse.target == preset::Target::surface;
   if (by == ColourBy::deviation && surface) return "Δ/ρ from the surface";
   return colour_texts[std::size_t(by)].label;
 }
 const char* meaning_of(ColourBy by) { return colour_texts[std::size_t(by)].meaning; }
 
-Eigen::VectorXd values_of(const ShellView& shell, ColourBy by) {
+Eigen::VectorXd values_of(const ShellView& shell, const Show& show) {
   if (!shell.any()) return {};
-  switch (by) {
+  switch (show.colour_by) {
     case ColourBy::none:
       return {};
     case ColourBy::K:
@@ -77,13 +85,16 @@ Eigen::VectorXd values_of(const ShellView& shell, ColourBy by) {
     case ColourBy::axial_force:
       return shell.axial_N;
     case ColourBy::displacement:
-      return displacement(shell);
+      if (!show.other) return displacement(shell, shell.first->nodes);
+      if (!same_joints(shell.layout->joints, show.other->joints)) return {};
+      return displacement(shell, show.other->nodes);
   }
   return {};
 }
 
-render::ColourScale scale_of(const ShellView& shell, ColourBy by) {
-  const Eigen::VectorXd all = values_of(shell, by);
+render::ColourScale scale_of(const ShellView& shell, const Show& show) {
+  const ColourBy by = show.colour_by;
+  const Eigen::VectorXd all = values_of(shell, show);
   const double start = render::of_cells(by) ? 0 : paling;
   render::ColourScale scale =
       render::symmetric_scale(std::vector<double>(all.begin(), all.end()), 0.9);
@@ -137,13 +148,13 @@ constexpr Palette dark{{0.105f, 0.11f, 0.125f, 1}, {0.16f, 0.165f, 0.185f, 1},
                        {0.80f, 0.82f, 0.86f, 1},   {0.55f, 0.58f, 0.64f, 1},
                        {0.62f, 0.65f, 0.70f, 1},   {0.95f, 0.95f, 0.95f, 1}};
 constexpr Colour ghost_grey{0.62f, 0.66f, 0.74f, 1}, held_yellow{0.98f, 0.76f, 0.10f, 1},
-    other_orange{0.90f, 0.49f, 0.13f, 1};
+    other_green{0.05f, 0.58f, 0.42f, 1};
 
 const Palette& palette_of(const Show& show) { return show.dark ? dark : light; }
 
 void put_colours(const ShellView& shell, const Show& show, render::Drawing& drawing) {
   const bool cells = render::of_cells(show.colour_by);
-  for (const double value : values_of(shell, show.colour_by)) {
+  for (const double value : values_of(shell, show)) {
     auto& colours = cells ? drawing.cell_colours : drawing.node_colours;
     colours.push_back(show.scale(value));
     if (cells) colours.back().a = 0.93f;
@@ -204,7 +215,7 @@ render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin
   if (show.footprint) ghosts(layout.flat_nodes);
   if (show.other)
     drawing.ghosts.push_back(
-        {show.other->nodes, show.other->rods, drawing.rod_diameter_mm, other_orange});
+        {show.other->nodes, show.other->rods, 0.7 * drawing.rod_diameter_mm, other_green});
   put_forces(shell, show, thin_mm, drawing);
   render::put_contacts(layout, shell.frame, thin_mm, drawing);
   // what starts flat stands on its boundary's plane

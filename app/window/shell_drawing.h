@@ -21,24 +21,7 @@ using preset::ColourBy;
 /// hand.
 enum class RangeOf { state, run, hand };
 
-/// As the interface names it of a shell, with its unit: "bending energy (mJ/m)".
-const char* label_of(const ShellView& shell, ColourBy by);
-/// What it is, in a sentence.
-const char* meaning_of(ColourBy by);
-
-/// The values that are coloured, of the cells or of the nodes; empty where the shell has none.
-Eigen::VectorXd values_of(const ShellView& shell, ColourBy by);
-
-/// The scale of these values, with nice ends.
-render::ColourScale scale_of(const ShellView& shell, ColourBy by);
-
-/// The one that goes on from `before` as the range wants it.
-render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,
-                               RangeOf of);
-
-// The shell in sight as the renderer of movies draws it.
-
-/// The last state of a run, which the shell in hand is compared with.
+/// A state that the shell in hand is compared with: the last of a run, or one in hand before.
 struct OtherShell {
   std::string name;
   std::vector<record::Joint> joints;
@@ -55,6 +38,23 @@ struct Show {
   std::shared_ptr<const OtherShell> other = {};  ///< drawn over it; null: none
   bool operator==(const Show&) const = default;
 };
+
+/// As the interface names it of a shell, with its unit: "bending energy (mJ/m)".
+std::string label_of(const ShellView& shell, const Show& show);
+/// What it is, in a sentence.
+const char* meaning_of(ColourBy by);
+
+/// The values that are coloured, of the cells or of the nodes; empty where the shell has none.
+Eigen::VectorXd values_of(const ShellView& shell, const Show& show);
+
+/// The scale of these values, with nice ends.
+render::ColourScale scale_of(const ShellView& shell, const Show& show);
+
+/// The one that goes on from `before` as the range wants it.
+render::ColourScale next_scale(const render::ColourScale& before, const render::ColourScale& now,
+                               RangeOf of);
+
+// The shell in sight as the renderer of movies draws it.
 
 /// Of a shell that has a shell; `thin_mm`: what is as wide as a pixel and a half.
 render::Drawing drawing_of(const ShellView& shell, const Show& show, double thin_mm);

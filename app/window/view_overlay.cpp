@@ -114,10 +114,10 @@ void Overlay::write_measure() {
   if (joints.size() > 1) label(text_of_measure(shell_, joints), point_of(joints[1]));
 }
 
-/// What the orange rods are, and how far the joints are from theirs.
+/// What the green rods are, and how far the joints are from theirs.
 void Overlay::tell_other() {
   if (!viewer_.show.other) return;
-  const std::string text = viewer_.show.other->name + " (orange): " + viewer_.difference_text();
+  const std::string text = viewer_.show.other->name + " (green): " + viewer_.difference_text();
   label(text, {float(view_.x), float(view_.y) + panel_.px(34)});
 }
 

@@ -144,7 +144,7 @@ void ViewerState::start_design() {
   play(false);
   // of all steps, so that what is left is seen beside what was
   show.colour_by = ColourBy::deviation;
-  show.scale = scale_of(*shell, show.colour_by);
+  show.scale = scale_of(*shell, show);
   range_of = RangeOf::run;
   send_command(Design{design.inverse, design.most_iterations});
 }
@@ -223,7 +223,7 @@ void ViewerState::take(std::shared_ptr<const ShellView> next) {
     say("");
   if (!shell->any() || !newer) return;
   if (fresh_) reset_view();
-  show.scale = next_scale(show.scale, scale_of(*shell, show.colour_by), range_of);
+  show.scale = next_scale(show.scale, scale_of(*shell, show), range_of);
   add_plot_point();
   note_step();
 }
@@ -248,7 +248,7 @@ void ViewerState::reset_view() {
   }
   saved_camera.reset();
   // it has a range of its own
-  if (range_of == RangeOf::run) show.scale = scale_of(*shell, show.colour_by);
+  if (range_of == RangeOf::run) show.scale = scale_of(*shell, show);
 }
 
 void ViewerState::add_plot_point() {

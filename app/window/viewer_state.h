@@ -238,8 +238,10 @@ class ViewerState {
   void ask_file(FileUse use);
   /// Does what the file that was asked for is for; a path that cannot be stays asked for.
   void take_file();
-  /// Another run beside the shell, or none again.
+  /// A run's last state beside the shell, the state in sight, or (null) none again.
   void compare_with(const std::filesystem::path& run);
+  void compare_with_this();
+  void compare(std::shared_ptr<const OtherShell> other);
   /// How far the joints are from those of the same name in the other shell: "largest 3.2 mm at
   /// (0, 1), mean 1.1 mm".
   std::string difference_text() const;
