@@ -12,7 +12,6 @@
 #include "engine/formats/point_file.h"         // IWYU pragma: export
 #include "engine/preset/consistency.h"         // IWYU pragma: export
 #include "engine/preset/field_table.h"         // IWYU pragma: export
-#include "engine/preset/model_choice.h"        // IWYU pragma: export
 #include "engine/preset/preset.h"              // IWYU pragma: export
 #include "engine/preset/preset_access.h"       // IWYU pragma: export
 #include "engine/preset/preset_file.h"         // IWYU pragma: export

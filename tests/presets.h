@@ -20,7 +20,7 @@ inline preset::Preset circle(int rods, double radius_mm, double to_mm, int frame
   p.footprint.rods = rods;
   p.footprint.radius_mm = radius_mm;
   p.actuation.radius_mm = to_mm;
-  p.footprint.placement = rods % 2 ? preset::Placement::on_axis : preset::Placement::half;
+  p.footprint.placement = rods % 2 ? Placement::on_axis : Placement::half;
   p.movie.frames = frames;
   return p;
 }
@@ -30,7 +30,7 @@ inline preset::Preset on_net(preset::NetKind kind = preset::NetKind::sphere, dou
                              double length_mm = 0) {
   preset::Preset p;
   p.footprint.kind = preset::FootprintKind::net;
-  p.footprint.placement = preset::Placement::on_axis;
+  p.footprint.placement = Placement::on_axis;
   p.actuation.start = preset::Start::net;
   p.net.kind = kind;
   p.net.radius_mm = radius_mm;

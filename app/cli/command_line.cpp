@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "app/cli/console.h"
-#include "engine/core/suggest.h"
 #include "engine/core/system_info.h"
+#include "engine/core/text.h"
 
 namespace gridshell::app {
 namespace {

@@ -24,23 +24,13 @@ namespace {
 std::string name_of(const preset::Preset& preset) {
   if (preset.footprint.kind == preset::FootprintKind::blocks) return "assemblage";
   const preset::Net& net = preset.net;
-  switch (net.kind) {
-    case preset::NetKind::sphere:
-      return net.cut_height == 0 ? "hemisphere"
-                                 : fmt::format("*z*^{{*}}/*ρ* = {:g}", net.cut_height);
-    case preset::NetKind::cylinder:
-      return "cylinder";
-    case preset::NetKind::profile:
-      return "surface of revolution";
-    case preset::NetKind::translation:
-      return "translation net";
-    case preset::NetKind::surface:
-      return "surface";
-    case preset::NetKind::spool:
-    case preset::NetKind::beltrami:
-      break;
-  }
-  return "saddle";
+  using preset::NetKind;
+  if (net.kind == NetKind::sphere)
+    return net.cut_height == 0 ? "hemisphere" : fmt::format("*z*^{{*}}/*ρ* = {:g}", net.cut_height);
+  if (net.kind == NetKind::profile) return "surface of revolution";
+  if (net.kind == NetKind::translation) return "translation net";
+  if (net.kind == NetKind::spool || net.kind == NetKind::beltrami) return "saddle";
+  return std::string(word_of(net.kind));
 }
 
 fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }

@@ -143,7 +143,7 @@ class PageMaker {
   void note_shell(Page& page, double y) const {
     const Run& one = *records_.front();
     if (one.preset.net.cut_height != 0 || !render::on_sphere(one.trajectory.layout)) return;
-    const bool axis = one.preset.footprint.placement == preset::Placement::on_axis;
+    const bool axis = one.preset.footprint.placement == Placement::on_axis;
     page.add_note(
         {2, y, 174, 4},
         fmt::format(

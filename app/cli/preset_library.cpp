@@ -6,7 +6,7 @@
 
 #include "app/cli/console.h"
 #include "engine/core/file_io.h"
-#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 
 namespace gridshell::app {

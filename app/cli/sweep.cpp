@@ -17,7 +17,7 @@
 #include "app/cli/sweep_folder.h"
 #include "engine/core/file_io.h"
 #include "engine/core/parallel.h"
-#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/gridshell.h"
 #include "render/movie/state_charts.h"

@@ -156,7 +156,7 @@ Result<void> EditSession::act(const Release& command, const Watch& watch) {
 
 Result<void> EditSession::act(const Rest& command, const Watch& watch) {
   preset::Step step = step_of(preset::StepKind::rest);
-  step.side = same_word<preset::RestSide>(command.side);
+  step.side = command.side;
   return do_step(std::move(step), watch);
 }
 

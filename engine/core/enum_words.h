@@ -98,21 +98,4 @@ std::vector<std::string> all_words() {
   return all;
 }
 
-/// The enumerator of another enum that has the same words in the same order, as where the renderer
-/// keeps its own; that they are the same is checked when it compiles.
-template <class To, class From>
-constexpr To same_word(From value) {
-  constexpr auto to = words_of<To>();
-  constexpr auto from = words_of<From>();
-  static_assert(to.size() == from.size(), "the two enums have different words");
-  static_assert(
-      [&] {
-        for (std::size_t k = 0; k < to.size(); ++k)
-          if (to[k].word != from[k].word) return false;
-        return true;
-      }(),
-      "the two enums have different words");
-  return To(value);
-}
-
 }  // namespace gridshell

@@ -97,4 +97,21 @@ Result<std::string> read_file(const std::filesystem::path& path,
 /// Makes a folder and its parents; one that exists is fine. Errors: Fault::io, path and reason.
 Result<void> make_folder(const std::filesystem::path& folder);
 
+/// The checksum of the files of a run: 64-bit FNV-1a. It tells damage, not intent.
+class Checksum {
+ public:
+  void add(std::string_view bytes) {
+    for (const char byte : bytes) sum_ = (sum_ ^ static_cast<unsigned char>(byte)) * 1099511628211u;
+  }
+  std::uint64_t value() const { return sum_; }
+  static std::uint64_t of(std::string_view bytes) {
+    Checksum sum;
+    sum.add(bytes);
+    return sum.value();
+  }
+
+ private:
+  std::uint64_t sum_ = 14695981039346656037u;
+};
+
 }  // namespace gridshell

@@ -1,10 +1,12 @@
-// Numbers in text.
+// Numbers and words in text.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gridshell {
 
@@ -17,6 +19,39 @@ std::optional<Number> parse_number(std::string_view text, How... how) {
   if (fault != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return number;
 }
+
+/// The words of a line, between any of the letters of `apart`.
+inline std::vector<std::string_view> words_in(std::string_view line,
+                                              std::string_view apart = " \t\r\f\v") {
+  std::vector<std::string_view> words;
+  for (std::size_t at = 0; (at = line.find_first_not_of(apart, at)) != line.npos;) {
+    const std::size_t end = std::min(line.find_first_of(apart, at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+/// The next line of a text, without its end; the text goes on behind it.
+inline std::string_view next_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+// "Did you mean ...": the known name nearest to a mistyped one.
+
+/// Letters inserted, left out, changed, or swapped with a neighbour, at least how many
+/// (optimal string alignment distance); upper and lower case count as the same letter.
+int edit_distance(std::string_view a, std::string_view b);
+
+/// The nearest of `known` to `word` when it is near enough to be meant (a third of its letters, at
+/// least one, wrong, or the rest of it missing), else empty. Ties go to the first.
+std::string nearest(std::string_view word, const std::vector<std::string>& known);
+
+/// "; did you mean 'x'?", or empty when nothing is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
 // Text as XML takes it.
 

@@ -7,7 +7,7 @@
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/design/variables.h"
-#include "engine/preset/model_choice.h"
+#include "engine/preset/consistency.h"
 #include "engine/scene/rod_ends.h"
 #include "engine/simulate/actuation.h"
 

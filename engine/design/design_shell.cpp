@@ -74,12 +74,8 @@ void DesignShell::find_legs() {
     }
   }
   for (Leg& leg : legs_)
-    for (std::size_t k = 0; k < model_.bends.size(); ++k) {
-      const auto within = [&](int edge) {
-        return std::find(leg.edges.begin(), leg.edges.end(), edge) != leg.edges.end();
-      };
-      if (within(model_.bends[k].e) || within(model_.bends[k].f)) leg.bends.push_back(int(k));
-    }
+    for (std::size_t k = 0; k < model_.bends.size(); ++k)
+      if (leg.edges_of(model_.bends[k]) > 0) leg.bends.push_back(int(k));
   std::vector<std::size_t> rod_of(model_.edges.size(), 0);
   for (std::size_t r = 0; r < model_.rods.size(); ++r)
     for (const int edge : model_.rods[r].edges) rod_of[std::size_t(edge)] = r;
@@ -263,10 +259,7 @@ void DesignShell::add_leg_gradient(int end, double change, Eigen::Matrix3Xd& min
   }
   for (const int k : leg.bends) {
     const ModelBend& bend = model_.bends[std::size_t(k)];
-    const auto within = [&](int edge) {
-      return std::find(leg.edges.begin(), leg.edges.end(), edge) != leg.edges.end();
-    };
-    const double longer = share * (int(within(bend.e)) + int(within(bend.f)));
+    const double longer = share * leg.edges_of(bend);
     add_bend_gradient(k, longer / lengths_at(model_, bend), minus_dg);
   }
 }

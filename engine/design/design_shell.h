@@ -1,6 +1,7 @@
 // A shell on one mesh whose ends are moved, with its sensitivities to them.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -96,6 +97,11 @@ class DesignShell {
     int at_end = -1;           ///< the edge at the edge point
     std::vector<int> bends;    ///< that one of its edges takes part in
     int ghost = -1, far = -1;  ///< nodes beyond its edge point
+
+    /// How many of the bend's two edges are among them.
+    int edges_of(const ModelBend& bend) const {
+      return int(std::ranges::count(edges, bend.e) + std::ranges::count(edges, bend.f));
+    }
   };
   std::vector<Leg> legs_;                ///< one an end
   std::vector<std::vector<int>> bends_;  ///< of each rod

@@ -6,18 +6,11 @@
 #include <cmath>
 
 #include "engine/core/block3.h"
+#include "engine/elastic/along_rods.h"
 #include "engine/elastic/edge_energies.h"
 
 namespace gridshell {
 namespace {
-
-inline EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge) {
-  EdgeGeometry g;
-  g.tangent = x.col(edge.to) - x.col(edge.from);
-  g.length = g.tangent.norm();
-  g.tangent *= 1 / g.length;
-  return g;
-}
 
 /// a nan must survive: comparisons with it are false, so the test is the other way round
 inline void keep_smallest(double& smallest, double value) {
@@ -76,63 +69,6 @@ inline void add_bend_hessian(const ModelEdge& e, const ModelEdge& f, BlockSlot s
   h.add(e.slot, ab);
   h.add(f.slot, bc);
   h.add(second, ac);
-}
-
-/// Edges one after another, and every bend with its two edges: on_edge(k, edge, geometry),
-/// on_bend(bend, geometry of e, geometry of f).
-template <class OnEdge, class OnBend>
-inline __attribute__((always_inline)) void along_rods(const Model& model, const Eigen::Matrix3Xd& x,
-                                                      OnEdge on_edge, OnBend on_bend) {
-  EdgeGeometry before, here;
-  std::size_t next = 0;
-  const std::size_t bends = model.bends.size();
-  for (int k = 0; k < int(model.edges.size()); ++k) {
-    const ModelEdge& edge = model.edges[std::size_t(k)];
-    here = geometry_of(x, edge);
-    on_edge(k, edge, here);
-    if (next < bends && model.bends[next].f == k) on_bend(model.bends[next++], before, here);
-    before = here;
-  }
-  // where rings close
-  for (; next < bends; ++next) {
-    const ModelBend& bend = model.bends[next];
-    on_bend(bend, geometry_of(x, model.edges[std::size_t(bend.e)]),
-            geometry_of(x, model.edges[std::size_t(bend.f)]));
-  }
-}
-
-template <class Law>
-PairGeometry pair_geometry(const Model& model, const State& state, const Pair<Law>& pair) {
-  PairGeometry at;
-  at.e = geometry_of(state.x, model.edges[std::size_t(pair.e)]);
-  at.f = geometry_of(state.x, model.edges[std::size_t(pair.f)]);
-  if (!model.has_spins()) return at;
-  at.angle_e = model.angle(state.x, pair.e);
-  at.angle_f = model.angle(state.x, pair.f);
-  at.director_e = state.director.col(pair.e);
-  at.director_f = state.director.col(pair.f);
-  if (pair.bend >= 0) at.reference_twist = state.reference_twist[pair.bend];
-  return at;
-}
-
-template <class Visit>
-void each_pair_list(const Model& model, Visit visit) {
-  std::apply([&](const auto&... lists) { (visit(lists), ...); }, model.pairs);
-}
-
-Eigen::Vector3d gap_of(const State& state, const NodeSpring& spring) {
-  return state.x.col(spring.b) - state.x.col(spring.a);
-}
-
-/// visit(action, factor) for all that acts from outside
-template <class Visit>
-void each_action(const Model& model, const ExternalLoads& outside, Visit visit) {
-  for (const NodeAction& action : model.loads) visit(action, outside.load);
-  for (const NodeAction& action : model.ground) visit(action, 1.0);
-  if (outside.steady)
-    for (const NodeAction& action : *outside.steady) visit(action, 1.0);
-  if (outside.field && outside.field_factor != 0)
-    for (const NodeAction& action : *outside.field) visit(action, outside.field_factor);
 }
 
 template <class Law>
@@ -321,86 +257,6 @@ void rod_hessian(const Model& model, const State& state, const Stiffness& how, A
 }
 
 }  // namespace
-
-Eigen::VectorXd bending_of(const Model& model, const State& state) {
-  Eigen::VectorXd energy(Eigen::Index(model.bends.size()));
-  Eigen::Index next = 0;
-  along_rods(
-      model, state.x, [](int, const ModelEdge&, const EdgeGeometry&) {},
-      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
-        energy[next++] = bend_value(bend.stiffness, e, f);
-      });
-  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
-    if constexpr (Law::term == Term::bend)
-      for (const Pair<Law>& pair : list)
-        energy[pair.bend] += pair.law.value(pair_geometry(model, state, pair));
-  });
-  return energy;
-}
-
-namespace {
-
-/// The rod of every bend; those that close rings come last, in the order of their rods.
-std::vector<const Model::Rod*> rods_of_bends(const Model& model) {
-  std::vector<const Model::Rod*> rods, closed;
-  for (const Model::Rod& rod : model.rods) {
-    rods.insert(rods.end(), rod.edges.size() - 1, &rod);
-    if (rod.closed) closed.push_back(&rod);
-  }
-  rods.insert(rods.end(), closed.begin(), closed.end());
-  return rods;
-}
-
-}  // namespace
-
-Eigen::VectorXd bending_strain_of(const Model& model, const State& state) {
-  Eigen::VectorXd strain(Eigen::Index(model.bends.size()));
-  const auto rods = rods_of_bends(model);
-  std::size_t next = 0;
-  along_rods(
-      model, state.x, [](int, const ModelEdge&, const EdgeGeometry&) {},
-      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
-        const double turn = curvature_binormal(e.tangent, f.tangent).kb.norm();
-        strain[Eigen::Index(next)] =
-            rods[next]->fibres.strain(turn / length_between(model, bend.e, bend.f));
-        ++next;
-      });
-  const auto put = [&]<class Law>(const Pair<Law>& pair, const auto& bent) {
-    strain[pair.bend] =
-        rods[std::size_t(pair.bend)]->fibres.strain(bent / length_between(model, pair.e, pair.f));
-  };
-  for (const auto& pair : std::get<std::vector<Pair<SectionBending>>>(model.pairs))
-    put(pair, pair.law.excess(pair_geometry(model, state, pair)));
-  // 2 EI/l tan^2 of half the turn, as it counts at an end
-  for (const auto& pair : std::get<std::vector<Pair<EndBending>>>(model.pairs))
-    put(pair,
-        2 * std::sqrt(pair.law.value(pair_geometry(model, state, pair)) / pair.law.stiffness));
-  return strain;
-}
-
-Energies energies_of(const Model& model, const State& state, const ExternalLoads& outside) {
-  Energies sum;
-  along_rods(
-      model, state.x,
-      [&](int, const ModelEdge& edge, const EdgeGeometry& g) {
-        sum[Term::stretch] += stretch(edge.EA, edge.rest_length, g.length).value;
-      },
-      [&](const ModelBend& bend, const EdgeGeometry& e, const EdgeGeometry& f) {
-        sum[Term::bend] += bend_value(bend.stiffness, e, f);
-      });
-  each_pair_list(model, [&]<class Law>(const std::vector<Pair<Law>>& list) {
-    for (const Pair<Law>& pair : list)
-      sum[Law::term] += pair.law.value(pair_geometry(model, state, pair));
-  });
-  for (const ModelSpring& spring : model.springs)
-    sum[spring.law.term] += spring.law.value(gap_of(state, spring.law));
-  each_action(model, outside, [&](const NodeAction& action, double factor) {
-    sum[action.term] += factor * action.value(state.x.col(action.node));
-  });
-  each_contact(model, state.x, false,
-               [&](const EdgeContact& contact) { sum[Term::contact] += contact.energy; });
-  return sum;
-}
 
 void assemble_gradient(const Model& model, const State& state, const ExternalLoads& outside,
                        Assembly& out) {

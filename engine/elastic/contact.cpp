@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/box_sweep.h"
-#include "engine/core/segment_distance.h"
+#include "engine/core/proximity.h"
 #include "engine/elastic/model.h"
 #include "engine/footprint/mesh.h"
 
@@ -180,8 +179,8 @@ std::vector<Box> boxes_of(const Model& model, std::initializer_list<const Eigen:
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     const ModelEdge& edge = model.edges[std::size_t(model.contact.edges[k].edge)];
     for (const Eigen::Matrix3Xd* x : at) {
-      boxes[k].take(Vector3d(x->col(edge.from)));
-      boxes[k].take(Vector3d(x->col(edge.to)));
+      boxes[k].extend(x->col(edge.from));
+      boxes[k].extend(x->col(edge.to));
     }
   }
   return boxes;

@@ -33,7 +33,7 @@ namespace {
 
 Result<void> check(int index, int nodes, const ModelRod& rod, RodModel rung) {
   const auto wrong = [&](const std::string& what) {
-    return fail(Fault::bad_input, fmt::format("rod {}: {}", index, what));
+    return fail(Fault::bad_input, "rod {}: {}", index, what);
   };
   const RodMaterial& m = rod.material;
   if (rod.position.size() != rod.nodes.size() && !rod.closed())

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "engine/core/block3.h"
+#include "engine/core/choices.h"
 #include "engine/core/energies.h"
 #include "engine/core/result.h"
-#include "engine/core/rod_model.h"
 #include "engine/elastic/contact.h"
 #include "engine/elastic/element_energies.h"
 #include "engine/elastic/rod_material.h"

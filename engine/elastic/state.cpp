@@ -128,18 +128,13 @@ double interpolated(const std::vector<double>& at, const std::vector<double>& va
   return value[k] + share * (value[k + 1] - value[k]);
 }
 
-Eigen::Vector3d tangent_of(const Model& model, const State& state, int edge) {
-  const ModelEdge& e = model.edges[std::size_t(edge)];
-  return (state.x.col(e.to) - state.x.col(e.from)).normalized();
-}
-
 /// the angle from the material director of an edge of `to` to that of an edge of `from`
 double angle_between(const Model& from, const State& a, int edge_a, const Model& to, const State& b,
                      int edge_b) {
-  const Eigen::Vector3d t = tangent_of(to, b, edge_b);
-  return signed_angle(material_director(to, b, edge_b),
-                      transport(material_director(from, a, edge_a), tangent_of(from, a, edge_a), t),
-                      t);
+  const Eigen::Vector3d t = tangent_of(to, b.x, edge_b);
+  return signed_angle(
+      material_director(to, b, edge_b),
+      transport(material_director(from, a, edge_a), tangent_of(from, a.x, edge_a), t), t);
 }
 
 }  // namespace

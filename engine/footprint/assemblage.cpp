@@ -47,8 +47,7 @@ Result<NetPoint> Assemblage::PlacedBlock::at(const Eigen::Vector2d& uv) const {
   const Eigen::Vector2d own = uv - shift;
   auto point = block.net->at(own.x(), own.y());
   if (!point)
-    return fail(point.error().fault,
-                fmt::format("block \"{}\": {}", block.name, point.error().message));
+    return fail(point.error().fault, "block \"{}\": {}", block.name, point.error().message);
   point->position = block.pose * point->position + offset;
   point->tangent_u = block.pose.linear() * point->tangent_u;
   point->tangent_v = block.pose.linear() * point->tangent_v;
@@ -319,16 +318,10 @@ Result<void> check_apart(const Places& places) {
 
 }  // namespace
 
-double Seam::max_gap_mm() const {
-  double largest = 0;
-  for (const SeamRod& rod : rods) largest = std::max(largest, rod.gap_mm);
-  return largest;
-}
+double Seam::max_gap_mm() const { return std::ranges::max(rods, {}, &SeamRod::gap_mm).gap_mm; }
 
 double Seam::max_kink_deg() const {
-  double largest = 0;
-  for (const SeamRod& rod : rods) largest = std::max(largest, rod.kink_deg);
-  return largest;
+  return std::ranges::max(rods, {}, &SeamRod::kink_deg).kink_deg;
 }
 
 Result<Assemblage> Assemblage::make(std::vector<Block> blocks, const std::vector<Join>& joins,

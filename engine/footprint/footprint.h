@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/enum_words.h"
+#include "engine/core/choices.h"
 #include "engine/core/result.h"
 
 namespace gridshell {
@@ -78,9 +78,6 @@ class Disk final : public Domain {
 // The footprint of a gridshell: a square grid of straight rods cut along an original boundary
 // [Baek 2018, 'Anatomy and Actuation'], or any other network of rods, in the plane or drawn in
 // space (network.h).
-
-/// Where the grid lines lie: at (i + 1/2) d, or at i d so that one rod of each family is an axis.
-enum class Placement { half, on_axis };
 
 /// A joint: of a square grid the crossing of the u-rod with index j and the v-rod with index i, of
 /// another network point i of its file.

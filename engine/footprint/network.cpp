@@ -27,10 +27,6 @@ struct Visits {
   int passes = 0, ends = 0;
 };
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// The area that two ways span.
 double area(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.cross(b).norm(); }
 
@@ -74,12 +70,12 @@ Result<void> check_rod(const RodNetwork& network, std::size_t r,
 std::vector<Visits> visits_of(const RodNetwork& network) {
   std::vector<Visits> visits(std::size_t(network.points.cols()));
   for (const std::vector<int>& rod : network.rods) {
-    for (std::size_t k = 1; k + 1 < rod.size(); ++k) ++visits[std::size_t(rod[k])].passes;
+    for (std::size_t k = 1; k + 1 < rod.size(); ++k) ++visits[rod[k]].passes;
     if (is_ring(rod)) {
-      ++visits[std::size_t(rod.front())].passes;
+      ++visits[rod.front()].passes;
     } else {
-      ++visits[std::size_t(rod.front())].ends;
-      ++visits[std::size_t(rod.back())].ends;
+      ++visits[rod.front()].ends;
+      ++visits[rod.back()].ends;
     }
   }
   return visits;
@@ -97,24 +93,23 @@ class Roles {
   }
 
   bool is_joint(int point) const {
-    const auto [passes, ends] = visits_[std::size_t(point)];
-    if (passes == 0)
-      return ends > 1 && (network_.free[std::size_t(point)] != 0 || is_sprung(point));
+    const auto [passes, ends] = visits_[point];
+    if (passes == 0) return ends > 1 && (network_.free[point] != 0 || is_sprung(point));
     return passes + ends > 1 || is_supported(point) || corners_.contains(point);
   }
-  bool is_supported(int point) const { return network_.supported[std::size_t(point)] != 0; }
+  bool is_supported(int point) const { return network_.supported[point] != 0; }
   bool is_sprung(int point) const { return network_.springs.contains(point); }
   /// Of a point where rods only end.
   RodEnd end_at(int point) const {
     if (is_joint(point)) return RodEnd::joined;
     if (is_sprung(point)) return RodEnd::sprung;
-    return network_.free[std::size_t(point)] != 0 ? RodEnd::free : RodEnd::pinned;
+    return network_.free[point] != 0 ? RodEnd::free : RodEnd::pinned;
   }
   /// Whether the boundary holds what is there.
   bool is_held(int point) const {
     return is_joint(point) ? is_supported(point) : gridshell::is_held(end_at(point));
   }
-  const Visits& at(int point) const { return visits_[std::size_t(point)]; }
+  const Visits& at(int point) const { return visits_[point]; }
 
  private:
   const RodNetwork& network_;
@@ -125,7 +120,7 @@ class Roles {
 Result<void> check_points(const RodNetwork& network, const Roles& roles) {
   for (int point = 0; point < int(network.points.cols()); ++point) {
     const auto [passes, ends] = roles.at(point);
-    const bool free = network.free[std::size_t(point)] != 0;
+    const bool free = network.free[point] != 0;
     if ((free || roles.is_supported(point)) && passes + ends == 0)
       return fail(Fault::bad_input, "point {} is {}, and no rod has it", point,
                   free ? "free" : "a support");
@@ -289,7 +284,7 @@ std::optional<FootprintRod> grid_rod(const FootprintRod& rod, const Footprint& f
   named.joints = rod.joints;
   if (first > last) std::ranges::reverse(named.joints);
   for (const int joint : named.joints) {
-    const FootprintJoint& at = footprint.joints[std::size_t(joint)];
+    const FootprintJoint& at = footprint.joints[joint];
     named.marks.push_back(u ? at.u : at.v);
   }
   named.begin = first > last ? rod.end : rod.begin;
@@ -318,8 +313,8 @@ void name_as_grid(NetworkFootprint& network, Placement placement) {
   for (const FootprintRod& rod : grid.rods)
     for (const int joint : rod.joints) {
       const bool u = rod.family == Family::u;
-      ++(u ? through[std::size_t(joint)].passes : through[std::size_t(joint)].ends);
-      (u ? grid.joints[std::size_t(joint)].j : grid.joints[std::size_t(joint)].i) = rod.index;
+      ++(u ? through[joint].passes : through[joint].ends);
+      (u ? grid.joints[joint].j : grid.joints[joint].i) = rod.index;
     }
   if (std::ranges::any_of(through, [](const Visits& v) { return v.passes != 1 || v.ends != 1; }))
     return;
@@ -384,49 +379,6 @@ Result<NetworkFootprint> network_footprint(const RodNetwork& network) {
     if (footprint.cells.empty() && !footprint.in_space()) name_as_grid(made, placement);
   put_springs(network, made);
   return made;
-}
-
-std::vector<int> hull_of(const Eigen::Matrix2Xd& points) {
-  std::vector<int> order(std::size_t(points.cols()));
-  std::iota(order.begin(), order.end(), 0);
-  const auto place = [&](int k) { return std::pair(points(0, k), points(1, k)); };
-  std::ranges::sort(order, {}, place);
-  // the lower side from left to right, then the upper one back [Andrew 1979]
-  std::vector<int> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t first = hull.size();
-    for (const int k : order) {
-      while (hull.size() >= first + 2 &&
-             cross(points.col(hull.back()) - points.col(hull[hull.size() - 2]),
-                   points.col(k) - points.col(hull.back())) <= 0)
-        hull.pop_back();
-      hull.push_back(k);
-    }
-    hull.pop_back();
-    std::ranges::reverse(order);
-  }
-  return hull;
-}
-
-std::vector<int> rim_of(const Eigen::Matrix2Xd& points) {
-  const std::vector<int> corners = hull_of(points);
-  std::vector<int> rim;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Eigen::Vector2d first = points.col(corners[k]),
-                          way = points.col(corners[(k + 1) % corners.size()]) - first;
-    std::map<double, int> on_edge;  // by how far along it
-    for (int point = 0; point < int(points.cols()); ++point) {
-      const Eigen::Vector2d at = points.col(point) - first;
-      const double along = at.dot(way) / way.squaredNorm();
-      const bool on_it = std::abs(cross(way, at)) < on_a_line * way.squaredNorm();
-      if (on_it && along > on_a_line && along < 1 - on_a_line) on_edge.try_emplace(along, point);
-    }
-    rim.push_back(corners[k]);
-    double last = 0;
-    for (const auto& [along, point] : on_edge)
-      if (along - std::exchange(last, along) > on_a_line) rim.push_back(point);
-  }
-  return rim;
 }
 
 }  // namespace gridshell

@@ -43,9 +43,4 @@ struct NetworkFootprint {
 /// would move or turn freely.
 Result<NetworkFootprint> network_footprint(const RodNetwork& network);
 
-/// The corners of the convex hull of points, counter-clockwise.
-std::vector<int> hull_of(const Eigen::Matrix2Xd& points);
-/// The same with the points on its edges, each place once.
-std::vector<int> rim_of(const Eigen::Matrix2Xd& points);
-
 }  // namespace gridshell

@@ -233,10 +233,22 @@ void restrict_subprocess() {
   if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
 }
 
+/// As fork(), the library's lock being this thread's own: inside a call of it no other thread is,
+/// so that the child finds it free. (The C library frees its own locks in a child.)
+pid_t forked_with_library() {
+  pid_t child = -1;
+  const auto fork_now = [](hid_t, const char*, void* id) {
+    *static_cast<pid_t*>(id) = ::fork();
+    return herr_t(1);  // once
+  };
+  H5Piterate(H5P_FILE_ACCESS_DEFAULT, nullptr, fork_now, &child);
+  return child;
+}
+
 }  // namespace
 
 Result<void> read_in_subprocess(const std::function<void()>& reading) {
-  const pid_t child = ::fork();
+  const pid_t child = forked_with_library();
   // without a process to spare it is read as it is
   if (child < 0) return {};
   if (child == 0) {
@@ -248,7 +260,6 @@ Result<void> read_in_subprocess(const std::function<void()>& reading) {
     }
     _exit(0);
   }
-  // a lock that another thread held at the fork is never opened in the child: wait by the clock
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
   int status = 0;
   for (pid_t ended = 0; ended != child; ended = ::waitpid(child, &status, WNOHANG)) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/obj_ply.h"
 #include "engine/formats/point_file.h"
@@ -199,7 +200,7 @@ struct Group {
 };
 
 std::string_view trimmed(std::string_view text) {
-  const auto words = split_whitespace(text);
+  const auto words = words_in(text);
   if (words.empty()) return {};
   return {words.front().data(),
           std::size_t(words.back().data() + words.back().size() - words.front().data())};

@@ -39,9 +39,6 @@ inline constexpr double softest_spring = 1e-6, stiffest_spring = 1e6;
 /// length, more than 100 000 points or rods, another ending.
 Result<NetworkData> read_network(std::string_view bytes, const std::string& name);
 
-/// The text of a .json file that reads back as the same network.
-std::string network_json(const NetworkData& network);
-
 /// What is wrong with a spring's stiffnesses along x, y, z; empty: nothing.
 std::string spring_fault(const std::vector<double>& k);
 

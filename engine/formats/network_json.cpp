@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/network_file.h"
 
@@ -253,34 +253,6 @@ class Reader {
 Result<NetworkData> read_network_json(std::string_view bytes, const std::string& name) {
   TRY(document, parse(bytes, name));
   return Reader(*document, name).read();
-}
-
-std::string network_json(const NetworkData& network) {
-  std::vector<std::string> points, rods, supports;
-  for (const auto& point : network.points)
-    points.push_back(fmt::format("    [{}]", fmt::join(point, ", ")));
-  for (std::size_t r = 0; r < network.rods.size(); ++r) {
-    const auto list = fmt::format("[{}]", fmt::join(network.rods[r], ", "));
-    const double diameter = network.diameters.empty() ? 0 : network.diameters[r];
-    rods.push_back(diameter > 0
-                       ? fmt::format("    {{\"points\": {}, \"diameter_mm\": {}}}", list, diameter)
-                       : "    " + list);
-  }
-  std::map<double, std::string> springs;
-  for (const auto& row : network.springs)
-    springs[row[0]] = fmt::format(", \"spring_N_per_mm\": [{}, {}, {}]", row[1], row[2], row[3]);
-  for (const auto& row : network.supports) {
-    const auto to = row.size() == 1
-                        ? std::string()
-                        : fmt::format(", \"to_mm\": [{}, {}, {}]", row[1], row[2], row[3]);
-    supports.push_back(fmt::format("    {{\"point\": {}{}{}}}", row[0], to, springs[row[0]]));
-  }
-  for (const int point : network.free)
-    supports.push_back(fmt::format("    {{\"point\": {}, \"to_mm\": \"free\"}}", point));
-  return fmt::format(
-      "{{\n  \"points_mm\": [\n{}\n  ],\n  \"rods\": [\n{}\n  ],\n  \"supports\": "
-      "[\n{}\n  ]\n}}\n",
-      fmt::join(points, ",\n"), fmt::join(rods, ",\n"), fmt::join(supports, ",\n"));
 }
 
 }  // namespace gridshell::preset

@@ -29,7 +29,7 @@ Result<void> read_obj_lines(std::string_view bytes, const std::string& name,
                             std::string_view element, const ObjCallbacks& lines) {
   long vertices = 0;
   for (int number = 1; !bytes.empty(); ++number) {
-    const auto words = split_whitespace(next_line(bytes));
+    const auto words = words_in(next_line(bytes));
     if (words.empty() || (words[0] != "v" && words[0] != element)) continue;
     const auto place = fmt::format("{}:{}", name, number);
     if (words[0] == "v") {
@@ -110,7 +110,7 @@ Result<Header> read_header(std::string_view& bytes, const std::string& name) {
   Header header;
   bool formed = false;
   while (!bytes.empty()) {
-    const auto words = split_whitespace(next_line(bytes));
+    const auto words = words_in(next_line(bytes));
     const auto place = fmt::format("{}:{}", name, ++header.lines);
     if (header.lines == 1) {
       if (words.size() == 1 && words[0] == "ply") continue;

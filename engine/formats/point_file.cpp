@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include "engine/core/file_io.h"
@@ -19,18 +18,13 @@
 namespace gridshell::preset {
 namespace {
 
-std::vector<std::string> words_of(std::string line) {
-  line = line.substr(0, line.find('#'));
-  for (char& c : line)
-    if (c == ',' || c == ';' || c == '\t' || c == '\r') c = ' ';
-  std::istringstream in(line);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  return words;
+/// What a line holds before its remark.
+std::vector<std::string_view> values_in(std::string_view line) {
+  return words_in(line.substr(0, line.find('#')), " \t\r\f\v,;");
 }
 
 // a number, or the place of a word where a coordinate has words
-std::optional<double> value_of(const std::string& word, std::size_t coordinate,
+std::optional<double> value_of(std::string_view word, std::size_t coordinate,
                                const std::vector<std::vector<std::string>>& words) {
   if (coordinate >= words.size() || words[coordinate].empty()) return number_of(word);
   const auto& allowed = words[coordinate];
@@ -69,11 +63,10 @@ Result<Points> points_in(const std::string& text, const std::string& name,
       fmt::format("{} {}: {}", coordinates.size(), known.empty() ? "numbers" : "values",
                   fmt::join(coordinates, ", "));
   Points points;
-  std::istringstream lines(text);
-  std::string line;
   bool header = true;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const auto words = words_of(line);
+  std::string_view lines = text;
+  for (int number = 1; !lines.empty(); ++number) {
+    const auto words = values_in(next_line(lines));
     if (words.empty()) continue;
     const bool first = std::exchange(header, false);
     // a CSV file names its columns first
@@ -122,18 +115,6 @@ class CloudBuilder {
   std::vector<double> points_;
 };
 
-/// The words of a line before its remark, apart by blanks, commas or semicolons.
-void split(std::string_view line, std::vector<std::string_view>& words) {
-  constexpr std::string_view apart = " \t\r\f\v,;";
-  line = line.substr(0, line.find('#'));
-  words.clear();
-  for (std::size_t at = 0; (at = line.find_first_not_of(apart, at)) != line.npos;) {
-    const std::size_t end = std::min(line.find_first_of(apart, at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = end;
-  }
-}
-
 /// Where a line of words has x, y and z; nothing where it does not name all of them.
 std::optional<std::array<std::size_t, 3>> columns_of(const std::vector<std::string_view>& words) {
   std::array<std::size_t, 3> columns{};
@@ -152,10 +133,9 @@ std::optional<std::array<std::size_t, 3>> columns_of(const std::vector<std::stri
 Result<Eigen::Matrix3Xd> read_lines(std::string_view text, const std::string& name) {
   CloudBuilder draft;
   std::array<std::size_t, 3> columns{0, 1, 2};
-  std::vector<std::string_view> words;
   bool first = true;
   for (std::size_t number = 1; !text.empty(); ++number) {
-    split(next_line(text), words);
+    const auto words = values_in(next_line(text));
     if (words.empty()) continue;
     const auto place = [&] { return fmt::format("{}:{}", name, number); };
     // a file may name its columns first

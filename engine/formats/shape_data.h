@@ -1,13 +1,26 @@
 // Points as a preset lists them.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <vector>
+
+#include "engine/core/fields.h"
 
 namespace gridshell::preset {
 
 /// Points of a curve, each of as many coordinates as its key says, mm.
 using Points = std::vector<std::vector<double>>;
+
+/// The first `rows` coordinates of points, as columns.
+template <int rows>
+Eigen::Matrix<double, rows, Eigen::Dynamic> matrix_of(const Points& points) {
+  Eigen::Matrix<double, rows, Eigen::Dynamic> matrix(rows, points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+    for (int row = 0; row < rows; ++row)
+      matrix(row, Eigen::Index(k)) = points[k].at(std::size_t(row));
+  return matrix;
+}
 
 /// A surface that a file gives, mm: heights over a rectangular grid, or triangles.
 struct SurfaceData {
@@ -32,5 +45,29 @@ struct NetworkData {
 
   bool empty() const { return rods.empty(); }
 };
+
+// Both as tables of a preset: visit(key, member, whether it must be there).
+
+template <RecordOf<SurfaceData> Data, class Visit>
+void each_part(Data& data, bool mesh, const Visit& visit) {
+  if (mesh) {
+    visit("vertices_mm", data.vertices, true);
+    visit("triangles", data.triangles, true);
+  } else {
+    visit("x_mm", data.x, true);
+    visit("y_mm", data.y, true);
+    visit("z_mm", data.z, true);
+  }
+}
+
+template <RecordOf<NetworkData> Data, class Visit>
+void each_part(Data& data, bool, const Visit& visit) {
+  visit("points_mm", data.points, true);
+  visit("rods", data.rods, true);
+  visit("diameters_mm", data.diameters, false);
+  visit("supports_mm", data.supports, false);
+  visit("springs_N_per_mm", data.springs, false);
+  visit("free", data.free, false);
+}
 
 }  // namespace gridshell::preset

@@ -7,29 +7,12 @@
 #include <cstdint>
 #include <cstring>
 
+#include "engine/core/text.h"
 #include "engine/core/try.h"
 #include "engine/formats/obj_ply.h"
 #include "engine/formats/point_file.h"
 
 namespace gridshell::preset {
-
-std::vector<std::string_view> split_whitespace(std::string_view line) {
-  constexpr std::string_view blanks = " \t\r\f\v";
-  std::vector<std::string_view> words;
-  for (std::size_t at = 0; (at = line.find_first_not_of(blanks, at)) != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
-
-std::string_view next_line(std::string_view& text) {
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return line;
-}
 
 Result<void> MeshBuilder::add_vertex(const std::vector<double>& xyz, const std::string& place) {
   constexpr double largest = 1e9;
@@ -136,7 +119,7 @@ Result<SurfaceData> read_binary(std::string_view bytes, const std::string& name)
 Result<SurfaceData> read_text(std::string_view bytes, const std::string& name) {
   MeshBuilder draft;
   for (int number = 1; !bytes.empty(); ++number) {
-    const auto words = split_whitespace(next_line(bytes));
+    const auto words = words_in(next_line(bytes));
     if (words.empty() || words[0] != "vertex") continue;
     const auto place = fmt::format("{}:{}", name, number);
     std::vector<double> xyz;

@@ -12,11 +12,6 @@
 
 namespace gridshell::preset {
 
-/// The words of a line, apart by blanks.
-std::vector<std::string_view> split_whitespace(std::string_view line);
-/// The next line of a text, without its end; the text goes on behind it.
-std::string_view next_line(std::string_view& text);
-
 /// Gathers vertices and polygons; `place` begins every error: "dome.obj:17".
 class MeshBuilder {
  public:

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
 
 #include "engine/core/try.h"
 #include "engine/geometry/calculus.h"
@@ -266,6 +269,50 @@ Vector2d BoundaryMap::operator()(const Vector2d& on_original) const {
   const double t =
       actuated_.at_arc_length(start_actuated_ + s * actuated_.length() / original_.length());
   return actuated_.at(t).position;
+}
+
+std::vector<int> hull_of(const Eigen::Matrix2Xd& points) {
+  std::vector<int> order(std::size_t(points.cols()));
+  std::iota(order.begin(), order.end(), 0);
+  const auto place = [&](int k) { return std::pair(points(0, k), points(1, k)); };
+  std::ranges::sort(order, {}, place);
+  // the lower side from left to right, then the upper one back [Andrew 1979]
+  std::vector<int> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const int k : order) {
+      while (hull.size() >= first + 2 &&
+             cross(points.col(hull.back()) - points.col(hull[hull.size() - 2]),
+                   points.col(k) - points.col(hull.back())) <= 0)
+        hull.pop_back();
+      hull.push_back(k);
+    }
+    hull.pop_back();
+    std::ranges::reverse(order);
+  }
+  return hull;
+}
+
+std::vector<int> rim_of(const Eigen::Matrix2Xd& points) {
+  constexpr double on_an_edge = 1e-6;  // of its length
+  const std::vector<int> corners = hull_of(points);
+  std::vector<int> rim;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Eigen::Vector2d first = points.col(corners[k]),
+                          way = points.col(corners[(k + 1) % corners.size()]) - first;
+    std::map<double, int> on_edge;  // by how far along it
+    for (int point = 0; point < int(points.cols()); ++point) {
+      const Eigen::Vector2d at = points.col(point) - first;
+      const double along = at.dot(way) / way.squaredNorm();
+      const bool on_it = std::abs(cross(way, at)) < on_an_edge * way.squaredNorm();
+      if (on_it && along > on_an_edge && along < 1 - on_an_edge) on_edge.try_emplace(along, point);
+    }
+    rim.push_back(corners[k]);
+    double last = 0;
+    for (const auto& [along, point] : on_edge)
+      if (along - std::exchange(last, along) > on_an_edge) rim.push_back(point);
+  }
+  return rim;
 }
 
 }  // namespace gridshell

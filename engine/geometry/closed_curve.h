@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/core/enum_words.h"
+#include "engine/core/choices.h"
 #include "engine/core/result.h"
 #include "engine/geometry/calculus.h"
 
@@ -52,12 +52,6 @@ class ClosedCurve {
   std::shared_ptr<const Antiderivative> length_;
 };
 
-/// How a point of the original boundary finds its place on the actuated one.
-enum class Correspondence {
-  arc_length,  ///< the same fraction of the length, both counted from the positive x-axis
-  angle,       ///< the same polar angle about the origin
-};
-
 /// Maps points of the original boundary to the actuated one.
 class BoundaryMap {
  public:
@@ -73,5 +67,10 @@ class BoundaryMap {
   Correspondence how_{};
   double start_original_ = 0, start_actuated_ = 0;  ///< arc length on the positive x-axis
 };
+
+/// The corners of the convex hull of points, counter-clockwise.
+std::vector<int> hull_of(const Eigen::Matrix2Xd& points);
+/// The same with the points on its edges, each place once.
+std::vector<int> rim_of(const Eigen::Matrix2Xd& points);
 
 }  // namespace gridshell

@@ -159,10 +159,6 @@ Result<RevolutionNet> RevolutionNet::make(Profile profile, double c) {
   return net;
 }
 
-double RevolutionNet::right_angled(const Profile& profile) {
-  return M_SQRT1_2 / profile.at(profile.origin).r;
-}
-
 std::string RevolutionNet::why_it_ends(bool last) const {
   const double t = last ? x_->end() : x_->begin();
   const double cr = c_ * profile_.at(t).r;

@@ -62,10 +62,6 @@ class RevolutionNet final : public ChebyshevNet {
   /// `c` in 1/mm. Errors (bad_input): c not positive; c r >= 1 in the middle, where no net exists.
   static Result<RevolutionNet> make(Profile profile, double c);
 
-  /// c of the net whose rods cross at right angles in the middle: 1/(sqrt(2) r). On a cylinder
-  /// these are helices, omega = pi/2 everywhere.
-  static double right_angled(const Profile& profile);
-
   Result<NetPoint> at(double u, double v) const override;
 
   double c() const { return c_; }

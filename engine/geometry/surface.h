@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/core/box_grid.h"
+#include "engine/core/proximity.h"
 #include "engine/core/result.h"
 #include "engine/geometry/triangle_mesh.h"
 

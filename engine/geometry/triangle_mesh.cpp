@@ -8,7 +8,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "engine/core/box_grid.h"
+#include "engine/core/proximity.h"
 #include "engine/core/try.h"
 
 namespace gridshell {

@@ -15,6 +15,8 @@ struct KeyFault {
   int item = -1;                    ///< of a list of tables, from 0
   std::vector<std::string> others;  ///< the other keys: "[net] kind"
   std::string what;                 ///< what is wrong, what is allowed
+
+  std::string label() const { return key_label(table, key, item); }
 };
 
 /// What the rules of one kind find in this preset; of an unused key the first reason alone.
@@ -37,5 +39,18 @@ inline constexpr const char* side_names[] = {"east", "west", "north", "south"};
 
 /// "left.east"; empty when no block or side has that name.
 std::optional<NamedSide> side_named(const Preset& preset, const std::string& name);
+
+// Which rung of the model ladder a preset needs: no more than its scene asks for.
+
+/// The rung that a preset runs on: the one it asks for, else the lowest that is exact; `net` only
+/// where a tolerance of 0.05 or more is asked for a cap of a sphere, of which it is known that
+/// shells lie within 0.03 of their net.
+RodModel rod_model_of(const Preset& preset);
+
+/// One sentence: which rung, what was left out, and why nothing is lost.
+std::string model_reason(const Preset& preset);
+
+/// What a rung that is asked for cannot serve, and rods whose stiffness it lacks.
+std::vector<KeyFault> model_conflicts(const Preset& preset);
 
 }  // namespace gridshell::preset

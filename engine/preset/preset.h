@@ -5,17 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/choices.h"
 #include "engine/core/enum_words.h"
-#include "engine/core/rod_model.h"
 #include "engine/formats/shape_data.h"
 #include "engine/preset/pictures.h"
 
 namespace gridshell::preset {
 
 enum class StepKind { move, push, hold, release, load, rest, jitter };
-
-/// On which side of an unstable state a shell goes to rest.
-enum class RestSide { lower, along, against };
 
 // A preset: everything an experiment and its pictures need, as plain values with defaults. The
 // names are those of the TOML keys: `[rod] diameter_mm` is `preset.rod.diameter_mm`. What each key
@@ -73,7 +70,6 @@ struct Curve {
 };
 
 enum class FootprintKind { circle, net, curve, blocks, network };
-enum class Placement { half, on_axis };
 struct Footprint {
   FootprintKind kind = FootprintKind::circle;
   Curve boundary;
@@ -123,7 +119,6 @@ struct Blocks {
   double max_gap_mm = 10;
 };
 
-enum class Correspondence { arc_length, angle };
 enum class Start { flat, net };
 enum class Seed { up, down };
 enum class SeedDiagonal { y_eq_x, y_eq_minus_x };
@@ -171,7 +166,7 @@ struct Step {
   std::vector<double> along;  ///< direction in which a joint is held; empty: the way of the push
   Lateral lateral = Lateral::free;
   double factor = 1;  ///< of the dead loads
-  RestSide side = RestSide::lower;
+  BranchSide side = BranchSide::lower;
   int seed = 1;
   double force_N = 0.4;  ///< of a jitter
 };

@@ -43,14 +43,10 @@ bool overridden_above(const PresetBuilder& draft, const std::vector<std::string>
   });
 }
 
-std::string label_of(const KeyFault& fault) {
-  return key_label(fault.table, fault.key, fault.item);
-}
-
 /// "[rod] diameter_mm = 20.0: neighbouring rods would touch, ..."
 std::string fault_text(const Preset& preset, const KeyFault& fault, const std::string& more = "") {
   const Field& field = *find_field(fault.table, fault.key);
-  return fmt::format("{} = {}: {}{}", label_of(fault), value_text(field, preset, fault.item), more,
+  return fmt::format("{} = {}: {}{}", fault.label(), value_text(field, preset, fault.item), more,
                      fault.what);
 }
 
@@ -70,7 +66,7 @@ bool is_default(const PresetBuilder& draft, const KeyFault& fault) {
 void check_conflicts(const PresetBuilder& draft, const std::string& source, LocatedFaults& faults) {
   for (const KeyFault& fault : conflicts(draft.preset)) {
     auto keys = fault.others;
-    keys.insert(keys.begin(), label_of(fault));
+    keys.insert(keys.begin(), fault.label());
     if (any_refused(draft, keys)) continue;
     if (fault.item >= 0) keys.push_back(key_label(fault.table, "", fault.item));
     const auto set = std::ranges::find_if(
@@ -85,11 +81,11 @@ void check_unused_keys(const std::vector<PresetBuilder>& runs, LocatedFaults& fa
   std::vector<std::vector<KeyFault>> unused;
   for (const PresetBuilder& draft : runs)
     for (const KeyFault& one : unused.emplace_back(unused_keys(draft.preset)))
-      ++unused_in[label_of(one)];
+      ++unused_in[one.label()];
   for (std::size_t run = 0; run < runs.size(); ++run)
     for (const KeyFault& one : unused[run]) {
       const PresetBuilder& draft = runs[run];
-      const auto name = label_of(one);
+      const auto name = one.label();
       const auto set = draft.set_at.find(name);
       if (set == draft.set_at.end() || draft.faulty.contains(name)) continue;
       const ValueLayer layer = set->second.layer;

@@ -1,4 +1,4 @@
-#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 #include "engine/preset/consistency.h"
 #include "engine/preset/field_list.h"
 

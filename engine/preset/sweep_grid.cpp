@@ -100,8 +100,8 @@ class SweepCheck {
         const Field& field = *find_field(conflict.table, conflict.key);
         faults_.add(place("over"),
                     fmt::format("[sweep] over: at {}: {} = {}: {}", setting(sweep_, point),
-                                key_label(conflict.table, conflict.key, conflict.item),
-                                value_text(field, point.preset, conflict.item), conflict.what));
+                                conflict.label(), value_text(field, point.preset, conflict.item),
+                                conflict.what));
         return;  // the first says enough
       }
       forget_used(point, idle);
@@ -119,8 +119,7 @@ class SweepCheck {
     if (idle.empty()) return;
     std::map<std::string, std::string> still;
     for (const KeyFault& key : unused_keys(point.preset))
-      if (const auto name = key_label(key.table, key.key, key.item); idle.contains(name))
-        still[name] = key.what;
+      if (const auto name = key.label(); idle.contains(name)) still[name] = key.what;
     idle = std::move(still);
   }
 

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 #include "engine/preset/field_table.h"
 #include "engine/preset/preset_access.h"
 

@@ -7,8 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/core/box_sweep.h"
-#include "engine/core/segment_distance.h"
+#include "engine/core/proximity.h"
 
 namespace gridshell::record {
 namespace {
@@ -56,13 +55,11 @@ class ShapeContacts {
     }
   };
 
-  int node(int point) const { return of_.points_[std::size_t(point)]; }
-  const Segment& segment(int k) const { return of_.segments_[std::size_t(k)]; }
-  double length(const Segment& s) const {
-    return along_[std::size_t(s.end)] - along_[std::size_t(s.begin)];
-  }
+  int node(int point) const { return of_.points_[point]; }
+  const Segment& segment(int k) const { return of_.segments_[k]; }
+  double length(const Segment& s) const { return along_[s.end] - along_[s.begin]; }
   const Box& box_of(int begin, int end) const {
-    return end - begin == 1 ? edge_[std::size_t(begin)] : tree_[std::size_t((begin + end) / 2)];
+    return end - begin == 1 ? edge_[begin] : tree_[(begin + end) / 2];
   }
   void lay_out(std::size_t k);
   void grow_tree(int k);
@@ -111,11 +108,11 @@ void ShapeContacts::lay_out(std::size_t k) {
                     end = std::size_t(of_.segments_[k].end);
   const Vector3d chord = (x_[end] - x_[begin]).stableNormalized();
   double least = 1;  // cosine
-  box_[k].take(x_[begin]);
+  box_[k].extend(x_[begin]);
   for (std::size_t p = begin; p < end; ++p) {
     const Vector3d edge = x_[p + 1] - x_[p];
     const double length = edge.norm();
-    box_[k].take(x_[p + 1]);
+    box_[k].extend(x_[p + 1]);
     along_[p + 1] = along_[p] + length;
     least = std::min(least, edge.dot(chord) / std::max(length, 1e-300));
   }
@@ -124,34 +121,33 @@ void ShapeContacts::lay_out(std::size_t k) {
 }
 
 void ShapeContacts::grow_tree(int k) {
-  if (std::exchange(has_tree_[std::size_t(k)], 1)) return;
+  if (std::exchange(has_tree_[k], 1)) return;
   edge_.resize(x_.size());
   tree_.resize(x_.size());
   const Segment& s = segment(k);
   for (std::size_t p = std::size_t(s.begin); p < std::size_t(s.end); ++p) {
-    edge_[p].take(x_[p]);
-    edge_[p].take(x_[p + 1]);
+    edge_[p].extend(x_[p]);
+    edge_[p].extend(x_[p + 1]);
   }
   grown(s.begin, s.end);
 }
 
 Box ShapeContacts::grown(int begin, int end) {
-  if (end - begin == 1) return edge_[std::size_t(begin)];
+  if (end - begin == 1) return edge_[begin];
   const int middle = (begin + end) / 2;
   Box box = grown(begin, middle);
-  box.take(grown(middle, end));
-  return tree_[std::size_t(middle)] = box;
+  box.extend(grown(middle, end));
+  return tree_[middle] = box;
 }
 
 /// Whether two segments are a diameter apart, as far as they are from their chords at most.
 bool ShapeContacts::apart(int a, int b) const {
   const Segment &one = segment(a), &other = segment(b);
-  const auto x = [&](int point) { return x_[std::size_t(point)]; };
-  const Spread &sa = spread_[std::size_t(a)], &sb = spread_[std::size_t(b)];
+  const auto x = [&](int point) { return x_[point]; };
+  const Spread &sa = spread_[a], &sb = spread_[b];
   if (!(std::min(sa.cosine, sb.cosine) > 0)) return false;
-  const double reach =
-      0.5 * (length(one) * sa.sine + length(other) * sb.sine) +
-      2 * (of_.radius_mm_[std::size_t(one.rod)] + of_.radius_mm_[std::size_t(other.rod)]);
+  const double reach = 0.5 * (length(one) * sa.sine + length(other) * sb.sine) +
+                       2 * (of_.radius_mm_[one.rod] + of_.radius_mm_[other.rod]);
   return nearest_points(x(one.begin), x(one.end), x(other.begin), x(other.end)).distance2 >
          reach * reach;
 }
@@ -167,19 +163,18 @@ bool ShapeContacts::apart_but_at_joint(int a, int b) const {
       if (node(at) != node(beside)) continue;
       ++shared;
       const bool same_way = (at == one.begin) == (beside == other.begin);
-      between = (same_way ? 1 : -1) * chord_[std::size_t(a)].dot(chord_[std::size_t(b)]);
+      between = (same_way ? 1 : -1) * chord_[a].dot(chord_[b]);
     }
   if (shared != 1) return false;
   // sine of the angle between the nearest rays of the two cones
-  const Spread &sa = spread_[std::size_t(a)], &sb = spread_[std::size_t(b)];
+  const Spread &sa = spread_[a], &sb = spread_[b];
   const double across = std::sqrt(std::max(0.0, 1 - between * between));
   const double cosine = sa.cosine * sb.cosine - sa.sine * sb.sine,
                sine = sa.sine * sb.cosine + sa.cosine * sb.sine;
   const double apart = across * cosine - between * sine;
   if (!(apart > 0)) return false;
   const bool wide = between * cosine + across * sine < 0;
-  const double radii =
-      of_.radius_mm_[std::size_t(one.rod)] + of_.radius_mm_[std::size_t(other.rod)];
+  const double radii = of_.radius_mm_[one.rod] + of_.radius_mm_[other.rod];
   return 0.5 * of_.joint_diameter_mm_ * std::min(sa.cosine, sb.cosine) * (wide ? 1 : apart) >
          2 * radii;
 }
@@ -190,20 +185,20 @@ void ShapeContacts::add_joint(Search& search, int point_a, int point_b) const {
   const auto ends = [](const Segment& s, int point) {
     return point == s.begin ? !s.from_joint : !s.to_joint;
   };
-  const auto apart = [&] { return (x_[std::size_t(point_a)] - x_[std::size_t(point_b)]).norm(); };
+  const auto apart = [&] { return (x_[point_a] - x_[point_b]).norm(); };
   const bool one_place =
       node(point_a) == node(point_b) ||
       (search.a != search.b && ends(a, point_a) && ends(b, point_b) && apart() < search.radii);
   if (!one_place || search.joints == 2) return;
   const auto away = [&](const Segment& s, int point) {
     const int beside = point == s.begin ? point + 1 : point - 1;
-    return (x_[std::size_t(beside)] - x_[std::size_t(point)]).stableNormalized();
+    return (x_[beside] - x_[point]).stableNormalized();
   };
   // twice the sine of half the angle
   const double spread = (away(a, point_a) - away(b, point_b)).norm();
   const double half = 0.5 * std::min(length(a), length(b));
   const double straight = std::min(half, 2 * search.radii / std::max(spread, 1e-12));
-  search.joint[search.joints++] = {along_[std::size_t(point_a)], along_[std::size_t(point_b)],
+  search.joint[search.joints++] = {along_[point_a], along_[point_b],
                                    std::max(0.5 * of_.joint_diameter_mm_, straight)};
 }
 
@@ -212,7 +207,7 @@ ShapeContacts::Search ShapeContacts::between(int a, int b) const {
   search.a = a;
   search.b = b;
   const Segment &one = segment(a), &other = segment(b);
-  search.radii = of_.radius_mm_[std::size_t(one.rod)] + of_.radius_mm_[std::size_t(other.rod)];
+  search.radii = of_.radius_mm_[one.rod] + of_.radius_mm_[other.rod];
   search.gap = search.radii;
   if (a == b) {
     search.apart = std::numbers::pi * search.radii;
@@ -241,8 +236,8 @@ void ShapeContacts::look_at_edges(Search& search, int edge_a, int edge_b) const 
 }
 
 void ShapeContacts::look(Search& search, int begin_a, int end_a, int begin_b, int end_b) const {
-  if (!box_of(begin_a, end_a).near(box_of(begin_b, end_b), search.radii + search.gap)) return;
-  const auto along = [&](int point) { return along_[std::size_t(point)]; };
+  if (!are_near(box_of(begin_a, end_a), box_of(begin_b, end_b), search.radii + search.gap)) return;
+  const auto along = [&](int point) { return along_[point]; };
   for (int k = 0; k < search.joints; ++k) {
     const Joint& joint = search.joint[k];
     const auto within = [&](int begin, int end, double at) {
@@ -296,7 +291,7 @@ void ShapeContacts::rods(bool by_all_pairs) {
   for (int a = 0; a < count; ++a) {
     // within 50 degrees of its chord a rod does not come back to itself: what is pi S apart along
     // it is 2 S apart
-    if (spread_[std::size_t(a)].cosine > 2 / std::numbers::pi) continue;
+    if (spread_[a].cosine > 2 / std::numbers::pi) continue;
     Search search = between(a, a);
     grow_tree(a);
     look_within(search, segment(a).begin, segment(a).end);
@@ -324,8 +319,8 @@ void ShapeContacts::joints(bool by_all_pairs) {
       top[k] += of_.joint_height_mm_ * (nodes_.col(beside[1]) - nodes_.col(beside[0]))
                                            .cross(nodes_.col(beside[3]) - nodes_.col(beside[2]))
                                            .stableNormalized();
-    boxes[k].take(foot[k]);
-    boxes[k].take(top[k]);
+    boxes[k].extend(foot[k]);
+    boxes[k].extend(top[k]);
   }
   const auto look = [&](int a, int b) {
     const std::size_t i = std::size_t(a), j = std::size_t(b);
@@ -349,7 +344,7 @@ void ShapeContacts::table() {
     const auto lowest =
         std::min_element(x_.begin() + s.begin, x_.begin() + s.end + 1,
                          [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); });
-    const double gap = lowest->z() - of_.table_mm_ + of_.radius_mm_[std::size_t(s.rod)];
+    const double gap = lowest->z() - of_.table_mm_ + of_.radius_mm_[s.rod];
     if (gap < 0) all_.places.push_back({ContactKind::table, s.rod, -1, gap, *lowest});
   }
 }
@@ -375,7 +370,7 @@ ContactSearch::ContactSearch(const Layout& layout)
   for (const Joint& joint : layout.joints) nodes = std::max(nodes, joint.node + 1);
   std::vector<int> axis(std::size_t(nodes), -1);
   for (const Joint& joint : layout.joints) {
-    axis[std::size_t(joint.node)] = int(axes_.size());
+    axis[joint.node] = int(axes_.size());
     axes_.push_back({joint.node});
   }
   for (std::size_t r = 0; r < layout.rods.size(); ++r) {
@@ -384,14 +379,14 @@ ContactSearch::ContactSearch(const Layout& layout)
     const int first = int(points_.size()), last = int(rod.size()) - 1;
     points_.insert(points_.end(), rod.begin(), rod.end());
     for (int k = 0, begin = 0; k <= last; ++k) {
-      const int joint = axis[std::size_t(rod[std::size_t(k)])];
+      const int joint = axis[std::size_t(rod[k])];
       if (k > begin && (joint >= 0 || k == last)) {
-        const bool from_joint = axis[std::size_t(rod[std::size_t(begin)])] >= 0;
+        const bool from_joint = axis[std::size_t(rod[begin])] >= 0;
         segments_.push_back({int(r), first + begin, first + k, from_joint, joint >= 0});
         begin = k;
       }
       if (joint < 0) continue;
-      auto& beside = axes_[std::size_t(joint)].beside;
+      auto& beside = axes_[joint].beside;
       const std::size_t free = beside[0] < 0 ? 0 : 2;
       if (beside[free] >= 0) continue;
       beside[free] = rod[std::size_t(std::max(k - 1, 0))];

@@ -69,26 +69,6 @@ Eigen::VectorXd cell_curvature(const Footprint& footprint, const JointTangents& 
   return K;
 }
 
-double total_curvature_from_corners(const Footprint& footprint, const JointTangents& tangents) {
-  // which of the four quadrants around a joint hold a cell, counter-clockwise from (+u, +v)
-  std::vector<std::array<bool, 4>> holds(footprint.joints.size(), {false, false, false, false});
-  for (const FootprintCell& cell : footprint.cells)
-    for (int corner = 0; corner < 4; ++corner) holds[cell.joints[corner]][corner] = true;
-
-  double total = 0;
-  for (std::size_t j = 0; j < holds.size(); ++j) {
-    // omega: the angle of quadrants (+,+) and (-,-); the other two have pi - omega
-    const Eigen::Vector3d u = tangents.u.col(Eigen::Index(j)), v = tangents.v.col(Eigen::Index(j));
-    const double omega = 2 * std::atan2((u - v).norm(), (u + v).norm());
-    const int even = holds[j][0] + holds[j][2], odd = holds[j][1] + holds[j][3];
-    const int cells = even + odd;
-    if (cells == 1) total += even ? M_PI / 2 - omega : omega - M_PI / 2;
-    if (cells == 3) total += (even == 1 ? omega : M_PI - omega) - M_PI / 2;
-    if (cells == 2 && even != 1) total += even == 2 ? M_PI - 2 * omega : 2 * omega - M_PI;
-  }
-  return total;
-}
-
 CurvatureBins curvature_bins(const Eigen::VectorXd& x_over_L, const Eigen::VectorXd& K, int bins) {
   const double width = 2.0 / bins;
   CurvatureBins found;

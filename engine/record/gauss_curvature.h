@@ -30,13 +30,6 @@ JointTangents joint_tangents(const Footprint& footprint, const RodMesh& mesh,
 /// the rods at the joint (rad). [Hazzidakis 1880; Baek 2018, eq. 2]
 Eigen::VectorXd cell_curvature(const Footprint& footprint, const JointTangents& tangents);
 
-/// Total K from the joints alone: with one tangent a rod at a joint its angles sum to 2 pi around,
-/// so inner joints cancel, and what is left is, with alpha the angle of the cells that are there:
-/// pi/2 - alpha at a joint of one cell, beta - pi/2 at one of three (beta that of the missing
-/// cell), 2 (pi/2 - alpha) at one of two opposite cells, 0 else. Computed from the four outgoing
-/// directions of the rods, not from cell_curvature.
-double total_curvature_from_corners(const Footprint& footprint, const JointTangents& tangents);
-
 // Curvature of the cells along an axis, in bins [Baek 2018, Fig. 4D].
 
 /// Bins of equal width over [-1, 1] of x/L, and what falls into each.

@@ -64,25 +64,16 @@ std::string base64(const std::vector<std::uint16_t>& numbers) {
   return text;
 }
 
-/// The box around all frames.
-struct Extent {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY);
-  Eigen::Vector3d high = Eigen::Vector3d::Constant(-INFINITY);
-
-  void take(const record::Frame& frame) {
-    low = low.cwiseMin(frame.nodes.rowwise().minCoeff());
-    high = high.cwiseMax(frame.nodes.rowwise().maxCoeff());
-  }
-  /// mm a step
-  double step() const { return std::max((high - low).maxCoeff() / 65535, 1e-12); }
-};
+/// The box around all frames, and mm a step in it.
+using Extent = Eigen::AlignedBox3d;
+double step_of(const Extent& extent) { return std::max(extent.sizes().maxCoeff() / 65535, 1e-12); }
 
 std::string positions(const record::Frame& frame, const Extent& extent) {
   std::vector<std::uint16_t> rounded;
   for (Eigen::Index k = 0; k < frame.nodes.cols(); ++k)
     for (int c = 0; c < 3; ++c)
       rounded.push_back(
-          std::uint16_t(std::lround((frame.nodes(c, k) - extent.low[c]) / extent.step())));
+          std::uint16_t(std::lround((frame.nodes(c, k) - extent.min()[c]) / step_of(extent))));
   return base64(rounded);
 }
 
@@ -155,12 +146,13 @@ Result<std::string> to_page(const record::Trajectory& run, const std::string& ti
   const auto shown =
       even_frames(run.frames.size(), std::min(run.frames.size(), most_page_bytes / a_frame));
   Extent extent;
-  for (const std::size_t k : shown) extent.take(run.frames[k]);
+  for (const std::size_t k : shown)
+    for (const auto& node : run.frames[k].nodes.colwise()) extent.extend(node);
 
   Json json = layout_json(run.layout);
   json["title"] = title;
-  json["low"] = {extent.low.x(), extent.low.y(), extent.low.z()};
-  json["step"] = extent.step();
+  json["low"] = {extent.min().x(), extent.min().y(), extent.min().z()};
+  json["step"] = step_of(extent);
   json["K_end"] = rounded(range_of(run.frames.back().cell_K).end, 3);
   json["colours"] = {{"below", ColourRange::below},
                      {"zero", ColourRange::zero},

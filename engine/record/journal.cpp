@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/checksum.h"
+#include "engine/core/file_io.h"
 #include "engine/core/try.h"
 #include "engine/formats/hdf5_file.h"
 #include "engine/formats/packing.h"

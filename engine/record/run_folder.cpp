@@ -85,25 +85,23 @@ std::string frames_csv(const Trajectory& trajectory) {
 
 Result<void> write_run(const std::filesystem::path& folder, const Trajectory& trajectory,
                        const Summary& summary) {
-  return check_consistency(trajectory)
-      .and_then([&] { return make_folder(folder); })
-      .and_then([&] { return write_file(folder / "joints.csv", joints_csv(trajectory)); })
-      .and_then([&] { return write_file(folder / "cells.csv", cells_csv(trajectory)); })
-      .and_then([&] { return write_file(folder / "frames.csv", frames_csv(trajectory)); })
-      .and_then([&]() -> Result<void> {
-        if (trajectory.layout.seam_rods.empty()) return {};
-        return write_file(folder / "seams.csv", seams_csv(trajectory.layout));
-      })
-      .and_then([&] { return write_file(folder / "bins.csv", bins_csv(trajectory)); })
-      .and_then([&] { return write_trajectory(folder / "trajectory.h5", trajectory); })
-      .and_then([&] { return write_summary(folder / "summary.json", summary); });
+  TRY_DO(check_consistency(trajectory));
+  TRY_DO(make_folder(folder));
+  TRY_DO(write_file(folder / "joints.csv", joints_csv(trajectory)));
+  TRY_DO(write_file(folder / "cells.csv", cells_csv(trajectory)));
+  TRY_DO(write_file(folder / "frames.csv", frames_csv(trajectory)));
+  if (!trajectory.layout.seam_rods.empty())
+    TRY_DO(write_file(folder / "seams.csv", seams_csv(trajectory.layout)));
+  TRY_DO(write_file(folder / "bins.csv", bins_csv(trajectory)));
+  TRY_DO(write_trajectory(folder / "trajectory.h5", trajectory));
+  return write_summary(folder / "summary.json", summary);
 }
 
 namespace fs = std::filesystem;
 
 Result<void> FolderSink::begin(Layout layout) {
-  if (auto made = make_folder(folder_); !made) return made;
-  if (auto kept = keep_coarser(); !kept) return kept;
+  TRY_DO(make_folder(folder_));
+  TRY_DO(keep_coarser());
   TRY(journal, JournalWriter::create(folder_ / journal_name, name_, layout));
   journal_.emplace(std::move(*journal));
   return {};

@@ -68,17 +68,6 @@ bool parse(const std::string& text, Number& value) {
   return number || (std::is_same_v<Number, double> && text.empty());
 }
 
-/// No cell of these files holds a comma, a quote or a line's end.
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts;
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t to = std::min(text.find(at, from), text.size());
-    parts.push_back(text.substr(from, to - from));
-    from = to + 1;
-  }
-  return parts;
-}
-
 /// What is wrong with the names of the columns, or empty. Earlier versions had fewer numbers.
 template <class Row>
 std::string heading_fault(const std::vector<std::string>& names) {
@@ -97,14 +86,13 @@ std::string heading_fault(const std::vector<std::string>& names) {
 template <class Row>
 Result<std::vector<Row>> read_csv(const std::filesystem::path& file) {
   TRY(text, read_file(file, largest_text));
-  std::vector<std::string> lines = split(*text, '\n');
-  if (lines.back().empty()) lines.pop_back();
-  const std::vector<std::string> names = split(lines.empty() ? "" : lines.front(), ',');
+  const auto lines = csv_cells(*text);
+  const auto names = lines.empty() ? std::vector<std::string>() : lines.front();
   if (const std::string fault = heading_fault<Row>(names); !fault.empty())
     return fail(Fault::bad_input, "'{}': {}", file.string(), fault);
   std::vector<Row> rows;
   for (std::size_t k = 1; k < lines.size(); ++k) {
-    const std::vector<std::string> cells = split(lines[k], ',');
+    const std::vector<std::string>& cells = lines[k];
     std::string fault = cells.size() == names.size() ? "" : "number of cells";
     fields(rows.emplace_back(), [&](const char* name, auto& value) {
       const auto at = std::size_t(std::ranges::find(names, name) - names.begin());

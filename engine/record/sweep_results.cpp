@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "engine/core/checksum.h"
 #include "engine/core/file_io.h"
 #include "engine/core/json.h"
 #include "engine/core/text.h"
@@ -315,7 +314,7 @@ Result<void> SweepLog::put(const std::string& line) {
 }
 
 tl::unexpected<Error> SweepLog::refuse(Fault fault, const std::string& why) const {
-  return fail(fault, fmt::format("cannot write '{}': {}", file_.string(), why));
+  return fail(fault, "cannot write '{}': {}", file_.string(), why);
 }
 
 }  // namespace gridshell::record

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/core/try.h"
+
 namespace gridshell::record {
 namespace {
 
@@ -78,31 +80,20 @@ Result<void> check_indices(const Layout& layout, Eigen::Index nodes) {
           return fail(Fault::bad_input, "{} {} names {} {} of {}", owner, k, kind, index, count);
     return {};
   };
-  const auto within_layout =
-      check("rod", layout.rods, all, "node", nodes)
-          .and_then([&] {
-            return check(
-                "joint", layout.joints, [](const Joint& joint) { return std::array{joint.node}; },
-                "node", nodes);
-          })
-          .and_then([&] { return check("edge point", layout.edge_points, itself, "node", nodes); })
-          .and_then([&] { return check("support", layout.supports, itself, "node", nodes); })
-          .and_then([&] {
-            return check(
-                "cell", layout.cells, [](const Cell& cell) { return cell.joints; }, "joint",
-                joints);
-          })
-          .and_then([&] {
-            return check(
-                "loaded joint", layout.loaded_joints,
-                [](const auto& loaded) { return std::array{loaded.joint}; }, "joint", joints);
-          });
-  if (!within_layout) return within_layout;
+  const auto node = [](const Joint& joint) { return std::array{joint.node}; };
+  const auto corners = [](const Cell& cell) { return cell.joints; };
+  const auto pushed = [](const LoadedJoint& loaded) { return std::array{loaded.joint}; };
+  TRY_DO(check("rod", layout.rods, all, "node", nodes));
+  TRY_DO(check("joint", layout.joints, node, "node", nodes));
+  TRY_DO(check("edge point", layout.edge_points, itself, "node", nodes));
+  TRY_DO(check("support", layout.supports, itself, "node", nodes));
+  TRY_DO(check("cell", layout.cells, corners, "joint", joints));
+  TRY_DO(check("loaded joint", layout.loaded_joints, pushed, "joint", joints));
   for (const Part& part : layout.parts) {
     if (part.net.cols() != part.flat.cols())
       return fail(Fault::bad_input, "block \"{}\" has {} points on its net and {} in the flat",
                   part.name, part.net.cols(), part.flat.cols());
-    if (auto rods = check("rod", part.rods, all, "point", part.net.cols()); !rods) return rods;
+    TRY_DO(check("rod", part.rods, all, "point", part.net.cols()));
   }
   return {};
 }
@@ -164,9 +155,9 @@ Result<void> check_layout(const Layout& layout, Eigen::Index nodes) {
   if (layout.original_boundary.cols() != layout.actuated_boundary.cols())
     return fail(Fault::bad_input, "the original boundary has {} points, the actuated one {}",
                 layout.original_boundary.cols(), layout.actuated_boundary.cols());
-  return check_indices(layout, nodes)
-      .and_then([&] { return check_sizes(layout, nodes); })
-      .and_then([&] { return check_numbers(layout); });
+  TRY_DO(check_indices(layout, nodes));
+  TRY_DO(check_sizes(layout, nodes));
+  return check_numbers(layout);
 }
 
 Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k,
@@ -184,16 +175,10 @@ Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k
     return fail(Fault::bad_input, "frame {} has {} values of {}, must be {}", k, values, what,
                 wanted);
   };
-  return fits("axial_force_N", frame.axial_force_N.size(), edges_of_rods(layout))
-      .and_then([&] {
-        return fits("curvature_per_mm", frame.curvature_per_mm.size(), points_of_rods(layout));
-      })
-      .and_then([&] {
-        return fits("bending_mJ_per_m", frame.bending_mJ_per_m.size(), points_of_rods(layout));
-      })
-      .and_then([&] {
-        return fits("reactions_N", frame.reactions_N.cols(), Eigen::Index(layout.supports.size()));
-      });
+  TRY_DO(fits("axial_force_N", frame.axial_force_N.size(), edges_of_rods(layout)));
+  TRY_DO(fits("curvature_per_mm", frame.curvature_per_mm.size(), points_of_rods(layout)));
+  TRY_DO(fits("bending_mJ_per_m", frame.bending_mJ_per_m.size(), points_of_rods(layout)));
+  return fits("reactions_N", frame.reactions_N.cols(), Eigen::Index(layout.supports.size()));
 }
 
 Result<void> check_consistency(const Trajectory& trajectory) {
@@ -202,9 +187,8 @@ Result<void> check_consistency(const Trajectory& trajectory) {
   // without a frame nobody knows how many nodes there are
   const Eigen::Index nodes = frames.empty() ? 0 : frames.front().nodes.cols();
   if (!frames.empty() || layout.original_boundary.cols() != layout.actuated_boundary.cols())
-    if (auto fits = check_layout(layout, nodes); !fits) return fits;
-  for (std::size_t k = 0; k < frames.size(); ++k)
-    if (auto fits = check_frame(layout, frames[k], k, nodes); !fits) return fits;
+    TRY_DO(check_layout(layout, nodes));
+  for (std::size_t k = 0; k < frames.size(); ++k) TRY_DO(check_frame(layout, frames[k], k, nodes));
   return {};
 }
 

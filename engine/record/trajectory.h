@@ -96,6 +96,7 @@ struct Joint {
   int i = 0, j = 0;
   double u_mm = 0, v_mm = 0;
   int node = 0;  ///< column of Frame::nodes
+  bool operator==(const Joint&) const = default;
 };
 
 /// A complete cell: the joints (i,j), (i+1,j), (i+1,j+1), (i,j+1) as indices into Layout::joints.
@@ -103,6 +104,7 @@ struct Cell {
   int i = 0, j = 0;
   double u_mm = 0, v_mm = 0;  ///< middle of the cell in the footprint
   std::array<int, 4> joints{};
+  bool operator==(const Cell&) const = default;
 };
 
 /// A building block on its own net: rods as polylines, where they would lie without the others.
@@ -119,6 +121,7 @@ struct SeamRod {
   double line_mm = 0;   ///< v of a u-rod, u of a v-rod
   double gap_mm = 0;    ///< between the two nets at the seam
   double kink_deg = 0;  ///< between its tangents there
+  bool operator==(const SeamRod&) const = default;
 };
 
 /// A joint that is pushed or pulled, and which way: a unit vector.

@@ -9,7 +9,6 @@
 #include <optional>
 #include <system_error>
 
-#include "engine/core/checksum.h"
 #include "engine/core/file_io.h"
 #include "engine/core/try.h"
 #include "engine/formats/hdf5_file.h"

@@ -14,13 +14,6 @@
 namespace gridshell {
 namespace {
 
-Eigen::Matrix2Xd matrix_of(const preset::Points& points, double scale) {
-  Eigen::Matrix2Xd matrix(2, points.size());
-  for (std::size_t k = 0; k < points.size(); ++k)
-    matrix.col(Eigen::Index(k)) << scale * points[k].at(0), scale * points[k].at(1);
-  return matrix;
-}
-
 Result<ClosedCurve> curve_of(const preset::Curve& wanted, double radius, double scale) {
   const double x = scale * wanted.half_x_mm, y = scale * wanted.half_y_mm;
   switch (wanted.kind) {
@@ -31,11 +24,11 @@ Result<ClosedCurve> curve_of(const preset::Curve& wanted, double radius, double 
     case preset::CurveKind::superellipse:
       return ClosedCurve::superellipse(x, y, wanted.exponent);
     case preset::CurveKind::polygon:
-      return ClosedCurve::polygon(matrix_of(wanted.points, scale));
+      return ClosedCurve::polygon(scale * preset::matrix_of<2>(wanted.points));
     case preset::CurveKind::spline:
       break;
   }
-  return ClosedCurve::spline(matrix_of(wanted.points, scale));
+  return ClosedCurve::spline(scale * preset::matrix_of<2>(wanted.points));
 }
 
 tl::unexpected<Error> refuse(const char* which, const Error& error) {
@@ -58,7 +51,7 @@ Result<CurveDesign> curve_design(const preset::Preset& preset) {
   auto actuated = to.scale > 0 ? curve_of(footprint.boundary, footprint.radius_mm, to.scale)
                                : curve_of(to.boundary, to.radius_mm, 1);
   if (!actuated) return refuse("[actuation] boundary: ", actuated.error());
-  TRY(map, BoundaryMap::make(*original, *actuated, same_word<Correspondence>(to.correspondence)));
+  TRY(map, BoundaryMap::make(*original, *actuated, to.correspondence));
   auto domain = std::make_unique<CurveDomain>(*original);
   const Eigen::Matrix2Xd ring = domain->boundary(1024);
   const double scale = 0.5 * (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();
@@ -192,9 +185,9 @@ Result<void> put_diameters(const preset::Preset& preset, NetworkFootprint& made)
     const double diameter = given > 0 ? given : preset.rod.diameter_mm;
     if (!(diameter < made.footprint.spacing))
       return fail(Fault::bad_input,
-                  fmt::format("rods[{}]: a diameter of {:g} mm, must be less than the usual "
-                              "distance of {:g} mm between joints",
-                              number, diameter, made.footprint.spacing));
+                  "rods[{}]: a diameter of {:g} mm, must be less than the usual "
+                  "distance of {:g} mm between joints",
+                  number, diameter, made.footprint.spacing);
     made.footprint.rods[r].diameter_mm = given;
   }
   return {};

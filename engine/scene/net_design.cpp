@@ -17,15 +17,17 @@
 namespace gridshell {
 namespace {
 
-/// Points of a preset as columns.
-template <int coordinates>
-Eigen::Matrix<double, coordinates, Eigen::Dynamic> matrix_of(const preset::Points& points) {
-  Eigen::Matrix<double, coordinates, Eigen::Dynamic> matrix(coordinates, points.size());
-  for (std::size_t k = 0; k < points.size(); ++k)
-    for (int axis = 0; axis < coordinates; ++axis)
-      matrix(axis, Eigen::Index(k)) = points[k].at(std::size_t(axis));
-  return matrix;
+/// Axes of the flat whose diagonal u + v runs along `diagonal`, of unit length.
+Eigen::Matrix<double, 3, 2> axes_about(const Eigen::Vector2d& diagonal) {
+  const Eigen::Vector2d left(-diagonal.y(), diagonal.x());
+  Eigen::Matrix<double, 3, 2> axes = Eigen::Matrix<double, 3, 2>::Zero();
+  axes.col(0).head<2>() = M_SQRT1_2 * (diagonal - left);
+  axes.col(1).head<2>() = M_SQRT1_2 * (diagonal + left);
+  return axes;
 }
+
+/// Where the axis of a surface of revolution, or the row of blocks, runs along u + v and x.
+Eigen::Matrix<double, 3, 2> axes_along_x() { return axes_about(Eigen::Vector2d::UnitX()); }
 
 Result<NetDesign> cap(const preset::Net& wanted) {
   NetDesign design;
@@ -38,29 +40,8 @@ Result<NetDesign> cap(const preset::Net& wanted) {
   return design;
 }
 
-/// Of the surfaces of revolution.
-Result<Profile> profile_of(const preset::Net& wanted) {
-  switch (wanted.kind) {
-    case preset::NetKind::cylinder:
-      // longer than asked for, so that the ends lie on it whatever the rounding
-      return cylinder_profile(wanted.radius_mm, wanted.length_mm);
-    case preset::NetKind::spool:
-      return spool_profile(wanted.radius_mm, wanted.waist);
-    case preset::NetKind::beltrami:
-      return beltrami_profile(wanted.radius_mm, wanted.waist);
-    case preset::NetKind::profile:
-      return tabulated_profile(matrix_of<2>(wanted.profile));
-    case preset::NetKind::sphere:
-    case preset::NetKind::translation:
-    case preset::NetKind::surface:
-      break;
-  }
-  return fail(Fault::bad_input,
-              fmt::format("[net] kind = \"{}\": no surface of revolution", word_of(wanted.kind)));
-}
-
-Result<NetDesign> half_revolution(const preset::Net& wanted) {
-  TRY(profile, profile_of(wanted));
+Result<NetDesign> half_revolution(const preset::Net& wanted, Result<Profile> profile) {
+  if (!profile) return tl::unexpected(profile.error());
   // sin(omega/2) = c r; rods at right angles have c = 1/(sqrt(2) r)
   const double middle_r = profile->at(profile->origin).r;
   const double c = std::sin(wanted.crossing_deg / 2 * std::numbers::pi / 180) / middle_r;
@@ -72,7 +53,7 @@ Result<NetDesign> half_revolution(const preset::Net& wanted) {
   design.net = net;
   design.domain = std::move(*domain);
   // the axis runs along u + v, and C_y, y = u - v, towards -y of the world
-  design.flat.axes << M_SQRT1_2, M_SQRT1_2, -M_SQRT1_2, M_SQRT1_2, 0, 0;
+  design.flat.axes = axes_along_x();
   design.scale_mm = wanted.kind == preset::NetKind::profile ? middle_r : wanted.radius_mm;
   return design;
 }
@@ -80,7 +61,8 @@ Result<NetDesign> half_revolution(const preset::Net& wanted) {
 /// Where a rectangle of the plane meets the net, the boundary need not be plane: the flat footprint
 /// lies at its mean height, its diagonal along that of the two curves.
 Result<NetDesign> translation(const preset::Net& wanted) {
-  const Eigen::Matrix3Xd x = matrix_of<3>(wanted.curve_u), y = matrix_of<3>(wanted.curve_v);
+  const Eigen::Matrix3Xd x = preset::matrix_of<3>(wanted.curve_u),
+                         y = preset::matrix_of<3>(wanted.curve_v);
   TRY(made, TranslationNet::make(x, y));
   const Eigen::Vector3d along = (x.rightCols<1>() - x.leftCols<1>()).normalized();
   const Eigen::Vector3d across = (y.rightCols<1>() - y.leftCols<1>()).normalized();
@@ -91,11 +73,8 @@ Result<NetDesign> translation(const preset::Net& wanted) {
   NetDesign design;
   auto net = std::make_shared<TranslationNet>(std::move(*made));
   design.domain = all_of(*net);
-  // u as far to the right of the diagonal as v to its left
   const Eigen::Vector2d diagonal = (along + across).head<2>().normalized();
-  const Eigen::Vector2d left(-diagonal.y(), diagonal.x());
-  design.flat.axes.col(0).head<2>() = M_SQRT1_2 * (diagonal - left);
-  design.flat.axes.col(1).head<2>() = M_SQRT1_2 * (diagonal + left);
+  design.flat.axes = axes_about(diagonal);
   TRY(ring, points_on(*net, design.domain->boundary(256)));
   design.flat.origin = ring->rowwise().mean();
   design.scale_mm = Eigen::Vector2d(net->half_u(), net->half_v()).norm();
@@ -109,43 +88,38 @@ Result<NetDesign> net_design(const preset::Net& net, double spacing_mm) {
   switch (net.kind) {
     case preset::NetKind::sphere:
       return cap(net);
+    case preset::NetKind::cylinder:
+      // longer than asked for, so that the ends lie on it whatever the rounding
+      return half_revolution(net, cylinder_profile(net.radius_mm, net.length_mm));
+    case preset::NetKind::spool:
+      return half_revolution(net, spool_profile(net.radius_mm, net.waist));
+    case preset::NetKind::beltrami:
+      return half_revolution(net, beltrami_profile(net.radius_mm, net.waist));
+    case preset::NetKind::profile:
+      return half_revolution(net, tabulated_profile(preset::matrix_of<2>(net.profile)));
     case preset::NetKind::translation:
       return translation(net);
-    case preset::NetKind::cylinder:
-    case preset::NetKind::spool:
-    case preset::NetKind::beltrami:
-    case preset::NetKind::profile:
-      break;
     case preset::NetKind::surface:
-      return surface_design(net, spacing_mm);
+      break;
   }
-  return half_revolution(net);
+  return surface_design(net, spacing_mm);
 }
 
 namespace {
 
-/// u + v along x, v - u along y: where rods of a surface of revolution lie on both sides of its
-/// axis
-FlatFrame common_frame() {
-  FlatFrame frame;
-  frame.axes << M_SQRT1_2, M_SQRT1_2, -M_SQRT1_2, M_SQRT1_2, 0, 0;
-  return frame;
-}
-
 Result<Block> block_of(const preset::Block& wanted, const preset::Footprint& footprint) {
   auto design = net_design(wanted.net, footprint.spacing_mm);
   if (!design)
-    return fail(design.error().fault,
-                fmt::format("block \"{}\": {}", wanted.name, design.error().message));
+    return fail(design.error().fault, "block \"{}\": {}", wanted.name, design.error().message);
   Block block;
   block.name = wanted.name;
   block.net = design->net;
   block.domain = std::move(design->domain);
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  block.pose.linear() = common_frame().axes * design->flat.axes.transpose() + up * up.transpose();
+  block.pose.linear() = axes_along_x() * design->flat.axes.transpose() + up * up.transpose();
   block.pose.translation().z() = -design->flat.origin.z();
   block.spacing = footprint.spacing_mm;
-  block.placement = same_word<Placement>(footprint.placement);
+  block.placement = footprint.placement;
   block.cut = {wanted.east, wanted.west, wanted.north, wanted.south};
   return block;
 }
@@ -153,7 +127,7 @@ Result<Block> block_of(const preset::Block& wanted, const preset::Footprint& foo
 Result<BlockSide> block_side(const preset::Preset& preset, const std::string& name) {
   const auto side = preset::side_named(preset, name);
   const auto facing = side ? find_word<Side>(side->side) : std::nullopt;
-  if (!facing) return fail(Fault::bad_input, fmt::format("\"{}\" is no side of a block", name));
+  if (!facing) return fail(Fault::bad_input, "\"{}\" is no side of a block", name);
   return BlockSide{side->block, *facing};
 }
 
@@ -175,7 +149,7 @@ Result<NetDesign> block_design(const preset::Preset& preset) {
   NetDesign design;
   design.net = whole->net();
   design.domain = whole->domain();
-  design.flat = common_frame();
+  design.flat.axes = axes_along_x();
   const Eigen::Matrix2Xd ring = design.domain->boundary(256);
   design.scale_mm = 0.5 * (ring.rowwise().maxCoeff() - ring.rowwise().minCoeff()).norm();
   design.blocks = std::make_shared<const Assemblage>(std::move(*whole));
@@ -187,17 +161,8 @@ namespace {
 Result<Surface::Function> parsed(const char* key, const std::string& text) {
   const auto expression = Expression::parse(text);
   if (!expression)
-    return fail(Fault::bad_input,
-                fmt::format("[net] {} = \"{}\": {}", key, text, expression.error().message));
+    return fail(Fault::bad_input, "[net] {} = \"{}\": {}", key, text, expression.error().message);
   return [E = *expression](const Eigen::Vector3d& p) { return E.at(p); };
-}
-
-/// Points of a preset as columns.
-Eigen::Matrix3Xd columns_of(const preset::Points& points) {
-  Eigen::Matrix3Xd columns(3, Eigen::Index(points.size()));
-  for (std::size_t k = 0; k < points.size(); ++k)
-    columns.col(Eigen::Index(k)) = Eigen::Vector3d::Map(points[k].data());
-  return columns;
 }
 
 /// A surface, and its height where it has one; of a mesh the highest.
@@ -227,7 +192,7 @@ Result<Wanted> from_grid(const preset::SurfaceData& file, double spacing_mm) {
 }
 
 Result<Wanted> from_mesh(const preset::SurfaceData& file, double spacing_mm) {
-  TRY(made, TriangleMesh::make(columns_of(file.vertices), file.triangles));
+  TRY(made, TriangleMesh::make(preset::matrix_of<3>(file.vertices), file.triangles));
   const auto mesh = std::make_shared<const TriangleMesh>(std::move(*made));
   TRY(fitted, MeshSurface::fit(*mesh, spacing_mm));
   const auto surface = std::make_shared<const MeshSurface>(std::move(*fitted));
@@ -262,23 +227,23 @@ Result<Eigen::Vector3d> apex_of(const preset::Net& wanted, const Wanted& shape, 
   if (given.size() == 2) {
     const auto height = shape.height(apex.x(), apex.y());
     if (!height)
-      return fail(Fault::bad_input, fmt::format("[net] apex_mm: the surface has no point at "
-                                                "({:.6g}, {:.6g}) mm",
-                                                apex.x(), apex.y()));
+      return fail(Fault::bad_input,
+                  "[net] apex_mm: the surface has no point at "
+                  "({:.6g}, {:.6g}) mm",
+                  apex.x(), apex.y());
     apex.z() = *height;
   }
   const auto nearest = surface.nearest(apex);
   if (!nearest)
-    return fail(Fault::bad_input,
-                fmt::format("[net] apex_mm lies far off the surface: {}{}", nearest.error().message,
-                            shape.height ? "; without its z it is found" : ""));
+    return fail(Fault::bad_input, "[net] apex_mm lies far off the surface: {}{}",
+                nearest.error().message, shape.height ? "; without its z it is found" : "");
   const double off = (*nearest - apex).norm();
   // flat triangles lie off the smooth surface
   if (given.size() == 3 && off > on_it * spacing_mm)
     return fail(Fault::bad_input,
-                fmt::format("[net] apex_mm lies {:.3g} mm off the surface, whose nearest point is "
-                            "({:.6g}, {:.6g}, {:.6g}) mm",
-                            off, nearest->x(), nearest->y(), nearest->z()));
+                "[net] apex_mm lies {:.3g} mm off the surface, whose nearest point is "
+                "({:.6g}, {:.6g}, {:.6g}) mm",
+                off, nearest->x(), nearest->y(), nearest->z());
   return *nearest;
 }
 
@@ -310,10 +275,7 @@ FlatFrame frame_of(const preset::Net& wanted, const NetPlace& place, const Eigen
   frame.origin.z() = wanted.within.empty() ? wanted.cut_mm : ring.row(2).mean();
   const Eigen::Vector2d diagonal =
       (place.along_u + place.up.cross(place.along_u)).head<2>().normalized();
-  const Eigen::Vector2d left(-diagonal.y(), diagonal.x());
-  frame.axes.setZero();
-  frame.axes.col(0).head<2>() = M_SQRT1_2 * (diagonal - left);
-  frame.axes.col(1).head<2>() = M_SQRT1_2 * (diagonal + left);
+  frame.axes = axes_about(diagonal);
   return frame;
 }
 
@@ -325,10 +287,8 @@ Result<NetDesign> surface_design(const preset::Net& wanted, double spacing_mm, P
   TRY(outside, outside_of(wanted));
   TRY(apex, apex_of(wanted, *shape, spacing_mm));
   if (!((*outside)(*apex) < 0))
-    return fail(
-        Fault::bad_input,
-        fmt::format("[net] {}: the apex ({:.4g}, {:.4g}, {:.4g}) mm lies outside",
-                    wanted.within.empty() ? "cut_mm" : "within", apex->x(), apex->y(), apex->z()));
+    return fail(Fault::bad_input, "[net] {}: the apex ({:.4g}, {:.4g}, {:.4g}) mm lies outside",
+                wanted.within.empty() ? "cut_mm" : "within", apex->x(), apex->y(), apex->z());
   TRY(place, place_of(wanted, surface, *apex));
   place->outside = *outside;
   TRY(made, SurfaceNet::make(surface, *place, spacing_mm / 8, so_far));

@@ -106,9 +106,8 @@ Result<void> apply_ends_table(const preset::Points& table, Scene& scene) {
   for (const auto& row : table) {
     const Name name{int(row[0]), int(row[1]), int(row[2])};
     const auto wrong = [&](const char* what) {
-      return fail(Fault::bad_input,
-                  fmt::format("[ends] table: {} of {}-rod {}: {}", row[2] == 0 ? "begin" : "end",
-                              row[0] == 0 ? "u" : "v", row[1], what));
+      return fail(Fault::bad_input, "[ends] table: {} of {}-rod {}: {}",
+                  row[2] == 0 ? "begin" : "end", row[0] == 0 ? "u" : "v", row[1], what);
     };
     const auto found = named.find(name);
     if (found == named.end() || double(int(row[1])) != row[1])

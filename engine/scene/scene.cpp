@@ -11,7 +11,7 @@
 #include "engine/core/try.h"
 #include "engine/elastic/shell_rods.h"
 #include "engine/footprint/footprint.h"
-#include "engine/preset/model_choice.h"
+#include "engine/preset/consistency.h"
 #include "engine/preset/preset.h"
 #include "engine/scene/drawn_footprint.h"
 #include "engine/scene/net_design.h"
@@ -49,9 +49,8 @@ Result<std::vector<PointLoad>> points_of(const preset::Loads& loads, const Footp
     const int i = int(std::lround(row[0])), j = int(std::lround(row[1]));
     const int joint = row[0] == i && row[1] == j ? joint_at(footprint, i, j) : -1;
     if (joint < 0)
-      return fail(
-          Fault::bad_input,
-          fmt::format("[loads] points: the footprint has no joint [{:g}, {:g}]", row[0], row[1]));
+      return fail(Fault::bad_input, "[loads] points: the footprint has no joint [{:g}, {:g}]",
+                  row[0], row[1]);
     points.push_back({joint, {row[2], row[3], row[4]}});
   }
   return points;
@@ -67,8 +66,8 @@ Result<std::vector<double>> diameters_of(const preset::Preset& preset, const Foo
   for (const auto& row : preset.rod_table) {
     const Family family = row[0] == 0 ? Family::u : Family::v;
     const auto wrong = [&](const std::string& what) {
-      return fail(Fault::bad_input, fmt::format("[rod] table: {}-rod {:g}: {}",
-                                                row[0] == 0 ? "u" : "v", row[1], what));
+      return fail(Fault::bad_input, "[rod] table: {}-rod {:g}: {}", row[0] == 0 ? "u" : "v", row[1],
+                  what);
     };
     if (rod_of(preset, family).rectangular()) return wrong("is rectangular, it has no diameter");
     if (!(row[2] > 0 && row[2] < preset.footprint.spacing_mm))
@@ -136,8 +135,7 @@ Eigen::Matrix2Xd edge_points(const Footprint& footprint) {
 
 Result<void> build_circle(const preset::Preset& preset, Scene& scene) {
   TRY(footprint, circular_footprint(preset.original_radius_mm(), preset.footprint.rods,
-                                    preset.footprint.spacing_mm,
-                                    same_word<Placement>(preset.footprint.placement)));
+                                    preset.footprint.spacing_mm, preset.footprint.placement));
   scene.footprint = std::move(*footprint);
   scene.radius_begin_mm = scene.length_scale_mm = preset.original_radius_mm();
   scene.radius_end_mm = preset.actuated_radius_mm();
@@ -150,8 +148,7 @@ Result<void> build_circle(const preset::Preset& preset, Scene& scene) {
 }
 
 Result<void> clip(const Domain& domain, const preset::Preset& preset, Scene& scene) {
-  TRY(footprint, cut_footprint(domain, preset.footprint.spacing_mm,
-                               same_word<Placement>(preset.footprint.placement)));
+  TRY(footprint, cut_footprint(domain, preset.footprint.spacing_mm, preset.footprint.placement));
   scene.footprint = std::move(*footprint);
   return {};
 }

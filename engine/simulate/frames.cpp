@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "engine/core/try.h"
-#include "engine/preset/model_choice.h"
+#include "engine/preset/consistency.h"
 #include "engine/record/frame_values.h"
 #include "engine/record/gauss_curvature.h"
 #include "engine/scene/rod_ends.h"

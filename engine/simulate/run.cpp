@@ -9,7 +9,7 @@
 #include "engine/core/system_info.h"
 #include "engine/core/try.h"
 #include "engine/core/watch.h"
-#include "engine/preset/model_choice.h"
+#include "engine/preset/consistency.h"
 #include "engine/record/gauss_curvature.h"
 #include "engine/record/shape_measures.h"
 #include "engine/record/trajectory.h"

@@ -221,9 +221,7 @@ Result<Report> take_step(Simulation& simulation, const preset::Step& step, const
     case preset::StepKind::load:
       return simulation.load(step.factor, watch);
     case preset::StepKind::rest:
-      return led([&]() -> Result<Report> {
-        return simulation.rest(watch, same_word<BranchSide>(step.side));
-      });
+      return led([&]() -> Result<Report> { return simulation.rest(watch, step.side); });
     case preset::StepKind::jitter:
       return led([&] { return jitter(simulation, step, watch); });
   }

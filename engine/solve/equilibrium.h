@@ -2,7 +2,7 @@
 // where long steps end does.
 #pragma once
 
-#include "engine/core/enum_words.h"
+#include "engine/core/choices.h"
 #include "engine/core/result.h"
 #include "engine/core/watch.h"
 #include "engine/footprint/symmetry.h"
@@ -43,10 +43,6 @@ NewtonReport minimise(Linearisation& system, State& state, const MinimiseOptions
                       const Watch& watch);
 
 // Coming to rest: beside a state that is not stable, and after a path lost its branch.
-
-/// On which side of an unstable state to leave it: where the energy ends lower, along a mode, or
-/// against it.
-enum class BranchSide { lower, along, against };
 
 /// How an unstable state is left.
 struct BranchSwitch {

@@ -155,7 +155,7 @@ preset::Preset respaced(preset::Preset preset, double factor) {
     preset.set_radii(preset.original_radius_mm(), preset.actuated_radius_mm());
     const double leg = footprint.radius_mm / footprint.spacing_mm - (footprint.rods - 1) / 2.0;
     footprint.rods = std::max(4, int(std::lround(footprint.rods / factor)));
-    footprint.placement = footprint.rods % 2 ? preset::Placement::on_axis : preset::Placement::half;
+    footprint.placement = footprint.rods % 2 ? Placement::on_axis : Placement::half;
     footprint.spacing_mm = footprint.radius_mm / ((footprint.rods - 1) / 2.0 + leg);
   } else {
     footprint.spacing_mm *= factor;

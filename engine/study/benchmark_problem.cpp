@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/core/try.h"
-#include "engine/preset/model_choice.h"
+#include "engine/preset/consistency.h"
 #include "engine/scene/rod_ends.h"
 #include "engine/simulate/indentation.h"
 #include "engine/solve/buckling.h"

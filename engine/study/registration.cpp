@@ -7,8 +7,8 @@
 #include <numeric>
 #include <random>
 
-#include "engine/core/box_grid.h"
 #include "engine/core/dense.h"
+#include "engine/core/proximity.h"
 
 namespace gridshell::study {
 

@@ -52,13 +52,6 @@ struct Trial {
   double energy_mJ = 0, cpu_s = 0;
 };
 
-/// A state met, on the mesh that states are judged on.
-struct FoundState {
-  State rest;
-  double energy_mJ = 0;
-  int count = 0, count_confined = 0;
-};
-
 double tolerance_mm(const Scene& scene, const preset::SearchSettings& jitter) {
   return jitter.tolerance * scene.footprint.spacing;
 }
@@ -87,11 +80,11 @@ Result<std::vector<Trial>> shake(const std::shared_ptr<const Scene>& scene,
 }
 
 /// The states among the ends of trials, in the order of the trials whoever made them.
-std::vector<FoundState> distinct_states(const Scene& scene, const preset::SearchSettings& jitter,
+std::vector<ShellState> distinct_states(const Scene& scene, const preset::SearchSettings& jitter,
                                         const std::vector<MeshSymmetry>& symmetries,
                                         std::vector<Trial> trials, record::StateSearch& search) {
   StateCatalogue book(symmetries, tolerance_mm(scene, jitter));
-  std::vector<FoundState> met;
+  std::vector<ShellState> met;
   for (std::size_t k = 0; k < trials.size(); ++k) {
     Trial& trial = trials[k];
     const bool confined = k >= std::size_t(jitter.trials);
@@ -102,8 +95,8 @@ std::vector<FoundState> distinct_states(const Scene& scene, const preset::Search
     }
     ++(confined ? search.confined_at_rest : search.at_rest);
     const std::size_t at = book.enter(joints_of(scene, trial.rest->x), trial.energy_mJ);
-    if (at == met.size()) met.push_back({std::move(*trial.rest), trial.energy_mJ});
-    ++(confined ? met[at].count_confined : met[at].count);
+    if (at == met.size()) met.push_back({{}, {}, std::move(*trial.rest), trial.energy_mJ});
+    ++(confined ? met[at].row.count_confined : met[at].row.count);
   }
   search.found = int(met.size());
   return met;
@@ -118,12 +111,11 @@ tl::unexpected<Error> none_found(const record::StateSearch& search) {
               search.found == 0 ? "" : "; finer meshes have none of those they ended in");
 }
 
-using Measures = std::vector<std::optional<MeasuredState>>;
+using Measures = std::vector<std::optional<ShellState>>;
 
 /// Keeps, in the order of their energy and once each, the states that finer meshes have.
 void keep(const Scene& scene, const preset::SearchSettings& jitter,
-          const std::vector<MeshSymmetry>& symmetries, const std::vector<FoundState>& met,
-          Measures& all, StateLibrary& library) {
+          const std::vector<MeshSymmetry>& symmetries, Measures& all, StateLibrary& library) {
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < all.size(); ++k)
     if (all[k]) order.push_back(k);
@@ -131,7 +123,7 @@ void keep(const Scene& scene, const preset::SearchSettings& jitter,
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return all[k]->row.energy_mJ(); });
   StateCatalogue book(symmetries, tolerance_mm(scene, jitter));
   for (const std::size_t k : order) {
-    MeasuredState& one = *all[k];
+    ShellState& one = *all[k];
     library.effort += one.effort;
     const std::size_t at = book.enter(joints_of(scene, one.frame.nodes), one.row.energy_mJ());
     if (at == library.states.size()) {
@@ -139,13 +131,12 @@ void keep(const Scene& scene, const preset::SearchSettings& jitter,
       one.frame.index = int(at);
       one.frame.event = fmt::format("state {}: {}, class {}", one.row.state, one.row.group,
                                     word_of(one.row.kind));
-      library.states.push_back(
-          {std::move(one.row), std::move(one.frame), std::move(one.rest), met[k].energy_mJ});
+      library.states.push_back(std::move(one));
     } else {
       ++library.search.finer_merged;
+      library.states[at].row.count += one.row.count;
+      library.states[at].row.count_confined += one.row.count_confined;
     }
-    library.states[at].row.count += met[k].count;
-    library.states[at].row.count_confined += met[k].count_confined;
   }
 }
 
@@ -158,17 +149,17 @@ RichnessEstimate completeness_of(const std::vector<ShellState>& states) {
 /// Measures what was met and lays it into the library.
 Result<void> measure(const std::shared_ptr<const Scene>& scene,
                      const preset::SearchSettings& jitter, const SearchOptions& options,
-                     const std::vector<FoundState>& met, StateLibrary& library, Watch& watch) {
+                     const std::vector<ShellState>& met, StateLibrary& library, Watch& watch) {
   const auto make = [&] { return StateMeasures::make(scene, tolerance_mm(*scene, jitter)); };
   TRY(first, make());
   Measures all(met.size());
   TRY_DO(parallel_for(
       int(met.size()), options.threads, watch, make,
       [&](StateMeasures& measures, int k) {
-        all[std::size_t(k)] = measures.of(met[std::size_t(k)].rest, options.lives, watch);
+        all[std::size_t(k)] = measures.of(met[std::size_t(k)], options.lives, watch);
       },
       reporting(watch, shaken, measured)));
-  keep(*scene, jitter, first->symmetries(), met, all, library);
+  keep(*scene, jitter, first->symmetries(), all, library);
   const NestedShell& shell = first->session().shell();
   TRY(layout, layout_of(*scene, shell.finest()));
   library.layout = std::move(*layout);
@@ -198,7 +189,7 @@ Result<StateLibrary> find_states(const std::shared_ptr<const Scene>& scene,
   const RodMesh mesh = mesh_rods(scene->footprint, judged_edges);
   const auto symmetries = symmetries_of_shell(
       *scene, mesh, symmetries_of(mesh, pinned_motion(mesh, scene->motion).at(1)));
-  const std::vector<FoundState> met =
+  const std::vector<ShellState> met =
       distinct_states(*scene, jitter, symmetries, std::move(*trials), search);
   if (met.empty()) return none_found(search);
   TRY_DO(measure(scene, jitter, options, met, library, watch));

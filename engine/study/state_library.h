@@ -10,6 +10,7 @@
 #include "engine/record/states.h"
 #include "engine/record/summary.h"
 #include "engine/record/trajectory.h"
+#include "engine/study/state_measures.h"
 #include "engine/study/state_search.h"
 
 namespace gridshell::study {
@@ -36,16 +37,7 @@ class StateCatalogue {
   std::vector<Entry> entries_;
 };
 
-// The states that a shell can rest in at the end of its actuation: looked for by shaking it, told
-// apart modulo its symmetries, and measured.
-
-/// One of them.
-struct ShellState {
-  record::StateRow row;
-  record::Frame frame;   ///< extrapolated as planned, upright where up and down are alike
-  State rest;            ///< on the mesh that states are judged on
-  double energy_mJ = 0;  ///< there
-};
+// The states of a shell: looked for by shaking it, told apart modulo its symmetries, and measured.
 
 /// What a search found, in the order of energy.
 struct StateLibrary {

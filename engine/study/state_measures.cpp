@@ -118,10 +118,10 @@ void StateMeasures::put_life(const State& rest, record::StateRow& row, const Wat
   row.lives_to_radius_mm = scene_->radius_at(row.lives_to);
 }
 
-std::optional<MeasuredState> StateMeasures::of(const State& found, bool life, const Watch& watch) {
+std::optional<ShellState> StateMeasures::of(const ShellState& met, bool life, const Watch& watch) {
   const Effort before = session_.effort() + path_.effort();
-  MeasuredState one;
-  const State turned = upright(found);
+  ShellState one{met.row, {}, {}, met.energy_mJ};
+  const State turned = upright(met.rest);
   if (session_.begin_at(1, turned, watch).end != Outcome::reached || session_.locked())
     return std::nullopt;
   one.rest = session_.shell().state().levels[0];

@@ -18,12 +18,13 @@ using simulate::symmetries_of_shell;
 /// The meshes that the accuracy asks for, but two at least, of which energies are extrapolated.
 LevelPlan measuring_plan(const Scene& scene);
 
-/// A state as measured, without its number and counts.
-struct MeasuredState {
-  record::StateRow row;
-  record::Frame frame;
-  State rest;  ///< on the mesh that states are judged on, upright
-  Effort effort;
+/// A state that a shell can rest in at the end of its actuation.
+struct ShellState {
+  record::StateRow row;  ///< what is measured, and how often trials ended in it
+  record::Frame frame;   ///< extrapolated as planned, upright where up and down are alike
+  State rest;            ///< on the mesh that states are judged on
+  double energy_mJ = 0;  ///< there, as it was met
+  Effort effort = {};    ///< of its measures
 };
 
 /// Measures states, one after another; one a thread.
@@ -33,9 +34,9 @@ class StateMeasures {
   /// rods that the rung cannot take.
   static Result<StateMeasures> make(std::shared_ptr<const Scene> scene, double tolerance_mm);
 
-  /// A state at the end of the actuation, on the coarsest mesh; nothing where finer meshes do not
+  /// A state as it was met, with its measures but its number; nothing where finer meshes do not
   /// have it, have it and it is not stable, or its rods are beyond the strain allowed.
-  std::optional<MeasuredState> of(const State& rest, bool life, const Watch& watch);
+  std::optional<ShellState> of(const ShellState& met, bool life, const Watch& watch);
 
   const Simulation& session() const { return session_; }
   /// Of the finest mesh, and so of its joints.

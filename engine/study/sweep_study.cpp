@@ -4,7 +4,7 @@
 #include <mutex>
 #include <utility>
 
-#include "engine/core/checksum.h"
+#include "engine/core/file_io.h"
 #include "engine/core/parallel.h"
 #include "engine/core/try.h"
 #include "engine/preset/preset_file.h"

@@ -17,8 +17,7 @@ using preset::Preset;
 
 void circle(RandomDraw& draw, Preset& p) {
   p.footprint.rods = draw.integer(4, 14);
-  p.footprint.placement =
-      p.footprint.rods % 2 ? preset::Placement::on_axis : preset::Placement::half;
+  p.footprint.placement = p.footprint.rods % 2 ? Placement::on_axis : Placement::half;
   p.footprint.radius_mm = 20 * ((p.footprint.rods - 1) / 2.0 + draw.between(0.2, 2.5));
   p.actuation.radius_mm = p.footprint.radius_mm * draw.between(0.6, 0.97);
   p.imperfection.seed = draw.integer(1, 1000);
@@ -37,7 +36,7 @@ void curve(RandomDraw& draw, Preset& p) {
 void net(RandomDraw& draw, Preset& p, preset::NetKind kind) {
   p.footprint.kind = preset::FootprintKind::net;
   p.net.kind = kind;
-  p.footprint.placement = draw.once_in(2) ? preset::Placement::half : preset::Placement::on_axis;
+  p.footprint.placement = draw.once_in(2) ? Placement::half : Placement::on_axis;
 }
 
 void cap(RandomDraw& draw, Preset& p) {
@@ -89,7 +88,7 @@ void translation(RandomDraw& draw, Preset& p) {
 
 void blocks(RandomDraw& draw, Preset& p) {
   p.footprint.kind = preset::FootprintKind::blocks;
-  p.footprint.placement = preset::Placement::on_axis;
+  p.footprint.placement = Placement::on_axis;
   const double radius = draw.between(70, 120), cut = draw.between(0, 0.5);
   const std::string names[] = {"a", "b"};
   for (const std::string& name : names) {

@@ -146,6 +146,7 @@ class Canvas {
   static inline std::function<void(const Canvas&)> on_finished;
 
  private:
+  void set_colour(Colour colour);
   void paint_path(Colour fill, const Stroke& stroke);
   Box scaled(const Box& box) const {
     return {scale_ * box.x, scale_ * box.y, scale_ * box.width, scale_ * box.height};

@@ -102,10 +102,8 @@ Result<void> check(const PanelFigure& figure) {
   for (const Panel& panel : figure.panels)
     if (panel.picture.width != first.width || panel.picture.height != first.height ||
         first.width < 1 || first.height < 1)
-      return fail(
-          Fault::bad_input,
-          fmt::format("panels of a figure must be of one size: {} x {} and {} x {}", first.width,
-                      first.height, panel.picture.width, panel.picture.height));
+      return fail(Fault::bad_input, "panels of a figure must be of one size: {} x {} and {} x {}",
+                  first.width, first.height, panel.picture.width, panel.picture.height);
   return {};
 }
 

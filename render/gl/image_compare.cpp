@@ -46,8 +46,8 @@ void outline(Image& image, const Comparison& block, int thickness) {
 Result<Comparison> compare(const Image& a, const Image& b) {
   if (a.width != b.width || a.height != b.height)
     return fail(Fault::bad_input,
-                fmt::format("pictures of different size cannot be compared: {} x {} and {} x {}",
-                            a.width, a.height, b.width, b.height));
+                "pictures of different size cannot be compared: {} x {} and {} x {}", a.width,
+                a.height, b.width, b.height);
   if (a.width < 1 || a.height < 1)
     return fail(Fault::bad_input, "empty pictures (0 x 0) cannot be compared");
 

@@ -67,7 +67,7 @@ Result<void> Target::bind(int width, int height, GLenum format) {
   gl_->Viewport(0, 0, width, height);
   if (fits || gl_->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return {};
   width_ = height_ = 0;
-  return fail(Fault::io, fmt::format("OpenGL cannot draw into {} x {} samples", width, height));
+  return fail(Fault::io, "OpenGL cannot draw into {} x {} samples", width, height);
 }
 
 VertexStore::VertexStore(const Gl& gl) : gl_(&gl), layout_(gl), vertices_(gl), indices_(gl) {

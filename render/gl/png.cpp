@@ -134,8 +134,8 @@ bool decode_rows(std::string_view& bytes, Image& image, std::vector<png_bytep>& 
 
 Result<std::string> encode_png(const Image& image, double dpi) {
   if (image.width < 1 || image.height < 1)
-    return fail(Fault::bad_input, fmt::format("a picture of {} x {} pixels cannot be a PNG",
-                                              image.width, image.height));
+    return fail(Fault::bad_input, "a picture of {} x {} pixels cannot be a PNG", image.width,
+                image.height);
   const bool with_alpha = !opaque(image);
   const std::vector<std::uint8_t> rows = with_alpha ? rows_of<4>(image) : rows_of<3>(image);
   // a third of zlib's time at the same size
@@ -164,8 +164,7 @@ Result<Image> decode_png(std::string_view bytes, const std::string& name) {
   std::vector<png_bytep> rows;
   Failure failure;
   if (!decode_rows(bytes, image, rows, failure))
-    return fail(Fault::bad_input,
-                fmt::format("'{}' is not a readable PNG: {}", name, failure.message));
+    return fail(Fault::bad_input, "'{}' is not a readable PNG: {}", name, failure.message);
   return image;
 }
 

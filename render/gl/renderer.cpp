@@ -89,14 +89,13 @@ constexpr int most_samples = 16, most_passes = 4096, largest_picture = 65536;
 
 Result<void> check(const DrawQuality& quality, int width, int height) {
   if (width < 1 || height < 1 || width > largest_picture || height > largest_picture)
-    return fail(Fault::bad_input, fmt::format("a picture of {} x {} pixels: each must be 1 to {}",
-                                              width, height, largest_picture));
+    return fail(Fault::bad_input, "a picture of {} x {} pixels: each must be 1 to {}", width,
+                height, largest_picture);
   if (quality.supersample < 1 || quality.supersample > most_samples)
-    return fail(Fault::bad_input,
-                fmt::format("supersample = {}: 1 to {}", quality.supersample, most_samples));
+    return fail(Fault::bad_input, "supersample = {}: 1 to {}", quality.supersample, most_samples);
   if (quality.jittered_passes < 1 || quality.jittered_passes > most_passes)
-    return fail(Fault::bad_input,
-                fmt::format("jittered_passes = {}: 1 to {}", quality.jittered_passes, most_passes));
+    return fail(Fault::bad_input, "jittered_passes = {}: 1 to {}", quality.jittered_passes,
+                most_passes);
   return {};
 }
 
@@ -137,10 +136,10 @@ class GlRenderer final : public Renderer {
     for (const Tile& tile : tiles(width, height, target_side_ / quality.supersample))
       TRY_DO(painter_->paint(shot, tile, image));
     if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR)
-      return fail(Fault::io, fmt::format("OpenGL failed on a picture of {} x {} pixels, "
-                                         "error {:#x}{}",
-                                         width, height, error,
-                                         error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
+      return fail(Fault::io,
+                  "OpenGL failed on a picture of {} x {} pixels, "
+                  "error {:#x}{}",
+                  width, height, error, error == GL_OUT_OF_MEMORY ? " (out of memory)" : "");
     if (drawing.background.a < 1) unpremultiply(image);
     return image;
   }

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "app/cli/pictures.h"
+#include "engine/preset/consistency.h"
 #include "engine/preset/field_table.h"
-#include "engine/preset/model_choice.h"
 #include "tests/app/bench.h"
 
 using namespace gridshell;

@@ -8,7 +8,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "engine/core/checksum.h"
 #include "engine/core/file_io.h"
 #include "tests/app/unfinished_run.h"
 #include "tests/attack/answers.h"

@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "engine/core/checksum.h"
 #include "engine/core/file_io.h"
 #include "engine/record/states.h"
 #include "engine/record/sweep_results.h"

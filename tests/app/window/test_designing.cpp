@@ -15,7 +15,7 @@ preset::Preset small_cap() {
   preset::Preset p;
   p.name = "cap";
   p.footprint.kind = preset::FootprintKind::net;
-  p.footprint.placement = preset::Placement::on_axis;
+  p.footprint.placement = Placement::on_axis;
   p.net.radius_mm = 80;
   p.net.cut_height = 0.5;
   p.actuation.start = preset::Start::net;

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/core/segment_distance.h"
+#include "engine/core/proximity.h"
 #include "tests/engine/elastic/differences.h"
 
 using namespace gridshell;

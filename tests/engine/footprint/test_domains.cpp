@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/footprint/domains.h"
+#include "tests/engine/geometry/net_checks.h"
 #include "tests/results.h"
 
 using namespace gridshell;
@@ -235,8 +236,7 @@ TEST_CASE("cap domain: grid lines end on the plane, to 1e-14, also short ones") 
 
 TEST_CASE("half of a surface of revolution: long edges in z = 0, rings at the ends") {
   for (const auto& profile : {cylinder_profile(40, 75).value(), spool_profile(100, 0.5).value()}) {
-    const RevolutionNet net =
-        RevolutionNet::make(profile, RevolutionNet::right_angled(profile)).value();
+    const RevolutionNet net = right_angled(profile);
     const double length = 150;
     const auto half = half_of(net, length).value();
     // on the base, on a ring, or on both
@@ -269,7 +269,7 @@ TEST_CASE("half of a surface of revolution: long edges in z = 0, rings at the en
 
 TEST_CASE("half of a surface of revolution: too long says where the net ends") {
   const Profile spool = spool_profile(100, 0.5).value();
-  const RevolutionNet net = RevolutionNet::make(spool, RevolutionNet::right_angled(spool)).value();
+  const RevolutionNet net = right_angled(spool);
   const auto half = half_of(net, 1000);
   REQUIRE_FALSE(half);
   CHECK(half.error().message.find("folds (shear angle 180 degrees) where u + v = -18") !=

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/footprint/mesh.h"
+#include "engine/geometry/closed_curve.h"
 #include "tests/results.h"
 
 using namespace gridshell;

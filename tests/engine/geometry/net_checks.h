@@ -7,6 +7,7 @@
 
 #include "engine/geometry/calculus.h"
 #include "engine/geometry/chebyshev_net.h"
+#include "engine/geometry/revolution_net.h"
 
 namespace gridshell {
 
@@ -63,6 +64,11 @@ inline double mixed_residual(const ChebyshevNet& net, double u, double v, double
       derivative([&](double d) -> Vector { return point_of(net, u + d, v).tangent_v; }, h);
   return scale *
          std::max({(uv - vu).norm(), std::abs(uv.dot(p.tangent_u)), std::abs(uv.dot(p.tangent_v))});
+}
+
+/// The net whose rods cross at right angles in the middle: c = 1/(sqrt(2) r).
+inline RevolutionNet right_angled(const Profile& profile) {
+  return RevolutionNet::make(profile, M_SQRT1_2 / profile.at(profile.origin).r).value();
 }
 
 /// Gauss' equation omega_uv = -K sin omega, residual times scale^2

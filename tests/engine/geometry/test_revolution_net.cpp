@@ -9,10 +9,6 @@ using namespace gridshell;
 
 namespace {
 
-RevolutionNet right_angled(const Profile& profile) {
-  return RevolutionNet::make(profile, RevolutionNet::right_angled(profile)).value();
-}
-
 /// all residuals at points (u, v) with |u + v| below `reach`, lengths over `scale`
 void check_smooth_net(const RevolutionNet& net, double reach, double scale) {
   for (const double x : {-0.95, -0.4, 0.0, 0.3, 0.9}) {
@@ -57,8 +53,7 @@ TEST_CASE("spool net: K = -1/rho^2 and unit speed for any waist and c") {
   for (const double waist : {0.3, 1.0, 1.7}) {
     const Profile profile = spool_profile(rho, waist).value();
     // right angles in the middle, and the net of the asymptotic lines
-    for (const double c :
-         {RevolutionNet::right_angled(profile), 1 / (rho * std::sqrt(1 + waist * waist))}) {
+    for (const double c : {right_angled(profile).c(), 1 / (rho * std::sqrt(1 + waist * waist))}) {
       const RevolutionNet net = RevolutionNet::make(profile, c).value();
       const double reach = 0.9 * net.last_x();
       check_smooth_net(net, reach, 0.4 * reach);

@@ -1,7 +1,7 @@
 // Which rung a preset runs on, and what is refused with its reason.
 #include <catch2/catch.hpp>
 
-#include "engine/preset/model_choice.h"
+#include "engine/preset/consistency.h"
 #include "engine/preset/preset_file.h"
 
 using namespace gridshell;

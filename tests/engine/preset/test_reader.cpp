@@ -55,7 +55,7 @@ radii_mm = [126, 110.5]
   CHECK(preset.allow_unstable);
   CHECK(preset.rod.diameter_mm == 1.0);
   CHECK(preset.footprint.rods == 8);
-  CHECK(preset.footprint.placement == preset::Placement::on_axis);
+  CHECK(preset.footprint.placement == Placement::on_axis);
   CHECK(preset.actuation.seed_diagonal == SeedDiagonal::y_eq_minus_x);
   CHECK(preset.movie.size == std::array<int, 2>{640, 360});
   CHECK(preset.movie.colour_by == ColourBy::none);

@@ -157,7 +157,7 @@ std::vector<Preset> stepped() {
   add(StepKind::hold);
   add(StepKind::release);
   add(StepKind::load).factor = 0.3;
-  add(StepKind::rest).side = RestSide::against;
+  add(StepKind::rest).side = BranchSide::against;
   add(StepKind::jitter).seed = 7;
   steps.back().force_N = 0.11;
   std::vector<Preset> all;

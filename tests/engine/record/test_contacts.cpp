@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "engine/core/segment_distance.h"
+#include "engine/core/proximity.h"
 
 using namespace gridshell;
 using namespace gridshell::record;

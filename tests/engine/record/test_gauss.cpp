@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "engine/record/gauss_curvature.h"
+#include "tests/engine/record/corner_curvature.h"
 
 using namespace gridshell;
 

@@ -67,18 +67,8 @@ TEST_CASE("frames come back from a journal in order of their index, bit for bit"
   CHECK(back->trajectory.layout.rods == run.layout.rods);
   const FrameList& frames = back->trajectory.frames;
   REQUIRE(frames.size() == 3);
-  for (int k = 0; k < 3; ++k) {
-    CHECK(frames[k].index == k);
-    CHECK(same_bits(frames[k].nodes, run.frames[k].nodes));
-    CHECK(same_bits(frames[k].cell_K, run.frames[k].cell_K));
-    CHECK(same_bits(frames[k].axial_force_N, run.frames[k].axial_force_N));
-    CHECK(same_bits(frames[k].reactions_N, run.frames[k].reactions_N));
-    CHECK(same_bits(frames[k].K_bins, run.frames[k].K_bins));
-    CHECK(same_bits(frames[k].energies[Term::stretch], run.frames[k].energies[Term::stretch]));
-    CHECK(same_bits(frames[k].actuation, run.frames[k].actuation));
-  }
-  CHECK(frames[1].event == "again");
-  CHECK(frames[2].event == run.frames[2].event);
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK(packed_frame(frames[k]) == packed_frame(k == 1 ? again : run.frames[k]));
 }
 
 TEST_CASE("a journal cut anywhere reads up to its last whole frame", "[standard]") {

@@ -39,7 +39,7 @@ TEST_CASE("edge points go to the same angle, or to the same share of the length"
   p.footprint.boundary.half_y_mm = 80;
   p.actuation.boundary.kind = preset::CurveKind::superellipse;
   p.actuation.boundary.half_x_mm = p.actuation.boundary.half_y_mm = 75;
-  for (const auto how : {preset::Correspondence::angle, preset::Correspondence::arc_length}) {
+  for (const auto how : {Correspondence::angle, Correspondence::arc_length}) {
     p.actuation.correspondence = how;
     const auto scene = value_of(scene_of(p));
     double most = 0;
@@ -50,7 +50,7 @@ TEST_CASE("edge points go to the same angle, or to the same share of the length"
       const double cross = from.x() * to.y() - from.y() * to.x();
       most = std::max(most, std::abs(cross) / (from.norm() * to.norm()));
     }
-    if (how == preset::Correspondence::angle)
+    if (how == Correspondence::angle)
       CHECK(most < 1e-9);
     else
       CHECK(most > 0.01);
@@ -93,7 +93,7 @@ TEST_CASE("translation nets from two curves: certified, near the net") {
   for (const auto& [u, v, height_u, height_v, near] :
        {Curves{40, 30, 54, -20, 0.005}, {40, 40, 40, 40, 0.01}}) {
     preset::Preset p = on_net(preset::NetKind::translation);
-    p.footprint.placement = preset::Placement::half;
+    p.footprint.placement = Placement::half;
     for (int k = -3; k <= 3; ++k) {
       p.net.curve_u.push_back({u * k, 0, height_u * (1 - k * k / 9.0)});
       p.net.curve_v.push_back({0, v * k, height_v * (1 - k * k / 9.0)});

@@ -8,7 +8,7 @@ using namespace gridshell;
 
 TEST_CASE("the scene of a cap: its boundary maps to the circle at z*, edge points with it") {
   preset::Preset half = cap(0.3);
-  half.footprint.placement = preset::Placement::half;
+  half.footprint.placement = Placement::half;
   const auto scene = value_of(scene_of(half));
   const double z = 0.3 * 120, r = 120 * std::sqrt(1 - 0.09);
   for (const Eigen::Matrix3Xd* points : {&scene.motion.end, &scene.actuated_boundary}) {
@@ -35,7 +35,7 @@ TEST_CASE("the hemisphere on the axes, converged: deviation, total curvature and
 }
 
 TEST_CASE("from flat and from the net a cap comes to the same state") {
-  for (const auto placement : {preset::Placement::on_axis, preset::Placement::half}) {
+  for (const auto placement : {Placement::on_axis, Placement::half}) {
     preset::Preset p = cap(0.5);
     p.footprint.placement = placement;
     const auto net = run_stills(p);

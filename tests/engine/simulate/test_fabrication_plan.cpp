@@ -17,7 +17,7 @@ preset::Preset paper_circle() { return circle(12, 126, 94.5); }
 
 preset::Preset ringed_cap(double second_ring_mm) {
   preset::Preset p = cap(0.3);
-  p.footprint.placement = preset::Placement::half;
+  p.footprint.placement = Placement::half;
   p.actuation.start = preset::Start::flat;
   p.ends.second_ring_mm = second_ring_mm;
   return p;

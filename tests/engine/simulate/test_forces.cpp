@@ -101,7 +101,7 @@ TEST_CASE("bending over length adds up to the bending energy, of any section and
 
 TEST_CASE("the reaction of a pushed joint is the force of its push on one mesh") {
   preset::Preset p = on_net(preset::NetKind::sphere, 60);
-  p.footprint.placement = preset::Placement::half;
+  p.footprint.placement = Placement::half;
   p.indentation.depth = 0.05;
   p.accuracy.edges_per_segment = 4;
   const auto outcome = run(p);
@@ -116,7 +116,7 @@ TEST_CASE("the reaction of a pushed joint is the force of its push on one mesh")
 
 TEST_CASE("a net and what is in motion know no forces") {
   preset::Preset p = on_net(preset::NetKind::sphere, 60);
-  p.footprint.placement = preset::Placement::half;
+  p.footprint.placement = Placement::half;
   p.accuracy.model = RodModel::net;
   p.accuracy.tolerance = 0.05;
   const auto outcome = run_stills(p);
@@ -258,7 +258,7 @@ TEST_CASE("forces and energies are as exact as they say where loads act and rods
 TEST_CASE("the curve of a push lies within its error, and its stiffness is its slope",
           "[standard]") {
   preset::Preset p = on_net(preset::NetKind::sphere, 60);
-  p.footprint.placement = preset::Placement::half;
+  p.footprint.placement = Placement::half;
   p.indentation.depth = 0.1;
   p.movie.frames = 9;
   p.accuracy.tolerance = 1e-6;

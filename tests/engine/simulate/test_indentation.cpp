@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "engine/footprint/symmetry.h"
-#include "engine/record/gauss_curvature.h"
+#include "tests/engine/record/corner_curvature.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -12,8 +12,8 @@ namespace {
 
 enum class Case { pole_inward, pole_outward, oblique_inward };
 
-preset::Preset hemisphere(Case which, double radius_mm, preset::Placement placement,
-                          double depth = 0.1, int frames = 11) {
+preset::Preset hemisphere(Case which, double radius_mm, Placement placement, double depth = 0.1,
+                          int frames = 11) {
   preset::Preset p = on_net(preset::NetKind::sphere, radius_mm);
   p.footprint.placement = placement;
   p.indentation.depth = depth;
@@ -39,7 +39,7 @@ double energy_of(const record::Frame& frame) {
 
 TEST_CASE("three point loads: certified frames, depth as asked, the force does the work") {
   for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
-    const auto outcome = run(hemisphere(which, 120, preset::Placement::on_axis));
+    const auto outcome = run(hemisphere(which, 120, Placement::on_axis));
     const auto& frames = outcome.trajectory.frames;
     REQUIRE(frames.size() == 11);
     CHECK(outcome.summary.limit == record::Limit::none);
@@ -60,7 +60,7 @@ TEST_CASE("three point loads: certified frames, depth as asked, the force does t
 }
 
 TEST_CASE("total K equals the sum over the corner joints in every frame") {
-  for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
+  for (const auto placement : {Placement::half, Placement::on_axis})
     for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
       const preset::Preset p = hemisphere(which, 120, placement, 0.1, 4);
       const auto outcome = run(p);
@@ -75,7 +75,7 @@ TEST_CASE("total K equals the sum over the corner joints in every frame") {
 
 TEST_CASE("the pushed joint goes straight down its normal, held, it does not go sideways") {
   for (const auto lateral : {preset::Lateral::free, preset::Lateral::held}) {
-    preset::Preset p = hemisphere(Case::oblique_inward, 120, preset::Placement::on_axis, 0.1, 3);
+    preset::Preset p = hemisphere(Case::oblique_inward, 120, Placement::on_axis, 0.1, 3);
     p.indentation.lateral = lateral;
     const auto outcome = run(p);
     const Eigen::Matrix3Xd after = joints_of(outcome.trajectory);
@@ -99,14 +99,14 @@ TEST_CASE("the pushed joint goes straight down its normal, held, it does not go 
 TEST_CASE("pole cases keep four mirror planes, at half placement one diagonal") {
   const double half = std::sqrt(0.5);
   for (const Case which : {Case::pole_inward, Case::pole_outward}) {
-    const auto outcome = run(hemisphere(which, 120, preset::Placement::on_axis));
+    const auto outcome = run(hemisphere(which, 120, Placement::on_axis));
     const Eigen::Matrix3Xd joints = joints_of(outcome.trajectory);
     for (const Eigen::Vector2d& normal :
          {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(half, half),
           Eigen::Vector2d(half, -half)})
       CHECK(mirror_defect(joints, normal) < 1e-8 * 120);
   }
-  const auto outcome = run(hemisphere(Case::pole_inward, 120, preset::Placement::half));
+  const auto outcome = run(hemisphere(Case::pole_inward, 120, Placement::half));
   const Eigen::Matrix3Xd joints = joints_of(outcome.trajectory);
   CHECK(mirror_defect(joints, {half, -half}) < 1e-8 * 120);
   CHECK(mirror_defect(joints, {half, half}) > 1e-2 * 120);
@@ -114,7 +114,7 @@ TEST_CASE("pole cases keep four mirror planes, at half placement one diagonal") 
 
 TEST_CASE("force, total K and reach converge at second order over three meshes", "[standard]") {
   for (const double radius : {76.394, 120.0})
-    for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
+    for (const auto placement : {Placement::half, Placement::on_axis})
       for (const Case which : {Case::pole_inward, Case::pole_outward, Case::oblique_inward}) {
         double force[4], total[4], most[4];
         for (int k = 0; k < 4; ++k) {
@@ -139,8 +139,7 @@ TEST_CASE("outward at the pole the rods run into their length: locking, certifie
           "[standard]") {
   std::vector<double> depths;
   for (const int frames : {3, 9, 21}) {
-    const auto outcome =
-        run(hemisphere(Case::pole_outward, 120, preset::Placement::on_axis, 0.4, frames));
+    const auto outcome = run(hemisphere(Case::pole_outward, 120, Placement::on_axis, 0.4, frames));
     CHECK(outcome.summary.limit == record::Limit::locking);
     const record::Frame& last = last_frame(outcome);
     CHECK(last.event == "locking");
@@ -158,7 +157,7 @@ TEST_CASE("outward at the pole the rods run into their length: locking, certifie
 }
 
 TEST_CASE("deep pushes end certified or at a named limit", "[standard]") {
-  for (const auto placement : {preset::Placement::half, preset::Placement::on_axis})
+  for (const auto placement : {Placement::half, Placement::on_axis})
     for (const Case which : {Case::pole_inward, Case::oblique_inward}) {
       const auto outcome = run(hemisphere(which, 120, placement, 0.6, 31));
       for (const record::Frame& frame : outcome.trajectory.frames) {
@@ -172,7 +171,7 @@ TEST_CASE("deep pushes end certified or at a named limit", "[standard]") {
 }
 
 TEST_CASE("unloading follows the way back, after a snap on another branch", "[standard]") {
-  preset::Preset p = hemisphere(Case::pole_inward, 120, preset::Placement::on_axis, 0.1, 9);
+  preset::Preset p = hemisphere(Case::pole_inward, 120, Placement::on_axis, 0.1, 9);
   p.indentation.unload = true;
   const auto there_and_back = run(p);
   const auto& frames = there_and_back.trajectory.frames;
@@ -207,14 +206,14 @@ TEST_CASE("unloading follows the way back, after a snap on another branch", "[st
 }
 
 TEST_CASE("a joint that is not there is refused") {
-  preset::Preset p = hemisphere(Case::pole_inward, 120, preset::Placement::on_axis);
+  preset::Preset p = hemisphere(Case::pole_inward, 120, Placement::on_axis);
   p.indentation.joint = {40, 0};
   CHECK_THAT(refused_run(p), Catch::Contains("no such joint"));
 }
 
 TEST_CASE("pushes on the twist rung are those of the bend rung, to a millionth of rho") {
   for (const Case which : {Case::pole_inward, Case::pole_outward}) {
-    preset::Preset p = hemisphere(which, 120, preset::Placement::on_axis, 0.05, 3);
+    preset::Preset p = hemisphere(which, 120, Placement::on_axis, 0.05, 3);
     p.accuracy.edges_per_segment = 4;
     p.accuracy.tolerance = 1e-6;
     const auto bend = run(p);

@@ -149,7 +149,7 @@ TEST_CASE("a cylinder whose ends are held along the helices is its net, to secon
   for (const auto hold : {preset::EndKind::tangent, preset::EndKind::clamped}) {
     const bool clamped = hold == preset::EndKind::clamped;
     preset::Preset p = on_net(preset::NetKind::cylinder, clamped ? 60 : 80, clamped ? 280 : 200);
-    if (clamped) p.footprint.placement = preset::Placement::half, p.rod.shear_GPa = shear_GPa;
+    if (clamped) p.footprint.placement = Placement::half, p.rod.shear_GPa = shear_GPa;
     p.ends.kind = hold;
     double before = 0;
     for (int edges = 4; edges <= (clamped ? 8 : 16); edges *= 2) {

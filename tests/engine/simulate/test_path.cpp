@@ -219,7 +219,7 @@ TEST_CASE("the frame after a jump is the one that tells it, and it jumps where t
           "[standard]") {
   // of two jumps the second is a turn of the path, which a leader of twice the edges sees later
   preset::Preset p = ellipse(60);
-  p.footprint.placement = preset::Placement::on_axis;
+  p.footprint.placement = Placement::on_axis;
   p.accuracy.tolerance = 0.02;
   const auto outcome = run(p);
   const auto& frames = outcome.trajectory.frames;
@@ -264,7 +264,7 @@ TEST_CASE("the last frame is the state that the path came to, no leg flipped bet
   preset::Preset p = drawn_ellipse(133.62545281648636, 85.78375160704122, 0.7903740280121565, 0);
   p.accuracy = {};
   p.movie.frames = 3;
-  p.actuation.correspondence = preset::Correspondence::arc_length;
+  p.actuation.correspondence = Correspondence::arc_length;
   p.accuracy.edges_per_segment = 8;
   const auto outcome = run(p);
   CHECK(last_frame(outcome).progress == 1);

@@ -1,7 +1,7 @@
 // Rods that press on one another, in equilibrium: crossed, and knotted.
 #include <catch2/catch.hpp>
 
-#include "engine/core/segment_distance.h"
+#include "engine/core/proximity.h"
 #include "engine/solve/equilibrium.h"
 
 using namespace gridshell;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 
 using namespace gridshell;
 

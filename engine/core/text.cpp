@@ -1,4 +1,4 @@
-#include "engine/core/suggest.h"
+#include "engine/core/text.h"
 
 #include <algorithm>
 #include <cctype>

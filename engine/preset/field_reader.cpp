@@ -1,0 +1,284 @@
+// How the values of keys are read: one overload for each type of member.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+#include "engine/core/file_io.h"
+#include "engine/core/text.h"
+#include "engine/formats/network_file.h"
+#include "engine/formats/point_file.h"
+#include "engine/formats/surface_file.h"
+#include "engine/preset/toml_reader.h"
+
+namespace gridshell::preset {
+namespace {
+
+// a finite number, written as an integer or a float
+std::optional<double> real_of(const toml::node& value) {
+  if (const auto* real = value.as_floating_point(); real && std::isfinite(real->get()))
+    return real->get();
+  if (const auto* integer = value.as_integer()) return double(integer->get());
+  return std::nullopt;
+}
+
+// products of values as they stand in the energies must stay within the range of double
+constexpr double least_magnitude = 1e-9, largest_magnitude = 1e9;
+
+// why a number cannot be computed with, or empty
+std::string magnitude_fault(double value) {
+  const double size = std::abs(value);
+  if (size == 0 || (size >= least_magnitude && size <= largest_magnitude)) return "";
+  return std::string(size > 1 ? "too large" : "too small") +
+         " to compute with (0, or a magnitude of 1e-9 to 1e9)";
+}
+
+// of coordinates only the size counts: what should be zero is often a little beside it
+std::string points_fault(const Points& points) {
+  constexpr std::size_t most_places = 100000;
+  if (points.size() > most_places)
+    return fmt::format("holds {} points, must be at most {}", points.size(), most_places);
+  for (const auto& point : points)
+    for (const double value : point)
+      if (!(std::abs(value) <= largest_magnitude))
+        return "holds a number too large to compute with (at most 1e9)";
+  return "";
+}
+
+// the place of a word among those allowed
+std::optional<double> place_of(const toml::node& value, const std::vector<std::string>& words) {
+  const auto* text = value.as_string();
+  if (!text) return std::nullopt;
+  const auto found = std::ranges::find(words, text->get());
+  if (found == words.end()) return std::nullopt;
+  return double(found - words.begin());
+}
+
+std::string type_text(const toml::node& value) {
+  if (value.is_floating_point()) return real_of(value) ? "a number" : "not finite";
+  if (value.is_integer()) return "an integer";
+  if (value.is_string()) return "a string";
+  if (value.is_boolean()) return "a boolean";
+  if (value.is_array()) return "a list";
+  if (value.is_table()) return "a table";
+  return "a date or time";
+}
+
+// a part of a surface or network: of coordinates only the size counts, the rest counts things
+std::string read_part(const toml::node& value, double& number) {
+  const auto real = real_of(value);
+  number = real.value_or(0);
+  return real && std::abs(*real) <= largest_magnitude ? "" : "must hold numbers of at most 1e9";
+}
+std::string read_part(const toml::node& value, int& number) {
+  const auto whole = value.is_integer() ? value.as_integer()->get() : -1;
+  number = int(whole);
+  return whole >= 0 && whole <= 1000000000 ? "" : "must hold whole numbers from 0 to 1e9";
+}
+template <class List>
+std::string read_part(const toml::node& value, List& list) {
+  const auto* items = value.as_array();
+  if (!items) return "must hold lists";
+  if constexpr (requires { list.emplace_back(); })
+    list.resize(items->size());
+  else if (items->size() != list.size())
+    return fmt::format("must hold lists of {}", list.size());
+  for (std::size_t k = 0; k < items->size(); ++k)
+    if (auto wrong = read_part((*items)[k], list[k]); !wrong.empty()) return wrong;
+  return "";
+}
+
+template <class Data>
+std::string read_parts(const toml::table& table, Data& data) {
+  std::string wrong;
+  each_part(data, table.contains("triangles"), [&](const char* key, auto& part, bool needed) {
+    if (!wrong.empty() || (!needed && !table.contains(key))) return;
+    const auto* value = table.get(key);
+    const bool list = value && value->is_array();
+    wrong = list ? read_part(*value, part) : fmt::format("has no list {}", key);
+    if (list && !wrong.empty()) wrong = fmt::format("{} {}", key, wrong);
+  });
+  return wrong;
+}
+
+/// Puts a value into a member, or says what is wrong.
+class Reader {
+ public:
+  Reader(const Field& field, const toml::node& value, const FileContext& beside)
+      : field_(field), value_(value), beside_(beside) {}
+
+  /// Whatever its type, a member is changed only where nothing is wrong.
+  template <class T>
+  std::string operator()(T* member) {
+    T fresh{};
+    auto wrong = read(value_, fresh);
+    if (wrong.empty()) *member = std::move(fresh);
+    return wrong;
+  }
+  std::string operator()(const OneWord& word) {
+    const auto place = place_of(value_, field_.words);
+    if (!place) return value_.is_string() ? "unknown word" : "is " + type_text(value_);
+    word.set(word.member, int(*place));
+    return "";
+  }
+  std::string operator()(const SomeWords& words) {
+    const auto* list = value_.as_array();
+    if (!list) return "is " + type_text(value_);
+    std::vector<int> places;
+    for (const auto& item : *list) {
+      const auto place = place_of(item, field_.words);
+      if (!place) return item.is_string() ? "unknown word" : "is a list with " + type_text(item);
+      if (std::ranges::count(places, int(*place)) > 0) return "names a word twice";
+      places.push_back(int(*place));
+    }
+    words.set(words.member, places);
+    return "";
+  }
+  /// Whether what is wrong was said in full, as of a file.
+  bool told_in_full() const { return told_in_full_; }
+
+ private:
+  std::string read(const toml::node& value, double& number) const {
+    const auto real = real_of(value);
+    if (!real) return is_ + type_text(value);
+    if (!field_.range.holds(*real)) return "out of range";
+    number = *real;
+    return magnitude_fault(*real);
+  }
+  std::string read(const toml::node& value, int& number) const {
+    const auto* integer = value.as_integer();
+    if (!integer) return is_ + type_text(value);
+    if (!field_.range.holds(double(integer->get()))) return "out of range";
+    number = int(integer->get());
+    return "";
+  }
+  std::string read(const toml::node& value, bool& flag) const {
+    if (!value.is_boolean()) return is_ + type_text(value);
+    flag = value.as_boolean()->get();
+    return "";
+  }
+  std::string read(const toml::node& value, std::string& text) const {
+    if (!value.is_string()) return is_ + type_text(value);
+    text = value.as_string()->get();
+    const bool hex = text.size() == 7 && text[0] == '#' &&
+                     text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+    return field_.colour && !hex && !text.empty() && text != "transparent" ? "is no colour" : "";
+  }
+  std::string read(const toml::node& value, std::optional<int>& number) const {
+    if (const auto* text = value.as_string(); text && text->get() == "none") return "";
+    return read(value, number.emplace());
+  }
+  template <class T>
+  std::string read(const toml::node& value, std::vector<T>& list) {
+    const auto* items = value.as_array();
+    if (!items) return is_ + type_text(value);
+    is_ = "is a list with ";
+    for (const auto& item : *items)
+      if (auto wrong = read(item, list.emplace_back()); !wrong.empty()) return wrong;
+    const auto size = std::size_t(1 + std::ranges::count(field_.shape, ','));
+    const bool fits = field_.shape.empty() || list.empty() || list.size() == size;
+    return fits ? "" : fmt::format("is a list of {}", list.size());
+  }
+  std::string read(const toml::node& value, std::array<int, 2>& pair) {
+    std::vector<int> numbers;
+    if (auto wrong = read(value, numbers); !wrong.empty()) return wrong;
+    if (numbers.size() != 2) return fmt::format("is a list of {}", numbers.size());
+    std::ranges::copy(numbers, pair.begin());
+    return "";
+  }
+  // what is in a table is read where its faults have their places: read_axes()
+  std::string read(const toml::node& value, std::vector<SweepAxis>&) {
+    return "is " + type_text(value);
+  }
+
+  std::string read(const toml::node& value, Points& points) {
+    if (const auto* name = value.as_string()) {
+      const auto file = beside_.folder / name->get();
+      auto found = read_points(file, field_.coordinates, field_.coordinate_words);
+      if (found) points = std::move(*found);
+      auto wrong = found ? points_fault(points) : found.error().message;
+      told_in_full_ = !wrong.empty();
+      return found && told_in_full_ ? file.string() + ": " + wrong : wrong;
+    }
+    const auto* list = value.as_array();
+    if (!list) return "is " + type_text(value);
+    for (const auto& item : *list) {
+      const auto* point = item.as_array();
+      if (!point) return "is a list with " + type_text(item);
+      if (point->size() != field_.coordinates.size())
+        return fmt::format("holds a point of {} coordinates", point->size());
+      auto& numbers = points.emplace_back();
+      for (const auto& number : *point) {
+        const auto words = field_.words_of(numbers.size());
+        const auto real = words.empty() ? real_of(number) : place_of(number, words);
+        if (!real) return "holds a point with " + type_text(number);
+        numbers.push_back(*real);
+      }
+    }
+    return points_fault(points);
+  }
+  std::string read(const toml::node& value, SurfaceData& surface) {
+    if (const auto* name = value.as_string())
+      return read_file_of(name->get(), read_surface, largest_mesh_file, surface);
+    if (!value.is_table()) return "is " + type_text(value);
+    const auto wrong = read_parts(*value.as_table(), surface);
+    return wrong.empty() ? surface_fault(surface) : wrong;
+  }
+  std::string read(const toml::node& value, NetworkData& network) {
+    if (const auto* name = value.as_string())
+      return read_file_of(name->get(), read_network, largest_network_file, network);
+    if (!value.is_table()) return "is " + type_text(value);
+    const auto wrong = read_parts(*value.as_table(), network);
+    return wrong.empty() ? network_fault(network) : wrong;
+  }
+
+  // a surface or network out of a file, or none where the name is empty
+  template <class Data>
+  std::string read_file_of(const std::string& name,
+                           Result<Data> (*read_data)(std::string_view, const std::string&),
+                           std::size_t largest, Data& data) {
+    if (name.empty()) return "";
+    const bool known = beside_.built_in && beside_.built_in->contains(name);
+    const auto file = beside_.folder / name;
+    auto found = known ? read_data(beside_.built_in->at(name), name)
+                       : read_file(file, largest).and_then([&](const std::string& bytes) {
+                           return read_data(bytes, file.string());
+                         });
+    told_in_full_ = !found;
+    if (!found) return found.error().message;
+    data = std::move(*found);
+    return "";
+  }
+
+  const Field& field_;
+  const toml::node& value_;
+  const FileContext& beside_;
+  const char* is_ = "is ";  // begins the sentence on what stands there instead
+  bool told_in_full_ = false;
+};
+
+}  // namespace
+
+std::string assign(const Field& field, const toml::node& value, Preset& preset,
+                   const FileContext& beside) {
+  Reader reader(field, value, beside);
+  const auto wrong = std::visit(reader, field.in(preset, -1));
+  if (wrong.empty() || reader.told_in_full()) return wrong;
+  std::string text = wrong + ", must be " + allowed(field);
+  if (field.as_word(preset) && value.is_string())
+    text += did_you_mean(value.as_string()->get(), field.words);
+  return text;
+}
+
+std::string toml_text(const toml::node& value) {
+  std::ostringstream out;
+  out << toml::toml_formatter{value, toml::format_flags::none};
+  auto text = out.str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  constexpr std::size_t longest = 60;
+  return text.size() <= longest ? text : text.substr(0, longest - 3) + "...";
+}
+
+}  // namespace gridshell::preset
