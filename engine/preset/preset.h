@@ -48,6 +48,7 @@ struct Joints {
   double twist_Nmm = 0;           ///< per rad of spin beside the joint's normal
   double diameter_mm = 3;         ///< of the joint's cylinder, of which a scan sees the top
   double height_mm = 5;           ///< and how far its top lies above the rods' crossing
+  double mass_g = 0;              ///< of each, beside that of its rods
 };
 
 enum class EndKind { pinned, tangent, clamped };

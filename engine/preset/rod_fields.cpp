@@ -99,6 +99,8 @@ void add_joints(FieldList<Joints> joints) {
   joints.add<&Joints::height_mm>(
       at_least(0),
       "how far the top of that cylinder lies above the rods' crossing, along the shell's normal");
+  joints.add<&Joints::mass_g>(at_least(0),
+                              "of each joint, beside that of its rods, for gravity and motion");
 }
 
 void add_ends(FieldList<Ends> ends) {

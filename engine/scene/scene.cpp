@@ -106,6 +106,8 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
     if (loads.gravity_m_s2 != 0 || loads.field_N_per_mm != 0)
       scene.rods.weight_N_per_mm.push_back(1e3 * loads.gravity_m_s2 * mass + loads.field_N_per_mm);
   }
+  scene.joint_mass_t = 1e-6 * preset.joints.mass_g;
+  scene.rods.joint_weight_N = 1e3 * loads.gravity_m_s2 * scene.joint_mass_t;
   TRY(points, points_of(loads, footprint));
   scene.rods.points = std::move(*points);
   const bool springs = preset.joints.kind == preset::JointKind::spring;

@@ -30,6 +30,7 @@ struct Scene {
   ShellRods rods;
   RodModel rung = RodModel::bend;          ///< chosen: net, bend or twist
   std::vector<double> mass_t_per_mm;       ///< one a rod; 0: not known
+  double joint_mass_t = 0;                 ///< of each joint, beside that of its rods
   double rod_diameter_mm = 0;              ///< as it is drawn
   std::vector<double> drawn_diameters_mm;  ///< one a rod, of round sections of their areas
   std::vector<double> diameters_mm;        ///< one a rod; of no meaning where it is rectangular
@@ -63,6 +64,10 @@ struct Scene {
   /// The rung of the mechanics, where there is one.
   RodModel solved_model() const {
     return rung == RodModel::twist ? RodModel::twist : RodModel::bend;
+  }
+  /// Of the joints, which are the first nodes of every mesh, t.
+  Eigen::RowVectorXd joint_masses() const {
+    return Eigen::RowVectorXd::Constant(Eigen::Index(footprint.joints.size()), joint_mass_t);
   }
   double radius_at(double progress) const {
     return radius_begin_mm + progress * (radius_end_mm - radius_begin_mm);
