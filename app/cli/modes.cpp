@@ -31,8 +31,7 @@ struct ModesOptions {
 };
 
 std::string frequency_text(const record::ModeRow& mode) {
-  if (mode.frequency_Hz >= 0)
-    return record::with_error(mode.frequency_Hz, mode.error_Hz, "Hz");
+  if (mode.frequency_Hz >= 0) return record::with_error(mode.frequency_Hz, mode.error_Hz, "Hz");
   return fmt::format("no vibration: the state is not stable, it leaves as exp(t / {:.3g} s)",
                      -1 / (2 * M_PI * mode.frequency_Hz));
 }
@@ -139,7 +138,8 @@ Result<int> modes(const ModesOptions& options) {
   for (const auto& run : runs) {
     TRY(plan, plan_of(run.preset));
     const double still = expected_seconds(Pictures::stills, run.preset);
-    phases.push_back({"finding modes", std::isnan(plan->expected_seconds) ? 1 : plan->expected_seconds});
+    phases.push_back(
+        {"finding modes", std::isnan(plan->expected_seconds) ? 1 : plan->expected_seconds});
     phases.push_back(drawing("drawing", options.count * still));
     const double frame = expected_seconds(Pictures::movie, run.preset) / run.preset.movie.frames;
     for (int k = 0; options.movies && k < options.count; ++k)

@@ -27,12 +27,18 @@ struct Rod {
   double young_GPa = 83.0;
   double shear_GPa = 0;                   ///< 0: not given
   double density_kg_m3 = 0;               ///< 0: not given
+  double strength_MPa = 0;                ///< 0: not given, or by yield_strain
+  double yield_strain = 0;                ///< 0: not given, or by strength_MPa
   double width_mm = 0, thickness_mm = 0;  ///< of a rectangular section; 0: round
   double curvature_per_mm = 0;            ///< at rest, upright
   double curvature_sideways_per_mm = 0;   ///< at rest, in the flat
   double twist_rad_per_mm = 0;            ///< at rest
 
   bool rectangular() const { return width_mm > 0 && thickness_mm > 0; }
+  /// Stress that a fibre bears, MPa; 0: not given.
+  double fibre_strength_MPa() const {
+    return yield_strain > 0 ? 1e3 * young_GPa * yield_strain : strength_MPa;
+  }
   bool operator==(const Rod&) const = default;
 };
 /// The v rods, where they are others.
@@ -218,6 +224,7 @@ enum class OnContact { tell, stop };
 struct Limits {
   double max_strain = 1e-3;
   double max_bending_strain = 0;  ///< 0: none, it is told
+  double max_utilisation = 0;     ///< of the rods' strength; 0: none, it is told
   OnContact contact = OnContact::tell;
   bool table = false;  ///< whether the boundary's plane is one that no rod passes
 };

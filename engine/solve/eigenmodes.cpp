@@ -97,7 +97,9 @@ Result<Pairs> largest(const Linearisation& system, const Eigen::Matrix3Xd& root,
                       Index all, Spectra::SortRule rule, const Watch& watch) {
   constexpr Index a_few = 4;  // that a run may have missed
   Pairs found{Eigen::VectorXd(0), Eigen::MatrixXd(root.size(), 0)};
-  for (Index ask = count; count > 0 && found.values.size() < all; ask = a_few) {
+  // of the nearest alone it does not matter how many there are
+  const Index runs = count > 1 ? all : count;
+  for (Index ask = count, run = 0; run < runs && found.values.size() < all; ask = a_few, ++run) {
     const InverseBeside inverse(system, root, found.vectors, watch);
     TRY(grew, extend(inverse, rule, count,
                      std::min({ask, all - found.values.size(), root.size() - 1}), found));

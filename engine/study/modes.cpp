@@ -74,8 +74,8 @@ std::vector<std::size_t> partners(const MeshModes& fine, const MeshModes& coarse
   return partner;
 }
 
-/// Lambda of each of the finest mesh's modes on every mesh, coarse to fine, as certify_vectors takes
-/// them.
+/// Lambda of each of the finest mesh's modes on every mesh, coarse to fine, as certify_vectors
+/// takes them.
 std::vector<std::vector<Eigen::Matrix3Xd>> lambdas_of(const std::vector<MeshModes>& meshes) {
   std::vector<std::vector<Eigen::Matrix3Xd>> of_mode(meshes.back().shapes.size());
   for (const MeshModes& mesh : meshes) {
@@ -140,8 +140,7 @@ Result<Vibrations> vibrations_of(const preset::Preset& preset, int count, Watch&
                meshes.back().found.residuals[k]),
         meshes.back().shapes[k]);
   // what is extrapolated may stand in another order
-  std::ranges::stable_sort(modes, {},
-                           [](const auto& mode) { return mode.first.frequency_Hz; });
+  std::ranges::stable_sort(modes, {}, [](const auto& mode) { return mode.first.frequency_Hz; });
   modes.resize(std::min(modes.size(), std::size_t(count)));
   for (auto& [row, shape] : modes) {
     row.mode = int(found.modes.size()) + 1;

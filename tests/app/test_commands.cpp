@@ -324,8 +324,7 @@ TEST_CASE("modes writes a table, shapes and a picture a mode") {
   CHECK_THAT(said.out, Catch::Contains("Hz"));
   const auto folder = bench.at / "out/small_modes";
   CHECK(names_in(folder) == listed({"modes.csv", "preset.toml", "shapes.csv", "small.png",
-                                    "small_1.png", "small_2.png", "small_3.png",
-                                    "summary.json"}));
+                                    "small_1.png", "small_2.png", "small_3.png", "summary.json"}));
   CHECK_THAT(text_of(folder / "modes.csv"),
              Catch::StartsWith("mode,frequency_Hz,error_Hz,residual\n1,"));
   CHECK_THAT(text_of(folder / "shapes.csv"), Catch::StartsWith("mode,i,j,dx,dy,dz\n1,"));

@@ -65,6 +65,7 @@ inline void check_same_frame(const Frame& a, const Frame& b) {
   CHECK(same_bits(a.K_bins, b.K_bins));
   CHECK(same_bits(a.axial_force_N, b.axial_force_N));
   CHECK(same_bits(a.curvature_per_mm, b.curvature_per_mm));
+  CHECK(same_bits(a.stress_MPa, b.stress_MPa));
   CHECK(same_bits(a.bending_mJ_per_m, b.bending_mJ_per_m));
   CHECK(same_bits(a.reactions_N, b.reactions_N));
   CHECK(same_bits(a.actuation, b.actuation));

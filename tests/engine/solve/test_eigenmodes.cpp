@@ -129,15 +129,15 @@ TEST_CASE("frequencies: a clamped beam and a cantilever") {
   const RodMaterial material = circular_material(0.254, 83, 31);
   const auto beam = [&](RodEnd end, int count) {
     return Eigen::VectorXd(extrapolated([&](int edges) {
-             const SingleRod rod(edges, L, material, RodEnd::clamped, end);
-             const Model model = rod.model();
-             Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, model.columns());
-             x.leftCols(edges + 1) = rod.line();
-             for (int k = edges + 1; k < model.nodes; ++k)
-               x.col(k).x() = k == edges + 1 ? -L / edges : L + L / edges;
-             Linearisation system(model);
-             return lambdas(system, start_state(model, x), count);
-           }) /
+                             const SingleRod rod(edges, L, material, RodEnd::clamped, end);
+                             const Model model = rod.model();
+                             Eigen::Matrix3Xd x = Eigen::Matrix3Xd::Zero(3, model.columns());
+                             x.leftCols(edges + 1) = rod.line();
+                             for (int k = edges + 1; k < model.nodes; ++k)
+                               x.col(k).x() = k == edges + 1 ? -L / edges : L + L / edges;
+                             Linearisation system(model);
+                             return lambdas(system, start_state(model, x), count);
+                           }) /
                            (section.EI / per_mm / std::pow(L, 4)))
         .array()
         .sqrt()
@@ -157,15 +157,18 @@ TEST_CASE("frequencies: a clamped beam and a cantilever") {
 TEST_CASE("frequencies: a shallow arch that a beam buckled to") {
   // the n-th mode of the arch without a rise of its own: n^2 (n^2 - 1), out of its plane too, where
   // the first is a turn about the line between its hinges
-  const Eigen::VectorXd found = extrapolated([&](int edges) {
-    const Model model = build_model(single_rod(edges, L), section).value();
-    Linearisation system(model);
-    constexpr double shorter = 2e-4;
-    State state = start_state(model, straight(model, 1 - shorter, 2 / M_PI * std::sqrt(shorter) * L));
-    settle(system, state);
-    system.bear_neutral_directions();
-    return lambdas(system, state, 5);
-  }) / first;
+  const Eigen::VectorXd found =
+      extrapolated([&](int edges) {
+        const Model model = build_model(single_rod(edges, L), section).value();
+        Linearisation system(model);
+        constexpr double shorter = 2e-4;
+        State state =
+            start_state(model, straight(model, 1 - shorter, 2 / M_PI * std::sqrt(shorter) * L));
+        settle(system, state);
+        system.bear_neutral_directions();
+        return lambdas(system, state, 5);
+      }) /
+      first;
   CHECK(std::abs(found[0]) < 1e-3);
   CHECK(found[1] == Approx(12).epsilon(1e-3));
   CHECK(found[2] == Approx(12).epsilon(1e-3));

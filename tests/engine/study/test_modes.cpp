@@ -68,6 +68,35 @@ TEST_CASE("modes: masses and stiffness set the time, shapes and states stay") {
   CHECK(four.modes[0].frequency_Hz == Approx(joints.modes[0].frequency_Hz / 2).epsilon(5e-3));
 }
 
+TEST_CASE("modes: a joint that is pushed is held along the push, and free across it") {
+  preset::Preset p = massive();
+  p.indentation.at = preset::IndentationPlace::highest;
+  p.indentation.depth_mm = 2;
+  const Vibrations pushed = vibrations(p);
+  const record::Layout& layout = pushed.state.layout;
+  REQUIRE(layout.loaded_joints.size() == 1);
+  const auto& [joint, direction, at_times] = layout.loaded_joints.front();
+  double across = 0;
+  for (const Eigen::Matrix3Xd& shape : pushed.shapes) {
+    const Eigen::Vector3d move = shape.col(layout.joints[std::size_t(joint)].node);
+    CHECK(std::abs(move.dot(direction)) < 1e-8);
+    across = std::max(across, move.norm());
+  }
+  CHECK(across > 0.1);
+}
+
+TEST_CASE("modes: the twist rung sways as the bend rung does") {
+  preset::Preset p = massive();
+  p.accuracy.edges_per_segment = 4;
+  const Vibrations bend = vibrations(p, 4);
+  p.rod.shear_GPa = 31;
+  p.accuracy.model = RodModel::twist;
+  const Vibrations twist = vibrations(p, 4);
+  REQUIRE(twist.summary.model == "twist");
+  for (std::size_t k = 0; k < 4; ++k)
+    CHECK(twist.modes[k].frequency_Hz == Approx(bend.modes[k].frequency_Hz).epsilon(1e-4));
+}
+
 TEST_CASE("modes: joints weigh what their mass does") {
   preset::Preset p = massive();
   p.loads.gravity_m_s2 = 9.81;
