@@ -3,7 +3,7 @@
 
 packages="
   g++ cmake make pkg-config
-  libeigen3-dev libsuitesparse-dev libopenblas-serial-dev libmuparser-dev
+  libeigen3-dev libspectra-dev libsuitesparse-dev libopenblas-serial-dev libmuparser-dev
   libexpected-dev libfmt-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libhdf5-dev
   libpango1.0-dev libcairo2-dev libpng-dev libdeflate-dev fonts-dejavu-core
   libgl-dev libegl-dev libegl1 libgl1-mesa-dri libosmesa6-dev libosmesa6 libglfw3-dev

@@ -2,6 +2,7 @@
 include(GNUInstallDirs)
 find_package(tomlplusplus REQUIRED)
 find_path(EIGEN_INCLUDE_DIR Eigen/Core PATH_SUFFIXES eigen3 REQUIRED)
+find_path(SPECTRA_INCLUDE_DIR Spectra/SymEigsSolver.h REQUIRED)
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 find_library(MUPARSER_LIBRARY muparser REQUIRED)
@@ -36,7 +37,8 @@ target_compile_features(gridshell_engine PUBLIC cxx_std_20)
 target_include_directories(gridshell_engine PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gridshell>)
 target_include_directories(gridshell_engine SYSTEM PUBLIC ${EIGEN_INCLUDE_DIR})
-target_include_directories(gridshell_engine SYSTEM PRIVATE ${CHOLMOD_INCLUDE_DIR})
+target_include_directories(gridshell_engine SYSTEM PRIVATE ${SPECTRA_INCLUDE_DIR}
+  ${CHOLMOD_INCLUDE_DIR})
 target_compile_definitions(gridshell_engine PUBLIC EIGEN_DONT_PARALLELIZE)
 target_link_libraries(gridshell_engine PUBLIC fmt::fmt
   PRIVATE tomlplusplus::tomlplusplus ${CHOLMOD_LIBRARY} ${MUPARSER_LIBRARY} ${HDF5_HL_LIBRARY} PkgConfig::HDF5)

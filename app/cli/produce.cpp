@@ -73,7 +73,7 @@ std::string help_for(const preset::Preset& preset, record::Limit limit, double l
         return less + " ends before that";
       return less + " ends before that, more [limits] max_strain after it";
     case record::Limit::strength:
-      return less + " ends before that, more [limits] max_bending_strain after it";
+      return less + " ends before that, more of that limit after it";
     case record::Limit::contact:
       return "[limits] contact = \"tell\" goes on and tells what touches";
     case record::Limit::branch_lost:
@@ -176,9 +176,12 @@ void print_forces(const record::Summary& at) {
                    : "");
 }
 
-/// Where no limit is set, what a builder wants to know.
-void print_bending_strain(const record::Summary& at, const preset::Limits& limits) {
+/// What a builder wants to know: of rods without a strength the strain, where no limit is set.
+void print_strength(const record::Summary& at, const preset::Limits& limits) {
   constexpr double worth_telling = 0.01;
+  if (std::isfinite(at.utilisation))
+    return fmt::print("\n  stress of a fibre at most {:.4g} MPa, {:.3g} of its strength ({})",
+                      at.largest_stress_MPa, at.utilisation, at.stress_at);
   if (limits.max_bending_strain > 0 || !(at.largest_bending_strain >= worth_telling)) return;
   fmt::print(
       "\n  bending strains a rod by {:.2g} % ({}): most materials do not bear 1 %, superelastic "
@@ -203,7 +206,7 @@ void print_result(const Run& run, const fs::path& folder) {
     fmt::print("\n  {:.2f} mm from its blocks at most; seams: gap {:.2f} mm, kink {:.1f} degrees",
                at.max_deviation * scale_mm, at.max_seam_gap_mm, at.max_seam_kink_deg);
   print_forces(at);
-  print_bending_strain(at, run.preset.limits);
+  print_strength(at, run.preset.limits);
   // why it ended early is said as the error that it is
   if (!at.limit_reason.empty() && failure_of(at, true).empty())
     fmt::print("\n  on its way: {}", at.limit_reason);

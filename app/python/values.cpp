@@ -53,7 +53,8 @@ void add_report(py::module_& module) {
       .def_property_readonly(
           "kind", [](const Event& of) { return std::string(word_of(of.kind)); },
           "\"stability_lost\", \"turned_back\" (the path came to a limit point), \"locked\" (the "
-          "rods came to their length), \"overbent\" (one came to [limits] max_bending_strain) or "
+          "rods came to their length), \"overbent\" (one came to [limits] max_bending_strain or "
+          "max_utilisation) or "
           "\"contact\" (beyond, rods or joints touch).")
       .def_readonly("t", &Event::t,
                     "Where: the square root of the progress in an actuation, else from 0 at the "
@@ -142,6 +143,8 @@ void add_state(py::module_& module) {
            "At each point of each rod, rod after rod, 1/mm.");
   add_view(type, "bending_mJ_per_m", &record::Frame::bending_mJ_per_m,
            "Bending energy over length at the same points, mJ/m.");
+  add_view(type, "stress_MPa", &record::Frame::stress_MPa,
+           "Largest stress of a fibre at the same points, MPa.");
   add_view(type, "reactions_N", &record::Frame::reactions_N,
            "What holds each of layout.supports, supports x 3, N.");
   for (const Number& number : numbers)

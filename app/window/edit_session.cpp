@@ -75,7 +75,7 @@ std::string text_of_events(const std::vector<Event>& events) {
         message += "the rods are at their length";
         break;
       case Event::Kind::overbent:
-        message += "a rod is bent as far as [limits] max_bending_strain allows";
+        message += "a rod is strained as far as [limits] " + event.what + " allows";
         break;
       case Event::Kind::contact:
         message += "beyond, there touch " + event.what;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/gridshell.h"
 #include "render/canvas/text.h"
 #include "render/movie/colour_by.h"
 #include "render/movie/frame_overlay.h"
@@ -24,6 +25,8 @@ constexpr ColourText colour_texts[] = {
     {"Δ/ρ", "distance of a cell's joints from the net, over ρ"},
     {"bending (mJ/m)", "bending energy a length of rod"},
     {"axial force (N)", "of the rods; below 0 they are compressed"},
+    {"σ (MPa)", "largest stress of a fibre, by axial force and bending"},
+    {"σ / strength", "that over the rods' strength"},
 };
 static_assert(std::size(colour_texts) == words_of<ColourBy>().size());
 
@@ -84,6 +87,9 @@ Eigen::VectorXd values_of(const ShellView& shell, const Show& show) {
       return shell.bending_mJ_m;
     case ColourBy::axial_force:
       return shell.axial_N;
+    case ColourBy::stress:
+    case ColourBy::utilisation:
+      return record::stress_of_nodes_MPa(*shell.layout, shell.frame, by == ColourBy::utilisation);
     case ColourBy::displacement:
       if (!show.other) return displacement(shell, shell.first->nodes);
       if (!same_joints(shell.layout->joints, show.other->joints)) return {};

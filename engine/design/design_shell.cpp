@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/dense.h"
 #include "engine/core/try.h"
 #include "engine/elastic/edge_energies.h"
 #include "engine/elastic/state.h"
+#include "engine/solve/eigenmodes.h"
 
 namespace gridshell {
 namespace {
-
-// of the inverse iteration: vectors at once, and how often, the first time and later
-constexpr int modes = 4, first_iterations = 24, iterations = 6;
 
 EdgeGeometry geometry_of(const Eigen::Matrix3Xd& x, const ModelEdge& edge) {
   const Eigen::Vector3d along = x.col(edge.to) - x.col(edge.from);
@@ -312,49 +309,12 @@ Eigen::VectorXd DesignShell::leg_forces() const {
 }
 
 double DesignShell::smallest_eigenvalue(const Watch& watch) {
-  const Eigen::VectorXd mass = lumped(mesh_, std::vector<double>(mesh_.rods.size(), 1.0));
-  const int times = modes_.empty() ? first_iterations : iterations;
-  if (modes_.empty())
-    for (int m = 0; m < modes; ++m) {
-      modes_.push_back(Eigen::Matrix3Xd(3, model_.columns()));
-      // no symmetry of a shell leaves these unchanged
-      for (Eigen::Index k = 0; k < model_.columns(); ++k)
-        modes_.back().col(k) << std::sin(0.7 + (1.3 + m) * double(k)),
-            std::sin(1.9 + (2.1 + m) * double(k)), std::sin(2.3 + (0.9 + m) * double(k));
-    }
-  const auto weighted = [&](const Eigen::Matrix3Xd& x) -> Eigen::Matrix3Xd {
-    return x * mass.asDiagonal();
-  };
-  const auto dot = [](const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
-    return (a.array() * b.array()).sum();
-  };
-  double smallest = 0;
-  for (int iteration = 0; iteration < times && !watch.cancelled(); ++iteration) {
-    // Rayleigh-Ritz on y = H^-1 M x: y^T H y = y^T M x
-    std::vector<Eigen::Matrix3Xd> loads, found;
-    for (const auto& mode : modes_) {
-      loads.push_back(weighted(mode));
-      clear_held(model_, loads.back());
-      found.push_back(loads.back());
-      system_->solve(found.back());
-    }
-    Eigen::MatrixXd stiffness(modes, modes), inertia(modes, modes);
-    for (int a = 0; a < modes; ++a)
-      for (int b = 0; b < modes; ++b) {
-        stiffness(a, b) = dot(found[std::size_t(a)], loads[std::size_t(b)]);
-        inertia(a, b) = dot(found[std::size_t(a)], weighted(found[std::size_t(b)]));
-      }
-    stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
-    inertia = (0.5 * (inertia + inertia.transpose())).eval();
-    const auto own = eigen_pairs(stiffness, inertia);
-    smallest = own.values[0];
-    for (int a = 0; a < modes; ++a) {
-      modes_[std::size_t(a)].setZero();
-      for (int b = 0; b < modes; ++b)
-        modes_[std::size_t(a)] += own.vectors(b, a) * found[std::size_t(b)];
-    }
-  }
-  return smallest;
+  const Eigen::VectorXd length = lumped(mesh_, std::vector<double>(mesh_.rods.size(), 1.0));
+  Eigen::Matrix3Xd weight = Eigen::Matrix3Xd::Zero(3, model_.columns());
+  weight.leftCols(length.size()).rowwise() = length.transpose();
+  const auto softest = softest_modes(*system_, weight, 1, 0, watch);
+  // who stopped it does not ask
+  return softest ? softest->values[0] : 0;
 }
 
 }  // namespace gridshell

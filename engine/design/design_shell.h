@@ -52,9 +52,8 @@ class DesignShell {
   Sensitivity sensitivity(const std::vector<DesignVariable>& variables,
                           const std::vector<DesignVariables::Rate>& rates,
                           const Eigen::MatrixXd& changes, const Watch& watch = unwatched);
-  /// Smallest eigenvalue of the Hessian against the rods' length lumped on the nodes, N/mm^2, by
-  /// inverse iteration of a few vectors at once, which the next call begins from. Of a watch that
-  /// is cancelled it says nothing.
+  /// Smallest eigenvalue of the Hessian against the rods' length lumped on the nodes, N/mm^2. Of a
+  /// watch that is cancelled it says nothing.
   double smallest_eigenvalue(const Watch& watch = unwatched);
 
   const RodMesh& mesh() const { return mesh_; }
@@ -106,7 +105,6 @@ class DesignShell {
   std::vector<Leg> legs_;                ///< one an end
   std::vector<std::vector<int>> bends_;  ///< of each rod
   Eigen::VectorXd diameter_;             ///< that the model has, one a rod
-  std::vector<Eigen::Matrix3Xd> modes_;  ///< the softest ones last found
 };
 
 }  // namespace gridshell

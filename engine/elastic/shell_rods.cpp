@@ -131,13 +131,16 @@ std::vector<NodeAction> dead_loads(const RodMesh& mesh, const ShellRods& rods) {
     for (int node = 0; node < mesh.rod_nodes(); ++node)
       loads.push_back({node, -weight[node] * Eigen::Vector3d::UnitZ()});
   }
+  if (rods.joint_weight_N != 0)
+    for (int joint = 0; joint < mesh.joints; ++joint)
+      loads.push_back({joint, -rods.joint_weight_N * Eigen::Vector3d::UnitZ()});
   for (const PointLoad& point : rods.points) loads.push_back({point.joint, point.force});
   return loads;
 }
 
 Result<Model> build_model(const RodMesh& mesh, const ShellRods& shell, RodModel rung) {
   // a member more does not compile here: whoever adds one puts it into the model
-  const auto& [materials, joints, weight_N_per_mm, points, contact] = shell;
+  const auto& [materials, joints, weight_N_per_mm, joint_weight_N, points, contact] = shell;
   const bool springs = rung == RodModel::twist && joints.spring_N_per_mm > 0;
   std::vector<ModelRod> rods;
   std::vector<char> taken(std::size_t(mesh.joints), 0);

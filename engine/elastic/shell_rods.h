@@ -28,6 +28,7 @@ struct ShellRods {
   std::vector<RodMaterial> materials;   ///< one a rod, or one for all
   JointLaw joints;                      ///< on the twist rung; on the bend rung rods share nodes
   std::vector<double> weight_N_per_mm;  ///< one a rod, downwards; empty: none
+  double joint_weight_N = 0;            ///< of every joint, downwards
   std::vector<PointLoad> points;
   ContactLaw contact;
 
@@ -40,8 +41,8 @@ struct ShellRods {
   }
   bool loaded() const {
     // a member more does not compile here: whoever adds one says whether it loads the shell
-    const auto& [rods, law, weight, loads, touching] = *this;
-    return !weight.empty() || !loads.empty();
+    const auto& [rods, law, weight, of_joints, loads, touching] = *this;
+    return !weight.empty() || of_joints != 0 || !loads.empty();
   }
 };
 

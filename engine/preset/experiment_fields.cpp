@@ -439,6 +439,18 @@ void add_experiment_fields(std::vector<Field>& all) {
           at_least(0),
           "strain of a fibre by bending, from the curvature added to that at rest, at which the "
           "run stops with limit \"strength\"; 0: none stops it, and it is told from 0.01 on")
+      .add<&Limits::max_utilisation>(
+          at_least(0),
+          "largest stress of a fibre over the rods' strength, bending and axial force added, at "
+          "which the run stops with limit \"strength\"; 0: none stops it, and it is told")
+      .refused({"[rod] strength_MPa", "[rod] yield_strain"},
+               "utilisation is of a strength, which the rods have none of: [rod] strength_MPa or "
+               "yield_strain must be above 0, those of [rod_v] too where these differ",
+               [](const Preset& preset, const Limits& of) {
+                 return of.max_utilisation > 0 &&
+                        (preset.rod.fibre_strength_MPa() == 0 ||
+                         (preset.rod_v.differs && preset.rod_v.fibre_strength_MPa() == 0));
+               })
       .add<&Limits::contact>(
           "what follows where rods come nearer than their radii away from their joints, the "
           "joints' cylinders overlap, or a rod goes through the table: \"tell\", or \"stop\" in "

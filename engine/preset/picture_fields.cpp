@@ -24,8 +24,8 @@ void add_movie(FieldList<Movie> list) {
   list.add<&M::colour_by>(
           "none; the cells by their integrated Gauss curvature K, by how much it changed since the "
           "first frame, or by how far their joints lie off the net, over rho; or the rods by how "
-          "far they moved over the depth of the push, by their bending energy over length or by "
-          "their axial force")
+          "far they moved over the depth of the push, by their bending energy over length, their "
+          "axial force, the largest stress of their fibres or that over their strength")
       .refused(
           {"[footprint] kind"},
           "\"deviation\" is from the net that a footprint was designed on, must be another, or "
@@ -33,9 +33,15 @@ void add_movie(FieldList<Movie> list) {
           [](const Preset& preset, const M& of) {
             return of.colour_by == ColourBy::deviation && !preset.on_net();
           })
-      .needs_equilibrium("a net's rods bear no forces", [](const M& of) {
-        return of.colour_by == ColourBy::energy || of.colour_by == ColourBy::axial_force;
-      });
+      .needs_equilibrium("a net's rods bear no forces",
+                         [](const M& of) { return of.colour_by >= ColourBy::energy; })
+      .refused({"[rod] strength_MPa", "[rod] yield_strain"},
+               "\"utilisation\" is of a strength, must be another, or [rod] strength_MPa or "
+               "yield_strain above 0",
+               [](const Preset& preset, const M& of) {
+                 return of.colour_by == ColourBy::utilisation &&
+                        preset.rod.fibre_strength_MPa() == 0;
+               });
   const auto free_view = [&list] {
     list.unused({"view"}, "[movie] view takes its place",
                 [](const M& of) { return of.view != View::free; });

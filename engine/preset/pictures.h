@@ -11,7 +11,17 @@
 namespace gridshell::preset {
 
 enum class Quality { draft, movie, figure };
-enum class ColourBy { none, K, displacement, K_change, deviation, energy, axial_force };
+enum class ColourBy {
+  none,
+  K,
+  displacement,
+  K_change,
+  deviation,
+  energy,
+  axial_force,
+  stress,
+  utilisation
+};
 enum class View { free, front, side, top, corner };
 enum class Pace { even, eased };
 struct Movie {

@@ -24,12 +24,18 @@ struct Rod {
   double young_GPa = 83.0;
   double shear_GPa = 0;                   ///< 0: not given
   double density_kg_m3 = 0;               ///< 0: not given
+  double strength_MPa = 0;                ///< 0: not given, or by yield_strain
+  double yield_strain = 0;                ///< 0: not given, or by strength_MPa
   double width_mm = 0, thickness_mm = 0;  ///< of a rectangular section; 0: round
   double curvature_per_mm = 0;            ///< at rest, upright
   double curvature_sideways_per_mm = 0;   ///< at rest, in the flat
   double twist_rad_per_mm = 0;            ///< at rest
 
   bool rectangular() const { return width_mm > 0 && thickness_mm > 0; }
+  /// Stress that a fibre bears, MPa; 0: not given.
+  double fibre_strength_MPa() const {
+    return yield_strain > 0 ? 1e3 * young_GPa * yield_strain : strength_MPa;
+  }
   bool operator==(const Rod&) const = default;
 };
 /// The v rods, where they are others.
@@ -45,6 +51,7 @@ struct Joints {
   double twist_Nmm = 0;           ///< per rad of spin beside the joint's normal
   double diameter_mm = 3;         ///< of the joint's cylinder, of which a scan sees the top
   double height_mm = 5;           ///< and how far its top lies above the rods' crossing
+  double mass_g = 0;              ///< of each, beside that of its rods
 };
 
 enum class EndKind { pinned, tangent, clamped };
@@ -212,6 +219,7 @@ enum class OnContact { tell, stop };
 struct Limits {
   double max_strain = 1e-3;
   double max_bending_strain = 0;  ///< 0: none, it is told
+  double max_utilisation = 0;     ///< of the rods' strength; 0: none, it is told
   OnContact contact = OnContact::tell;
   bool table = false;  ///< whether the boundary's plane is one that no rod passes
 };

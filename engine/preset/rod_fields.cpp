@@ -25,6 +25,12 @@ void add_rods(FieldList<Rod> rods, const std::string& table) {
       at_least(0), "shear modulus G; 0: not given, which is enough where no rod is twisted");
   rods.add<&Rod::density_kg_m3>(
       at_least(0), "density; 0: not given, which is enough without gravity and motion");
+  rods.add<&Rod::strength_MPa>(
+      at_least(0), "stress that a fibre bears, over which its utilisation is told; 0: not given");
+  rods.add<&Rod::yield_strain>(at_least(0),
+                               "strain that it bears, in the place of strength_MPa; 0: not given")
+      .refused({"strength_MPa"}, "strength_MPa says what the rods bear, one of both must be 0",
+               [](const Rod& rod) { return rod.yield_strain > 0 && rod.strength_MPa > 0; });
   const std::string half = "a rectangular section has both, [{}] {} must be above 0 too";
   const auto two_axes = [](const Rod& rod) {
     return rod.rectangular() && rod.width_mm != rod.thickness_mm;
@@ -99,6 +105,8 @@ void add_joints(FieldList<Joints> joints) {
   joints.add<&Joints::height_mm>(
       at_least(0),
       "how far the top of that cylinder lies above the rods' crossing, along the shell's normal");
+  joints.add<&Joints::mass_g>(at_least(0),
+                              "of each joint, beside that of its rods, for gravity and motion");
 }
 
 void add_ends(FieldList<Ends> ends) {

@@ -44,15 +44,20 @@ struct Frame {
   /// far the section reaches from its axis; of the finest mesh
   double largest_bending_strain = unknown;
   std::string bending_strain_at;  ///< "u3, 45.00 mm from its begin, at joint [0, 1]"
-  std::string event;              ///< a snap, a limit, a recovery; empty when nothing happened
-  Eigen::Matrix3Xd nodes;         ///< positions, mm
-  Eigen::VectorXd cell_K;         ///< integrated Gauss curvature of each cell, rad
+  /// The largest stress of a fibre, of axial force and bending together, that over the rods'
+  /// strength where it is known, and where the latter, or else the stress, is largest.
+  double largest_stress_MPa = unknown, utilisation = unknown;
+  std::string stress_at;
+  std::string event;       ///< a snap, a limit, a recovery; empty when nothing happened
+  Eigen::Matrix3Xd nodes;  ///< positions, mm
+  Eigen::VectorXd cell_K;  ///< integrated Gauss curvature of each cell, rad
   /// Of the finest mesh itself, but for the reactions, which are extrapolated as energies are; with
   /// the loads these balance to `residual_N`. Empty where they are not known (in motion, a net, an
   /// older version).
   Eigen::VectorXd axial_force_N;     ///< of each edge, rod after rod; below 0: compressed
   Eigen::VectorXd curvature_per_mm;  ///< at each point of each rod, rod after rod
   Eigen::VectorXd bending_mJ_per_m;  ///< bending energy over length, at the same points
+  Eigen::VectorXd stress_MPa;        ///< E (|N|/EA + strain by bending), at the same points
   Eigen::Matrix3Xd reactions_N;      ///< on each of Layout::supports; 0 where nothing holds it
   /// K of the cells by their centroid's x/L, L the half-span of the actuated boundary, in bins of
   /// equal width from -1 to 1, one a row: mean (rad), standard deviation (rad), number of cells
@@ -80,6 +85,7 @@ void visit_matrices(FrameType& frame, const Visit& visit) {
   visit(frame.curvature_per_mm);
   visit(frame.reactions_N);
   visit(frame.bending_mJ_per_m);
+  visit(frame.stress_MPa);
 }
 
 /// The frame's numbers, words and bins alone: what may stay in memory of any number of frames.

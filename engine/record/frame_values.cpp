@@ -85,6 +85,25 @@ Eigen::VectorXd axial_force_of_nodes_N(const Layout& layout, const Frame& frame)
   return means.all();
 }
 
+std::vector<double> stress_MPa(const Layout& layout, const Frame& frame, std::size_t rod) {
+  const std::size_t points = layout.rods[rod].size();
+  if (frame.stress_MPa.size() == 0) return std::vector<double>(points, unknown);
+  const double* first = frame.stress_MPa.data() + points_before(layout, rod);
+  return {first, first + points};
+}
+
+Eigen::VectorXd stress_of_nodes_MPa(const Layout& layout, const Frame& frame, bool utilised) {
+  if (frame.stress_MPa.size() == 0 || (utilised && layout.strength_MPa.empty())) return {};
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(frame.nodes.cols());
+  Eigen::Index point = 0;
+  for (std::size_t r = 0; r < layout.rods.size(); ++r)
+    for (const int node : layout.rods[r]) {
+      const double over = utilised ? layout.strength_MPa[r] : 1;
+      largest[node] = std::max(largest[node], frame.stress_MPa[point++] / over);
+    }
+  return largest;
+}
+
 Eigen::VectorXd bending_of_nodes_mJ_per_m(const Layout& layout, const Frame& frame) {
   if (frame.bending_mJ_per_m.size() == 0) return {};
   // where a rod ends on another it does not bend

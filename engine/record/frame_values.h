@@ -37,6 +37,13 @@ std::vector<double> axial_force_N(const Layout& layout, const Frame& frame, std:
 /// at a joint; 0 at a node of no rod. Empty where the run did not record it.
 Eigen::VectorXd axial_force_of_nodes_N(const Layout& layout, const Frame& frame);
 
+/// Largest stress of a fibre at each point of a rod, MPa; NaN where the frame does not know it.
+std::vector<double> stress_MPa(const Layout& layout, const Frame& frame, std::size_t rod);
+/// The largest of the rods at each node, or, `utilised`, that over the rod's strength; empty where
+/// it is not known.
+Eigen::VectorXd stress_of_nodes_MPa(const Layout& layout, const Frame& frame,
+                                    bool utilised = false);
+
 /// Bending energy over length at each node of the frame, mJ/m: the mean of the rods that go through
 /// it, else of those that end there. Empty where the run did not record it.
 Eigen::VectorXd bending_of_nodes_mJ_per_m(const Layout& layout, const Frame& frame);

@@ -74,6 +74,8 @@ void each_rod_field(const Visit& visit) {
         "at each point, rod after rod; of the finest mesh itself", &Frame::curvature_per_mm);
   visit("/bending_mJ_per_m", "mJ/m", points_of_rods,
         "energy over length, at each point; of the finest mesh itself", &Frame::bending_mJ_per_m);
+  visit("/stress_MPa", "MPa", points_of_rods,
+        "of a fibre, the largest at each point; of the finest mesh itself", &Frame::stress_MPa);
   const SizeOf supports = [](const Layout& layout) { return Eigen::Index(layout.supports.size()); };
   visit("/reactions_N", "N", supports,
         "on each of /layout/supports; with the loads they balance to residual_N; off by "

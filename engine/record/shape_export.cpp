@@ -264,6 +264,7 @@ std::string to_vtp(const Shape& shape) {
   put_array(text, "curvature_per_mm",
             along_rods(shape, [](const auto&... of) { return record::curvature_per_mm(of...); }));
   put_array(text, "axial_force_N", along_rods(shape, record::axial_force_N));
+  put_array(text, "stress_MPa", along_rods(shape, record::stress_MPa));
   put_array(text, "reaction_N", held);
   text += "</PointData>\n<CellData>\n";
   put_array(text, "rod", rod_of);
@@ -331,16 +332,17 @@ std::string to_xdmf(const record::Layout& layout, const record::FrameList& frame
 std::string to_csv(const Shape& shape) {
   record::CsvWriter csv;
   csv.line("rod", "point", "x_mm", "y_mm", "z_mm", "curvature_per_mm", "axial_force_N",
-           "reaction_x_N", "reaction_y_N", "reaction_z_N");
+           "stress_MPa", "reaction_x_N", "reaction_y_N", "reaction_z_N");
   const Eigen::Matrix3Xd on = reactions_N(shape.layout, shape.frame);
   for (std::size_t rod = 0; rod < shape.layout.rods.size(); ++rod) {
     const std::vector<int>& nodes = shape.layout.rods[rod];
     const auto curvature = curvature_per_mm(shape.layout, shape.frame, rod);
     const auto force = axial_force_N(shape.layout, shape.frame, rod);
+    const auto stress = stress_MPa(shape.layout, shape.frame, rod);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const Eigen::Vector3d at = shape.frame.nodes.col(nodes[k]), holds = on.col(nodes[k]);
-      csv.line(int(rod), int(k), at.x(), at.y(), at.z(), curvature[k], force[k], holds.x(),
-               holds.y(), holds.z());
+      csv.line(int(rod), int(k), at.x(), at.y(), at.z(), curvature[k], force[k], stress[k],
+               holds.x(), holds.y(), holds.z());
     }
   }
   return std::move(csv).text();

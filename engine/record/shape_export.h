@@ -57,8 +57,8 @@ Drawing rods_in_space(const Shape& shape);
 
 /// VTK PolyData in ASCII: a polyline a rod with points of its own, a polygon a cell. Point data:
 /// `displacement_mm`, `curvature_per_mm`, `axial_force_N` (the mean of the edges that meet),
-/// `reaction_N` (of what holds a point; a joint's at the cells' corner alone); cell data: `rod` (-1
-/// for a cell), `K_rad` (nan for a rod); field data: `TimeValue` (progress).
+/// `stress_MPa`, `reaction_N` (of what holds a point; a joint's at the cells' corner alone); cell
+/// data: `rod` (-1 for a cell), `K_rad` (nan for a rod); field data: `TimeValue` (progress).
 std::string to_vtp(const Shape& shape);
 /// ParaView's list of such files over progress.
 std::string to_pvd(const std::vector<double>& progress, const std::vector<std::string>& files);
@@ -69,8 +69,8 @@ std::string to_pvd(const std::vector<double>& progress, const std::vector<std::s
 std::string to_xdmf(const record::Layout& layout, const record::FrameList& frames,
                     const std::string& trajectory);
 
-/// `rod,point,x_mm,y_mm,z_mm,curvature_per_mm,axial_force_N,reaction_x_N,reaction_y_N,
-/// reaction_z_N`, rod by rod; forces empty where the run did not record them.
+/// `rod,point,x_mm,y_mm,z_mm,curvature_per_mm,axial_force_N,stress_MPa,reaction_x_N,
+/// reaction_y_N,reaction_z_N`, rod by rod; forces empty where the run did not record them.
 std::string to_csv(const Shape& shape);
 
 }  // namespace gridshell::exports

@@ -132,6 +132,22 @@ void fields(Row& row, const Visit& visit) {
              "snap_default", row.snap_default, "snap_fine", row.snap_fine, "doubt", row.doubt);
 }
 
+// How a shell vibrates: a line of modes.csv a mode.
+
+/// A natural vibration about a state at rest, extrapolated over the last two meshes.
+struct ModeRow {
+  int mode = 0;  ///< from 1, in ascending order
+  /// Below 0: no vibration, the state is not stable and leaves as exp(2 pi |f| t).
+  double frequency_Hz = unknown;
+  double error_Hz = unknown;  ///< NaN on one mesh
+  double residual = unknown;  ///< |K v - lambda M v| / |lambda M v| on the finest mesh
+};
+template <RecordOf<ModeRow> Row, class Visit>
+void fields(Row& row, const Visit& visit) {
+  visit_each(visit, "mode", row.mode, "frequency_Hz", row.frequency_Hz, "error_Hz", row.error_Hz,
+             "residual", row.residual);
+}
+
 // A bifurcation diagram: the points of a path and of the branches that leave it.
 
 /// What happens at a point of a branch.

@@ -24,6 +24,9 @@ void Summary::take_state(const Frame& last) {
   energy_error_mJ = last.energy_error_mJ;
   largest_bending_strain = last.largest_bending_strain;
   bending_strain_at = last.bending_strain_at;
+  largest_stress_MPa = last.largest_stress_MPa;
+  utilisation = last.utilisation;
+  stress_at = last.stress_at;
   energies = last.energies;
   height_mm = last.height_mm;
   lowest_mm = last.lowest_mm;
@@ -52,6 +55,9 @@ bool may_lack(const std::string& key) {
                                            "force_error_N",
                                            "largest_bending_strain",
                                            "bending_strain_at",
+                                           "largest_stress_MPa",
+                                           "utilisation",
+                                           "stress_at",
                                            "lowest_mm",
                                            "contact",
                                            "contacts"};
@@ -70,8 +76,8 @@ Json json_of_run(const Summary& summary) {
 std::string to_json(const Summary& summary) { return text_of(json_of_run(summary)); }
 
 Figures figures_of(const Summary& summary) {
-  static const std::set<std::string> left_out{"preset", "model_reason", "steps",
-                                              "kind",   "finished",     "bending_strain_at"};
+  static const std::set<std::string> left_out{"preset",   "model_reason",      "steps",    "kind",
+                                              "finished", "bending_strain_at", "stress_at"};
   Figures figures;
   const Json json = json_of_run(summary);
   for (const auto& [key, value] : json.items()) {

@@ -41,8 +41,9 @@ struct Summary {
   /// as of a Frame
   double force_N = unknown, push_error_N = unknown, stiffness_N_per_mm = unknown,
          stiffness_error_N_per_mm = unknown, largest_force_N = unknown, force_error_N = unknown,
-         energy_error_mJ = unknown, largest_bending_strain = unknown;
-  std::string bending_strain_at;
+         energy_error_mJ = unknown, largest_bending_strain = unknown, largest_stress_MPa = unknown,
+         utilisation = unknown;
+  std::string bending_strain_at, stress_at;
   Energies energies;  ///< by term, mJ
   double height_mm = 0, lowest_mm = unknown;
   int contacts = -1;  ///< as of Frame
@@ -76,7 +77,8 @@ void fields(Run& run, const Visit& visit) {
              "stiffness_error_N_per_mm", run.stiffness_error_N_per_mm, "largest_force_N",
              run.largest_force_N, "force_error_N", run.force_error_N, "energy_error_mJ",
              run.energy_error_mJ, "largest_bending_strain", run.largest_bending_strain,
-             "bending_strain_at", run.bending_strain_at);
+             "bending_strain_at", run.bending_strain_at, "largest_stress_MPa",
+             run.largest_stress_MPa, "utilisation", run.utilisation, "stress_at", run.stress_at);
   visit_energies(run.energies, visit);
   visit_each(visit, "height_mm", run.height_mm, "lowest_mm", run.lowest_mm, "contacts",
              run.contacts, "rod_gap_mm", run.rod_gap_mm, "joint_gap_mm", run.joint_gap_mm,

@@ -140,6 +140,9 @@ Result<void> check_sizes(const Layout& layout, Eigen::Index nodes) {
   if (!layout.families.empty() && layout.families.size() != layout.rods.size())
     return fail(Fault::bad_input, "{} families are named for {} rods", layout.families.size(),
                 layout.rods.size());
+  if (!layout.strength_MPa.empty() && layout.strength_MPa.size() != layout.rods.size())
+    return fail(Fault::bad_input, "{} strengths are given for {} rods", layout.strength_MPa.size(),
+                layout.rods.size());
   if (!layout.diameters_mm.empty() && layout.diameters_mm.size() != layout.rods.size())
     return fail(Fault::bad_input, "{} diameters are given for {} rods", layout.diameters_mm.size(),
                 layout.rods.size());
@@ -178,6 +181,7 @@ Result<void> check_frame(const Layout& layout, const Frame& frame, std::size_t k
   TRY_DO(fits("axial_force_N", frame.axial_force_N.size(), edges_of_rods(layout)));
   TRY_DO(fits("curvature_per_mm", frame.curvature_per_mm.size(), points_of_rods(layout)));
   TRY_DO(fits("bending_mJ_per_m", frame.bending_mJ_per_m.size(), points_of_rods(layout)));
+  TRY_DO(fits("stress_MPa", frame.stress_MPa.size(), points_of_rods(layout)));
   return fits("reactions_N", frame.reactions_N.cols(), Eigen::Index(layout.supports.size()));
 }
 

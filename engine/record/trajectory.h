@@ -141,6 +141,7 @@ struct Layout {
   double table_mm = unknown;  ///< height of the plane that no rod passes; NaN: there is none
   /// Of each rod, that of a round section of its area; empty: all of rod_diameter_mm.
   std::vector<double> diameters_mm;
+  std::vector<double> strength_MPa;  ///< of each rod; empty: not known
   double length_scale_mm = 0;  ///< R_o for a circle, rho for a net: what errors are relative to
   std::vector<std::vector<int>> rods;  ///< nodes of each rod from edge point to edge point
   std::vector<std::string> families;   ///< of each rod: "u" or "v"; empty: not known

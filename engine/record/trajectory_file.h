@@ -8,6 +8,7 @@
 //   /axial_force_N    frames x edges     of each edge, rod after rod
 //   /curvature_per_mm frames x points    at each point of each rod, rod after rod
 //   /bending_mJ_per_m frames x points    bending energy over length, at the same points
+//   /stress_MPa       frames x points    largest stress of a fibre, at the same points
 //   /reactions_N      frames x supports x 3   on joints, edge points and far ends of tails
 //   /frames/<name>  frames              the columns of frames.csv, and `actuation`
 //   /layout         spacing_mm, rod_diameter_mm, length_scale_mm (attributes); edge_points (nodes),

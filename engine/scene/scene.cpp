@@ -102,9 +102,13 @@ Result<void> put_rods(const preset::Preset& preset, Scene& scene) {
     const double mass = 1e-12 * rod.density_kg_m3 * area_of(rod);  // 1 kg/m^3 = 1e-12 t/mm^3
     scene.rods.materials.push_back(material_of(rod));
     scene.mass_t_per_mm.push_back(mass);
+    scene.strength_MPa.push_back(rod.fibre_strength_MPa());
     if (loads.gravity_m_s2 != 0 || loads.field_N_per_mm != 0)
       scene.rods.weight_N_per_mm.push_back(1e3 * loads.gravity_m_s2 * mass + loads.field_N_per_mm);
   }
+  scene.joint_mass_t = 1e-6 * preset.joints.mass_g;
+  scene.rods.joint_weight_N = 1e3 * loads.gravity_m_s2 * scene.joint_mass_t;
+  if (std::ranges::count(scene.strength_MPa, 0) > 0) scene.strength_MPa.clear();
   TRY(points, points_of(loads, footprint));
   scene.rods.points = std::move(*points);
   const bool springs = preset.joints.kind == preset::JointKind::spring;
@@ -289,6 +293,7 @@ Result<Scene> scene_of(const preset::Preset& preset) {
   scene.memory_GB = preset.accuracy.memory_GB;
   scene.max_strain = preset.limits.max_strain;
   scene.max_bending_strain = preset.limits.max_bending_strain;
+  scene.max_utilisation = preset.limits.max_utilisation;
   scene.joint_diameter_mm = preset.joints.diameter_mm;
   scene.joint_height_mm = preset.joints.height_mm;
   scene.stops_at_contact = preset.limits.contact == preset::OnContact::stop;

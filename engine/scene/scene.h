@@ -30,6 +30,8 @@ struct Scene {
   ShellRods rods;
   RodModel rung = RodModel::bend;          ///< chosen: net, bend or twist
   std::vector<double> mass_t_per_mm;       ///< one a rod; 0: not known
+  std::vector<double> strength_MPa;        ///< one a rod; empty: not known
+  double joint_mass_t = 0;                 ///< of each joint, beside that of its rods
   double rod_diameter_mm = 0;              ///< as it is drawn
   std::vector<double> drawn_diameters_mm;  ///< one a rod, of round sections of their areas
   std::vector<double> diameters_mm;        ///< one a rod; of no meaning where it is rectangular
@@ -53,8 +55,8 @@ struct Scene {
   double tolerance = 1e-3;    ///< of the joints, over length_scale_mm
   double memory_GB = 0;       ///< that the meshes may take; 0: half of the machine's
   double max_strain = 1e-3;
-  double max_bending_strain = 0;                      ///< 0: any
-  double joint_diameter_mm = 0, joint_height_mm = 0;  ///< of the joints' cylinders
+  double max_bending_strain = 0, max_utilisation = 0;  ///< 0: any
+  double joint_diameter_mm = 0, joint_height_mm = 0;   ///< of the joints' cylinders
   bool stops_at_contact = false;
   bool table = false;  ///< whether no rod passes the plane of the flat
   SnapDynamics snap;
@@ -63,6 +65,12 @@ struct Scene {
   /// The rung of the mechanics, where there is one.
   RodModel solved_model() const {
     return rung == RodModel::twist ? RodModel::twist : RodModel::bend;
+  }
+  /// Whether rods bear so much and no more.
+  bool limits_strength() const { return max_bending_strain > 0 || max_utilisation > 0; }
+  /// Of the joints, which are the first nodes of every mesh, t.
+  Eigen::RowVectorXd joint_masses() const {
+    return Eigen::RowVectorXd::Constant(Eigen::Index(footprint.joints.size()), joint_mass_t);
   }
   double radius_at(double progress) const {
     return radius_begin_mm + progress * (radius_end_mm - radius_begin_mm);

@@ -209,6 +209,7 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
   TRY_DO(sink.begin(std::move(*layout)));
   PathSampler sampler(*path, caption_of(*scene), sink, watch, progress.size());
   const Checkpoint end = path->simulation.save();
+  std::optional<PathSample> last_taken;
   for (std::size_t k = 0; k < progress.size(); ++k) {
     PathSample sample{int(k), 0, parameter_at(progress[k]), progress[k]};
     if (progress[k] == 0 && rests_flat(*scene)) {
@@ -228,9 +229,12 @@ Result<EquilibriumPath> run_actuation(std::shared_ptr<const Scene> scene,
     }
     if (!segment) continue;  // the path's limit says why
     sample.segment = *segment;
-    TRY_DO(sampler.at(sample));
+    TRY(taken, sampler.at(sample));
+    if (*taken) last_taken = sample;
   }
   path->simulation.restore(end);
+  // a path that ends on its way back to the flat began further on
+  if (last_taken && path->segments.back().back) certify_sample(*path, *last_taken, watch);
   return path;
 }
 

@@ -171,7 +171,7 @@ Result<State> rest_in_time(NestedShell& shell, const Scene& scene, const State& 
                            const std::function<void(const MovingState&)>& seen,
                            const Watch& watch) {
   Linearisation& system = shell.system(0);
-  TRY(mass, lumped_mass(system.model(), scene.mass_t_per_mm));
+  TRY(mass, lumped_mass(system.model(), scene.mass_t_per_mm, scene.joint_masses()));
   DynamicsOptions options;
   options.step_s = scene.snap.step_s;
   options.damping_per_s = scene.snap.damping_per_s;

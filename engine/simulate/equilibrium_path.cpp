@@ -194,15 +194,15 @@ record::Limit limit_of(Outcome end) {
 }
 
 /// How a segment ended before its end.
-std::string how_it_ended(const PathSegment& segment, const Scene& scene, const At& at) {
+std::string how_it_ended(const PathSegment& segment, const At& at) {
   const Report& report = segment.report;
   const auto place = [&] {
     return at(report.t, report.events.empty() ? std::nullopt : report.events.back().error);
   };
   const bool begun = report.t == segment.from;
   if (report.end == Outcome::overbent)
-    return fmt::format("{} a rod is bent {} [limits] max_bending_strain allows, to {:.4g}", place(),
-                       begun ? "further than" : "as far as", scene.max_bending_strain);
+    return fmt::format("{} a rod is strained {} [limits] {} allows", place(),
+                       begun ? "further than" : "as far as", report.events.back().what);
   const double strain = report.certificate.largest_strain;
   if (report.end == Outcome::locked && strain < 0)
     return fmt::format(
@@ -256,7 +256,7 @@ void set_limit(EquilibriumPath& path, const At& at) {
     if (ended != record::Limit::none) {
       const bool on_its_way = segment.back && !at_limit(segment.report.end);
       path.limit = on_its_way ? record::Limit::no_equilibrium : ended;
-      path.limit_reason = how_it_ended(segment, path.simulation.scene(), at);
+      path.limit_reason = how_it_ended(segment, at);
       break;
     }
     const char* way = segment.back ? "on the way back to the flat " : "";

@@ -123,24 +123,66 @@ class Bending {
   std::vector<double> curvature_, over_length_, strain_;
 };
 
-/// The largest strain by bending, and where it is.
-void put_bending_strain(const Footprint& footprint, const RodMesh& mesh,
-                        const std::vector<double>& strain, record::Frame& frame) {
+/// Points of a rod that are no ghosts.
+std::size_t points_of(const RodMesh& mesh, std::size_t rod) {
+  return std::size_t(
+      std::ranges::count_if(mesh.rods[rod], [&](int node) { return !mesh.is_ghost(node); }));
+}
+
+/// Where a point lies, of all points of all rods in order.
+std::string place_of(const Footprint& footprint, const RodMesh& mesh, std::size_t point) {
+  std::size_t r = 0;
+  while (point >= points_of(mesh, r)) point -= points_of(mesh, r++);
+  return place_on_rod(footprint, mesh, r, point);
+}
+
+/// Of a section by how far it reaches, mm^2.
+double area_of(const FibreReach& fibres) {
+  return fibres.round ? M_PI * fibres.about_1 * fibres.about_1
+                      : 4 * fibres.about_1 * fibres.about_2;
+}
+
+/// Stress of a fibre at every point, E (|N|/EA + strain by bending), and the largest; N of the
+/// stronger edge there.
+void put_stress(const Scene& scene, const RodMesh& mesh, const Model& model,
+                const std::vector<double>& strain, record::Frame& frame) {
+  frame.stress_MPa.resize(Eigen::Index(strain.size()));
+  std::vector<double> counts;  // what is largest at the place that is told
+  Eigen::Index edge = 0, point = 0;
+  for (std::size_t r = 0; r < mesh.rods.size(); ++r) {
+    const Model::Rod& rod = model.rods[r];
+    const double area = area_of(rod.fibres),
+                 young = model.edges[std::size_t(rod.edges[rod.edges.size() / 2])].EA / area;
+    const Eigen::Index points = Eigen::Index(points_of(mesh, r));
+    for (Eigen::Index k = 0; k < points; ++k, ++point) {
+      const double before = k > 0 ? std::abs(frame.axial_force_N[edge + k - 1]) : 0,
+                   after = k + 1 < points ? std::abs(frame.axial_force_N[edge + k]) : 0;
+      const double stress = std::max(before, after) / area + young * strain[std::size_t(point)];
+      frame.stress_MPa[point] = stress;
+      counts.push_back(scene.strength_MPa.empty() ? stress : stress / scene.strength_MPa[r]);
+    }
+    edge += points - 1;
+  }
+  const auto largest = std::ranges::max_element(counts);
+  if (largest == counts.end()) return;
+  frame.largest_stress_MPa = frame.stress_MPa.maxCoeff();
+  if (!scene.strength_MPa.empty()) frame.utilisation = *largest;
+  frame.stress_at = place_of(scene.footprint, mesh, std::size_t(largest - counts.begin()));
+}
+
+/// The largest strain by bending and stress, and where they are; axial forces are known.
+void put_strains(const Scene& scene, const RodMesh& mesh, const Model& model,
+                 const std::vector<double>& strain, record::Frame& frame) {
   const auto largest = std::ranges::max_element(strain);
   if (largest == strain.end()) return;
   frame.largest_bending_strain = *largest;
-  std::size_t point = std::size_t(largest - strain.begin()), r = 0;
-  const auto points_of = [&](std::size_t rod) {
-    return std::size_t(
-        std::ranges::count_if(mesh.rods[rod], [&](int node) { return !mesh.is_ghost(node); }));
-  };
-  while (point >= points_of(r)) point -= points_of(r++);
-  frame.bending_strain_at = place_on_rod(footprint, mesh, r, point);
+  frame.bending_strain_at = place_of(scene.footprint, mesh, std::size_t(largest - strain.begin()));
+  put_stress(scene, mesh, model, strain, frame);
 }
 
 /// Forces, curvature and bending along the rods; ends that hold no direction do not bend.
-void put_rods(const Footprint& footprint, const RodMesh& mesh, const Model& model,
-              const State& state, const Assembly& at, record::Frame& frame) {
+void put_rods(const Scene& scene, const RodMesh& mesh, const Model& model, const State& state,
+              const Assembly& at, record::Frame& frame) {
   std::vector<double> force;
   Bending bending(model, state, at);
   // what closes rings comes last
@@ -169,7 +211,7 @@ void put_rods(const Footprint& footprint, const RodMesh& mesh, const Model& mode
   }
   frame.axial_force_N = Eigen::Map<Eigen::VectorXd>(force.data(), long(force.size()));
   bending.fill(frame);
-  put_bending_strain(footprint, mesh, bending.strain(), frame);
+  put_strains(scene, mesh, model, bending.strain(), frame);
 }
 
 /// What holds the supports: all of the force on a pinned node, with what turns its end; of a joint
@@ -229,8 +271,8 @@ void put_forces(const Simulation& simulation, record::Frame& frame) {
     reactions.push_back(reactions_of(shell.mesh(k), shell.model(k), at, simulation.holds()));
     energies.push_back(columns_of(at.energies));
     if (k == last)
-      put_rods(simulation.scene().footprint, shell.mesh(k), shell.model(k),
-               shell.state().levels.back(), at, frame);
+      put_rods(simulation.scene(), shell.mesh(k), shell.model(k), shell.state().levels.back(), at,
+               frame);
   }
   const bool extrapolate = shell.plan().extrapolate_forces;
   const bool pressing = energies.back()(0, long(Term::contact)) > 0;
@@ -291,6 +333,7 @@ record::Layout parts_of(const Scene& scene, const RodMesh& mesh) {
   const auto other = [&](double diameter) { return diameter != scene.rod_diameter_mm; };
   if (std::ranges::any_of(scene.drawn_diameters_mm, other))
     layout.diameters_mm = scene.drawn_diameters_mm;
+  layout.strength_MPa = scene.strength_MPa;
   layout.length_scale_mm = scene.length_scale_mm;
   for (const std::vector<int>& nodes : mesh.rods) {
     layout.rods.emplace_back();
@@ -390,14 +433,23 @@ void complete_shape(const Simulation& simulation, const record::Contacts& contac
   fill_shape(scene, mesh, Eigen::Matrix3Xd(frame.nodes), Eigen::VectorXd(frame.cell_K), frame);
   put_contacts(contacts, frame);
   put_reactions(std::move(frame.reactions_N), frame);
+  const Model& model = shell.model(shell.levels() - 1);
   std::vector<double> strain;
   for (std::size_t r = 0; r < mesh.rods.size(); ++r)
     for (const int node : mesh.rods[r])
       if (!mesh.is_ghost(node))
-        strain.push_back(shell.model(shell.levels() - 1)
-                             .rods[r]
-                             .fibres.strain(frame.curvature_per_mm[Eigen::Index(strain.size())]));
-  put_bending_strain(scene.footprint, mesh, strain, frame);
+        strain.push_back(
+            model.rods[r].fibres.strain(frame.curvature_per_mm[Eigen::Index(strain.size())]));
+  put_strains(scene, mesh, model, strain, frame);
+}
+
+double utilisation_of(const Simulation& simulation) {
+  const NestedShell& shell = simulation.shell();
+  const int last = shell.levels() - 1;
+  record::Frame frame;
+  put_rods(simulation.scene(), shell.finest(), shell.model(last), shell.state().levels.back(),
+           shell.forces(last), frame);
+  return frame.utilisation;
 }
 
 record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& model,
@@ -408,7 +460,7 @@ record::Frame frame_of(const Scene& scene, const RodMesh& mesh, const Model& mod
              cell_curvature(scene.footprint, joint_tangents(scene.footprint, mesh, nodes)), frame);
   frame.energies = forces.energies;
   put_contacts(record::ContactSearch(parts_of(scene, mesh)).in(frame.nodes), frame);
-  put_rods(scene.footprint, mesh, model, state, forces, frame);
+  put_rods(scene, mesh, model, state, forces, frame);
   put_reactions(reactions_of(mesh, model, forces, {}), frame);
   return frame;
 }

@@ -40,6 +40,10 @@ record::Frame frame_of(const Simulation& simulation);
 record::Frame leading_frame(const Simulation& simulation, const State& state,
                             const Assembly& forces, const MeshTransfer& to_finest);
 
+/// The largest stress of a fibre over its rod's strength, on the finest mesh; NaN where that is not
+/// known.
+double utilisation_of(const Simulation& simulation);
+
 /// Whether all that bends is strained as it is curved (FibreReach).
 bool strains_by_curvature(const Model& model);
 

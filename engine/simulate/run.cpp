@@ -345,10 +345,13 @@ std::string not_in_the_flat(const EquilibriumPath& path) {
   return text + fmt::format(", at a radius of {:.6g} mm or less", scene.radius_at(nearest));
 }
 
-/// Runs a scene on a rung that solves, and says what was followed.
-Result<void> follow(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
-                    bool stills, LastFrame& sink, Watch& watch, record::Summary& summary) {
+}  // namespace
+
+Result<EquilibriumPath> follow(const preset::Preset& preset,
+                               const std::shared_ptr<const Scene>& scene, bool stills,
+                               record::Sink& frames, Watch& watch, record::Summary& summary) {
   const double begin = seconds_now();
+  LastFrame sink(frames, watch);
   std::vector<std::string> told;
   auto path = path_for(preset, scene, stills, told, sink, watch);
   if (watch.cancelled()) return stopped();
@@ -361,10 +364,8 @@ Result<void> follow(const preset::Preset& preset, const std::shared_ptr<const Sc
   put_path(*path, summary);
   summary.steps = std::move(told);
   summary.seconds_simulation = seconds_now() - begin - summary.seconds_setup;
-  return {};
+  return path;
 }
-
-}  // namespace
 
 Result<record::Summary> run(const preset::Preset& preset, bool stills, record::Sink& sink,
                             Watch& watch) {
@@ -374,12 +375,12 @@ Result<record::Summary> run(const preset::Preset& preset, bool stills, record::S
 
 Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
                             bool stills, record::Sink& sink, Watch& watch) {
-  LastFrame seen(sink, watch);
   record::Summary summary;
   if (scene->rung != RodModel::net) {
-    TRY_DO(follow(preset, scene, stills, seen, watch, summary));
+    TRY_DO(follow(preset, scene, stills, sink, watch, summary));
     return summary;
   }
+  LastFrame seen(sink, watch);
   const double begin = seconds_now();
   TRY(mesh, write_net_frames(*scene, samples_of(preset, stills), seen, watch));
   summary = summary_of(preset, *scene, seen);

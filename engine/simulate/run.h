@@ -11,6 +11,7 @@
 #include "engine/record/summary.h"
 #include "engine/record/trajectory.h"
 #include "engine/scene/scene.h"
+#include "engine/simulate/equilibrium_path.h"
 
 namespace gridshell::simulate {
 
@@ -49,6 +50,12 @@ Result<record::Summary> run(const preset::Preset& preset, bool stills, record::S
 /// The same on a scene of that preset which was changed: other meshes, other load steps.
 Result<record::Summary> run(const preset::Preset& preset, const std::shared_ptr<const Scene>& scene,
                             bool stills, record::Sink& sink, Watch& watch);
+
+/// The same of a scene that is solved, and the path itself: its simulation stands in the state of
+/// the last frame.
+Result<EquilibriumPath> follow(const preset::Preset& preset,
+                               const std::shared_ptr<const Scene>& scene, bool stills,
+                               record::Sink& frames, Watch& watch, record::Summary& summary);
 
 /// The same with all frames kept in memory.
 Result<ExperimentResult> run(const preset::Preset& preset, bool stills, Watch& watch);

@@ -1,5 +1,7 @@
 #include "engine/simulate/simulation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -112,9 +114,19 @@ double Simulation::bending_strain() const {
   return strain.size() > 0 ? strain.maxCoeff() : 0;
 }
 
+std::pair<double, std::string> Simulation::strained() const {
+  const double bent =
+      scene_->max_bending_strain > 0 ? bending_strain() / scene_->max_bending_strain : 0;
+  const double used =
+      scene_->max_utilisation > 0 ? simulate::utilisation_of(*this) / scene_->max_utilisation : 0;
+  if (bent >= used)
+    return {bent, fmt::format("max_bending_strain = {:.4g}", scene_->max_bending_strain)};
+  return {used, fmt::format("max_utilisation = {:.4g}", scene_->max_utilisation)};
+}
+
 Simulation::Limits Simulation::limits() const {
   constexpr double none = std::numeric_limits<double>::infinity();
-  Limits limits{scene_->max_bending_strain > 0 ? scene_->max_bending_strain : none, {}};
+  Limits limits{scene_->limits_strength() ? 1 : none, {}};
   std::ranges::fill(limits.gap_mm, scene_->stops_at_contact ? 0 : -none);
   return limits;
 }
@@ -122,8 +134,7 @@ Simulation::Limits Simulation::limits() const {
 /// Of a state that is beyond the scene's limits, its own.
 Simulation::Limits Simulation::limits_here() const {
   Limits here = limits();
-  if (scene_->max_bending_strain > 0)
-    here.bending_strain = std::max(here.bending_strain, bending_strain());
+  if (scene_->limits_strength()) here.strained = std::max(here.strained, strained().first);
   if (scene_->stops_at_contact)
     for (const record::Contact& place : contacts().places) {
       double& gap = here.gap_mm[std::size_t(place.kind)];
@@ -136,7 +147,11 @@ std::optional<Event> Simulation::beyond(const Limits& limits) const {
   Event met{Event::Kind::locked, shell_->state().t, {}, {}};
   if (locked()) return met;
   met.kind = Event::Kind::overbent;
-  if (scene_->max_bending_strain > 0 && bending_strain() > limits.bending_strain) return met;
+  if (scene_->limits_strength()) {
+    auto [share, by] = strained();
+    met.what = std::move(by);
+    if (share > limits.strained) return met;
+  }
   if (!scene_->stops_at_contact) return std::nullopt;
   met.kind = Event::Kind::contact;
   for (const record::Contact& place : contacts().places)

@@ -36,7 +36,8 @@ struct Event {
   std::optional<double> error;  ///< of t, where two meshes say it
   std::optional<double> to;     ///< where the next rest stands, if one was found
   bool leap = true;             ///< whether that lies apart; else on a branch that leaves there
-  std::string what = {};        ///< of a contact: of which parts, and where in space
+  /// of a contact: of which parts, and where in space; of rods strained too far: by which limit
+  std::string what = {};
 
   /// Whether the path ends there in the last state before.
   bool is_limit() const {
@@ -240,10 +241,13 @@ class Simulation {
   double load_step() const;
   Result<Outcome> replace_meshes(const LevelPlan& plan, bool nearby, const Watch& watch);
   double push_stiffness() const;
-  /// How far a state may go: the largest strain by bending, and the least gap of each kind.
+  /// How far a state may go: what its rods bear over what they may, and the least gap of each kind.
   struct Limits {
-    double bending_strain, gap_mm[record::contact_kinds];
+    double strained, gap_mm[record::contact_kinds];
   };
+  /// The larger of bending strain and utilisation over its limit, and which: "max_utilisation =
+  /// 0.8".
+  std::pair<double, std::string> strained() const;
   Limits limits() const;
   Limits limits_here() const;
   std::optional<Event> beyond(const Limits& limits) const;

@@ -184,7 +184,7 @@ Outcome Simulation::Walk::branch_ended(Outcome how, double next, const NestedSta
   // what the finer meshes lost and the leader did not is not located yet
   const bool ahead = last == next && kind == Event::Kind::stability_lost;
   // nor is a limit that was asked for
-  const bool asked = scene_.stops_at_contact || scene_.max_bending_strain > 0;
+  const bool asked = scene_.stops_at_contact || scene_.limits_strength();
   if (ahead || asked) {
     if (ahead || shell_.advance(last, watch_).end != Outcome::reached)
       bisect(next, good, [] { return true; });

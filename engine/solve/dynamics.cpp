@@ -11,14 +11,16 @@ double round_mass_t_per_mm(double density_kg_m3, double diameter_mm) {
   return 1e-12 * density_kg_m3 * M_PI * diameter_mm * diameter_mm / 4;
 }
 
-Result<Eigen::Matrix3Xd> lumped_mass(const Model& model, const std::vector<double>& mass_t_per_mm) {
+Result<Eigen::Matrix3Xd> lumped_mass(const Model& model, const std::vector<double>& mass_t_per_mm,
+                                     const Eigen::RowVectorXd& on_nodes) {
   for (double mass : mass_t_per_mm)
     if (!(mass > 0))
       return fail(Fault::bad_input,
-                  fmt::format("{} t/mm: motion in time needs a mass, above 0; give the rods' "
-                              "density and diameter",
+                  fmt::format("{} t/mm: motion in time needs a mass of all rods, [rod] "
+                              "density_kg_m3 must be above 0",
                               mass));
   Eigen::Matrix3Xd mass = Eigen::Matrix3Xd::Zero(3, model.columns());
+  mass.leftCols(on_nodes.size()).rowwise() += on_nodes;
   for (std::size_t r = 0; r < model.rods.size(); ++r) {
     const double per_mm = mass_t_per_mm.size() == 1 ? mass_t_per_mm[0] : mass_t_per_mm[r];
     for (int edge : model.rods[r].edges) {

@@ -14,9 +14,10 @@ namespace gridshell {
 
 /// Units: mm, N, s; a mass in tonnes (1 t = 1000 kg) makes N = t mm/s^2.
 /// Lumped masses, one an unknown: a node has half the mass of each edge that meets there, an angle
-/// the edge's inertia about its axis. `mass_t_per_mm`: one a rod, or one for all. Errors
-/// (bad_input): a rod without mass.
-Result<Eigen::Matrix3Xd> lumped_mass(const Model& model, const std::vector<double>& mass_t_per_mm);
+/// the edge's inertia about its axis. `mass_t_per_mm`: one a rod, or one for all; `on_nodes`: what
+/// the first nodes carry beside that. Errors (bad_input): a rod without mass.
+Result<Eigen::Matrix3Xd> lumped_mass(const Model& model, const std::vector<double>& mass_t_per_mm,
+                                     const Eigen::RowVectorXd& on_nodes = {});
 
 /// Mass of a round rod a length, t/mm: density * pi/4 D^2.
 double round_mass_t_per_mm(double density_kg_m3, double diameter_mm);

@@ -63,6 +63,8 @@ class Linearisation {
   /// two hinges, does not count as unstable: every matrix has so much more on its diagonal as
   /// states that are corrected once may take from it, of the softest rod's stiffness 5e-5.
   void bear_neutral_directions();
+  /// So much, N/mm.
+  double neutral_shift() const { return neutral_shift_; }
 
   /// From the next at() on these are held: corrections leave them as they are, the inertia is that
   /// of the constrained system.

@@ -42,7 +42,10 @@ const Quantity& quantity_of(ColourBy by) {
       {ColourBy::displacement,
        {"|*u*| / *δ*_{0}", "displacement over depth", false, false, 0, true}},
       {ColourBy::energy, {"*e*_{b} (mJ/m)", "bending energy over length", false, true, 1e-6, true}},
-      {ColourBy::axial_force, {"*N* (N)", "axial force", false, true, 1e-6}}};
+      {ColourBy::axial_force, {"*N* (N)", "axial force", false, true, 1e-6}},
+      {ColourBy::stress, {"*σ* (MPa)", "largest stress of a fibre", false, true, 1e-3, true}},
+      {ColourBy::utilisation,
+       {"*σ* / strength", "utilisation of the rods", false, true, 1e-3, true}}};
   return quantities.at(by);
 }
 
@@ -69,6 +72,9 @@ Eigen::VectorXd coloured_values(ColourBy by, const record::Layout& layout,
       return record::bending_of_nodes_mJ_per_m(layout, frame);
     case ColourBy::axial_force:
       return record::axial_force_of_nodes_N(layout, frame);
+    case ColourBy::stress:
+    case ColourBy::utilisation:
+      return record::stress_of_nodes_MPa(layout, frame, by == ColourBy::utilisation);
   }
   return {};
 }
@@ -80,7 +86,11 @@ tl::unexpected<Error> missing_values_error(ColourBy by) {
   return fail(Fault::bad_input,
               fmt::format("{}: no frame of the run knows the rods' {}, as runs of an older version "
                           "and of a net do not; run it again",
-                          asked, by == ColourBy::axial_force ? "axial forces" : "bending energy"));
+                          asked,
+                          by == ColourBy::axial_force ? "axial forces"
+                          : by == ColourBy::energy    ? "bending energy"
+                          : by == ColourBy::stress    ? "stress"
+                                                      : "strength"));
 }
 
 namespace {

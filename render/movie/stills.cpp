@@ -83,11 +83,13 @@ std::string unpushed_caption(const record::Frame& frame) {
 Result<std::vector<std::filesystem::path>> write_stills(
     const record::Trajectory& run, const MovieStyle& movie_style,
     const std::optional<ColourBar>& bar, Renderer& renderer, const std::filesystem::path& stem,
-    Watch& watch, const std::vector<std::string>& captions) {
+    Watch& watch, const std::vector<std::string>& captions, const record::Frame* origin) {
   const MovieStyle style = still_style(movie_style);
   TRY_DO(check_showable(run, style));
   if (stem.has_parent_path()) TRY_DO(make_folder(stem.parent_path()));
-  const Stage stage(run.layout, summarise_run(run), style, bar);
+  RunSummary survey = summarise_run(run);
+  if (origin) survey.first = *origin;
+  const Stage stage(run.layout, std::move(survey), style, bar);
   PanelFigure figure = empty_figure(style, std::min(stage.frames(), largest_columns));
   figure.scale_bar_mm = style.scale_bar_mm;
   figure.pixels_per_mm = stage.pixels_per_mm();

@@ -34,10 +34,11 @@ std::string unpushed_caption(const record::Frame& frame);
 /// side by side, lettered, with one scale bar and one colour bar, as `<stem>.png`. Returns the
 /// files written. Progress and errors as write_movie.
 /// `bar` is a colour bar that several cases share; `captions` (marked text, one a frame) stand in
-/// the place of frame_state_caption().
+/// the place of frame_state_caption(); `origin`: what displacements are measured from, by default
+/// the first frame.
 Result<std::vector<std::filesystem::path>> write_stills(
     const record::Trajectory& run, const MovieStyle& style, const std::optional<ColourBar>& bar,
     Renderer& renderer, const std::filesystem::path& stem, Watch& watch,
-    const std::vector<std::string>& captions = {});
+    const std::vector<std::string>& captions = {}, const record::Frame* origin = nullptr);
 
 }  // namespace gridshell::render

@@ -317,3 +317,19 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
                 "summary.json"}));
   bench.good("chart stability small.toml --limit 0.01 --quiet");
 }
+
+TEST_CASE("modes writes a table, shapes and a picture a mode") {
+  const Bench bench(small + "[rod]\ndensity_kg_m3 = 6450.0\n");
+  const auto said = bench.good("modes small.toml --count 3");
+  CHECK_THAT(said.out, Catch::Contains("Hz"));
+  const auto folder = bench.at / "out/small_modes";
+  CHECK(names_in(folder) == listed({"modes.csv", "preset.toml", "shapes.csv", "small.png",
+                                    "small_1.png", "small_2.png", "small_3.png", "summary.json"}));
+  CHECK_THAT(text_of(folder / "modes.csv"),
+             Catch::StartsWith("mode,frequency_Hz,error_Hz,residual\n1,"));
+  CHECK_THAT(text_of(folder / "shapes.csv"), Catch::StartsWith("mode,i,j,dx,dy,dz\n1,"));
+  bench.good("modes small.toml --count 1 --movies");
+  CHECK(names_in(folder / "mode_01/frames").size() == 24);
+  check_refused("modes small.toml --set rod.density_kg_m3=0", bench.at,
+                Catch::Contains("[rod] density_kg_m3"));
+}

@@ -113,3 +113,15 @@ TEST_CASE("a preset is written without the keys that count for nothing, and read
   CHECK(to_toml(*again) == written);
   CHECK(again->cases[1].preset.net.waist == 0.4);
 }
+
+TEST_CASE("utilisation needs a strength, which is said once") {
+  CHECK_THAT(faults_of("[limits]\nmax_utilisation = 0.8\n"),
+             Catch::Contains("[rod] strength_MPa or yield_strain must be above 0"));
+  CHECK_THAT(faults_of("[movie]\ncolour_by = \"utilisation\"\n"),
+             Catch::Contains("[rod] strength_MPa or yield_strain above 0"));
+  CHECK_THAT(faults_of("[rod]\nstrength_MPa = 500.0\nyield_strain = 0.01\n"),
+             Catch::Contains("one of both must be 0"));
+  CHECK_THAT(faults_of("[rod]\nstrength_MPa = 500.0\n[rod_v]\ndiffers = true\n[limits]\n"
+                       "max_utilisation = 0.8\n"),
+             Catch::Contains("those of [rod_v] too"));
+}

@@ -17,6 +17,7 @@ inline Trajectory sample_trajectory() {
   layout.rod_diameter_mm = 0.254;
   layout.joint_diameter_mm = 1.0 / 3, layout.joint_height_mm = 5, layout.table_mm = -0.1;
   layout.diameters_mm = {0.254, 0.3, 0.2, 1.0 / 3};
+  layout.strength_MPa = {500, 500, 1.0 / 3, 500};
   layout.length_scale_mm = 126;
   // four crossings of two rods each way, edge points 4 ... 11
   layout.rods = {{4, 0, 1, 5}, {6, 3, 2, 7}, {8, 0, 3, 9}, {10, 1, 2, 11}};
@@ -53,6 +54,8 @@ inline Trajectory sample_trajectory() {
     frame.error_estimate_mm = k == 1 ? unknown : 1e-3;
     frame.force_error_N = k == 1 ? unknown : 1e-5 * k;
     frame.bending_strain_at = k == 2 ? "u0, 45.00 mm from its begin, at joint [0, 1]" : "";
+    frame.utilisation = k == 1 ? unknown : 0.7 * k;
+    frame.stress_at = frame.bending_strain_at;
     frame.newton_iterations = 7 * k;
     frame.event = k == 2 ? "snap, \"fast\" \xC3\xA9" : "";
     frame.actuation = k / 7.0;
@@ -66,6 +69,7 @@ inline Trajectory sample_trajectory() {
     frame->axial_force_N = Eigen::VectorXd::Random(12);
     frame->curvature_per_mm = Eigen::VectorXd::Random(16);
     frame->bending_mJ_per_m = Eigen::VectorXd::Random(16);
+    frame->stress_MPa = Eigen::VectorXd::Random(16);
     frame->reactions_N = Eigen::Matrix3Xd::Random(3, 12);
   }
   run.origin = {"Sample \xC3\xA9", "s1_actuation", "gridshell 0.0"};

@@ -65,6 +65,9 @@ TEST_CASE("summary.json has the keys of a run in order, and null for what is unk
                                          "energy_error_mJ",
                                          "largest_bending_strain",
                                          "bending_strain_at",
+                                         "largest_stress_MPa",
+                                         "utilisation",
+                                         "stress_at",
                                          "energy_bend_mJ",
                                          "energy_stretch_mJ",
                                          "energy_twist_mJ",
@@ -153,6 +156,9 @@ TEST_CASE("a summary of version 0.1 is read, what it did not say is unknown") {
                           "energy_error_mJ",
                           "largest_bending_strain",
                           "bending_strain_at",
+                          "largest_stress_MPa",
+                          "utilisation",
+                          "stress_at",
                           "lowest_mm",
                           "contacts",
                           "rod_gap_mm",
@@ -184,8 +190,8 @@ TEST_CASE("CSV files have the columns that others read") {
         "residual_N,negative_pivots,error_estimate_mm,"
         "newton_iterations,event,reach_above_tenth,reach_above_half,lowest_latitude_deg,time_s,"
         "stiffness_N_per_mm,stiffness_error_N_per_mm,push_error_N,largest_force_N,force_error_N,"
-        "energy_error_mJ,largest_bending_strain,bending_strain_at,lowest_mm,contacts,rod_gap_mm,"
-        "joint_gap_mm");
+        "energy_error_mJ,largest_bending_strain,bending_strain_at,largest_stress_MPa,"
+        "utilisation,stress_at,lowest_mm,contacts,rod_gap_mm,joint_gap_mm");
 }
 
 TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what is unknown") {
@@ -212,10 +218,11 @@ TEST_CASE("CSV lines hold the last frame, shortest numbers, and nothing for what
         "-1,-1,0,0,1,2,0.5,0.02\n");
   const std::string frames = frames_csv(run);
   CHECK(frames.find("\n1,0.3333333333333333,125.9,,,1e-300,0.30000000000000004,-0,0,0,0,0,0,"
-                    "0.14285714285714285,3.141592653589793,5e-324,1,,7,,,,,,,,,,,,,,-0.5,1,,"
+                    "0.14285714285714285,3.141592653589793,5e-324,1,,7,,,,,,,,,,,,,,,,,-0.5,1,,"
                     "0.3333333333333333\n") != std::string::npos);
   CHECK(
       frames.ends_with(",0.001,14,\"snap, \"\"fast\"\" \xC3\xA9\",,,,,,,,,2e-05,,,"
+                       "\"u0, 45.00 mm from its begin, at joint [0, 1]\",,1.4,"
                        "\"u0, 45.00 mm from its begin, at joint [0, 1]\",-1,2,-0.1,"
                        "0.3333333333333333\n"));
 }

@@ -86,6 +86,7 @@ TEST_CASE("a VTP has as many numbers as it says") {
   CHECK(numbers("displacement_mm") == 3 * points);
   CHECK(numbers("curvature_per_mm") == points);
   CHECK(numbers("axial_force_N") == points);
+  CHECK(numbers("stress_MPa") == points);
   CHECK(numbers("reaction_N") == 3 * points);
   CHECK(numbers("K_rad") == run.layout.rods.size() + run.layout.cells.size());
   CHECK(numbers("Points") == 3 * points);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "engine/record/frame_values.h"
 #include "tests/engine/simulate/run.h"
 
 using namespace gridshell;
@@ -305,6 +306,75 @@ TEST_CASE("bending strain ends a path where it is said to") {
   CHECK(last.progress == Approx(progress).margin(1e-3));
   CHECK(last.largest_bending_strain <= limit.strain);
   CHECK(last.largest_bending_strain > 0.99 * limit.strain);
+}
+
+TEST_CASE("stress of a fibre: bending and axial force of an elastica, over the strength") {
+  const Elastica exact = elastica(0.24165275);
+  preset::Preset p = crossed_rods(exact.shortening);
+  p.accuracy.tolerance = 1e-5;
+  const auto told = run(p);
+  // in the middle, where the rod lies level, all of the thrust is along it
+  const double stress = 83e3 * exact.strain + exact.force / (M_PI * radius * radius);
+  CHECK(last_frame(told).largest_stress_MPa == Approx(stress).epsilon(1e-3));
+  CHECK(last_frame(told).stress_at.find("at joint [") != std::string::npos);
+  CHECK(std::isnan(told.summary.utilisation));
+  CHECK(told.trajectory.frames.front().largest_stress_MPa == 0);
+  const record::Layout& layout = told.trajectory.layout;
+  const Eigen::VectorXd of_nodes = record::stress_of_nodes_MPa(layout, last_frame(told));
+  CHECK(of_nodes.maxCoeff() == last_frame(told).largest_stress_MPa);
+  CHECK(of_nodes[layout.joints[0].node] == of_nodes.maxCoeff());
+  CHECK(record::stress_of_nodes_MPa(layout, last_frame(told), true).size() == 0);
+  p.rod.strength_MPa = 4 * stress;
+  const auto by_stress = run(p);
+  CHECK(by_stress.summary.utilisation == Approx(0.25).epsilon(1e-3));
+  p.rod.strength_MPa = 0;
+  p.rod.yield_strain = 4 * stress / 83e3;
+  const auto by_strain = run(p);
+  CHECK(by_strain.summary.utilisation == Approx(by_stress.summary.utilisation).epsilon(1e-12));
+  CHECK(record::stress_of_nodes_MPa(by_strain.trajectory.layout, last_frame(by_strain), true)
+            .maxCoeff() == Approx(by_strain.summary.utilisation));
+}
+
+TEST_CASE("stress of a fibre: axial force over area, and E r times the curvature") {
+  const auto outcome = run(four_rods());
+  const record::Frame& frame = last_frame(outcome);
+  const double area = M_PI * 0.127 * 0.127;
+  REQUIRE(frame.stress_MPa.size() == frame.curvature_per_mm.size());
+  Eigen::Index point = 0, edge = 0;
+  for (const auto& rod : outcome.trajectory.layout.rods) {
+    const auto last = Eigen::Index(rod.size()) - 1;
+    for (Eigen::Index k = 0; k <= last; ++k, ++point) {
+      const double before = k > 0 ? std::abs(frame.axial_force_N[edge + k - 1]) : 0,
+                   after = k < last ? std::abs(frame.axial_force_N[edge + k]) : 0;
+      CHECK(frame.stress_MPa[point] ==
+            Approx(std::max(before, after) / area + 83e3 * 0.127 * frame.curvature_per_mm[point]));
+    }
+    edge += last;
+  }
+  CHECK(frame.largest_stress_MPa == frame.stress_MPa.maxCoeff());
+}
+
+TEST_CASE("utilisation ends a path, and of two limits the one that is met first is told") {
+  const Elastica exact = elastica(0.46400983), limit = elastica(0.24165275);
+  preset::Preset p = crossed_rods(exact.shortening);
+  p.movie.frames = 4;
+  p.accuracy.tolerance = 1e-4;
+  p.rod.yield_strain = 2 * limit.strain;
+  p.limits.max_utilisation = 0.5;
+  p.limits.max_bending_strain = 1.2 * limit.strain;
+  const auto outcome = run(p);
+  CHECK(outcome.summary.limit == record::Limit::strength);
+  CHECK(outcome.summary.limit_reason.find("[limits] max_utilisation = 0.5 allows") !=
+        std::string::npos);
+  double progress = 0;
+  REQUIRE(std::sscanf(outcome.summary.limit_reason.c_str(), "at progress %lf", &progress) == 1);
+  CHECK(progress == Approx(limit.shortening / exact.shortening).epsilon(0.01));
+  CHECK(last_frame(outcome).utilisation <= 0.5);
+  CHECK(last_frame(outcome).utilisation > 0.495);
+  p.limits.max_bending_strain = 0.8 * limit.strain;
+  const auto bent = run(p);
+  CHECK(bent.summary.limit_reason.find("[limits] max_bending_strain = ") != std::string::npos);
+  CHECK(last_frame(bent).utilisation == Approx(0.4).epsilon(0.02));
 }
 
 TEST_CASE("a shell bent further than is allowed is not pushed") {

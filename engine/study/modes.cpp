@@ -1,0 +1,153 @@
+#include "engine/study/modes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/try.h"
+#include "engine/scene/scene.h"
+#include "engine/simulate/run.h"
+#include "engine/solve/dynamics.h"
+#include "engine/solve/eigenmodes.h"
+
+namespace gridshell::study {
+namespace {
+
+constexpr int more_modes = 4;  // of each mesh: the order may change from mesh to mesh
+
+/// The modes of one mesh; shapes are those of the finest mesh's nodes.
+struct MeshModes {
+  Eigenmodes found;
+  std::vector<Eigen::Matrix3Xd> shapes;
+};
+
+/// Of lambda = (2 pi f)^2, which goes through zero as a state loses its stability.
+record::ModeRow row_of(const CertifiedVectors& lambda, double residual) {
+  const double value = lambda.value(0, 0), root = std::sqrt(std::abs(value));
+  return {0, std::copysign(root, value) / (2 * M_PI),
+          (std::sqrt(std::abs(value) + lambda.error) - root) / (2 * M_PI), residual};
+}
+
+Result<MeshModes> modes_on(Simulation& simulation, int level, int count, const Watch& watch) {
+  NestedShell& shell = simulation.shell();
+  const Scene& scene = simulation.scene();
+  const Model& model = shell.model(level);
+  TRY(mass, lumped_mass(model, scene.mass_t_per_mm, scene.joint_masses()));
+  Linearisation& system = shell.system(level);
+  const Inertia inertia = system.at(shell.state().levels[std::size_t(level)], false);
+  if (!inertia.usable)
+    return fail(Fault::no_equilibrium, "the state's stiffness is singular: it has no frequencies");
+  TRY(found, softest_modes(system, *mass, count, inertia.negative_pivots, watch));
+  MeshModes modes{std::move(*found), {}};
+  const MeshTransfer to_finest(shell.mesh(level), shell.finest());
+  for (const Eigen::Matrix3Xd& columns : modes.found.shapes) {
+    Eigen::Matrix3Xd nodes = nodes_of(shell.mesh(level), model, columns);
+    if (level + 1 < shell.levels()) to_finest.nodes(Eigen::Matrix3Xd(nodes), nodes);
+    modes.shapes.push_back(nodes.leftCols(shell.finest().rod_nodes()));
+  }
+  return modes;
+}
+
+/// |cos| of the angle between two shapes.
+double likeness(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
+  return std::abs(product(a, b)) / (a.norm() * b.norm());
+}
+
+/// Of each mode of `fine`, which of `coarse` it is: the one most alike of those not taken.
+std::vector<std::size_t> partners(const MeshModes& fine, const MeshModes& coarse) {
+  struct Pair {
+    double alike;
+    std::size_t fine, coarse;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t a = 0; a < fine.shapes.size(); ++a)
+    for (std::size_t b = 0; b < coarse.shapes.size(); ++b)
+      pairs.push_back({likeness(fine.shapes[a], coarse.shapes[b]), a, b});
+  std::ranges::stable_sort(pairs, std::ranges::greater{}, &Pair::alike);
+  constexpr auto none = std::size_t(-1);
+  std::vector<std::size_t> partner(fine.shapes.size(), none);
+  std::vector<char> taken(coarse.shapes.size(), 0);
+  for (const Pair& pair : pairs)
+    if (partner[pair.fine] == none && !taken[pair.coarse]) {
+      partner[pair.fine] = pair.coarse;
+      taken[pair.coarse] = 1;
+    }
+  return partner;
+}
+
+/// Lambda of each of the finest mesh's modes on every mesh, coarse to fine, as certify_vectors
+/// takes them.
+std::vector<std::vector<Eigen::Matrix3Xd>> lambdas_of(const std::vector<MeshModes>& meshes) {
+  std::vector<std::vector<Eigen::Matrix3Xd>> of_mode(meshes.back().shapes.size());
+  for (const MeshModes& mesh : meshes) {
+    const auto partner = partners(meshes.back(), mesh);
+    for (std::size_t k = 0; k < of_mode.size(); ++k)
+      // a mesh of few unknowns may lack it
+      if (partner[k] < mesh.shapes.size())
+        of_mode[k].emplace_back(mesh.found.values[Eigen::Index(partner[k])] *
+                                Eigen::Vector3d::UnitX());
+  }
+  return of_mode;
+}
+
+/// The last frame alone.
+class LastAlone final : public record::Sink {
+ public:
+  Result<void> begin(record::Layout layout) override {
+    state = {std::move(layout), {}};
+    return {};
+  }
+  Result<void> take(record::Frame frame) override {
+    if (state.frames.empty() || frame.index >= state.frames.back().index)
+      state.frames = {std::move(frame)};
+    return {};
+  }
+  record::Trajectory state;
+};
+
+}  // namespace
+
+Result<Vibrations> vibrations_of(const preset::Preset& preset, int count, Watch& watch) {
+  TRY(scene, shared_scene_of(preset));
+  if ((*scene)->rung == RodModel::net)
+    return fail(Fault::bad_input,
+                "a net that nothing is solved for does not vibrate: [accuracy] model must be "
+                "another, or tolerance below 0.05");
+  if (std::ranges::any_of((*scene)->mass_t_per_mm, [](double mass) { return !(mass > 0); }))
+    return fail(Fault::bad_input,
+                "frequencies need a mass: [rod] density_kg_m3 must be above 0 (6450 for Nitinol, "
+                "7850 for steel), that of [rod_v] too where these differ");
+  // the path does not hang on what samples it
+  preset::Preset once = preset;
+  once.movie.frames = 1;
+  LastAlone sink;
+  Vibrations found;
+  TRY(path, simulate::follow(once, *scene, false, sink, watch, found.summary));
+  found.state = std::move(sink.state);
+  Simulation& simulation = path->simulation;
+  NestedShell& shell = simulation.shell();
+  shell.apply_loads();
+  std::vector<MeshModes> meshes;
+  for (int level = shell.first_of_last_three(); level < shell.levels(); ++level) {
+    TRY(modes, modes_on(simulation, level, count + more_modes, watch));
+    meshes.push_back(std::move(*modes));
+  }
+  const auto lambdas = lambdas_of(meshes);
+  const bool pressing = shell.energies(shell.levels() - 1)[Term::contact] > 0;
+  std::vector<std::pair<record::ModeRow, Eigen::Matrix3Xd>> modes;
+  for (std::size_t k = 0; k < lambdas.size(); ++k)
+    modes.emplace_back(
+        row_of(certify_vectors(lambdas[k], shell.plan().extrapolate_forces, pressing),
+               meshes.back().found.residuals[k]),
+        meshes.back().shapes[k]);
+  // what is extrapolated may stand in another order
+  std::ranges::stable_sort(modes, {}, [](const auto& mode) { return mode.first.frequency_Hz; });
+  modes.resize(std::min(modes.size(), std::size_t(count)));
+  for (auto& [row, shape] : modes) {
+    row.mode = int(found.modes.size()) + 1;
+    found.modes.push_back(row);
+    found.shapes.push_back(shape / max_column_norm(shape));
+  }
+  return found;
+}
+
+}  // namespace gridshell::study

@@ -1,0 +1,32 @@
+// Natural vibrations of a formed, loaded shell about the state that its experiment ends in.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/core/watch.h"
+#include "engine/preset/preset.h"
+#include "engine/record/study_tables.h"
+#include "engine/record/summary.h"
+#include "engine/record/trajectory.h"
+
+namespace gridshell::study {
+
+/// Frequencies and shapes, and the state that they are of.
+struct Vibrations {
+  std::vector<record::ModeRow> modes;
+  /// one a mode: how every node of the layout moves, the one that moves furthest by 1
+  std::vector<Eigen::Matrix3Xd> shapes;
+  record::Trajectory state;  ///< one frame
+  record::Summary summary;
+};
+
+/// Runs a preset and finds the `count` lowest modes of K v = (2 pi f)^2 M v about its last
+/// certified state, joints that are pushed held: K the energy's Hessian, loads and axial forces in
+/// it, M the masses of rods, spins and joints, lumped on each mesh. Frequencies of the last meshes,
+/// paired by their shapes, are extrapolated and estimated as forces are. Errors: bad_input, of rods
+/// without density and of what nothing is solved for; no_equilibrium; cancelled.
+Result<Vibrations> vibrations_of(const preset::Preset& preset, int count, Watch& watch);
+
+}  // namespace gridshell::study
