@@ -38,7 +38,7 @@ fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix;
 /// Of one assemblage: its blocks apart, their footprints, and how they meet.
 Result<void> draw_block_pictures(const record::Trajectory& run, const render::MovieStyle& style,
                                  render::Renderer& renderer, const fs::path& stem, Watch& watch) {
-  TRY_DO(save_panels(render::draw_blocks(run, style, renderer, watch),
+  TRY_DO(save_panels(render::draw_blocks({{&run, ""}}, style, renderer, watch),
                      with_suffix(stem, "_blocks.png")));
   TRY_DO(render::write_block_footprints(with_suffix(stem, "_footprint"), run, style.title,
                                         style.print));

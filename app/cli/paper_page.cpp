@@ -35,6 +35,7 @@ class PageMaker {
       style_.look.floor = false;
     for (const Run* one : records) {
       const bool push = one->preset.indentation.wanted();
+      if (push && push_ == nullptr) push_ = one;
       (push ? pushes_ : shells_)
           .push_back({&one->trajectory, render::plain(one->preset.title), scan_of(one->preset)});
       (push ? named_pushes_ : named_shells_)
@@ -169,9 +170,13 @@ class PageMaker {
                                      renderer_, watch_));
     page.add_figure("A", above, std::move(*over));
     page.add_plot("B", {2, 48, 174, 44}, render::curvature_plot(named_shells_));
-    TRY(pushes,
-        render::draw_pushes(pushes_, filling(middle, std::min(3, int(pushes_.size())), true),
-                            renderer_, watch_));
+    // from where their own preset looks
+    render::MovieStyle push_style = filling(middle, std::min(3, int(pushes_.size())), true);
+    if (push_ != nullptr) {
+      push_style.azimuth_deg = push_->preset.movie.azimuth_deg;
+      push_style.elevation_deg = push_->preset.movie.elevation_deg;
+    }
+    TRY(pushes, render::draw_pushes(pushes_, push_style, renderer_, watch_));
     page.add_figure("C", middle, std::move(*pushes));
     for (std::size_t k = 0; k < named_pushes_.size(); ++k) {
       const record::Trajectory& run = *named_pushes_[k].run;
@@ -191,28 +196,68 @@ class PageMaker {
     return page;
   }
 
-  /// Blocks, their footprints, and the assemblage over them.
+  /// Blocks, their footprints, and the assemblages over them; the photograph and what was measured
+  /// of one, where they are there.
   Result<Page> fig5() {
     Page page{178, 116, {}};
-    const record::Trajectory& run = records_.front()->trajectory;
     const Box left{2, 2, 86, 54}, below{2, 58, 112, 57};
-    TRY(blocks, render::draw_blocks(run, filling(left, 1), renderer_, watch_));
+    const render::BlockKinds kinds(shells_);
+    TRY(blocks, render::draw_blocks(shells_, filling(left, 1), renderer_, watch_));
+    for (std::size_t k = 0; k < blocks->keys.size(); ++k)
+      blocks->keys[k].name.insert(0, fmt::format("A{}: ", k + 1));
     page.add_figure("A", left, std::move(*blocks));
-    page.add("B", "", {92, 2, 84, 54}, [&run](Canvas& canvas, const Box& box) {
-      render::draw_block_footprints(canvas, box, run);
-    });
-    TRY(over, render::draw_over_nets(shells_, filling(below, 1), renderer_, watch_));
+    const int count = int(shells_.size());
+    for (int k = 0; k < count; ++k)
+      page.add(numbered("B", k, count), "", {92 + k * 84.0 / count, 2, 84.0 / count, 54},
+               [&run = *shells_[std::size_t(k)].run, kinds](Canvas& canvas, const Box& box) {
+                 render::draw_block_footprints(canvas, box, run, kinds);
+               });
+    TRY(over, render::draw_over_nets(shells_, filling(below, std::min(2, count)), renderer_, watch_,
+                                     2));
+    for (int k = 0; k < count && count > 1; ++k)
+      over->panels[std::size_t(k)].letter = numbered("C", k, count);
     // the blocks' colours stand above
     over->keys = {{over->keys.front().colour, "shell at rest, over the nets of A"}};
-    page.add_figure("C", below, std::move(*over));
-    page.add_plot("D", {116, 58, 60, 57}, render::curvature_plot(named_shells_));
+    page.add_figure(count > 1 ? "" : "C", below, std::move(*over));
+    TRY(more, add_experiment(page));
+    page.add_plot(*more, {116, 58, 60, 57}, render::curvature_plot(named_shells_));
     return page;
+  }
+
+  static std::string numbered(const char* letter, int k, int count) {
+    return count > 1 ? fmt::format("{}{}", letter, k + 1) : letter;
+  }
+
+  /// D, a photograph, and E, the shell of which joints were measured, in a row of their own; the
+  /// letter after those that are there.
+  Result<std::string> add_experiment(Page& page) {
+    const auto measured =
+        std::ranges::find_if(shells_, [](const auto& one) { return one.scanned.cols() > 0; });
+    char letter = 'D';
+    const Box left{2, 118, 86, 50}, right{90, 118, 86, 50};
+    if (has_photo()) {
+      TRY(photo, as_input(render::read_png(records_.front()->preset.page.photo)));
+      page.add_image(std::string(1, letter++), "", left, std::move(*photo));
+    }
+    if (measured != shells_.end()) {
+      record::Trajectory alone;
+      alone.layout = measured->run->layout;
+      alone.layout.parts.clear();
+      alone.layout.net_nodes.resize(3, 0);
+      alone.frames = {measured->run->frames.back()};
+      TRY(shell, render::draw_over_nets({{&alone, measured->caption, measured->scanned}},
+                                        filling(right, 1), renderer_, watch_));
+      page.add_figure(std::string(1, letter++), right, std::move(*shell));
+    }
+    if (letter > 'D') page.height_mm = 170;
+    return std::string(1, letter);
   }
 
   const Runs& records_;
   render::Renderer& renderer_;
   Watch& watch_;
   render::MovieStyle style_;
+  const Run* push_ = nullptr;  // the first
   std::vector<render::NetRun> shells_, pushes_;
   std::vector<render::NamedRun> named_shells_, named_pushes_;
 };

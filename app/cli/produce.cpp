@@ -24,8 +24,8 @@ namespace {
 Result<std::vector<Run>> planned(const preset::Presets& presets, Pictures pictures,
                                  std::vector<Phase>& phases) {
   std::vector<Run> runs;
-  for (preset::Case& one : runs_of(presets)) {
-    preset::Preset& preset = one.preset;
+  for (const preset::Case& one : runs_of(presets)) {
+    const preset::Preset& preset = one.preset;
     if (preset.jitter.wanted() && pictures == Pictures::movie)
       return fail(Fault::bad_input,
                   "{}: a search for states ([jitter] trials or confined above 0) has no movie; "
@@ -37,10 +37,6 @@ Result<std::vector<Run>> planned(const preset::Presets& presets, Pictures pictur
     const double guess = std::isnan(plan->expected_seconds) ? 0.5 + 0.01 * preset.movie.frames
                                                             : plan->expected_seconds;
     phases.push_back({"simulating" + (one.name.empty() ? "" : " " + one.name), guess});
-    // `figure` without radii shows the final state
-    const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
-    if (pictures == Pictures::stills && circle && preset.figure.radii_mm.empty())
-      preset.figure.radii_mm = {preset.actuated_radius_mm()};
     runs.push_back({.name = one.name, .preset = preset, .pictures = pictures});
   }
   return runs;

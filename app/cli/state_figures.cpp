@@ -139,15 +139,14 @@ std::string found_text(const record::StateTables& states) {
                         row.name(), row.group, dome_text(row), row.energies[Term::bend],
                         row.height_mm, row.count);
   }
-  if (search.ways_followed > 0)
+  if (search.paths_followed > 0)
     text += fmt::format("  barriers: {} saddles found on {} paths from state to state\n",
-                        search.passes_found, search.ways_followed);
+                        search.passes_found, search.paths_followed);
   for (const record::Barrier& one : states.barriers)
     if (one.to != 0)
       text +=
           fmt::format("  from state {} to {}: {:.4g} mJ, back {:.4g} mJ (on {} edges a segment)\n",
-                      states.rows[std::size_t(one.from) - 1].name(),
-                      states.rows[std::size_t(one.to) - 1].name(), one.barrier_mJ, one.back_mJ,
+                      one.from.text(), one.to.text(), one.barrier_mJ, one.back_mJ,
                       search.judged_edges);
   return text;
 }
@@ -169,7 +168,7 @@ Result<void> draw_states(const Run& one, render::Renderer& renderer, const fs::p
   TRY_DO(plot_at("_energies", energies_plot(states)));
   TRY_DO(plot_at("_lives", lives_plot(states)));
   if (!states.transitions.empty())
-    TRY_DO(render::write_transition_graph(fs::path(stem) += "_ways", states, one.trajectory,
+    TRY_DO(render::write_transition_graph(fs::path(stem) += "_transitions", states, one.trajectory,
                                           style.title, style.print));
   const auto passes = render::barrier_plot(states);
   return passes.series.empty() ? Result<void>{} : plot_at("_barriers", passes);

@@ -34,6 +34,10 @@ class CsvWriter {
     for (const char c : value) text.append(c == '"' ? 2 : 1, c);
     text += '"';
   }
+  /// What has a text of its own.
+  template <class Name>
+  requires requires(const Name& name) { name.text(); }
+  void cell(const Name& name) { cell(std::string_view(name.text())); }
   template <class Enum>
   requires std::is_enum_v<Enum>
   void cell(Enum value) { cell(word_of(value)); }

@@ -393,7 +393,7 @@ void add_jitter(FieldList<SearchSettings> list) {
   list.add<&S::transitions>(
       between(0, 1000),
       "states, from the lowest in energy on, of which is found out where they go when the boundary "
-      "is let out and drawn in again and when they are poked");
+      "is released and contracted again and when joints are pushed");
   wanted();
   list.add<&S::barriers>(
       "whether the heights of the barriers between the states in the picture are looked for, on a "

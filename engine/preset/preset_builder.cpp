@@ -32,6 +32,15 @@ std::string LocatedFaults::report() const {
   return text;
 }
 
+void PresetBuilder::forget_items(const std::string& table) {
+  each_list([&](const char* name, auto member) {
+    if (table == name) (preset.*member).clear();
+  });
+  const auto of_table = [&](const std::string& key) { return key.starts_with("[[" + table + "]]"); };
+  std::erase_if(set_at, [&](const auto& one) { return of_table(one.first); });
+  std::erase_if(faulty, of_table);
+}
+
 namespace {
 
 // whether a decider was laid over the layer in which a key stands: the key was of use below

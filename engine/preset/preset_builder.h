@@ -48,6 +48,9 @@ struct PresetBuilder {
   Preset preset;
   std::map<std::string, SourceLocation> set_at;  ///< by bracketed name
   std::set<std::string> faulty;                  ///< keys whose value was refused
+
+  /// A list of tables made empty again, and where its keys were set.
+  void forget_items(const std::string& table);
 };
 
 /// Values that do not agree with each other; where none of them was set the fault is in `source`.

@@ -167,15 +167,25 @@ class Used {
 
 // one item of a list of tables; where most keys are not wanted, those that say their default are
 // left out
-std::string item_text(const std::string& table, const Preset& preset, const Used& used, int item) {
+std::string item_text(const std::string& table, const Preset& preset, const Used& used, int item,
+                      const char* in) {
   static const Preset defaults = default_items();
-  auto text = fmt::format("\n[[{}]]\n", table);
+  auto text = fmt::format("\n[[{}{}]]\n", in, table);
   for (const auto& field : field_table()) {
     if (field.table != table || !used(field, item)) continue;
     const auto value = value_text(field, preset, item);
     if (table == "step" && field.key != "do" && value == value_text(field, defaults)) continue;
     text += fmt::format("{} = {}\n", field.key, value);
   }
+  return text;
+}
+
+// all items of one; `in`: "", or "case." of a case
+std::string list_text(const std::string& table, const Preset& preset, const Used& used,
+                      const char* in) {
+  std::string text;
+  const int items = items_of(preset, table).value_or(0);
+  for (int k = 0; k < items; ++k) text += item_text(table, preset, used, k, in);
   return text;
 }
 
@@ -200,9 +210,7 @@ std::string to_toml(const Preset& preset) {
       text += fmt::format("\n[{}]  # {}\n", table.name, table.meaning);
     text += keys;
   }
-  each_list([&](const char* name, auto member) {
-    for (int k = 0; k < int((preset.*member).size()); ++k) text += item_text(name, preset, used, k);
-  });
+  each_list([&](const char* name, auto) { text += list_text(name, preset, used, ""); });
   return text;
 }
 
@@ -221,6 +229,10 @@ std::string to_toml(const Presets& presets) {
       text += fmt::format("{}{}{} = {}\n", field.table, field.table.empty() ? "" : ".", field.key,
                           value);
     }
+    each_list([&](const char* name, auto) {
+      const auto items = list_text(name, one.preset, in_case, "case.");
+      if (items != list_text(name, presets.base, in_base, "case.")) text += items;
+    });
   }
   return text;
 }

@@ -75,7 +75,7 @@ void TomlReader::apply(const toml::table& root, const std::string& apart, Preset
     const std::string name(key.str());
     if (name == apart) continue;
     if (is_list_name(name))
-      read_items(key, value, apart == "case", draft);
+      read_items(key, value, draft);
     else if (!is_table_name(name) && !value.is_table())
       assign_key("", key, value, draft);
     else
@@ -99,16 +99,17 @@ void TomlReader::apply_override(const Override& change, PresetBuilder& draft) {
   override_.clear();
 }
 
-// the items of a list of tables, each with defaults of its own
-void TomlReader::read_items(const toml::key& key, const toml::node& value, bool in_file,
-                            PresetBuilder& draft) {
+// the items of a list of tables, each with defaults of its own; those of a case stand in place of
+// the file's
+void TomlReader::read_items(const toml::key& key, const toml::node& value, PresetBuilder& draft) {
   const std::string name(key.str());
-  if (!in_file || !value.is_array_of_tables()) {
+  if (!value.is_array_of_tables()) {
     faults_.add(place_of(key.source()),
-                in_file ? fmt::format("{}: must be tables, each [[{}]]", name, name)
-                        : fmt::format("{}: stands outside of cases, as [[{}]]", name, name));
+                fmt::format("{}: must be tables, each [[{}{}]]", name,
+                            layer_ == ValueLayer::one_case ? "case." : "", name));
     return;
   }
+  draft.forget_items(name);
   int item = 0;
   for (const auto& table : *value.as_array()) {
     add_item(draft.preset, name);

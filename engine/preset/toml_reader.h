@@ -64,8 +64,7 @@ class TomlReader {
   LocatedFaults& faults() { return faults_; }
 
  private:
-  void read_items(const toml::key& key, const toml::node& value, bool in_file,
-                  PresetBuilder& draft);
+  void read_items(const toml::key& key, const toml::node& value, PresetBuilder& draft);
   void read_table(const toml::key& key, const toml::node& value, PresetBuilder& draft);
   void assign_key(const std::string& table, const toml::key& key, const toml::node& value,
                   PresetBuilder& draft, int item = -1);

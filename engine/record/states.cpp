@@ -59,6 +59,23 @@ bool parse(const std::string& text, StateClass& value) {
   value = word.value_or(value);
   return word.has_value();
 }
+bool parse(const std::string& text, Disturbance& value) {
+  // words of earlier versions
+  const auto word = find_word<Disturbance>(text == "let out" ? "released"
+                                           : text == "poked" ? "pushed"
+                                                             : text);
+  value = word.value_or(value);
+  return word.has_value();
+}
+bool parse(const std::string& text, StateName& value) {
+  value = {};
+  if (text.empty()) return true;
+  // earlier versions had the number alone, which read_state_tables() names
+  const std::size_t dot = text.find('.');
+  const auto number = parse_number<int>(text.substr(dot == text.npos ? 0 : dot + 1));
+  value.number = number.value_or(0);
+  return number && (dot == text.npos || parse(text.substr(0, dot), value.kind));
+}
 /// A number that is not known has an empty cell.
 template <class Number>
 bool parse(const std::string& text, Number& value) {
@@ -105,12 +122,20 @@ Result<std::vector<Row>> read_csv(const std::filesystem::path& file) {
   return rows;
 }
 
+/// Whether a state is listed, or none; its kind is what the list says.
+bool put_kind(const std::vector<StateRow>& rows, StateName& name) {
+  if (name.number == 0) return true;
+  const auto row = std::ranges::find(rows, name.number, &StateRow::state);
+  if (row != rows.end()) name.kind = row->kind;
+  return row != rows.end();
+}
+
 Result<StateSearch> read_search(const std::filesystem::path& file) {
   TRY(text, read_file(file, largest_text));
   StateSearch search;
   // earlier versions looked for no barriers
   const auto may_lack = [](const std::string& key) {
-    return key == "ways_followed_for_barriers" || key == "passes_found";
+    return key == "paths_followed_for_barriers" || key == "passes_found";
   };
   const std::string fault = take_fields(parsed(*text), search, may_lack);
   if (fault.empty()) return search;
@@ -126,8 +151,8 @@ double StateRow::energy_mJ() const {
   return sum;
 }
 
-std::string StateRow::name() const {
-  return std::string(word_of(kind)) + "." + std::to_string(state);
+std::string StateName::text() const {
+  return number == 0 ? "" : std::string(word_of(kind)) + "." + std::to_string(number);
 }
 
 bool StateRow::first_order() const {
@@ -176,6 +201,14 @@ Result<StateTables> read_state_tables(const std::filesystem::path& folder) {
   };
   TRY_DO(read_if_there(transitions_name, tables.transitions));
   TRY_DO(read_if_there(barriers_name, tables.barriers));
+  const auto known = [&](auto& rows_of_pairs) {
+    return std::ranges::all_of(rows_of_pairs, [&](auto& row) {
+      return put_kind(tables.rows, row.from) && put_kind(tables.rows, row.to);
+    });
+  };
+  if (!known(tables.transitions) || !known(tables.barriers))
+    return fail(Fault::bad_input, "'{}': {} or {} names a state that {} does not have",
+                folder.string(), transitions_name, barriers_name, states_name);
   return tables;
 }
 

@@ -37,6 +37,16 @@ namespace gridshell::record {
 /// symmetry; none of these.
 enum class StateClass { i, ii, iii, iv, other };
 
+/// A state in the tables of others, by its name, "ii.2"; of one that was not met the number is 0 and
+/// the name empty.
+struct StateName {
+  int number = 0;  ///< StateRow::state
+  StateClass kind = StateClass::other;
+
+  operator int() const { return number; }
+  std::string text() const;
+};
+
 /// One state.
 struct StateRow {
   int state = 0;  ///< from 1, in the order of energy
@@ -52,12 +62,13 @@ struct StateRow {
   double lives_to_radius_mm = unknown;    ///< of a circular boundary there
   double eigenvalue_N_per_mm2 = unknown;  ///< lowest, against lumped length of rod
   double error_estimate_mm = unknown;     ///< of the joints
-  double barrier_mJ = unknown;            ///< lowest known way out of it, above it
+  double barrier_mJ = unknown;            ///< lowest known pass out of it, above it
 
   /// The potential; terms that the files of an earlier version do not tell count for nothing.
   double energy_mJ() const;
   /// Class and number, "ii.2".
-  std::string name() const;
+  std::string name() const { return in_tables().text(); }
+  StateName in_tables() const { return {state, kind}; }
   /// Whether every rod is buckled in its first mode: none has an inflection, as far as is known.
   bool first_order() const;
 };
@@ -85,7 +96,7 @@ struct StateSearch {
   int finer_merged = 0;                        ///< and that are one on finer meshes
   RichnessEstimate completeness;               ///< of the trials that are counted
   double cpu_s = 0;                            ///< of all trials
-  int ways_followed = 0, passes_found = 0;     ///< from state to state, for the barriers
+  int paths_followed = 0, passes_found = 0;    ///< from state to state, for the barriers
 };
 template <RecordOf<StateSearch> Search, class Visit>
 void fields(Search& search, const Visit& visit) {
@@ -98,14 +109,17 @@ void fields(Search& search, const Visit& visit) {
              search.finer_merged);
   visit_each(visit, "seen", seen.seen, "seen_once", seen.once, "seen_twice", seen.twice, "chao1",
              seen.estimate, "chao1_low_95", seen.low, "chao1_high_95", seen.high, "cpu_s",
-             search.cpu_s, "ways_followed_for_barriers", search.ways_followed, "passes_found",
+             search.cpu_s, "paths_followed_for_barriers", search.paths_followed, "passes_found",
              search.passes_found);
 }
 
-/// A way from state to state.
+/// What disturbs a state: its boundary released and contracted again, or one of its joints pushed.
+enum class Disturbance { released, pushed };
+
+/// A transition from state to state.
 struct Transition {
-  int from = 0, to = 0;  ///< StateRow::state; 0: one that the search did not meet
-  std::string by;        ///< "let out" or "poked"
+  StateName from, to;
+  Disturbance by = Disturbance::released;
   int count = 0;
 };
 template <RecordOf<Transition> Row, class Visit>
@@ -113,10 +127,10 @@ void fields(Row& row, const Visit& visit) {
   visit_each(visit, "from", row.from, "to", row.to, "by", row.by, "count", row.count);
 }
 
-/// A pass between two states: a saddle of the energy with one way down to either side, on the mesh
+/// A pass between two states: a saddle of the energy with one path down to either side, on the mesh
 /// that tells states apart.
 struct Barrier {
-  int from = 0, to = 0;         ///< StateRow::state, or an image of it; 0: one that was not met
+  StateName from, to;           ///< or an image of it
   double energy_mJ = 0;         ///< elastic, of the saddle
   double barrier_mJ = unknown;  ///< of the saddle above `from`
   double back_mJ = unknown;     ///< and above `to`

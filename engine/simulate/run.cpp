@@ -91,8 +91,9 @@ std::vector<double> evenly(int frames) {
 
 std::vector<double> samples_of(const preset::Preset& preset, bool stills) {
   // only a circle's boundary has a radius all the way
-  if (stills && preset.footprint.kind != preset::FootprintKind::circle) return {1.0};
-  if (stills && !preset.figure.radii_mm.empty()) {
+  const bool circle = preset.footprint.kind == preset::FootprintKind::circle;
+  if (stills && (!circle || preset.figure.radii_mm.empty())) return {1.0};
+  if (stills) {
     std::vector<double> progress;
     const double from = preset.original_radius_mm(), to = preset.actuated_radius_mm();
     for (double radius : preset.figure.radii_mm) progress.push_back((from - radius) / (from - to));

@@ -189,7 +189,7 @@ Result<State> StateSearcher::release_boundary(const State& from, double to, cons
   return go(1, watch);
 }
 
-Result<State> StateSearcher::poke_start(const State& from, int k, const Watch& watch) {
+Result<State> StateSearcher::push_at_random(const State& from, int k, const Watch& watch) {
   std::mt19937 random = generator(jitter_.seed, Purpose::poke, k);
   return push_start({1, from}, random, watch);
 }

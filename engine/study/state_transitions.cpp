@@ -13,9 +13,11 @@
 namespace gridshell::study {
 namespace {
 
-constexpr int pokes = 8, ways = pokes + 1;  // of a state; the first lets the boundary out
+using record::Disturbance;
+using record::StateName;
+
+constexpr int pushes = 8, paths = pushes + 1;  // of a state; on the first its boundary is released
 constexpr double beyond = 0.98;             // of the progress at which a state ends
-constexpr int nowhere = -1;
 
 /// The shell on the mesh that states are judged on, and a library's states by what they look like
 /// there; one a thread.
@@ -35,16 +37,16 @@ struct Explorer {
     return Explorer{std::move(*hand), std::move(catalogue), &library};
   }
 
-  /// The number of the library's state that this is; 0: of none.
-  int number_of(const State& rest, double energy_mJ) const {
+  /// The library's state that this is, or none.
+  StateName name_of(const State& rest, double energy_mJ) const {
     const auto at = catalogue.find(hand.joints_of(rest), energy_mJ);
-    return at ? library->states[*at].row.state : 0;
+    return at ? library->states[*at].row.in_tables() : StateName{};
   }
 };
 
-void count(std::vector<record::Transition>& all, int from, int to, const char* by) {
-  const auto known = std::ranges::find_if(all, [&](const record::Transition& way) {
-    return way.from == from && way.to == to && way.by == by;
+void count(std::vector<record::Transition>& all, StateName from, StateName to, Disturbance by) {
+  const auto known = std::ranges::find_if(all, [&](const record::Transition& one) {
+    return one.from == from && one.to == to && one.by == by;
   });
   if (known != all.end())
     ++known->count;
@@ -59,39 +61,41 @@ Result<std::vector<record::Transition>> transitions_between(
     const preset::SearchSettings& jitter, int threads, double begun, double end, Watch& watch) {
   const auto& states = library.states;
   const int followed = std::min(jitter.transitions, int(states.size()));
-  std::vector<int> to(std::size_t(followed * ways), nowhere);
+  std::vector<std::optional<StateName>> to(std::size_t(followed * paths));
   const auto follow = [&](Explorer& explorer, int k) {
-    const ShellState& from = states[std::size_t(k / ways)];
-    const int way = k % ways;
+    const ShellState& from = states[std::size_t(k / paths)];
+    const int path = k % paths;
     StateSearcher& hand = explorer.hand;
-    const auto rest = way == 0 ? hand.release_boundary(from.rest, beyond * from.row.lives_to, watch)
-                               : hand.poke_start(from.rest, way, watch);
-    if (rest) to[std::size_t(k)] = explorer.number_of(*rest, hand.energy_of(*rest));
+    const auto rest = path == 0
+                          ? hand.release_boundary(from.rest, beyond * from.row.lives_to, watch)
+                          : hand.push_at_random(from.rest, path, watch);
+    if (rest) to[std::size_t(k)] = explorer.name_of(*rest, hand.energy_of(*rest));
   };
   TRY_DO(parallel_for(
       int(to.size()), threads, watch, [&] { return Explorer::make(library, scene, jitter); },
       follow, reporting(watch, begun, end)));
   std::vector<record::Transition> all;
   for (std::size_t k = 0; k < to.size(); ++k)
-    if (to[k] != nowhere)
-      count(all, states[k / ways].row.state, to[k], k % ways == 0 ? "let out" : "poked");
+    if (to[k])
+      count(all, states[k / paths].row.in_tables(), *to[k],
+            k % paths == 0 ? Disturbance::released : Disturbance::pushed);
   return all;
 }
 
 namespace {
 
 constexpr int neighbours = 2;        // of each state
-constexpr double way_down_mm = 0.5;  // off a saddle, and steps from there
-constexpr double step_over_d = 0.1;  // of a node on a string's way down
+constexpr double step_down_mm = 0.5;  // off a saddle, and steps from there
+constexpr double step_over_d = 0.1;  // of a node of a string that goes down
 
-/// Two states with a way between them, and which image of the second is nearest to the first.
+/// Two states to be joined by a path, and which image of the second is nearest to the first.
 struct Pairing {
   std::size_t from = 0, to = 0, symmetry = 0;
 };
 
 /// What the two sides of a pass lead to.
 struct Crossing {
-  int from = 0, to = 0;  ///< as Barrier
+  StateName from, to;  ///< as Barrier
   double from_mJ = 0, to_mJ = 0;
   MountainPass pass;
 };
@@ -102,9 +106,9 @@ class Crossings {
   Crossings(Explorer explorer, double spacing)
       : explorer_(std::move(explorer)), spacing_(spacing) {}
 
-  /// The ways to the nearest states: of the images that the bend rung can turn, else the states as
+  /// The paths to the nearest states: of the images that the bend rung can turn, else the states as
   /// they are.
-  std::vector<Pairing> ways(const std::vector<std::size_t>& drawn) const {
+  std::vector<Pairing> pairings(const std::vector<std::size_t>& drawn) const {
     std::set<std::pair<std::size_t, std::size_t>> pairs;
     std::vector<Pairing> all;
     for (const std::size_t from : drawn) {
@@ -121,13 +125,13 @@ class Crossings {
     return all;
   }
 
-  std::optional<Crossing> cross(const Pairing& way, const Watch& watch) {
+  std::optional<Crossing> cross(const Pairing& pair, const Watch& watch) {
     MultilevelRelaxation& cascade = explorer_.hand.cascade();
     Linearisation& system = cascade.system();
-    const MeshSymmetry& symmetry = explorer_.hand.symmetries()[way.symmetry];
-    State target = rest_of(way.to);
+    const MeshSymmetry& symmetry = explorer_.hand.symmetries()[pair.symmetry];
+    State target = rest_of(pair.to);
     if (symmetry.index != 0) {
-      const auto image = symmetry.of(nodes(way.to));
+      const auto image = symmetry.of(nodes(pair.to));
       target = start_state(cascade.model(), columns_of(cascade.finest(), cascade.model(), image));
       auto rest = find_equilibrium(system, target, spacing_, watch);
       if (!rest) return std::nullopt;
@@ -136,7 +140,7 @@ class Crossings {
     PassOptions options;
     options.step_mm = step_over_d * spacing_;
     Crossing crossing;
-    crossing.pass = mountain_pass(system, rest_of(way.from), target, options, watch);
+    crossing.pass = mountain_pass(system, rest_of(pair.from), target, options, watch);
     if (crossing.pass.outcome != Outcome::reached) return std::nullopt;
     const bool back =
         descend(crossing.pass, BranchSide::against, crossing.from, crossing.from_mJ, watch);
@@ -168,16 +172,16 @@ class Crossings {
     return best;
   }
 
-  bool descend(const MountainPass& pass, BranchSide side, int& state, double& energy,
+  bool descend(const MountainPass& pass, BranchSide side, StateName& state, double& energy,
                const Watch& watch) {
     BranchSwitch departure;
     departure.side = side;
-    departure.amplitude_mm = departure.step_mm = way_down_mm;
+    departure.amplitude_mm = departure.step_mm = step_down_mm;
     const auto rest = leave_saddle(explorer_.hand.cascade().system(), pass.saddle, pass.towards_b,
                                    departure, watch);
     if (!rest) return false;
     energy = explorer_.hand.energy_of(*rest);
-    state = explorer_.number_of(*rest, energy);
+    state = explorer_.name_of(*rest, energy);
     return true;
   }
 
@@ -226,16 +230,16 @@ Result<std::vector<record::Barrier>> barriers_between(StateLibrary& library,
   std::vector<record::StateRow> rows;
   for (const ShellState& state : library.states) rows.push_back(state.row);
   TRY(first, make());
-  const auto ways = first->ways(record::states_to_draw(rows, jitter.drawn));
-  std::vector<std::optional<Crossing>> found(ways.size());
+  const auto pairs = first->pairings(record::states_to_draw(rows, jitter.drawn));
+  std::vector<std::optional<Crossing>> found(pairs.size());
   const auto cross = [&](Crossings& crossings, int k) {
-    found[std::size_t(k)] = crossings.cross(ways[std::size_t(k)], watch);
+    found[std::size_t(k)] = crossings.cross(pairs[std::size_t(k)], watch);
   };
-  TRY_DO(parallel_for(int(ways.size()), threads, watch, make, cross, reporting(watch, begun, end)));
+  TRY_DO(parallel_for(int(pairs.size()), threads, watch, make, cross, reporting(watch, begun, end)));
   std::vector<record::Barrier> all;
   for (const auto& crossing : found)
     if (crossing) all.push_back(barrier_of(*crossing));
-  library.search.ways_followed = int(ways.size());
+  library.search.paths_followed = int(pairs.size());
   library.search.passes_found = int(all.size());
   for (const record::Barrier& one : all)
     for (const auto& [state, height] :

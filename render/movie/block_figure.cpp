@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "render/canvas/panels.h"
 #include "render/movie/run_plots.h"
@@ -32,19 +33,53 @@ std::vector<Eigen::Vector3d> apart(const std::vector<record::Part>& parts,
   return moves;
 }
 
-/// All blocks as one net of rods, moved apart; `owner` is the block of each point.
-record::Trajectory blocks_apart(const record::Trajectory& run, std::vector<std::size_t>& owner) {
+/// A block where it is shown.
+struct PlacedBlock {
+  const record::Part* part = nullptr;
+  Eigen::Vector3d move = Eigen::Vector3d::Zero();
+};
+
+/// Those of one run apart, where they are in the assemblage; of several runs one of each kind, in a
+/// row.
+std::vector<PlacedBlock> placed_blocks(const std::vector<NetRun>& runs) {
+  std::vector<PlacedBlock> blocks;
+  if (runs.size() == 1) {
+    const std::vector<record::Part>& parts = runs.front().run->layout.parts;
+    const auto moves = apart(parts, &record::Part::net, 0.3);
+    for (std::size_t k = 0; k < parts.size(); ++k) blocks.push_back({&parts[k], moves[k]});
+    return blocks;
+  }
+  constexpr double gap = 0.25;  // of the blocks' mean width
+  std::set<std::string> seen;
+  double widths = 0, end = 0;
+  for (const NetRun& one : runs)
+    for (const record::Part& part : one.run->layout.parts)
+      if (seen.insert(block_kind(part.name)).second) {
+        blocks.push_back({&part});
+        widths += part.net.row(0).maxCoeff() - part.net.row(0).minCoeff();
+      }
+  for (auto& [part, move] : blocks) {
+    move = {end - part->net.row(0).minCoeff(), 0, -part->net.row(2).minCoeff()};
+    end += part->net.row(0).maxCoeff() - part->net.row(0).minCoeff() +
+           gap * widths / double(blocks.size());
+  }
+  return blocks;
+}
+
+/// The blocks as one net of rods; `owner` is the block of each point.
+record::Trajectory blocks_apart(const record::Layout& layout,
+                                const std::vector<PlacedBlock>& placed,
+                                std::vector<std::size_t>& owner) {
   record::Trajectory blocks;
-  blocks.layout.spacing_mm = run.layout.spacing_mm;
-  blocks.layout.rod_diameter_mm = run.layout.rod_diameter_mm;
-  blocks.layout.length_scale_mm = run.layout.length_scale_mm;
-  const auto moves = apart(run.layout.parts, &record::Part::net, 0.3);
+  blocks.layout.spacing_mm = layout.spacing_mm;
+  blocks.layout.rod_diameter_mm = layout.rod_diameter_mm;
+  blocks.layout.length_scale_mm = layout.length_scale_mm;
   record::Frame frame;
-  for (std::size_t k = 0; k < run.layout.parts.size(); ++k) {
-    const record::Part& part = run.layout.parts[k];
+  for (std::size_t k = 0; k < placed.size(); ++k) {
+    const record::Part& part = *placed[k].part;
     const auto first = frame.nodes.cols();
     frame.nodes.conservativeResize(3, first + part.net.cols());
-    frame.nodes.rightCols(part.net.cols()) = part.net.colwise() + moves[k];
+    frame.nodes.rightCols(part.net.cols()) = part.net.colwise() + placed[k].move;
     owner.resize(std::size_t(frame.nodes.cols()), k);
     for (std::vector<int> rod : part.rods) {
       for (int& point : rod) point += int(first);
@@ -74,36 +109,52 @@ void draw_rods(Canvas& canvas, const PlanView& place, const record::Part& part,
 
 }  // namespace
 
-Colour block_colour(std::size_t index) {
+std::string block_kind(const std::string& name) {
+  const std::size_t end = name.find_last_not_of("0123456789");
+  return end == name.npos || name[end] != ' ' ? name : name.substr(0, end);
+}
+
+BlockKinds::BlockKinds(const std::vector<NetRun>& runs) {
+  for (const NetRun& one : runs)
+    for (const record::Part& part : one.run->layout.parts)
+      if (const std::string kind = block_kind(part.name);
+          std::ranges::find(kinds_, kind) == kinds_.end())
+        kinds_.push_back(kind);
+}
+
+Colour BlockKinds::colour(const std::string& block) const {
   constexpr Colour colours[] = {{0.16f, 0.42f, 0.78f, 1},
                                 {0.85f, 0.45f, 0.10f, 1},
                                 {0.10f, 0.55f, 0.40f, 1},
                                 {0.62f, 0.25f, 0.62f, 1}};
-  return colours[index % std::size(colours)];
+  const auto at = std::ranges::find(kinds_, block_kind(block)) - kinds_.begin();
+  return colours[std::size_t(at) % std::size(colours)];
 }
 
-std::vector<ColourKey> block_keys(const record::Layout& layout) {
+std::vector<ColourKey> BlockKinds::keys() const {
   std::vector<ColourKey> keys;
-  for (std::size_t k = 0; k < layout.parts.size(); ++k)
-    keys.push_back({block_colour(k), plain(layout.parts[k].name)});
+  for (const std::string& kind : kinds_) keys.push_back({colour(kind), plain(kind)});
   return keys;
 }
 
-Result<PanelFigure> draw_blocks(const record::Trajectory& run, const MovieStyle& movie_style,
+Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyle& movie_style,
                                 Renderer& renderer, Watch& watch) {
   const MovieStyle style = uncoloured(movie_style);
+  const BlockKinds kinds(runs);
+  const auto placed = placed_blocks(runs);
   std::vector<std::size_t> owner;
-  const record::Trajectory blocks = blocks_apart(run, owner);
+  const record::Trajectory blocks = blocks_apart(runs.front().run->layout, placed, owner);
   TRY_DO(check_showable(blocks, style));
   const Stage stage(blocks, style);
   Drawing drawing = stage.drawing(blocks.frames.front());
   drawing.ground = false;
   drawing.joint_diameter_mm = 0;
   drawing.rod_diameter_mm *= 1.5;
-  for (const std::size_t block : owner) drawing.node_colours.push_back(block_colour(block));
+  for (const std::size_t block : owner)
+    drawing.node_colours.push_back(kinds.colour(placed[block].part->name));
   PanelFigure figure = empty_figure(style, 1);
   TRY_DO(add_panel(figure, stage, std::move(drawing), {}, renderer, watch));
-  figure.keys = block_keys(run.layout);
+  figure.keys = kinds.keys();
   figure.scale_bar_mm = style.scale_bar_mm;
   figure.pixels_per_mm = stage.pixels_per_mm();
   return figure;
@@ -123,6 +174,7 @@ struct BlockSheet {
       below.take(layout.parts[k].flat, Eigen::Vector3d::Zero());
     }
     below.take(layout.original_boundary, Eigen::Vector3d::Zero());
+    below.take(layout.actuated_boundary, Eigen::Vector3d::Zero());
   }
   double wide() const { return std::max(above.size().x(), below.size().x()); }
   double high() const { return above.size().y() + below.size().y(); }
@@ -132,7 +184,8 @@ constexpr double between = 14, bar_height = 20;  // points
 
 }  // namespace
 
-void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run) {
+void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run,
+                           const BlockKinds& kinds) {
   const record::Layout& layout = run.layout;
   const BlockSheet sheet(layout);
   const double scale =
@@ -145,12 +198,17 @@ void draw_block_footprints(Canvas& canvas, const Box& box, const record::Traject
   const PlanView up = centred(sheet.above, box.y),
                  down = centred(sheet.below, box.y + scale * sheet.above.size().y() + between);
   for (std::size_t k = 0; k < layout.parts.size(); ++k) {
-    draw_rods(canvas, up, layout.parts[k], sheet.moves[k], {block_colour(k), 0.8});
-    draw_rods(canvas, down, layout.parts[k], Eigen::Vector3d::Zero(), {block_colour(k), 0.8});
+    const Stroke stroke{kinds.colour(layout.parts[k].name), 0.8};
+    draw_rods(canvas, up, layout.parts[k], sheet.moves[k], stroke);
+    draw_rods(canvas, down, layout.parts[k], Eigen::Vector3d::Zero(), stroke);
   }
   canvas.polyline(down.line(layout.original_boundary), {ink, 1.2}, true);
+  canvas.polyline(down.line(layout.actuated_boundary), {ink, 0.9, {3, 2}}, true);
   const double below = down.at.y + scale * sheet.below.size().y();
-  draw_spacing(canvas, {box.x, below + 0.6 * bar_height}, layout, scale);
+  const Point left{box.x, below + 0.6 * bar_height};
+  const Box length = draw_spacing(canvas, left, layout, scale);
+  canvas.text("dashed: the shell's rim", {length.right() + 8, left.y},
+              {.size = 7, .align_y = AlignY::middle});
 }
 
 Result<void> write_block_footprints(const std::filesystem::path& stem,
@@ -166,7 +224,8 @@ Result<void> write_block_footprints(const std::filesystem::path& stem,
       stem, width, height + figure_title_room, "Footprints of the blocks",
       [&](Canvas& canvas) {
         draw_figure_title(canvas, title);
-        draw_block_footprints(canvas, Box{0, figure_title_room, width, height}.inset(margin), run);
+        draw_block_footprints(canvas, Box{0, figure_title_room, width, height}.inset(margin), run,
+                              BlockKinds({{&run, ""}}));
       },
       print);
 }

@@ -70,7 +70,7 @@ std::vector<ColourKey> over_net_keys(const std::vector<NetRun>& runs) {
   std::vector<ColourKey> keys{{shell_ink, "shell at rest"}};
   const record::Layout& layout = runs.front().run->layout;
   if (layout.parts.empty() && layout.net_nodes.cols() > 0) keys.push_back({net_ink, "its net"});
-  for (ColourKey key : block_keys(layout)) {
+  for (ColourKey key : BlockKinds(runs).keys()) {
     key.name.insert(0, "net of ");
     keys.push_back(std::move(key));
   }
@@ -132,15 +132,15 @@ ColourKey scan_key() { return {scan_ink, "joints measured"}; }
 
 Result<PanelFigure> draw_over_nets(const std::vector<NetRun>& runs, const MovieStyle& style,
                                    Renderer& renderer, Watch& watch, int columns) {
-  const auto dress = [](const NetRun& one, Drawing& drawing) {
+  const auto dress = [kinds = BlockKinds(runs)](const NetRun& one, Drawing& drawing) {
     show_measured_joints(one.scanned, drawing);
     const record::Layout& layout = one.run->layout;
     const double thin = drawing.rod_diameter_mm;
     // so that a net that its shell meets is seen beside it, not through it
     drawing.rod_diameter_mm *= 2.2;
     // blocks each on a net of its own
-    for (std::size_t k = 0; k < layout.parts.size(); ++k)
-      drawing.ghosts.push_back({layout.parts[k].net, layout.parts[k].rods, thin, block_colour(k)});
+    for (const record::Part& part : layout.parts)
+      drawing.ghosts.push_back({part.net, part.rods, thin, kinds.colour(part.name)});
     if (layout.parts.empty() && layout.net_nodes.cols() > 0)
       drawing.ghosts.push_back({layout.net_nodes, layout.rods, thin, net_ink});
   };

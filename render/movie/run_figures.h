@@ -75,21 +75,31 @@ Result<PanelFigure> draw_deviations(const std::vector<NetRun>& runs, const Movie
 
 // Building blocks, apart and joined [Baek 2018, Fig. 5].
 
-/// The colour of a block in all pictures.
-Colour block_colour(std::size_t index);
+/// A block's name without the number that tells it from its equals: "quarter sphere".
+std::string block_kind(const std::string& name);
 
-/// The blocks of a layout by name.
-std::vector<ColourKey> block_keys(const record::Layout& layout);
+/// The kinds of blocks of some runs, and their colours in all pictures of these.
+class BlockKinds {
+ public:
+  explicit BlockKinds(const std::vector<NetRun>& runs);
+  Colour colour(const std::string& block) const;  ///< by its name
+  std::vector<ColourKey> keys() const;
 
-/// The blocks of a run on their nets, drawn apart in one picture. Errors as write_stills.
-Result<PanelFigure> draw_blocks(const record::Trajectory& run, const MovieStyle& style,
+ private:
+  std::vector<std::string> kinds_;
+};
+
+/// Blocks on their nets in one picture: all of one run, apart, or of several runs one of each kind.
+/// Errors as write_stills.
+Result<PanelFigure> draw_blocks(const std::vector<NetRun>& runs, const MovieStyle& style,
                                 Renderer& renderer, Watch& watch);
 
 /// What write_block_footprints draws, as large as fits into a box.
-void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run);
+void draw_block_footprints(Canvas& canvas, const Box& box, const record::Trajectory& run,
+                           const BlockKinds& kinds);
 
-/// The blocks' footprints apart, and below them the joined footprint with its original boundary, to
-/// scale. Writes `<stem>.png` and `<stem>.svg`.
+/// The blocks' footprints apart, and below them the joined footprint with its original boundary and,
+/// dashed, the actuated one, to scale. Writes `<stem>.png` and `<stem>.svg`.
 Result<void> write_block_footprints(const std::filesystem::path& stem,
                                     const record::Trajectory& run, const std::string& title = "",
                                     const Print& print = {});

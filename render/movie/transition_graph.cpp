@@ -23,8 +23,9 @@ constexpr double width = 400, plot_height = 262, margin = 4, head = figure_title
 constexpr double disturbed_radius = 3.6, dot_radius = 2.6, foot_room = 14;
 constexpr Colour grey{0.55f, 0.55f, 0.58f, 1};
 
-bool is_let_out(const Transition& way) { return way.by == "let out"; }
-Colour colour_of(bool let_out) { return series_colour(let_out ? 0 : 1); }
+using record::Disturbance;
+
+Colour colour_of(Disturbance by) { return series_colour(by == Disturbance::released ? 0 : 1); }
 
 /// A state of the graph on the canvas.
 struct Node {
@@ -57,14 +58,14 @@ Box free_place(Point from, const Box& size, const std::vector<Box>& taken, const
   return about(from, 0.5 * size.width, 0.5 * size.height);
 }
 
-class WaysGraph {
+class TransitionGraph {
  public:
-  WaysGraph(const record::StateTables& states, const record::Trajectory& run)
+  TransitionGraph(const record::StateTables& states, const record::Trajectory& run)
       : states_(states), run_(run) {
     std::set<int> disturbed, met;
-    for (const Transition& way : states.transitions) {
-      disturbed.insert(way.from);
-      met.insert({way.from, way.to});
+    for (const Transition& one : states.transitions) {
+      disturbed.insert(one.from);
+      met.insert({one.from, one.to});
     }
     met.erase(0);
     for (const int state : met)
@@ -82,8 +83,8 @@ class WaysGraph {
     const PlotFrame frame = axes(canvas, box);
     for (Node& node : nodes_) node.at = frame.place(node.row->height_mm, node.row->energy_mJ());
     draw_legend(canvas);
-    for (const Transition& way : states_.transitions)
-      if (way.to != 0 && way.to != way.from) draw_way(canvas, way);
+    for (const Transition& one : states_.transitions)
+      if (one.to != 0 && one.to != one.from) draw_transition(canvas, one);
     for (const Node& node : nodes_) draw_node(canvas, node);
     draw_names(canvas, frame.inside.inset(2));
     for (std::size_t k = 0; k < disturbed_.size(); ++k) draw_thumb(canvas, k, box.bottom());
@@ -126,16 +127,16 @@ class WaysGraph {
   void draw_legend(Canvas& canvas) const {
     double x = margin;
     const double y = margin + head + 0.5 * legend_room;
-    const auto entry = [&](bool let_out, const std::string& text) {
-      arrow(canvas, {x, y}, {x + 11, y}, {x + 22, y}, let_out);
+    const auto entry = [&](Disturbance by, const std::string& text) {
+      arrow(canvas, {x, y}, {x + 11, y}, {x + 22, y}, by);
       x = canvas.text(text, {x + 27, y}, {.size = font, .align_y = AlignY::middle}).right() + 14;
     };
-    entry(true, "boundary released and contracted again");
-    entry(false, "a joint pushed (number: how often of 8)");
+    entry(Disturbance::released, "boundary released and contracted again");
+    entry(Disturbance::pushed, "a joint pushed (number: how often of 8)");
   }
 
   /// A curve a -> b bent through c, with a head at b.
-  static void arrow(Canvas& canvas, Point a, Point c, Point b, bool let_out) {
+  static void arrow(Canvas& canvas, Point a, Point c, Point b, Disturbance by) {
     constexpr int pieces = 24;
     constexpr double head = 5;
     std::vector<Point> curve;
@@ -146,9 +147,9 @@ class WaysGraph {
     for (int k = 0; k <= pieces; ++k) curve.push_back(at(double(k) / pieces));
     const double length = std::max(1e-9, distance(c, b));
     const Point along{(b.x - c.x) / length, (b.y - c.y) / length};
-    const Colour colour = colour_of(let_out);
+    const Colour colour = colour_of(by);
     curve.back() = {b.x - 0.8 * head * along.x, b.y - 0.8 * head * along.y};
-    canvas.polyline(curve, {colour, let_out ? 1.2 : 0.9});
+    canvas.polyline(curve, {colour, by == Disturbance::released ? 1.2 : 0.9});
     const Point back{b.x - head * along.x, b.y - head * along.y};
     canvas.polygon({b,
                     {back.x - 0.38 * head * along.y, back.y + 0.38 * head * along.x},
@@ -156,12 +157,13 @@ class WaysGraph {
                    colour);
   }
 
-  void draw_way(Canvas& canvas, const Transition& way) {
-    const Node &from = node_of(way.from), &to = node_of(way.to);
+  void draw_transition(Canvas& canvas, const Transition& one) {
+    const Node &from = node_of(one.from), &to = node_of(one.to);
     const double length = std::max(1e-9, distance(from.at, to.at));
     const Point along{(to.at.x - from.at.x) / length, (to.at.y - from.at.y) / length};
-    // ways there and back, and of both hands, bend apart
-    const double bend = (is_let_out(way) ? 0.24 : 0.12) * length;
+    const bool released = one.by == Disturbance::released;
+    // there and back, and those of either disturbance, bend apart
+    const double bend = (released ? 0.24 : 0.12) * length;
     const Point middle{0.5 * (from.at.x + to.at.x) + bend * along.y,
                        0.5 * (from.at.y + to.at.y) - bend * along.x};
     const auto off = [&](Point p, double r) {
@@ -169,17 +171,17 @@ class WaysGraph {
       return Point{p.x + r * (middle.x - p.x) / d, p.y + r * (middle.y - p.y) / d};
     };
     arrow(canvas, off(from.at, from.radius()), middle, off(to.at, to.radius() + 0.8),
-          is_let_out(way));
-    if (is_let_out(way) || way.count < 2) return;
+          one.by);
+    if (released || one.count < 2) return;
     const Point label{0.25 * from.at.x + 0.5 * middle.x + 0.25 * to.at.x,
                       0.25 * from.at.y + 0.5 * middle.y + 0.25 * to.at.y};
     const TextStyle style{.size = font - 1,
-                          .colour = colour_of(false),
+                          .colour = colour_of(one.by),
                           .bold = true,
                           .align_x = AlignX::centre,
                           .align_y = AlignY::middle,
                           .halo = {1, 1, 1, 1}};
-    taken_.push_back(canvas.text(fmt::format("{}", way.count), label, style));
+    taken_.push_back(canvas.text(fmt::format("{}", one.count), label, style));
   }
 
   void draw_node(Canvas& canvas, const Node& node) {
@@ -216,10 +218,10 @@ class WaysGraph {
   /// How often of all a state came back, or went to one that was not met.
   std::string fate_of(int state) const {
     int back = 0, lost = 0;
-    for (const Transition& way : states_.transitions) {
-      if (way.from != state) continue;
-      back += way.to == state ? way.count : 0;
-      lost += way.to == 0 ? way.count : 0;
+    for (const Transition& one : states_.transitions) {
+      if (one.from != state) continue;
+      back += one.to == state ? one.count : 0;
+      lost += one.to == 0 ? one.count : 0;
     }
     std::string text = fmt::format("back {}", back);
     if (lost > 0) text += fmt::format(", new {}", lost);
@@ -272,7 +274,7 @@ Result<void> write_transition_graph(const std::filesystem::path& stem,
                                     const record::StateTables& states,
                                     const record::Trajectory& run, const std::string& title,
                                     const Print& print) {
-  WaysGraph graph(states, run);
+  TransitionGraph graph(states, run);
   const std::string of_what = "which state goes to which when it is disturbed";
   return write_figure(
       stem, width, graph.height(), title,

@@ -29,7 +29,7 @@ TEST_CASE("a search for states: tables, pictures, and the same pictures again fr
     CHECK(fs::exists(run / name));
   good("figure shell.toml --threads 2 -o two", at);
   for (const char* name : {"states.csv", "transitions.csv", "barriers.csv", "frames.csv",
-                           "shell.png", "shell_ways.svg", "shell_barriers.svg"})
+                           "shell.png", "shell_transitions.svg", "shell_barriers.svg"})
     if (fs::exists(run / name)) CHECK(text_of(run / name) == text_of(at / "two" / name));
   good("render out/shell -o again", at);
   for (const char* name : {"shell.png", "shell_energies.png", "states.csv", "states.json"})

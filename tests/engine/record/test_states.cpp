@@ -12,6 +12,8 @@ using namespace gridshell;
 
 namespace {
 
+const record::StateName iv_1{1, record::StateClass::iv}, other_2{2, record::StateClass::other};
+
 record::StateTables sample() {
   record::StateTables tables;
   record::StateRow row;
@@ -29,8 +31,9 @@ record::StateTables sample() {
   tables.search.trials = 900;
   tables.search.ended_otherwise["did not come to rest"] = 3;
   tables.search.completeness = {2, 1, 1, 2.5, 2.1, 9.0};
-  tables.transitions = {{1, 2, "let out", 1}, {1, 0, "poked", 7}};
-  tables.barriers = {{1, 2, 40.5, 0.59, 0.25, 1e-12}, {2, 0, 41.0}};
+  tables.transitions = {{iv_1, other_2, record::Disturbance::released, 1},
+                        {iv_1, {}, record::Disturbance::pushed, 7}};
+  tables.barriers = {{iv_1, other_2, 40.5, 0.59, 0.25, 1e-12}, {other_2, {}, 41.0}};
   tables.rows[1].barrier_mJ = 0.25;
   return tables;
 }
@@ -86,7 +89,7 @@ TEST_CASE("state tables of earlier versions: a number that has no column is unkn
   CHECK(read->rows[0].lives_to == 0.0325);
   CHECK(std::isnan(read->rows[1].barrier_mJ));
   CHECK(read->search.trials == 900);
-  CHECK(read->search.ways_followed == 0);
+  CHECK(read->search.paths_followed == 0);
   // and before all terms of the energy were kept
   REQUIRE(write_file(folder.path() / "states.csv",
                      "state,class,group,energy_bend_mJ,energy_stretch_mJ,inflections,count,"

@@ -25,7 +25,7 @@ TEST_CASE("barriers: passes lie above the states that their two sides lead to") 
   StateLibrary again = *library;
   const auto found = barriers_between(*library, scene, p.jitter, 1, 0, 1, watch);
   REQUIRE(found);
-  CHECK(library->search.ways_followed > 0);
+  CHECK(library->search.paths_followed > 0);
   REQUIRE(library->search.passes_found > 0);
   CHECK(int(found->size()) <= library->search.passes_found);
   for (const record::Barrier& one : *found) {

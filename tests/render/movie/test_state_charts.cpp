@@ -163,6 +163,8 @@ record::Trajectory run() {
   return all;
 }
 
+using record::Disturbance;
+
 record::StateTables tables() {
   record::StateTables all;
   for (int k = 0; k < 3; ++k) {
@@ -174,13 +176,16 @@ record::StateTables tables() {
   }
   all.rows[0].kind = record::StateClass::ii;
   all.transitions = {
-      {1, 2, "let out", 1}, {1, 1, "poked", 5}, {1, 0, "poked", 3}, {2, 3, "poked", 2}};
+      {{1}, {2}, Disturbance::released, 1},
+      {{1}, {1}, Disturbance::pushed, 5},
+      {{1}, {}, Disturbance::pushed, 3},
+      {{2}, {3}, Disturbance::pushed, 2}};
   return all;
 }
 
 }  // namespace
 
-TEST_CASE("the graph of ways writes every state and what came back, apart from one another") {
+TEST_CASE("the graph of transitions writes every state and what came back, apart from one another") {
   const TemporaryFolder folder;
   {
     const test::CanvasObserver watch([&](const Canvas& canvas) {
@@ -188,15 +193,15 @@ TEST_CASE("the graph of ways writes every state and what came back, apart from o
         CHECK(test::has(canvas.texts(), text));
       test::check_apart(canvas);
     });
-    REQUIRE(write_transition_graph(folder.path() / "ways", tables(), run(), "Some states", {}));
+    REQUIRE(write_transition_graph(folder.path() / "graph", tables(), run(), "Some states", {}));
   }
   for (const char* kind : {".png", ".svg", ".pdf"})
-    CHECK(std::filesystem::exists(folder.path() / (std::string("ways") + kind)));
+    CHECK(std::filesystem::exists(folder.path() / (std::string("graph") + kind)));
 }
 
 TEST_CASE("barriers are drawn between known states, as high as they are") {
   record::StateTables states = tables();
-  states.barriers = {{1, 2, 41, 1, 0.5}, {2, 0, 44, 4, 3}, {1, 1, 43, 3, 3}};
+  states.barriers = {{{1}, {2}, 41, 1, 0.5}, {{2}, {}, 44, 4, 3}, {{1}, {1}, 43, 3, 3}};
   const Plot plot = barrier_plot(states);
   REQUIRE(plot.series.size() == 3);  // a curve and two bars
   CHECK(std::ranges::max(plot.series[0].y) == Approx(41));
