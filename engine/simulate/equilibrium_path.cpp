@@ -19,8 +19,8 @@ const LoadStep& load_step_after(const PathSegment& segment, double t) {
   return segment.load_steps.back();
 }
 
-/// Largest error estimate where stable states were certified on a way that was followed forwards,
-/// mm; NaN where one is not known.
+}  // namespace
+
 double worst_estimate_mm(const EquilibriumPath& path) {
   double worst = 0;
   for (const PathSegment& segment : path.segments)
@@ -30,8 +30,6 @@ double worst_estimate_mm(const EquilibriumPath& path) {
     }
   return worst;
 }
-
-}  // namespace
 
 double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes) {
   const Eigen::Index joints = simulation.shell().finest().joints;

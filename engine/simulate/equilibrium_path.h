@@ -61,6 +61,9 @@ inline constexpr double near_spacings = 0.1;
 /// mm.
 double distance_of_joints(const Simulation& simulation, const Eigen::Matrix3Xd& nodes);
 
+/// Largest error estimate where stable states were certified, mm; NaN where one is not known.
+double worst_estimate_mm(const EquilibriumPath& path);
+
 /// The load_step that a sample of a segment lies behind: the last one that the segment came past
 /// before it.
 const LoadStep& load_step_before(const PathSegment& segment, double t);

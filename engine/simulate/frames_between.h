@@ -13,7 +13,8 @@ namespace gridshell::simulate {
 /// Between two load steps of one smooth branch the coarsest mesh is brought to rest at t, from the
 /// cubic through states and tangents of both [Hermite]; what finer meshes add to its nodes, K,
 /// reactions and energies, and what lies along the rods, is a polynomial in t through up to six
-/// load steps of that branch [Lagrange]. Residual and pivots are the coarsest mesh's. The error
+/// load steps of that branch [Lagrange], or, where that leaves too much, through the two around it
+/// and three states certified between them. Residual and pivots are the coarsest mesh's. The error
 /// estimates are those of the load steps around it, evenly in between, and twice what polynomials
 /// of one degree less, without the first or the last of those load steps, would have changed.
 class FramesBetween {
@@ -27,17 +28,31 @@ class FramesBetween {
   std::optional<record::Frame> at(const PathSample& sample);
 
  private:
-  struct Window {
-    std::size_t first = 0;       ///< load step
-    Eigen::VectorXd weights;     ///< of the polynomial
-    Eigen::VectorXd without[2];  ///< of it less those without the first, the last load step
-    double share = 0;            ///< of the way between the two load steps around it
-    std::size_t before = 0;      ///< the first of those
+  /// What finer meshes add at a certified state, and the coarsest mesh's state there.
+  struct Knot {
+    record::Frame added;
+    State leading;
   };
+  using Knots = std::vector<const Knot*>;
+  /// Of a polynomial in t at a place.
+  struct Weights {
+    Eigen::VectorXd all;
+    Eigen::VectorXd without[2];  ///< less those without the first, the last of its knots
+  };
+  struct Window {
+    std::size_t first = 0;  ///< load step
+    std::vector<double> t;  ///< of the load steps
+    std::size_t before = 0; ///< that in front of the sample
+  };
+  static Weights weights_at(const std::vector<double>& known, double t);
   std::optional<Window> window_at(const PathSegment& segment, double t) const;
-  std::vector<const record::Frame*> knots_in(const PathSample& sample, const Window& window);
-  std::optional<record::Frame> knot_at(const LoadStep& step);
-  std::optional<record::Frame> leading_at(double t, State guess);
+  Knots knots_in(const PathSegment& segment, const Window& window);
+  Knots knots_between(const PathSegment& segment, const Window& window);
+  double doubt_mm(const Knots& knots, const Weights& weights) const;
+  std::optional<Knot> knot_at(double t, const LoadStep& beside);
+  std::optional<record::Frame> leading_at(double t, State& guess);
+  record::Frame composed(record::Frame frame, double t, double share, const Knots& around,
+                         const Knots& knots, const Weights& weights) const;
 
   EquilibriumPath& path_;
   decltype(Caption::measure) measure_;
@@ -46,7 +61,8 @@ class FramesBetween {
   record::ContactSearch contacts_;
   bool wanted_;
   std::size_t segment_ = 0;
-  std::map<std::size_t, std::optional<record::Frame>> knots_;  // by load step; nothing: it has none
+  // by load step, and by quarters of the way to the next; nothing: there is none
+  std::map<std::pair<std::size_t, int>, std::optional<Knot>> knots_;
 };
 
 }  // namespace gridshell::simulate

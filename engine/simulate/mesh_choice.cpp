@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "engine/core/system_info.h"
+#include "engine/simulate/guided_path.h"
 
 namespace gridshell {
 namespace {
@@ -163,6 +167,26 @@ std::optional<std::string> only_on_leaders(const EquilibriumPath& coarse, Equili
   return std::nullopt;
 }
 
+/// The confirmed path on the coarsest meshes tried before that have it; else itself.
+SharedPath on_coarsest(const Scene& scene, std::span<const SharedPath> tried, SharedPath confirmed,
+                       const Watch& watch) {
+  const double allowed = scene.tolerance * scene.length_scale_mm;
+  for (const SharedPath& path : tried) {
+    const Effort before = path->simulation.effort();
+    const bool followed = follow_guide(*path, *confirmed, allowed, watch);
+    const Effort spent = path->simulation.effort() - before;
+    if (!followed) {
+      confirmed->simulation.charge(spent);
+      continue;
+    }
+    // what led here counted once
+    path->simulation.charge(confirmed->simulation.effort() - before);
+    path->seconds_setup = confirmed->seconds_setup;
+    return path;
+  }
+  return confirmed;
+}
+
 }  // namespace
 
 std::optional<std::string> mesh_disagreement(const EquilibriumPath& coarse,
@@ -186,6 +210,7 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
   // the first buckling is a choice too, which the coarsest mesh made
   const auto chose = [&] { return path->has_events() || !scene.from_net; };
   auto plan = std::optional(path->asked);
+  std::vector<SharedPath> before;
   for (int asked = 0; asked < most_leaders && chose(); ++asked) {
     plan = with_finer_leader(*plan);
     if (!plan || !fits_memory(scene, *plan)) {
@@ -204,7 +229,7 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
     const auto keep_fine = [&] {
       (*fine)->simulation.charge(path->simulation.effort());
       (*fine)->seconds_setup += path->seconds_setup;
-      path = std::move(*fine);
+      before.push_back(std::exchange(path, std::move(*fine)));
     };
     auto differs = mesh_disagreement(*path, **fine);
     if (!differs) differs = only_on_leaders(*path, **fine, watch);
@@ -213,12 +238,20 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
                          ends_later(path->segments, (*fine)->segments);
       extrapolate_events(path->segments, (*fine)->segments);
       extrapolate_events(path->earlier, (*fine)->earlier);
-      if (later)
-        keep_fine();
-      else
-        path->simulation.charge((*fine)->simulation.effort());
       path->mesh_disagreement.clear();
-      return path;
+      if (later) {
+        keep_fine();
+        return path;
+      }
+      path->simulation.charge((*fine)->simulation.effort());
+      break;
+    }
+    // a finer leader that meets nothing, its own finer meshes beside it, says that nothing is there
+    const bool nothing = path->has_events() && begin_alike(*path, **fine) && uneventful(**fine);
+    if (nothing && !scene.leader_asked) {
+      keep_fine();
+      path->mesh_disagreement.clear();
+      break;
     }
     const std::string disagreed =
         fmt::format("leading meshes of {} and {} edges a segment do not agree: {}",
@@ -241,7 +274,8 @@ Result<SharedPath> confirm_on_finer_meshes(const Scene& scene, SharedPath path,
     path->mesh_disagreement = disagreed;
     if (!chose()) path->mesh_disagreement.clear();
   }
-  return path;
+  // what stays in doubt stays where it was found
+  return path->mesh_disagreement.empty() ? on_coarsest(scene, before, path, watch) : path;
 }
 
 SharedPath led_by_finer(SharedPath path, const Follow& follow, const Watch& watch) {

@@ -1,0 +1,156 @@
+#include "engine/simulate/guided_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
+#include "engine/elastic/state.h"
+
+namespace gridshell::simulate {
+namespace {
+
+constexpr int most_restarts = 4;  // of a way that the coarse leader loses alone
+constexpr double same_limit_t = 0.02;
+
+double joints_apart(const Simulation& simulation, const Eigen::Matrix3Xd& a,
+                    const Eigen::Matrix3Xd& b) {
+  const Eigen::Index joints = simulation.shell().finest().joints;
+  return max_column_norm(a.leftCols(joints) - b.leftCols(joints));
+}
+
+/// One segment of a guide, followed on other meshes.
+class GuidedSegment {
+ public:
+  GuidedSegment(Simulation& simulation, const PathSegment& guide, const StateTransfer& carried,
+                const Watch& watch)
+      : simulation_(simulation), guide_(guide), carried_(carried), watch_(watch) {}
+
+  /// Nothing: these meshes have no such branch.
+  std::optional<PathSegment> followed();
+
+ private:
+  bool begin(std::size_t step);
+  bool beside(std::size_t step) const;
+  bool through_unstable(std::size_t step) const;
+  std::size_t end_of_branch(std::size_t step) const;
+  bool at_its_limit(const Report& report, PathSegment& segment) const;
+
+  Simulation& simulation_;
+  const PathSegment& guide_;
+  const StateTransfer& carried_;
+  const Watch& watch_;
+};
+
+bool GuidedSegment::beside(std::size_t step) const {
+  const LoadStep& there = guide_.load_steps[step];
+  const double apart = joints_apart(simulation_, simulation_.nodes(), there.point.state.x);
+  return apart < near_spacings * simulation_.scene().footprint.spacing &&
+         (simulation_.certificate().stable() || !there.certificate.stable());
+}
+
+/// From the guide's state at a load step, brought to these meshes.
+bool GuidedSegment::begin(std::size_t step) {
+  const LoadStep& there = guide_.load_steps[step];
+  NestedShell& shell = simulation_.shell();
+  shell.allow_unstable(!there.certificate.stable());
+  const Report begun =
+      simulation_.begin_at(there.point.t, carried_.carry(there.point.state), watch_);
+  shell.allow_unstable(false);
+  return begun.end == Outcome::reached && beside(step);
+}
+
+/// As the guide went: back towards the flat, or on along the branch that lost its stability.
+bool GuidedSegment::through_unstable(std::size_t step) const {
+  return std::ranges::any_of(guide_.load_steps | std::views::take(step + 1),
+                             [](const LoadStep& at) { return !at.certificate.stable(); }) ||
+         !guide_.load_steps[end_of_branch(step)].certificate.stable();
+}
+
+/// The last load step before the guide goes on in a rest further on.
+std::size_t GuidedSegment::end_of_branch(std::size_t step) const {
+  const auto& steps = guide_.load_steps;
+  const auto leapt_to = [&](std::size_t k) {
+    return std::ranges::any_of(guide_.report.events, [&](const Event& event) {
+      return event.to && *event.to == steps[k].point.t;
+    });
+  };
+  while (step + 1 < steps.size() && !leapt_to(step + 1)) ++step;
+  return step;
+}
+
+/// Whether the way ended at a limit where the guide's did; the place is this segment's own.
+bool GuidedSegment::at_its_limit(const Report& report, PathSegment& segment) const {
+  if (!at_limit(report.end) || report.end != guide_.report.end ||
+      std::abs(report.t - guide_.end()) > same_limit_t)
+    return false;
+  std::erase_if(segment.report.events, [](const Event& event) { return event.is_limit(); });
+  std::ranges::copy(report.events, std::back_inserter(segment.report.events));
+  segment.report.t = report.t;
+  return true;
+}
+
+std::optional<PathSegment> GuidedSegment::followed() {
+  PathSegment segment{{}, guide_.from, guide_.to, guide_.report, guide_.back};
+  int restarts = 0;
+  for (std::size_t step = 0; begin(step) && !watch_.cancelled();) {
+    const std::size_t last = end_of_branch(step);
+    const double to = guide_.load_steps[last].point.t;
+    const Report way =
+        simulation_.go(to, watch_, {.wanted = false, .through_unstable = through_unstable(step)},
+                       &segment);
+    const bool all = last + 1 == guide_.load_steps.size();
+    if (way.end == Outcome::reached) {
+      if (!beside(last)) break;
+      segment.report.certificate = way.certificate;
+      if (all) return segment;
+      step = last + 1;
+      continue;
+    }
+    if (all && at_its_limit(way, segment)) return segment;
+    // the leader alone loses the branch: on where the guide stands next
+    if (at_limit(way.end) || ++restarts > most_restarts) break;
+    while (step <= last && guide_.sign() * (guide_.load_steps[step].point.t - way.t) <= 0) ++step;
+    if (step > last) break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool follow_guide(EquilibriumPath& path, const EquilibriumPath& guide, double allowed_mm,
+                  const Watch& watch) {
+  Simulation& simulation = path.simulation;
+  if (!guide.single_motion || !guide.earlier.empty() || !simulation.holds().empty() ||
+      simulation.scene().snap.wanted || guide.segments.empty())
+    return false;
+  const NestedShell &from = guide.simulation.shell(), &to = simulation.shell();
+  const StateTransfer carried(from.mesh(0), from.model(0), to.mesh(0), to.model(0));
+  std::vector<PathSegment> segments;
+  for (const PathSegment& segment : guide.segments) {
+    auto followed = GuidedSegment(simulation, segment, carried, watch).followed();
+    if (!followed) return false;
+    segments.push_back(std::move(*followed));
+  }
+  path.segments = std::move(segments);
+  path.mesh_disagreement = guide.mesh_disagreement;
+  return worst_estimate_mm(path) <= allowed_mm;
+}
+
+bool uneventful(const EquilibriumPath& path) {
+  return !path.has_events() &&
+         std::ranges::all_of(path.segments, [](const PathSegment& segment) {
+           return std::ranges::all_of(segment.load_steps, [](const LoadStep& step) {
+             return step.certificate.stable();
+           });
+         });
+}
+
+bool begin_alike(const EquilibriumPath& a, const EquilibriumPath& b) {
+  if (a.segments.size() != b.segments.size() || a.segments.empty()) return false;
+  const PathPoint &first = a.segments.front().load_steps.front().point,
+                  &other = b.segments.front().load_steps.front().point;
+  return first.t == other.t && joints_apart(a.simulation, first.state.x, other.state.x) <
+                                   near_spacings * a.simulation.scene().footprint.spacing;
+}
+
+}  // namespace gridshell::simulate

@@ -1,0 +1,23 @@
+// A path whose choices finer meshes made, followed on the meshes that its tolerance takes.
+#pragma once
+
+#include "engine/simulate/equilibrium_path.h"
+
+namespace gridshell::simulate {
+
+/// Follows `path` anew on its own meshes along an actuation that finer meshes confirmed: each
+/// branch from where `guide` begins it, brought to these meshes, and from where the guide goes on
+/// beyond a leap or past what a coarse leader alone loses. Events are the guide's. False: somewhere
+/// these meshes have no such branch, or their estimates do not keep within `allowed_mm`; the path
+/// is then of no use. It is not asked of paths in several motions, with joints held, or with snaps
+/// in time.
+bool follow_guide(EquilibriumPath& path, const EquilibriumPath& guide, double allowed_mm,
+                  const Watch& watch);
+
+/// Whether a path is one on which nothing happened: all of it stable, without an event, to its end.
+bool uneventful(const EquilibriumPath& path);
+
+/// Whether both stand beside one another where they begin.
+bool begin_alike(const EquilibriumPath& a, const EquilibriumPath& b);
+
+}  // namespace gridshell::simulate
