@@ -99,7 +99,7 @@ Result<Frame> unpacked_frame(std::string_view bytes, const std::vector<std::stri
   int matrices = 0;
   visit_matrices(frame, [&](auto& values) {
     // where older versions ended
-    const bool may_end = matrices == 3 || matrices == 6;
+    const bool may_end = matrices == 3 || matrices >= 6;
     if (may_end && in.at_end()) return;
     ++matrices;
     in.matrix(values);

@@ -318,7 +318,7 @@ TEST_CASE("chart accuracy writes tables and pictures and says how auto stands", 
   bench.good("chart stability small.toml --limit 0.01 --quiet");
 }
 
-TEST_CASE("modes writes a table, shapes and a picture a mode") {
+TEST_CASE("modes writes a table, shapes and a picture a mode", "[standard]") {
   const Bench bench(small + "[rod]\ndensity_kg_m3 = 6450.0\n");
   const auto said = bench.good("modes small.toml --count 3");
   CHECK_THAT(said.out, Catch::Contains("Hz"));

@@ -70,6 +70,8 @@ Preset all_changed() {
   preset.contact.model = ContactModel::none;
   // a mesh asked for has a leader of its own
   preset.accuracy.leading_edges = 0;
+  // a strength is said once
+  preset.rod.yield_strain = preset.rod_v.yield_strain = 0;
   // only pinned ends have tails
   preset.ends.second_ring_mm = 0;
   preset.footprint.kind = FootprintKind::net;
